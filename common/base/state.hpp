@@ -1,0 +1,113 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "common/base/bytes.hpp"
+#include "common/base/hash.hpp"
+#include "common/base/result.hpp"
+
+namespace rodeira::base {
+
+template <class T>
+concept StateScalar = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+// Writes a node's state as named fields in a fixed order. Without names it is the input of a state digest.
+class StateWriter {
+ public:
+  enum class Names { kWith, kWithout };
+  explicit StateWriter(Names names = Names::kWith) : names_(names) {}
+
+  template <StateScalar T>
+  void Put(std::string_view name, T value) {
+    Name(name, sizeof(T));
+    out_.Put(value);
+  }
+  // Any contiguous range of scalars: Eigen vectors by std::span(v.data(), v.size()).
+  template <StateScalar T>
+  void Put(std::string_view name, std::span<const T> values) {
+    Name(name, values.size() * sizeof(T));
+    out_.Put(static_cast<std::uint32_t>(values.size()));
+    out_.PutRaw(std::as_bytes(values));
+  }
+  template <StateScalar T>
+  void Put(std::string_view name, const std::vector<T>& values) {
+    Put(name, std::span<const T>(values));
+  }
+  void Put(std::string_view name, const std::string& text) {
+    Name(name, text.size());
+    out_.PutString(text);
+  }
+  // A part that saves itself: Save(StateWriter&) const.
+  template <class Part>
+    requires requires(const Part& part, StateWriter& writer) { part.Save(writer); }
+  void Put(std::string_view name, const Part& part) {
+    Name(name, 0);
+    part.Save(*this);
+  }
+
+  const Bytes& bytes() const { return out_.bytes(); }
+  Digest digest() const { return Hash(out_.bytes()); }
+  void Clear() { out_.Clear(); }
+
+ private:
+  void Name(std::string_view name, std::size_t size);
+
+  Names names_;
+  ByteWriter out_;
+};
+
+// Reads what StateWriter wrote with names. A field of another name or size is an error that names both.
+class StateReader {
+ public:
+  explicit StateReader(std::span<const std::byte> bytes) : in_(bytes) {}
+
+  template <StateScalar T>
+  void Get(std::string_view name, T& value) {
+    if (Expect(name, sizeof(T))) value = in_.Get<T>();
+  }
+  template <StateScalar T>
+  void Get(std::string_view name, std::span<T> values) {
+    if (!Expect(name, values.size() * sizeof(T))) return;
+    const auto count = in_.Get<std::uint32_t>();
+    if (count != values.size()) return Fail(name, "another number of values");
+    const auto raw = in_.GetRaw(values.size_bytes());
+    if (in_.ok() && !raw.empty()) std::memcpy(values.data(), raw.data(), raw.size());
+  }
+  template <StateScalar T>
+  void Get(std::string_view name, std::vector<T>& values) {
+    if (!ExpectName(name)) return;
+    const auto count = in_.Get<std::uint32_t>();
+    const auto raw = in_.GetRaw(std::size_t{count} * sizeof(T));
+    if (!in_.ok()) return Fail(name, "the end of the snapshot");
+    values.resize(count);
+    if (!raw.empty()) std::memcpy(values.data(), raw.data(), raw.size());
+  }
+  void Get(std::string_view name, std::string& text) {
+    if (ExpectName(name)) text = in_.GetString();
+  }
+  template <class Part>
+    requires requires(Part& part, StateReader& reader) { part.Restore(reader); }
+  void Get(std::string_view name, Part& part) {
+    if (Expect(name, 0)) part.Restore(*this);
+  }
+
+  // The first field that did not fit, or what is left over at the end.
+  Status Finish() const;
+
+ private:
+  bool ExpectName(std::string_view name);
+  bool Expect(std::string_view name, std::size_t size);
+  void Fail(std::string_view name, std::string_view found);
+
+  ByteReader in_;
+  std::size_t size_ = 0;
+  std::string problem_;
+};
+
+}  // namespace rodeira::base

@@ -1,0 +1,78 @@
+#include "common/config/config.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rodeira::config {
+namespace {
+
+File Parsed(const char* text) {
+  auto file = File::Parse(text, "folder/car.yaml");
+  EXPECT_TRUE(file.ok());
+  return std::move(file).value();
+}
+
+TEST(Config, GivesWhatTheFileSays) {
+  const File file = Parsed("mass_kg: 1200.5\nname: Seat\nwheels: 4\nabs: true\nbody: {colour: red}\ngears: [3.46, 1.96]\nmesh: parts/a.obj\n");
+  const Map root = file.root();
+  EXPECT_EQ(root.Number("mass_kg", Range::Positive()), 1200.5);
+  EXPECT_EQ(root.Text("name"), "Seat");
+  EXPECT_EQ(root.Integer("wheels", 2, 8), 4);
+  EXPECT_TRUE(root.Flag("abs", false));
+  EXPECT_EQ(root.Child("body").Choice("colour", {"blue", "red"}), "red");
+  EXPECT_EQ(root.Numbers("gears"), (std::vector<double>{3.46, 1.96}));
+  EXPECT_EQ(root.Path("mesh"), "folder/parts/a.obj");
+  EXPECT_EQ(root.Number("drag_area_m2", {}, 0.5), 0.5);
+  EXPECT_TRUE(file.Finish().ok());
+}
+
+TEST(Config, AnUnknownKeyIsNamedWithItsLineAndTheNearestName) {
+  const File file = Parsed("name: a\nmas_kg: 5\n");
+  (void)file.root().Text("name");
+  (void)file.root().Number("mass_kg", {}, 1.0);
+  const auto status = file.Finish();
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().Text(), "folder/car.yaml:2: unknown key 'mas_kg'; did you mean 'mass_kg'?");
+}
+
+TEST(Config, AWrongUnitIsNamed) {
+  const File file = Parsed("length_cm: 5\n");
+  (void)file.root().Number("length_m", {}, 1.0);
+  EXPECT_EQ(file.Finish().error().Text(), "folder/car.yaml:1: unknown key 'length_cm'; the unit is part of the name: 'length_m'");
+}
+
+TEST(Config, EveryProblemIsCollectedInTheOrderOfLines) {
+  const File file = Parsed("a_m: -1\nb_m: long\nc: {d: 1, d: 2}\ne: [1, x]\nf: violet\n");
+  const Map root = file.root();
+  (void)root.Choice("f", {"violin", "red"});
+  (void)root.Number("b_m");
+  (void)root.Number("a_m", Range::NotNegative());
+  (void)root.Child("c").Integer("d", 0, 9);
+  (void)root.Numbers("e");
+  (void)root.Number("g_m");
+  std::vector<std::string> texts;
+  for (const auto& problem : file.Problems()) texts.push_back(problem.Text());
+  EXPECT_EQ(texts, (std::vector<std::string>{
+                       "folder/car.yaml:1: 'a_m' is -1; a number at least 0 was expected",
+                       "folder/car.yaml:1: key 'g_m' is missing; a number was expected",
+                       "folder/car.yaml:2: 'b_m' is 'long'; a number was expected",
+                       "folder/car.yaml:3: key 'c.d' stands twice",
+                       "folder/car.yaml:4: item 2 of 'e' is 'x'; a number finite was expected",
+                       "folder/car.yaml:5: 'f' is 'violet'; did you mean 'violin'?",
+                   }));
+}
+
+TEST(Config, RefusesWhatIsNoMapping) {
+  EXPECT_NE(File::Parse("- 1\n", "x.yaml").error().Text().find("a mapping (key: value) was expected"), std::string::npos);
+  EXPECT_NE(File::Parse("a: [1\n", "x.yaml").error().Text().find("x.yaml:"), std::string::npos);
+  EXPECT_EQ(File::Load("/no/such/file.yaml").error().Text(), "/no/such/file.yaml: there is no such file");
+  EXPECT_EQ(File::Parse("", "x.yaml").error().code, base::ErrorCode::kWrongInput);
+}
+
+TEST(Config, NumbersAreNeverInfinite) {
+  const File file = Parsed("a: .inf\nb: nan\nc: 1e999\n");
+  for (const char* key : {"a", "b", "c"}) (void)file.root().Number(key);
+  EXPECT_EQ(file.Problems().size(), 3u);
+}
+
+}  // namespace
+}  // namespace rodeira::config
