@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/lockstep/report.hpp"
+#include "common/lockstep/roster.hpp"
+
+namespace rodeira::lockstep {
+
+// The clock only grants (law L2): through = min(slowest progress + window, what the pace allows, the last step).
+// Pure logic: reports in, a grant out; whoever holds it brings the wall time.
+class Clock {
+ public:
+  // last_step: the run ends there, inclusive; none: it runs until Stop(). first_step: where the nodes begin (a
+  // snapshot's step), 0 for a run from its start.
+  Clock(const Roster& roster, std::optional<Step> last_step, Step first_step = 0);
+
+  // A report that does not match (unknown node, old incarnation, progress that is no activation or goes back, a phase
+  // that goes back) changes nothing and is refused with a sentence.
+  base::Status Take(const Report& report);
+
+  // Everybody is ready: the first grant may go out.
+  bool all_ready() const;
+  bool all_finished() const;
+  // Who has not yet come as far as `phase`.
+  std::vector<std::string> Missing(Phase phase) const;
+  // The smallest next activation of all stepped nodes.
+  Step slowest_progress() const;
+  // What may be granted whatever the pace: slowest progress + window.
+  Step window_limit() const;
+
+  // The grant that holds now; `pace_limit` is the last step that the pace allows.
+  Grant Update(Step pace_limit);
+  const Grant& grant() const { return grant_; }
+  // The last granted step becomes the last of the run.
+  void Stop();
+  void Abort(std::string reason);
+
+  const Report& report(NodeIndex node) const { return reports_[node]; }
+  const Roster& roster() const { return roster_; }
+  // Of all nodes' chains, in the roster's order; meaningful once all are finished.
+  base::Digest RunDigest() const;
+
+ private:
+  const Roster& roster_;
+  std::optional<Step> last_step_;
+  Step first_step_;
+  std::vector<Report> reports_;
+  std::vector<bool> heard_;
+  Grant grant_;
+};
+
+}  // namespace rodeira::lockstep

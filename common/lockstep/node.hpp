@@ -1,0 +1,30 @@
+#pragma once
+
+#include "common/base/result.hpp"
+#include "common/base/state.hpp"
+#include "common/lockstep/inbox.hpp"
+#include "common/lockstep/outbox.hpp"
+#include "common/lockstep/step.hpp"
+
+namespace rodeira::lockstep {
+
+// A node is a value that is stepped (law L3). It knows no network, no thread and no clock on the wall.
+class Node {
+ public:
+  virtual ~Node() = default;
+
+  // Publishes the samples valid at 0, from configuration and SUELO alone.
+  virtual base::Status Initialise(Outbox& outbox) = 0;
+  // One activation: what `inbox` shows is all that the node may know; returning means "step done".
+  virtual base::Status Step(const StepInfo& step, const Inbox& inbox, Outbox& outbox) = 0;
+
+  // The whole state, before an activation: Restore into a fresh node gives the same bits from there on.
+  virtual void Save(base::StateWriter& out) const = 0;
+  virtual void Restore(base::StateReader& in) = 0;
+
+  // For sinks: the events after the last activation, through the last step of the run (or, where the run was aborted,
+  // through the last step of which everything arrived; `complete` is false then). Close files here.
+  virtual base::Status Finish(const Inbox& /*rest*/, lockstep::Step /*last_step*/, bool /*complete*/) { return {}; }
+};
+
+}  // namespace rodeira::lockstep

@@ -1,0 +1,16 @@
+#include "common/lockstep/report.hpp"
+
+namespace rodeira::lockstep {
+
+std::string_view PhaseName(Phase phase) {
+  switch (phase) {
+    case Phase::kStarting: return "starting";
+    case Phase::kReady: return "ready";
+    case Phase::kRunning: return "running";
+    case Phase::kFinished: return "finished";
+    case Phase::kFailed: return "failed";
+  }
+  return "unknown";
+}
+
+}  // namespace rodeira::lockstep

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "common/base/hash.hpp"
+#include "common/lockstep/roster.hpp"
+#include "common/lockstep/step.hpp"
+
+namespace rodeira::lockstep {
+
+// Where a node stands in its life; it only ever goes forward, but for kFailed, which ends any phase.
+enum class Phase : std::uint32_t {
+  kStarting = 0,  // alive, its model is being made
+  kReady = 1,     // published its first samples and has everybody else's
+  kRunning = 2,
+  kFinished = 3,  // ran to the final step, everything is closed
+  kFailed = 4,    // message says why
+};
+
+enum class Waiting : std::uint32_t { kNothing = 0, kGrant = 1, kInputs = 2, kServer = 3 };
+
+// What a node tells the clock: its progress each quarter window, before it blocks on the grant, and as a heartbeat.
+struct Report {
+  NodeIndex node = 0;
+  std::uint32_t incarnation = 0;
+  Phase phase = Phase::kStarting;
+  Step progress = 0;                      // the next activation
+  Waiting waiting = Waiting::kNothing;
+  SourceIndex waiting_source = 0;         // the first missing source, where waiting is kInputs
+  std::int64_t since_ms = 0;              // how long it has been computing or waiting, wall time
+  base::Digest digest = 0;                // chain of all samples so far, this node's outputs
+  std::uint64_t steps = 0;                // activations done
+  std::int64_t busy_ns = 0;               // wall time inside Step, all activations together
+  std::int64_t worst_ns = 0;              // the longest of them
+  std::uint64_t server_calls = 0;         // round trips to a server (SUELO)
+  std::string message;                    // why it failed; what it refused
+};
+
+// The clock's word (law L2). Everything in it is a state, so it can be said again at any time.
+struct Grant {
+  Step through = -1;      // inclusive; -1: nothing granted yet
+  bool final = false;     // `through` is the last step of the run: run to it and finish
+  bool abort = false;     // stop at once; reason says why
+  base::Digest roster = 0;
+  std::string reason;
+};
+
+std::string_view PhaseName(Phase phase);
+
+}  // namespace rodeira::lockstep

@@ -1,0 +1,266 @@
+#include "common/lockstep/runner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/base/assert.hpp"
+
+namespace rodeira::lockstep {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+}  // namespace
+
+Runner::Runner(const Roster& roster, NodeIndex index, Node& node, Bus& bus, Mailbox& mailbox, Settings settings)
+    : roster_(roster), index_(index), spec_(roster.node(index)), node_(node), bus_(bus), mailbox_(mailbox),
+      settings_(std::move(settings)), outbox_(roster, index), since_(WallClock::now()) {
+  report_.node = index;
+  report_.incarnation = settings_.incarnation;
+}
+
+Runner::Outcome Runner::Run() {
+  for (;;) {
+    const Outcome outcome = Advance(settings_.repeat);
+    if (outcome != Outcome::kWorking && outcome != Outcome::kBlocked) return outcome;
+  }
+}
+
+Runner::Outcome Runner::Advance(std::chrono::milliseconds limit) {
+  switch (stage_) {
+    case Stage::kBegin: return Begin();
+    case Stage::kInputs: return AwaitInputs(limit);
+    case Stage::kStepping: return Activate(limit);
+    case Stage::kEnding: return End(limit);
+    case Stage::kOver: break;
+  }
+  RODEIRA_ASSERT(!"a node is advanced after its end");
+}
+
+Runner::Outcome Runner::Begin() {
+  TellReport();
+  std::vector<Sample> first;
+  if (settings_.resume) {
+    const Snapshot& snapshot = *settings_.resume;
+    base::StateReader in(snapshot.state);
+    node_.Restore(in);
+    if (auto status = in.Finish(); !status) return Fail(status.error());
+    next_ = CeilTo(snapshot.at, spec_.period);
+    first = snapshot.samples;
+    for (Sample& sample : first) {
+      base::Bytes payload = *sample.payload;
+      sample.header.incarnation = settings_.incarnation;
+      sample.header.Write(payload);
+      sample.payload = std::make_shared<const base::Bytes>(std::move(payload));
+    }
+    report_.steps = snapshot.steps;
+    report_.digest = snapshot.digest;
+    mailbox_.StartAt(snapshot.at);
+  } else {
+    if (auto status = node_.Initialise(outbox_); !status) return Fail(status.error());
+    const base::Digest state = StateDigest();
+    for (const Sample& sample : outbox_.Take(0, settings_.incarnation, state)) {
+      // Samples valid at P … D - P repeat the initial one (law L1).
+      for (Step valid = 0; valid < spec_.delay; valid += spec_.period) {
+        base::Bytes payload = *sample.payload;
+        SampleHeader header = sample.header;
+        header.step = valid;
+        header.time_ns = valid * roster_.base_step_ns();
+        header.Write(payload);
+        first.push_back({header, std::make_shared<const base::Bytes>(std::move(payload))});
+        report_.digest = base::Combine(report_.digest, PayloadDigest(*first.back().payload));
+      }
+    }
+    std::stable_sort(first.begin(), first.end(), [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
+  }
+  if (auto status = PublishAll(std::move(first)); !status) return Fail(status.error());
+  stage_ = Stage::kInputs;
+  return Outcome::kWorking;
+}
+
+Runner::Outcome Runner::AwaitInputs(std::chrono::milliseconds limit) {
+  switch (mailbox_.WaitForInputs(settings_.resume ? settings_.resume->at : 0, limit)) {
+    case Mailbox::Woken::kReady:
+      {
+        const std::lock_guard lock(report_mutex_);
+        report_.progress = next_;
+      }
+      Note(Phase::kReady, Waiting::kGrant);
+      TellReport();
+      stage_ = Stage::kStepping;
+      return Outcome::kWorking;
+    case Mailbox::Woken::kAborted: return FinishAborted();
+    default: break;
+  }
+  NoteWaiting(next_);
+  if (auto status = RepeatFirstSamples(); !status) return Fail(status.error());
+  TellReport();
+  return Outcome::kBlocked;
+}
+
+Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
+  // Progress is told each quarter window, and before blocking on the grant (law L2): so the clock always knows enough
+  // to grant the slowest node's next activation, and no more is ever said.
+  const bool granted = mailbox_.IsGranted(next_);
+  if (told_ < next_ && (!granted || next_ - told_ >= std::max<Step>(roster_.window() / 4, 1))) TellReport();
+  switch (mailbox_.WaitForActivation(next_, limit)) {
+    case Mailbox::Woken::kReady: break;
+    case Mailbox::Woken::kFinal:
+      stage_ = Stage::kEnding;
+      return Outcome::kWorking;
+    case Mailbox::Woken::kAborted: return FinishAborted();
+    case Mailbox::Woken::kTimeout:
+      NoteWaiting(next_);
+      if (!mailbox_.HasGrant()) {
+        if (auto status = RepeatFirstSamples(); !status) return Fail(status.error());
+        TellReport();
+      }
+      return Outcome::kBlocked;
+  }
+  TakeSnapshotIfDue(next_);
+  const Inbox inbox = mailbox_.Open(next_);
+  const StepInfo info{next_, next_ * roster_.base_step_ns(), spec_.period,
+                      static_cast<double>(spec_.period) * static_cast<double>(roster_.base_step_ns()) * 1e-9, next_ + spec_.delay};
+  Note(Phase::kRunning, Waiting::kNothing);
+  const auto begin = WallClock::now();
+  const base::Status status = node_.Step(info, inbox, outbox_);
+  const std::int64_t took_ns = std::chrono::nanoseconds(WallClock::now() - begin).count();
+  if (!status) return Fail(status.error());
+  std::vector<Sample> samples = outbox_.Take(info.output_valid, settings_.incarnation, spec_.outputs.empty() ? 0 : StateDigest());
+  {
+    const std::lock_guard lock(report_mutex_);
+    for (const Sample& sample : samples) report_.digest = base::Combine(report_.digest, PayloadDigest(*sample.payload));
+    ++report_.steps;
+    report_.busy_ns += took_ns;
+    report_.worst_ns = std::max(report_.worst_ns, took_ns);
+    next_ += spec_.period;
+    report_.progress = next_;
+    report_.waiting = Waiting::kInputs;
+    since_ = WallClock::now();
+  }
+  if (auto sent = PublishAll(std::move(samples)); !sent) return Fail(sent.error());
+  mailbox_.Forget(next_);
+  ForgetOwnSamples(next_);
+  return Outcome::kWorking;
+}
+
+Runner::Outcome Runner::End(std::chrono::milliseconds limit) {
+  const Step last = mailbox_.grant().through;
+  if (spec_.is_sink()) {
+    const auto woken = mailbox_.WaitForEventsThrough(last, limit);
+    if (woken == Mailbox::Woken::kAborted) return FinishAborted();
+    if (woken != Mailbox::Woken::kReady) return Outcome::kBlocked;
+  }
+  const Inbox rest = spec_.is_sink() ? mailbox_.OpenEvents(next_ - spec_.period, last) : Inbox();
+  if (auto status = node_.Finish(rest, last, true); !status) return Fail(status.error());
+  Note(Phase::kFinished, Waiting::kNothing);
+  TellReport();
+  stage_ = Stage::kOver;
+  return Outcome::kFinished;
+}
+
+Runner::Outcome Runner::FinishAborted() {
+  const Step after = next_ - spec_.period;
+  const Step last = mailbox_.CompleteThrough(after);
+  const Inbox rest = spec_.is_sink() ? mailbox_.OpenEvents(after, last) : Inbox();
+  if (auto status = node_.Finish(rest, last, false); !status) return Fail(status.error());
+  Note(Phase::kFinished, Waiting::kNothing);
+  TellReport();
+  stage_ = Stage::kOver;
+  return Outcome::kAborted;
+}
+
+Runner::Outcome Runner::Fail(const base::Error& error) {
+  {
+    const std::lock_guard lock(report_mutex_);
+    report_.phase = Phase::kFailed;
+    report_.message = error.Text();
+  }
+  TellReport();
+  stage_ = Stage::kOver;
+  return Outcome::kFailed;
+}
+
+base::Status Runner::PublishAll(std::vector<Sample> samples) {
+  for (Sample& sample : samples) {
+    if (auto status = bus_.Publish(sample); !status) return status;
+    own_.push_back(std::move(sample));
+  }
+  return {};
+}
+
+base::Status Runner::RepeatFirstSamples() {
+  for (const Sample& sample : own_) {
+    if (auto status = bus_.Publish(sample); !status) return status;
+  }
+  return {};
+}
+
+void Runner::TakeSnapshotIfDue(Step step) {
+  if (settings_.snapshot_every <= 0) return;
+  const Step at = FloorTo(step, settings_.snapshot_every);
+  if (at <= step - spec_.period || at == 0) return;  // none lies between the last activation and this one
+  base::StateWriter out;
+  node_.Save(out);
+  Snapshot snapshot{index_, at, out.bytes(), {}, report_.steps, report_.digest};
+  for (const Sample& sample : own_) {
+    if (sample.valid() >= roster_.OldestNeeded(sample.source(), at)) snapshot.samples.push_back(sample);
+  }
+  bus_.Keep(snapshot);
+}
+
+void Runner::ForgetOwnSamples(Step step) {
+  const Step reference = std::max<Step>(step - spec_.period, 0);
+  while (!own_.empty() && own_.front().valid() < roster_.OldestNeeded(own_.front().source(), reference)) own_.pop_front();
+}
+
+base::Digest Runner::StateDigest() {
+  state_without_names_.Clear();
+  node_.Save(state_without_names_);
+  return state_without_names_.digest();
+}
+
+void Runner::Note(Phase phase, Waiting waiting) {
+  const std::lock_guard lock(report_mutex_);
+  report_.phase = phase;
+  if (report_.waiting != waiting || waiting == Waiting::kNothing) since_ = WallClock::now();
+  report_.waiting = waiting;
+}
+
+void Runner::NoteWaiting(Step step) {
+  const auto missing = mailbox_.FirstMissing(step);
+  const std::lock_guard lock(report_mutex_);
+  const Waiting waiting = missing ? Waiting::kInputs : Waiting::kGrant;
+  if (report_.waiting != waiting) since_ = WallClock::now();
+  report_.waiting = waiting;
+  report_.waiting_source = missing.value_or(0);
+}
+
+void Runner::BeginServerCall() {
+  const std::lock_guard lock(report_mutex_);
+  report_.waiting = Waiting::kServer;
+  since_ = WallClock::now();
+  ++report_.server_calls;
+}
+
+void Runner::EndServerCall() {
+  const std::lock_guard lock(report_mutex_);
+  report_.waiting = Waiting::kNothing;
+  since_ = WallClock::now();
+}
+
+Report Runner::report() const {
+  const std::lock_guard lock(report_mutex_);
+  Report report = report_;
+  report.since_ms = std::chrono::duration_cast<std::chrono::milliseconds>(WallClock::now() - since_).count();
+  return report;
+}
+
+void Runner::TellReport() {
+  const Report now = report();
+  told_ = now.progress;
+  bus_.Tell(now);
+}
+
+}  // namespace rodeira::lockstep

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "common/lockstep/bus.hpp"
+#include "common/lockstep/mailbox.hpp"
+#include "common/lockstep/node.hpp"
+#include "common/lockstep/report.hpp"
+
+namespace rodeira::lockstep {
+
+// The only loop of the system (law L3): first samples, ready, one activation after the other, finish.
+class Runner {
+ public:
+  struct Settings {
+    std::uint32_t incarnation = 0;
+    Step snapshot_every = 0;             // 0: none; otherwise one at each multiple, the node's state handed to Bus::Keep
+    std::optional<Snapshot> resume;      // begin here instead of at step 0
+    std::chrono::milliseconds repeat{20};  // before the first grant: how often what may have been lost is said again
+  };
+  enum class Outcome { kWorking, kBlocked, kFinished, kAborted, kFailed };
+
+  Runner(const Roster& roster, NodeIndex index, Node& node, Bus& bus, Mailbox& mailbox, Settings settings);
+
+  // Runs to the end on the calling thread.
+  Outcome Run();
+  // One piece of work: starts, or does one activation, or finishes; waits at most `limit` for what it needs (0: not at
+  // all) and says kBlocked where that was not enough.
+  Outcome Advance(std::chrono::milliseconds limit);
+
+  // Where the node stands, for heartbeats: any thread may ask at any time.
+  Report report() const;
+  // The node waits for a server's answer (SUELO): not its own time. Called by whoever asks, on the runner's thread.
+  void BeginServerCall();
+  void EndServerCall();
+
+ private:
+  enum class Stage { kBegin, kInputs, kStepping, kEnding, kOver };
+
+  Outcome Begin();
+  Outcome AwaitInputs(std::chrono::milliseconds limit);
+  Outcome Activate(std::chrono::milliseconds limit);
+  Outcome End(std::chrono::milliseconds limit);
+  Outcome Fail(const base::Error& error);
+  Outcome FinishAborted();
+  base::Status PublishAll(std::vector<Sample> samples);
+  base::Status RepeatFirstSamples();
+  void TakeSnapshotIfDue(Step step);
+  void ForgetOwnSamples(Step step);
+  base::Digest StateDigest();
+  void Note(Phase phase, Waiting waiting);
+  void NoteWaiting(Step step);
+  void TellReport();
+
+  const Roster& roster_;
+  const NodeIndex index_;
+  const NodeSpec& spec_;
+  Node& node_;
+  Bus& bus_;
+  Mailbox& mailbox_;
+  Settings settings_;
+  Outbox outbox_;
+  Stage stage_ = Stage::kBegin;
+  Step next_ = 0;           // the next activation
+  Step told_ = -1;          // the progress last told
+  std::deque<Sample> own_;  // own samples that a snapshot or a late peer may still need
+  base::StateWriter state_without_names_{base::StateWriter::Names::kWithout};
+
+  mutable std::mutex report_mutex_;
+  Report report_;
+  std::chrono::steady_clock::time_point since_;
+};
+
+}  // namespace rodeira::lockstep

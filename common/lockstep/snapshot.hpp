@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/base/bytes.hpp"
+#include "common/base/result.hpp"
+#include "common/lockstep/roster.hpp"
+#include "common/lockstep/sample.hpp"
+
+namespace rodeira::lockstep {
+
+// A node at step s (law L3): its state before the first activation at or after s, and of its own samples all that any
+// consumer may still ask for. Inboxes follow from the others' snapshots.
+struct Snapshot {
+  NodeIndex node = 0;
+  Step at = 0;
+  base::Bytes state;             // StateWriter, with names
+  std::vector<Sample> samples;   // ordered by step, then by source
+  std::uint64_t steps = 0;       // activations done before
+  base::Digest digest = 0;       // the chain of samples so far
+
+  base::Bytes Encode() const;
+  // Wrong input: cut short, of another node's shape, or left-over bytes.
+  static base::Result<Snapshot> Decode(std::span<const std::byte> bytes);
+};
+
+}  // namespace rodeira::lockstep

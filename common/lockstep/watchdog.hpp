@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/lockstep/report.hpp"
+#include "common/lockstep/roster.hpp"
+
+namespace rodeira::lockstep {
+
+// Names the node that stands still. Nodes report as a heartbeat; who is silent is dead, stopped or cut off; who says
+// that it has been computing one step for longer than its deadline hangs. Waiting is never a fault of the one who waits.
+class Watchdog {
+ public:
+  struct Settings {
+    std::int64_t silence_ms = 600;    // longest time without a report
+    std::int64_t deadline_ms = 5000;  // longest wall time of one step, where the node names none of its own
+    std::int64_t start_ms = 60000;    // longest time until everybody is ready
+  };
+  struct Fault {
+    NodeIndex node = 0;
+    std::string reason;  // a sentence that names the node
+  };
+
+  Watchdog(const Roster& roster, const Settings& settings);
+  void Heard(const Report& report, std::int64_t now_ms);
+  // The first fault in the roster's order; a node that failed by its own word comes first. A gap in the caller's own
+  // calls (the clock itself was stopped) is nobody's silence and is forgiven.
+  std::optional<Fault> Check(std::int64_t now_ms);
+
+ private:
+  struct Life {
+    bool heard = false;
+    std::int64_t last_ms = 0;
+    Report report;
+  };
+  const Roster& roster_;
+  Settings settings_;
+  std::vector<Life> lives_;
+  std::optional<std::int64_t> first_ms_;
+  std::int64_t checked_ms_ = 0;
+  bool everybody_ready_ = false;
+};
+
+}  // namespace rodeira::lockstep

@@ -1,0 +1,88 @@
+#include "common/lockstep/watchdog.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rodeira::lockstep {
+namespace {
+
+class WatchdogTest : public ::testing::Test {
+ protected:
+  void Hear(NodeIndex node, std::int64_t now_ms, Phase phase = Phase::kRunning, Waiting waiting = Waiting::kInputs, std::int64_t since_ms = 0) {
+    Report report;
+    report.node = node;
+    report.phase = phase;
+    report.waiting = waiting;
+    report.since_ms = since_ms;
+    report.progress = 7;
+    report.message = "no such file";
+    dog_.Heard(report, now_ms);
+  }
+  const Roster roster_ = Roster::Create(1'000'000, 8, {{"car", "t", Role::kStepped, 1, 0, 300, {"x"}, {}}, {"view", "t", Role::kStepped, 4, 0, 0, {}, {}}}).value();
+  Watchdog dog_{roster_, {600, 2000, 5000}};
+};
+
+TEST_F(WatchdogTest, NamesWhoIsSilent) {
+  for (std::int64_t now = 0; now <= 1000; now += 50) {
+    if (now <= 300) Hear(0, now);
+    Hear(1, now);
+    const auto fault = dog_.Check(now);
+    if (now <= 900) {
+      EXPECT_FALSE(fault) << now;
+    } else {
+      ASSERT_TRUE(fault);
+      EXPECT_EQ(fault->node, 0u);
+    }
+    if (now == 950) {
+      EXPECT_EQ(fault->reason, "node 'car' has said nothing for 0.65 s at step 7: it was killed, stopped or cut off");
+    }
+  }
+}
+
+TEST_F(WatchdogTest, NamesWhoHangsByItsOwnDeadlineButNotWhoWaits) {
+  Hear(0, 0, Phase::kRunning, Waiting::kInputs, 60000);
+  Hear(1, 0, Phase::kRunning, Waiting::kNothing, 1999);
+  EXPECT_FALSE(dog_.Check(0)) << "waiting for others and working within the deadline are no faults";
+  Hear(0, 0, Phase::kRunning, Waiting::kServer, 60000);
+  EXPECT_FALSE(dog_.Check(0));
+  Hear(0, 0, Phase::kRunning, Waiting::kNothing, 301);
+  EXPECT_EQ(dog_.Check(0)->reason, "node 'car' has been computing step 7 for 0.30 s, its deadline is 0.30 s");
+}
+
+TEST_F(WatchdogTest, ANodesOwnWordComesFirst) {
+  Hear(0, 0, Phase::kRunning, Waiting::kNothing, 9000);
+  Hear(1, 0, Phase::kFailed);
+  EXPECT_EQ(dog_.Check(0)->reason, "node 'view' failed at step 7: no such file");
+}
+
+TEST_F(WatchdogTest, ForgivesTheClocksOwnAbsence) {
+  Hear(0, 0);
+  Hear(1, 0);
+  EXPECT_FALSE(dog_.Check(0));
+  EXPECT_FALSE(dog_.Check(5000)) << "the clock itself stood still";
+  for (std::int64_t now = 5050; now <= 5500; now += 50) EXPECT_FALSE(dog_.Check(now)) << now;
+  std::optional<Watchdog::Fault> fault;
+  for (std::int64_t now = 5550; now <= 6000 && !fault; now += 50) fault = dog_.Check(now);
+  EXPECT_TRUE(fault) << "but not for ever";
+}
+
+TEST_F(WatchdogTest, SaysWhoIsMissingAtTheStart) {
+  std::optional<Watchdog::Fault> fault;
+  for (std::int64_t now = 0; now <= 5200 && !fault; now += 100) {
+    Hear(0, now, Phase::kReady, Waiting::kGrant);
+    fault = dog_.Check(now);
+  }
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->reason, "after 5 s these are still missing: 'view'");
+  EXPECT_EQ(fault->node, 1u);
+}
+
+TEST_F(WatchdogTest, WhoHasFinishedMayBeSilent) {
+  Hear(0, 0, Phase::kFinished);
+  for (std::int64_t now = 0; now <= 2000; now += 100) {
+    Hear(1, now);
+    EXPECT_FALSE(dog_.Check(now));
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::lockstep
