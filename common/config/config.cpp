@@ -255,6 +255,10 @@ List Map::Items(std::string_view key) const {
   return OptionalItems(key);
 }
 
+void Map::LeaveToOthers(std::string_view key) const {
+  if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].keys.emplace(key);
+}
+
 std::vector<std::string> Map::Keys() const {
   std::vector<std::string> keys;
   if (!node_->present || !node_->node.IsMap()) return keys;
@@ -344,6 +348,34 @@ base::Result<File> File::Parse(std::string_view text, const std::filesystem::pat
     return base::WrongInput(fmt::format("the file holds {}; a mapping (key: value) was expected", KindOf(context->root)), name.string());
   }
   return File(context);
+}
+
+base::Status File::Override(std::string_view key, std::string_view value) {
+  const std::string where = fmt::format("--set {}={}", key, value);
+  YAML::Node leaf;
+  try {
+    leaf.reset(YAML::Load(std::string(value)));
+  } catch (const YAML::Exception& problem) {
+    return base::WrongInput(fmt::format("the value is no YAML: {}", problem.msg), where);
+  }
+  YAML::Node at;
+  at.reset(context_->root);
+  std::size_t from = 0;
+  for (;;) {
+    const std::size_t dot = key.find('.', from);
+    const std::string part(key.substr(from, dot == std::string_view::npos ? dot : dot - from));
+    if (part.empty()) return base::WrongInput("a key of the form a.b.c was expected", where);
+    if (!at.IsMap() && !at.IsNull()) return base::WrongInput(fmt::format("'{}' is {}, no mapping", key.substr(0, from == 0 ? 0 : from - 1), KindOf(at)), where);
+    if (dot == std::string_view::npos) {
+      at[part] = leaf;
+      return {};
+    }
+    if (!Find(at, part).IsDefined()) at[part] = YAML::Node(YAML::NodeType::Map);
+    YAML::Node next;
+    next.reset(at[part]);
+    at.reset(next);
+    from = dot + 1;
+  }
 }
 
 Map File::root() const {

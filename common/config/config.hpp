@@ -56,6 +56,8 @@ class Map {
   Map OptionalChild(std::string_view key) const;  // empty where absent
   List Items(std::string_view key) const;          // required sequence
   List OptionalItems(std::string_view key) const;
+  // Marks a key as known without looking into it: somebody else reads what stands there.
+  void LeaveToOthers(std::string_view key) const;
   // All keys in the file's order, for mappings whose keys are names (nodes, materials). Marks them as known.
   std::vector<std::string> Keys() const;
 
@@ -105,6 +107,10 @@ class File {
   static base::Result<File> Load(const std::filesystem::path& path);
   // The same from a text; `name` stands for the path in messages, and relative paths start at its folder.
   static base::Result<File> Parse(std::string_view text, const std::filesystem::path& name);
+
+  // Sets `key` ("nodes.ego.period_s") to a YAML value, as `--set KEY=VALUE` does, before anything is read. Mappings on
+  // the way are made. Wrong input where the value is no YAML or the way is blocked.
+  base::Status Override(std::string_view key, std::string_view value);
 
   Map root() const;
   // All problems so far and every key that nobody asked for, in the order of lines.

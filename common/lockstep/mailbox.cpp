@@ -59,7 +59,7 @@ base::Status Mailbox::Deliver(Sample sample) {
 
 void Mailbox::DeliverGrant(const Grant& grant) {
   const std::lock_guard lock(mutex_);
-  const bool news = grant.through > grant_.through || (grant.final && !grant_.final) || (grant.abort && !grant_.abort);
+  const bool news = grant.through > grant_.through || (grant.final && !grant_.final) || (grant.abort && !grant_.abort) || (grant.over && !grant_.over);
   if (!news) return;  // said again, or overtaken on its way
   grant_ = grant;
   woken_.notify_all();

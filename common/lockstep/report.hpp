@@ -42,6 +42,7 @@ struct Grant {
   Step through = -1;      // inclusive; -1: nothing granted yet
   bool final = false;     // `through` is the last step of the run: run to it and finish
   bool abort = false;     // stop at once; reason says why
+  bool over = false;      // everybody has finished, whoever lingers may go
   base::Digest roster = 0;
   std::string reason;
 };

@@ -126,6 +126,7 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
   const auto begin = WallClock::now();
   const base::Status status = node_.Step(info, inbox, outbox_);
   const std::int64_t took_ns = std::chrono::nanoseconds(WallClock::now() - begin).count();
+  if (mailbox_.grant().abort) return FinishAborted();  // a server's answer may have failed to come: nothing of this counts
   if (!status) return Fail(status.error());
   std::vector<Sample> samples = outbox_.Take(info.output_valid, settings_.incarnation, spec_.outputs.empty() ? 0 : StateDigest());
   {

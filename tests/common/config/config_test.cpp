@@ -68,6 +68,27 @@ TEST(Config, RefusesWhatIsNoMapping) {
   EXPECT_EQ(File::Parse("", "x.yaml").error().code, base::ErrorCode::kWrongInput);
 }
 
+TEST(Config, OverridesReplaceAndAdd) {
+  File file = Parsed("a: 1\nb: {c: 2}\n");
+  ASSERT_TRUE(file.Override("a", "5").ok());
+  ASSERT_TRUE(file.Override("b.c", "6").ok());
+  ASSERT_TRUE(file.Override("b.d.e", "[1, 2]").ok());
+  EXPECT_EQ(file.root().Number("a"), 5.0);
+  EXPECT_EQ(file.root().Child("b").Number("c"), 6.0);
+  EXPECT_EQ(file.root().Child("b").Child("d").Numbers("e").size(), 2u);
+  EXPECT_TRUE(file.Finish().ok());
+  EXPECT_EQ(file.Override("a.x", "1").error().Text(), "--set a.x=1: 'a' is '5', no mapping");
+  EXPECT_FALSE(file.Override("a..x", "1").ok());
+  EXPECT_FALSE(file.Override("a", "[1").ok());
+}
+
+TEST(Config, WhatIsLeftToOthersIsNotUnknown) {
+  const File file = Parsed("mine: 1\nyours: {x: 1}\n");
+  (void)file.root().Number("mine");
+  file.root().LeaveToOthers("yours");
+  EXPECT_TRUE(file.Finish().ok());
+}
+
 TEST(Config, NumbersAreNeverInfinite) {
   const File file = Parsed("a: .inf\nb: nan\nc: 1e999\n");
   for (const char* key : {"a", "b", "c"}) (void)file.root().Number(key);

@@ -1,0 +1,137 @@
+#include "common/launch/launch.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/base/suggest.hpp"
+
+namespace rodeira::launch {
+namespace {
+
+using lockstep::NodeWish;
+using lockstep::PortWish;
+using lockstep::Step;
+
+constexpr std::string_view kTopicPrefix = "rodeira/";
+
+std::string ShortName(std::string_view topic) { return std::string(topic.substr(kTopicPrefix.size())); }
+
+// Seconds to whole steps; a period that is none is a problem of the file.
+Step ToSteps(const config::Map& map, std::string_view key, double seconds, std::int64_t base_step_ns) {
+  const double steps = seconds * 1e9 / static_cast<double>(base_step_ns);
+  const double whole = std::round(steps);
+  if (std::fabs(steps - whole) > 1e-6 * std::max(1.0, steps) || whole < 1.0) {
+    map.Problem(key, fmt::format("'{}' is {} s; a multiple of the base step ({} s) was expected", key, seconds, static_cast<double>(base_step_ns) * 1e-9));
+    return 1;
+  }
+  return static_cast<Step>(whole);
+}
+
+NodeWish ReadNode(const config::Map& map, const std::string& name, const NodeKind& kind, std::int64_t base_step_ns) {
+  NodeWish wish;
+  wish.name = name;
+  wish.kind = std::string(kind.name);
+  wish.role = kind.role;
+  wish.deadline_ms = static_cast<std::int64_t>(map.Number("deadline_s", {0.0, 86400.0}, 0.0) * 1e3);
+  if (kind.role == lockstep::Role::kService) return wish;
+  wish.period = ToSteps(map, "period_s", map.Number("period_s", config::Range::Positive(), kind.default_period_s), base_step_ns);
+  if (map.Has("delay_s")) wish.delay = ToSteps(map, "delay_s", map.Number("delay_s", config::Range::Positive()), base_step_ns);
+  for (const std::string_view topic : kind.outputs) wish.outputs.emplace_back(topic);
+  return wish;
+}
+
+// Names of the other nodes that publish a topic.
+std::vector<std::string> Publishers(const std::vector<NodeWish>& wishes, std::string_view topic, const std::string& except) {
+  std::vector<std::string> names;
+  for (const NodeWish& wish : wishes) {
+    if (wish.name == except) continue;
+    for (const std::string& output : wish.outputs) {
+      if (output == topic) names.push_back(wish.name);
+    }
+  }
+  return names;
+}
+
+// Wires a node's inputs: as `inputs` says, otherwise to everybody else who publishes the topic.
+void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeWish>& wishes, NodeWish& wish) {
+  const config::Map inputs = map.OptionalChild("inputs");
+  for (const KindPort& port : kind.inputs) {
+    const std::string key = ShortName(port.topic);
+    PortWish out{std::string(port.topic), port.kind, {}};
+    if (inputs.Has(key)) {
+      const config::List names = inputs.OptionalItems(key);
+      for (std::size_t i = 0; i < names.size(); ++i) out.sources.push_back(names.Text(i));
+    } else {
+      out.sources = Publishers(wishes, port.topic, wish.name);
+      if (!port.many && out.sources.size() > 1) {
+        map.Problem("kind", fmt::format("node '{}' takes '{}' from one node, but {} publish it ({}); say which under 'inputs'", wish.name, key,
+                                        out.sources.size(), fmt::join(out.sources, ", ")));
+      }
+    }
+    if (!port.many && out.sources.size() > 1) out.sources.resize(1);
+    if (port.required && out.sources.empty()) {
+      map.Problem("kind", fmt::format("node '{}' needs '{}', but no node publishes it", wish.name, key));
+    }
+    if (!out.sources.empty()) wish.inputs.push_back(std::move(out));
+  }
+}
+
+}  // namespace
+
+base::Result<Launch> Launch::Load(const std::filesystem::path& path, const Overrides& overrides) {
+  auto file = config::File::Load(path);
+  if (!file) return file.error();
+  return Read(std::move(file).value(), overrides);
+}
+
+base::Result<Launch> Launch::Parse(std::string_view text, const std::filesystem::path& name, const Overrides& overrides) {
+  auto file = config::File::Parse(text, name);
+  if (!file) return file.error();
+  return Read(std::move(file).value(), overrides);
+}
+
+base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides) {
+  for (const auto& [key, value] : overrides) {
+    if (auto status = file.Override(key, value); !status) return status.error();
+  }
+  Launch launch;
+  launch.file_ = std::make_shared<config::File>(std::move(file));
+  const config::Map root = launch.file_->root();
+  (void)root.Choice("rodeira", {"launch/1"});
+  launch.name_ = root.Text("name", launch.file_->path().stem().string());
+  if (const auto world = root.OptionalPath("world")) launch.world_ = *world;
+  launch.seed_ = static_cast<std::uint64_t>(root.Integer("seed", 0, INT64_MAX, 1));
+  if (root.Has("duration_s")) launch.duration_s_ = root.Number("duration_s", config::Range::Positive());
+  launch.transport_ = root.Choice("transport", {"shared_memory", "udp"}, "shared_memory") == "udp" ? Transport::kUdp : Transport::kSharedMemory;
+  const double base_step_s = root.Number("base_step_s", {1e-6, 1.0}, 0.001);
+  const auto base_step_ns = static_cast<std::int64_t>(std::llround(base_step_s * 1e9));
+  const Step window = root.Integer("window_steps", 1, 1'000'000, 100);
+  const config::Map limits = root.OptionalChild("limits");
+  launch.watchdog_.silence_ms = static_cast<std::int64_t>(limits.Number("silence_s", {0.1, 3600.0}, 0.6) * 1e3);
+  launch.watchdog_.deadline_ms = static_cast<std::int64_t>(limits.Number("step_s", {0.01, 86400.0}, 0.6) * 1e3);
+  launch.watchdog_.start_ms = static_cast<std::int64_t>(limits.Number("start_s", {0.1, 86400.0}, 60.0) * 1e3);
+
+  const config::Map nodes = root.Child("nodes");
+  std::vector<NodeWish> wishes;
+  std::vector<config::Map> maps;
+  for (const std::string& name : nodes.Keys()) {
+    const config::Map map = nodes.OptionalChild(name);
+    const std::string kind_name = map.Choice("kind", KindNames());
+    const NodeKind* kind = FindKind(kind_name);
+    LaunchNode node{name, kind, map.Text("host", ""), std::make_shared<const config::Map>(map)};
+    map.LeaveToOthers("config");
+    wishes.push_back(ReadNode(map, name, *kind, base_step_ns));
+    launch.nodes_.push_back(std::move(node));
+    maps.push_back(map);
+  }
+  for (std::size_t n = 0; n < wishes.size(); ++n) Wire(maps[n], *launch.nodes_[n].kind, wishes, wishes[n]);
+  if (auto status = launch.file_->Finish(); !status) return status.error();
+  if (wishes.empty()) return base::WrongInput("'nodes' is empty; at least one node was expected", nodes.Place());
+  auto roster = lockstep::Roster::Create(base_step_ns, window, wishes);
+  if (!roster) return base::WrongInput(roster.error().Text(), launch.path().string());
+  launch.roster_ = std::make_shared<const lockstep::Roster>(std::move(roster).value());
+  return launch;
+}
+
+}  // namespace rodeira::launch

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/config/config.hpp"
+#include "common/launch/kinds.hpp"
+#include "common/lockstep/roster.hpp"
+#include "common/lockstep/watchdog.hpp"
+
+namespace rodeira::launch {
+
+enum class Transport { kSharedMemory, kUdp };
+
+struct LaunchNode {
+  std::string name;
+  const NodeKind* kind = nullptr;
+  std::string host;                        // empty: the PC that `rodeira run` is started on
+  std::shared_ptr<const config::Map> config;  // what the node itself reads; may be empty
+};
+
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
+// A launch file (docs/formats.md): who takes part in a run, on which world, at which rates. Every process of a run reads
+// the same file and so comes to the same roster; the roster's hash proves it.
+class Launch {
+ public:
+  // Wrong input where the file is wrong, a kind is unknown, or the wiring is ambiguous or impossible. Keys below
+  // `nodes.X.config` are the node's own and are not looked at here.
+  static base::Result<Launch> Load(const std::filesystem::path& path, const Overrides& overrides = {});
+  static base::Result<Launch> Parse(std::string_view text, const std::filesystem::path& name, const Overrides& overrides = {});
+
+  const std::filesystem::path& path() const { return file_->path(); }
+  const std::string& text() const { return file_->text(); }
+  const config::File& file() const { return *file_; }
+  const std::string& name() const { return name_; }
+  const std::filesystem::path& world() const { return world_; }  // empty: the run has none
+  std::uint64_t seed() const { return seed_; }
+  std::optional<double> duration_s() const { return duration_s_; }
+  Transport transport() const { return transport_; }
+  const lockstep::Watchdog::Settings& watchdog() const { return watchdog_; }
+  const lockstep::Roster& roster() const { return *roster_; }
+  const std::vector<LaunchNode>& nodes() const { return nodes_; }  // in the roster's order
+  const LaunchNode& node(lockstep::NodeIndex index) const { return nodes_[index]; }
+
+ private:
+  static base::Result<Launch> Read(config::File file, const Overrides& overrides);
+
+  std::shared_ptr<config::File> file_;
+  std::string name_;
+  std::filesystem::path world_;
+  std::uint64_t seed_ = 0;
+  std::optional<double> duration_s_;
+  Transport transport_ = Transport::kSharedMemory;
+  lockstep::Watchdog::Settings watchdog_;
+  std::shared_ptr<const lockstep::Roster> roster_;
+  std::vector<LaunchNode> nodes_;
+};
+
+}  // namespace rodeira::launch

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "common/base/result.hpp"
+#include "common/launch/launch.hpp"
+#include "common/lockstep/node.hpp"
+#include "common/terrain/ground.hpp"
+
+namespace rodeira::launch {
+
+// What a node gets from its host, be that a process of its own or a run in one process.
+class NodeContext {
+ public:
+  NodeContext(const Launch& launch, lockstep::NodeIndex index) : launch_(launch), index_(index) {}
+  virtual ~NodeContext() = default;
+
+  const Launch& launch() const { return launch_; }
+  const lockstep::Roster& roster() const { return launch_.roster(); }
+  lockstep::NodeIndex index() const { return index_; }
+  const lockstep::NodeSpec& spec() const { return launch_.roster().node(index_); }
+  std::uint64_t seed() const { return launch_.seed(); }
+  // The node's own keys: `nodes.NAME.config`. After reading them, launch().file().Finish() finds what is wrong there.
+  config::Map config() const { return launch_.node(index_).config->OptionalChild("config"); }
+
+  // SUELO of the run's world: remote or in this process, with the same bits.
+  virtual terrain::Ground& Ground() = 0;
+  // A node that has loaded the world says so; all who did must agree.
+  void set_world_hash(base::Digest hash) { world_hash_ = hash; }
+  base::Digest world_hash() const { return world_hash_; }
+
+ private:
+  const Launch& launch_;
+  lockstep::NodeIndex index_;
+  base::Digest world_hash_ = 0;
+};
+
+using NodeFactory = std::function<base::Result<std::unique_ptr<lockstep::Node>>(NodeContext&)>;
+
+// A node that answers questions and waits for nobody (the road server).
+class Service {
+ public:
+  virtual ~Service() = default;
+  virtual base::Digest world_hash() const = 0;
+  // Said once to everybody who comes, whenever they come: a serialised WorldInfo.
+  virtual base::Bytes Announcement() const = 0;
+  // A serialised reply to a serialised request, or nothing where the request cannot be read.
+  virtual base::Result<base::Bytes> Answer(std::span<const std::byte> request) = 0;
+};
+
+using ServiceFactory = std::function<base::Result<std::unique_ptr<Service>>(NodeContext&)>;
+
+}  // namespace rodeira::launch

@@ -1,0 +1,11 @@
+#pragma once
+
+// All message types of the IDL (namespace rodeira::msg), as fastddsgen makes them.
+#include "clock.h"
+#include "driving.h"
+#include "ground.h"
+#include "pulse.h"
+#include "scenario.h"
+#include "traffic.h"
+#include "vehicle.h"
+#include "world.h"

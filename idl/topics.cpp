@@ -1,0 +1,44 @@
+#include "idl/topics.hpp"
+
+#include <algorithm>
+
+#include "common/base/assert.hpp"
+
+namespace rodeira::idl {
+
+const std::vector<TopicInfo>& Topics() {
+  static const std::vector<TopicInfo> kTopics = {
+      {topics::kControls, "rodeira::msg::Controls", "driving", true},
+      {topics::kVehicleState, "rodeira::msg::VehicleState", "vehicle", true},
+      {topics::kTrafficState, "rodeira::msg::TrafficState", "traffic", true},
+      {topics::kScenarioEvents, "rodeira::msg::ScenarioEvents", "scenario", true},
+      {topics::kPulse, "rodeira::msg::Pulse", "pulse", true},
+      {topics::kGrant, "rodeira::msg::Grant", "clock", false},
+      {topics::kReport, "rodeira::msg::Report", "clock", false},
+      {topics::kGroundRequest, "rodeira::msg::GroundRequest", "ground", false},
+      {topics::kGroundReply, "rodeira::msg::GroundReply", "ground", false},
+      {topics::kWorldInfo, "rodeira::msg::WorldInfo", "world", false},
+  };
+  return kTopics;
+}
+
+const TopicInfo* FindTopic(std::string_view topic) {
+  const auto& all = Topics();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const TopicInfo& info) { return info.topic == topic; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+const std::string& IdlTextOf(std::string_view subject) {
+  const auto& all = IdlTexts();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const IdlText& text) { return text.subject == subject; });
+  RODEIRA_ASSERT(found != all.end());
+  return found->text;
+}
+
+base::Digest ProtocolHash() {
+  base::Digest digest = 1;  // grows where the meaning changes and no text does
+  for (const IdlText& text : IdlTexts()) digest = base::Combine(digest, base::Hash(text.text));
+  return digest;
+}
+
+}  // namespace rodeira::idl
