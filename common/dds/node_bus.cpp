@@ -1,0 +1,165 @@
+#include "common/dds/node_bus.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <utility>
+
+#include "idl/topics.hpp"
+
+namespace rodeira::dds {
+
+namespace topics = idl::topics;
+using WallClock = std::chrono::steady_clock;
+
+NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings)
+    : roster_(roster), mailbox_(mailbox), settings_(settings) {
+  last_.node = settings.node;
+  last_.incarnation = settings.incarnation;
+}
+
+base::Result<std::unique_ptr<NodeBus>> NodeBus::Open(Participant& participant, const lockstep::Roster& roster, lockstep::Mailbox& mailbox,
+                                                     const Settings& settings) {
+  std::unique_ptr<NodeBus> bus(new NodeBus(roster, mailbox, settings));
+  if (auto status = bus->Connect(participant); !status) return status.error();
+  bus->heartbeat_ = std::thread([raw = bus.get()] { raw->Heartbeat(); });
+  return bus;
+}
+
+NodeBus::~NodeBus() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  woken_.notify_all();
+  if (heartbeat_.joinable()) heartbeat_.join();
+  readers_.clear();  // first: their callbacks use the rest
+}
+
+base::Status NodeBus::Connect(Participant& participant) {
+  const auto add_reader = [&](std::string_view topic, Delivery delivery, OnPayload on_payload) -> base::Status {
+    auto reader = participant.MakeReader(topic, delivery, std::move(on_payload));
+    if (!reader) return reader.error();
+    readers_.push_back(std::move(reader).value());
+    return {};
+  };
+  for (const lockstep::SourceIndex output : roster_.node(settings_.node).outputs) {
+    auto writer = participant.MakeWriter(roster_.source(output).topic, Delivery::kEverySample);
+    if (!writer) return writer.error();
+    writers_.push_back(std::move(writer).value());
+  }
+  for (const lockstep::Port& port : roster_.node(settings_.node).inputs) {
+    const std::string_view topic = port.topic;
+    if (auto status = add_reader(topic, Delivery::kEverySample, [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); }); !status) return status;
+  }
+  auto reports = participant.MakeWriter(topics::kReport, Delivery::kNewest);
+  if (!reports) return reports.error();
+  reports_ = std::move(reports).value();
+  return add_reader(topics::kGrant, Delivery::kNewest, [this](base::Bytes&& bytes) { OnGrant(std::move(bytes)); });
+}
+
+base::Status NodeBus::Publish(const lockstep::Sample& sample) {
+  const auto& outputs = roster_.node(settings_.node).outputs;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (outputs[i] == sample.source()) return writers_[i]->Write(*sample.payload);
+  }
+  RODEIRA_ASSERT(!"a node publishes for another");
+}
+
+void NodeBus::Tell(const lockstep::Report& report) {
+  NamedReport named;
+  {
+    const std::lock_guard lock(mutex_);
+    last_ = report;
+    named.clock_id = clock_id_;
+    named.hello = settings_.hello;
+  }
+  named.node = roster_.node(settings_.node).name;
+  named.report = report;
+  (void)reports_->Write(EncodeReport(named));  // a lost report is said again by the heartbeat
+}
+
+void NodeBus::Follow(const lockstep::Runner* runner) {
+  const std::lock_guard lock(mutex_);
+  runner_ = runner;
+}
+
+void NodeBus::SetWorldHash(base::Digest hash) {
+  const std::lock_guard lock(mutex_);
+  settings_.hello.world = hash;
+}
+
+std::string NodeBus::fault() const {
+  const std::lock_guard lock(mutex_);
+  return fault_;
+}
+
+void NodeBus::OnSample(std::string_view topic, base::Bytes&& payload) {
+  if (!lockstep::SampleHeader::HasHeader(payload)) return Abort(fmt::format("topic {}: a sample of {} bytes has no header", topic, payload.size()));
+  const auto header = lockstep::SampleHeader::Read(payload);
+  if (header.source >= roster_.sources().size() || roster_.source(header.source).topic != topic) {
+    return Abort(fmt::format("topic {}: a sample of source number {} was found, which does not publish it", topic, header.source));
+  }
+  auto status = mailbox_.Deliver({header, std::make_shared<const base::Bytes>(std::move(payload))});
+  if (!status) Abort(status.error().Text());
+}
+
+void NodeBus::OnGrant(base::Bytes&& payload) {
+  const auto grant = DecodeGrant(payload);
+  if (!grant) return;  // of another version; the clock refuses our report and says so
+  {
+    const std::lock_guard lock(mutex_);
+    if (clock_id_ == 0) clock_id_ = grant.value().clock_id;
+    if (clock_id_ != grant.value().clock_id) return;  // one clock a run: the first
+    clock_heard_ = WallClock::now();
+    if (grant.value().grant.abort && fault_.empty()) fault_ = grant.value().grant.reason;
+  }
+  mailbox_.DeliverGrant(grant.value().grant);
+  if (grant.value().grant.over || grant.value().grant.abort) woken_.notify_all();
+}
+
+void NodeBus::Abort(std::string reason) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (fault_.empty()) fault_ = reason;
+    last_.phase = lockstep::Phase::kFailed;
+    last_.message = reason;
+  }
+  lockstep::Grant grant = mailbox_.grant();
+  grant.abort = true;
+  grant.reason = std::move(reason);
+  mailbox_.DeliverGrant(grant);
+  woken_.notify_all();
+}
+
+void NodeBus::Heartbeat() {
+  std::unique_lock lock(mutex_);
+  while (!stop_) {
+    const lockstep::Runner* runner = runner_;
+    lockstep::Report report = last_;
+    const bool silent = clock_id_ != 0 && fault_.empty() && WallClock::now() - clock_heard_ > settings_.clock_silence;
+    lock.unlock();
+    if (runner != nullptr && report.phase != lockstep::Phase::kFailed) report = runner->report();
+    if (silent && !mailbox_.grant().over) Abort(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
+                                                            static_cast<double>(settings_.clock_silence.count()) / 1e3));
+    Tell(report);
+    lock.lock();
+    woken_.wait_for(lock, settings_.heartbeat, [this] { return stop_; });
+  }
+}
+
+void NodeBus::Linger(const lockstep::Report& last, std::chrono::milliseconds limit) {
+  Follow(nullptr);
+  const auto until = WallClock::now() + limit;
+  Tell(last);
+  std::unique_lock lock(mutex_);
+  while (WallClock::now() < until) {
+    lock.unlock();
+    const lockstep::Grant grant = mailbox_.grant();
+    lock.lock();
+    if (grant.over || clock_id_ == 0) return;
+    woken_.wait_for(lock, std::chrono::milliseconds(10));
+  }
+}
+
+}  // namespace rodeira::dds

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/dds/participant.hpp"
+#include "common/dds/wire.hpp"
+#include "common/lockstep/bus.hpp"
+#include "common/lockstep/mailbox.hpp"
+#include "common/lockstep/runner.hpp"
+
+namespace rodeira::dds {
+
+// A node's side of the bus: its writers and readers, the clock's grants, and the heartbeat that tells the clock where
+// the node stands even while it computes or waits.
+class NodeBus final : public lockstep::Bus {
+ public:
+  struct Settings {
+    lockstep::NodeIndex node = 0;
+    std::uint32_t incarnation = 0;
+    Hello hello;
+    std::chrono::milliseconds heartbeat{100};
+    std::chrono::milliseconds clock_silence{3000};  // the clock repeats its grant all the time; silent this long it is gone
+  };
+  static base::Result<std::unique_ptr<NodeBus>> Open(Participant& participant, const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings);
+  ~NodeBus() override;
+
+  base::Status Publish(const lockstep::Sample& sample) override;
+  void Tell(const lockstep::Report& report) override;
+
+  // From then on heartbeats carry the runner's report; before, "starting". Null before the runner goes.
+  void Follow(const lockstep::Runner* runner);
+  void SetWorldHash(base::Digest hash);
+  // The node's last word, repeated until the clock says that all is over, at most for `limit`.
+  void Linger(const lockstep::Report& last, std::chrono::milliseconds limit);
+  // Why the run was aborted by this bus or the clock; empty where it was not.
+  std::string fault() const;
+
+ private:
+  NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings);
+  base::Status Connect(Participant& participant);
+  void OnSample(std::string_view topic, base::Bytes&& payload);
+  void OnGrant(base::Bytes&& payload);
+  void Abort(std::string reason);
+  void Heartbeat();
+
+  const lockstep::Roster& roster_;
+  lockstep::Mailbox& mailbox_;
+  Settings settings_;
+  std::vector<std::unique_ptr<Writer>> writers_;  // one for each output, in the roster's order
+  std::unique_ptr<Writer> reports_;
+  std::vector<std::unique_ptr<Reader>> readers_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable woken_;
+  const lockstep::Runner* runner_ = nullptr;
+  lockstep::Report last_;
+  std::uint64_t clock_id_ = 0;
+  std::chrono::steady_clock::time_point clock_heard_;
+  std::string fault_;
+  bool stop_ = false;
+  std::thread heartbeat_;
+};
+
+}  // namespace rodeira::dds

@@ -1,0 +1,70 @@
+#include "common/dds/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+
+namespace rodeira::dds {
+
+base::Result<double> ParsePace(const std::string& text) {
+  if (text == "max") return 0.0;
+  if (text == "real") return 1.0;
+  double pace = 0.0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), pace);
+  if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(pace) || pace <= 0.0) {
+    return base::WrongInput("'" + text + "' was found; max, real or a positive number was expected", "--pace");
+  }
+  return pace;
+}
+
+ParsedOptions ParseOptions(const std::string& program, bool is_clock, int argc, char** argv) {
+  ParsedOptions parsed;
+  ProcessOptions& options = parsed.options;
+  CLI::App app{"One process of a Rodeira run; `rodeira run` starts all of them."};
+  app.name(program);
+  std::vector<std::string> sets;
+  std::string pace = "max";
+  double duration_s = 0.0;
+  app.add_option("--launch", options.launch_file, "launch file (the same for every process)")->required();
+  app.add_option("--run", options.run, "name of the run: only processes of the same name meet");
+  app.add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232));
+  app.add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file");
+  if (is_clock) {
+    app.add_option("--pace", pace, "max, real or a factor");
+    app.add_option("--for", duration_s, "simulated seconds");
+  } else {
+    app.add_option("--node", options.node, "name of the node in the launch file")->required();
+    app.add_option("--incarnation", options.incarnation, "which life of the node");
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    parsed.leave_with = app.exit(problem) == 0 ? 0 : 2;
+    return parsed;
+  }
+  for (const std::string& set : sets) {
+    const auto equals = set.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      std::cerr << program << ": --set " << set << ": KEY=VALUE was expected\n";
+      parsed.leave_with = 2;
+      return parsed;
+    }
+    options.overrides.emplace_back(set.substr(0, equals), set.substr(equals + 1));
+  }
+  const auto factor = ParsePace(pace);
+  if (!factor) {
+    std::cerr << program << ": " << factor.error().Text() << "\n";
+    parsed.leave_with = 2;
+    return parsed;
+  }
+  options.pace = factor.value();
+  if (duration_s > 0.0) options.duration_s = duration_s;
+  return parsed;
+}
+
+DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& launch, const std::string& name) {
+  return {options.domain, options.run, name, launch.transport()};
+}
+
+}  // namespace rodeira::dds

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/base/result.hpp"
+#include "common/dds/participant.hpp"
+#include "common/launch/launch.hpp"
+
+namespace rodeira::dds {
+
+// The command line of every process of a run; `rodeira run` writes it, a person may.
+struct ProcessOptions {
+  std::string launch_file;
+  std::string node;      // name in the roster; empty for the clock
+  std::string run = "default";
+  std::uint32_t domain = 0;
+  std::uint32_t incarnation = 0;
+  launch::Overrides overrides;
+  // For the clock alone.
+  double pace = 0.0;                     // 0: as fast as possible
+  std::optional<double> duration_s;
+};
+
+// The options, or the status to leave with (0 after --help, 2 after a wrong option); what a person should read has been
+// printed then.
+struct ParsedOptions {
+  ProcessOptions options;
+  std::optional<int> leave_with;
+};
+ParsedOptions ParseOptions(const std::string& program, bool is_clock, int argc, char** argv);
+
+// "max" is 0, "real" is 1, otherwise a positive number.
+base::Result<double> ParsePace(const std::string& text);
+
+DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& launch, const std::string& name);
+
+}  // namespace rodeira::dds

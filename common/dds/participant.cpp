@@ -1,0 +1,207 @@
+#include "common/dds/participant.hpp"
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/log/Log.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fmt/format.h>
+
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "common/dds/raw_type.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::dds {
+namespace {
+
+namespace fdds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastdds::rtps;
+using eprosima::fastrtps::Duration_t;
+
+constexpr int kMilli = 1'000'000;  // nanoseconds
+
+// Shared memory: the defaults (512 KiB, 512 messages) are full after a few hundred unread samples, and full means lost
+// until a heartbeat; sized for two windows of all sources.
+constexpr std::uint32_t kSegmentBytes = 8u << 20;
+constexpr std::uint32_t kPortQueue = 4096;
+constexpr std::uint32_t kSocketBufferBytes = 4u << 20;
+
+fdds::DomainParticipantQos ParticipantQos(const DomainSettings& settings) {
+  fdds::DomainParticipantQos qos;
+  qos.name(settings.name.c_str());
+  qos.transport().use_builtin_transports = false;
+  if (settings.transport == launch::Transport::kSharedMemory) {
+    auto shared = std::make_shared<rtps::SharedMemTransportDescriptor>();
+    shared->segment_size(kSegmentBytes);
+    shared->port_queue_capacity(kPortQueue);
+    qos.transport().user_transports.push_back(shared);
+  } else {
+    auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
+    udp->sendBufferSize = kSocketBufferBytes;
+    udp->receiveBufferSize = kSocketBufferBytes;
+    qos.transport().user_transports.push_back(udp);
+  }
+  auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  // The lockstep has its own heartbeat; a lease that runs out under load would only tear matched endpoints apart.
+  discovery.leaseDuration = Duration_t{20, 0};
+  discovery.leaseDuration_announcementperiod = Duration_t{1, 0};
+  discovery.initial_announcements.count = 20;
+  discovery.initial_announcements.period = Duration_t{0, 50u * kMilli};
+  return qos;
+}
+
+class FastWriter final : public Writer {
+ public:
+  FastWriter(fdds::Publisher* publisher, fdds::DataWriter* writer, std::string topic)
+      : publisher_(publisher), writer_(writer), topic_(std::move(topic)) {}
+  ~FastWriter() override { publisher_->delete_datawriter(writer_); }
+  base::Status Write(const base::Bytes& payload) override {
+    RawSample sample;
+    sample.to_send = &payload;
+    if (!writer_->write(&sample)) return base::Failed("a sample could not be written within ten seconds: a reader takes nothing any more", "topic " + topic_);
+    return {};
+  }
+
+ private:
+  fdds::Publisher* publisher_;
+  fdds::DataWriter* writer_;
+  std::string topic_;
+};
+
+class FastReader final : public Reader, public fdds::DataReaderListener {
+ public:
+  FastReader(fdds::Subscriber* subscriber, OnPayload on_payload) : subscriber_(subscriber), on_payload_(std::move(on_payload)) {}
+  ~FastReader() override {
+    if (reader_ == nullptr) return;
+    reader_->set_listener(nullptr);
+    subscriber_->delete_datareader(reader_);
+  }
+  void Begin(fdds::DataReader* reader) { reader_ = reader; }
+
+  void on_data_available(fdds::DataReader* reader) override {
+    RawSample sample;
+    fdds::SampleInfo info;
+    while (reader->take_next_sample(&sample, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+      if (info.valid_data) on_payload_(std::move(sample.bytes));
+    }
+  }
+
+ private:
+  fdds::Subscriber* subscriber_;
+  fdds::DataReader* reader_ = nullptr;
+  OnPayload on_payload_;
+};
+
+class FastParticipant final : public Participant {
+ public:
+  FastParticipant(fdds::DomainParticipant* participant, fdds::Publisher* publisher, fdds::Subscriber* subscriber)
+      : participant_(participant), publisher_(publisher), subscriber_(subscriber) {}
+  ~FastParticipant() override {
+    participant_->delete_contained_entities();
+    fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+
+  base::Result<std::unique_ptr<Writer>> MakeWriter(std::string_view topic, Delivery delivery) override {
+    auto* made_topic = TopicOf(topic);
+    if (made_topic == nullptr) return Refused(topic);
+    fdds::DataWriterQos qos = fdds::DATAWRITER_QOS_DEFAULT;
+    Common(qos, delivery);
+    qos.durability().kind = delivery == Delivery::kForLateComers ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
+    qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
+    qos.reliability().max_blocking_time = Duration_t{10, 0};
+    auto& times = qos.reliable_writer_qos().times;
+    times.initialHeartbeatDelay = Duration_t{0, 0};
+    times.heartbeatPeriod = Duration_t{0, 3u * kMilli};
+    times.nackResponseDelay = Duration_t{0, 0};
+    times.nackSupressionDuration = Duration_t{0, 0};
+    fdds::DataWriter* writer = publisher_->create_datawriter(made_topic, qos);
+    if (writer == nullptr) return Refused(topic);
+    return std::unique_ptr<Writer>(std::make_unique<FastWriter>(publisher_, writer, std::string(topic)));
+  }
+
+  base::Result<std::unique_ptr<Reader>> MakeReader(std::string_view topic, Delivery delivery, OnPayload on_payload) override {
+    auto* made_topic = TopicOf(topic);
+    if (made_topic == nullptr) return Refused(topic);
+    fdds::DataReaderQos qos = fdds::DATAREADER_QOS_DEFAULT;
+    Common(qos, delivery == Delivery::kNewest ? Delivery::kEverySample : delivery);  // without keys "newest" would be of all writers
+    qos.durability().kind = delivery == Delivery::kForLateComers ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
+    qos.reliability().kind = delivery == Delivery::kObserve ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
+    qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t{0, 0};
+    auto reader = std::make_unique<FastReader>(subscriber_, std::move(on_payload));
+    fdds::DataReader* made = subscriber_->create_datareader(made_topic, qos, reader.get());
+    if (made == nullptr) return Refused(topic);
+    reader->Begin(made);
+    return std::unique_ptr<Reader>(std::move(reader));
+  }
+
+ private:
+  template <class Qos>
+  static void Common(Qos& qos, Delivery delivery) {
+    const bool every = delivery == Delivery::kEverySample;
+    qos.history().kind = every ? fdds::KEEP_ALL_HISTORY_QOS : fdds::KEEP_LAST_HISTORY_QOS;
+    qos.history().depth = every ? 1 : delivery == Delivery::kObserve ? 16 : 1;
+    qos.resource_limits().max_samples = every ? 200'000 : 1000;
+    qos.resource_limits().max_instances = 1;
+    qos.resource_limits().max_samples_per_instance = every ? 200'000 : 1000;
+    qos.resource_limits().allocated_samples = 64;
+    qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.data_sharing().off();
+  }
+  static base::Error Refused(std::string_view topic) { return base::Failed("Fast DDS makes no endpoint for this topic", "topic " + std::string(topic)); }
+
+  fdds::Topic* TopicOf(std::string_view name) {
+    const idl::TopicInfo* info = idl::FindTopic(name);
+    if (info == nullptr) return nullptr;
+    const std::lock_guard lock(mutex_);
+    auto& topic = topics_[std::string(name)];
+    if (topic == nullptr) {
+      const std::string type_name(info->type);
+      if (participant_->find_type(type_name).empty()) fdds::TypeSupport(new RawType(type_name)).register_type(participant_);
+      topic = participant_->create_topic(std::string(name), type_name, fdds::TOPIC_QOS_DEFAULT);
+    }
+    return topic;
+  }
+
+  fdds::DomainParticipant* participant_;
+  fdds::Publisher* publisher_;
+  fdds::Subscriber* subscriber_;
+  std::mutex mutex_;
+  std::map<std::string, fdds::Topic*, std::less<>> topics_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<Participant>> Participant::Open(const DomainSettings& settings) {
+  RODEIRA_ASSERT(!settings.run.empty());
+  fdds::Log::SetVerbosity(fdds::Log::Kind::Error);
+  auto* factory = fdds::DomainParticipantFactory::get_instance();
+  auto* participant = factory->create_participant(settings.domain, ParticipantQos(settings));
+  if (participant == nullptr) {
+    return base::Failed(fmt::format("Fast DDS makes no participant in domain {} (is /dev/shm writable, are ports {} and following free?)", settings.domain,
+                                    7400 + 250 * settings.domain));
+  }
+  fdds::PublisherQos publisher_qos = fdds::PUBLISHER_QOS_DEFAULT;
+  publisher_qos.partition().push_back(("rodeira/" + settings.run).c_str());
+  fdds::SubscriberQos subscriber_qos = fdds::SUBSCRIBER_QOS_DEFAULT;
+  subscriber_qos.partition().push_back(("rodeira/" + settings.run).c_str());
+  auto* publisher = participant->create_publisher(publisher_qos);
+  auto* subscriber = participant->create_subscriber(subscriber_qos);
+  if (publisher == nullptr || subscriber == nullptr) {
+    factory->delete_participant(participant);
+    return base::Failed("Fast DDS makes no publisher and subscriber");
+  }
+  return std::unique_ptr<Participant>(std::make_unique<FastParticipant>(participant, publisher, subscriber));
+}
+
+}  // namespace rodeira::dds

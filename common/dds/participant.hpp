@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "common/base/bytes.hpp"
+#include "common/base/result.hpp"
+#include "common/launch/launch.hpp"
+
+namespace rodeira::dds {
+
+// How a topic's samples are kept and handed over (docs/architecture.md says why).
+enum class Delivery {
+  kEverySample,  // reliable, keep all, volatile: samples of the lockstep, requests and replies
+  kNewest,       // reliable, the newest of each writer counts: grants and reports, which are states
+  kForLateComers,  // reliable, transient local, the newest: world information
+  kObserve,      // best effort: whoever only looks on, and never slows a run (law L5)
+};
+
+struct DomainSettings {
+  std::uint32_t domain = 0;       // one a rig
+  std::string run;                // one a run: becomes the partition, never empty
+  std::string name;               // of the participant, for people
+  launch::Transport transport = launch::Transport::kSharedMemory;
+};
+
+class Writer {
+ public:
+  virtual ~Writer() = default;
+  // Blocks where the history is full; Failed where it stays so for ten seconds.
+  virtual base::Status Write(const base::Bytes& payload) = 0;
+};
+
+class Reader {
+ public:
+  virtual ~Reader() = default;
+};
+
+// Gets every payload on a receive thread of the library: it moves the sample on and returns; it never waits.
+using OnPayload = std::function<void(base::Bytes&&)>;
+
+// A DDS participant, one a process. Topics and types are those of idl/topics.hpp.
+class Participant {
+ public:
+  static base::Result<std::unique_ptr<Participant>> Open(const DomainSettings& settings);
+  virtual ~Participant() = default;
+  virtual base::Result<std::unique_ptr<Writer>> MakeWriter(std::string_view topic, Delivery delivery) = 0;
+  virtual base::Result<std::unique_ptr<Reader>> MakeReader(std::string_view topic, Delivery delivery, OnPayload on_payload) = 0;
+};
+
+}  // namespace rodeira::dds

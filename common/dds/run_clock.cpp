@@ -1,0 +1,275 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <condition_variable>
+#include <csignal>
+#include <cstdio>
+#include <deque>
+#include <mutex>
+#include <random>
+#include <thread>
+
+#include "common/base/mathematics.hpp"
+#include "common/base/suggest.hpp"
+#include "common/dds/options.hpp"
+#include "common/dds/participant.hpp"
+#include "common/dds/run.hpp"
+#include "common/dds/wire.hpp"
+#include "common/lockstep/clock.hpp"
+#include "common/lockstep/pacer.hpp"
+#include "common/lockstep/watchdog.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::dds {
+namespace {
+
+using namespace std::chrono_literals;
+using WallClock = std::chrono::steady_clock;
+namespace topics = idl::topics;
+
+std::atomic<int> g_signals = 0;
+void OnSignal(int) { ++g_signals; }
+
+// One line a statement on standard output: `rodeira run` reads them, people may too.
+template <class... Args>
+void Say(fmt::format_string<Args...> format, Args&&... args) {
+  fmt::print(format, std::forward<Args>(args)...);
+  std::fputc('\n', stdout);
+  std::fflush(stdout);
+}
+
+// Newlines would end a statement.
+std::string OneLine(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+class ClockProcess {
+ public:
+  ClockProcess(const launch::Launch& launch, const ProcessOptions& options)
+      : launch_(launch), roster_(launch.roster()), options_(options), clock_(roster_, LastStep()), pacer_(roster_.base_step_ns(), options.pace),
+        watchdog_(roster_, launch.watchdog()), own_(OwnHello(roster_.hash())) {
+    std::random_device device;
+    while (clock_id_ == 0) clock_id_ = (static_cast<std::uint64_t>(device()) << 32) | device();
+  }
+
+  int Run() {
+    auto participant = Participant::Open(DomainOf(options_, launch_, "clock"));
+    if (!participant) return Complain(participant.error());
+    if (auto status = Connect(*participant.value()); !status) return Complain(status.error());
+    Say("starting {} nodes", roster_.nodes().size());
+    start_ = WallClock::now();
+    if (const int status = Loop(); status != 0) return status;
+    Say("end ok last_step={} wall_s={:.6f} digest={} slipped_s={:.6f}", clock_.grant().through, RunSeconds(), base::Hex(clock_.RunDigest()),
+        static_cast<double>(pacer_.slipped_ns()) * 1e-9);
+    return 0;
+  }
+
+ private:
+  std::optional<lockstep::Step> LastStep() const {
+    const auto seconds = options_.duration_s ? options_.duration_s : launch_.duration_s();
+    if (!seconds) return std::nullopt;
+    return static_cast<lockstep::Step>(std::llround(*seconds * 1e9 / static_cast<double>(roster_.base_step_ns())));
+  }
+  static int Complain(const base::Error& error) {
+    Say("fault {}", OneLine(error.Text()));
+    return error.exit_status();
+  }
+  std::int64_t NowNs() const { return std::chrono::nanoseconds(WallClock::now() - start_).count(); }
+  double RunSeconds() const { return first_grant_ns_ == 0 ? 0.0 : static_cast<double>(NowNs() - first_grant_ns_) * 1e-9; }
+
+  base::Status Connect(Participant& participant) {
+    // Before anything is said: another clock's word in this run means that this one is too many.
+    auto other = participant.MakeReader(topics::kGrant, Delivery::kNewest, [this](base::Bytes&& bytes) {
+      const auto grant = DecodeGrant(bytes);
+      if (grant && grant.value().clock_id != clock_id_) other_clock_ = grant.value().clock_id;
+    });
+    if (!other) return other.error();
+    others_ = std::move(other).value();
+    std::this_thread::sleep_for(300ms);
+    if (other_clock_ != 0) return SecondClock();
+    auto reports = participant.MakeReader(topics::kReport, Delivery::kNewest, [this](base::Bytes&& bytes) {
+      const std::lock_guard lock(mutex_);
+      inbox_.push_back(std::move(bytes));
+      woken_.notify_one();
+    });
+    if (!reports) return reports.error();
+    reports_ = std::move(reports).value();
+    auto grants = participant.MakeWriter(topics::kGrant, Delivery::kNewest);
+    if (!grants) return grants.error();
+    grants_ = std::move(grants).value();
+    return {};
+  }
+  base::Status SecondClock() const {
+    return base::WrongInput(fmt::format("run '{}' in domain {} has a clock already ({}); choose another --run or --domain", options_.run, options_.domain,
+                                        base::Hex(other_clock_)));
+  }
+
+  // Two clocks that began at the same moment: the one with the larger number is the one too many.
+  bool MustYield() const { return other_clock_ != 0 && other_clock_ < clock_id_; }
+
+  int Loop() {
+    auto said = WallClock::now() - 1s;
+    auto checked = said;
+    bool told_ready = false;
+    while (!clock_.all_finished()) {
+      if (MustYield()) return Complain(SecondClock().error());
+      TakeReports();
+      if (!refusal_.empty()) return Abort(refusal_, 2);
+      const auto now = WallClock::now();
+      if (now - checked >= 20ms) {
+        checked = now;
+        if (auto fault = watchdog_.Check(NowNs() / 1'000'000)) return Abort(fault->reason, 1);
+        if (const int signals = g_signals; signals > 0) {
+          if (signals > 2 || clock_.grant().through < 0) return Abort("stopped by a signal", 1);
+          clock_.Stop();
+        }
+      }
+      if (!told_ready && clock_.all_ready()) {
+        told_ready = true;
+        first_grant_ns_ = std::max<std::int64_t>(NowNs(), 1);
+        Say("ready");
+      }
+      const lockstep::Grant before = clock_.grant();
+      const lockstep::Step limit = told_ready ? pacer_.Limit(NowNs(), clock_.window_limit()) : -1;
+      const lockstep::Grant grant = clock_.Update(limit);
+      if (grant.through != before.through || grant.final != before.final || now - said >= 50ms) {
+        said = now;
+        SayGrant(grant);
+        ShowProgress(now);
+      }
+      Wait();
+    }
+    lockstep::Grant last = clock_.grant();
+    SayNodes();
+    last.over = true;
+    for (int i = 0; i < 10; ++i) {  // until everybody has heard it; who has gone already does not matter
+      SayGrant(last);
+      std::this_thread::sleep_for(5ms);
+    }
+    return 0;
+  }
+
+  void Wait() {
+    std::unique_lock lock(mutex_);
+    const auto due = std::chrono::nanoseconds(clock_.all_ready() && !clock_.grant().final ? pacer_.NextDueIn(NowNs()) : 0);
+    const std::chrono::nanoseconds limit = due > 0ns ? std::min<std::chrono::nanoseconds>(due, 20ms) : 20ms;
+    woken_.wait_for(lock, limit, [this] { return !inbox_.empty(); });
+  }
+
+  void TakeReports() {
+    std::deque<base::Bytes> taken;
+    {
+      const std::lock_guard lock(mutex_);
+      taken.swap(inbox_);
+    }
+    for (const base::Bytes& bytes : taken) {
+      auto named = DecodeReport(bytes);
+      if (!named) {
+        refusal_ = "a report that cannot be read was found (a node of another version?): " + named.error().Text();
+        return;
+      }
+      TakeReport(named.value());
+    }
+  }
+
+  void TakeReport(NamedReport& named) {
+    const lockstep::NodeIndex node = roster_.Find(named.node);
+    if (node == roster_.nodes().size()) {
+      Say("refused a node named '{}' on host {}, which is not in the roster{}", OneLine(named.node), named.hello.host, base::DidYouMean(named.node, roster_.Names()));
+      return;
+    }
+    if (named.clock_id != 0 && named.clock_id != clock_id_) return;  // meant for another clock
+    if (own_.world == 0) own_.world = named.hello.world;
+    if (auto status = CheckHello(own_, named.hello); !status) {
+      refusal_ = fmt::format("node '{}' (process {} on host {}) was refused: {}", named.node, named.hello.pid, named.hello.host, status.error().Text());
+      return;
+    }
+    named.report.node = node;
+    watchdog_.Heard(named.report, NowNs() / 1'000'000);
+    if (auto status = clock_.Take(named.report); !status) Say("refused {}", OneLine(status.error().Text()));
+  }
+
+  void SayGrant(const lockstep::Grant& grant) { (void)grants_->Write(EncodeGrant({clock_id_, ++serial_, grant})); }
+
+  void ShowProgress(WallClock::time_point now) {
+    if (now - shown_ < 200ms) return;
+    shown_ = now;
+    if (first_grant_ns_ == 0) {
+      Say("waiting for {}", fmt::join(clock_.Missing(lockstep::Phase::kReady), ", "));
+    } else {
+      Say("progress step={} wall_s={:.3f}", clock_.slowest_progress(), RunSeconds());
+    }
+  }
+
+  void SayNodes() const {
+    for (lockstep::NodeIndex n = 0; n < roster_.nodes().size(); ++n) {
+      const lockstep::Report& report = clock_.report(n);
+      const double mean_us = report.steps == 0 ? 0.0 : static_cast<double>(report.busy_ns) * 1e-3 / static_cast<double>(report.steps);
+      Say("node {} steps={} mean_us={:.2f} worst_us={:.1f} server_calls={} digest={}", roster_.node(n).name, report.steps, mean_us,
+          static_cast<double>(report.worst_ns) * 1e-3, report.server_calls, base::Hex(report.digest));
+    }
+  }
+
+  // Time stops everywhere; sinks get a moment to close their files.
+  int Abort(const std::string& reason, int status) {
+    clock_.Abort(reason);
+    Say("fault {}", OneLine(reason));
+    for (int i = 0; i < 100 && !AllButTheDeadHaveFinished(); ++i) {
+      SayGrant(clock_.grant());
+      std::this_thread::sleep_for(10ms);
+      TakeReports();
+    }
+    SayNodes();
+    Say("end aborted last_step={} wall_s={:.6f} digest={} slipped_s={:.6f}", clock_.slowest_progress() - 1, RunSeconds(), base::Hex(0),
+        static_cast<double>(pacer_.slipped_ns()) * 1e-9);
+    return status;
+  }
+  bool AllButTheDeadHaveFinished() const {
+    for (lockstep::NodeIndex n = 0; n < roster_.nodes().size(); ++n) {
+      if (roster_.node(n).is_sink() && clock_.report(n).phase < lockstep::Phase::kFinished) return false;
+    }
+    return true;
+  }
+
+  const launch::Launch& launch_;
+  const lockstep::Roster& roster_;
+  const ProcessOptions& options_;
+  lockstep::Clock clock_;
+  lockstep::Pacer pacer_;
+  lockstep::Watchdog watchdog_;
+  Hello own_;
+  std::uint64_t clock_id_ = 0;
+  std::uint32_t serial_ = 0;
+  std::atomic<std::uint64_t> other_clock_ = 0;
+  WallClock::time_point start_ = WallClock::now();
+  WallClock::time_point shown_{};
+  std::int64_t first_grant_ns_ = 0;
+  std::string refusal_;
+  std::mutex mutex_;
+  std::condition_variable woken_;
+  std::deque<base::Bytes> inbox_;
+  std::unique_ptr<Writer> grants_;
+  std::unique_ptr<Reader> others_;
+  std::unique_ptr<Reader> reports_;
+};
+
+}  // namespace
+
+int RunClock(int argc, char** argv) {
+  base::FixMathematics(argv);
+  const ParsedOptions parsed = ParseOptions("rodeira-clock", true, argc, argv);
+  if (parsed.leave_with) return *parsed.leave_with;
+  const auto launch = launch::Launch::Load(parsed.options.launch_file, parsed.options.overrides);
+  if (!launch) {
+    fmt::print(stderr, "rodeira-clock: {}\n", launch.error().Text());
+    return launch.error().exit_status();
+  }
+  std::signal(SIGINT, OnSignal);
+  std::signal(SIGTERM, OnSignal);
+  return ClockProcess(launch.value(), parsed.options).Run();
+}
+
+}  // namespace rodeira::dds

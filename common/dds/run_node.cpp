@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "common/base/mathematics.hpp"
+#include "common/dds/node_bus.hpp"
+#include "common/dds/options.hpp"
+#include "common/dds/remote_ground.hpp"
+#include "common/dds/run.hpp"
+#include "common/lockstep/runner.hpp"
+
+namespace rodeira::dds {
+namespace {
+
+using namespace std::chrono_literals;
+
+class ProcessContext final : public launch::NodeContext {
+ public:
+  ProcessContext(const launch::Launch& launch, lockstep::NodeIndex index, Participant& participant, lockstep::Mailbox& mailbox, std::uint32_t incarnation)
+      : NodeContext(launch, index), participant_(participant), mailbox_(mailbox), incarnation_(incarnation) {}
+
+  terrain::Ground& Ground() override {
+    if (ground_ == nullptr) {
+      auto ground = RemoteGround::Open(participant_, index(), incarnation_, [this] { return mailbox_.grant().abort; });
+      RODEIRA_ASSERT(ground.ok());  // fails only where Fast DDS has no memory left
+      ground_ = std::move(ground).value();
+    }
+    return *ground_;
+  }
+  void Follow(lockstep::Runner* runner) {
+    if (ground_ != nullptr) ground_->Follow(runner);
+  }
+
+ private:
+  Participant& participant_;
+  lockstep::Mailbox& mailbox_;
+  std::uint32_t incarnation_;
+  std::unique_ptr<RemoteGround> ground_;
+};
+
+int Complain(const std::string& who, const base::Error& error) {
+  fmt::print(stderr, "{}: {}\n", who, error.Text());
+  return error.exit_status();
+}
+
+// The node is made and runs; what goes wrong is told to the clock, which ends the run.
+int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& bus, lockstep::Mailbox& mailbox, const ProcessOptions& options) {
+  const auto fail = [&](const base::Error& error) {
+    lockstep::Report report;
+    report.node = context.index();
+    report.incarnation = options.incarnation;
+    report.phase = lockstep::Phase::kFailed;
+    report.message = error.Text();
+    bus.Linger(report, 1000ms);
+    return error.exit_status();
+  };
+  auto node = factory(context);
+  if (!node) return fail(node.error());
+  if (auto status = context.launch().file().Finish(); !status) return fail(status.error());
+  bus.SetWorldHash(context.world_hash());
+  lockstep::Runner::Settings settings;
+  settings.incarnation = options.incarnation;
+  lockstep::Runner runner(context.roster(), context.index(), *node.value(), bus, mailbox, settings);
+  context.Follow(&runner);
+  bus.Follow(&runner);
+  const auto outcome = runner.Run();
+  context.Follow(nullptr);
+  bus.Linger(runner.report(), outcome == lockstep::Runner::Outcome::kFinished ? 3000ms : 500ms);
+  return outcome == lockstep::Runner::Outcome::kFinished ? 0 : 1;
+}
+
+}  // namespace
+
+int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFactory& factory) {
+  base::FixMathematics(argv);
+  const std::string program = fmt::format("rodeira-{}", kind);
+  const ParsedOptions parsed = ParseOptions(program, false, argc, argv);
+  if (parsed.leave_with) return *parsed.leave_with;
+  std::signal(SIGINT, SIG_IGN);  // Ctrl-C is for the clock, which stops everybody at the same step
+  const ProcessOptions& options = parsed.options;
+  const auto launch = launch::Launch::Load(options.launch_file, options.overrides);
+  if (!launch) return Complain(program, launch.error());
+  const auto& roster = launch.value().roster();
+  const lockstep::NodeIndex index = roster.Find(options.node);
+  if (index == roster.nodes().size() || roster.node(index).kind != kind) {
+    return Complain(program, base::WrongInput(fmt::format("--node {}: the launch file has no node of this name and of kind '{}'", options.node, kind), options.launch_file));
+  }
+  auto participant = Participant::Open(DomainOf(options, launch.value(), options.node));
+  if (!participant) return Complain(program, participant.error());
+  lockstep::Mailbox mailbox(roster, index);
+  NodeBus::Settings settings;
+  settings.node = index;
+  settings.incarnation = options.incarnation;
+  settings.hello = OwnHello(roster.hash());
+  auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
+  if (!bus) return Complain(program, bus.error());
+  ProcessContext context(launch.value(), index, *participant.value(), mailbox, options.incarnation);
+  return Drive(factory, context, *bus.value(), mailbox, options);
+}
+
+}  // namespace rodeira::dds

@@ -1,0 +1,130 @@
+#include "common/dds/wire.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "common/base/mathematics.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::dds {
+namespace {
+
+std::string HostName() {
+  char name[256] = {};
+  return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "unknown";
+}
+
+base::Status Compare(std::string_view what, base::Digest own, base::Digest other, std::string_view advice) {
+  if (own == other) return {};
+  return base::WrongInput(fmt::format("its {} is {}, the clock's is {}; {}", what, base::Hex(other), base::Hex(own), advice));
+}
+
+}  // namespace
+
+Hello OwnHello(base::Digest roster_hash) {
+  Hello hello;
+  hello.protocol = idl::ProtocolHash();
+  hello.roster = roster_hash;
+  hello.mathematics = base::MathematicsDigest();
+  hello.host = HostName();
+  hello.pid = static_cast<std::uint32_t>(::getpid());
+  // For the tests of the refusal: a build of another version and a machine of other mathematics.
+  if (const char* pretend = std::getenv("RODEIRA_PRETEND_PROTOCOL")) hello.protocol = base::Hash(pretend);
+  if (const char* pretend = std::getenv("RODEIRA_PRETEND_MATHEMATICS")) hello.mathematics = base::Hash(pretend);
+  return hello;
+}
+
+base::Status CheckHello(const Hello& own, const Hello& other) {
+  if (auto status = Compare("protocol hash", own.protocol, other.protocol, "both PCs need the same version of Rodeira"); !status) return status;
+  if (auto status = Compare("roster hash", own.roster, other.roster, "both need the same launch file and the same --set"); !status) return status;
+  if (auto status = Compare("mathematics hash", own.mathematics, other.mathematics, "its mathematics library computes other bits"); !status) return status;
+  if (own.world == 0 || other.world == 0) return {};
+  return Compare("world hash", own.world, other.world, "both need the same world files");
+}
+
+base::Bytes EncodeReport(const NamedReport& in) {
+  msg::Report out;
+  out.clock_id(in.clock_id);
+  out.node(in.node);
+  out.hello().protocol_hash(in.hello.protocol);
+  out.hello().roster_hash(in.hello.roster);
+  out.hello().world_hash(in.hello.world);
+  out.hello().mathematics_hash(in.hello.mathematics);
+  out.hello().host(in.hello.host);
+  out.hello().pid(in.hello.pid);
+  const lockstep::Report& report = in.report;
+  out.incarnation(report.incarnation);
+  out.phase(static_cast<std::uint32_t>(report.phase));
+  out.progress_step(report.progress);
+  out.waiting(static_cast<std::uint32_t>(report.waiting));
+  out.waiting_source(report.waiting_source);
+  out.since_ms(report.since_ms);
+  out.digest(report.digest);
+  out.steps(report.steps);
+  out.busy_ns(report.busy_ns);
+  out.worst_ns(report.worst_ns);
+  out.server_calls(report.server_calls);
+  out.message(report.message);
+  return idl::Encode(out);
+}
+
+base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
+  auto decoded = idl::Decode<msg::Report>(payload);
+  if (!decoded) return decoded.error();
+  msg::Report& in = decoded.value();
+  if (in.phase() > static_cast<std::uint32_t>(lockstep::Phase::kFailed) || in.waiting() > static_cast<std::uint32_t>(lockstep::Waiting::kServer)) {
+    return base::WrongInput(fmt::format("a report of phase {} and waiting {} was found", in.phase(), in.waiting()));
+  }
+  NamedReport out;
+  out.node = in.node();
+  out.clock_id = in.clock_id();
+  out.hello = {in.hello().protocol_hash(), in.hello().roster_hash(), in.hello().world_hash(), in.hello().mathematics_hash(), in.hello().host(), in.hello().pid()};
+  out.report.incarnation = in.incarnation();
+  out.report.phase = static_cast<lockstep::Phase>(in.phase());
+  out.report.progress = in.progress_step();
+  out.report.waiting = static_cast<lockstep::Waiting>(in.waiting());
+  out.report.waiting_source = in.waiting_source();
+  out.report.since_ms = in.since_ms();
+  out.report.digest = in.digest();
+  out.report.steps = in.steps();
+  out.report.busy_ns = in.busy_ns();
+  out.report.worst_ns = in.worst_ns();
+  out.report.server_calls = in.server_calls();
+  out.report.message = in.message();
+  return out;
+}
+
+base::Bytes EncodeGrant(const NumberedGrant& in) {
+  msg::Grant out;
+  out.clock_id(in.clock_id);
+  out.serial(in.serial);
+  out.roster_hash(in.grant.roster);
+  out.through_step(in.grant.through);
+  out.final_step(in.grant.final);
+  out.abort(in.grant.abort);
+  out.over(in.grant.over);
+  out.reason(in.grant.reason);
+  return idl::Encode(out);
+}
+
+base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload) {
+  auto decoded = idl::Decode<msg::Grant>(payload);
+  if (!decoded) return decoded.error();
+  msg::Grant& in = decoded.value();
+  NumberedGrant out;
+  out.clock_id = in.clock_id();
+  out.serial = in.serial();
+  out.grant.roster = in.roster_hash();
+  out.grant.through = in.through_step();
+  out.grant.final = in.final_step();
+  out.grant.abort = in.abort();
+  out.grant.over = in.over();
+  out.grant.reason = in.reason();
+  return out;
+}
+
+}  // namespace rodeira::dds
