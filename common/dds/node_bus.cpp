@@ -1,13 +1,31 @@
 #include "common/dds/node_bus.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <set>
 #include <utility>
 
 #include "idl/topics.hpp"
 
 namespace rodeira::dds {
+
+namespace {
+
+volatile std::sig_atomic_t g_terminated = 0;
+
+void OnTerminate(int) {
+  g_terminated = 1;
+  ::alarm(1);  // whose default ends the process, should it hang
+}
+
+}  // namespace
+
+void NodeBus::HandleSignals() {
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, OnTerminate);
+}
 
 namespace topics = idl::topics;
 using WallClock = std::chrono::steady_clock;
@@ -142,6 +160,7 @@ void NodeBus::Heartbeat() {
     if (runner != nullptr && report.phase != lockstep::Phase::kFailed) report = runner->report();
     if (silent && !mailbox_.grant().over) Abort(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
                                                             static_cast<double>(settings_.clock_silence.count()) / 1e3));
+    if (g_terminated != 0 && !mailbox_.grant().over) Abort("the process was told to end by SIGTERM");
     Tell(report);
     lock.lock();
     woken_.wait_for(lock, settings_.heartbeat, [this] { return stop_; });

@@ -40,6 +40,9 @@ class NodeBus final : public lockstep::Bus {
   void SetWorldHash(base::Digest hash);
   // The node's last word, repeated until the clock says that all is over, at most for `limit`.
   void Linger(const lockstep::Report& last, std::chrono::milliseconds limit);
+  // Ctrl-C is left to the clock, which stops everybody at the same step. SIGTERM (the parent has died) aborts this node,
+  // which then has a second to close what it has open. Call it once, early.
+  static void HandleSignals();
   // Why the run was aborted by this bus or the clock; empty where it was not.
   std::string fault() const;
 

@@ -60,6 +60,7 @@ class ClockProcess {
     if (!participant) return Complain(participant.error());
     if (auto status = Connect(*participant.value()); !status) return Complain(status.error());
     Say("starting {} nodes", roster_.nodes().size());
+    if (options_.listen) std::thread([this] { Listen(); }).detach();  // ends with the process
     start_ = WallClock::now();
     if (const int status = Loop(); status != 0) return status;
     Say("end ok last_step={} wall_s={:.6f} digest={} slipped_s={:.6f}", clock_.grant().through, RunSeconds(), base::Hex(clock_.RunDigest()),
@@ -107,6 +108,23 @@ class ClockProcess {
                                         base::Hex(other_clock_)));
   }
 
+  // What `rodeira run` sees sooner than any heartbeat: a process of its own that died or was stopped.
+  void Listen() {
+    char line[4096];
+    while (std::fgets(line, sizeof(line), stdin) != nullptr) {
+      std::string text(line);
+      while (!text.empty() && text.back() == '\n') text.pop_back();
+      if (!text.starts_with("fault ")) continue;
+      const std::lock_guard lock(mutex_);
+      if (told_.empty()) told_ = text.substr(6);
+      woken_.notify_one();
+    }
+  }
+  std::string Told() {
+    const std::lock_guard lock(mutex_);
+    return told_;
+  }
+
   // Two clocks that began at the same moment: the one with the larger number is the one too many.
   bool MustYield() const { return other_clock_ != 0 && other_clock_ < clock_id_; }
 
@@ -118,6 +136,7 @@ class ClockProcess {
       if (MustYield()) return Complain(SecondClock().error());
       TakeReports();
       if (!refusal_.empty()) return Abort(refusal_, 2);
+      if (const std::string told = Told(); !told.empty()) return Abort(told, 1);
       const auto now = WallClock::now();
       if (now - checked >= 20ms) {
         checked = now;
@@ -156,7 +175,7 @@ class ClockProcess {
     std::unique_lock lock(mutex_);
     const auto due = std::chrono::nanoseconds(clock_.all_ready() && !clock_.grant().final ? pacer_.NextDueIn(NowNs()) : 0);
     const std::chrono::nanoseconds limit = due > 0ns ? std::min<std::chrono::nanoseconds>(due, 20ms) : 20ms;
-    woken_.wait_for(lock, limit, [this] { return !inbox_.empty(); });
+    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || !told_.empty(); });
   }
 
   void TakeReports() {
@@ -251,6 +270,7 @@ class ClockProcess {
   std::mutex mutex_;
   std::condition_variable woken_;
   std::deque<base::Bytes> inbox_;
+  std::string told_;
   std::unique_ptr<Writer> grants_;
   std::unique_ptr<Reader> others_;
   std::unique_ptr<Reader> reports_;

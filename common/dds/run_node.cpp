@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <csignal>
 #include <cstdio>
 
 #include "common/base/mathematics.hpp"
@@ -77,7 +76,7 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   const std::string program = fmt::format("rodeira-{}", kind);
   const ParsedOptions parsed = ParseOptions(program, false, argc, argv);
   if (parsed.leave_with) return *parsed.leave_with;
-  std::signal(SIGINT, SIG_IGN);  // Ctrl-C is for the clock, which stops everybody at the same step
+  NodeBus::HandleSignals();
   const ProcessOptions& options = parsed.options;
   const auto launch = launch::Launch::Load(options.launch_file, options.overrides);
   if (!launch) return Complain(program, launch.error());

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <thread>
 
@@ -37,7 +36,7 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   const std::string program = fmt::format("rodeira-{}", kind);
   const ParsedOptions parsed = ParseOptions(program, false, argc, argv);
   if (parsed.leave_with) return *parsed.leave_with;
-  std::signal(SIGINT, SIG_IGN);
+  NodeBus::HandleSignals();
   const ProcessOptions& options = parsed.options;
   const auto launch = launch::Launch::Load(options.launch_file, options.overrides);
   if (!launch) return Complain(launch.error());

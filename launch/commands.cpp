@@ -1,0 +1,64 @@
+#include "launch/commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "common/base/mathematics.hpp"
+#include "common/base/suggest.hpp"
+#include "launch/run_command.hpp"
+
+namespace rodeira::front {
+namespace {
+
+constexpr const char* kVersion = "rodeira 0.1.0";
+
+// KEY=VALUE, or an empty key where it is none.
+std::pair<std::string, std::string> KeyValue(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) return {};
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) {
+  CLI::App* run = app.add_subcommand("run", "drive: start every process of a launch file");
+  run->add_option("LAUNCH.yaml", options.launch_file, "launch file")->required();
+  run->add_option("--for", options.duration_s, "simulated seconds")->check(CLI::PositiveNumber);
+  run->add_option("--pace", options.pace, "max, real or a factor of real time")->capture_default_str();
+  run->add_option("--record", options.record, "recording (MCAP)");
+  run->add_option("--seed", options.seed, "seed of everything that is drawn");
+  run->add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file");
+  run->add_flag("--in-process", options.in_process, "the same nodes in one process");
+  run->add_flag("--quiet", options.quiet, "no progress, no table");
+  run->add_option("--host", options.host, "start only what belongs to this host");
+  run->add_option("--run", options.run, "name of the run: only processes of the same name meet");
+  run->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232));
+}
+
+}  // namespace
+
+int Main(int argc, char** argv) {
+  base::FixMathematics(argv);
+  CLI::App app{"Rodeira, a distributed driving simulator."};
+  app.name("rodeira");
+  app.set_version_flag("--version", kVersion);
+  app.require_subcommand(1);
+  RunOptions run;
+  std::vector<std::string> sets;
+  AddRun(app, run, sets);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? 0 : 2;
+  }
+  for (const std::string& set : sets) {
+    const auto pair = KeyValue(set);
+    if (pair.first.empty()) {
+      std::cerr << "rodeira: --set " << set << ": KEY=VALUE was expected\n";
+      return 2;
+    }
+    run.overrides.push_back(pair);
+  }
+  return Run(run);
+}
+
+}  // namespace rodeira::front

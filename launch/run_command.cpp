@@ -1,0 +1,231 @@
+#include "launch/run_command.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <random>
+#include <thread>
+
+#include "common/dds/options.hpp"
+#include "launch/processes.hpp"
+#include "launch/run_report.hpp"
+#include "launch/shared_memory.hpp"
+
+namespace rodeira::front {
+namespace {
+
+using namespace std::chrono_literals;
+using WallClock = std::chrono::steady_clock;
+
+std::atomic<int> g_interrupts = 0;
+void OnInterrupt(int) { ++g_interrupts; }
+
+int Complain(const base::Error& error) {
+  fmt::print(stderr, "rodeira: {}\n", error.Text());
+  return error.exit_status();
+}
+
+std::string FreshRunName() {
+  std::random_device device;
+  return fmt::format("{:08x}{:08x}", device(), device());
+}
+
+// The processes of a run, their clock's words, and their end.
+class ProcessRun {
+ public:
+  ProcessRun(const RunOptions& options, const launch::Launch& launch, launch::Overrides overrides)
+      : options_(options), launch_(launch), overrides_(std::move(overrides)), run_(options.run.empty() ? FreshRunName() : options.run),
+        domain_(options.domain.value_or(static_cast<std::uint32_t>(1 + base::Hash(run_) % 200))), before_(SharedMemoryFiles()) {}
+
+  int Run() {
+    struct sigaction action {};
+    action.sa_handler = OnInterrupt;
+    ::sigaction(SIGINT, &action, nullptr);
+    ::sigaction(SIGTERM, &action, nullptr);
+    ::signal(SIGPIPE, SIG_IGN);
+    if (auto status = StartAll(); !status) {
+      EndAll();
+      return Complain(status.error());
+    }
+    Watch();
+    EndAll();
+    RemoveLeftOvers(before_);
+    Close();
+    return ExitStatus();
+  }
+
+  const RunReport& report() const { return report_; }
+
+ private:
+  std::vector<std::string> Command(const std::string& program) const {
+    std::vector<std::string> command{ProgramFolder() + "/" + program, "--launch", launch_.path().string(), "--run", run_, "--domain", std::to_string(domain_)};
+    for (const auto& [key, value] : overrides_) {
+      command.push_back("--set");
+      command.push_back(key + "=" + value);
+    }
+    return command;
+  }
+
+  base::Status StartAll() {
+    std::vector<std::string> clock = Command("rodeira-clock");
+    clock.insert(clock.end(), {"--listen", "--pace", options_.pace});
+    if (options_.duration_s) clock.insert(clock.end(), {"--for", fmt::format("{}", *options_.duration_s)});
+    auto child = Child::Start("clock", clock, true);
+    if (!child) return child.error();
+    children_.push_back(std::move(child).value());
+    for (const launch::LaunchNode& node : launch_.nodes()) {
+      if (!options_.host.empty() && node.host != options_.host) continue;
+      std::vector<std::string> command = Command(std::string(node.kind->program));
+      command.insert(command.end(), {"--node", node.name});
+      auto started = Child::Start(node.name, command, false);
+      if (!started) return started.error();
+      children_.push_back(std::move(started).value());
+    }
+    return {};
+  }
+
+  // Until the clock has ended, by itself or not.
+  void Watch() {
+    while (true) {
+      ReadClock(50);
+      for (Child& child : children_) child.Poll();
+      Child& clock = children_.front();
+      if (clock.ended()) {
+        while (ReadClock(0)) {
+        }
+        if (!report_.ended && clock.exit_status() != 2) Fault(fmt::format("the clock {} at about step {}", clock.Fate(), report_.step));
+        return;
+      }
+      if (clock.stopped()) {
+        Fault(fmt::format("the clock {} at about step {}", clock.Fate(), report_.step));
+        return;
+      }
+      for (const Child& child : children_) {
+        if (&child != &clock && Broken(child)) TellClock(fmt::format("node '{}' {} at about step {}", child.name(), child.Fate(), report_.step));
+      }
+      const int interrupts = g_interrupts;
+      for (; passed_on_ < interrupts; ++passed_on_) clock.Signal(SIGINT);
+      ShowProgress();
+    }
+  }
+  // Dead or stopped though the run is not over. A node that left with a sentence has told the clock itself.
+  bool Broken(const Child& child) const {
+    if (report_.ended || !report_.faults.empty()) return false;
+    if (child.ended()) return child.exit_status() != 0 && child.exit_status() != 1 && child.exit_status() != 2;
+    return child.stopped();
+  }
+  void TellClock(const std::string& fault) {
+    if (told_) return;
+    told_ = true;
+    children_.front().Send("fault " + fault);
+  }
+  void Fault(const std::string& fault) {
+    if (report_.faults.empty()) report_.faults.push_back(fault);
+  }
+
+  // Reads what the clock has said; false where there was nothing.
+  bool ReadClock(int wait_ms) {
+    const int out = children_.front().out();
+    pollfd waiting{out, POLLIN, 0};
+    if (::poll(&waiting, 1, wait_ms) <= 0) return false;
+    char buffer[4096];
+    const ssize_t size = ::read(out, buffer, sizeof(buffer));
+    if (size <= 0) {
+      if (wait_ms > 0) ::usleep(10'000);  // closed: its end is seen by Poll
+      return false;
+    }
+    pending_.append(buffer, static_cast<std::size_t>(size));
+    for (auto end = pending_.find('\n'); end != std::string::npos; end = pending_.find('\n')) {
+      report_.Take(std::string_view(pending_).substr(0, end));
+      pending_.erase(0, end + 1);
+    }
+    return true;
+  }
+
+  // Everybody goes: by themselves within two seconds, or by force.
+  void EndAll() {
+    const bool orderly = report_.ended;
+    for (Child& child : children_) {
+      child.Poll();
+      if (!orderly) child.Signal(SIGTERM);
+      if (child.stopped() || (!orderly && &child == &children_.front())) child.Signal(SIGKILL);
+    }
+    const auto until = WallClock::now() + 1500ms;
+    while (WallClock::now() < until && std::any_of(children_.begin(), children_.end(), [](const Child& child) { return !child.ended(); })) {
+      std::this_thread::sleep_for(5ms);
+      for (Child& child : children_) child.Poll();
+    }
+    for (Child& child : children_) child.Signal(SIGKILL);
+    for (int i = 0; i < 200; ++i) {
+      bool all = true;
+      for (Child& child : children_) {
+        child.Poll();
+        all = all && child.ended();
+      }
+      if (all) return;
+      std::this_thread::sleep_for(5ms);
+    }
+  }
+
+  void ShowProgress() {
+    if (options_.quiet || ::isatty(STDERR_FILENO) == 0 || WallClock::now() - start_ < 2s) return;
+    if (!report_.ready) {
+      fmt::print(stderr, "\r\033[Kwaiting for {}", report_.waiting_for);
+    } else {
+      const double simulated_s = static_cast<double>(report_.step) * static_cast<double>(launch_.roster().base_step_ns()) * 1e-9;
+      fmt::print(stderr, "\r\033[K{:.1f} s simulated, {:.1f} s passed, {:.2f} × real time", simulated_s, report_.wall_s,
+                 report_.wall_s > 0.0 ? simulated_s / report_.wall_s : 0.0);
+    }
+    shown_ = true;
+  }
+
+  void Close() {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+    for (const std::string& fault : report_.faults) fmt::print(stderr, "rodeira: {}\n", fault);
+    for (const std::string& remark : report_.remarks) fmt::print(stderr, "rodeira: {}\n", remark);
+    if (!report_.ready || options_.quiet) return;
+    fmt::print("{}", report_.Table(static_cast<double>(launch_.roster().base_step_ns()) * 1e-9, options_.record));
+  }
+
+  int ExitStatus() const {
+    if (report_.ok) return 0;
+    for (const Child& child : children_) {
+      if (child.exit_status() == 2) return 2;
+    }
+    return 1;
+  }
+
+  const RunOptions& options_;
+  const launch::Launch& launch_;
+  launch::Overrides overrides_;
+  std::string run_;
+  std::uint32_t domain_;
+  std::set<std::string> before_;
+  std::vector<Child> children_;  // the clock first
+  RunReport report_;
+  std::string pending_;
+  int passed_on_ = 0;
+  bool told_ = false;
+  bool shown_ = false;
+  WallClock::time_point start_ = WallClock::now();
+};
+
+}  // namespace
+
+int Run(const RunOptions& options) {
+  if (const auto pace = dds::ParsePace(options.pace); !pace) return Complain(pace.error());
+  launch::Overrides overrides = options.overrides;
+  if (options.seed) overrides.emplace_back("seed", std::to_string(*options.seed));
+  const auto launch = launch::Launch::Load(options.launch_file, overrides);
+  if (!launch) return Complain(launch.error());
+  return ProcessRun(options, launch.value(), std::move(overrides)).Run();
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/base/result.hpp"
+#include "common/launch/launch.hpp"
+
+namespace rodeira::front {
+
+// `rodeira run LAUNCH.yaml …`
+struct RunOptions {
+  std::string launch_file;
+  std::optional<double> duration_s;
+  std::string pace = "max";
+  std::string record;       // empty: as the launch file says
+  std::optional<std::uint64_t> seed;
+  launch::Overrides overrides;
+  bool in_process = false;
+  bool quiet = false;
+  std::string host;         // only the nodes of this host; empty: all
+  std::string run;          // empty: a name of its own
+  std::optional<std::uint32_t> domain;
+};
+
+// Runs it and prints progress and the closing table; the exit status of the program comes back.
+int Run(const RunOptions& options);
+
+}  // namespace rodeira::front

@@ -1,0 +1,82 @@
+#include "launch/run_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+namespace rodeira::front {
+namespace {
+
+// The value of "key=" in a line of words, or an empty text.
+std::string_view Word(std::string_view line, std::string_view key) {
+  const std::string with_equals = " " + std::string(key) + "=";
+  const auto at = line.find(with_equals);
+  if (at == std::string_view::npos) return {};
+  line.remove_prefix(at + with_equals.size());
+  return line.substr(0, line.find(' '));
+}
+
+template <class T>
+T Number(std::string_view line, std::string_view key) {
+  const std::string_view word = Word(line, key);
+  T value{};
+  std::from_chars(word.data(), word.data() + word.size(), value);
+  return value;
+}
+
+}  // namespace
+
+void RunReport::Take(std::string_view line) {
+  const auto rest = [&](std::string_view start) { return std::string(line.substr(start.size())); };
+  if (line.starts_with("progress ")) {
+    step = Number<std::int64_t>(line, "step");
+    wall_s = Number<double>(line, "wall_s");
+  } else if (line.starts_with("waiting for ")) {
+    waiting_for = rest("waiting for ");
+  } else if (line == "ready") {
+    ready = true;
+  } else if (line.starts_with("fault ")) {
+    faults.push_back(rest("fault "));
+  } else if (line.starts_with("node ")) {
+    Node node;
+    node.name = std::string(line.substr(5, line.find(' ', 5) - 5));
+    node.steps = Number<std::uint64_t>(line, "steps");
+    node.mean_us = Number<double>(line, "mean_us");
+    node.worst_us = Number<double>(line, "worst_us");
+    node.server_calls = Number<std::uint64_t>(line, "server_calls");
+    nodes.push_back(node);
+  } else if (line.starts_with("end ")) {
+    ended = true;
+    ok = line.starts_with("end ok");
+    step = Number<std::int64_t>(line, "last_step");
+    wall_s = Number<double>(line, "wall_s");
+    slipped_s = Number<double>(line, "slipped_s");
+    digest = std::string(Word(line, "digest"));
+  } else if (!line.starts_with("starting ")) {
+    remarks.emplace_back(line);
+  }
+}
+
+std::string RunReport::Table(double base_step_s, const std::string& recording) const {
+  const double simulated_s = static_cast<double>(std::max<std::int64_t>(step, 0)) * base_step_s;
+  std::string text = fmt::format("simulated {:.3f} s in {:.2f} s ({:.2f} × real time)", simulated_s, wall_s, wall_s > 0.0 ? simulated_s / wall_s : 0.0);
+  if (slipped_s > 0.0) text += fmt::format(", {:.3f} s late and given up", slipped_s);
+  std::size_t width = 4;
+  for (const Node& node : nodes) width = std::max(width, node.name.size());
+  text += fmt::format("\n{:<{}}  {:>9}  {:>10}  {:>10}  {:>12}\n", "node", width, "steps", "mean µs", "worst µs", "server calls");
+  for (const Node& node : nodes) {
+    text += fmt::format("{:<{}}  {:>9}  {:>9.2f}  {:>9.1f}  {:>12}\n", node.name, width, node.steps, node.mean_us, node.worst_us, node.server_calls);
+  }
+  if (faults.empty()) text += "faults  none\n";
+  for (const std::string& fault : faults) text += fmt::format("fault   {}\n", fault);
+  if (ok) text += fmt::format("digest  {}\n", digest);
+  std::error_code problem;
+  if (!recording.empty() && std::filesystem::exists(recording, problem)) {
+    text += fmt::format("wrote   {} ({:.1f} kB)\n", recording, static_cast<double>(std::filesystem::file_size(recording, problem)) / 1000.0);
+  }
+  return text;
+}
+
+}  // namespace rodeira::front

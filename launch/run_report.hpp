@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rodeira::front {
+
+// What the clock says line by line (common/dds/run_clock.cpp), gathered for the closing table.
+struct RunReport {
+  struct Node {
+    std::string name;
+    std::uint64_t steps = 0;
+    double mean_us = 0.0;
+    double worst_us = 0.0;
+    std::uint64_t server_calls = 0;
+  };
+  bool ready = false;
+  bool ended = false;
+  bool ok = false;
+  std::int64_t step = 0;       // progress; at the end the last step of the run
+  double wall_s = 0.0;         // since the first grant
+  double slipped_s = 0.0;
+  std::string digest;
+  std::string waiting_for;     // before ready
+  std::vector<std::string> faults;
+  std::vector<std::string> remarks;  // refused reports and strangers
+  std::vector<Node> nodes;
+
+  // Takes one line; what it does not know it keeps as a remark.
+  void Take(std::string_view line);
+  // The closing table of a run, with a line break at the end of each line.
+  std::string Table(double base_step_s, const std::string& recording) const;
+};
+
+}  // namespace rodeira::front
