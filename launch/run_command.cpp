@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "common/dds/options.hpp"
+#include "launch/in_process_command.hpp"
 #include "launch/processes.hpp"
 #include "launch/run_report.hpp"
 #include "launch/shared_memory.hpp"
@@ -117,17 +118,22 @@ class ProcessRun {
   }
   // Dead or stopped though the run is not over. A node that left with a sentence has told the clock itself.
   bool Broken(const Child& child) const {
-    if (report_.ended || !report_.faults.empty()) return false;
+    if (report_.ended || !fault_.empty()) return false;
     if (child.ended()) return child.exit_status() != 0 && child.exit_status() != 1 && child.exit_status() != 2;
     return child.stopped();
   }
   void TellClock(const std::string& fault) {
     if (told_) return;
     told_ = true;
+    Fault(fault);
     children_.front().Send("fault " + fault);
   }
+  // The first fault is the cause, what follows are its consequences; it is said at once.
   void Fault(const std::string& fault) {
-    if (report_.faults.empty()) report_.faults.push_back(fault);
+    if (!fault_.empty()) return;
+    fault_ = fault;
+    fmt::print(stderr, "{}rodeira: {}\n", shown_ ? "\r\033[K" : "", fault);
+    std::fflush(stderr);
   }
 
   // Reads what the clock has said; false where there was nothing.
@@ -145,6 +151,7 @@ class ProcessRun {
     for (auto end = pending_.find('\n'); end != std::string::npos; end = pending_.find('\n')) {
       report_.Take(std::string_view(pending_).substr(0, end));
       pending_.erase(0, end + 1);
+      if (!report_.faults.empty()) Fault(report_.faults.front());
     }
     return true;
   }
@@ -188,14 +195,14 @@ class ProcessRun {
 
   void Close() {
     if (shown_) fmt::print(stderr, "\r\033[K");
-    for (const std::string& fault : report_.faults) fmt::print(stderr, "rodeira: {}\n", fault);
+    report_.faults = fault_.empty() ? std::vector<std::string>() : std::vector<std::string>{fault_};
     for (const std::string& remark : report_.remarks) fmt::print(stderr, "rodeira: {}\n", remark);
     if (!report_.ready || options_.quiet) return;
     fmt::print("{}", report_.Table(static_cast<double>(launch_.roster().base_step_ns()) * 1e-9, options_.record));
   }
 
   int ExitStatus() const {
-    if (report_.ok) return 0;
+    if (report_.ok && fault_.empty()) return 0;
     for (const Child& child : children_) {
       if (child.exit_status() == 2) return 2;
     }
@@ -210,6 +217,7 @@ class ProcessRun {
   std::set<std::string> before_;
   std::vector<Child> children_;  // the clock first
   RunReport report_;
+  std::string fault_;
   std::string pending_;
   int passed_on_ = 0;
   bool told_ = false;
@@ -225,6 +233,7 @@ int Run(const RunOptions& options) {
   if (options.seed) overrides.emplace_back("seed", std::to_string(*options.seed));
   const auto launch = launch::Launch::Load(options.launch_file, overrides);
   if (!launch) return Complain(launch.error());
+  if (options.in_process) return RunInProcess(options, launch.value());
   return ProcessRun(options, launch.value(), std::move(overrides)).Run();
 }
 

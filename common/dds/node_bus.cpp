@@ -177,6 +177,7 @@ void NodeBus::Linger(const lockstep::Report& last, std::chrono::milliseconds lim
     const lockstep::Grant grant = mailbox_.grant();
     lock.lock();
     if (grant.over || clock_id_ == 0) return;
+    if (grant.abort && WallClock::now() > until - limit + std::chrono::milliseconds(100)) return;  // the last word had time to go
     woken_.wait_for(lock, std::chrono::milliseconds(10));
   }
 }

@@ -1,0 +1,106 @@
+#include "tests/system/command.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace rodeira::system_test {
+
+using WallClock = std::chrono::steady_clock;
+
+std::string Bin(const std::string& program) { return std::string(RODEIRA_BINARY_DIR) + "/bin/" + program; }
+std::string LaunchFile(const std::string& name) { return std::string(RODEIRA_SOURCE_DIR) + "/launch/" + name; }
+
+Started::Started(const std::vector<std::string>& command) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return;
+  pid_ = ::fork();
+  if (pid_ == 0) {
+    ::setpgid(0, 0);
+    ::dup2(ends[1], STDOUT_FILENO);
+    ::dup2(ends[1], STDERR_FILENO);
+    std::size_t first = 0;
+    for (; first < command.size() && command[first].find('=') != std::string::npos && command[first][0] != '/'; ++first) {
+      ::putenv(const_cast<char*>(command[first].c_str()));
+    }
+    std::vector<char*> arguments;
+    for (std::size_t i = first; i < command.size(); ++i) arguments.push_back(const_cast<char*>(command[i].c_str()));
+    arguments.push_back(nullptr);
+    ::execv(arguments[0], arguments.data());
+    ::_exit(127);
+  }
+  ::close(ends[1]);
+  pipe_ = ends[0];
+}
+
+Started::~Started() {
+  if (pid_ > 0) {
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+  }
+  if (pipe_ >= 0) ::close(pipe_);
+}
+
+bool Started::Read(int wait_ms) {
+  pollfd waiting{pipe_, POLLIN, 0};
+  if (::poll(&waiting, 1, wait_ms) <= 0) return false;
+  char buffer[4096];
+  const ssize_t size = ::read(pipe_, buffer, sizeof(buffer));
+  if (size <= 0) return false;
+  out_.append(buffer, static_cast<std::size_t>(size));
+  return true;
+}
+
+std::chrono::milliseconds Started::WaitFor(const std::string& text, std::chrono::milliseconds limit) {
+  const auto begin = WallClock::now();
+  while (out_.find(text) == std::string::npos) {
+    if (WallClock::now() - begin > limit) return std::chrono::milliseconds(-1);
+    if (!Read(10)) ::usleep(2000);
+  }
+  return std::chrono::duration_cast<std::chrono::milliseconds>(WallClock::now() - begin);
+}
+
+Ended Started::Wait(std::chrono::milliseconds limit) {
+  const auto until = WallClock::now() + limit;
+  int status = 0;
+  while (::waitpid(pid_, &status, WNOHANG) != pid_) {
+    if (!Read(5)) ::usleep(2000);
+    if (WallClock::now() > until) return {-1, out_ + "\n(it did not end)"};
+  }
+  while (Read(0)) {
+  }
+  pid_ = -1;
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), out_};
+}
+
+Ended RunCommand(const std::vector<std::string>& command) { return Started(command).Wait(); }
+
+std::vector<pid_t> ProcessesWith(const std::string& first, const std::string& second) {
+  std::vector<pid_t> found;
+  std::error_code problem;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", problem)) {
+    const std::string name = entry.path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    std::ifstream in(entry.path() / "cmdline", std::ios::binary);
+    std::string line((std::istreambuf_iterator<char>(in)), {});
+    for (char& c : line) c = c == '\0' ? ' ' : c;
+    if (line.find(first) != std::string::npos && line.find(second) != std::string::npos) found.push_back(std::stoi(name));
+  }
+  return found;
+}
+
+std::string DigestIn(const std::string& table) {
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("digest  ")) return line.substr(8);
+  }
+  return "";
+}
+
+}  // namespace rodeira::system_test

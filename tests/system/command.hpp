@@ -1,0 +1,50 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace rodeira::system_test {
+
+// Where the programs are.
+std::string Bin(const std::string& program);
+// A launch file of the project.
+std::string LaunchFile(const std::string& name);
+
+struct Ended {
+  int status = -1;  // exit status; 128 + signal where it was killed
+  std::string out;  // standard output and error together
+};
+
+// A program run in the background, its output gathered.
+class Started {
+ public:
+  // "KEY=VALUE" words before the program go into its environment.
+  explicit Started(const std::vector<std::string>& command);
+  ~Started();
+  Started(const Started&) = delete;
+  Started& operator=(const Started&) = delete;
+
+  pid_t pid() const { return pid_; }
+  // Waits until the output holds `text`; how long that took, or a negative duration where it did not come.
+  std::chrono::milliseconds WaitFor(const std::string& text, std::chrono::milliseconds limit);
+  Ended Wait(std::chrono::milliseconds limit = std::chrono::milliseconds(60000));
+
+ private:
+  bool Read(int wait_ms);
+  pid_t pid_ = -1;
+  int pipe_ = -1;
+  std::string out_;
+};
+
+Ended RunCommand(const std::vector<std::string>& command);
+
+// Living processes whose command line holds both texts (the run's name, "--node a").
+std::vector<pid_t> ProcessesWith(const std::string& first, const std::string& second = "");
+
+// The word behind "digest" in a closing table.
+std::string DigestIn(const std::string& table);
+
+}  // namespace rodeira::system_test

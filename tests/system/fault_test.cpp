@@ -1,0 +1,99 @@
+// A node that dies, hangs, is stopped or does not belong: time stops, the node is named, the status says so.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <thread>
+
+#include "tests/system/command.hpp"
+
+namespace rodeira::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Runs at real pace, sends `signal` to one process once the run drives, and expects its name within a second.
+void ExpectNamed(const std::string& node, int signal, const std::string& expected) {
+  const std::string run_name = "fault-" + node + std::to_string(signal);
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "1000", "--pace", "real", "--run", run_name});
+  std::this_thread::sleep_for(1500ms);
+  const auto victims = ProcessesWith("--run " + run_name, node == "clock" ? "/rodeira-clock" : "--node " + node);
+  ASSERT_EQ(victims.size(), 1u);
+  ::kill(victims[0], signal);
+  const auto took = run.WaitFor(expected, 5s);
+  EXPECT_GE(took, 0ms) << node;
+  EXPECT_LE(took, 1000ms) << node;
+  const Ended ended = run.Wait(10s);
+  EXPECT_EQ(ended.status, 1) << ended.out;
+  EXPECT_TRUE(ProcessesWith("--run " + run_name).empty());
+}
+
+TEST(Fault, AKilledNodeIsNamedWithinASecond) { ExpectNamed("b", SIGKILL, "node 'b' was killed by signal 9"); }
+TEST(Fault, AStoppedNodeIsNamedWithinASecond) { ExpectNamed("c", SIGSTOP, "node 'c' was stopped by signal 19"); }
+TEST(Fault, AKilledClockIsNamedWithinASecond) { ExpectNamed("clock", SIGKILL, "the clock was killed by signal 9"); }
+TEST(Fault, AStoppedClockIsNamedWithinASecond) { ExpectNamed("clock", SIGSTOP, "the clock was stopped by signal 19"); }
+
+TEST(Fault, AHangingNodeIsNamedByItsDeadline) {
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--set", "nodes.b.config.hang_at_step=200"});
+  EXPECT_GE(run.WaitFor("node 'b' has been computing step 200 for", 10s), 0ms);
+  EXPECT_EQ(run.Wait(10s).status, 1);
+}
+
+TEST(Fault, AFailingNodeIsNamedWithItsReason) {
+  const Ended ended = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--set", "nodes.d.config.fail_at_step=300"});
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.out.find("node 'd' failed at step 300: told to fail here"), std::string::npos) << ended.out;
+}
+
+// Without a parent that sees processes die, the clock's own watch names who is silent.
+TEST(Fault, TheClockItselfNotesASilentNode) {
+  std::vector<std::unique_ptr<Started>> nodes;
+  for (const char* node : {"a", "b", "c", "d"}) {
+    nodes.push_back(std::make_unique<Started>(std::vector<std::string>{Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "silent", "--node", node}));
+  }
+  Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "silent", "--pace", "real", "--for", "1000"});
+  ASSERT_GE(clock.WaitFor("progress", 10s), 0ms);
+  ::kill(nodes[1]->pid(), SIGKILL);
+  const auto took = clock.WaitFor("fault node 'b' has said nothing for", 5s);
+  EXPECT_GE(took, 0ms);
+  EXPECT_LE(took, 1000ms);
+  EXPECT_EQ(clock.Wait(10s).status, 1);
+  EXPECT_EQ(nodes[0]->Wait(5s).status, 1);
+}
+
+TEST(Fault, ASecondClockIsRefused) {
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "1000", "--pace", "real", "--run", "two-clocks", "--domain", "7"});
+  std::this_thread::sleep_for(1000ms);
+  const Ended second = RunCommand({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "two-clocks", "--domain", "7"});
+  EXPECT_EQ(second.status, 2) << second.out;
+  EXPECT_NE(second.out.find("run 'two-clocks' in domain 7 has a clock already"), std::string::npos) << second.out;
+  ::kill(run.pid(), SIGINT);
+  EXPECT_EQ(run.Wait(10s).status, 0) << "and the first run did not mind";
+}
+
+// A process of another build, machine or launch file is refused, with both values.
+void ExpectRefused(const std::string& environment, const std::vector<std::string>& more, const std::string& what) {
+  Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "refused"});
+  std::vector<std::string> command{Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "refused", "--node", "a"};
+  if (!environment.empty()) command.insert(command.begin(), environment);
+  command.insert(command.end(), more.begin(), more.end());
+  Started node(command);
+  const Ended ended = clock.Wait(20s);
+  EXPECT_EQ(ended.status, 2) << ended.out;
+  EXPECT_NE(ended.out.find("was refused: its " + what + " is "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("the clock's is "), std::string::npos) << ended.out;
+}
+
+TEST(Fault, AnotherProtocolIsRefused) { ExpectRefused("RODEIRA_PRETEND_PROTOCOL=9", {}, "protocol hash"); }
+TEST(Fault, OtherMathematicsAreRefused) { ExpectRefused("RODEIRA_PRETEND_MATHEMATICS=9", {}, "mathematics hash"); }
+TEST(Fault, AnotherRosterIsRefused) { ExpectRefused("", {"--set", "nodes.b.period_s=0.002"}, "roster hash"); }
+
+TEST(Fault, WhoIsMissingIsSaid) {
+  Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "lonely", "--set", "limits.start_s=1"});
+  Started node({Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "lonely", "--set", "limits.start_s=1", "--node", "a"});
+  const Ended ended = clock.Wait(20s);
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.out.find("after 1 s these are still missing: 'a', 'b', 'c', 'd'"), std::string::npos) << ended.out;
+}
+
+}  // namespace
+}  // namespace rodeira::system_test

@@ -1,0 +1,94 @@
+// Runs of separate processes: the same digests every time, however they are started and whatever else the machine does.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <set>
+#include <thread>
+
+#include "tests/system/command.hpp"
+
+namespace rodeira::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::set<std::string> SharedMemory() {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/shm")) names.insert(entry.path().filename().string());
+  return names;
+}
+
+TEST(Run, TheSameDigestAtEveryRunUnderLoadOverUdpAndInOneProcess) {
+  const auto first = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml")});
+  ASSERT_EQ(first.status, 0) << first.out;
+  const std::string digest = DigestIn(first.out);
+  ASSERT_EQ(digest.size(), 16u) << first.out;
+  EXPECT_NE(first.out.find("faults  none"), std::string::npos);
+
+  std::atomic<bool> busy = true;
+  std::thread load([&busy] {
+    while (busy) {
+    }
+  });
+  EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml")}).out), digest);
+  busy = false;
+  load.join();
+  EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--in-process"}).out), digest);
+  EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--set", "transport=udp"}).out), digest);
+  EXPECT_NE(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--seed", "2"}).out), digest);
+}
+
+TEST(Run, RealPaceTakesRealTime) {
+  // Not a measurement: a bound from below, which load can only raise.
+  const auto begin = std::chrono::steady_clock::now();
+  const auto run = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "0.5", "--pace", "real"});
+  EXPECT_EQ(run.status, 0) << run.out;
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, 500ms);
+}
+
+TEST(Run, CtrlCStopsEverybodyAtTheSameStepAndIsNoFault) {
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "1000", "--pace", "real", "--run", "ctrlc"});
+  std::this_thread::sleep_for(1500ms);
+  ::kill(run.pid(), SIGINT);
+  const Ended ended = run.Wait(10s);
+  EXPECT_EQ(ended.status, 0) << ended.out;
+  EXPECT_NE(ended.out.find("faults  none"), std::string::npos) << ended.out;
+  EXPECT_TRUE(ProcessesWith("--run ctrlc").empty());
+}
+
+TEST(Run, LeavesNothingInSharedMemoryAndNoProcess) {
+  const auto before = SharedMemory();
+  ASSERT_EQ(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "0.1", "--run", "tidy"}).status, 0);
+  EXPECT_EQ(SharedMemory(), before);
+  EXPECT_TRUE(ProcessesWith("--run tidy").empty());
+}
+
+TEST(Run, WhereRodeiraItselfIsKilledNobodyIsLeftAfterTwoSeconds) {
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "1000", "--pace", "real", "--run", "orphans"});
+  std::this_thread::sleep_for(1500ms);
+  ASSERT_EQ(ProcessesWith("--run orphans", "/rodeira-").size(), 5u);
+  ::kill(run.pid(), SIGKILL);
+  std::this_thread::sleep_for(2s);
+  EXPECT_TRUE(ProcessesWith("--run orphans", "/rodeira-").empty());
+}
+
+TEST(Run, WrongInputIsOneSentenceAndStatusTwo) {
+  const auto refuses = [](const std::vector<std::string>& arguments, const std::string& text) {
+    std::vector<std::string> command{Bin("rodeira"), "run"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    const Ended ended = RunCommand(command);
+    EXPECT_EQ(ended.status, 2) << ended.out;
+    EXPECT_NE(ended.out.find(text), std::string::npos) << ended.out;
+  };
+  refuses({"/no/such.yaml"}, "/no/such.yaml: there is no such file");
+  refuses({LaunchFile("empty.yaml"), "--set", "nodes.a.kind=emtpy"}, "'nodes.a.kind' is 'emtpy'; did you mean 'empty'?");
+  refuses({LaunchFile("empty.yaml"), "--set", "nodes.a.config.fail_at_stp=3"}, "unknown key 'nodes.a.config.fail_at_stp'; did you mean 'fail_at_step'?");
+  refuses({LaunchFile("empty.yaml"), "--pace", "fast"}, "--pace: 'fast' was found; max, real or a positive number was expected");
+  refuses({LaunchFile("empty.yaml"), "--for", "-3"}, "--for");
+  refuses({LaunchFile("empty.yaml"), "--set", "seed"}, "KEY=VALUE was expected");
+}
+
+}  // namespace
+}  // namespace rodeira::system_test
