@@ -1,6 +1,8 @@
 #include "launch/commands.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <iostream>
 
 #include "common/base/mathematics.hpp"
@@ -12,6 +14,15 @@ namespace {
 
 constexpr const char* kVersion = "rodeira 0.1.0";
 
+// A duration in seconds, over 0.
+const CLI::Validator Positive(
+    [](std::string& text) {
+      char* end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      return end != text.c_str() && *end == '\0' && value > 0.0 && std::isfinite(value) ? std::string() : "'" + text + "' was found; a positive number of seconds was expected";
+    },
+    "SECONDS");
+
 // KEY=VALUE, or an empty key where it is none.
 std::pair<std::string, std::string> KeyValue(const std::string& text) {
   const auto equals = text.find('=');
@@ -22,7 +33,7 @@ std::pair<std::string, std::string> KeyValue(const std::string& text) {
 void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) {
   CLI::App* run = app.add_subcommand("run", "drive: start every process of a launch file");
   run->add_option("LAUNCH.yaml", options.launch_file, "launch file")->required();
-  run->add_option("--for", options.duration_s, "simulated seconds")->check(CLI::PositiveNumber);
+  run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
   run->add_option("--pace", options.pace, "max, real or a factor of real time")->capture_default_str();
   run->add_option("--record", options.record, "recording (MCAP)");
   run->add_option("--seed", options.seed, "seed of everything that is drawn");

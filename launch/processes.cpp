@@ -61,6 +61,7 @@ Child& Child::operator=(Child&& other) noexcept {
   in_ = std::exchange(other.in_, -1);
   out_ = std::exchange(other.out_, -1);
   ended_ = other.ended_;
+  ended_at_ = other.ended_at_;
   stopped_ = other.stopped_;
   stop_signal_ = other.stop_signal_;
   kill_signal_ = other.kill_signal_;
@@ -86,6 +87,7 @@ void Child::Poll() {
       stopped_ = false;
     } else {
       ended_ = true;
+      ended_at_ = std::chrono::steady_clock::now();
       if (WIFEXITED(status)) exit_status_ = WEXITSTATUS(status);
       if (WIFSIGNALED(status)) kill_signal_ = WTERMSIG(status);
       return;

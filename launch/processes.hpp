@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ class Child {
   const std::string& name() const { return name_; }
   pid_t pid() const { return pid_; }
   bool ended() const { return ended_; }
+  std::chrono::steady_clock::time_point ended_at() const { return ended_at_; }  // when Poll saw it
   bool stopped() const { return stopped_; }
   std::optional<int> exit_status() const { return exit_status_; }  // where it left by itself
   // "was killed by signal 9 (Killed)", "left with status 1", "was stopped by signal 19 (Stopped)".
@@ -46,6 +48,7 @@ class Child {
   int out_ = -1;
   bool ended_ = false;
   bool stopped_ = false;
+  std::chrono::steady_clock::time_point ended_at_;
   int stop_signal_ = 0;
   int kill_signal_ = 0;
   std::optional<int> exit_status_;

@@ -119,8 +119,10 @@ class ProcessRun {
   // Dead or stopped though the run is not over. A node that left with a sentence has told the clock itself.
   bool Broken(const Child& child) const {
     if (report_.ended || !fault_.empty()) return false;
-    if (child.ended()) return child.exit_status() != 0 && child.exit_status() != 1 && child.exit_status() != 2;
-    return child.stopped();
+    if (child.stopped()) return true;
+    if (!child.ended()) return false;
+    const bool by_itself = child.exit_status() && *child.exit_status() <= 2;
+    return !by_itself || WallClock::now() - child.ended_at() > 1s;
   }
   void TellClock(const std::string& fault) {
     if (told_) return;

@@ -175,11 +175,17 @@ void NodeBus::Linger(const lockstep::Report& last, std::chrono::milliseconds lim
   while (WallClock::now() < until) {
     lock.unlock();
     const lockstep::Grant grant = mailbox_.grant();
+    if (clock_id() == 0) Tell(last);  // not met yet: what was said may have reached nobody
     lock.lock();
-    if (grant.over || clock_id_ == 0) return;
+    if (grant.over) return;
     if (grant.abort && WallClock::now() > until - limit + std::chrono::milliseconds(100)) return;  // the last word had time to go
     woken_.wait_for(lock, std::chrono::milliseconds(10));
   }
+}
+
+std::uint64_t NodeBus::clock_id() const {
+  const std::lock_guard lock(mutex_);
+  return clock_id_;
 }
 
 }  // namespace rodeira::dds

@@ -53,6 +53,7 @@ class NodeBus final : public lockstep::Bus {
   void OnGrant(base::Bytes&& payload);
   void Abort(std::string reason);
   void Heartbeat();
+  std::uint64_t clock_id() const;  // 0 before the clock was heard
 
   const lockstep::Roster& roster_;
   lockstep::Mailbox& mailbox_;

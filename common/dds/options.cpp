@@ -3,9 +3,22 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 
 namespace rodeira::dds {
+namespace {
+
+// A duration in seconds, over 0.
+const CLI::Validator Positive(
+    [](std::string& text) {
+      char* end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      return end != text.c_str() && *end == '\0' && value > 0.0 && std::isfinite(value) ? std::string() : "'" + text + "' was found; a positive number of seconds was expected";
+    },
+    "SECONDS");
+
+}  // namespace
 
 base::Result<double> ParsePace(const std::string& text) {
   if (text == "max") return 0.0;
@@ -32,7 +45,7 @@ ParsedOptions ParseOptions(const std::string& program, bool is_clock, int argc, 
   app.add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file");
   if (is_clock) {
     app.add_option("--pace", pace, "max, real or a factor");
-    app.add_option("--for", duration_s, "simulated seconds")->check(CLI::PositiveNumber);
+    app.add_option("--for", duration_s, "simulated seconds")->check(Positive);
     app.add_flag("--listen", options.listen, "take lines 'fault TEXT' from standard input");
   } else {
     app.add_option("--node", options.node, "name of the node in the launch file")->required();

@@ -86,7 +86,7 @@ TEST(Run, WrongInputIsOneSentenceAndStatusTwo) {
   refuses({LaunchFile("empty.yaml"), "--set", "nodes.a.kind=emtpy"}, "'nodes.a.kind' is 'emtpy'; did you mean 'empty'?");
   refuses({LaunchFile("empty.yaml"), "--set", "nodes.a.config.fail_at_stp=3"}, "unknown key 'nodes.a.config.fail_at_stp'; did you mean 'fail_at_step'?");
   refuses({LaunchFile("empty.yaml"), "--pace", "fast"}, "--pace: 'fast' was found; max, real or a positive number was expected");
-  refuses({LaunchFile("empty.yaml"), "--for", "-3"}, "--for");
+  refuses({LaunchFile("empty.yaml"), "--for", "-3"}, "--for: '-3' was found; a positive number of seconds was expected");
   refuses({LaunchFile("empty.yaml"), "--set", "seed"}, "KEY=VALUE was expected");
 }
 
