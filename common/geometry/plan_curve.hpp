@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/geometry/near_grid.hpp"
+
 namespace rodeira::geometry {
 
 // One element of an axis in plan: curvature goes linearly from start to end. Equal: an arc; both zero: a line.
@@ -83,19 +85,9 @@ class PlanCurve {
   struct Box {
     Eigen::Vector2d low, high;
   };
-  struct Grid {
-    Eigen::Vector2d origin_W = Eigen::Vector2d::Zero();
-    double cell_m = 1.0;
-    int columns = 0;
-    int rows = 0;
-    std::vector<std::uint32_t> first;   // per cell: where its panels begin in `panels`; one more at the end
-    std::vector<std::uint32_t> panels;  // empty for a cell that lies wholly out of reach
-  };
-
   void CutPiece(const PlanPiece& piece, double start_s_m, const PlanPoint& start);
   void BuildTree();
   void BuildGrid();
-  int CellOf(double x_m, double y_m) const;  // -1 outside the grid
   void Nearest(const Eigen::Vector2d& p, std::uint32_t panel, Best& best) const;
   void NearestWithin(const Eigen::Vector2d& p, std::uint32_t panel, double from, double to, Best& best) const;
   void NearestInTree(const Eigen::Vector2d& p, std::size_t node, std::uint32_t begin, std::uint32_t end, Best& best) const;
@@ -108,7 +100,7 @@ class PlanCurve {
   std::vector<Panel> panels_;
   std::vector<double> panel_begin_s_m_;
   std::vector<Box> tree_;  // pre-order over ranges of panels, each range halved
-  Grid grid_;
+  NearGrid grid_;
 };
 
 }  // namespace rodeira::geometry

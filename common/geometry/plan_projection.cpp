@@ -10,19 +10,11 @@ namespace rodeira::geometry {
 namespace {
 
 constexpr double kSlack_m = 1e-6;  // far above all rounding: no panel that could be the nearest is left out
-constexpr double kSmallestCell_m = 4.0;
-constexpr double kMostCells = 4e6;
 
 double SquaredDistanceToBox(const Eigen::Vector2d& p, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
   const double dx = std::max({low.x() - p.x(), 0.0, p.x() - high.x()});
   const double dy = std::max({low.y() - p.y(), 0.0, p.y() - high.y()});
   return dx * dx + dy * dy;
-}
-
-double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const Eigen::Vector2d along = b - a;
-  const double u = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (p - a - u * along).norm();
 }
 
 }  // namespace
@@ -53,70 +45,12 @@ void PlanCurve::BuildTree() {
 }
 
 void PlanCurve::BuildGrid() {
-  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_m_);
-  const Eigen::Vector2d size = high_W_ - low_W_ + 2.0 * reach;
-  grid_.origin_W = low_W_ - reach;
-  grid_.cell_m = std::max(kSmallestCell_m, std::sqrt(size.x() * size.y() / kMostCells));
-  grid_.columns = static_cast<int>(size.x() / grid_.cell_m) + 1;
-  grid_.rows = static_cast<int>(size.y() / grid_.cell_m) + 1;
-  const std::size_t cells = static_cast<std::size_t>(grid_.columns) * grid_.rows;
-  const double half_diagonal = grid_.cell_m * std::sqrt(0.5);
-  // Calls visit(cell, panel, distance from the cell's centre to the panel's chord) for all pairs that may matter.
-  const auto for_near = [&](const auto& visit) {
-    for (std::uint32_t k = 0; k < panels_.size(); ++k) {
-      const Panel& panel = panels_[k];
-      // A panel is among the nearest of a cell within reach only up to this distance from the centre.
-      const double radius = reach_m_ + 3.0 * half_diagonal + 4.0 * bulge;
-      const auto index = [&](double value, double origin, int count) {
-        return std::clamp(static_cast<int>(std::floor((value - origin) / grid_.cell_m)), 0, count - 1);
-      };
-      const Eigen::Vector2d low = panel.begin_W.cwiseMin(panel.end_W);
-      const Eigen::Vector2d high = panel.begin_W.cwiseMax(panel.end_W);
-      const int column_low = index(low.x() - radius, grid_.origin_W.x(), grid_.columns);
-      const int column_high = index(high.x() + radius, grid_.origin_W.x(), grid_.columns);
-      const int row_low = index(low.y() - radius, grid_.origin_W.y(), grid_.rows);
-      const int row_high = index(high.y() + radius, grid_.origin_W.y(), grid_.rows);
-      for (int row = row_low; row <= row_high; ++row) {
-        for (int column = column_low; column <= column_high; ++column) {
-          const Eigen::Vector2d centre = grid_.origin_W + grid_.cell_m * Eigen::Vector2d(column + 0.5, row + 0.5);
-          const double distance = DistanceToSegment(centre, panel.begin_W, panel.end_W);
-          if (distance <= radius) visit(static_cast<std::size_t>(row) * grid_.columns + column, k, distance);
-        }
-      }
-    }
-  };
-  std::vector<double> nearest(cells, std::numeric_limits<double>::infinity());  // an upper bound for the centre
-  for_near([&](std::size_t cell, std::uint32_t k, double distance) {
-    nearest[cell] = std::min(nearest[cell], distance + panels_[k].bulge_m + kSlack_m);
-  });
-  const auto chosen = [&](std::size_t cell, std::uint32_t k, double distance) {
-    const double bulge = panels_[k].bulge_m + kSlack_m;
-    const bool cell_in_reach = nearest[cell] - 2.0 * bulge <= reach_m_ + half_diagonal;
-    return cell_in_reach && distance - bulge <= nearest[cell] + 2.0 * half_diagonal;
-  };
-  grid_.first.assign(cells + 1, 0);
-  for_near([&](std::size_t cell, std::uint32_t k, double distance) {
-    if (chosen(cell, k, distance)) ++grid_.first[cell + 1];
-  });
-  for (std::size_t cell = 0; cell < cells; ++cell) grid_.first[cell + 1] += grid_.first[cell];
-  grid_.panels.resize(grid_.first[cells]);
-  std::vector<std::uint32_t> next(grid_.first.begin(), grid_.first.end() - 1);
-  for_near([&](std::size_t cell, std::uint32_t k, double distance) {
-    if (chosen(cell, k, distance)) grid_.panels[next[cell]++] = k;
-  });
+  std::vector<Chord> chords;
+  for (const Panel& panel : panels_) chords.push_back({panel.begin_W, panel.end_W, panel.bulge_m});
+  grid_ = NearGrid(chords, reach_m_);
 }
 
-int PlanCurve::CellOf(double x_m, double y_m) const {
-  const double column = (x_m - grid_.origin_W.x()) / grid_.cell_m;
-  const double row = (y_m - grid_.origin_W.y()) / grid_.cell_m;
-  if (!(column >= 0.0 && column < grid_.columns && row >= 0.0 && row < grid_.rows)) return -1;
-  return static_cast<int>(row) * grid_.columns + static_cast<int>(column);
-}
-
-bool PlanCurve::MayReach(double x_m, double y_m) const {
-  const int cell = CellOf(x_m, y_m);
-  return cell >= 0 && grid_.first[cell] != grid_.first[cell + 1];
-}
+bool PlanCurve::MayReach(double x_m, double y_m) const { return !grid_.Candidates(x_m, y_m).empty(); }
 
 // The nearest point with u in [from, to], where the squared distance has one minimum at most.
 void PlanCurve::NearestWithin(const Eigen::Vector2d& p, std::uint32_t index, double from, double to, Best& best) const {
@@ -203,12 +137,9 @@ Foot PlanCurve::FootAt(const Eigen::Vector2d& p, const Best& best) const {
 Foot PlanCurve::Project(double x_m, double y_m) const {
   const Eigen::Vector2d p(x_m, y_m);
   Best best{std::numeric_limits<double>::infinity(), 0, 0.0};
-  const int cell = CellOf(x_m, y_m);
-  if (cell >= 0 && grid_.first[cell] != grid_.first[cell + 1]) {
-    for (std::uint32_t i = grid_.first[cell]; i < grid_.first[cell + 1]; ++i) Nearest(p, grid_.panels[i], best);
-  } else {
-    NearestInTree(p, 0, 0, static_cast<std::uint32_t>(panels_.size()), best);
-  }
+  const auto candidates = grid_.Candidates(x_m, y_m);
+  for (const std::uint32_t panel : candidates) Nearest(p, panel, best);
+  if (candidates.empty()) NearestInTree(p, 0, 0, static_cast<std::uint32_t>(panels_.size()), best);
   return FootAt(p, best);
 }
 
