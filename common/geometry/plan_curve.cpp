@@ -10,8 +10,11 @@
 namespace rodeira::geometry {
 namespace {
 
-constexpr double kHalfTurn_rad = 0.2;  // the most a panel turns from its middle: 0.2^10 / 11! of its length is 3e-15
-constexpr double kHalfPanel_m = 8.0;   // and its greatest half length, so that a grid cell finds few panels
+// The half length h of a panel. Its power series has 12 terms; what follows is below (k h)^12 / 12! for the curvature k
+// and below (sqrt(k') h)^12 / sqrt(12!) for the change k' of the curvature, both under 2e-14 of h with these bounds.
+constexpr double kHalfTurn_rad = 0.2;
+constexpr double kHalfTwist = 0.16;
+constexpr double kHalfPanel_m = 8.0;  // so that a grid cell finds few panels
 
 Eigen::Vector2d Turned(const Eigen::Vector2d& v, const Eigen::Vector2d& direction) {
   return {v.x() * direction.x() - v.y() * direction.y(), v.x() * direction.y() + v.y() * direction.x()};
@@ -40,8 +43,8 @@ PlanCurve::PlanCurve(Eigen::Vector2d start_W, double heading_rad, std::vector<Pl
 void PlanCurve::CutPiece(const PlanPiece& piece, double start_s_m, const PlanPoint& start) {
   const double rate = (piece.curvature_end_1pm - piece.curvature_start_1pm) / piece.length_m;
   const double steepest = std::max(std::fabs(piece.curvature_start_1pm), std::fabs(piece.curvature_end_1pm));
-  const double longest = 2.0 * std::min(kHalfPanel_m, steepest > 0.0 ? kHalfTurn_rad / steepest : kHalfPanel_m);
-  const double count = std::ceil(piece.length_m / longest);
+  const double per_metre = std::max({1.0 / kHalfPanel_m, steepest / kHalfTurn_rad, std::sqrt(std::fabs(rate)) / kHalfTwist});
+  const double count = std::ceil(0.5 * piece.length_m * per_metre);
   RODEIRA_ASSERT(count < 1e7);
   const double half = 0.5 * piece.length_m / count;
   for (int i = 0; i < static_cast<int>(count); ++i) {

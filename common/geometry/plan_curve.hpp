@@ -60,7 +60,7 @@ class PlanCurve {
   const Eigen::Vector2d& high_W() const { return high_W_; }
 
  private:
-  static constexpr int kTerms = 10;
+  static constexpr int kTerms = 12;
 
   // Around its middle: position = middle_W + sum series_W[n] u^(n+1), u = s - middle_s in [-half, half].
   struct Panel {
