@@ -7,11 +7,14 @@
 
 namespace rodeira::terrain {
 
-// Height and upward unit normal, or inside false where the grid knows nothing.
+// The ground at a point as a height and its change: the upward normal is (-slope_x, -slope_y, 1), normalised.
 struct GridSample {
   double z_m = 0.0;
-  Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
-  bool inside = false;
+  double slope_x = 0.0;  // dz/dx
+  double slope_y = 0.0;  // dz/dy
+  bool inside = false;   // false: outside of the grid, or a void
+
+  Eigen::Vector3d normal_W() const { return Eigen::Vector3d(-slope_x, -slope_y, 1.0).normalized(); }
 };
 
 // Heights on posts: the outermost posts stand exactly on the edges, so the spacing is width / (columns - 1). Every cell
@@ -45,6 +48,7 @@ class ElevationGrid {
   double cells_per_m_x_, cells_per_m_y_;
   std::vector<float> heights_m_;
   std::string projection_wkt_;
+  bool has_voids_ = false;
 };
 
 }  // namespace rodeira::terrain
