@@ -19,7 +19,11 @@ Road::Road(RoadSpec spec)
       profile_(std::move(spec.grade_points)),
       section_(std::move(spec.section)),
       marks_(std::move(spec.marks)),
-      start_heading_rad_(spec.heading_rad) {}
+      start_heading_rad_(spec.heading_rad) {
+  for (const Mark& mark : marks_) {
+    mark_begin_m_.push_back(AlongMark(mark, mark.from_s_m, plan_.Evaluate(mark.from_s_m).heading_rad));
+  }
+}
 
 RoadFrame Road::Evaluate(double s_m) const {
   const double s = std::clamp(s_m, 0.0, length_m());
@@ -96,11 +100,11 @@ std::vector<Stroke> Road::Strokes(const Mark& mark) const {
 }
 
 bool Road::IsPainted(double s_m, double t_m, double heading_rad) const {
-  for (const Mark& mark : marks_) {
+  for (std::size_t i = 0; i < marks_.size(); ++i) {
+    const Mark& mark = marks_[i];
     if (std::fabs(t_m - mark.t_m) > 0.5 * mark.width_m || s_m < mark.from_s_m || s_m > mark.to_s_m) continue;
     if (!mark.dashed()) return true;
-    const double begin = AlongMark(mark, mark.from_s_m, plan_.Evaluate(mark.from_s_m).heading_rad);
-    const double phase = std::fmod(AlongMark(mark, s_m, heading_rad) - begin, mark.stroke_m + mark.gap_m);
+    const double phase = std::fmod(AlongMark(mark, s_m, heading_rad) - mark_begin_m_[i], mark.stroke_m + mark.gap_m);
     if (phase <= mark.stroke_m) return true;
   }
   return false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -99,6 +100,7 @@ class Road {
   geometry::VerticalProfile profile_;
   Section section_;
   std::vector<Mark> marks_;
+  std::vector<double> mark_begin_m_;  // AlongMark at each mark's beginning
   double start_heading_rad_;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 // From the axis outward on one side: sign +1 to the left, -1 to the right. The bands come out in that order.
 std::vector<Band> SideBands(const SectionSpec& spec, double sign, double lanes_edge_m) {
-  const Side& side = sign > 0.0 ? spec.left : spec.right;
+  const Shoulder& shoulder = sign > 0.0 ? spec.left : spec.right;
   const double lane_fall = sign > 0.0 ? spec.fall_left : spec.fall_right;
   std::vector<Band> bands;
   double width = 0.0;  // from the axis
@@ -25,15 +25,15 @@ std::vector<Band> SideBands(const SectionSpec& spec, double sign, double lanes_e
     z = next;
   };
   add(std::abs(lanes_edge_m), lane_fall, spec.surface);
-  add(side.shoulder_m, side.shoulder_fall, side.shoulder_surface);
-  add(side.verge_m, side.verge_fall, terrain::Surface::kGrass);
+  add(shoulder.width_m, shoulder.fall, shoulder.surface);
+  add(spec.verge.width_m, spec.verge.fall, spec.verge.surface);
   return bands;
 }
 
 }  // namespace
 
 Section::Section(SectionSpec spec) : spec_(std::move(spec)) {
-  RODEIRA_ASSERT(!spec_.lanes.empty());
+  RODEIRA_ASSERT(!spec_.lanes.empty() && spec_.blend_m > 0.0);
   std::sort(spec_.lanes.begin(), spec_.lanes.end(), [](const Lane& a, const Lane& b) { return a.id < b.id; });
   const auto place = [](Lane& lane, double& edge, double sign) {
     RODEIRA_ASSERT(lane.width_m > 0.0);

@@ -30,22 +30,28 @@ struct Band {
   terrain::Surface surface = terrain::Surface::kAsphalt;
 };
 
-// One side of the road from the outer lane's edge to the terrain.
-struct Side {
-  double shoulder_m = 0.0;
-  double shoulder_fall = 0.0;  // positive: falling outward
-  terrain::Surface shoulder_surface = terrain::Surface::kAsphalt;
-  double verge_m = 0.0;
-  double verge_fall = 0.0;  // positive: falling outward
-  double blend_m = 0.0;     // over this width beyond the verge the ground passes from the verge into the terrain
+// The strip beside the lanes on one side.
+struct Shoulder {
+  double width_m = 0.0;
+  double fall = 0.0;  // positive: falling outward
+  terrain::Surface surface = terrain::Surface::kAsphalt;
+};
+
+// The strip between the shoulder (or the lanes) and the terrain, the same on both sides.
+struct Verge {
+  double width_m = 0.0;
+  double fall = 0.0;  // positive: falling outward
+  terrain::Surface surface = terrain::Surface::kGrass;
 };
 
 struct SectionSpec {
-  std::vector<Lane> lanes;  // id, direction, width, speed limit; the edges are found by Section
+  std::vector<Lane> lanes;    // id, direction, width, speed limit; the edges are found by Section
   double fall_left = 0.025;   // crossfall of the lanes left of the axis, positive: falling to the left
   double fall_right = 0.025;  // and right of it, positive: falling to the right. One-sided: of opposite signs
   terrain::Surface surface = terrain::Surface::kAsphalt;
-  Side left, right;
+  Shoulder left, right;
+  Verge verge;
+  double blend_m = 10.0;  // > 0: over this width beyond the verge the ground passes into the terrain
 };
 
 // The cross-section of a road, the same along the whole of it: strips from the right verge to the left one.
@@ -61,12 +67,12 @@ class Section {
   // Edges, as t: of the lanes, of the shoulders, of the verges, of the blend. Right ones are negative.
   double lanes_left_m() const { return lanes_left_m_; }
   double lanes_right_m() const { return lanes_right_m_; }
-  double paved_left_m() const { return lanes_left_m_ + spec_.left.shoulder_m; }
-  double paved_right_m() const { return lanes_right_m_ - spec_.right.shoulder_m; }
-  double verge_left_m() const { return paved_left_m() + spec_.left.verge_m; }
-  double verge_right_m() const { return paved_right_m() - spec_.right.verge_m; }
-  double blend_left_m() const { return verge_left_m() + spec_.left.blend_m; }
-  double blend_right_m() const { return verge_right_m() - spec_.right.blend_m; }
+  double paved_left_m() const { return lanes_left_m_ + spec_.left.width_m; }
+  double paved_right_m() const { return lanes_right_m_ - spec_.right.width_m; }
+  double verge_left_m() const { return paved_left_m() + spec_.verge.width_m; }
+  double verge_right_m() const { return paved_right_m() - spec_.verge.width_m; }
+  double blend_left_m() const { return verge_left_m() + spec_.blend_m; }
+  double blend_right_m() const { return verge_right_m() - spec_.blend_m; }
   double reach_m() const;  // the farther of the two blends' outer edges
 
   // The band at t; beyond the verges the outermost one, whose slope goes on.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,28 +11,11 @@
 #include "common/base/hash.hpp"
 #include "common/base/result.hpp"
 #include "common/road/road.hpp"
+#include "common/road/world_spec.hpp"
 #include "common/terrain/elevation_grid.hpp"
 #include "common/terrain/ground.hpp"
 
 namespace rodeira::road {
-
-// Where the driver's car stands when the simulation begins.
-struct StartPose {
-  double x_m = 0.0;
-  double y_m = 0.0;
-  double heading_rad = 0.0;  // from east to north
-  // On a road: which one (an index into World::roads()), which lane, where along it. Otherwise -1, 0, 0.
-  int road = -1;
-  int lane = 0;
-  double s_m = 0.0;
-};
-
-// An unbounded inclined plane: z = z_m + slope_x x + slope_y y.
-struct PlaneSpec {
-  double z_m = 0.0;
-  double slope_x = 0.0;
-  double slope_y = 0.0;
-};
 
 // The rectangle in which the ground is known; infinite for a plane.
 struct Extents {
@@ -44,10 +25,15 @@ struct Extents {
   double north_m = 0.0;
 };
 
-// Friction coefficients by surface, indexed by the Surface's number.
-using FrictionTable = std::array<double, 7>;
-
-struct WorldSpec;
+// The ground at a point as height and slopes: the upward normal is (-slope_x, -slope_y, 1), normalised.
+struct SurfacePoint {
+  double z_m = 0.0;
+  double slope_x = 0.0;  // dz/dx
+  double slope_y = 0.0;  // dz/dy
+  double friction = 0.0;
+  terrain::Surface surface = terrain::Surface::kOutside;
+  bool inside = false;
+};
 
 // A world: terrain (an elevation grid or a plane), roads, their marks. Immutable and shared; the same file gives the
 // same content hash, and the same content hash the same answers, bit by bit.
@@ -58,7 +44,7 @@ class World : public std::enable_shared_from_this<World> {
   static base::Result<std::shared_ptr<const World>> Load(const std::filesystem::path& world_yaml);
   // The same from a text; `name` stands for the path in messages, and relative paths start at its folder.
   static base::Result<std::shared_ptr<const World>> Parse(std::string_view text, const std::filesystem::path& name);
-  // From its parts, checked by the caller.
+  // From its parts, which must fit together as a world file's do.
   static std::shared_ptr<const World> Make(WorldSpec spec);
 
   const std::string& name() const { return name_; }
@@ -70,24 +56,32 @@ class World : public std::enable_shared_from_this<World> {
   Extents extents() const;
   const StartPose& start() const { return start_; }
   terrain::Surface terrain_surface() const { return terrain_surface_; }
-  double Friction(terrain::Surface surface) const;
-  // The coordinate system as WKT, from the .prj; empty where there is none. Not part of the content hash.
-  const std::string& projection() const;
+  double terrain_friction() const { return terrain_friction_; }
+  double Friction(terrain::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
 
-  // SUELO on this world, which it keeps alive. Any number of them, on any threads.
+  // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. One surface lies over each
+  // point as yet, so the height hint chooses nothing.
   std::unique_ptr<terrain::Ground> MakeGround() const;
+  // One of its answers: the road within its verges, the terrain beyond the blend, and between them both, weighted by
+  // 3 u^2 - 2 u^3 of the distance from the verge over the blend's width.
+  SurfacePoint At(double x_m, double y_m) const;
+  // The terrain without any road.
+  SurfacePoint TerrainAt(double x_m, double y_m) const;
+
   // Of everything that can change an answer (numbers of roads, lanes, marks, terrain, friction, start), and of nothing
-  // else: names, comments, paths, the order of keys.
+  // else: names, comments, paths, the coordinate system's name, the order of keys.
   base::Digest content_hash() const { return content_hash_; }
 
  private:
   explicit World(WorldSpec spec);
+  void LayRoad(const Road& road, double x_m, double y_m, SurfacePoint& point) const;
 
   std::string name_;
   std::vector<Road> roads_;
   std::shared_ptr<const terrain::ElevationGrid> grid_;
   std::optional<PlaneSpec> plane_;
   terrain::Surface terrain_surface_;
+  double terrain_friction_;
   FrictionTable friction_;
   StartPose start_;
   base::Digest content_hash_ = 0;
