@@ -1,0 +1,190 @@
+// INI of the bicycle: height, pitch, roll, travels and loads that balance weight on the ground under the four wheels.
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "common/geometry/angle.hpp"
+#include "common/vehicle/bicycle_model.hpp"
+
+namespace rodeira::vehicle {
+namespace {
+
+constexpr double kGravity_mps2 = 9.81;
+constexpr int kGroundTurns = 30;     // the wheels move a little as the body leans, and with them the ground's answers
+constexpr int kNewtonTurns = 40;
+constexpr int kBarTurns = 12;        // an anti-roll bar ties two wheels; each turn gains a factor of twenty or more
+constexpr double kSettled_m = 1e-13;
+constexpr double kStandstill_mps = 1e-6;
+
+bool Finite(const InitialCondition& i) {
+  return std::isfinite(i.x_m) && std::isfinite(i.y_m) && std::isfinite(i.heading_rad) && std::isfinite(i.speed_mps) &&
+         std::isfinite(i.lateral_speed_mps) && std::isfinite(i.yaw_rate_radps) && !std::isinf(i.z_hint_m);
+}
+
+}  // namespace
+
+// Works on a model that is being initialised. The unknowns are height of B, pitch and roll.
+class BicycleEquilibrium {
+ public:
+  BicycleEquilibrium(BicycleModel& model, const InitialCondition& initial) : model_(model), initial_(initial) {}
+
+  base::Status Find(terrain::Ground& ground);
+  void SetInMotion();
+
+ private:
+  using Unknowns = Eigen::Vector3d;  // height, pitch, roll
+
+  void Place(const Unknowns& unknowns);
+  void SettleCorners();
+  BicycleModel::Contacts FindContacts() const;
+  Eigen::Vector3d HoldingForce(const BicycleModel::Contacts& contacts, const Eigen::Vector3d& normal) const;
+  Eigen::Vector3d Residual(const Unknowns& unknowns);
+  Unknowns Balance(Unknowns unknowns);
+
+  BicycleModel& model_;
+  const InitialCondition& initial_;
+};
+
+void BicycleEquilibrium::Place(const Unknowns& unknowns) {
+  model_.body_.q_WG = Eigen::AngleAxisd(initial_.heading_rad, Eigen::Vector3d::UnitZ()) *
+                      Eigen::AngleAxisd(unknowns[1], Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(unknowns[2], Eigen::Vector3d::UnitX());
+  model_.body_.p_WG_W = Eigen::Vector3d(initial_.x_m, initial_.y_m, unknowns[0]) + model_.body_.q_WG * model_.p_BG_B_;
+}
+
+void BicycleEquilibrium::SettleCorners() {
+  for (int turn = 0; turn < kBarTurns; ++turn) {
+    for (std::size_t i = 0; i < kWheels; ++i) {
+      model_.wheels_[i].corner.Settle(model_.settings_.suspension[i / 2], model_.CornerInputOf(i));
+    }
+  }
+}
+
+BicycleModel::Contacts BicycleEquilibrium::FindContacts() const {
+  BicycleModel::Contacts contacts;
+  for (std::size_t i = 0; i < kWheels; ++i) contacts[i] = model_.ContactOf(i, 0.0);
+  return contacts;
+}
+
+// What the tyres must give along the road, all together, so that nothing accelerates.
+Eigen::Vector3d BicycleEquilibrium::HoldingForce(const BicycleModel::Contacts&, const Eigen::Vector3d& normal) const {
+  Eigen::Vector3d force(0.0, 0.0, -model_.settings_.body.mass_kg * kGravity_mps2);
+  for (const auto& wheel : model_.wheels_) force += wheel.corner.load_N() * wheel.normal_W;
+  return force.dot(normal) * normal - force;
+}
+
+// Force along the road's normal, pitching and rolling moment about the centre of gravity.
+Eigen::Vector3d BicycleEquilibrium::Residual(const Unknowns& unknowns) {
+  Place(unknowns);
+  SettleCorners();
+  const BicycleModel::Contacts contacts = FindContacts();
+  const Eigen::Vector3d normal = model_.RoadNormal(contacts);
+  const Eigen::Vector3d holding = HoldingForce(contacts, normal);
+  double load = 0.0;
+  for (const auto& wheel : model_.wheels_) load += wheel.corner.load_N();
+  Eigen::Vector3d force = holding;
+  force.z() -= model_.settings_.body.mass_kg * kGravity_mps2;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const Eigen::Vector3d bearing = model_.wheels_[i].corner.load_N() * model_.wheels_[i].normal_W;
+    const Eigen::Vector3d middle = 0.5 * (contacts[i & 2u].point_W + contacts[(i & 2u) + 1].point_W);
+    const double share = load > 0.0 ? model_.wheels_[i].corner.load_N() / load : 0.25;
+    force += bearing;
+    moment += (contacts[i].point_W - model_.body_.p_WG_W).cross(bearing);
+    moment += (middle - model_.body_.p_WG_W).cross(share * holding);
+  }
+  const Eigen::Vector3d moment_B = model_.body_.q_WG.conjugate() * moment;
+  return {force.dot(normal), moment_B.y(), moment_B.x()};
+}
+
+BicycleEquilibrium::Unknowns BicycleEquilibrium::Balance(Unknowns unknowns) {
+  constexpr double kProbe = 1e-6;
+  for (int turn = 0; turn < kNewtonTurns; ++turn) {
+    const Eigen::Vector3d residual = Residual(unknowns);
+    Eigen::Matrix3d slope;
+    for (int k = 0; k < 3; ++k) {
+      Unknowns probe = unknowns;
+      probe[k] += kProbe;
+      slope.col(k) = (Residual(probe) - residual) / kProbe;
+    }
+    Eigen::Vector3d step = -slope.partialPivLu().solve(residual);
+    if (!step.allFinite()) step = {-0.01, 0.0, 0.0};                           // no wheel touches: come down
+    step = step.cwiseMax(Eigen::Vector3d(-0.1, -0.05, -0.05)).cwiseMin(Eigen::Vector3d(0.1, 0.05, 0.05));
+    unknowns += step;
+    unknowns[1] = std::clamp(unknowns[1], -0.8, 0.8);
+    unknowns[2] = std::clamp(unknowns[2], -0.8, 0.8);
+    if (step.cwiseAbs().maxCoeff() < kSettled_m) break;
+  }
+  Place(unknowns);
+  SettleCorners();
+  return unknowns;
+}
+
+base::Status BicycleEquilibrium::Find(terrain::Ground& ground) {
+  const terrain::GroundPoint start = ground.At(initial_.x_m, initial_.y_m, initial_.z_hint_m);
+  const auto refusal = [&](const std::string& what) {
+    return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}", initial_.x_m,
+                                        initial_.y_m, initial_.heading_rad, what));
+  };
+  if (!start.inside) return refusal("that is outside of the world");
+  Unknowns unknowns(start.z_m, 0.0, 0.0);
+  for (int turn = 0; turn < kGroundTurns; ++turn) {
+    Place(unknowns);
+    model_.AskGround(ground);
+    for (std::size_t i = 0; i < kWheels; ++i) {
+      if (!model_.wheels_[i].inside) return refusal("a wheel would stand outside of the world");
+    }
+    const Unknowns before = unknowns;
+    unknowns = Balance(unknowns);
+    if ((unknowns - before).cwiseAbs().maxCoeff() < 10.0 * kSettled_m) break;
+  }
+  return {};
+}
+
+void BicycleEquilibrium::SetInMotion() {
+  model_.contacts_ = FindContacts();
+  RigidBody& body = model_.body_;
+  const Eigen::Vector3d normal = model_.RoadNormal(model_.contacts_);
+  const Eigen::Vector3d forward = body.q_WG * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d along = (forward - forward.dot(normal) * normal).normalized();
+  const Eigen::Vector3d v_WB_W = initial_.speed_mps * along + initial_.lateral_speed_mps * normal.cross(along);
+  body.w_WG_G = body.q_WG.conjugate() * (initial_.yaw_rate_radps * normal);
+  body.v_WG_W = v_WB_W + body.w_WG_W().cross(body.q_WG * model_.p_BG_B_);
+
+  const bool rests = v_WB_W.norm() < kStandstill_mps && std::fabs(initial_.yaw_rate_radps) < kStandstill_mps;
+  const Eigen::Vector3d holding = HoldingForce(model_.contacts_, normal);
+  double load = 0.0;
+  for (const auto& wheel : model_.wheels_) load += wheel.corner.load_N();
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    BicycleModel::Wheel& wheel = model_.wheels_[i];
+    BicycleModel::Contact& contact = model_.contacts_[i];
+    const TyreSettings& tyre = model_.settings_.tyre[i / 2];
+    const double bears = wheel.corner.load_N();
+    wheel.spin_radps = rests ? 0.0 : model_.MotionOf(model_.contacts_, i).vx_mps / model_.settings_.wheel.rolling_radius_m;
+    const TyreMotion motion = model_.MotionOf(model_.contacts_, i);
+    if (rests && bears > 0.0) {
+      const Eigen::Vector3d share = bears / load * holding;
+      wheel.tyre.SetToBear(tyre, {share.dot(contact.along_W), share.dot(contact.across_W)}, bears, wheel.friction);
+    } else {
+      wheel.tyre.SetToRoll(tyre, motion, bears, wheel.friction);
+    }
+    contact.forces = wheel.tyre.Forces(tyre, motion, bears, wheel.friction);
+  }
+  const std::size_t driven = model_.settings_.front_driven ? kFrontLeft : kRearLeft;
+  const double turning = 0.5 * (model_.wheels_[driven].spin_radps + model_.wheels_[driven + 1].spin_radps);
+  model_.powertrain_.Start(model_.settings_.powertrain, rests ? 0.0 : turning);
+}
+
+base::Status BicycleModel::Initialise(const InitialCondition& initial, terrain::Ground& ground) {
+  if (!Finite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
+  BicycleModel trial(settings_);
+  BicycleEquilibrium equilibrium(trial, initial);
+  if (const base::Status status = equilibrium.Find(ground); !status) return status;
+  equilibrium.SetInMotion();
+  trial.Publish(Controls{}, 0.0);
+  *this = trial;
+  return {};
+}
+
+}  // namespace rodeira::vehicle

@@ -1,0 +1,104 @@
+#include "common/vehicle/tyre.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rodeira::vehicle {
+namespace {
+
+constexpr double kPeakReach = 3.0;      // peaks lie at two to three times D / K
+constexpr double kSpeedReach = 20.0;    // how far past the peak the deflection may go, a low_speed of motion
+constexpr double kFadeInAir_s = 0.01;
+constexpr double kTiny_N = 1.0;
+
+// 1 at standstill, 0 from low_speed on, smooth at both ends.
+double LowSpeedShare(const TyreSettings& tyre, double vx_mps) {
+  const double rest = 1.0 - std::min(1.0, std::fabs(vx_mps) / tyre.low_speed_mps);
+  return rest * rest * (3.0 - 2.0 * rest);
+}
+
+// The largest slip that the deflection may stand for: just past the peak at rest, no bound in practice at speed.
+double SlipBound(double peak_N, double stiffness_N, double motion_mps, double low_speed_mps) {
+  return kPeakReach * peak_N / std::max(stiffness_N, kTiny_N) * (1.0 + kSpeedReach * motion_mps / low_speed_mps);
+}
+
+}  // namespace
+
+TyreForces Tyre::Forces(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction) {
+  if (!(load_N > 0.0)) {
+    slip_ = 0.0;
+    slip_angle_tan_ = 0.0;
+    return {};
+  }
+  const double damping = tyre.low_speed_damping_Nspm * LowSpeedShare(tyre, motion.vx_mps);
+  const double along = std::max(LongitudinalStiffness(tyre.formula, load_N), kTiny_N);
+  const double across = std::max(CorneringStiffness(tyre.formula, load_N), kTiny_N);
+  slip_ = u_m_ / tyre.relaxation_longitudinal_m - damping / along * motion.vsx_mps;
+  slip_angle_tan_ = v_m_ / tyre.relaxation_lateral_m + damping / across * motion.vsy_mps;
+  return SteadyForces(tyre.formula, {slip_, slip_angle_tan_, 0.0}, load_N, friction);
+}
+
+void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction, double dt_s) {
+  if (!(load_N > 0.0)) {
+    const double left = std::max(0.0, 1.0 - dt_s / kFadeInAir_s);
+    u_m_ *= left;
+    v_m_ *= left;
+    return;
+  }
+  const double travel = std::fabs(motion.vx_mps) * dt_s;
+  const double sigma_k = tyre.relaxation_longitudinal_m;
+  const double sigma_a = tyre.relaxation_lateral_m;
+  u_m_ = (u_m_ - dt_s * motion.vsx_mps) / (1.0 + travel / sigma_k);
+  v_m_ = (v_m_ + dt_s * motion.vsy_mps) / (1.0 + travel / sigma_a);
+  const double moving = std::max({std::fabs(motion.vx_mps), std::fabs(motion.vsx_mps), std::fabs(motion.vsy_mps)});
+  const double u_most = sigma_k * SlipBound(LongitudinalPeak(tyre.formula, load_N, friction),
+                                            LongitudinalStiffness(tyre.formula, load_N), moving, tyre.low_speed_mps);
+  const double v_most = sigma_a * SlipBound(LateralPeak(tyre.formula, load_N, friction),
+                                            CorneringStiffness(tyre.formula, load_N), moving, tyre.low_speed_mps);
+  u_m_ = std::clamp(u_m_, -u_most, u_most);
+  v_m_ = std::clamp(v_m_, -v_most, v_most);
+}
+
+void Tyre::SetToBear(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction) {
+  Reset();
+  if (!(load_N > 0.0)) return;
+  const double along = std::max(LongitudinalStiffness(tyre.formula, load_N), kTiny_N);
+  const double across = std::max(CorneringStiffness(tyre.formula, load_N), kTiny_N);
+  const double kappa_most = kPeakReach * LongitudinalPeak(tyre.formula, load_N, friction) / along;
+  const double alpha_most = kPeakReach * LateralPeak(tyre.formula, load_N, friction) / across;
+  double kappa = 0.0;
+  double alpha = 0.0;
+  // The initial slope is the steepest, so each correction falls short and the iteration approaches from one side.
+  for (int i = 0; i < 60; ++i) {
+    const TyreForces now = SteadyForces(tyre.formula, {kappa, alpha, 0.0}, load_N, friction);
+    kappa = std::clamp(kappa + (forces.longitudinal_N - now.longitudinal_N) / along, -kappa_most, kappa_most);
+    alpha = std::clamp(alpha - (forces.lateral_N - now.lateral_N) / across, -alpha_most, alpha_most);
+  }
+  u_m_ = kappa * tyre.relaxation_longitudinal_m;
+  v_m_ = alpha * tyre.relaxation_lateral_m;
+}
+
+void Tyre::SetToRoll(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction) {
+  Reset();
+  const double speed = std::fabs(motion.vx_mps);
+  if (speed < tyre.low_speed_mps) return;
+  u_m_ = -tyre.relaxation_longitudinal_m * motion.vsx_mps / speed;
+  v_m_ = tyre.relaxation_lateral_m * motion.vsy_mps / speed;
+  Advance(tyre, motion, load_N, friction, 0.0);  // for the bounds
+}
+
+void Tyre::Save(base::StateWriter& writer) const {
+  writer.Put("u_m", u_m_);
+  writer.Put("v_m", v_m_);
+  writer.Put("slip", slip_);
+  writer.Put("slip_angle_tan", slip_angle_tan_);
+}
+
+void Tyre::Restore(base::StateReader& reader) {
+  reader.Get("u_m", u_m_);
+  reader.Get("v_m", v_m_);
+  reader.Get("slip", slip_);
+  reader.Get("slip_angle_tan", slip_angle_tan_);
+}
+
+}  // namespace rodeira::vehicle

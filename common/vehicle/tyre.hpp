@@ -1,0 +1,54 @@
+#pragma once
+
+#include "common/base/state.hpp"
+#include "common/vehicle/magic_formula.hpp"
+
+namespace rodeira::vehicle {
+
+struct TyreSettings {
+  MagicFormulaSettings formula;
+  double relaxation_longitudinal_m = 0.2;  // sigma_kappa
+  double relaxation_lateral_m = 0.4;       // sigma_alpha
+  double low_speed_mps = 2.5;              // below it the damping fades in and the deflection is held to what friction bears
+  double low_speed_damping_Nspm = 3000.0;  // force a slip speed at standstill, while the tyre does not slide
+};
+
+// How the wheel moves over the ground, in its contact frame.
+struct TyreMotion {
+  double vx_mps = 0.0;   // of the hub along the wheel
+  double vsx_mps = 0.0;  // slip speed along the wheel: vx - spin · rolling radius; positive when braked
+  double vsy_mps = 0.0;  // slip speed to the left
+};
+
+// The Magic Formula's transient by relaxation of the contact patch's deflections u and v:
+//   sigma_k du/dt + |vx| u = -sigma_k vsx,   sigma_a dv/dt + |vx| v = sigma_a vsy,   kappa' = u/sigma_k, tan alpha' = v/sigma_a.
+// The steady state is the static table. At standstill the patch is a spring, so that a braked car rests on a slope without
+// creeping; below low_speed a damper is added inside of the formula (so friction bounds it too), and the deflections are
+// cut near the peak, so that a car that has slid comes to rest without springing back.
+class Tyre {
+ public:
+  // The forces at the present deflections. Keeps the slips for slip() and slip_angle_tan().
+  TyreForces Forces(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction);
+  // Advances the deflections with the motion at the end of the step (implicit in u and v). Without load they fade in 10 ms.
+  void Advance(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction, double dt_s);
+  // Deflections at which the tyre bears these forces steadily at standstill, as near as friction allows (inverse of the
+  // pure formulas below the peaks).
+  void SetToBear(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction);
+  // Deflections of steady rolling with this motion.
+  void SetToRoll(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction);
+  void Reset() { *this = Tyre(); }
+
+  double slip() const { return slip_; }
+  double slip_angle_tan() const { return slip_angle_tan_; }
+
+  void Save(base::StateWriter& writer) const;
+  void Restore(base::StateReader& reader);
+
+ private:
+  double u_m_ = 0.0;
+  double v_m_ = 0.0;
+  double slip_ = 0.0;
+  double slip_angle_tan_ = 0.0;
+};
+
+}  // namespace rodeira::vehicle

@@ -1,0 +1,58 @@
+#include "common/vehicle/vehicle_model.hpp"
+
+#include <vector>
+
+#include "common/base/suggest.hpp"
+#include "common/vehicle/bicycle_model.hpp"
+
+namespace rodeira::vehicle {
+
+InitialCondition FromState(const VehicleState& state) {
+  const Eigen::Vector3d v_WB_B = state.v_WB_B();
+  InitialCondition initial;
+  initial.x_m = state.p_WB_W.x();
+  initial.y_m = state.p_WB_W.y();
+  initial.z_hint_m = state.p_WB_W.z();
+  initial.heading_rad = state.heading_rad();
+  initial.speed_mps = v_WB_B.x();
+  initial.lateral_speed_mps = v_WB_B.y();
+  initial.yaw_rate_radps = state.w_WB_B.z();
+  return initial;
+}
+
+namespace {
+
+std::vector<ModelKind> AllKinds(std::span<const ModelKind> more) {
+  std::vector<ModelKind> kinds;
+  kinds.push_back({"bicycle", [](const config::Map& root) { return std::make_unique<BicycleModel>(ReadBicycle(root)); }});
+  kinds.insert(kinds.end(), more.begin(), more.end());
+  return kinds;
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::path& path, std::span<const ModelKind> more) {
+  auto file = config::File::Load(path);
+  if (!file) return file.error();
+  const config::Map root = file.value().root();
+  const std::vector<ModelKind> kinds = AllKinds(more);
+  std::vector<std::string> names;
+  for (const ModelKind& kind : kinds) names.push_back(kind.name);
+  (void)root.Choice("rodeira", {"vehicle/1"});
+  (void)root.Text("name", "");
+  const std::string wanted = root.Choice("model", names);
+  for (const ModelKind& kind : kinds) {
+    if (kind.name != wanted) continue;
+    std::unique_ptr<VehicleModel> model = kind.make(root);
+    // Keys that a broken file keeps the reader from asking for are no news to the user: his first problem is.
+    if (const base::Status status = file.value().Finish(); !status) return status.error();
+    return model;
+  }
+  // Without a known model nobody can say which other keys are known.
+  for (const base::Error& problem : file.value().Problems()) {
+    if (problem.message.find("'rodeira'") != std::string::npos || problem.message.find("'model'") != std::string::npos) return problem;
+  }
+  return base::WrongInput("'model' is not known", root.Place("model"));
+}
+
+}  // namespace rodeira::vehicle
