@@ -41,6 +41,7 @@ struct ChunkInfo {
   std::string compression;                          // "", "zstd"
   std::map<ChannelId, std::uint64_t> index_offsets;  // of the MessageIndex records
   std::uint64_t index_bytes = 0;                    // of all of them
+  std::optional<std::set<ChannelId>> channels;      // those with messages in it, where that is known
 };
 
 struct MetadataInfo {
