@@ -177,7 +177,6 @@ base::Result<Scan> Scanner::Run() {
     crc_ = Crc32(record.value().bytes, crc_);
     at_ += record.value().bytes.size();
   }
-  CheckIndexesOfLastChunk();
   scan_.good_bytes = at_;
   Count();
   return std::move(scan_);
