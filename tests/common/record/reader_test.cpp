@@ -58,7 +58,8 @@ RC_GTEST_PROP(Reader, AQueryIsAFilter, ()) {
   Query query;
   query.from_ns = *rc::gen::inRange<std::uint64_t>(0, 3000);
   query.through_ns = *rc::gen::inRange<std::uint64_t>(0, 5000);
-  query.channels = *rc::gen::container<std::set<ChannelId>>(rc::gen::inRange<ChannelId>(1, 5));
+  const auto wanted = *rc::gen::container<std::vector<ChannelId>>(rc::gen::inRange<ChannelId>(1, 5));
+  query.channels.emplace(wanted.begin(), wanted.end());
   std::vector<Copied> expected;
   for (const Copied& message : InLogTimeOrder(MessagesOf(calls))) {
     const auto id = static_cast<ChannelId>(std::ranges::find(kTopics, message.topic) - std::begin(kTopics) + 1);
