@@ -103,9 +103,14 @@ std::string RangeText(Range range) {
 }
 
 // 'mass_kg' where 'mass_t' was given: the same quantity in another unit.
-std::string WithoutUnit(const std::string& key) {
-  const auto at = key.rfind('_');
-  return at == std::string::npos ? key : key.substr(0, at);
+bool DifferOnlyByUnit(const std::string& a, const std::string& b) {
+  static const std::set<std::string, std::less<>> kUnits = {
+      "m",  "cm", "mm", "km", "ft", "s",  "ms", "us",  "ns",  "min", "h",   "kg",  "g",  "t",  "n",  "kn",  "nm",  "rad",   "deg",
+      "mps", "kmh", "kmph", "kph", "mph", "mps2", "radps", "degps", "rpm", "hz", "w", "kw", "hp", "pa", "kpa", "bar", "pct", "percent", "m2", "kgm2"};
+  const auto cut_a = a.rfind('_');
+  const auto cut_b = b.rfind('_');
+  if (cut_a == std::string::npos || cut_b == std::string::npos || a.substr(0, cut_a) != b.substr(0, cut_b)) return false;
+  return kUnits.contains(a.substr(cut_a + 1)) && kUnits.contains(b.substr(cut_b + 1));
 }
 
 }  // namespace
@@ -399,7 +404,7 @@ std::vector<base::Error> File::Problems() const {
       if (asked.keys.contains(key)) continue;
       std::string hint = base::DidYouMean(key, known);
       for (const std::string& other : known) {
-        if (WithoutUnit(other) == WithoutUnit(key)) hint = fmt::format("; the unit is part of the name: '{}'", other);
+        if (DifferOnlyByUnit(other, key)) hint = fmt::format("; the unit is part of the name: '{}'", other);
       }
       all.emplace_back(LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), hint));
     }
