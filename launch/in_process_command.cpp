@@ -13,6 +13,7 @@
 #include "common/lockstep/in_process.hpp"
 #include "launch/node_factories.hpp"
 #include "launch/run_report.hpp"
+#include "nodes/road/road_service.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -20,14 +21,34 @@ namespace {
 std::atomic<bool> g_interrupted = false;
 void OnInterrupt(int) { g_interrupted = true; }
 
+// SUELO from the library itself; each node has a Ground of its own on the one world.
 class LocalContext final : public launch::NodeContext {
  public:
-  using NodeContext::NodeContext;
-  terrain::Ground& Ground() override { return ground_; }
+  LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world)
+      : NodeContext(launch, index), world_(std::move(world)) {
+    if (world_ != nullptr) ground_ = world_->MakeGround();
+  }
+  terrain::Ground& Ground() override {
+    RODEIRA_ASSERT(ground_ != nullptr);  // World() comes first and refuses
+    return *ground_;
+  }
+  base::Result<launch::WorldSummary> World() override {
+    if (world_ == nullptr) return base::WrongInput("the launch file has no node of kind 'road', or names no world", launch().path().string());
+    return nodes::Summary(*world_);
+  }
 
  private:
-  terrain::PlaneGround ground_;
+  std::shared_ptr<const road::World> world_;
+  std::unique_ptr<terrain::Ground> ground_;
 };
+
+// The world of the run, where a road server would load it.
+base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch& launch) {
+  for (const launch::LaunchNode& node : launch.nodes()) {
+    if (node.kind->name == "road") return road::World::Load(launch.world());
+  }
+  return std::shared_ptr<const road::World>();
+}
 
 RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& roster, double wall_s) {
   RunReport report;
@@ -50,11 +71,16 @@ RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& 
 
 int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   const auto& roster = launch.roster();
+  const auto world = LoadWorld(launch);
+  if (!world) {
+    fmt::print(stderr, "rodeira: {}\n", world.error().Text());
+    return world.error().exit_status();
+  }
   std::vector<std::unique_ptr<LocalContext>> contexts;
   std::vector<std::unique_ptr<lockstep::Node>> owned;
   std::vector<lockstep::Node*> nodes;
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    contexts.push_back(std::make_unique<LocalContext>(launch, n));
+    contexts.push_back(std::make_unique<LocalContext>(launch, n, world.value()));
     nodes.push_back(nullptr);
     if (roster.node(n).role == lockstep::Role::kService) continue;
     const launch::NodeFactory factory = FactoryOf(roster.node(n).kind);

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <memory>
+
+#include "common/launch/node_context.hpp"
+
+namespace rodeira::nodes {
+
+// The driver's hands and feet. Configuration: `source: script`, with `script` (a CSV file, docs/formats.md).
+base::Result<std::unique_ptr<lockstep::Node>> MakeInputNode(launch::NodeContext& context);
+
+}  // namespace rodeira::nodes
