@@ -1,0 +1,125 @@
+#include "common/road/hills.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/base/assert.hpp"
+#include "common/base/random.hpp"
+
+namespace rodeira::road {
+namespace {
+
+constexpr double kAxisStep_m = 20.0;
+
+struct AxisPoint {
+  double x_m, y_m, z_m;
+};
+
+std::vector<AxisPoint> AxisPoints(std::span<const Road> roads) {
+  std::vector<AxisPoint> points;
+  for (const Road& road : roads) {
+    const int steps = static_cast<int>(std::ceil(road.length_m() / kAxisStep_m));
+    for (int i = 0; i <= steps; ++i) {
+      const Eigen::Vector3d p = road.Evaluate(road.length_m() * i / steps).p_W;
+      points.push_back({p.x(), p.y(), p.z()});
+    }
+  }
+  return points;
+}
+
+// The roads' height at (x, y) and the distance to them.
+struct Base {
+  double z_m, distance_m;
+};
+
+Base BaseAt(std::span<const AxisPoint> points, double x_m, double y_m, double softness_m2) {
+  double weights = 0.0, heights = 0.0, nearest = std::numeric_limits<double>::infinity();
+  for (const AxisPoint& point : points) {
+    const double dx = x_m - point.x_m, dy = y_m - point.y_m;
+    const double squared = dx * dx + dy * dy;
+    const double soft = squared + softness_m2;
+    const double weight = 1.0 / (soft * soft);
+    weights += weight;
+    heights += weight * point.z_m;
+    nearest = std::min(nearest, squared);
+  }
+  return {heights / weights, std::sqrt(nearest)};
+}
+
+// Gradient noise (K. Perlin, SIGGRAPH 1985, with the fifth-degree fade of 2002) with random gradients on a lattice.
+class Noise {
+ public:
+  Noise(const HillsSpec& spec, std::size_t layer) : cells_per_m_(1.0 / spec.relief[layer].wavelength_m) {
+    columns_ = static_cast<int>((spec.columns - 1) * spec.spacing_m * cells_per_m_) + 2;
+    const int rows = static_cast<int>((spec.rows - 1) * spec.spacing_m * cells_per_m_) + 2;
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        const auto draw = [&](std::uint64_t part) {
+          return base::RandomUniform({spec.seed, layer, static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row), part}, -1.0, 1.0);
+        };
+        gradients_.push_back({draw(0), draw(1)});
+      }
+    }
+  }
+
+  // East and north of the grid's south-west corner. Within about ±1.
+  double At(double east_m, double north_m) const {
+    const double across = east_m * cells_per_m_, along = north_m * cells_per_m_;
+    const int column = static_cast<int>(across), row = static_cast<int>(along);
+    const double u = across - column, v = along - row;
+    const auto corner = [&](int i, int j) {
+      const Gradient& g = gradients_[static_cast<std::size_t>(row + j) * columns_ + column + i];
+      return g.x * (u - i) + g.y * (v - j);
+    };
+    const double fu = Fade(u), fv = Fade(v);
+    const double south = corner(0, 0) + fu * (corner(1, 0) - corner(0, 0));
+    const double north = corner(0, 1) + fu * (corner(1, 1) - corner(0, 1));
+    return south + fv * (north - south);
+  }
+
+ private:
+  struct Gradient {
+    double x, y;
+  };
+  static double Fade(double u) { return u * u * u * (u * (u * 6.0 - 15.0) + 10.0); }
+
+  double cells_per_m_;
+  int columns_;
+  std::vector<Gradient> gradients_;
+};
+
+}  // namespace
+
+terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const Road> roads) {
+  RODEIRA_ASSERT(spec.full_m > spec.flat_m && spec.flat_m > 0.0 && spec.spacing_m > 0.0);
+  const std::vector<AxisPoint> axis = AxisPoints(roads);
+  std::vector<Noise> layers;
+  for (std::size_t layer = 0; layer < spec.relief.size(); ++layer) layers.emplace_back(spec, layer);
+  std::vector<float> heights;
+  heights.reserve(static_cast<std::size_t>(spec.columns) * static_cast<std::size_t>(spec.rows));
+  for (int column = 0; column < spec.columns; ++column) {
+    for (int row = 0; row < spec.rows; ++row) {
+      const double east = column * spec.spacing_m, north = row * spec.spacing_m;
+      double z = spec.base_z_m, grown = 1.0;
+      if (!axis.empty()) {
+        const Base base = BaseAt(axis, spec.west_m + east, spec.south_m + north, spec.flat_m * spec.flat_m);
+        const double u = std::clamp((base.distance_m - spec.flat_m) / (spec.full_m - spec.flat_m), 0.0, 1.0);
+        z = base.z_m - spec.below_m;
+        grown = u * u * (3.0 - 2.0 * u);
+      }
+      if (grown > 0.0) {
+        for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+          z += grown * spec.relief[layer].amplitude_m * layers[layer].At(east, north);
+        }
+      }
+      heights.push_back(static_cast<float>(z));
+    }
+  }
+  const terrain::ElevationGrid::Frame frame{spec.columns, spec.rows, spec.west_m, spec.south_m,
+                                            spec.west_m + (spec.columns - 1) * spec.spacing_m,
+                                            spec.south_m + (spec.rows - 1) * spec.spacing_m};
+  return terrain::ElevationGrid(frame, std::move(heights), spec.projection_wkt);
+}
+
+}  // namespace rodeira::road

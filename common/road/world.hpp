@@ -1,0 +1,90 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/hash.hpp"
+#include "common/base/result.hpp"
+#include "common/road/road.hpp"
+#include "common/road/world_spec.hpp"
+#include "common/terrain/elevation_grid.hpp"
+#include "common/terrain/ground.hpp"
+
+namespace rodeira::road {
+
+// The rectangle in which the ground is known; infinite for a plane.
+struct Extents {
+  double west_m = 0.0;
+  double south_m = 0.0;
+  double east_m = 0.0;
+  double north_m = 0.0;
+};
+
+// The ground at a point as height and slopes: the upward normal is (-slope_x, -slope_y, 1), normalised.
+struct SurfacePoint {
+  double z_m = 0.0;
+  double slope_x = 0.0;  // dz/dx
+  double slope_y = 0.0;  // dz/dy
+  double friction = 0.0;
+  terrain::Surface surface = terrain::Surface::kOutside;
+  bool inside = false;
+};
+
+// A world: terrain (an elevation grid or a plane), roads, their marks. Immutable and shared; the same file gives the
+// same content hash, and the same content hash the same answers, bit by bit.
+class World : public std::enable_shared_from_this<World> {
+ public:
+  // Reads a world file (docs/formats.md) and all files that it names. Wrong input where anything is missing, broken,
+  // out of range or does not fit together.
+  static base::Result<std::shared_ptr<const World>> Load(const std::filesystem::path& world_yaml);
+  // The same from a text; `name` stands for the path in messages, and relative paths start at its folder.
+  static base::Result<std::shared_ptr<const World>> Parse(std::string_view text, const std::filesystem::path& name);
+  // From its parts, which must fit together as a world file's do.
+  static std::shared_ptr<const World> Make(WorldSpec spec);
+
+  const std::string& name() const { return name_; }
+  std::span<const Road> roads() const { return roads_; }
+  // The elevation grid under the roads, for meshes, or null for a plane. Near a road the ground is not the grid's:
+  // ask MakeGround() for heights.
+  const terrain::ElevationGrid* grid() const { return grid_.get(); }
+  const std::optional<PlaneSpec>& plane() const { return plane_; }
+  Extents extents() const;
+  const StartPose& start() const { return start_; }
+  terrain::Surface terrain_surface() const { return terrain_surface_; }
+  double terrain_friction() const { return terrain_friction_; }
+  double Friction(terrain::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
+
+  // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. One surface lies over each
+  // point as yet, so the height hint chooses nothing.
+  std::unique_ptr<terrain::Ground> MakeGround() const;
+  // One of its answers: the road within its verges, the terrain beyond the blend, and between them both, weighted by
+  // 3 u^2 - 2 u^3 of the distance from the verge over the blend's width.
+  SurfacePoint At(double x_m, double y_m) const;
+  // The terrain without any road.
+  SurfacePoint TerrainAt(double x_m, double y_m) const;
+
+  // Of everything that can change an answer (numbers of roads, lanes, marks, terrain, friction, start), and of nothing
+  // else: names, comments, paths, the coordinate system's name, the order of keys.
+  base::Digest content_hash() const { return content_hash_; }
+
+ private:
+  explicit World(WorldSpec spec);
+  void LayRoad(const Road& road, double x_m, double y_m, SurfacePoint& point) const;
+
+  std::string name_;
+  std::vector<Road> roads_;
+  std::shared_ptr<const terrain::ElevationGrid> grid_;
+  std::optional<PlaneSpec> plane_;
+  terrain::Surface terrain_surface_;
+  double terrain_friction_;
+  FrictionTable friction_;
+  StartPose start_;
+  base::Digest content_hash_ = 0;
+};
+
+}  // namespace rodeira::road

@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include "common/base/files.hpp"
+#include "common/config/config.hpp"
+#include "common/road/world_reader.hpp"
+#include "common/road/world_report.hpp"
+#include "common/terrain/bt.hpp"
+
+namespace rodeira::road {
+namespace {
+
+// The world file's text with another 'terrain:' block; everything else, comments too, stays as it is.
+std::string WithTerrain(const std::string& text, const std::string& block) {
+  std::string out;
+  bool within = false;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+    const std::string line = text.substr(at, end - at);
+    at = end;
+    const bool top_level = line[0] != ' ' && line[0] != '\t' && line[0] != '#' && line[0] != '\n' && line[0] != '\r';
+    if (top_level) within = line.starts_with("terrain:");
+    if (top_level && within) out += block;
+    const bool blank = line.find_first_not_of(" \t\r\n") == std::string::npos;
+    if (!within || blank) out += line;
+  }
+  return out;
+}
+
+}  // namespace
+
+base::Result<std::string> BuildWorld(const std::filesystem::path& world_yaml, const std::filesystem::path& folder) {
+  const auto file = config::File::Load(world_yaml);
+  if (!file) return file.error();
+  WorldReading reading = ReadWorld(file.value());
+  if (!reading.spec) return reading.problems.front();
+  if (!reading.hills) {
+    return base::WrongInput("there is nothing to build: a world whose 'terrain' says 'generate' was expected", world_yaml.string());
+  }
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  if (!std::filesystem::is_directory(folder, problem)) return base::WrongInput("this is no folder, and none can be made", folder.string());
+  const auto target = folder / world_yaml.filename();
+  if (std::filesystem::equivalent(target, world_yaml, problem)) {
+    return base::WrongInput("the world file itself would be overwritten; another folder was expected", folder.string());
+  }
+  auto elevation = target;
+  elevation.replace_extension(".bt");
+  const auto surface = terrain::SurfaceName(reading.spec->terrain_surface);
+  const std::string text = WithTerrain(file.value().text(), fmt::format("terrain:\n  surface: {}\n  file: {}\n", surface, elevation.filename().string()));
+  const auto wanted = World::Make(*reading.spec);
+
+  if (const auto written = terrain::WriteBt(elevation, *wanted->grid()); !written) return written.error();
+  const auto again = World::Parse(text, target);
+  if (!again) return base::Failed(fmt::format("the world built cannot be read: {}", again.error().Text()), world_yaml.string());
+  if (again.value()->content_hash() != wanted->content_hash()) {
+    return base::Failed("the world built is not the same world; write 'terrain:' as a block of its own at the top level", world_yaml.string());
+  }
+  if (const auto written = base::WriteWhole(target, text); !written) return written.error();
+  std::string report = fmt::format("{}\n", elevation.string());
+  if (!wanted->grid()->projection_wkt().empty()) report += fmt::format("{}\n", std::filesystem::path(elevation).replace_extension(".prj").string());
+  return report + fmt::format("{}\ncontent_hash: {}\n", target.string(), base::Hex(wanted->content_hash()));
+}
+
+}  // namespace rodeira::road

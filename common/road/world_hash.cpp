@@ -1,0 +1,71 @@
+#include "common/road/world_hash.hpp"
+
+#include "common/base/bytes.hpp"
+
+namespace rodeira::road {
+namespace {
+
+class Canonical {
+ public:
+  void Put(double value) { out_.Put(value + 0.0); }  // -0 is 0
+  void Put(int value) { out_.Put(static_cast<std::int64_t>(value)); }
+  void Put(std::size_t value) { out_.Put(static_cast<std::uint64_t>(value)); }
+  void Put(terrain::Surface value) { out_.Put(static_cast<std::uint64_t>(value)); }
+  void Put(MarkColour value) { out_.Put(static_cast<std::uint64_t>(value)); }
+  template <class... Values>
+  void PutAll(Values... values) {
+    (Put(values), ...);
+  }
+  base::ByteWriter& out() { return out_; }
+
+ private:
+  base::ByteWriter out_;
+};
+
+void PutSection(Canonical& canonical, const SectionSpec& section) {
+  canonical.Put(section.lanes.size());
+  for (const Lane& lane : section.lanes) canonical.PutAll(lane.id, lane.direction, lane.width_m, lane.speed_limit_mps);
+  canonical.PutAll(section.fall_left, section.fall_right, section.surface);
+  for (const Shoulder* shoulder : {&section.left, &section.right}) {
+    canonical.PutAll(shoulder->width_m, shoulder->fall, shoulder->surface);
+  }
+  canonical.PutAll(section.verge.width_m, section.verge.fall, section.verge.surface, section.blend_m);
+}
+
+void PutRoad(Canonical& canonical, const RoadSpec& road) {
+  canonical.PutAll(road.start_W.x(), road.start_W.y(), road.heading_rad, road.pieces.size());
+  for (const geometry::PlanPiece& piece : road.pieces) {
+    canonical.PutAll(piece.length_m, piece.curvature_start_1pm, piece.curvature_end_1pm);
+  }
+  canonical.Put(road.grade_points.size());
+  for (const geometry::GradePoint& point : road.grade_points) canonical.PutAll(point.s_m, point.z_m, point.parabola_m);
+  PutSection(canonical, road.section);
+  canonical.Put(road.marks.size());
+  for (const Mark& mark : road.marks) {
+    canonical.PutAll(mark.t_m, mark.width_m, mark.from_s_m, mark.to_s_m, mark.stroke_m, mark.gap_m, mark.colour);
+  }
+}
+
+}  // namespace
+
+base::Digest ContentHash(const WorldSpec& spec) {
+  Canonical canonical;
+  canonical.out().PutString("rodeira world/1");
+  canonical.Put(spec.roads.size());
+  for (const RoadSpec& road : spec.roads) PutRoad(canonical, road);
+  if (spec.grid != nullptr) {
+    const terrain::ElevationGrid::Frame& frame = spec.grid->frame();
+    canonical.PutAll(1, frame.columns, frame.rows, frame.west_m, frame.south_m, frame.east_m, frame.north_m);
+    canonical.out().PutRaw(std::as_bytes(spec.grid->heights_m()));
+  } else if (spec.plane) {
+    canonical.PutAll(2, spec.plane->z_m, spec.plane->slope_x, spec.plane->slope_y);
+  }
+  canonical.Put(spec.terrain_surface);
+  canonical.Put(spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)]));
+  for (const double friction : spec.friction) canonical.Put(friction);
+  const StartPose& start = spec.start;
+  canonical.PutAll(start.x_m, start.y_m, start.heading_rad, start.road, start.lane, start.s_m);
+  return base::Hash(canonical.out().bytes());
+}
+
+}  // namespace rodeira::road

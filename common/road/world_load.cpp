@@ -1,0 +1,23 @@
+#include "common/config/config.hpp"
+#include "common/road/world.hpp"
+#include "common/road/world_reader.hpp"
+
+namespace rodeira::road {
+namespace {
+
+base::Result<std::shared_ptr<const World>> Build(const base::Result<config::File>& file) {
+  if (!file) return file.error();
+  WorldReading reading = ReadWorld(file.value());
+  if (!reading.spec) return reading.problems.front();
+  return World::Make(std::move(*reading.spec));
+}
+
+}  // namespace
+
+base::Result<std::shared_ptr<const World>> World::Load(const std::filesystem::path& world_yaml) { return Build(config::File::Load(world_yaml)); }
+
+base::Result<std::shared_ptr<const World>> World::Parse(std::string_view text, const std::filesystem::path& name) {
+  return Build(config::File::Parse(text, name));
+}
+
+}  // namespace rodeira::road

@@ -1,0 +1,167 @@
+#include "common/road/world_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace rodeira::road {
+namespace {
+
+constexpr double kPicture = 1000.0;  // the longer edge, in SVG units
+constexpr int kTiles = 160;          // shaded squares and contour cells along that edge
+
+// Heights seen through a raster of points, and the way from world to picture.
+struct View {
+  Extents extents;
+  double scale;
+  int columns, rows;
+  std::vector<double> heights;  // NaN outside
+  double low, high;
+
+  double X(double x_m) const { return (x_m - extents.west_m) * scale; }
+  double Y(double y_m) const { return (extents.north_m - y_m) * scale; }
+  Eigen::Vector2d At(int column, int row) const {
+    return {extents.west_m + (extents.east_m - extents.west_m) * column / columns,
+            extents.south_m + (extents.north_m - extents.south_m) * row / rows};
+  }
+  double Height(int column, int row) const { return heights[static_cast<std::size_t>(row) * (columns + 1) + column]; }
+};
+
+// A plane has no edge: the picture then shows the roads, or 100 m about the start.
+Extents Frame(const World& world) {
+  Extents extents = world.extents();
+  if (world.grid() != nullptr) return extents;
+  extents = {world.start().x_m - 100.0, world.start().y_m - 100.0, world.start().x_m + 100.0, world.start().y_m + 100.0};
+  for (const Road& road : world.roads()) {
+    extents.west_m = std::min(extents.west_m, road.plan().low_W().x() - 50.0);
+    extents.south_m = std::min(extents.south_m, road.plan().low_W().y() - 50.0);
+    extents.east_m = std::max(extents.east_m, road.plan().high_W().x() + 50.0);
+    extents.north_m = std::max(extents.north_m, road.plan().high_W().y() + 50.0);
+  }
+  return extents;
+}
+
+View Look(const World& world) {
+  View view{Frame(world), 0.0, 0, 0, {}, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const double width = view.extents.east_m - view.extents.west_m, height = view.extents.north_m - view.extents.south_m;
+  view.scale = kPicture / std::max(width, height);
+  view.columns = std::max(1, static_cast<int>(kTiles * width / std::max(width, height)));
+  view.rows = std::max(1, static_cast<int>(kTiles * height / std::max(width, height)));
+  for (int row = 0; row <= view.rows; ++row) {
+    for (int column = 0; column <= view.columns; ++column) {
+      const Eigen::Vector2d p = view.At(column, row);
+      const SurfacePoint point = world.At(p.x(), p.y());
+      view.heights.push_back(point.inside ? point.z_m : std::numeric_limits<double>::quiet_NaN());
+      if (!point.inside) continue;
+      view.low = std::min(view.low, point.z_m);
+      view.high = std::max(view.high, point.z_m);
+    }
+  }
+  return view;
+}
+
+// Green valleys, brown hills, pale tops; darker where the slope turns away from a light in the north-west.
+std::string Shades(const View& view) {
+  std::string svg;
+  const double dx = (view.extents.east_m - view.extents.west_m) / view.columns, dy = (view.extents.north_m - view.extents.south_m) / view.rows;
+  for (int row = 0; row < view.rows; ++row) {
+    for (int column = 0; column < view.columns; ++column) {
+      const double z = view.Height(column, row);
+      const double slope_x = (view.Height(column + 1, row) - z) / dx, slope_y = (view.Height(column, row + 1) - z) / dy;
+      if (std::isnan(slope_x + slope_y)) continue;
+      const double light = (1.0 + 0.9 * slope_x - 0.9 * slope_y) / (1.6 * std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y));
+      const double shade = 0.35 + 0.65 * std::clamp(light, 0.0, 1.0);
+      const double u = view.high > view.low ? (z - view.low) / (view.high - view.low) : 0.5;
+      const auto mix = [&](double valley, double hill, double top) {
+        const double value = u < 0.5 ? valley + (hill - valley) * 2.0 * u : hill + (top - hill) * (2.0 * u - 1.0);
+        return static_cast<int>(std::clamp(value * shade, 0.0, 255.0));
+      };
+      const Eigen::Vector2d p = view.At(column, row + 1);
+      svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#{:02x}{:02x}{:02x}\"/>\n", view.X(p.x()),
+                         view.Y(p.y()), dx * view.scale + 0.3, dy * view.scale + 0.3, mix(120, 205, 250), mix(170, 180, 245), mix(105, 125, 235));
+    }
+  }
+  return svg;
+}
+
+double ContourStep(double range_m) {
+  for (const double step : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0}) {
+    if (range_m / step <= 25.0) return step;
+  }
+  return 500.0;
+}
+
+// Where a level crosses the two triangles of each cell.
+std::string Contours(const View& view, double step) {
+  std::string path;
+  for (int row = 0; row < view.rows; ++row) {
+    for (int column = 0; column < view.columns; ++column) {
+      for (const int half : {0, 1}) {
+        const std::array<std::array<int, 2>, 3> corners = {{{column + half, row + half}, {column + 1, row}, {column, row + 1}}};
+        std::array<double, 3> z{};
+        for (int i = 0; i < 3; ++i) z[i] = view.Height(corners[i][0], corners[i][1]);
+        const auto [low, high] = std::minmax_element(z.begin(), z.end());
+        if (std::isnan(z[0] + z[1] + z[2])) continue;
+        for (double level = std::ceil(*low / step) * step; level < *high; level += step) {
+          bool first = true;
+          for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            if ((z[i] < level) == (z[j] < level)) continue;
+            const double u = (level - z[i]) / (z[j] - z[i]);
+            const Eigen::Vector2d p = (1.0 - u) * view.At(corners[i][0], corners[i][1]) + u * view.At(corners[j][0], corners[j][1]);
+            path += fmt::format("{}{:.1f} {:.1f}", first ? "M" : "L", view.X(p.x()), view.Y(p.y()));
+            first = false;
+          }
+        }
+      }
+    }
+  }
+  return path;
+}
+
+std::string Roads(const World& world, const View& view) {
+  std::string svg;
+  for (const Road& road : world.roads()) {
+    std::string path;
+    for (double s = 0.0;; s += 2.0) {
+      const Eigen::Vector3d p = road.Evaluate(s).p_W;
+      path += fmt::format("{}{:.2f} {:.2f}", s == 0.0 ? "M" : "L", view.X(p.x()), view.Y(p.y()));
+      if (s >= road.length_m()) break;
+    }
+    const double width = std::max(2.0, (road.section().paved_left_m() - road.section().paved_right_m()) * view.scale);
+    svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#ffffff\" stroke-width=\"{:.1f}\"/>\n", path, width + 2.0);
+    svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#303038\" stroke-width=\"{:.1f}\"/>\n", path, width);
+    for (double s = 0.0; s <= road.length_m(); s += 1000.0) {
+      const Eigen::Vector3d p = road.Evaluate(s).p_W;
+      svg += fmt::format("<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"4\" fill=\"#ffffff\" stroke=\"#303038\"/>\n"
+                         "<text x=\"{2:.1f}\" y=\"{1:.1f}\" font-family=\"sans-serif\" font-size=\"14\">{3:.0f} km</text>\n",
+                         view.X(p.x()), view.Y(p.y()), view.X(p.x()) + 7.0, s / 1000.0);
+    }
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::string PlotWorld(const World& world) {
+  const View view = Look(world);
+  const double width = (view.extents.east_m - view.extents.west_m) * view.scale;
+  const double height = (view.extents.north_m - view.extents.south_m) * view.scale;
+  const double step = ContourStep(view.high - view.low);
+  std::string svg = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n", width, height + 24.0);
+  svg += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + Shades(view);
+  svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#5a4630\" stroke-opacity=\"0.45\" stroke-width=\"0.6\"/>\n", Contours(view, step));
+  svg += Roads(world, view);
+  const double sx = view.X(world.start().x_m), sy = view.Y(world.start().y_m);
+  svg += fmt::format("<path d=\"M0 0L-11 5L-11 -5Z\" fill=\"#c02020\" transform=\"translate({:.1f} {:.1f}) rotate({:.1f})\"/>\n", sx, sy,
+                     -world.start().heading_rad * 180.0 / 3.14159265358979);
+  svg += fmt::format("<text x=\"4\" y=\"{:.0f}\" font-family=\"sans-serif\" font-size=\"14\">{:.0f} m wide, heights {:.1f} to {:.1f} m, contours every {:.0f} m</text>\n",
+                     height + 17.0, view.extents.east_m - view.extents.west_m, view.low, view.high, step);
+  return svg + "</svg>\n";
+}
+
+}  // namespace rodeira::road

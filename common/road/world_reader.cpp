@@ -1,0 +1,186 @@
+#include "common/road/world_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "common/base/suggest.hpp"
+#include "common/geometry/angle.hpp"
+#include "common/road/road_reader.hpp"
+#include "common/road/world_fit.hpp"
+#include "common/terrain/elevation_file.hpp"
+
+namespace rodeira::road {
+namespace {
+
+using config::List;
+using config::Map;
+using config::Range;
+
+constexpr const char* kVersion = "world/1";
+
+void ReadVersion(const Map& root) {
+  const std::string version = root.Text("rodeira");
+  if (root.Has("rodeira") && version != kVersion) {
+    root.Problem("rodeira", fmt::format("'rodeira' is '{}'; a world file of this program says '{}'", version, kVersion));
+  }
+}
+
+HillsSpec ReadHills(const Map& map) {
+  HillsSpec hills;
+  hills.seed = static_cast<std::uint64_t>(map.Integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  hills.columns = static_cast<int>(map.Integer("columns", 2, 8193));
+  hills.rows = static_cast<int>(map.Integer("rows", 2, 8193));
+  hills.spacing_m = map.Number("spacing_m", {0.1, 1000.0});
+  hills.west_m = map.Number("west_m", {-1e8, 1e8});
+  hills.south_m = map.Number("south_m", {-1e8, 1e8});
+  hills.base_z_m = map.Number("base_z_m", {-12'000.0, 12'000.0}, 0.0);
+  hills.below_m = map.Number("below_m", {-50.0, 50.0}, 0.0);
+  hills.flat_m = map.Number("flat_m", {0.1, 10'000.0}, 15.0);
+  hills.full_m = map.Number("full_m", {0.2, 100'000.0}, 200.0);
+  if (hills.full_m <= hills.flat_m) map.Problem("full_m", "'full_m' must be greater than 'flat_m': the hills grow between them");
+  const List relief = map.Items("relief");
+  for (std::size_t i = 0; i < relief.size(); ++i) {
+    const Map layer = relief.At(i);
+    hills.relief.push_back({layer.Number("wavelength_m", {1.0, 1e6}), layer.Number("amplitude_m", {0.0, 10'000.0})});
+    const double nodes = hills.columns * hills.spacing_m / hills.relief.back().wavelength_m * hills.rows * hills.spacing_m /
+                         hills.relief.back().wavelength_m;
+    if (nodes > 1e8) layer.Problem("wavelength_m", "the wavelength is too short for a terrain of this size");
+  }
+  if (map.Has("projection")) {
+    auto wkt = terrain::ProjectionWkt(map.Text("projection"));
+    if (wkt) hills.projection_wkt = std::move(wkt).value();
+    else map.Problem("projection", wkt.error().message);
+  }
+  return hills;
+}
+
+void ReadFriction(const Map& map, WorldSpec& spec) {
+  using terrain::Surface;
+  for (const Surface surface : {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil, Surface::kRoadMark}) {
+    double& friction = spec.friction[static_cast<std::size_t>(surface)];
+    friction = map.Number(SurfaceName(surface), {0.01, 2.0}, friction);
+  }
+}
+
+void ReadPlane(const Map& map, WorldSpec& spec) {
+  (void)map.Choice("kind", {"plane"});
+  spec.plane = PlaneSpec{map.Number("z_m", {-12'000.0, 12'000.0}, 0.0), map.Number("slope_x", {-1.0, 1.0}, 0.0),
+                         map.Number("slope_y", {-1.0, 1.0}, 0.0)};
+  spec.terrain_surface = ReadSurface(map, "surface", terrain::Surface::kAsphalt);
+  if (map.Has("friction")) spec.terrain_friction = map.Number("friction", {0.01, 2.0});
+}
+
+// On a road: its index, lane and s, from which the rest follows once the road stands. Elsewhere: the pose itself.
+void ReadStart(const Map& map, const std::vector<RoadSpec>& roads, StartPose& start) {
+  const auto radians = [](double degrees) { return geometry::WrapAngle(degrees * geometry::kPi / 180.0); };
+  if (!map.Has("road") && (roads.empty() || map.Has("x_m") || map.Has("y_m"))) {
+    start.x_m = map.Number("x_m", {-1e8, 1e8});
+    start.y_m = map.Number("y_m", {-1e8, 1e8});
+    start.heading_rad = radians(map.Number("heading_deg", {-360.0, 360.0}, 0.0));
+    return;
+  }
+  const std::string id = map.Text("road", roads.empty() ? "" : roads.front().id);
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < roads.size(); ++i) {
+    ids.push_back(roads[i].id);
+    if (roads[i].id == id) start.road = static_cast<int>(i);
+  }
+  if (start.road < 0) return map.Problem("road", fmt::format("there is no road '{}'{}", id, base::DidYouMean(id, ids)));
+  start.lane = static_cast<int>(map.Integer("lane", -20, 20, -1));
+  start.s_m = map.Number("s_m", Range::NotNegative(), 0.0);
+  bool known = false;
+  for (const Lane& lane : roads[static_cast<std::size_t>(start.road)].section.lanes) known |= lane.id == start.lane;
+  if (!known) map.Problem("lane", fmt::format("road '{}' has no lane {}", id, start.lane));
+}
+
+// All keys of the file. What needs other files or the finished roads comes afterwards.
+struct Keys {
+  WorldSpec spec;
+  std::optional<HillsSpec> hills;
+  std::optional<std::filesystem::path> elevation_file;
+};
+
+Keys ReadKeys(const Map& root) {
+  Keys keys;
+  ReadVersion(root);
+  keys.spec.name = root.Text("name");
+  (void)root.Text("description", "");
+  ReadFriction(root.OptionalChild("friction"), keys.spec);
+  if (root.Has("ground") == root.Has("terrain")) {
+    root.Problem(root.Has("ground") ? "ground" : "", "a world stands either on 'terrain' (an elevation file, or hills) or on 'ground' (a plane)");
+  }
+  if (root.Has("ground")) ReadPlane(root.Child("ground"), keys.spec);
+  const Map terrain = root.OptionalChild("terrain");
+  if (root.Has("terrain")) {
+    keys.spec.terrain_surface = ReadSurface(terrain, "surface", terrain::Surface::kGrass);
+    keys.elevation_file = terrain.OptionalPath("file");
+    const Map hills = terrain.OptionalChild("generate");
+    if (terrain.Has("generate")) keys.hills = ReadHills(hills);
+    if (terrain.Has("generate") == terrain.Has("file")) terrain.Problem("file", "'terrain' needs either 'file' or 'generate'");
+  }
+  const List roads = root.OptionalItems("roads");
+  for (std::size_t i = 0; i < roads.size(); ++i) keys.spec.roads.push_back(ReadRoad(roads.At(i)));
+  if (roads.size() > 1) roads.Problem(1, "a second road; one road a world is what can be built as yet");
+  if (root.Has("start")) ReadStart(root.Child("start"), keys.spec.roads, keys.spec.start);
+  return keys;
+}
+
+void PutStart(const Map& root, const std::vector<Road>& roads, const WorldSpec& spec, StartPose& start) {
+  const Map map = root.OptionalChild("start");
+  if (!root.Has("start")) {  // a lane in its direction where there is one, otherwise the middle of the terrain
+    if (!roads.empty()) {
+      start.road = 0;
+      start.lane = roads[0].lanes().front().id;
+    } else if (spec.grid != nullptr) {
+      start.x_m = 0.5 * (spec.grid->frame().west_m + spec.grid->frame().east_m);
+      start.y_m = 0.5 * (spec.grid->frame().south_m + spec.grid->frame().north_m);
+    }
+  }
+  if (start.road >= 0) {
+    const Road& road = roads[static_cast<std::size_t>(start.road)];
+    const Lane& lane = *road.section().FindLane(start.lane);
+    if (start.s_m > road.length_m()) {
+      map.Problem("s_m", fmt::format("'start.s_m' is {}; the road is {:.3f} m long", start.s_m, road.length_m()));
+    }
+    const Eigen::Vector3d p = road.Position(start.s_m, lane.centre_t_m());
+    start.x_m = p.x();
+    start.y_m = p.y();
+    const double turned = lane.direction > 0 ? 0.0 : geometry::kPi;
+    start.heading_rad = geometry::WrapAngle(road.Evaluate(start.s_m).heading_rad + turned);
+  } else if (spec.grid != nullptr && !spec.grid->At(start.x_m, start.y_m).inside) {
+    map.Problem("x_m", fmt::format("the start ({}, {}) lies outside the terrain", start.x_m, start.y_m));
+  }
+}
+
+}  // namespace
+
+WorldReading ReadWorld(const config::File& file) {
+  const Map root = file.root();
+  Keys keys = ReadKeys(root);
+  WorldReading reading;
+  reading.problems = file.Problems();
+  if (!reading.problems.empty()) return reading;
+
+  std::vector<Road> roads;
+  for (const RoadSpec& road : keys.spec.roads) roads.emplace_back(road);
+  if (keys.elevation_file) {
+    auto grid = terrain::LoadElevation(*keys.elevation_file);
+    if (!grid) {
+      reading.problems.push_back(grid.error());
+      return reading;
+    }
+    keys.spec.grid = std::move(grid).value();
+  } else if (keys.hills) {
+    keys.spec.grid = std::make_shared<const terrain::ElevationGrid>(MakeHills(*keys.hills, roads));
+  }
+  PutStart(root, roads, keys.spec, keys.spec.start);
+  for (std::size_t i = 0; i < roads.size(); ++i) CheckRoadFits(roads[i], keys.spec.grid.get(), root.Items("roads").At(i));
+  reading.problems = file.Problems();
+  reading.hills = std::move(keys.hills);
+  if (reading.problems.empty()) reading.spec = std::move(keys.spec);
+  return reading;
+}
+
+}  // namespace rodeira::road

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/config/config.hpp"
+#include "common/road/hills.hpp"
+#include "common/road/world_spec.hpp"
+
+namespace rodeira::road {
+
+// What a world file says. There is a spec where there are no problems.
+struct WorldReading {
+  std::optional<WorldSpec> spec;
+  std::optional<HillsSpec> hills;  // where the terrain is generated
+  std::vector<base::Error> problems;
+};
+
+// Reads a world file (docs/formats.md) with the files that it names, makes its hills, and checks that all fits together.
+WorldReading ReadWorld(const config::File& file);
+
+}  // namespace rodeira::road

@@ -1,0 +1,134 @@
+#include "common/road/world_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/config/config.hpp"
+#include "common/geometry/angle.hpp"
+#include "common/road/world_reader.hpp"
+
+namespace rodeira::road {
+namespace {
+
+double Degrees(double angle_rad) { return angle_rad * 180.0 / geometry::kPi; }
+
+// How much the terrain is cut or filled to meet the road's verges, and the steepest slope of the blend.
+struct Earthwork {
+  double cut_m = 0.0;
+  double fill_m = 0.0;
+  double steepest = 0.0;
+};
+
+Earthwork EarthworkOf(const World& world, const Road& road) {
+  Earthwork work;
+  const Section& section = road.section();
+  for (double s = 0.0; s < road.length_m(); s += 5.0) {
+    for (const double side : {1.0, -1.0}) {
+      const double verge = side > 0.0 ? section.verge_left_m() : section.verge_right_m();
+      const Eigen::Vector3d edge = road.Position(s, verge);
+      const SurfacePoint terrain = world.TerrainAt(edge.x(), edge.y());
+      if (terrain.inside) {
+        work.cut_m = std::max(work.cut_m, terrain.z_m - edge.z());
+        work.fill_m = std::max(work.fill_m, edge.z() - terrain.z_m);
+      }
+      for (double out = 0.5; out < section.spec().blend_m; out += 0.5) {
+        const Eigen::Vector3d p = road.Position(s, verge + side * out);
+        const SurfacePoint at = world.At(p.x(), p.y());
+        if (at.inside) work.steepest = std::max(work.steepest, std::hypot(at.slope_x, at.slope_y));
+      }
+    }
+  }
+  return work;
+}
+
+std::string DescribeRoad(const World& world, const Road& road) {
+  double sharpest = 0.0, least = 0.0, steepest_up = 0.0, steepest_down = 0.0, turned = 0.0;
+  int bends = 0, side = 0;
+  for (const geometry::PlanPiece& piece : road.plan().pieces()) {
+    sharpest = std::max({sharpest, std::fabs(piece.curvature_start_1pm), std::fabs(piece.curvature_end_1pm)});
+    turned += 0.5 * std::fabs(piece.curvature_start_1pm + piece.curvature_end_1pm) * piece.length_m;
+    const double curvature = piece.curvature_start_1pm + piece.curvature_end_1pm;
+    const int now = curvature > 0.0 ? 1 : (curvature < 0.0 ? -1 : 0);
+    if (now != 0 && now != side) ++bends;
+    side = now;
+  }
+  double lowest = std::numeric_limits<double>::infinity();
+  least = -lowest;
+  for (double s = 0.0; s <= road.length_m(); s += 1.0) {
+    const geometry::ProfilePoint at = road.profile().Evaluate(s);
+    lowest = std::min(lowest, at.z_m);
+    least = std::max(least, at.z_m);
+    steepest_up = std::max(steepest_up, at.grade);
+    steepest_down = std::min(steepest_down, at.grade);
+  }
+  const Earthwork work = EarthworkOf(world, road);
+  std::string text = fmt::format("road {}\n", road.id());
+  text += fmt::format("  length_m: {:.3f}\n  bends: {} ({:.1f} a km, {:.0f} degrees turned a km)\n", road.length_m(), bends,
+                      1000.0 * bends / road.length_m(), Degrees(turned) * 1000.0 / road.length_m());
+  if (sharpest > 0.0) text += fmt::format("  smallest_radius_m: {:.6g}\n", 1.0 / sharpest);
+  text += fmt::format("  heights_m: {:.2f} to {:.2f}\n  grades: {:.2f} % to {:.2f} %\n", lowest, least, 100.0 * steepest_down, 100.0 * steepest_up);
+  for (const Lane& lane : road.lanes()) {
+    text += fmt::format("  lane {}: {} s, width_m {:.2f}, speed limit {:.0f} km/h\n", lane.id, lane.direction > 0 ? "along" : "against",
+                        lane.width_m, lane.speed_limit_mps * 3.6);
+  }
+  text += fmt::format("  marks: {}\n  earthwork: cut {:.2f} m and fill {:.2f} m at most, steepest slope {:.2f}\n", road.marks().size(),
+                      work.cut_m, work.fill_m, work.steepest);
+  return text;
+}
+
+}  // namespace
+
+std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml) {
+  const auto file = config::File::Load(world_yaml);
+  if (!file) return {file.error()};
+  return ReadWorld(file.value()).problems;
+}
+
+std::string DescribeWorld(const World& world) {
+  std::string text = fmt::format("world {}\ncontent_hash: {}\n", world.name(), base::Hex(world.content_hash()));
+  if (const terrain::ElevationGrid* grid = world.grid()) {
+    float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
+    std::size_t voids = 0;
+    for (const float height : grid->heights_m()) {
+      if (height == terrain::ElevationGrid::kVoid) ++voids;
+      else low = std::min(low, height), high = std::max(high, height);
+    }
+    const terrain::ElevationGrid::Frame& frame = grid->frame();
+    text += fmt::format("terrain: {} x {} heights every {:.6g} m x {:.6g} m, {:.2f} m to {:.2f} m, {} void\n", frame.columns, frame.rows,
+                        grid->spacing_x_m(), grid->spacing_y_m(), low, high, voids);
+    text += fmt::format("extents_m: x {:.3f} to {:.3f}, y {:.3f} to {:.3f}\n", frame.west_m, frame.east_m, frame.south_m, frame.north_m);
+    const std::string& wkt = grid->projection_wkt();
+    text += fmt::format("projection: {}\n", wkt.empty() ? "none" : wkt.substr(0, 70) + (wkt.size() > 70 ? "…" : ""));
+  } else {
+    text += fmt::format("ground: a plane, z_m = {} + {} x + {} y\n", world.plane()->z_m, world.plane()->slope_x, world.plane()->slope_y);
+  }
+  for (const Road& road : world.roads()) text += DescribeRoad(world, road);
+  const StartPose& start = world.start();
+  text += fmt::format("start: x_m {:.3f}, y_m {:.3f}, heading {:.2f} degrees", start.x_m, start.y_m, Degrees(start.heading_rad));
+  if (start.road >= 0) text += fmt::format(" (road {}, lane {}, s_m {:.3f})", world.roads()[start.road].id(), start.lane, start.s_m);
+  return text + "\n";
+}
+
+std::string DescribePoint(const World& world, double x_m, double y_m, std::optional<double> z_hint_m) {
+  const terrain::GroundPoint at = world.MakeGround()->At(x_m, y_m, z_hint_m.value_or(std::numeric_limits<double>::quiet_NaN()));
+  std::string text = fmt::format("x_m: {}\ny_m: {}\n", x_m, y_m);
+  if (!at.inside) {
+    const Extents extents = world.extents();
+    return text + fmt::format("inside: false\nextents_m: x {:.3f} to {:.3f}, y {:.3f} to {:.3f}\n", extents.west_m, extents.east_m,
+                              extents.south_m, extents.north_m);
+  }
+  text += fmt::format("inside: true\nz_m: {:.7f}\nnormal: [{:.9f}, {:.9f}, {:.9f}]\nfriction: {}\nsurface: {}\n", at.z_m, at.normal_W.x(),
+                      at.normal_W.y(), at.normal_W.z(), at.friction, SurfaceName(at.surface));
+  for (const Road& road : world.roads()) {
+    const auto place = road.Locate(x_m, y_m, z_hint_m);
+    if (!place || std::fabs(place->t_m) > road.section().reach_m()) continue;
+    const Lane* lane = road.LaneAt(place->s_m, place->t_m);
+    text += fmt::format("road: {}\ns_m: {:.6f}\nt_m: {:.6f}\nlane: {}\n", road.id(), place->s_m, place->t_m, lane == nullptr ? "none" : std::to_string(lane->id));
+  }
+  return text;
+}
+
+}  // namespace rodeira::road

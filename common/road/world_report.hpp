@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/road/world.hpp"
+
+// What stands behind `rodeira world check | info | query | build`: texts for people, ending in a newline.
+namespace rodeira::road {
+
+// Every problem of a world file, in the order of its lines; none where World::Load would succeed.
+std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml);
+
+// Name, content hash, extents, start; each road's length, bends, grades, lanes, marks, earthwork.
+std::string DescribeWorld(const World& world);
+
+// SUELO's answer at (x, y) and, where a road is near, the place on it.
+std::string DescribePoint(const World& world, double x_m, double y_m, std::optional<double> z_hint_m = std::nullopt);
+
+// Writes the generated terrain of a world as STEM.bt and STEM.prj into `folder` and beside them STEM.yaml, the same
+// world file naming the .bt instead of the generator; STEM is the world file's. That world has the same content hash,
+// or it is a failure and no world file is written. Returns what was written. Wrong input where the terrain is no
+// generated one, or where the world file itself would be overwritten.
+base::Result<std::string> BuildWorld(const std::filesystem::path& world_yaml, const std::filesystem::path& folder);
+
+}  // namespace rodeira::road

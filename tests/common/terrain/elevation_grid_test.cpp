@@ -1,0 +1,71 @@
+#include "common/terrain/elevation_grid.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "common/base/random.hpp"
+
+namespace rodeira::terrain {
+namespace {
+
+ElevationGrid Rough(int columns, int rows, std::uint64_t seed) {
+  std::vector<float> heights;
+  for (int i = 0; i < columns * rows; ++i) heights.push_back(static_cast<float>(base::RandomUniform({seed, std::uint64_t(i)}, -20.0, 20.0)));
+  return ElevationGrid({columns, rows, 100.0, 200.0, 100.0 + 10.0 * (columns - 1), 200.0 + 5.0 * (rows - 1)}, std::move(heights));
+}
+
+TEST(ElevationGrid, SplitsACellFromSouthEastToNorthWest) {
+  // Only the north-east post is raised: south-west of the diagonal nothing of it is seen.
+  const ElevationGrid grid({2, 2, 0.0, 0.0, 10.0, 10.0}, {0.0F, 0.0F, 0.0F, 8.0F});
+  EXPECT_EQ(grid.At(4.0, 5.0).z_m, 0.0);
+  EXPECT_EQ(grid.At(4.0, 5.0).normal_W(), Eigen::Vector3d::UnitZ());
+  EXPECT_NEAR(grid.At(5.0, 7.0).z_m, 8.0 * 0.2, 1e-12);  // (u + v - 1) of the height
+  EXPECT_NEAR(grid.At(10.0, 10.0).z_m, 8.0, 1e-12);
+  EXPECT_NEAR((grid.At(9.0, 9.0).normal_W() - Eigen::Vector3d(-0.8, -0.8, 1.0).normalized()).norm(), 0.0, 1e-12);
+}
+
+TEST(ElevationGrid, StandsOnItsPostsAndAllFourEdgesBelongToIt) {
+  const ElevationGrid grid = Rough(7, 5, 1);
+  for (int column = 0; column < 7; ++column) {
+    for (int row = 0; row < 5; ++row) {
+      const GridSample sample = grid.At(100.0 + 10.0 * column, 200.0 + 5.0 * row);
+      ASSERT_TRUE(sample.inside) << column << " " << row;
+      EXPECT_NEAR(sample.z_m, static_cast<double>(grid.Post(column, row)), 1e-11);
+    }
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(grid.At(std::nextafter(160.0, 200.0), 210.0).inside);
+  EXPECT_FALSE(grid.At(std::nextafter(100.0, 0.0), 210.0).inside);
+  EXPECT_FALSE(grid.At(120.0, std::nextafter(220.0, 300.0)).inside);
+  EXPECT_FALSE(grid.At(120.0, std::nextafter(200.0, 0.0)).inside);
+  EXPECT_FALSE(grid.At(nan, 210.0).inside);
+  EXPECT_FALSE(grid.At(120.0, nan).inside);
+}
+
+TEST(ElevationGrid, AVoidPostTakesItsTrianglesAway) {
+  const ElevationGrid grid({2, 2, 0.0, 0.0, 1.0, 1.0}, {ElevationGrid::kVoid, 1.0F, 1.0F, 1.0F});
+  EXPECT_FALSE(grid.At(0.2, 0.2).inside);
+  EXPECT_TRUE(grid.At(0.8, 0.8).inside);
+  EXPECT_EQ(grid.At(0.8, 0.8).z_m, 1.0);
+}
+
+RC_GTEST_PROP(ElevationGrid, HasNoCracks, (std::uint64_t seed)) {
+  // Walking a millimetre never changes the height by more than the steepest slope allows.
+  const ElevationGrid grid = Rough(6, 9, seed);
+  const double steepest = std::hypot(40.0 / 10.0, 40.0 / 5.0);
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    // Every other point lies close to a cell's edge or to its diagonal.
+    double x = base::RandomUniform({seed, i, 1}, 100.0, 150.0), y = base::RandomUniform({seed, i, 2}, 200.0, 240.0);
+    if (i % 2 == 1) x = std::round((x - 100.0) / 10.0) * 10.0 + 100.0;
+    const double angle = base::RandomUniform({seed, i, 3}, 0.0, 6.28);
+    const GridSample a = grid.At(x, y), b = grid.At(x + 1e-3 * std::cos(angle), y + 1e-3 * std::sin(angle));
+    if (!a.inside || !b.inside) continue;
+    RC_ASSERT(std::fabs(a.z_m - b.z_m) <= 1e-3 * steepest + 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::terrain
