@@ -7,48 +7,17 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
 #include "common/dds/options.hpp"
 #include "common/lockstep/in_process.hpp"
-#include "launch/node_factories.hpp"
+#include "launch/local_nodes.hpp"
 #include "launch/run_report.hpp"
-#include "nodes/road/road_service.hpp"
 
 namespace rodeira::front {
 namespace {
 
 std::atomic<bool> g_interrupted = false;
 void OnInterrupt(int) { g_interrupted = true; }
-
-// SUELO from the library itself; each node has a Ground of its own on the one world.
-class LocalContext final : public launch::NodeContext {
- public:
-  LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world)
-      : NodeContext(launch, index), world_(std::move(world)) {
-    if (world_ != nullptr) ground_ = world_->MakeGround();
-  }
-  terrain::Ground& Ground() override {
-    RODEIRA_ASSERT(ground_ != nullptr);  // World() comes first and refuses
-    return *ground_;
-  }
-  base::Result<launch::WorldSummary> World() override {
-    if (world_ == nullptr) return base::WrongInput("the launch file has no node of kind 'road', or names no world", launch().path().string());
-    return nodes::Summary(*world_);
-  }
-
- private:
-  std::shared_ptr<const road::World> world_;
-  std::unique_ptr<terrain::Ground> ground_;
-};
-
-// The world of the run, where a road server would load it.
-base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch& launch) {
-  for (const launch::LaunchNode& node : launch.nodes()) {
-    if (node.kind->name == "road") return road::World::Load(launch.world());
-  }
-  return std::shared_ptr<const road::World>();
-}
 
 RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& roster, double wall_s) {
   RunReport report;
@@ -71,31 +40,10 @@ RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& 
 
 int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   const auto& roster = launch.roster();
-  const auto world = LoadWorld(launch);
-  if (!world) {
-    fmt::print(stderr, "rodeira: {}\n", world.error().Text());
-    return world.error().exit_status();
-  }
-  std::vector<std::unique_ptr<LocalContext>> contexts;
-  std::vector<std::unique_ptr<lockstep::Node>> owned;
-  std::vector<lockstep::Node*> nodes;
-  for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    contexts.push_back(std::make_unique<LocalContext>(launch, n, world.value()));
-    nodes.push_back(nullptr);
-    if (roster.node(n).role == lockstep::Role::kService) continue;
-    const launch::NodeFactory factory = FactoryOf(roster.node(n).kind);
-    RODEIRA_ASSERT(factory != nullptr);
-    auto node = factory(*contexts.back());
-    if (!node) {
-      fmt::print(stderr, "rodeira: node '{}': {}\n", roster.node(n).name, node.error().Text());
-      return node.error().exit_status();
-    }
-    owned.push_back(std::move(node).value());
-    nodes.back() = owned.back().get();
-  }
-  if (auto status = launch.file().Finish(); !status) {
-    fmt::print(stderr, "rodeira: {}\n", status.error().Text());
-    return status.error().exit_status();
+  auto nodes = LocalNodes::Make(launch);
+  if (!nodes) {
+    fmt::print(stderr, "rodeira: {}\n", nodes.error().Text());
+    return nodes.error().exit_status();
   }
   lockstep::InProcessSettings settings;
   const auto seconds = options.duration_s ? options.duration_s : launch.duration_s();
@@ -105,7 +53,7 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   ::signal(SIGINT, OnInterrupt);
   ::signal(SIGTERM, OnInterrupt);
   const auto start = std::chrono::steady_clock::now();
-  const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes, settings);
+  const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const RunReport report = ReportOf(outcome, roster, wall_s);
   if (!outcome.ok) fmt::print(stderr, "rodeira: {}\n", outcome.fault);
