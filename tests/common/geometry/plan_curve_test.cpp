@@ -91,6 +91,19 @@ TEST(PlanCurve, BeyondTheEndsTheFootIsTheEnd) {
   EXPECT_NEAR(after.t_m, -7.0, 1e-10);
 }
 
+TEST(PlanCurve, FindsTheFootBeforeTheDistanceFallsAgain) {
+  // Seen from near its centre of curvature a tightening bend has a nearest point, then a farthest, then comes nearer
+  // again: here at s = 2 m, about 4.4 m and the end, all within one panel.
+  const PlanCurve curve({0.0, 0.0}, 0.3, {{5.0, 0.03, 0.045}}, 10.0);
+  const PlanPoint at = curve.Evaluate(2.0);
+  const Eigen::Vector2d p = at.p_W + 0.9 / at.curvature_1pm * at.left_W();
+  const auto distance = [&](double s) { return (curve.Evaluate(s).p_W - p).norm(); };
+  ASSERT_TRUE(distance(2.0) < distance(4.4) && distance(4.4) > distance(5.0) && distance(2.0) < distance(5.0));
+  const Foot foot = curve.Project(p.x(), p.y());
+  EXPECT_NEAR(foot.s_m, 2.0, 1e-9);
+  EXPECT_NEAR(foot.t_m, 0.9 / at.curvature_1pm, 1e-12);
+}
+
 RC_GTEST_PROP(PlanCurve, TheFootIsTheNearestPointOfAll, ()) {
   const PlanCurve curve = AnyCurve();
   for (int i = 0; i < 30; ++i) {
