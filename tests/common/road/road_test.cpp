@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/random.hpp"
+#include "common/road/stations.hpp"
 #include "tests/common/road/sample_world.hpp"
 
 namespace rodeira::road {
@@ -134,6 +136,29 @@ TEST(Road, IsPaintedExactlyWhereTheStrokesAre) {
       EXPECT_EQ(road.IsPainted(s, road.marks()[mark].t_m + 0.049, heading), expected) << s;
       EXPECT_FALSE(road.IsPainted(s, road.marks()[mark].t_m + 0.07, heading));
     }
+  }
+}
+
+TEST(Road, StationsKeepTheChordError) {
+  const Road& road = Sample()->roads()[0];
+  for (const double error : {0.1, 0.01, 0.001}) {
+    const auto stations = Stations(road, error);
+    EXPECT_EQ(stations.front(), 0.0);
+    EXPECT_EQ(stations.back(), road.length_m());
+    EXPECT_TRUE(std::find(stations.begin(), stations.end(), 80.0) != stations.end());  // where the first line ends
+    double worst = 0.0;
+    for (std::size_t i = 1; i < stations.size(); ++i) {
+      ASSERT_LT(stations[i - 1], stations[i]);
+      for (const double t : {road.section().verge_left_m(), 0.0, road.section().verge_right_m()}) {
+        const Eigen::Vector3d a = road.Position(stations[i - 1], t), b = road.Position(stations[i], t);
+        const Eigen::Vector3d middle = road.Position(0.5 * (stations[i - 1] + stations[i]), t);
+        const Eigen::Vector2d across(a.y() - b.y(), b.x() - a.x());
+        worst = std::max(worst, std::fabs((middle - a).head<2>().dot(across.normalized())));
+        worst = std::max(worst, std::fabs(middle.z() - 0.5 * (a.z() + b.z())));
+      }
+    }
+    EXPECT_LT(worst, 1.01 * error);  // h^2 / 8 is the first term of the chord's error
+    EXPECT_GT(worst, 0.3 * error);   // and the road is not cut finer than it needs
   }
 }
 
