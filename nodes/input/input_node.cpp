@@ -6,6 +6,7 @@
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
+#include "nodes/input/autopilot_source.hpp"
 #include "nodes/input/script_source.hpp"
 #include "nodes/input/source.hpp"
 
@@ -49,8 +50,7 @@ class InputNode final : public lockstep::Node {
   std::int64_t base_step_ns_;
 };
 
-base::Result<std::unique_ptr<Source>> MakeSource(const config::Map& config, launch::NodeContext& context) {
-  (void)config.Choice("source", {"script"});
+base::Result<std::unique_ptr<Source>> MakeScript(const config::Map& config, launch::NodeContext& context) {
   const std::filesystem::path path = config.Path("script");
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   const auto text = base::ReadText(path);
@@ -58,6 +58,11 @@ base::Result<std::unique_ptr<Source>> MakeSource(const config::Map& config, laun
   auto script = Script::Parse(text.value(), path);
   if (!script) return script.error();
   return MakeScriptSource(std::move(script).value());
+}
+
+base::Result<std::unique_ptr<Source>> MakeSource(const config::Map& config, launch::NodeContext& context) {
+  if (config.Choice("source", {"script", "autopilot"}) == "autopilot") return MakeAutopilotSource(config, context);
+  return MakeScript(config, context);
 }
 
 }  // namespace
