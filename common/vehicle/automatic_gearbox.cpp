@@ -46,7 +46,7 @@ bool AutomaticGearbox::MayShiftUp(const AutomaticSettings& settings, const Gearb
   const double least = WheelTorque(gearbox, engine, next, input.wheel_radps, 0.0);
   if (load > most) return false;
   if (next == weak_gear_ && load > WheelTorque(gearbox, engine, next, input.wheel_radps, input.throttle)) return false;
-  const double pedal = std::clamp((load - least) / (most - least), input.throttle, 1.0);
+  const double pedal = std::clamp((load - least) / (most - least), pedal_, 1.0);
   const double leave = Between(settings.down_light_radps, settings.down_full_radps, pedal);
   return TotalRatio(gearbox, next) * input.wheel_radps > leave * settings.margin;
 }
@@ -54,8 +54,8 @@ bool AutomaticGearbox::MayShiftUp(const AutomaticSettings& settings, const Gearb
 int AutomaticGearbox::WantedForward(const AutomaticSettings& settings, const GearboxSettings& gearbox,
                                     const EngineSettings& engine, const AutomaticInput& input) const {
   const int top = static_cast<int>(gearbox.forward.size());
-  const double up = Between(settings.up_light_radps, settings.up_full_radps, input.throttle);
-  const double down = Between(settings.down_light_radps, settings.down_full_radps, input.throttle);
+  const double up = Between(settings.up_light_radps, settings.up_full_radps, pedal_);
+  const double down = Between(settings.down_light_radps, settings.down_full_radps, std::min(pedal_, input.throttle));
   const auto speed_in = [&](int gear) { return TotalRatio(gearbox, gear) * input.wheel_radps; };
   const bool pausing = driven_s_ < settings.pause_s;
 
@@ -66,7 +66,7 @@ int AutomaticGearbox::WantedForward(const AutomaticSettings& settings, const Gea
     // The highest gear that the law keeps; first gear is always good.
     for (int gear = gear_ - 1; gear >= 1; --gear) {
       if (speed_in(gear) * settings.margin > up) break;
-      if (speed_in(gear) > down * settings.margin || gear == 1) return gear;
+      if (speed_in(gear) > down || gear == 1) return gear;
     }
   }
   return gear_;
@@ -120,6 +120,8 @@ double AutomaticGearbox::ThrottleFor(const AutomaticSettings& settings, const Ge
 AutomaticOutput AutomaticGearbox::Step(const AutomaticSettings& settings, const GearboxSettings& gearbox,
                                        const EngineSettings& engine, const AutomaticInput& input, double dt_s) {
   Advance(settings, gearbox, input, dt_s);
+  const double smoothing = input.throttle > pedal_ ? settings.press_s : settings.release_s;
+  pedal_ += (input.throttle - pedal_) * dt_s / (smoothing + dt_s);
   if (std::fabs(input.throttle - weak_throttle_) > kAnotherPedal) weak_gear_ = 0;
   if (phase_ == Phase::kDrive) load_Nm_ += (input.load_Nm - load_Nm_) * dt_s / (kLoadSmoothing_s + dt_s);
   if (phase_ == Phase::kDrive || phase_ == Phase::kClose) {
@@ -156,6 +158,7 @@ void AutomaticGearbox::Save(base::StateWriter& writer) const {
   writer.Put("phase_s", phase_s_);
   writer.Put("driven_s", driven_s_);
   writer.Put("load_Nm", load_Nm_);
+  writer.Put("pedal", pedal_);
   writer.Put("weak_gear", weak_gear_);
   writer.Put("weak_throttle", weak_throttle_);
 }
@@ -167,6 +170,7 @@ void AutomaticGearbox::Restore(base::StateReader& reader) {
   reader.Get("phase_s", phase_s_);
   reader.Get("driven_s", driven_s_);
   reader.Get("load_Nm", load_Nm_);
+  reader.Get("pedal", pedal_);
   reader.Get("weak_gear", weak_gear_);
   reader.Get("weak_throttle", weak_throttle_);
 }

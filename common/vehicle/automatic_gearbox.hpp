@@ -20,6 +20,8 @@ struct AutomaticSettings {
   double open_s = 0.12;             // clutch out
   double swap_s = 0.15;             // at most, to bring the engine to the new gear's speed
   double close_s = 0.35;            // clutch in
+  double press_s = 0.3;            // smoothing of the pedal for the law when pressed …
+  double release_s = 2.0;          // … and when released: no change up for a short lift of the foot
   double bite_radps = 100.0;        // the clutch starts to pass torque at this engine speed …
   double closed_radps = 250.0;      // … and is closed from here on
 };
@@ -76,6 +78,7 @@ class AutomaticGearbox {
   double phase_s_ = 0.0;   // time in this phase
   double driven_s_ = 0.0;  // time since the last change
   double load_Nm_ = 0.0;   // the input's, smoothed
+  double pedal_ = 0.0;     // the throttle pedal as the law sees it: follows a press quickly, a release slowly
   std::int32_t weak_gear_ = 0;   // left downward under load …
   double weak_throttle_ = 0.0;   // … at this pedal
 };

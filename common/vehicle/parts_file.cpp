@@ -87,6 +87,8 @@ AutomaticSettings ReadAutomatic(const Map& map) {
   automatic.open_s = map.Number("open_s", {0.01, 2.0}, automatic.open_s);
   automatic.swap_s = map.Number("swap_s", {0.0, 2.0}, automatic.swap_s);
   automatic.close_s = map.Number("close_s", {0.01, 2.0}, automatic.close_s);
+  automatic.press_s = map.Number("press_s", {0.0, 5.0}, automatic.press_s);
+  automatic.release_s = map.Number("release_s", {0.0, 20.0}, automatic.release_s);
   automatic.bite_radps = Rpm(map, "bite_rpm", automatic.bite_radps);
   automatic.closed_radps = Rpm(map, "closed_rpm", automatic.closed_radps);
   if (automatic.closed_radps <= automatic.bite_radps) map.Problem("closed_rpm", "'automatic.closed_rpm' is not above 'automatic.bite_rpm'");

@@ -99,6 +99,13 @@ Eigen::Vector3d VehicleState::v_WB_B() const { return q_WB.conjugate() * v_WB_W;
 Eigen::Vector3d VehicleState::a_WB_B() const { return q_WB.conjugate() * a_WB_W; }
 double VehicleState::speed_mps() const { return v_WB_B().x(); }
 
+double VehicleState::fuel_l_per_h() const { return fuel_rate_kgps / kPetrol_kgpl * 3600.0; }
+
+double VehicleState::consumption_l_per_100km() const {
+  const double speed = std::fabs(speed_mps());
+  return speed < 1.0 ? 0.0 : fuel_rate_kgps / kPetrol_kgpl / (speed / 1e5);
+}
+
 double VehicleState::mean_consumption_l_per_100km() const {
   return odometer_m < 1.0 ? 0.0 : fuel_kg / kPetrol_kgpl / (odometer_m / 1e5);
 }

@@ -80,7 +80,10 @@ struct VehicleState {
   Eigen::Vector3d v_WB_B() const;    // forward, left, up
   Eigen::Vector3d a_WB_B() const;
   double speed_mps() const;          // forward, negative in reverse: v_WB_B().x()
-  // Litres for 100 km since Initialise; 0 before the car has moved a metre. Petrol of 745 kg/m³.
+  double fuel_l_per_h() const;  // now, also at rest; petrol of 745 kg/m³
+  // Litres for 100 km at this moment; 0 below walking speed (1 m/s), where it means nothing.
+  double consumption_l_per_100km() const;
+  // Litres for 100 km since Initialise; 0 before the car has moved a metre.
   double mean_consumption_l_per_100km() const;
 
   void Save(base::StateWriter& writer) const;

@@ -226,6 +226,8 @@ TEST(BicycleDriving, FuelAtFiftyAndAtHundredIsThatOfASmallCar) {
     EXPECT_NEAR(car.state().speed_mps() * 3.6, speed_kmh, 2.0);
     EXPECT_GT(car.state().mean_consumption_l_per_100km(), low);
     EXPECT_LT(car.state().mean_consumption_l_per_100km(), high);
+    EXPECT_NEAR(car.state().consumption_l_per_100km(), car.state().mean_consumption_l_per_100km(), 0.5);
+    EXPECT_NEAR(car.state().fuel_l_per_h(), car.state().consumption_l_per_100km() * car.state().speed_mps() * 3.6 / 100.0, 1e-9);
   }
 }
 
