@@ -71,10 +71,10 @@ base::Status NodeBus::Connect(Participant& participant) {
     const std::string_view topic = port.topic;
     if (auto status = add_reader(topic, Delivery::kEverySample, [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); }); !status) return status;
   }
-  auto reports = participant.MakeWriter(topics::kReport, Delivery::kNewest);
+  auto reports = participant.MakeWriter(topics::kReport, Delivery::kEverySample);
   if (!reports) return reports.error();
   reports_ = std::move(reports).value();
-  return add_reader(topics::kGrant, Delivery::kNewest, [this](base::Bytes&& bytes) { OnGrant(std::move(bytes)); });
+  return add_reader(topics::kGrant, Delivery::kEverySample, [this](base::Bytes&& bytes) { OnGrant(std::move(bytes)); });
 }
 
 base::Status NodeBus::Publish(const lockstep::Sample& sample) {

@@ -125,8 +125,6 @@ class FastParticipant final : public Participant {
     times.heartbeatPeriod = Duration_t{0, 3u * kMilli};
     times.nackResponseDelay = Duration_t{0, 0};
     times.nackSupressionDuration = Duration_t{0, 0};
-    // Heartbeats ride on the samples, as by default: without them (disable_heartbeat_piggyback) runs fell into a state in
-    // which every sample waited for the periodic heartbeat, 100 steps a second instead of 5 000.
     fdds::DataWriter* writer = publisher_->create_datawriter(made_topic, qos);
     if (writer == nullptr) return Refused(topic);
     return std::unique_ptr<Writer>(std::make_unique<FastWriter>(publisher_, writer, std::string(topic)));
@@ -136,7 +134,7 @@ class FastParticipant final : public Participant {
     auto* made_topic = TopicOf(topic);
     if (made_topic == nullptr) return Refused(topic);
     fdds::DataReaderQos qos = fdds::DATAREADER_QOS_DEFAULT;
-    Common(qos, delivery == Delivery::kNewest ? Delivery::kEverySample : delivery);  // without keys "newest" would be of all writers
+    Common(qos, delivery);
     qos.durability().kind = delivery == Delivery::kForLateComers ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
     qos.reliability().kind = delivery == Delivery::kObserve ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
     qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t{0, 0};

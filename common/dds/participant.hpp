@@ -14,8 +14,7 @@ namespace rodeira::dds {
 
 // How a topic's samples are kept and handed over (docs/architecture.md says why).
 enum class Delivery {
-  kEverySample,  // reliable, keep all, volatile: samples of the lockstep, requests and replies
-  kNewest,       // reliable, the newest of each writer counts: grants and reports, which are states
+  kEverySample,  // reliable, keep all, volatile: samples, requests, replies, grants, reports (decisions/0005)
   kForLateComers,  // reliable, transient local, the newest: world information
   kObserve,      // best effort: whoever only looks on, and never slows a run (law L5)
 };

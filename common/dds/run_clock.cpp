@@ -83,7 +83,7 @@ class ClockProcess {
 
   base::Status Connect(Participant& participant) {
     // Before anything is said: another clock's word in this run means that this one is too many.
-    auto other = participant.MakeReader(topics::kGrant, Delivery::kNewest, [this](base::Bytes&& bytes) {
+    auto other = participant.MakeReader(topics::kGrant, Delivery::kEverySample, [this](base::Bytes&& bytes) {
       const auto grant = DecodeGrant(bytes);
       if (grant && grant.value().clock_id != clock_id_) other_clock_ = grant.value().clock_id;
     });
@@ -91,14 +91,14 @@ class ClockProcess {
     others_ = std::move(other).value();
     std::this_thread::sleep_for(300ms);
     if (other_clock_ != 0) return SecondClock();
-    auto reports = participant.MakeReader(topics::kReport, Delivery::kNewest, [this](base::Bytes&& bytes) {
+    auto reports = participant.MakeReader(topics::kReport, Delivery::kEverySample, [this](base::Bytes&& bytes) {
       const std::lock_guard lock(mutex_);
       inbox_.push_back(std::move(bytes));
       woken_.notify_one();
     });
     if (!reports) return reports.error();
     reports_ = std::move(reports).value();
-    auto grants = participant.MakeWriter(topics::kGrant, Delivery::kNewest);
+    auto grants = participant.MakeWriter(topics::kGrant, Delivery::kEverySample);
     if (!grants) return grants.error();
     grants_ = std::move(grants).value();
     return {};
