@@ -66,21 +66,27 @@ base::Status NodeBus::Connect(Participant& participant) {
     auto writer = participant.MakeWriter(roster_.source(output).topic, Delivery::kEverySample);
     if (!writer) return writer.error();
     writers_.push_back(std::move(writer).value());
+    met_.push_back(false);
+    consumers_.push_back(roster_.Consumers(output));
   }
   for (const lockstep::Port& port : roster_.node(settings_.node).inputs) {
     const std::string_view topic = port.topic;
     if (auto status = add_reader(topic, Delivery::kEverySample, [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); }); !status) return status;
   }
-  auto reports = participant.MakeWriter(topics::kReport, Delivery::kEverySample);
+  auto reports = participant.MakeWriter(topics::kReport, Delivery::kSaidAgain);
   if (!reports) return reports.error();
   reports_ = std::move(reports).value();
-  return add_reader(topics::kGrant, Delivery::kEverySample, [this](base::Bytes&& bytes) { OnGrant(std::move(bytes)); });
+  return add_reader(topics::kGrant, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnGrant(std::move(bytes)); });
 }
 
 base::Status NodeBus::Publish(const lockstep::Sample& sample) {
   const auto& outputs = roster_.node(settings_.node).outputs;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    if (outputs[i] == sample.source()) return writers_[i]->Write(*sample.payload);
+    if (outputs[i] != sample.source()) continue;
+    // Nothing is said before everybody who must hear it is known (decisions/0005); the runner says it again.
+    if (!met_[i] && writers_[i]->matched() < consumers_[i]) return {};
+    met_[i] = true;
+    return writers_[i]->Write(*sample.payload);
   }
   RODEIRA_ASSERT(!"a node publishes for another");
 }

@@ -26,7 +26,7 @@ class NodeBus final : public lockstep::Bus {
     lockstep::NodeIndex node = 0;
     std::uint32_t incarnation = 0;
     Hello hello;
-    std::chrono::milliseconds heartbeat{100};
+    std::chrono::milliseconds heartbeat{25};
     std::chrono::milliseconds clock_silence{3000};  // the clock repeats its grant all the time; silent this long it is gone
   };
   static base::Result<std::unique_ptr<NodeBus>> Open(Participant& participant, const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings);
@@ -59,6 +59,8 @@ class NodeBus final : public lockstep::Bus {
   lockstep::Mailbox& mailbox_;
   Settings settings_;
   std::vector<std::unique_ptr<Writer>> writers_;  // one for each output, in the roster's order
+  std::vector<int> consumers_;                    // of each output
+  std::vector<bool> met_;                         // all of them were known once
   std::unique_ptr<Writer> reports_;
   std::vector<std::unique_ptr<Reader>> readers_;
 

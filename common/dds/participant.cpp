@@ -72,6 +72,10 @@ class FastWriter final : public Writer {
     if (!writer_->write(&sample)) return base::Failed("a sample could not be written within ten seconds: a reader takes nothing any more", "topic " + topic_);
     return {};
   }
+  int matched() const override {
+    fdds::PublicationMatchedStatus status;
+    return writer_->get_publication_matched_status(status) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK ? status.current_count : 0;
+  }
 
  private:
   fdds::Publisher* publisher_;
@@ -118,7 +122,7 @@ class FastParticipant final : public Participant {
     fdds::DataWriterQos qos = fdds::DATAWRITER_QOS_DEFAULT;
     Common(qos, delivery);
     qos.durability().kind = delivery == Delivery::kForLateComers ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
-    qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
+    qos.reliability().kind = delivery == Delivery::kSaidAgain ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
     qos.reliability().max_blocking_time = Duration_t{10, 0};
     auto& times = qos.reliable_writer_qos().times;
     times.initialHeartbeatDelay = Duration_t{0, 0};
@@ -136,7 +140,8 @@ class FastParticipant final : public Participant {
     fdds::DataReaderQos qos = fdds::DATAREADER_QOS_DEFAULT;
     Common(qos, delivery);
     qos.durability().kind = delivery == Delivery::kForLateComers ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
-    qos.reliability().kind = delivery == Delivery::kObserve ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
+    const bool best_effort = delivery == Delivery::kObserve || delivery == Delivery::kSaidAgain;
+    qos.reliability().kind = best_effort ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
     qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t{0, 0};
     auto reader = std::make_unique<FastReader>(subscriber_, std::move(on_payload));
     fdds::DataReader* made = subscriber_->create_datareader(made_topic, qos, reader.get());
@@ -150,7 +155,7 @@ class FastParticipant final : public Participant {
   static void Common(Qos& qos, Delivery delivery) {
     const bool every = delivery == Delivery::kEverySample;
     qos.history().kind = every ? fdds::KEEP_ALL_HISTORY_QOS : fdds::KEEP_LAST_HISTORY_QOS;
-    qos.history().depth = every ? 1 : delivery == Delivery::kObserve ? 16 : 1;
+    qos.history().depth = every || delivery == Delivery::kForLateComers ? 1 : 64;  // of all writers together: the types have no keys
     qos.resource_limits().max_samples = every ? 200'000 : 1000;
     qos.resource_limits().max_instances = 1;
     qos.resource_limits().max_samples_per_instance = every ? 200'000 : 1000;

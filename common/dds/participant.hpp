@@ -14,7 +14,8 @@ namespace rodeira::dds {
 
 // How a topic's samples are kept and handed over (docs/architecture.md says why).
 enum class Delivery {
-  kEverySample,  // reliable, keep all, volatile: samples, requests, replies, grants, reports (decisions/0005)
+  kEverySample,    // reliable, keep all, volatile: samples of the lockstep
+  kSaidAgain,      // best effort: what its sender repeats anyway (grants, reports, questions and their answers)
   kForLateComers,  // reliable, transient local, the newest: world information
   kObserve,      // best effort: whoever only looks on, and never slows a run (law L5)
 };
@@ -31,6 +32,8 @@ class Writer {
   virtual ~Writer() = default;
   // Blocks where the history is full; Failed where it stays so for ten seconds.
   virtual base::Status Write(const base::Bytes& payload) = 0;
+  // Readers that this writer knows of. They may not know it yet: no promise, but see decisions/0005.
+  virtual int matched() const = 0;
 };
 
 class Reader {

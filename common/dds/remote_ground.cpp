@@ -17,10 +17,10 @@ RemoteGround::RemoteGround(lockstep::NodeIndex asker, std::uint32_t incarnation,
 base::Result<std::unique_ptr<RemoteGround>> RemoteGround::Open(Participant& participant, lockstep::NodeIndex asker, std::uint32_t incarnation,
                                                                std::function<bool()> over) {
   std::unique_ptr<RemoteGround> ground(new RemoteGround(asker, incarnation, std::move(over)));
-  auto requests = participant.MakeWriter(topics::kGroundRequest, Delivery::kEverySample);
+  auto requests = participant.MakeWriter(topics::kGroundRequest, Delivery::kSaidAgain);
   if (!requests) return requests.error();
   ground->requests_ = std::move(requests).value();
-  auto replies = participant.MakeReader(topics::kGroundReply, Delivery::kEverySample,
+  auto replies = participant.MakeReader(topics::kGroundReply, Delivery::kSaidAgain,
                                         [raw = ground.get()](base::Bytes&& bytes) { raw->OnReply(std::move(bytes)); });
   if (!replies) return replies.error();
   ground->replies_ = std::move(replies).value();
@@ -44,8 +44,9 @@ void RemoteGround::Query(std::span<const terrain::GroundQuery> queries, std::spa
   answered_ = false;
   points_ = points;
   const base::Bytes payload = idl::Encode(request);
-  // Until an answer to this very request has come. At the start the server may not have met us yet: ask often.
-  auto patience = std::chrono::milliseconds(20);
+  // Until an answer to this very request has come: question or answer may be lost, or the server has not met us yet. The
+  // same question again does no harm, SUELO is a function.
+  auto patience = std::chrono::milliseconds(5);
   while (!answered_) {
     lock.unlock();
     (void)requests_->Write(payload);
@@ -55,7 +56,7 @@ void RemoteGround::Query(std::span<const terrain::GroundQuery> queries, std::spa
       for (terrain::GroundPoint& point : points) point = {};
       answered_ = true;
     }
-    patience = std::min(2 * patience, std::chrono::milliseconds(200));
+    patience = std::min(2 * patience, std::chrono::milliseconds(100));
   }
   points_ = {};
   lock.unlock();

@@ -83,7 +83,7 @@ class ClockProcess {
 
   base::Status Connect(Participant& participant) {
     // Before anything is said: another clock's word in this run means that this one is too many.
-    auto other = participant.MakeReader(topics::kGrant, Delivery::kEverySample, [this](base::Bytes&& bytes) {
+    auto other = participant.MakeReader(topics::kGrant, Delivery::kSaidAgain, [this](base::Bytes&& bytes) {
       const auto grant = DecodeGrant(bytes);
       if (grant && grant.value().clock_id != clock_id_) other_clock_ = grant.value().clock_id;
     });
@@ -91,14 +91,14 @@ class ClockProcess {
     others_ = std::move(other).value();
     std::this_thread::sleep_for(300ms);
     if (other_clock_ != 0) return SecondClock();
-    auto reports = participant.MakeReader(topics::kReport, Delivery::kEverySample, [this](base::Bytes&& bytes) {
+    auto reports = participant.MakeReader(topics::kReport, Delivery::kSaidAgain, [this](base::Bytes&& bytes) {
       const std::lock_guard lock(mutex_);
       inbox_.push_back(std::move(bytes));
       woken_.notify_one();
     });
     if (!reports) return reports.error();
     reports_ = std::move(reports).value();
-    auto grants = participant.MakeWriter(topics::kGrant, Delivery::kEverySample);
+    auto grants = participant.MakeWriter(topics::kGrant, Delivery::kSaidAgain);
     if (!grants) return grants.error();
     grants_ = std::move(grants).value();
     return {};
@@ -154,7 +154,7 @@ class ClockProcess {
       const lockstep::Grant before = clock_.grant();
       const lockstep::Step limit = told_ready ? pacer_.Limit(NowNs(), clock_.window_limit()) : -1;
       const lockstep::Grant grant = clock_.Update(limit);
-      if (grant.through != before.through || grant.final != before.final || now - said >= 50ms) {
+      if (grant.through != before.through || grant.final != before.final || now - said >= 10ms) {
         said = now;
         SayGrant(grant);
         ShowProgress(now);
@@ -174,7 +174,7 @@ class ClockProcess {
   void Wait() {
     std::unique_lock lock(mutex_);
     const auto due = std::chrono::nanoseconds(clock_.all_ready() && !clock_.grant().final ? pacer_.NextDueIn(NowNs()) : 0);
-    const std::chrono::nanoseconds limit = due > 0ns ? std::min<std::chrono::nanoseconds>(due, 20ms) : 20ms;
+    const std::chrono::nanoseconds limit = due > 0ns ? std::min<std::chrono::nanoseconds>(due, 10ms) : 10ms;
     woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || !told_.empty(); });
   }
 

@@ -72,14 +72,14 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
     return error.exit_status();
   }
   bus.value()->SetWorldHash(service.value()->world_hash());
-  auto replies = participant.value()->MakeWriter(topics::kGroundReply, Delivery::kEverySample);
+  auto replies = participant.value()->MakeWriter(topics::kGroundReply, Delivery::kSaidAgain);
   auto information = participant.value()->MakeWriter(topics::kWorldInfo, Delivery::kForLateComers);
   if (!replies) return Complain(replies.error());
   if (!information) return Complain(information.error());
   if (auto status = information.value()->Write(service.value()->Announcement()); !status) return Complain(status.error());
   std::atomic<std::uint64_t> answered = 0;
   // The server waits for nobody, so it may answer on the receive thread itself: one thread change less in every step.
-  auto requests = participant.value()->MakeReader(topics::kGroundRequest, Delivery::kEverySample, [&](base::Bytes&& request) {
+  auto requests = participant.value()->MakeReader(topics::kGroundRequest, Delivery::kSaidAgain, [&](base::Bytes&& request) {
     auto reply = service.value()->Answer(request);
     if (!reply) return;
     (void)replies.value()->Write(reply.value());

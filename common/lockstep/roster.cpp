@@ -105,6 +105,14 @@ std::string Roster::SourceName(SourceIndex index) const {
   return nodes_[sources_[index].node].name + "." + sources_[index].topic;
 }
 
+int Roster::Consumers(SourceIndex source) const {
+  int count = 0;
+  for (const NodeSpec& node : nodes_) {
+    for (const Port& port : node.inputs) count += std::binary_search(port.sources.begin(), port.sources.end(), source) ? 1 : 0;
+  }
+  return count;
+}
+
 Step Roster::OldestNeeded(SourceIndex source, Step step) const {
   Step oldest = FloorTo(step, sources_[source].period);
   for (const NodeSpec& node : nodes_) {

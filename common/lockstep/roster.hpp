@@ -90,6 +90,8 @@ class Roster {
   std::vector<std::string> Names() const;
   // "ego.rodeira/vehicle_state", for messages.
   std::string SourceName(SourceIndex index) const;
+  // How many nodes are wired to the source.
+  int Consumers(SourceIndex source) const;
   // Of everything above: two processes with equal hashes agree on every wire.
   base::Digest hash() const { return hash_; }
 
