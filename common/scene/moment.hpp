@@ -20,7 +20,8 @@ struct WheelPose {
 
 // A car with a model: the driver's.
 struct CarPose {
-  std::uint32_t id = 0;  // of its source
+  std::uint64_t id = 0;
+  Colour colour = Colour::Of(0xb01e26);
   Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
   std::array<WheelPose, 4> wheels;  // front left, front right, rear left, rear right
@@ -32,7 +33,7 @@ struct CarPose {
 
 // A car of the traffic: B's origin is the centre of its footprint, on the ground.
 struct AgentPose {
-  std::uint32_t id = 0;
+  std::uint64_t id = 0;
   Colour colour;
   Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();

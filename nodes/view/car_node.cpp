@@ -3,15 +3,9 @@
 namespace rodeira::view {
 namespace {
 
-// The driver's cars, by their order.
-constexpr std::array<scene::Colour, 4> kPaints = {scene::Colour::Of(0xb01e26), scene::Colour::Of(0x1e4fa0), scene::Colour::Of(0xd9b11e), scene::Colour::Of(0x2b7a3d)};
-
 osg::Matrixd ToOsg(const Eigen::Vector3d& p, const Eigen::Quaterniond& q) {
   return osg::Matrixd::rotate(osg::Quat(q.x(), q.y(), q.z(), q.w())) * osg::Matrixd::translate(p.x(), p.y(), p.z());
 }
-
-scene::Colour PaintOf(const scene::CarPose& car) { return kPaints[car.id % kPaints.size()]; }
-scene::Colour PaintOf(const scene::AgentPose& agent) { return agent.colour; }
 
 }  // namespace
 
@@ -56,7 +50,7 @@ void CarNode::Turn(std::size_t wheel, const Eigen::Vector3d& hub_B, double steer
 void CarNode::Brake(bool braking) { brake_glow_->set(braking ? 2.1F : 1.0F); }
 
 template <class Pose, class Update>
-void Fleet::Match(const std::vector<Pose>& poses, std::map<std::uint32_t, CarNode>& nodes, Update update) {
+void Fleet::Match(const std::vector<Pose>& poses, std::map<std::uint64_t, CarNode>& nodes, Update update) {
   auto known = nodes.begin();
   for (const Pose& pose : poses) {  // both ascend by id
     while (known != nodes.end() && known->first < pose.id) {
@@ -64,7 +58,7 @@ void Fleet::Match(const std::vector<Pose>& poses, std::map<std::uint32_t, CarNod
       known = nodes.erase(known);
     }
     if (known == nodes.end() || known->first != pose.id) {
-      known = nodes.emplace_hint(known, pose.id, CarNode(look_, scene::CarShape::Of(pose), PaintOf(pose)));
+      known = nodes.emplace_hint(known, pose.id, CarNode(look_, scene::CarShape::Of(pose), pose.colour));
       group_->addChild(known->second.node());
     }
     known->second.Place(pose.p_WB_W, pose.q_WB);

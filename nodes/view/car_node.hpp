@@ -39,12 +39,12 @@ class Fleet {
 
  private:
   template <class Pose, class Update>
-  void Match(const std::vector<Pose>& poses, std::map<std::uint32_t, CarNode>& nodes, Update update);
+  void Match(const std::vector<Pose>& poses, std::map<std::uint64_t, CarNode>& nodes, Update update);
 
   Look& look_;
   osg::ref_ptr<osg::Group> group_;
-  std::map<std::uint32_t, CarNode> cars_;
-  std::map<std::uint32_t, CarNode> agents_;
+  std::map<std::uint64_t, CarNode> cars_;
+  std::map<std::uint64_t, CarNode> agents_;
 };
 
 }  // namespace rodeira::view

@@ -57,7 +57,6 @@ osg::ref_ptr<osg::Texture2D> MakeNoise() {
   made->setWrap(osg::Texture::WRAP_T, osg::Texture::REPEAT);
   made->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR);
   made->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
-  made->setMaxAnisotropy(4.0F);
   return made;
 }
 

@@ -39,7 +39,7 @@ bool HasDisplay() {
   return display;
 }
 
-base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width_px, int height_px, const std::string& title) {
+base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable) {
   std::unique_ptr<Surface> surface(new Surface());
   surface->kind_ = kind;
   if (!StartVideo(kind == SurfaceKind::kOffscreen ? "offscreen" : nullptr)) {
@@ -50,12 +50,15 @@ base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width
   if (kind == SurfaceKind::kWindow && !IsDisplay(SDL_GetCurrentVideoDriver())) {
     return base::WrongInput("a window is wanted, but there is no display; set DISPLAY, or 'window: never'");
   }
-  if (auto status = surface->MakeWindow(width_px, height_px, title); !status) return status.error();
+  if (auto status = surface->MakeWindow(width_px, height_px, title, resizable); !status) return status.error();
   return surface;
 }
 
-base::Status Surface::MakeWindow(int width_px, int height_px, const std::string& title) {
-  const Uint32 flags = SDL_WINDOW_OPENGL | (kind_ == SurfaceKind::kWindow ? SDL_WINDOW_RESIZABLE | SDL_WINDOW_SHOWN : 0U);
+base::Status Surface::MakeWindow(int width_px, int height_px, const std::string& title, bool resizable) {
+  resizable_ = resizable;
+  Uint32 flags = SDL_WINDOW_OPENGL;
+  if (kind_ == SurfaceKind::kWindow) flags |= SDL_WINDOW_SHOWN;
+  if (resizable) flags |= SDL_WINDOW_RESIZABLE;
   for (const int samples : {4, 0}) {  // smooth edges where they are to be had
     AskForContext(samples);
     window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width_px, height_px, flags);
@@ -91,8 +94,11 @@ int Surface::height_px() const {
 void Surface::Swap() { SDL_GL_SwapWindow(window_); }
 
 void Surface::ToggleFullScreen() {
+  if (!resizable_) return;
   full_screen_ = !full_screen_;
   SDL_SetWindowFullscreen(window_, full_screen_ ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
 }
+
+void Surface::Hide() { SDL_HideWindow(window_); }
 
 }  // namespace rodeira::view
