@@ -6,21 +6,24 @@
 namespace rodeira::scene {
 namespace {
 
-constexpr double kRateMemory_s = 0.5;   // on the wall
-constexpr double kPhaseMemory_s = 0.25;
-constexpr double kPause_s = 0.5;        // longer without a sample says nothing about the rate
+constexpr double kRateMemory_s = 1.0;  // on the wall
+constexpr double kPhaseMemory_s = 0.4;
+constexpr double kPause_s = 0.5;  // longer without a sample says nothing about the rate
 
 }  // namespace
 
 void DisplayClock::Arrived(double wall_s, double sample_s, double interval_s) {
   if (!started_) {
     started_ = true;
+    samples_s_ = walls_s_ = 0.1;  // real time, until more is known
     shown_wall_s_ = wall_s;
     shown_s_ = sample_s;
   } else if (const double passed = wall_s - arrived_wall_s_; passed < kPause_s) {
-    // Exponential forgetting by the wall time that passed; a burst (no time at all) counts fully with the next gap.
-    const double weight = 1.0 - std::exp(-passed / kRateMemory_s);
-    if (passed > 0.0) rate_ += weight * ((sample_s - newest_s_) / passed - rate_);
+    // The ratio of two sums that forget alike: unlike the mean of ratios it does not care how unevenly samples come.
+    const double keep = std::exp(-passed / kRateMemory_s);
+    samples_s_ = keep * samples_s_ + sample_s - newest_s_;
+    walls_s_ = keep * walls_s_ + passed;
+    if (walls_s_ > 0.0) rate_ = samples_s_ / walls_s_;
   }
   arrived_wall_s_ = wall_s;
   newest_s_ = sample_s;

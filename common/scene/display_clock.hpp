@@ -19,6 +19,8 @@ class DisplayClock {
  private:
   bool started_ = false;
   double rate_ = 1.0;
+  double samples_s_ = 0.0;  // sums over the last second or so
+  double walls_s_ = 0.0;
   double arrived_wall_s_ = 0.0;
   double newest_s_ = 0.0;
   double interval_s_ = 0.0;

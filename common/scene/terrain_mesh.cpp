@@ -138,11 +138,13 @@ std::vector<TerrainTile> BuildTerrain(const Lattice& lattice, const std::vector<
       TerrainTile tile;
       const Eigen::Vector3d low = lattice.Post(columns.from, rows.from).p_W, high = lattice.Post(columns.to, rows.to).p_W;
       const Eigen::Vector3d origin = OriginNear(0.5 * (low + high));
-      for (int level = 0; level < kTerrainLevels; ++level) {
-        Mesh& mesh = tile.levels[static_cast<std::size_t>(level)];
+      for (std::size_t level = 0; level < kTerrainLevels; ++level) {
+        Mesh& mesh = tile.levels[level];
         mesh.material = lattice.material();
         mesh.origin_W = origin;
-        TileWeaver(lattice, cover, columns, rows, kStrides[static_cast<std::size_t>(level)], mesh).Weave();
+        TileWeaver(lattice, cover, columns, rows, kStrides[level], mesh).Weave();
+        // Where a road winds through the tile, larger blocks may spare nothing.
+        if (level > 0 && mesh.triangle_count() >= tile.levels[level - 1].triangle_count()) mesh = tile.levels[level - 1];
       }
       const Mesh& finest = tile.levels[0];
       if (finest.triangles.empty()) continue;
