@@ -7,7 +7,9 @@
 
 #include "common/base/mathematics.hpp"
 #include "common/base/suggest.hpp"
+#include "launch/info_command.hpp"
 #include "launch/run_command.hpp"
+#include "launch/world_command.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -45,6 +47,24 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   run->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232));
 }
 
+void AddWorld(CLI::App& app, WorldOptions& options) {
+  CLI::App* world = app.add_subcommand("world", "check, describe and ask a world");
+  world->require_subcommand(1);
+  for (const auto& [name, text] : {std::pair("check", "name every problem of a world file"), std::pair("info", "what the world is"),
+                                   std::pair("query", "SUELO: the ground at X Y"), std::pair("build", "write the generated terrain as .bt and .prj")}) {
+    CLI::App* command = world->add_subcommand(name, text);
+    command->add_option("WORLD.yaml", options.world_file, "world file")->required();
+    if (std::string(name) == "query") {
+      command->add_option("X", options.x_m, "metres east")->required();
+      command->add_option("Y", options.y_m, "metres north")->required();
+      command->add_option("Z", options.z_hint_m, "near which height, where surfaces lie over one another");
+    }
+    if (std::string(name) == "build") command->add_option("--out", options.out, "folder")->required();
+    if (std::string(name) == "info") command->add_option("--svg", options.svg, "draw the plan into this file");
+    command->callback([&options, name] { options.command = name; });
+  }
+}
+
 }  // namespace
 
 int Main(int argc, char** argv) {
@@ -56,11 +76,18 @@ int Main(int argc, char** argv) {
   RunOptions run;
   std::vector<std::string> sets;
   AddRun(app, run, sets);
+  WorldOptions world;
+  AddWorld(app, world);
+  std::string info_file;
+  CLI::App* info = app.add_subcommand("info", "what a recording holds");
+  info->add_option("FILE.mcap", info_file, "recording")->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? 0 : 2;
   }
+  if (!world.command.empty()) return World(world);
+  if (info->parsed()) return Info(info_file);
   for (const std::string& set : sets) {
     const auto pair = KeyValue(set);
     if (pair.first.empty()) {

@@ -7,11 +7,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
 #include "common/dds/options.hpp"
 #include "common/lockstep/in_process.hpp"
-#include "launch/node_factories.hpp"
+#include "launch/local_nodes.hpp"
 #include "launch/run_report.hpp"
 
 namespace rodeira::front {
@@ -19,15 +18,6 @@ namespace {
 
 std::atomic<bool> g_interrupted = false;
 void OnInterrupt(int) { g_interrupted = true; }
-
-class LocalContext final : public launch::NodeContext {
- public:
-  using NodeContext::NodeContext;
-  terrain::Ground& Ground() override { return ground_; }
-
- private:
-  terrain::PlaneGround ground_;
-};
 
 RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& roster, double wall_s) {
   RunReport report;
@@ -50,26 +40,10 @@ RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& 
 
 int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   const auto& roster = launch.roster();
-  std::vector<std::unique_ptr<LocalContext>> contexts;
-  std::vector<std::unique_ptr<lockstep::Node>> owned;
-  std::vector<lockstep::Node*> nodes;
-  for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    contexts.push_back(std::make_unique<LocalContext>(launch, n));
-    nodes.push_back(nullptr);
-    if (roster.node(n).role == lockstep::Role::kService) continue;
-    const launch::NodeFactory factory = FactoryOf(roster.node(n).kind);
-    RODEIRA_ASSERT(factory != nullptr);
-    auto node = factory(*contexts.back());
-    if (!node) {
-      fmt::print(stderr, "rodeira: node '{}': {}\n", roster.node(n).name, node.error().Text());
-      return node.error().exit_status();
-    }
-    owned.push_back(std::move(node).value());
-    nodes.back() = owned.back().get();
-  }
-  if (auto status = launch.file().Finish(); !status) {
-    fmt::print(stderr, "rodeira: {}\n", status.error().Text());
-    return status.error().exit_status();
+  auto nodes = LocalNodes::Make(launch);
+  if (!nodes) {
+    fmt::print(stderr, "rodeira: {}\n", nodes.error().Text());
+    return nodes.error().exit_status();
   }
   lockstep::InProcessSettings settings;
   const auto seconds = options.duration_s ? options.duration_s : launch.duration_s();
@@ -79,7 +53,7 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   ::signal(SIGINT, OnInterrupt);
   ::signal(SIGTERM, OnInterrupt);
   const auto start = std::chrono::steady_clock::now();
-  const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes, settings);
+  const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const RunReport report = ReportOf(outcome, roster, wall_s);
   if (!outcome.ok) fmt::print(stderr, "rodeira: {}\n", outcome.fault);

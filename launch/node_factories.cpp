@@ -1,11 +1,19 @@
 #include "launch/node_factories.hpp"
 
 #include "nodes/empty/empty_node.hpp"
+#include "nodes/input/input_node.hpp"
+#include "nodes/recorder/recorder_node.hpp"
+#include "nodes/traffic/traffic_node.hpp"
+#include "nodes/vehicle/vehicle_node.hpp"
 
 namespace rodeira::front {
 
 launch::NodeFactory FactoryOf(std::string_view kind) {
   if (kind == "empty") return nodes::MakeEmptyNode;
+  if (kind == "input") return nodes::MakeInputNode;
+  if (kind == "recorder") return nodes::MakeRecorderNode;
+  if (kind == "traffic") return nodes::MakeTrafficNode;
+  if (kind == "vehicle") return nodes::MakeVehicleNode;
   return nullptr;
 }
 

@@ -1,5 +1,6 @@
 #include "launch/run_command.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
@@ -10,6 +11,9 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
 #include <random>
 #include <thread>
 
@@ -36,6 +40,16 @@ int Complain(const base::Error& error) {
 std::string FreshRunName() {
   std::random_device device;
   return fmt::format("{:08x}{:08x}", device(), device());
+}
+
+std::string DatedRecording(const std::string& name) {
+  const char* data = std::getenv("XDG_DATA_HOME");
+  const char* home = std::getenv("HOME");
+  const std::string folder = data != nullptr && *data != '\0' ? data : std::string(home != nullptr ? home : ".") + "/.local/share";
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  ::localtime_r(&now, &local);
+  return fmt::format("{}/rodeira/{}-{:%Y%m%d-%H%M%S}.mcap", folder, name, local);
 }
 
 // The processes of a run, their clock's words, and their end.
@@ -227,16 +241,47 @@ class ProcessRun {
   WallClock::time_point start_ = WallClock::now();
 };
 
+// Where the recording goes: --record, else the launch file's own, else a dated file in the user's data folder. Adds a
+// recorder where --record asks for one that the launch file does not have.
+base::Status ResolveRecording(const launch::Launch& launch, RunOptions& options, launch::Overrides& overrides) {
+  std::string recorder;
+  bool has_file = false;
+  for (const launch::LaunchNode& node : launch.nodes()) {
+    if (node.kind->name != "recorder" || !recorder.empty()) continue;
+    recorder = node.name;
+    const config::Map config = node.config->OptionalChild("config");
+    has_file = config.Has("file");
+    if (has_file && options.record.empty()) options.record = config.Path("file").string();
+  }
+  if (options.record.empty() && recorder.empty()) return {};
+  if (has_file && options.record == launch.node(launch.roster().Find(recorder)).config->OptionalChild("config").Path("file").string()) return {};
+  if (options.record.empty()) options.record = DatedRecording(launch.name());
+  std::error_code problem;
+  options.record = std::filesystem::absolute(options.record, problem).string();
+  if (std::filesystem::exists(options.record, problem)) return base::WrongInput("the file exists; a recording is never overwritten", options.record);
+  if (recorder.empty()) {
+    recorder = "recorder";
+    overrides.emplace_back("nodes.recorder.kind", "recorder");
+  }
+  overrides.emplace_back("nodes." + recorder + ".config.file", "\"" + options.record + "\"");
+  return {};
+}
+
 }  // namespace
 
 int Run(const RunOptions& options) {
   if (const auto pace = dds::ParsePace(options.pace); !pace) return Complain(pace.error());
   launch::Overrides overrides = options.overrides;
   if (options.seed) overrides.emplace_back("seed", std::to_string(*options.seed));
-  const auto launch = launch::Launch::Load(options.launch_file, overrides);
+  RunOptions resolved = options;
+  auto launch = launch::Launch::Load(options.launch_file, overrides);
+  if (launch.ok()) {
+    if (auto status = ResolveRecording(launch.value(), resolved, overrides); !status) return Complain(status.error());
+    launch = launch::Launch::Load(options.launch_file, overrides);
+  }
   if (!launch) return Complain(launch.error());
-  if (options.in_process) return RunInProcess(options, launch.value());
-  return ProcessRun(options, launch.value(), std::move(overrides)).Run();
+  if (options.in_process) return RunInProcess(resolved, launch.value());
+  return ProcessRun(resolved, launch.value(), std::move(overrides)).Run();
 }
 
 }  // namespace rodeira::front

@@ -162,6 +162,7 @@ terrain:
     spacing_m: 10
     west_m: -2560
     south_m: -2560
+    below_m: 0.3
     flat_m: 14
     full_m: 260
     relief:

@@ -25,6 +25,7 @@ void OnTerminate(int) {
 void NodeBus::HandleSignals() {
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, OnTerminate);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error to report, not the process' end
 }
 
 namespace topics = idl::topics;

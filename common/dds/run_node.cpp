@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <condition_variable>
 #include <cstdio>
+#include <mutex>
+#include <optional>
 
 #include "common/base/mathematics.hpp"
 #include "common/dds/node_bus.hpp"
@@ -8,6 +11,9 @@
 #include "common/dds/remote_ground.hpp"
 #include "common/dds/run.hpp"
 #include "common/lockstep/runner.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
 
 namespace rodeira::dds {
 namespace {
@@ -26,6 +32,26 @@ class ProcessContext final : public launch::NodeContext {
       ground_ = std::move(ground).value();
     }
     return *ground_;
+  }
+  base::Result<launch::WorldSummary> World() override {
+    std::mutex mutex;
+    std::condition_variable woken;
+    std::optional<launch::WorldSummary> summary;
+    auto reader = participant_.MakeReader(idl::topics::kWorldInfo, Delivery::kForLateComers, [&](base::Bytes&& bytes) {
+      const auto info = idl::Decode<msg::WorldInfo>(bytes);
+      if (!info) return;
+      const std::lock_guard lock(mutex);
+      summary = {info.value().content_hash(), info.value().name(), info.value().start_x_m(), info.value().start_y_m(), info.value().start_heading_rad()};
+      woken.notify_all();
+    });
+    if (!reader) return reader.error();
+    std::unique_lock lock(mutex);
+    const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(launch().watchdog().start_ms);
+    while (!summary && !mailbox_.grant().abort && std::chrono::steady_clock::now() < until) woken.wait_for(lock, 20ms);
+    lock.unlock();
+    reader.value().reset();  // its callback uses what lies on this stack
+    if (!summary) return base::Failed("the road server says nothing of the world");
+    return *summary;
   }
   void Follow(lockstep::Runner* runner) {
     if (ground_ != nullptr) ground_->Follow(runner);

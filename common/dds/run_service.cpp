@@ -22,6 +22,9 @@ class ServiceContext final : public launch::NodeContext {
   terrain::Ground& Ground() override {
     RODEIRA_ASSERT(!"a server asks nobody");
   }
+  base::Result<launch::WorldSummary> World() override {
+    RODEIRA_ASSERT(!"a server asks nobody");
+  }
 };
 
 int Complain(const base::Error& error) {

@@ -9,6 +9,7 @@
 namespace rodeira::geometry {
 namespace {
 
+constexpr double kLastStep_m = 1e-7;
 constexpr double kSlack_m = 1e-6;  // far above all rounding: no panel that could be the nearest is left out
 
 double SquaredDistanceToBox(const Eigen::Vector2d& p, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
@@ -79,11 +80,13 @@ void PlanCurve::NearestWithin(const Eigen::Vector2d& p, std::uint32_t index, dou
     const double curvature = panel.curvature_1pm + panel.curvature_rate_1pm2 * u;
     const Eigen::Vector2d away = p - at;
     const double slope = 1.0 - curvature * (tangent.x() * away.y() - tangent.y() * away.x());
-    double next = u + value / slope;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const double change = std::fabs(next - u);
-    u = next;
-    if (change <= 1e-9) break;  // Newton: what is left is below 1e-15 m
+    const double step = value / slope;
+    if (std::fabs(step) <= kLastStep_m) {  // Newton doubles the digits: what is left after it is rounding
+      u = std::clamp(u + step, from, to);
+      break;
+    }
+    const double next = u + step;
+    u = next > low && next < high ? next : 0.5 * (low + high);
   }
   ahead(u);
   offer(u);

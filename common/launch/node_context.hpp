@@ -10,6 +10,15 @@
 
 namespace rodeira::launch {
 
+// What everybody may know of the run's world without loading it.
+struct WorldSummary {
+  base::Digest content_hash = 0;
+  std::string name;
+  double start_x_m = 0.0;  // where the driver's car begins
+  double start_y_m = 0.0;
+  double start_heading_rad = 0.0;
+};
+
 // What a node gets from its host, be that a process of its own or a run in one process.
 class NodeContext {
  public:
@@ -26,6 +35,8 @@ class NodeContext {
 
   // SUELO of the run's world: remote or in this process, with the same bits.
   virtual terrain::Ground& Ground() = 0;
+  // From the road server, waited for; Failed where it does not come.
+  virtual base::Result<WorldSummary> World() = 0;
   // A node that has loaded the world says so; all who did must agree.
   void set_world_hash(base::Digest hash) { world_hash_ = hash; }
   base::Digest world_hash() const { return world_hash_; }

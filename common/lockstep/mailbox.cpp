@@ -30,6 +30,13 @@ Mailbox::Track* Mailbox::TrackOf(SourceIndex source) {
 const Mailbox::Track* Mailbox::TrackOf(SourceIndex source) const { return const_cast<Mailbox*>(this)->TrackOf(source); }
 
 base::Status Mailbox::Deliver(Sample sample) {
+  bool wake = false;
+  auto status = Keep(std::move(sample), wake);
+  if (wake) woken_.notify_all();  // without the lock: who wakes would only run into it
+  return status;
+}
+
+base::Status Mailbox::Keep(Sample sample, bool& wake) {
   const std::lock_guard lock(mutex_);
   Track* track = TrackOf(sample.source());
   if (track == nullptr) return {};
@@ -53,16 +60,21 @@ base::Status Mailbox::Deliver(Sample sample) {
     return base::WrongInput(fmt::format("two different samples are valid at step {}", step), roster_.SourceName(sample.source()));
   }
   track->slots[at] = std::move(sample);
-  if (want_.what != Want::What::kNothing && Satisfied(want_)) woken_.notify_all();
+  wake = want_.what != Want::What::kNothing && Satisfied(want_);
   return {};
 }
 
 void Mailbox::DeliverGrant(const Grant& grant) {
-  const std::lock_guard lock(mutex_);
-  const bool news = grant.through > grant_.through || (grant.final && !grant_.final) || (grant.abort && !grant_.abort) || (grant.over && !grant_.over);
-  if (!news) return;  // said again, or overtaken on its way
-  grant_ = grant;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!IsNews(grant)) return;  // said again, or overtaken on its way
+    grant_ = grant;
+  }
   woken_.notify_all();
+}
+
+bool Mailbox::IsNews(const Grant& grant) const {
+  return grant.through > grant_.through || (grant.final && !grant_.final) || (grant.abort && !grant_.abort) || (grant.over && !grant_.over);
 }
 
 bool Mailbox::Has(const Track& track, Step from, Step through) const {

@@ -68,6 +68,8 @@ class Mailbox {
   };
 
   static void DropBefore(Track& track, Step oldest);  // `oldest` is a multiple of the track's period
+  base::Status Keep(Sample sample, bool& wake);
+  bool IsNews(const Grant& grant) const;
   Track* TrackOf(SourceIndex source);
   const Track* TrackOf(SourceIndex source) const;
   bool Has(const Track& track, Step from, Step through) const;  // every multiple of the period in [from, through]

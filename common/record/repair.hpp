@@ -17,7 +17,7 @@ struct RepairReport {
   Statistics kept;
   std::uint64_t source_bytes = 0;
   std::uint64_t target_bytes = 0;
-  std::vector<std::string> losses;  // one sentence each; empty where nothing but the ending was missing
+  std::vector<std::string> losses;  // one sentence each: what was lost, and what was found damaged
 
   // Several lines for a person.
   std::string Text() const;

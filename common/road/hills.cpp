@@ -105,7 +105,7 @@ terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const Road> ro
       if (!axis.empty()) {
         const Base base = BaseAt(axis, spec.west_m + east, spec.south_m + north, spec.flat_m * spec.flat_m);
         const double u = std::clamp((base.distance_m - spec.flat_m) / (spec.full_m - spec.flat_m), 0.0, 1.0);
-        z = base.z_m;
+        z = base.z_m - spec.below_m;
         grown = u * u * (3.0 - 2.0 * u);
       }
       if (grown > 0.0) {

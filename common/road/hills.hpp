@@ -25,6 +25,7 @@ struct HillsSpec {
   double south_m = 0.0;
   double spacing_m = 0.0;
   double base_z_m = 0.0;  // the middle height where there is no road
+  double below_m = 0.0;   // the terrain lies this much below the road's axis
   double flat_m = 0.0;    // up to this distance from a road's axis the terrain lies level with the road
   double full_m = 0.0;    // from this distance on the hills have their full height
   std::vector<Relief> relief;
@@ -32,7 +33,7 @@ struct HillsSpec {
 };
 
 // The terrain: the mean of the roads' heights, weighted by 1 / (d^2 + flat^2)^2 of the distance d to points of their axes,
-// plus the relief, which grows from nothing at flat_m to all of it at full_m. A pure function of its arguments that uses
+// less below_m, plus the relief, which grows from nothing at flat_m to all of it at full_m. A pure function of its arguments that uses
 // sums, products, quotients and square roots only.
 terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const Road> roads);
 

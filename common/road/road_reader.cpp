@@ -113,7 +113,7 @@ void ReadLanes(const Map& map, SectionSpec& section) {
   if (map.Has("lanes") && lanes.size() == 0) map.Problem("lanes", "a road needs at least one lane");
   for (const int id : ids) {
     const int inner = id > 0 ? id - 1 : id + 1;
-    if (inner != 0 && !ids.contains(inner)) map.Problem("lanes", fmt::format("there is a lane {} but no lane {} between it and the axis", id, inner));
+    if (id != 0 && inner != 0 && !ids.contains(inner)) map.Problem("lanes", fmt::format("there is a lane {} but no lane {} between it and the axis", id, inner));
   }
   std::sort(section.lanes.begin(), section.lanes.end(), [](const Lane& a, const Lane& b) { return a.id < b.id; });
 }

@@ -14,8 +14,8 @@ constexpr double kSharpest = 0.95;      // curvature times the half width on the
 constexpr double kNearerBy_m = 1e-6;    // what a projection may err, generously
 constexpr double kCapStep_rad = 0.05;
 
-// The axis' element that bends most sharply inward of the blend's edge, if it is too sharp.
-void CheckBends(const Road& road, const config::Map& map) {
+// Whether no element of the axis bends so sharply that the blend's inner edge nears the centre of the bend.
+bool BendsAreWide(const Road& road, const config::Map& map) {
   const auto& pieces = road.plan().pieces();
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     for (const double curvature : {pieces[i].curvature_start_1pm, pieces[i].curvature_end_1pm}) {
@@ -24,9 +24,10 @@ void CheckBends(const Road& road, const config::Map& map) {
       const auto axis = map.Items("axis");
       axis.Problem(i, fmt::format("the bend of radius {:.6g} m is too sharp for lanes, shoulder, verge and blend of together {:.6g} m on its inner side",
                                   1.0 / std::fabs(curvature), inner));
-      return;
+      return false;
     }
   }
+  return true;
 }
 
 // Points on the outline of the road with its blend.
@@ -60,7 +61,7 @@ std::vector<OutlinePoint> Outline(const Road& road) {
 }  // namespace
 
 void CheckRoadFits(const Road& road, const terrain::ElevationGrid* grid, const config::Map& map) {
-  CheckBends(road, map);
+  if (!BendsAreWide(road, map)) return;  // the rest would only tell the same again
   bool left_terrain = false, met_itself = false;
   for (const OutlinePoint& point : Outline(road)) {
     if (grid != nullptr && !left_terrain && !grid->At(point.p_W.x(), point.p_W.y()).inside) {

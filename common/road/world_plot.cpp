@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "common/geometry/angle.hpp"
+
 namespace rodeira::road {
 namespace {
 
@@ -66,7 +68,7 @@ View Look(const World& world) {
 
 // Green valleys, brown hills, pale tops; darker where the slope turns away from a light in the north-west.
 std::string Shades(const View& view) {
-  std::string svg;
+  std::string svg = "<g shape-rendering=\"crispEdges\">\n";
   const double dx = (view.extents.east_m - view.extents.west_m) / view.columns, dy = (view.extents.north_m - view.extents.south_m) / view.rows;
   for (int row = 0; row < view.rows; ++row) {
     for (int column = 0; column < view.columns; ++column) {
@@ -85,7 +87,7 @@ std::string Shades(const View& view) {
                          view.Y(p.y()), dx * view.scale + 0.3, dy * view.scale + 0.3, mix(120, 205, 250), mix(170, 180, 245), mix(105, 125, 235));
     }
   }
-  return svg;
+  return svg + "</g>\n";
 }
 
 double ContourStep(double range_m) {
@@ -158,7 +160,7 @@ std::string PlotWorld(const World& world) {
   svg += Roads(world, view);
   const double sx = view.X(world.start().x_m), sy = view.Y(world.start().y_m);
   svg += fmt::format("<path d=\"M0 0L-11 5L-11 -5Z\" fill=\"#c02020\" transform=\"translate({:.1f} {:.1f}) rotate({:.1f})\"/>\n", sx, sy,
-                     -world.start().heading_rad * 180.0 / 3.14159265358979);
+                     -world.start().heading_rad * 180.0 / geometry::kPi);
   svg += fmt::format("<text x=\"4\" y=\"{:.0f}\" font-family=\"sans-serif\" font-size=\"14\">{:.0f} m wide, heights {:.1f} to {:.1f} m, contours every {:.0f} m</text>\n",
                      height + 17.0, view.extents.east_m - view.extents.west_m, view.low, view.high, step);
   return svg + "</svg>\n";

@@ -36,6 +36,7 @@ HillsSpec ReadHills(const Map& map) {
   hills.west_m = map.Number("west_m", {-1e8, 1e8});
   hills.south_m = map.Number("south_m", {-1e8, 1e8});
   hills.base_z_m = map.Number("base_z_m", {-12'000.0, 12'000.0}, 0.0);
+  hills.below_m = map.Number("below_m", {-50.0, 50.0}, 0.0);
   hills.flat_m = map.Number("flat_m", {0.1, 10'000.0}, 15.0);
   hills.full_m = map.Number("full_m", {0.2, 100'000.0}, 200.0);
   if (hills.full_m <= hills.flat_m) map.Problem("full_m", "'full_m' must be greater than 'flat_m': the hills grow between them");

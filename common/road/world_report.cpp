@@ -45,7 +45,7 @@ Earthwork EarthworkOf(const World& world, const Road& road) {
 }
 
 std::string DescribeRoad(const World& world, const Road& road) {
-  double sharpest = 0.0, least = 0.0, steepest_up = 0.0, steepest_down = 0.0, turned = 0.0;
+  double sharpest = 0.0, steepest_up = 0.0, steepest_down = 0.0, turned = 0.0;
   int bends = 0, side = 0;
   for (const geometry::PlanPiece& piece : road.plan().pieces()) {
     sharpest = std::max({sharpest, std::fabs(piece.curvature_start_1pm), std::fabs(piece.curvature_end_1pm)});
@@ -55,12 +55,11 @@ std::string DescribeRoad(const World& world, const Road& road) {
     if (now != 0 && now != side) ++bends;
     side = now;
   }
-  double lowest = std::numeric_limits<double>::infinity();
-  least = -lowest;
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (double s = 0.0; s <= road.length_m(); s += 1.0) {
     const geometry::ProfilePoint at = road.profile().Evaluate(s);
     lowest = std::min(lowest, at.z_m);
-    least = std::max(least, at.z_m);
+    highest = std::max(highest, at.z_m);
     steepest_up = std::max(steepest_up, at.grade);
     steepest_down = std::min(steepest_down, at.grade);
   }
@@ -69,7 +68,7 @@ std::string DescribeRoad(const World& world, const Road& road) {
   text += fmt::format("  length_m: {:.3f}\n  bends: {} ({:.1f} a km, {:.0f} degrees turned a km)\n", road.length_m(), bends,
                       1000.0 * bends / road.length_m(), Degrees(turned) * 1000.0 / road.length_m());
   if (sharpest > 0.0) text += fmt::format("  smallest_radius_m: {:.6g}\n", 1.0 / sharpest);
-  text += fmt::format("  heights_m: {:.2f} to {:.2f}\n  grades: {:.2f} % to {:.2f} %\n", lowest, least, 100.0 * steepest_down, 100.0 * steepest_up);
+  text += fmt::format("  heights_m: {:.2f} to {:.2f}\n  grades: {:.2f} % to {:.2f} %\n", lowest, highest, 100.0 * steepest_down, 100.0 * steepest_up);
   for (const Lane& lane : road.lanes()) {
     text += fmt::format("  lane {}: {} s, width_m {:.2f}, speed limit {:.0f} km/h\n", lane.id, lane.direction > 0 ? "along" : "against",
                         lane.width_m, lane.speed_limit_mps * 3.6);
@@ -120,8 +119,9 @@ std::string DescribePoint(const World& world, double x_m, double y_m, std::optio
     return text + fmt::format("inside: false\nextents_m: x {:.3f} to {:.3f}, y {:.3f} to {:.3f}\n", extents.west_m, extents.east_m,
                               extents.south_m, extents.north_m);
   }
-  text += fmt::format("inside: true\nz_m: {:.7f}\nnormal: [{:.9f}, {:.9f}, {:.9f}]\nfriction: {}\nsurface: {}\n", at.z_m, at.normal_W.x(),
-                      at.normal_W.y(), at.normal_W.z(), at.friction, SurfaceName(at.surface));
+  const Eigen::Vector3d normal = at.normal_W + Eigen::Vector3d::Zero();  // -0 is 0
+  text += fmt::format("inside: true\nz_m: {:.7f}\nnormal: [{:.9f}, {:.9f}, {:.9f}]\nfriction: {}\nsurface: {}\n", at.z_m, normal.x(),
+                      normal.y(), normal.z(), at.friction, SurfaceName(at.surface));
   for (const Road& road : world.roads()) {
     const auto place = road.Locate(x_m, y_m, z_hint_m);
     if (!place || std::fabs(place->t_m) > road.section().reach_m()) continue;

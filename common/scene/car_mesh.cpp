@@ -130,9 +130,11 @@ CarShape CarShape::Of(const AgentPose& agent) {
   shape.front_m = 0.5 * agent.length_m;
   shape.width_m = agent.width_m;
   shape.height_m = agent.height_m;
+  shape.wheel_radius_m = agent.wheel_radius_m;
+  shape.wheel_width_m = 0.6 * agent.wheel_radius_m;
   const double y = 0.5 * agent.width_m + 0.012 - 0.5 * shape.wheel_width_m;
   for (std::size_t i = 0; i < 4; ++i) {
-    shape.hubs_B[i] = {(i < 2 ? 0.305 : -0.325) * agent.length_m, i % 2 == 0 ? y : -y, shape.wheel_radius_m};
+    shape.hubs_B[i] = {(i < 2 ? 0.5 : -0.5) * agent.wheelbase_m, i % 2 == 0 ? y : -y, shape.wheel_radius_m};
   }
   return shape;
 }

@@ -11,14 +11,17 @@ namespace {
 
 double Between(double a, double b, double alpha) { return a + alpha * (b - a); }
 
+// Angles are known up to full turns: the number of turns is the one that the speeds tell.
+double BetweenSpins(double a_rad, double b_rad, double expected_rad, double alpha) {
+  const double turned = expected_rad + geometry::WrapAngle(b_rad - a_rad - expected_rad);
+  return geometry::WrapAngle(a_rad + alpha * turned);
+}
+
 WheelPose BetweenWheels(const WheelPose& a, const WheelPose& b, double alpha, double interval_s) {
   WheelPose wheel;
   wheel.hub_B = a.hub_B + alpha * (b.hub_B - a.hub_B);
   wheel.steer_rad = Between(a.steer_rad, b.steer_rad, alpha);
-  // The angles are known up to full turns: the number of turns is the one that the speeds tell.
-  const double expected = 0.5 * (a.spin_radps + b.spin_radps) * interval_s;
-  const double turned = expected + geometry::WrapAngle(b.spin_rad - a.spin_rad - expected);
-  wheel.spin_rad = geometry::WrapAngle(a.spin_rad + alpha * turned);
+  wheel.spin_rad = BetweenSpins(a.spin_rad, b.spin_rad, 0.5 * (a.spin_radps + b.spin_radps) * interval_s, alpha);
   wheel.spin_radps = Between(a.spin_radps, b.spin_radps, alpha);
   return wheel;
 }
@@ -32,12 +35,13 @@ CarPose BetweenCars(const CarPose& a, const CarPose& b, double alpha, double int
   return car;
 }
 
-AgentPose BetweenAgents(const AgentPose& a, const AgentPose& b, double alpha) {
+AgentPose BetweenAgents(const AgentPose& a, const AgentPose& b, double alpha, double interval_s) {
   AgentPose agent = alpha < 0.5 ? a : b;
   agent.p_WB_W = a.p_WB_W + alpha * (b.p_WB_W - a.p_WB_W);
   agent.q_WB = a.q_WB.slerp(alpha, b.q_WB);
   agent.speed_mps = Between(a.speed_mps, b.speed_mps, alpha);
   agent.steer_rad = Between(a.steer_rad, b.steer_rad, alpha);
+  agent.wheel_spin_rad = BetweenSpins(a.wheel_spin_rad, b.wheel_spin_rad, 0.5 * (a.speed_mps + b.speed_mps) / a.wheel_radius_m * interval_s, alpha);
   return agent;
 }
 
@@ -66,7 +70,7 @@ Moment Interpolate(const Moment& a, const Moment& b, double alpha) {
   moment.time_ns = a.time_ns + std::llround(alpha * static_cast<double>(b.time_ns - a.time_ns));
   const double interval_s = static_cast<double>(b.time_ns - a.time_ns) * 1e-9;
   ForPairs(a.cars, b.cars, [&](const CarPose& p, const CarPose& q) { moment.cars.push_back(BetweenCars(p, q, alpha, interval_s)); });
-  ForPairs(a.agents, b.agents, [&](const AgentPose& p, const AgentPose& q) { moment.agents.push_back(BetweenAgents(p, q, alpha)); });
+  ForPairs(a.agents, b.agents, [&](const AgentPose& p, const AgentPose& q) { moment.agents.push_back(BetweenAgents(p, q, alpha, interval_s)); });
   return moment;
 }
 

@@ -31,16 +31,17 @@ struct CarPose {
   double length_m = 3.85, front_m = 2.01, width_m = 1.65;  // front bumper from B's origin
 };
 
-// A car of the traffic: B's origin is the centre of its footprint, on the ground.
+// A car of the traffic: B's origin is the middle of its footprint, between the axles, on the ground.
 struct AgentPose {
-  std::uint64_t id = 0;
+  std::uint64_t id = 0;  // of one appearance: who leaves and enters again elsewhere has another
   Colour colour;
   Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
   double speed_mps = 0.0;
-  double steer_rad = 0.0;
+  double steer_rad = 0.0;  // of the front wheels
+  double wheel_spin_rad = 0.0;
   bool braking = false;
-  double length_m = 4.0, width_m = 1.7, height_m = 1.45;
+  double length_m = 4.0, width_m = 1.7, height_m = 1.45, wheelbase_m = 2.5, wheel_radius_m = 0.3;
 };
 
 // Heading from east counter-clockwise, pitch positive nose down, roll positive left side up (ISO 8855).

@@ -10,13 +10,16 @@ constexpr double kWalking_mps = 1.5;        // above it the car does not go from
 constexpr double kMatched_radps = 10.0;     // near enough to the new gear's speed
 constexpr double kMatchGain = 0.02;         // throttle a rad/s that the engine is too slow
 constexpr double kLoadSmoothing_s = 0.4;
+constexpr double kTouched = 0.05;           // less throttle than this is coasting
+constexpr double kAnotherPedal = 0.1;       // the driver has changed his mind
 
 double Between(double light, double full, double throttle) { return light + (full - light) * throttle; }
 
-// Full-load torque at the wheels in this gear.
-double WheelTorque(const GearboxSettings& gearbox, const EngineSettings& engine, int gear, double wheel_radps) {
+// Torque at the wheels in this gear with this pedal.
+double WheelTorque(const GearboxSettings& gearbox, const EngineSettings& engine, int gear, double wheel_radps, double throttle) {
   const double ratio = TotalRatio(gearbox, gear);
-  return ratio * FullLoadTorque(engine, ratio * wheel_radps);
+  const double drag = DragTorque(engine, ratio * wheel_radps);
+  return gearbox.efficiency * ratio * (throttle * (FullLoadTorque(engine, ratio * wheel_radps) + drag) - drag);
 }
 
 }  // namespace
@@ -35,6 +38,19 @@ void AutomaticGearbox::Start(const AutomaticSettings& settings, const GearboxSet
   Adopt(gear);
 }
 
+bool AutomaticGearbox::MayShiftUp(const AutomaticSettings& settings, const GearboxSettings& gearbox, const EngineSettings& engine,
+                                  const AutomaticInput& input) const {
+  const int next = gear_ + 1;
+  const double load = load_Nm_ * settings.margin;
+  const double most = WheelTorque(gearbox, engine, next, input.wheel_radps, 1.0);
+  const double least = WheelTorque(gearbox, engine, next, input.wheel_radps, 0.0);
+  if (load > most) return false;
+  if (next == weak_gear_ && load > WheelTorque(gearbox, engine, next, input.wheel_radps, input.throttle)) return false;
+  const double pedal = std::clamp((load - least) / (most - least), input.throttle, 1.0);
+  const double leave = Between(settings.down_light_radps, settings.down_full_radps, pedal);
+  return TotalRatio(gearbox, next) * input.wheel_radps > leave * settings.margin;
+}
+
 int AutomaticGearbox::WantedForward(const AutomaticSettings& settings, const GearboxSettings& gearbox,
                                     const EngineSettings& engine, const AutomaticInput& input) const {
   const int top = static_cast<int>(gearbox.forward.size());
@@ -44,11 +60,7 @@ int AutomaticGearbox::WantedForward(const AutomaticSettings& settings, const Gea
   const bool pausing = driven_s_ < settings.pause_s;
 
   if (gear_ < top && speed_in(gear_) > up && (!pausing || speed_in(gear_) > engine.resume_radps)) {
-    // The next gear must bear the load, and at the pedal that this takes its own law must keep it.
-    const double torque = WheelTorque(gearbox, engine, gear_ + 1, input.wheel_radps);
-    const double pedal = torque > 0.0 ? std::clamp(load_Nm_ / torque, input.throttle, 1.0) : 1.0;
-    const double leave = Between(settings.down_light_radps, settings.down_full_radps, pedal);
-    if (speed_in(gear_ + 1) > leave * settings.margin && load_Nm_ * settings.margin <= torque) return gear_ + 1;
+    return MayShiftUp(settings, gearbox, engine, input) ? gear_ + 1 : gear_;
   }
   if (gear_ > 1 && speed_in(gear_) < down && (!pausing || speed_in(gear_) < settings.bite_radps)) {
     // The highest gear that the law keeps; first gear is always good.
@@ -108,11 +120,15 @@ double AutomaticGearbox::ThrottleFor(const AutomaticSettings& settings, const Ge
 AutomaticOutput AutomaticGearbox::Step(const AutomaticSettings& settings, const GearboxSettings& gearbox,
                                        const EngineSettings& engine, const AutomaticInput& input, double dt_s) {
   Advance(settings, gearbox, input, dt_s);
+  if (std::fabs(input.throttle - weak_throttle_) > kAnotherPedal) weak_gear_ = 0;
   if (phase_ == Phase::kDrive) load_Nm_ += (input.load_Nm - load_Nm_) * dt_s / (kLoadSmoothing_s + dt_s);
   if (phase_ == Phase::kDrive || phase_ == Phase::kClose) {
     const int wanted = Wanted(settings, gearbox, engine, input);
     // Neutral and reverse are the driver's wish and come at once; other changes wait for the one under way.
     if (wanted != gear_ && (phase_ == Phase::kDrive || wanted <= 0 || gear_ <= 0)) {
+      const bool weak = wanted > 0 && wanted < gear_ && input.throttle > kTouched && load_Nm_ > 0.0;
+      weak_gear_ = weak ? gear_ : 0;
+      weak_throttle_ = input.throttle;
       target_ = wanted;
       phase_ = Phase::kOpen;
       phase_s_ = 0.0;
@@ -140,6 +156,8 @@ void AutomaticGearbox::Save(base::StateWriter& writer) const {
   writer.Put("phase_s", phase_s_);
   writer.Put("driven_s", driven_s_);
   writer.Put("load_Nm", load_Nm_);
+  writer.Put("weak_gear", weak_gear_);
+  writer.Put("weak_throttle", weak_throttle_);
 }
 
 void AutomaticGearbox::Restore(base::StateReader& reader) {
@@ -149,6 +167,8 @@ void AutomaticGearbox::Restore(base::StateReader& reader) {
   reader.Get("phase_s", phase_s_);
   reader.Get("driven_s", driven_s_);
   reader.Get("load_Nm", load_Nm_);
+  reader.Get("weak_gear", weak_gear_);
+  reader.Get("weak_throttle", weak_throttle_);
 }
 
 }  // namespace rodeira::vehicle

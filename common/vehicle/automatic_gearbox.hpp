@@ -41,8 +41,9 @@ struct AutomaticOutput {
   double throttle = 0.0;
 };
 
-// Chooses the gear and works the clutch. It does not hunt: a gear is entered only where neither its own law nor the want
-// of torque would leave it again at the same pedal. At low speed the clutch closes with the engine's speed, so that the
+// Chooses the gear and works the clutch. It does not hunt: a higher gear is entered only where it can bear the load and its
+// own law would keep it at the pedal which that takes; and a gear that was too weak at some pedal is not tried again until
+// the pedal or the load has changed. At low speed the clutch closes with the engine's speed, so that the
 // car starts smoothly, does not creep and does not stall.
 class AutomaticGearbox {
  public:
@@ -64,6 +65,8 @@ class AutomaticGearbox {
              const AutomaticInput& input) const;
   int WantedForward(const AutomaticSettings& settings, const GearboxSettings& gearbox, const EngineSettings& engine,
                     const AutomaticInput& input) const;
+  bool MayShiftUp(const AutomaticSettings& settings, const GearboxSettings& gearbox, const EngineSettings& engine,
+                  const AutomaticInput& input) const;
   void Advance(const AutomaticSettings& settings, const GearboxSettings& gearbox, const AutomaticInput& input, double dt_s);
   double ThrottleFor(const AutomaticSettings& settings, const GearboxSettings& gearbox, const AutomaticInput& input) const;
 
@@ -73,6 +76,8 @@ class AutomaticGearbox {
   double phase_s_ = 0.0;   // time in this phase
   double driven_s_ = 0.0;  // time since the last change
   double load_Nm_ = 0.0;   // the input's, smoothed
+  std::int32_t weak_gear_ = 0;   // left downward under load …
+  double weak_throttle_ = 0.0;   // … at this pedal
 };
 
 }  // namespace rodeira::vehicle

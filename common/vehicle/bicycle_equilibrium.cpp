@@ -37,9 +37,10 @@ class BicycleEquilibrium {
   using Unknowns = Eigen::Vector3d;  // height, pitch, roll
 
   void Place(const Unknowns& unknowns);
+  Unknowns OnThePlane() const;
   void SettleCorners();
   BicycleModel::Contacts FindContacts() const;
-  Eigen::Vector3d HoldingForce(const BicycleModel::Contacts& contacts, const Eigen::Vector3d& normal) const;
+  Eigen::Vector3d HoldingForce(const Eigen::Vector3d& normal) const;
   Eigen::Vector3d Residual(const Unknowns& unknowns);
   Unknowns Balance(Unknowns unknowns);
 
@@ -51,6 +52,21 @@ void BicycleEquilibrium::Place(const Unknowns& unknowns) {
   model_.body_.q_WG = Eigen::AngleAxisd(initial_.heading_rad, Eigen::Vector3d::UnitZ()) *
                       Eigen::AngleAxisd(unknowns[1], Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(unknowns[2], Eigen::Vector3d::UnitX());
   model_.body_.p_WG_W = Eigen::Vector3d(initial_.x_m, initial_.y_m, unknowns[0]) + model_.body_.q_WG * model_.p_BG_B_;
+}
+
+// Parallel to the plane of the ground's four points, as if springs were rigid: where the search begins.
+BicycleEquilibrium::Unknowns BicycleEquilibrium::OnThePlane() const {
+  BicycleModel::Contacts contacts;
+  double height = 0.0;
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    contacts[i].point_W = model_.wheels_[i].plane_W;
+    height += 0.25 * model_.wheels_[i].plane_W.z();
+  }
+  const Eigen::Vector3d up = model_.RoadNormal(contacts);
+  const Eigen::Vector3d ahead(std::cos(initial_.heading_rad), std::sin(initial_.heading_rad), 0.0);
+  const double pitch = std::atan(ahead.dot(up) / up.z());  // falling ahead: nose down, positive
+  const Eigen::Vector3d forward = std::cos(pitch) * ahead - std::sin(pitch) * Eigen::Vector3d::UnitZ();
+  return {height, pitch, std::atan2(up.cross(forward).z(), up.z())};
 }
 
 void BicycleEquilibrium::SettleCorners() {
@@ -68,7 +84,7 @@ BicycleModel::Contacts BicycleEquilibrium::FindContacts() const {
 }
 
 // What the tyres must give along the road, all together, so that nothing accelerates.
-Eigen::Vector3d BicycleEquilibrium::HoldingForce(const BicycleModel::Contacts&, const Eigen::Vector3d& normal) const {
+Eigen::Vector3d BicycleEquilibrium::HoldingForce(const Eigen::Vector3d& normal) const {
   Eigen::Vector3d force(0.0, 0.0, -model_.settings_.body.mass_kg * kGravity_mps2);
   for (const auto& wheel : model_.wheels_) force += wheel.corner.load_N() * wheel.normal_W;
   return force.dot(normal) * normal - force;
@@ -80,7 +96,7 @@ Eigen::Vector3d BicycleEquilibrium::Residual(const Unknowns& unknowns) {
   SettleCorners();
   const BicycleModel::Contacts contacts = FindContacts();
   const Eigen::Vector3d normal = model_.RoadNormal(contacts);
-  const Eigen::Vector3d holding = HoldingForce(contacts, normal);
+  const Eigen::Vector3d holding = HoldingForce(normal);
   double load = 0.0;
   for (const auto& wheel : model_.wheels_) load += wheel.corner.load_N();
   Eigen::Vector3d force = holding;
@@ -135,6 +151,7 @@ base::Status BicycleEquilibrium::Find(terrain::Ground& ground) {
     for (std::size_t i = 0; i < kWheels; ++i) {
       if (!model_.wheels_[i].inside) return refusal("a wheel would stand outside of the world");
     }
+    if (turn < 3) unknowns = OnThePlane();
     const Unknowns before = unknowns;
     unknowns = Balance(unknowns);
     if ((unknowns - before).cwiseAbs().maxCoeff() < 10.0 * kSettled_m) break;
@@ -153,7 +170,7 @@ void BicycleEquilibrium::SetInMotion() {
   body.v_WG_W = v_WB_W + body.w_WG_W().cross(body.q_WG * model_.p_BG_B_);
 
   const bool rests = v_WB_W.norm() < kStandstill_mps && std::fabs(initial_.yaw_rate_radps) < kStandstill_mps;
-  const Eigen::Vector3d holding = HoldingForce(model_.contacts_, normal);
+  const Eigen::Vector3d holding = HoldingForce(normal);
   double load = 0.0;
   for (const auto& wheel : model_.wheels_) load += wheel.corner.load_N();
   for (std::size_t i = 0; i < kWheels; ++i) {

@@ -50,7 +50,7 @@ void BicycleModel::Publish(const Controls& controls, double dt_s) {
     w.suspension_N = wheel.corner.suspension_N();
     w.damper_N = wheel.corner.damper_N();
     w.travel_m = wheel.corner.travel_m();
-    w.contact_W = contacts_[i].point_W;
+    w.contact_W = ContactOf(i, 0.0).point_W;  // under the pose that is published
     w.contact_normal_W = wheel.normal_W;
     w.friction = wheel.friction;
     w.surface = wheel.surface;

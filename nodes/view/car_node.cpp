@@ -78,7 +78,7 @@ void Fleet::Show(const scene::Moment& moment) {
   });
   Match(moment.agents, agents_, [](CarNode& node, const scene::AgentPose& agent) {
     const scene::CarShape shape = scene::CarShape::Of(agent);
-    for (const std::size_t i : {0U, 1U}) node.Turn(i, shape.hubs_B[i], agent.steer_rad, 0.0);
+    for (std::size_t i = 0; i < 4; ++i) node.Turn(i, shape.hubs_B[i], i < 2 ? agent.steer_rad : 0.0, agent.wheel_spin_rad);
     node.Brake(agent.braking);
   });
 }

@@ -38,16 +38,19 @@ void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::v
   const auto first = static_cast<std::ptrdiff_t>(agents.size());
   for (const msg::TrafficAgent& from : message.agents()) {
     scene::AgentPose agent;
-    agent.id = (static_cast<std::uint64_t>(source) << 32) | from.id();
+    agent.id = (static_cast<std::uint64_t>(source) << 48) | (static_cast<std::uint64_t>(from.id() & 0xffffffU) << 24) | (from.trip() & 0xffffffU);
     agent.colour = scene::Colour::Of(from.colour_rgb());
     agent.p_WB_W = {from.position_x_m(), from.position_y_m(), from.position_z_m()};
     agent.q_WB = scene::Attitude(from.heading_rad(), from.pitch_rad(), from.roll_rad());
     agent.speed_mps = from.speed_mps();
     agent.steer_rad = from.steer_rad();
+    agent.wheel_spin_rad = from.wheel_spin_rad();
     agent.braking = from.brake_lights() != 0;
     if (from.length_m() > 0.0) agent.length_m = from.length_m();
     if (from.width_m() > 0.0) agent.width_m = from.width_m();
     if (from.height_m() > 0.0) agent.height_m = from.height_m();
+    if (from.wheelbase_m() > 0.0) agent.wheelbase_m = from.wheelbase_m();
+    if (from.wheel_radius_m() > 0.0) agent.wheel_radius_m = from.wheel_radius_m();
     agents.push_back(agent);
   }
   std::sort(agents.begin() + first, agents.end(), [](const scene::AgentPose& a, const scene::AgentPose& b) { return a.id < b.id; });

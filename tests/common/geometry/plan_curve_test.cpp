@@ -91,13 +91,28 @@ TEST(PlanCurve, BeyondTheEndsTheFootIsTheEnd) {
   EXPECT_NEAR(after.t_m, -7.0, 1e-10);
 }
 
+TEST(PlanCurve, FindsTheFootBeforeTheDistanceFallsAgain) {
+  // Seen from near its centre of curvature a tightening bend has a nearest point, then a farthest, then comes nearer
+  // again: here at s = 2 m, about 4.4 m and the end, all within one panel.
+  const PlanCurve curve({0.0, 0.0}, 0.3, {{5.0, 0.03, 0.045}}, 10.0);
+  const PlanPoint at = curve.Evaluate(2.0);
+  const Eigen::Vector2d p = at.p_W + 0.9 / at.curvature_1pm * at.left_W();
+  const auto distance = [&](double s) { return (curve.Evaluate(s).p_W - p).norm(); };
+  ASSERT_TRUE(distance(2.0) < distance(4.4) && distance(4.4) > distance(5.0) && distance(2.0) < distance(5.0));
+  const Foot foot = curve.Project(p.x(), p.y());
+  EXPECT_NEAR(foot.s_m, 2.0, 1e-9);
+  EXPECT_NEAR(foot.t_m, 0.9 / at.curvature_1pm, 1e-12);
+}
+
 RC_GTEST_PROP(PlanCurve, TheFootIsTheNearestPointOfAll, ()) {
   const PlanCurve curve = AnyCurve();
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 30; ++i) {
     const double s = Draw(0, 1000, 0.001) * curve.length_m();
     const PlanPoint at = curve.Evaluate(s);
-    const Eigen::Vector2d p = at.p_W + Draw(-2000, 2000, *rc::gen::element(0.001, 0.01, 0.1)) * at.left_W() +
-                              Draw(-300, 300, *rc::gen::element(0.0, 0.1)) * at.tangent_W;
+    // To the side, near and far; or about the centre of curvature, where the distance hardly changes along the curve.
+    double t = Draw(-2000, 2000, *rc::gen::element(0.001, 0.01, 0.1));
+    if (i % 5 == 4 && at.curvature_1pm != 0.0) t = Draw(950, 1050, 0.001) / at.curvature_1pm;
+    const Eigen::Vector2d p = at.p_W + t * at.left_W() + Draw(-300, 300, *rc::gen::element(0.0, 0.1)) * at.tangent_W;
     const Foot foot = curve.Project(p.x(), p.y());
     RC_ASSERT(std::fabs((foot.at.p_W - p).norm() - foot.distance_m) < 1e-9);
     RC_ASSERT((curve.Evaluate(foot.s_m).p_W - foot.at.p_W).norm() < 1e-9);
@@ -129,11 +144,13 @@ RC_GTEST_PROP(PlanCurve, ComesBackWhereItCameFromWhileUnique, ()) {
 
 RC_GTEST_PROP(PlanCurve, OutOfReachMeansFartherThanTheReach, ()) {
   const PlanCurve curve = AnyCurve();
-  const Eigen::Vector2d centre = 0.5 * (curve.low_W() + curve.high_W());
-  const Eigen::Vector2d p = centre + Eigen::Vector2d(Draw(-200, 200, 1.0), Draw(-200, 200, 1.0));
-  const double distance = curve.Project(p.x(), p.y()).distance_m;
-  if (!curve.MayReach(p.x(), p.y())) RC_ASSERT(distance > 25.0);
-  if (distance > 25.0 + 4.0 * 4.0) RC_ASSERT(!curve.MayReach(p.x(), p.y()));  // and it is not the lazy answer
+  for (int i = 0; i < 40; ++i) {
+    const PlanPoint at = curve.Evaluate(Draw(0, 1000, 0.001) * curve.length_m());
+    const Eigen::Vector2d p = at.p_W + Draw(-500, 500, 0.1) * at.left_W() + Draw(-50, 50, 0.1) * at.tangent_W;
+    const double distance = curve.Project(p.x(), p.y()).distance_m;
+    if (!curve.MayReach(p.x(), p.y())) RC_ASSERT(distance > 25.0);
+    if (distance > 25.0 + 4.0 * 4.0) RC_ASSERT(!curve.MayReach(p.x(), p.y()));  // and it is not the lazy answer
+  }
 }
 
 }  // namespace

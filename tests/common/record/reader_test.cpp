@@ -100,6 +100,17 @@ TEST(Reader, KnowsSchemasChannelsMetadataAttachmentsStatistics) {
   }
 }
 
+// A later chunk that begins earlier holds a message of the very time at which an earlier chunk begins.
+TEST(Reader, EqualTimesInOverlappingChunksComeInFileOrder) {
+  using enum Call::Kind;
+  const std::vector<Call> calls{{kMessage, 0, 5, 1}, {kFlush, 0, 0, 0}, {kMessage, 0, 1, 1}, {kMessage, 0, 5, 1}};
+  auto reader = McapReader::OpenBytes(Record(calls, SmallSettings(Compression::kNone)));
+  ASSERT_TRUE(reader.ok());
+  std::vector<std::uint32_t> order;
+  for (const Copied& message : ReadAll(reader.value()).messages) order.push_back(message.sequence);
+  EXPECT_EQ(order, (std::vector<std::uint32_t>{2, 0, 3}));
+}
+
 TEST(Reader, ACursorOutlivesItsReader) {
   auto cursor = McapReader::OpenBytes(Record(SmallPlan(), SmallSettings(Compression::kNone))).value().Messages();
   int count = 0;

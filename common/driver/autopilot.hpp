@@ -1,0 +1,78 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include "common/base/result.hpp"
+#include "common/base/state.hpp"
+#include "common/config/config.hpp"
+#include "common/driver/footprint.hpp"
+#include "common/driver/idm.hpp"
+#include "common/driver/lane_path.hpp"
+#include "common/driver/leader.hpp"
+#include "common/driver/pedals.hpp"
+#include "common/driver/speed_plan.hpp"
+#include "common/driver/steering.hpp"
+#include "common/vehicle/controls.hpp"
+#include "common/vehicle/vehicle_model.hpp"
+
+namespace rodeira::driver {
+
+struct AutopilotSettings {
+  IdmSettings idm;
+  SpeedPlanSettings speed{.stop_at_end = true};
+  SteeringSettings steering;
+  PedalSettings pedals;
+  double speed_factor = 0.98;     // of the legal limit: slopes and gear changes leave a little over
+  double anticipation_s = 0.5;    // the plan is read so far ahead in time, as pedals and engine take theirs
+  double tracking_s = 1.0;        // time in which a deviation from the plan is made good
+  double side_margin_m = 0.3;     // what comes nearer to the car's sides is in its way
+  double range_m = 150.0;         // sight
+  double far_off_m = 2.5;         // this far beside the lane it drives slowly
+  double slowly_mps = 4.0;
+};
+
+// `rodeira: driver/1`. Problems stay in the file's collection.
+AutopilotSettings ReadAutopilot(const config::Map& root);
+base::Result<AutopilotSettings> LoadDriver(const std::filesystem::path& path);
+
+// What the driver perceives.
+struct DriverView {
+  const vehicle::VehicleState& own;
+  const vehicle::VehicleDimensions& dimensions;
+  std::span<const Footprint> others;  // without the own car
+};
+
+// Drives a lane by steering wheel, pedals and selector alone: at the speed that limit, bends, crests and slopes allow,
+// behind a leader by the IDM, to a stop before what blocks the lane and before the road's end.
+class Autopilot {
+ public:
+  // Drives this lane of the road, which must outlive the autopilot.
+  Autopilot(const AutopilotSettings& settings, const road::Road& road, int lane_id);
+
+  // The controls for the coming dt_s (over 0), from what is seen now.
+  vehicle::Controls Step(const DriverView& view, double dt_s);
+
+  const LanePath& path() const { return path_; }
+  // For displays: the speed that is allowed here, and what is followed.
+  double allowed_mps() const { return allowed_mps_; }
+  const std::optional<Leader>& leader() const { return leader_; }
+
+  void Save(base::StateWriter& writer) const;
+  void Restore(base::StateReader& reader);
+
+ private:
+  double WantedAcceleration(const DriverView& view, const LanePath::Place& place);
+  double SteeringWheel(const DriverView& view, const LanePath::Place& place, double dt_s);
+
+  AutopilotSettings settings_;
+  LanePath path_;
+  SpeedPlan plan_;
+  Pedals pedals_;
+  double steering_wheel_rad_ = 0.0;
+  double allowed_mps_ = 0.0;
+  std::optional<Leader> leader_;
+};
+
+}  // namespace rodeira::driver

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "common/driver/lane_path.hpp"
+
+namespace rodeira::driver {
+
+struct SpeedPlanSettings {
+  double lateral_mps2 = 2.0;        // comfortable in bends: v² |curvature|
+  double vertical_mps2 = 1.5;       // comfortable over crests and through sags: v² |vertical curvature|
+  double braking_mps2 = 1.5;        // planned before a bend or the end
+  double steep_grade = 0.06;        // downhill, from this grade on …
+  double steep_factor = 0.9;        // … so much of the speed
+  bool stop_at_end = false;         // speed 0 at the lane's end
+  double end_margin_m = 3.0;        // so far before it
+};
+
+// The speed that a lane allows a careful driver: the least of the limit and what bends, crests and steep descents leave, met
+// by planned braking. Computed once a lane.
+class SpeedPlan {
+ public:
+  SpeedPlan(const LanePath& path, const SpeedPlanSettings& settings);
+
+  struct Allowed {
+    double speed_mps = 0.0;
+    double slope_1ps = 0.0;  // d speed / d distance; times speed it is the acceleration that keeps to the plan
+  };
+  Allowed At(double d_m) const;
+
+ private:
+  double step_m_ = 1.0;
+  std::vector<double> squared_m2ps2_;  // v² at the nodes, linear between: constant acceleration
+};
+
+}  // namespace rodeira::driver

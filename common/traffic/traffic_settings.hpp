@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/config/config.hpp"
+#include "common/driver/idm.hpp"
+#include "common/driver/speed_plan.hpp"
+
+namespace rodeira::traffic {
+
+// What a traffic source is told. Each agent draws its own values from the ranges, by seed and number.
+struct TrafficSettings {
+  std::uint64_t seed = 1;
+  std::uint32_t vehicles = 20;  // on the road and waiting to enter, together; never more, never fewer
+  driver::IdmSettings idm;      // the middle of what agents draw: time gap and accelerations vary by `variety`
+  double variety = 0.15;        // ± share
+  driver::SpeedPlanSettings speed;
+  double speed_factor_low = 0.85;  // share of the planned speed (limit, bends) that an agent drives
+  double speed_factor_high = 1.0;
+  double tracking_s = 1.0;         // time in which a deviation from the planned speed is made good
+  double side_margin_m = 0.3;      // what comes nearer to an agent's sides is in its way
+  double sight_m = 200.0;
+};
+
+// Reads `vehicles`, `following`, `comfort` … of a mapping; the seed is the run's. Problems stay in the file's collection.
+TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed);
+
+// What does not change about one agent: a pure function of settings and number.
+struct AgentTraits {
+  double length_m = 4.0;
+  double width_m = 1.7;
+  double height_m = 1.45;
+  double wheelbase_m = 2.5;
+  double wheel_radius_m = 0.3;
+  std::uint32_t colour_rgb = 0x808080;
+  double speed_factor = 1.0;
+  driver::IdmSettings idm;
+};
+AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id);
+
+}  // namespace rodeira::traffic

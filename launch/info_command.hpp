@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace rodeira::front {
+
+// `rodeira info FILE.mcap`: what a recording holds, and its condition. Status 2 where it is none.
+int Info(const std::string& file);
+
+}  // namespace rodeira::front

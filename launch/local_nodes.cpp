@@ -1,0 +1,66 @@
+#include "launch/local_nodes.hpp"
+
+#include <fmt/format.h>
+
+#include "launch/node_factories.hpp"
+#include "nodes/road/road_service.hpp"
+
+namespace rodeira::front {
+namespace {
+
+class LocalContext final : public launch::NodeContext {
+ public:
+  LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world)
+      : NodeContext(launch, index), world_(std::move(world)) {
+    if (world_ != nullptr) ground_ = world_->MakeGround();
+  }
+  terrain::Ground& Ground() override {
+    RODEIRA_ASSERT(ground_ != nullptr);  // World() comes first and refuses
+    return *ground_;
+  }
+  base::Result<launch::WorldSummary> World() override {
+    if (world_ == nullptr) return base::WrongInput("the launch file has no node of kind 'road'", launch().path().string());
+    return nodes::Summary(*world_);
+  }
+
+ private:
+  std::shared_ptr<const road::World> world_;
+  std::unique_ptr<terrain::Ground> ground_;
+};
+
+// The world of the run, where a road server would load it.
+base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch& launch) {
+  for (const launch::LaunchNode& node : launch.nodes()) {
+    if (node.kind->name != "road") continue;
+    if (launch.world().empty()) return base::WrongInput("key 'world' is missing; a road server needs a world file", launch.path().string());
+    return road::World::Load(launch.world());
+  }
+  return std::shared_ptr<const road::World>();
+}
+
+}  // namespace
+
+LocalNodes::LocalNodes(LocalNodes&&) noexcept = default;
+LocalNodes::~LocalNodes() = default;
+
+base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch) {
+  const auto& roster = launch.roster();
+  auto world = LoadWorld(launch);
+  if (!world) return world.error();
+  LocalNodes made;
+  for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
+    made.contexts_.push_back(std::make_unique<LocalContext>(launch, n, world.value()));
+    made.nodes_.push_back(nullptr);
+    if (roster.node(n).role == lockstep::Role::kService) continue;
+    const launch::NodeFactory factory = FactoryOf(roster.node(n).kind);
+    if (factory == nullptr) return base::WrongInput(fmt::format("nodes of kind '{}' do not run in one process", roster.node(n).kind), fmt::format("node '{}'", roster.node(n).name));
+    auto node = factory(*made.contexts_.back());
+    if (!node) return base::Error{node.error().code, node.error().Text(), fmt::format("node '{}'", roster.node(n).name)};
+    made.owned_.push_back(std::move(node).value());
+    made.nodes_.back() = made.owned_.back().get();
+  }
+  if (auto status = launch.file().Finish(); !status) return status.error();
+  return made;
+}
+
+}  // namespace rodeira::front

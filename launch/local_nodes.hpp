@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/launch/node_context.hpp"
+
+namespace rodeira::front {
+
+// All stepped nodes of a launch file in this process, with SUELO from the library on one common world.
+class LocalNodes {
+ public:
+  // Wrong input where a configuration, the world or another file is wrong; it names the node. The launch must outlive it.
+  static base::Result<LocalNodes> Make(const launch::Launch& launch);
+  LocalNodes(LocalNodes&&) noexcept;
+  ~LocalNodes();
+
+  // One for each node of the roster; null for services.
+  const std::vector<lockstep::Node*>& nodes() const { return nodes_; }
+
+ private:
+  LocalNodes() = default;
+  std::vector<std::unique_ptr<launch::NodeContext>> contexts_;
+  std::vector<std::unique_ptr<lockstep::Node>> owned_;
+  std::vector<lockstep::Node*> nodes_;
+};
+
+}  // namespace rodeira::front

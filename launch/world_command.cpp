@@ -1,0 +1,50 @@
+#include "launch/world_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "common/base/files.hpp"
+#include "common/road/world_plot.hpp"
+#include "common/road/world_report.hpp"
+
+namespace rodeira::front {
+namespace {
+
+int Complain(const base::Error& error) {
+  fmt::print(stderr, "rodeira: {}\n", error.Text());
+  return error.exit_status();
+}
+
+int Check(const WorldOptions& options) {
+  const auto problems = road::WorldProblems(options.world_file);
+  for (const base::Error& problem : problems) fmt::print(stderr, "rodeira: {}\n", problem.Text());
+  if (!problems.empty()) return problems.front().exit_status();
+  fmt::print("{}: no problem found\n", options.world_file);
+  return 0;
+}
+
+}  // namespace
+
+int World(const WorldOptions& options) {
+  if (options.command == "check") return Check(options);
+  if (options.command == "build") {
+    const auto written = road::BuildWorld(options.world_file, options.out);
+    if (!written) return Complain(written.error());
+    fmt::print("{}", written.value());
+    return 0;
+  }
+  const auto world = road::World::Load(options.world_file);
+  if (!world) return Complain(world.error());
+  if (options.command == "query") {
+    fmt::print("{}", road::DescribePoint(*world.value(), options.x_m, options.y_m, options.z_hint_m));
+    return 0;
+  }
+  fmt::print("{}", road::DescribeWorld(*world.value()));
+  if (options.svg.empty()) return 0;
+  if (auto status = base::WriteWhole(options.svg, road::PlotWorld(*world.value())); !status) return Complain(status.error());
+  fmt::print("wrote {}\n", options.svg);
+  return 0;
+}
+
+}  // namespace rodeira::front

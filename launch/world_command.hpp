@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace rodeira::front {
+
+// `rodeira world check | info | query | build WORLD.yaml …`
+struct WorldOptions {
+  std::string command;  // empty: another command was given
+  std::string world_file;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  std::optional<double> z_hint_m;
+  std::string out;
+  std::string svg;
+};
+
+int World(const WorldOptions& options);
+
+}  // namespace rodeira::front

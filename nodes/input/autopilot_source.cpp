@@ -1,0 +1,93 @@
+#include "nodes/input/autopilot_source.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "common/driver/autopilot.hpp"
+#include "common/road/world.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::nodes {
+namespace {
+
+namespace topics = idl::topics;
+
+// What the autopilot reads of a published state: pose and motion.
+vehicle::VehicleState FromWire(const msg::VehicleState& in) {
+  vehicle::VehicleState out;
+  out.p_WB_W = {in.position_w_m().x(), in.position_w_m().y(), in.position_w_m().z()};
+  out.q_WB = {in.attitude_wb().w(), in.attitude_wb().x(), in.attitude_wb().y(), in.attitude_wb().z()};
+  out.v_WB_W = {in.velocity_w_mps().x(), in.velocity_w_mps().y(), in.velocity_w_mps().z()};
+  out.w_WB_B = {in.angular_velocity_b_radps().x(), in.angular_velocity_b_radps().y(), in.angular_velocity_b_radps().z()};
+  out.a_WB_W = {in.acceleration_w_mps2().x(), in.acceleration_w_mps2().y(), in.acceleration_w_mps2().z()};
+  out.steering_wheel_rad = in.steering_wheel_rad();
+  out.gear = in.gear();
+  return out;
+}
+
+class AutopilotSource final : public Source {
+ public:
+  AutopilotSource(std::shared_ptr<const road::World> world, const driver::AutopilotSettings& settings, const vehicle::VehicleDimensions& dimensions, int road,
+                  int lane)
+      : world_(std::move(world)), dimensions_(dimensions), autopilot_(settings, world_->roads()[static_cast<std::size_t>(road)], lane) {}
+
+  vehicle::Controls First() override { return {}; }
+
+  base::Result<vehicle::Controls> Step(const lockstep::StepInfo& step, std::int64_t, const lockstep::Inbox& inbox) override {
+    const auto own = idl::Decode<msg::VehicleState>(*inbox.Latest(topics::kVehicleState).payload);
+    if (!own) return own.error();
+    others_.clear();
+    for (const lockstep::Sample& sample : inbox.All(topics::kTrafficState)) {
+      const auto traffic = idl::Decode<msg::TrafficState>(*sample.payload);
+      if (!traffic) return traffic.error();
+      for (const msg::TrafficAgent& agent : traffic.value().agents()) {
+        others_.push_back({agent.id(), agent.position_x_m(), agent.position_y_m(), agent.heading_rad(), agent.speed_mps(), agent.length_m(), agent.width_m()});
+      }
+    }
+    const vehicle::VehicleState state = FromWire(own.value());
+    return autopilot_.Step({state, dimensions_, others_}, step.dt_s);
+  }
+
+  void Save(base::StateWriter& out) const override { out.Put("autopilot", autopilot_); }
+  void Restore(base::StateReader& in) override { in.Get("autopilot", autopilot_); }
+
+ private:
+  std::shared_ptr<const road::World> world_;
+  vehicle::VehicleDimensions dimensions_;
+  driver::Autopilot autopilot_;
+  std::vector<driver::Footprint> others_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<Source>> MakeAutopilotSource(const config::Map& config, launch::NodeContext& context) {
+  const std::filesystem::path driver_file = config.Path("driver");
+  const std::filesystem::path vehicle_file = config.Path("vehicle");
+  const bool has_lane = config.Has("lane");
+  const auto lane_wish = static_cast<int>(config.Integer("lane", -20, 20, 0));
+  if (auto status = context.launch().file().Finish(); !status) return status.error();
+  bool sees_the_car = false;
+  for (const lockstep::Port& port : context.spec().inputs) sees_the_car = sees_the_car || port.topic == topics::kVehicleState;
+  if (!sees_the_car) return base::WrongInput("the autopilot needs the state of the car that it drives; wire 'vehicle_state' to it", config.Place());
+  const auto settings = driver::LoadDriver(driver_file);
+  if (!settings) return settings.error();
+  const auto model = vehicle::LoadVehicle(vehicle_file);
+  if (!model) return model.error();
+  auto world = road::World::Load(context.launch().world());
+  if (!world) return world.error();
+  const road::StartPose start = world.value()->start();
+  if (start.road < 0) return base::WrongInput("this world has no road to start on; the autopilot needs one", context.launch().world().string());
+  const road::Road& road = world.value()->roads()[static_cast<std::size_t>(start.road)];
+  const int lane = has_lane ? lane_wish : start.lane;
+  bool known = false;
+  for (const road::Lane& candidate : road.lanes()) known = known || candidate.id == lane;
+  if (!known) return base::WrongInput(fmt::format("road '{}' has no lane {}", road.id(), lane), config.Place("lane"));
+  context.set_world_hash(world.value()->content_hash());
+  return std::unique_ptr<Source>(
+      std::make_unique<AutopilotSource>(std::move(world).value(), settings.value(), model.value()->dimensions(), start.road, lane));
+}
+
+}  // namespace rodeira::nodes

@@ -1,0 +1,76 @@
+#include "nodes/input/input_node.hpp"
+
+#include <utility>
+
+#include "common/base/files.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+#include "nodes/input/autopilot_source.hpp"
+#include "nodes/input/script_source.hpp"
+#include "nodes/input/source.hpp"
+
+namespace rodeira::nodes {
+namespace {
+
+namespace topics = idl::topics;
+
+msg::Controls ToWire(const vehicle::Controls& in) {
+  msg::Controls out;
+  out.steering_wheel_rad(in.steering_wheel_rad);
+  out.throttle(in.throttle);
+  out.brake(in.brake);
+  out.clutch(in.clutch);
+  out.handbrake(in.handbrake);
+  out.gear(in.gear);
+  out.gearbox_mode(static_cast<std::uint32_t>(in.gearbox));
+  out.starter(in.starter ? 1 : 0);
+  return out;
+}
+
+class InputNode final : public lockstep::Node {
+ public:
+  InputNode(std::unique_ptr<Source> source, std::int64_t base_step_ns) : source_(std::move(source)), base_step_ns_(base_step_ns) {}
+
+  base::Status Initialise(lockstep::Outbox& outbox) override {
+    outbox.Put(topics::kControls, idl::Encode(ToWire(source_->First())));
+    return {};
+  }
+  base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
+    const auto controls = source_->Step(step, step.output_valid * base_step_ns_, inbox);
+    if (!controls) return controls.error();
+    outbox.Put(topics::kControls, idl::Encode(ToWire(controls.value())));
+    return {};
+  }
+  void Save(base::StateWriter& out) const override { out.Put("source", *source_); }
+  void Restore(base::StateReader& in) override { in.Get("source", *source_); }
+
+ private:
+  std::unique_ptr<Source> source_;
+  std::int64_t base_step_ns_;
+};
+
+base::Result<std::unique_ptr<Source>> MakeScript(const config::Map& config, launch::NodeContext& context) {
+  const std::filesystem::path path = config.Path("script");
+  if (auto status = context.launch().file().Finish(); !status) return status.error();
+  const auto text = base::ReadText(path);
+  if (!text) return text.error();
+  auto script = Script::Parse(text.value(), path);
+  if (!script) return script.error();
+  return MakeScriptSource(std::move(script).value());
+}
+
+base::Result<std::unique_ptr<Source>> MakeSource(const config::Map& config, launch::NodeContext& context) {
+  if (config.Choice("source", {"script", "autopilot"}) == "autopilot") return MakeAutopilotSource(config, context);
+  return MakeScript(config, context);
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<lockstep::Node>> MakeInputNode(launch::NodeContext& context) {
+  auto source = MakeSource(context.config(), context);
+  if (!source) return source.error();
+  return std::unique_ptr<lockstep::Node>(std::make_unique<InputNode>(std::move(source).value(), context.roster().base_step_ns()));
+}
+
+}  // namespace rodeira::nodes

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "common/base/result.hpp"
+#include "common/base/state.hpp"
+#include "common/lockstep/inbox.hpp"
+#include "common/lockstep/step.hpp"
+#include "common/vehicle/controls.hpp"
+
+namespace rodeira::nodes {
+
+// Where the controls come from: a script, an autopilot, a wheel.
+class Source {
+ public:
+  virtual ~Source() = default;
+  // The controls valid at time zero, before anything is seen.
+  virtual vehicle::Controls First() = 0;
+  // The controls for the time `valid_ns` at which they will be valid, from what is seen now.
+  virtual base::Result<vehicle::Controls> Step(const lockstep::StepInfo& step, std::int64_t valid_ns, const lockstep::Inbox& inbox) = 0;
+  virtual void Save(base::StateWriter& out) const = 0;
+  virtual void Restore(base::StateReader& in) = 0;
+};
+
+}  // namespace rodeira::nodes

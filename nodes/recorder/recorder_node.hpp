@@ -1,0 +1,14 @@
+#pragma once
+
+#include <memory>
+
+#include "common/launch/node_context.hpp"
+
+namespace rodeira::nodes {
+
+// Writes every sample that it is wired to, as it was serialised, into an MCAP file, with the IDL as schemas and the
+// launch file as an attachment (docs/formats.md). Lossless: it is a sink that the run waits for, and a failed write
+// stops the run. Configuration: `file`.
+base::Result<std::unique_ptr<lockstep::Node>> MakeRecorderNode(launch::NodeContext& context);
+
+}  // namespace rodeira::nodes

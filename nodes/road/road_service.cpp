@@ -1,0 +1,79 @@
+#include "nodes/road/road_service.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+
+namespace rodeira::nodes {
+namespace {
+
+constexpr std::size_t kMostPoints = 1'000'000;  // a larger batch is nobody's question
+
+class RoadService final : public launch::Service {
+ public:
+  explicit RoadService(std::shared_ptr<const road::World> world) : world_(std::move(world)), ground_(world_->MakeGround()) {}
+
+  base::Digest world_hash() const override { return world_->content_hash(); }
+
+  base::Bytes Announcement() const override {
+    const launch::WorldSummary summary = Summary(*world_);
+    msg::WorldInfo info;
+    info.content_hash(summary.content_hash);
+    info.name(summary.name);
+    info.start_x_m(summary.start_x_m);
+    info.start_y_m(summary.start_y_m);
+    info.start_heading_rad(summary.start_heading_rad);
+    info.roads(static_cast<std::uint32_t>(world_->roads().size()));
+    return idl::Encode(info);
+  }
+
+  base::Result<base::Bytes> Answer(std::span<const std::byte> bytes) override {
+    auto request = idl::Decode<msg::GroundRequest>(bytes);
+    if (!request) return request.error();
+    const auto& asked = request.value().points();
+    if (asked.size() > kMostPoints) return base::WrongInput("a request of more than a million points was found");
+    queries_.resize(asked.size());
+    points_.resize(asked.size());
+    for (std::size_t i = 0; i < asked.size(); ++i) queries_[i] = {asked[i].x_m(), asked[i].y_m(), asked[i].z_hint_m()};
+    ground_->Query(queries_, points_);
+    msg::GroundReply reply;
+    reply.asker(request.value().asker());
+    reply.incarnation(request.value().incarnation());
+    reply.number(request.value().number());
+    reply.points().resize(points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      auto& answer = reply.points()[i];
+      answer.z_m(points_[i].z_m);
+      answer.normal_x(points_[i].normal_W.x());
+      answer.normal_y(points_[i].normal_W.y());
+      answer.normal_z(points_[i].normal_W.z());
+      answer.friction(points_[i].friction);
+      answer.surface(static_cast<std::uint32_t>(points_[i].surface));
+      answer.inside(points_[i].inside ? 1 : 0);
+    }
+    return idl::Encode(reply);
+  }
+
+ private:
+  std::shared_ptr<const road::World> world_;
+  std::unique_ptr<terrain::Ground> ground_;
+  std::vector<terrain::GroundQuery> queries_;
+  std::vector<terrain::GroundPoint> points_;
+};
+
+}  // namespace
+
+launch::WorldSummary Summary(const road::World& world) {
+  return {world.content_hash(), world.name(), world.start().x_m, world.start().y_m, world.start().heading_rad};
+}
+
+base::Result<std::unique_ptr<launch::Service>> MakeRoadService(launch::NodeContext& context) {
+  if (context.launch().world().empty()) return base::WrongInput("key 'world' is missing; a road server needs a world file", context.launch().path().string());
+  auto world = road::World::Load(context.launch().world());
+  if (!world) return world.error();
+  return std::unique_ptr<launch::Service>(std::make_unique<RoadService>(std::move(world).value()));
+}
+
+}  // namespace rodeira::nodes

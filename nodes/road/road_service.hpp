@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+
+#include "common/launch/node_context.hpp"
+#include "common/road/world.hpp"
+
+namespace rodeira::nodes {
+
+// The road and terrain server: loads the launch file's world, says what it is, answers SUELO.
+base::Result<std::unique_ptr<launch::Service>> MakeRoadService(launch::NodeContext& context);
+
+// What the server says of a world, and what everybody who has loaded the world himself knows too.
+launch::WorldSummary Summary(const road::World& world);
+
+}  // namespace rodeira::nodes

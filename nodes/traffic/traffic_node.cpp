@@ -1,0 +1,102 @@
+#include "nodes/traffic/traffic_node.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "common/traffic/traffic_model.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::nodes {
+namespace {
+
+namespace topics = idl::topics;
+
+msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTraits& traits) {
+  const Eigen::Matrix3d rotation = pose.q_WB.toRotationMatrix();
+  msg::TrafficAgent out;
+  out.id(pose.id);
+  out.trip(pose.trip);
+  out.position_x_m(pose.p_WB_W.x());
+  out.position_y_m(pose.p_WB_W.y());
+  out.position_z_m(pose.p_WB_W.z());
+  out.heading_rad(std::atan2(rotation(1, 0), rotation(0, 0)));
+  out.pitch_rad(std::asin(std::clamp(-rotation(2, 0), -1.0, 1.0)));
+  out.roll_rad(std::atan2(rotation(2, 1), rotation(2, 2)));
+  out.speed_mps(pose.speed_mps);
+  out.acceleration_mps2(pose.acceleration_mps2);
+  out.length_m(traits.length_m);
+  out.width_m(traits.width_m);
+  out.height_m(traits.height_m);
+  out.wheelbase_m(traits.wheelbase_m);
+  out.wheel_radius_m(traits.wheel_radius_m);
+  out.steer_rad(pose.steer_rad);
+  out.wheel_spin_rad(pose.wheel_spin_rad);
+  out.colour_rgb(traits.colour_rgb);
+  out.brake_lights(pose.braking ? 1 : 0);
+  return out;
+}
+
+// The rectangle of a published car; numbers of cars lie beyond those of agents.
+driver::Footprint FootprintOf(const msg::VehicleState& in, std::uint32_t id) {
+  const auto& q = in.attitude_wb();
+  const double heading = std::atan2(2.0 * (q.w() * q.z() + q.x() * q.y()), 1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()));
+  const double middle = in.front_m() - 0.5 * in.length_m();
+  const double along = std::cos(heading) * in.velocity_w_mps().x() + std::sin(heading) * in.velocity_w_mps().y();
+  return {id, in.position_w_m().x() + middle * std::cos(heading), in.position_w_m().y() + middle * std::sin(heading), heading, along, in.length_m(), in.width_m()};
+}
+
+class TrafficNode final : public lockstep::Node {
+ public:
+  explicit TrafficNode(traffic::TrafficModel model) : model_(std::move(model)) {}
+
+  base::Status Initialise(lockstep::Outbox& outbox) override {
+    Publish(outbox);
+    return {};
+  }
+  base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
+    constexpr std::uint32_t kFirstCar = 1'000'000;
+    others_.clear();
+    for (const lockstep::Sample& sample : inbox.All(topics::kVehicleState)) {
+      const auto state = idl::Decode<msg::VehicleState>(*sample.payload);
+      if (!state) return state.error();
+      others_.push_back(FootprintOf(state.value(), kFirstCar + sample.source()));
+    }
+    model_.Step(step.dt_s, others_);
+    Publish(outbox);
+    return {};
+  }
+  void Save(base::StateWriter& out) const override { out.Put("model", model_); }
+  void Restore(base::StateReader& in) override { in.Get("model", model_); }
+
+ private:
+  void Publish(lockstep::Outbox& outbox) const {
+    msg::TrafficState state;
+    state.agents().reserve(model_.poses().size());
+    for (const traffic::AgentPose& pose : model_.poses()) state.agents().push_back(ToWire(pose, model_.traits(pose.id)));
+    outbox.Put(topics::kTrafficState, idl::Encode(state));
+  }
+
+  traffic::TrafficModel model_;
+  std::vector<driver::Footprint> others_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContext& context) {
+  const traffic::TrafficSettings settings = traffic::ReadTraffic(context.config(), context.seed());
+  if (auto status = context.launch().file().Finish(); !status) return status.error();
+  if (context.launch().world().empty()) return base::WrongInput("key 'world' is missing; traffic needs roads", context.launch().path().string());
+  auto world = road::World::Load(context.launch().world());
+  if (!world) return world.error();
+  context.set_world_hash(world.value()->content_hash());
+  // Nobody is placed where the driver's car starts: it is the only thing known before anything is published.
+  const road::StartPose& start = world.value()->start();
+  const std::vector<driver::Footprint> clear{{0, start.x_m, start.y_m, start.heading_rad, 0.0, 20.0, 2.0}};
+  auto model = traffic::TrafficModel::Make(settings, std::move(world).value(), clear);
+  if (!model) return model.error();
+  return std::unique_ptr<lockstep::Node>(std::make_unique<TrafficNode>(std::move(model).value()));
+}
+
+}  // namespace rodeira::nodes

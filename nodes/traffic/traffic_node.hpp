@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "common/launch/node_context.hpp"
+
+namespace rodeira::nodes {
+
+// Autonomous traffic on the world's roads, all agents in one sample. Configuration: common/traffic's settings
+// (docs/traffic.md), `vehicles` first of all. It sees every car whose state is wired to it.
+base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContext& context);
+
+}  // namespace rodeira::nodes

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "common/launch/node_context.hpp"
+
+namespace rodeira::nodes {
+
+// A vehicle: controls in, state out, SUELO once a step. Configuration: `vehicle` (a vehicle file), `start` (x_m, y_m,
+// heading_deg, speed_mps; default: the world's start at rest).
+base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContext& context);
+
+}  // namespace rodeira::nodes

@@ -1,0 +1,86 @@
+#include "nodes/vehicle/vehicle_wire.hpp"
+
+namespace rodeira::nodes {
+namespace {
+
+msg::Vector3 Vector(const Eigen::Vector3d& v) {
+  msg::Vector3 out;
+  out.x(v.x());
+  out.y(v.y());
+  out.z(v.z());
+  return out;
+}
+
+msg::WheelState Wheel(const vehicle::WheelState& in) {
+  msg::WheelState out;
+  out.hub_b_m(Vector(in.hub_B));
+  out.steer_rad(in.steer_rad);
+  out.spin_rad(in.spin_rad);
+  out.spin_radps(in.spin_radps);
+  out.longitudinal_n(in.longitudinal_N);
+  out.lateral_n(in.lateral_N);
+  out.load_n(in.load_N);
+  out.slip(in.slip);
+  out.slip_angle_tan(in.slip_angle_tan);
+  out.brake_torque_nm(in.brake_torque_Nm);
+  out.drive_torque_nm(in.drive_torque_Nm);
+  out.suspension_n(in.suspension_N);
+  out.damper_n(in.damper_N);
+  out.travel_m(in.travel_m);
+  out.contact_w_m(Vector(in.contact_W));
+  out.contact_normal_w(Vector(in.contact_normal_W));
+  out.friction(in.friction);
+  out.surface(static_cast<std::uint32_t>(in.surface));
+  out.in_contact(in.load_N > 0.0 ? 1 : 0);
+  return out;
+}
+
+}  // namespace
+
+vehicle::Controls FromWire(const msg::Controls& in) {
+  vehicle::Controls out;
+  out.steering_wheel_rad = in.steering_wheel_rad();
+  out.throttle = in.throttle();
+  out.brake = in.brake();
+  out.clutch = in.clutch();
+  out.handbrake = in.handbrake();
+  out.gear = in.gear();
+  out.gearbox = in.gearbox_mode() == 1 ? vehicle::GearboxMode::kManual : vehicle::GearboxMode::kAutomatic;
+  out.starter = in.starter() != 0;
+  return vehicle::Cut(out);
+}
+
+msg::VehicleState ToWire(const vehicle::VehicleState& state, const vehicle::VehicleDimensions& dimensions) {
+  msg::VehicleState out;
+  out.position_w_m(Vector(state.p_WB_W));
+  out.attitude_wb().w(state.q_WB.w());
+  out.attitude_wb().x(state.q_WB.x());
+  out.attitude_wb().y(state.q_WB.y());
+  out.attitude_wb().z(state.q_WB.z());
+  out.velocity_w_mps(Vector(state.v_WB_W));
+  out.angular_velocity_b_radps(Vector(state.w_WB_B));
+  out.acceleration_w_mps2(Vector(state.a_WB_W));
+  out.angular_acceleration_b_radps2(Vector(state.alpha_WB_B));
+  for (std::size_t i = 0; i < vehicle::kWheels; ++i) out.wheels()[i] = Wheel(state.wheels[i]);
+  out.engine_speed_radps(state.engine_speed_radps);
+  out.engine_torque_nm(state.engine_torque_Nm);
+  out.clutch(state.clutch);
+  out.clutch_torque_nm(state.clutch_torque_Nm);
+  out.throttle(state.throttle);
+  out.brake(state.brake);
+  out.steering_wheel_rad(state.steering_wheel_rad);
+  out.steering_torque_nm(state.steering_torque_Nm);
+  out.fuel_rate_kgps(state.fuel_rate_kgps);
+  out.fuel_kg(state.fuel_kg);
+  out.odometer_m(state.odometer_m);
+  out.drag_n(state.drag_N);
+  out.length_m(dimensions.front_m + dimensions.rear_m);
+  out.front_m(dimensions.front_m);
+  out.width_m(dimensions.width_m);
+  out.gear(state.gear);
+  out.engine_running(state.engine_running ? 1 : 0);
+  out.inside_world(state.inside_world ? 1 : 0);
+  return out;
+}
+
+}  // namespace rodeira::nodes

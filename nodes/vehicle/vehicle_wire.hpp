@@ -1,0 +1,13 @@
+#pragma once
+
+#include "common/vehicle/controls.hpp"
+#include "common/vehicle/vehicle_model.hpp"
+#include "common/vehicle/vehicle_state.hpp"
+#include "idl/messages.hpp"
+
+namespace rodeira::nodes {
+
+vehicle::Controls FromWire(const msg::Controls& in);
+msg::VehicleState ToWire(const vehicle::VehicleState& state, const vehicle::VehicleDimensions& dimensions);
+
+}  // namespace rodeira::nodes

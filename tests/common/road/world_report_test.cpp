@@ -1,0 +1,106 @@
+// What `rodeira world check | info | query | build` say.
+#include "common/road/world_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "common/base/files.hpp"
+#include "common/road/world_plot.hpp"
+#include "tests/common/road/sample_world.hpp"
+
+namespace rodeira::road {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class WorldReport : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "rodeira-report-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+    ASSERT_TRUE(base::WriteWhole(folder_ / "w.yaml", kSample).ok());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+TEST_F(WorldReport, QueryTellsTheCratersOracle) {
+  const fs::path crater = fs::path(RODEIRA_SOURCE_DIR) / "../shared/data/road/bt/crater_0513.bt";
+  if (!fs::exists(crater)) GTEST_SKIP() << crater << " is not on this machine";
+  const auto world = World::Parse("rodeira: world/1\nname: crater\nterrain: {file: \"" + fs::absolute(crater).string() + "\"}\n", "crater.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  const terrain::GroundPoint at = world.value()->MakeGround()->At(566300.0, 4754000.0);
+  EXPECT_NEAR(at.z_m, 2123.4310516, 1e-6);
+  EXPECT_NEAR((at.normal_W - Eigen::Vector3d(-0.191350, -0.176795, 0.965468)).norm(), 0.0, 1e-6);
+  const std::string text = DescribePoint(*world.value(), 566300.0, 4754000.0);
+  EXPECT_THAT(text, HasSubstr("z_m: 2123.4310516\n"));
+  EXPECT_THAT(text, HasSubstr("surface: grass\n"));
+}
+
+TEST_F(WorldReport, QueryTellsThePlaceOnTheRoad) {
+  const Eigen::Vector3d p = Sample()->roads()[0].Position(140.0, -1.625);
+  const std::string text = DescribePoint(*Sample(), p.x(), p.y());
+  EXPECT_THAT(text, HasSubstr("road: main\ns_m: 140.000000\nt_m: -1.625000\nlane: -1\n"));
+  EXPECT_THAT(text, HasSubstr("surface: asphalt"));
+  EXPECT_THAT(DescribePoint(*Sample(), 0.0, 200.0), Not(HasSubstr("road:")));
+  EXPECT_THAT(DescribePoint(*Sample(), 1e6, 0.0), HasSubstr("inside: false\nextents_m: x -100.000 to 410.000"));
+}
+
+TEST_F(WorldReport, InfoTellsWhatTheWorldHolds) {
+  const std::string text = DescribeWorld(*Sample());
+  for (const char* part : {"world sample\n", "61 x 51 heights every 8.5 m", "length_m: 305.500", "bends: 2 ", "smallest_radius_m: 45",
+                           "lane -1: along s, width_m 3.25, speed limit 70 km/h", "marks: 3", "(road main, lane -1, s_m 12.500)"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  EXPECT_THAT(text, HasSubstr(base::Hex(Sample()->content_hash())));
+}
+
+TEST_F(WorldReport, BuildWritesTheSameWorldOnAFile) {
+  const auto report = BuildWorld(folder_ / "w.yaml", folder_ / "built");
+  ASSERT_TRUE(report.ok()) << report.error().Text();
+  EXPECT_THAT(report.value(), HasSubstr(base::Hex(Sample()->content_hash())));
+  const auto built = World::Load(folder_ / "built/w.yaml");
+  ASSERT_TRUE(built.ok()) << built.error().Text();
+  EXPECT_EQ(built.value()->content_hash(), Sample()->content_hash());
+  const auto text = base::ReadText(folder_ / "built/w.yaml");
+  EXPECT_THAT(text.value(), HasSubstr("file: w.bt"));
+  EXPECT_THAT(text.value(), Not(HasSubstr("seed")));
+  EXPECT_FALSE(fs::exists(folder_ / "built/w.prj"));  // no projection was named
+}
+
+TEST_F(WorldReport, BuildWritesTheProjectionWhereThereIsOne) {
+  ASSERT_TRUE(base::WriteWhole(folder_ / "p.yaml", SampleWith("    seed: 7\n", "    seed: 7   # lucky\n    projection: \"EPSG:3763\"\n")).ok());
+  ASSERT_TRUE(BuildWorld(folder_ / "p.yaml", folder_ / "built").ok());
+  const auto built = World::Load(folder_ / "built/p.yaml");
+  ASSERT_TRUE(built.ok()) << built.error().Text();
+  EXPECT_THAT(built.value()->grid()->projection_wkt(), HasSubstr("Transverse_Mercator"));
+}
+
+TEST_F(WorldReport, BuildRefusesToOverwriteAndToBuildNothing) {
+  const auto itself = BuildWorld(folder_ / "w.yaml", folder_);
+  ASSERT_FALSE(itself.ok());
+  EXPECT_THAT(itself.error().Text(), HasSubstr("would be overwritten"));
+  EXPECT_FALSE(fs::exists(folder_ / "w.bt"));
+  ASSERT_TRUE(base::WriteWhole(folder_ / "plane.yaml", std::string_view("rodeira: world/1\nname: p\nground: {kind: plane}\n")).ok());
+  EXPECT_THAT(BuildWorld(folder_ / "plane.yaml", folder_ / "built").error().Text(), HasSubstr("there is nothing to build"));
+  EXPECT_FALSE(fs::exists(folder_ / "built"));
+}
+
+TEST_F(WorldReport, ThePlotIsAWholeSvg) {
+  const std::string svg = PlotWorld(*Sample());
+  EXPECT_TRUE(svg.starts_with("<svg "));
+  EXPECT_TRUE(svg.ends_with("</svg>\n"));
+  EXPECT_THAT(svg, HasSubstr("0 km</text>"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(PlotWorld(*MustParse("rodeira: world/1\nname: p\nground: {kind: plane}\n")), Not(HasSubstr("nan")));
+}
+
+}  // namespace
+}  // namespace rodeira::road

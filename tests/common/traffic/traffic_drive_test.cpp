@@ -1,0 +1,65 @@
+// The autopilot drives the bicycle among the traffic of N222: everyone sees everyone, nobody touches anybody.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "common/driver/autopilot.hpp"
+#include "common/traffic/traffic_model.hpp"
+#include "common/vehicle/vehicle_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+using driver::Footprint;
+
+// Two rectangles overlap unless one of their four axes parts them.
+bool Overlap(const Footprint& a, const Footprint& b) {
+  const Eigen::Vector2d between(b.x_m - a.x_m, b.y_m - a.y_m);
+  const auto reach = [](const Footprint& f, const Eigen::Vector2d& axis) {
+    const Eigen::Vector2d along(std::cos(f.heading_rad), std::sin(f.heading_rad));
+    const Eigen::Vector2d across(-along.y(), along.x());
+    return 0.5 * (f.length_m * std::fabs(along.dot(axis)) + f.width_m * std::fabs(across.dot(axis)));
+  };
+  for (const double heading : {a.heading_rad, b.heading_rad}) {
+    for (const double quarter : {0.0, 1.5707963267948966}) {
+      const Eigen::Vector2d axis(std::cos(heading + quarter), std::sin(heading + quarter));
+      if (std::fabs(between.dot(axis)) >= reach(a, axis) + reach(b, axis)) return false;
+    }
+  }
+  return true;
+}
+
+TEST(TrafficDrive, TwoMinutesAmongSixtyCarsWithoutTouching) {
+  const std::filesystem::path source = RODEIRA_SOURCE_DIR;
+  const auto world = road::World::Load(source / "configs/worlds/n222.yaml").value();
+  const auto ground = world->MakeGround();
+  auto car = vehicle::LoadVehicle(source / "configs/vehicles/default.yaml").value();
+  driver::Autopilot autopilot(driver::AutopilotSettings{}, world->roads()[0], -1);
+  const driver::LaneFrame start = autopilot.path().At(400.0);
+  ASSERT_TRUE(car->Initialise({.x_m = start.p_W.x(), .y_m = start.p_W.y(), .heading_rad = start.heading_rad, .speed_mps = 8.0}, *ground).ok());
+  std::vector<Footprint> driver_car{driver::FootprintOf(0, car->state(), car->dimensions())};
+  TrafficSettings settings;
+  settings.vehicles = 60;
+  TrafficModel traffic = TrafficModel::Make(settings, world, driver_car).value();
+  vehicle::Controls controls;
+  double followed_s = 0.0;
+  for (int k = 0; k < 120000; ++k) {
+    if (k % 10 == 0) {
+      std::vector<Footprint> others;
+      for (const AgentPose& pose : traffic.poses()) others.push_back(FootprintOf(pose, traffic.traits(pose.id)));
+      driver_car[0] = driver::FootprintOf(0, car->state(), car->dimensions());
+      for (const Footprint& other : others) ASSERT_FALSE(Overlap(driver_car[0], other)) << k << " with " << other.id;
+      controls = autopilot.Step({car->state(), car->dimensions(), others}, 0.01);
+      traffic.Step(0.01, driver_car);
+      if (autopilot.leader()) followed_s += 0.01;
+    }
+    car->Step(controls, *ground, 0.001);
+  }
+  EXPECT_GT(car->state().odometer_m, 800.0);
+  EXPECT_GT(followed_s, 10.0);
+}
+
+}  // namespace
+}  // namespace rodeira::traffic
