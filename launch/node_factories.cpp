@@ -5,6 +5,7 @@
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/traffic/traffic_node.hpp"
 #include "nodes/vehicle/vehicle_node.hpp"
+#include "nodes/view/view_node.hpp"
 
 namespace rodeira::front {
 
@@ -14,6 +15,7 @@ launch::NodeFactory FactoryOf(std::string_view kind) {
   if (kind == "recorder") return nodes::MakeRecorderNode;
   if (kind == "traffic") return nodes::MakeTrafficNode;
   if (kind == "vehicle") return nodes::MakeVehicleNode;
+  if (kind == "view") return nodes::MakeViewNode;
   return nullptr;
 }
 

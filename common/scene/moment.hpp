@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "common/scene/mesh.hpp"
+
+namespace rodeira::scene {
+
+struct WheelPose {
+  Eigen::Vector3d hub_B = Eigen::Vector3d::Zero();
+  double steer_rad = 0.0;  // about B's z, positive to the left
+  double spin_rad = 0.0;   // positive rolling forward
+  double spin_radps = 0.0;
+};
+
+// A car with a model: the driver's.
+struct CarPose {
+  std::uint64_t id = 0;
+  Colour colour = Colour::Of(0xb01e26);
+  Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
+  std::array<WheelPose, 4> wheels;  // front left, front right, rear left, rear right
+  double speed_mps = 0.0;           // forward
+  double brake = 0.0;               // 0 … 1
+  std::int32_t gear = 0;
+  double length_m = 3.85, front_m = 2.01, width_m = 1.65;  // front bumper from B's origin
+};
+
+// A car of the traffic: B's origin is the middle of its footprint, between the axles, on the ground.
+struct AgentPose {
+  std::uint64_t id = 0;  // of one appearance: who leaves and enters again elsewhere has another
+  Colour colour;
+  Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
+  double speed_mps = 0.0;
+  double steer_rad = 0.0;  // of the front wheels
+  double wheel_spin_rad = 0.0;
+  bool braking = false;
+  double length_m = 4.0, width_m = 1.7, height_m = 1.45, wheelbase_m = 2.5, wheel_radius_m = 0.3;
+};
+
+// Heading from east counter-clockwise, pitch positive nose down, roll positive left side up (ISO 8855).
+Eigen::Quaterniond Attitude(double heading_rad, double pitch_rad, double roll_rad);
+
+// All that moves, at one time of the simulation.
+struct Moment {
+  std::int64_t time_ns = 0;
+  std::vector<CarPose> cars;      // ascending ids
+  std::vector<AgentPose> agents;  // ascending ids
+};
+
+// (1 - alpha) a + alpha b with the same alpha for everything; alpha in [0, 1], 0 is exactly a and 1 exactly b. Attitudes
+// turn on the shortest way, wheels turn on as fast as they did. Who is only in one of the two is not in the result, unless
+// alpha is 0 or 1.
+Moment Interpolate(const Moment& a, const Moment& b, double alpha);
+
+// The last few moments, to draw those between them.
+class PoseHistory {
+ public:
+  // Later than all before it; another one of the same time replaces it.
+  void Add(Moment moment);
+  bool empty() const { return moments_.empty(); }
+  std::int64_t newest_ns() const { return moments_.back().time_ns; }
+  // The interval between the last two; 0 where there is only one.
+  std::int64_t interval_ns() const;
+  // At a time held within what is known.
+  Moment At(double time_ns) const;
+
+ private:
+  static constexpr std::size_t kKept = 8;
+  std::deque<Moment> moments_;
+};
+
+}  // namespace rodeira::scene

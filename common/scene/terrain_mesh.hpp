@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/scene/lattice.hpp"
+#include "common/scene/mesh.hpp"
+#include "common/scene/ribbon.hpp"
+
+namespace rodeira::scene {
+
+inline constexpr int kTerrainLevels = 3;
+
+// A square of terrain at several levels of detail, the finest first. On the square's edge all levels have the same
+// vertices, so that any two of them fit together without a crack.
+struct TerrainTile {
+  std::array<Mesh, kTerrainLevels> levels;
+  Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();
+  double radius_m = 0.0;
+};
+
+// The lattice's triangles, with the ribbons cut out of them. Near a ribbon every level is the finest one.
+std::vector<TerrainTile> BuildTerrain(const Lattice& lattice, const std::vector<Ribbon>& ribbons);
+
+}  // namespace rodeira::scene

@@ -1,0 +1,25 @@
+#include "common/scene/world_scene.hpp"
+
+#include "common/scene/trees.hpp"
+
+namespace rodeira::scene {
+namespace {
+
+constexpr std::uint64_t kTreeSeed = 1;
+
+}  // namespace
+
+WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance) {
+  WorldScene scene;
+  const Lattice lattice(world);
+  std::vector<Ribbon> ribbons;
+  for (const road::Road& road : world.roads()) ribbons.push_back(LayRibbon(road, tolerance));
+  scene.terrain = BuildTerrain(lattice, ribbons);
+  for (std::size_t i = 0; i < ribbons.size(); ++i) {
+    for (RoadTile& tile : BuildRoad(world, world.roads()[i], ribbons[i], lattice)) scene.roads.push_back(std::move(tile));
+  }
+  scene.trees = BuildTrees(PlantTrees(world, kTreeSeed));
+  return scene;
+}
+
+}  // namespace rodeira::scene

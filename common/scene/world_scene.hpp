@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "common/road/world.hpp"
+#include "common/scene/ribbon.hpp"
+#include "common/scene/terrain_mesh.hpp"
+
+namespace rodeira::scene {
+
+// Everything of a world that stands still.
+struct WorldScene {
+  std::vector<TerrainTile> terrain;
+  std::vector<RoadTile> roads;
+  std::vector<Mesh> trees;
+};
+
+// A pure function of the world: the same meshes, bit by bit.
+WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance = {});
+
+}  // namespace rodeira::scene

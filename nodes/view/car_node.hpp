@@ -1,0 +1,50 @@
+#pragma once
+
+#include <osg/MatrixTransform>
+#include <osg/Uniform>
+#include <osg/ref_ptr>
+
+#include <array>
+#include <map>
+
+#include "common/scene/car_mesh.hpp"
+#include "common/scene/moment.hpp"
+#include "nodes/view/look.hpp"
+
+namespace rodeira::view {
+
+// One car in OpenSceneGraph's scene.
+class CarNode {
+ public:
+  CarNode(Look& look, const scene::CarShape& shape, scene::Colour paint);
+  osg::Node* node() { return body_; }
+
+  void Place(const Eigen::Vector3d& p_WB_W, const Eigen::Quaterniond& q_WB);
+  void Turn(std::size_t wheel, const Eigen::Vector3d& hub_B, double steer_rad, double spin_rad);
+  void Brake(bool braking);
+
+ private:
+  scene::CarShape shape_;
+  osg::ref_ptr<osg::MatrixTransform> body_;
+  std::array<osg::ref_ptr<osg::MatrixTransform>, 4> wheels_;
+  osg::ref_ptr<osg::Uniform> brake_glow_;
+};
+
+// All cars of a moment: makes those that are new, moves those that are there, removes those that are gone.
+class Fleet {
+ public:
+  explicit Fleet(Look& look) : look_(look), group_(new osg::Group) {}
+  osg::Node* node() { return group_; }
+  void Show(const scene::Moment& moment);
+
+ private:
+  template <class Pose, class Update>
+  void Match(const std::vector<Pose>& poses, std::map<std::uint64_t, CarNode>& nodes, Update update);
+
+  Look& look_;
+  osg::ref_ptr<osg::Group> group_;
+  std::map<std::uint64_t, CarNode> cars_;
+  std::map<std::uint64_t, CarNode> agents_;
+};
+
+}  // namespace rodeira::view

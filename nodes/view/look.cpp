@@ -1,0 +1,185 @@
+#include "nodes/view/look.hpp"
+
+#include <osg/BlendFunc>
+#include <osg/CullFace>
+#include <osg/Depth>
+#include <osg/PolygonOffset>
+#include <osg/Program>
+#include <osg/Shader>
+#include <osg/Texture2D>
+
+#include <array>
+#include <cmath>
+
+#include "common/base/assert.hpp"
+#include "common/base/random.hpp"
+#include "nodes/view/shaders.hpp"
+
+namespace rodeira::view {
+namespace {
+
+constexpr int kNoiseSize = 256;
+// Drawn in this order; the road's marks after the ground they lie on, the sky where nothing else is.
+constexpr int kMarkBin = 1, kSkyBin = 2, kShadowBin = 3;
+
+osg::ref_ptr<osg::Program> ProgramOf(const std::string& vertex, const std::string& fragment) {
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
+  return program;
+}
+
+// Noise in [0, 1] that repeats after kNoiseSize pixels.
+double RepeatingNoise(int x, int y, int cell, std::uint64_t seed) {
+  const int cells = kNoiseSize / cell;
+  const auto corner = [&](int c, int r) { return base::RandomUniform({seed, static_cast<std::uint64_t>(c % cells), static_cast<std::uint64_t>(r % cells)}); };
+  const double u = static_cast<double>(x % cell) / cell, v = static_cast<double>(y % cell) / cell;
+  const double a = u * u * (3.0 - 2.0 * u), b = v * v * (3.0 - 2.0 * v);
+  const int c = x / cell, r = y / cell;
+  return (corner(c, r) * (1.0 - a) + corner(c + 1, r) * a) * (1.0 - b) + (corner(c, r + 1) * (1.0 - a) + corner(c + 1, r + 1) * a) * b;
+}
+
+osg::ref_ptr<osg::Texture2D> MakeNoise() {
+  osg::ref_ptr<osg::Image> image = new osg::Image;
+  image->allocateImage(kNoiseSize, kNoiseSize, 1, GL_RGB, GL_UNSIGNED_BYTE);
+  for (int y = 0; y < kNoiseSize; ++y) {
+    for (int x = 0; x < kNoiseSize; ++x) {
+      const double fine = 0.5 * RepeatingNoise(x, y, 2, 11) + 0.3 * RepeatingNoise(x, y, 8, 12) + 0.2 * RepeatingNoise(x, y, 32, 13);
+      const double coarse = 0.5 * RepeatingNoise(x, y, 64, 14) + 0.3 * RepeatingNoise(x, y, 32, 15) + 0.2 * RepeatingNoise(x, y, 8, 16);
+      unsigned char* pixel = image->data(static_cast<unsigned>(x), static_cast<unsigned>(y));
+      pixel[0] = static_cast<unsigned char>(std::lround(255.0 * fine));
+      pixel[1] = static_cast<unsigned char>(std::lround(255.0 * coarse));
+      pixel[2] = 128;
+    }
+  }
+  osg::ref_ptr<osg::Texture2D> made = new osg::Texture2D(image);
+  made->setWrap(osg::Texture::WRAP_S, osg::Texture::REPEAT);
+  made->setWrap(osg::Texture::WRAP_T, osg::Texture::REPEAT);
+  made->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR);
+  made->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+  return made;
+}
+
+}  // namespace
+
+Look::Look(const osg::Vec3f& sun_W) : sun_W_(sun_W), noise_(MakeNoise()), shadow_(ProgramOf(ShadowVertexShader(), ShadowFragmentShader())) {}
+
+osg::ref_ptr<osg::StateSet> Look::MakeState(scene::Material material) {
+  osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+  state->setAttributeAndModes(ProgramOf(VertexShader(), FragmentShader(material)));
+  state->setTextureAttribute(0, noise_);
+  state->addUniform(new osg::Uniform("noise", 0));
+  state->setMode(GL_CULL_FACE, osg::StateAttribute::ON);
+  if (material == scene::Material::kLamp) state->addUniform(new osg::Uniform("glow", 1.0F));
+  if (material == scene::Material::kMark) {
+    state->setAttributeAndModes(new osg::PolygonOffset(-1.0F, -4.0F));
+    state->setMode(GL_POLYGON_OFFSET_FILL, osg::StateAttribute::ON);
+    state->setRenderBinDetails(kMarkBin, "RenderBin");
+  }
+  return state;
+}
+
+osg::StateSet* Look::StateOf(scene::Material material) {
+  auto& state = states_[static_cast<std::size_t>(material)];
+  if (!state) state = MakeState(material);
+  return state;
+}
+
+osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
+  osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
+  osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
+  osg::ref_ptr<osg::Vec4ubArray> colours = new osg::Vec4ubArray;
+  positions->reserve(mesh.positions.size());
+  normals->reserve(mesh.positions.size());
+  colours->reserve(mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Eigen::Vector3f &p = mesh.positions[i], &n = mesh.normals[i];
+    const scene::Colour c = mesh.colours[i];
+    positions->push_back({p.x(), p.y(), p.z()});
+    normals->push_back({n.x(), n.y(), n.z()});
+    colours->push_back({c.red, c.green, c.blue, 255});
+  }
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  geometry->setUseDisplayList(false);
+  geometry->setUseVertexBufferObjects(true);
+  geometry->setVertexArray(positions);
+  geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
+  colours->setNormalize(true);
+  geometry->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
+  geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.triangles.begin(), mesh.triangles.end()));
+  geometry->setStateSet(StateOf(mesh.material));
+  return geometry;
+}
+
+osg::ref_ptr<osg::MatrixTransform> Look::Placed(std::span<const scene::Mesh* const> meshes) {
+  RODEIRA_ASSERT(!meshes.empty());
+  const Eigen::Vector3d& origin = meshes.front()->origin_W;
+  osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(origin.x(), origin.y(), origin.z()));
+  for (const scene::Mesh* mesh : meshes) {
+    RODEIRA_ASSERT(mesh->origin_W == origin);
+    if (!mesh->triangles.empty()) place->addChild(GeometryOf(*mesh));
+  }
+  return place;
+}
+
+osg::ref_ptr<osg::Node> Look::MakeSky() {
+  osg::ref_ptr<osg::Vec3Array> directions = new osg::Vec3Array;
+  osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
+  constexpr int kAround = 32, kUp = 16;
+  for (int ring = 0; ring <= kUp; ++ring) {
+    const double height = -0.6 + 2.1707963 * ring / kUp;  // from below the horizon to the zenith
+    for (int k = 0; k < kAround; ++k) {
+      const double angle = 6.283185307179586 * k / kAround;
+      directions->push_back(osg::Vec3(static_cast<float>(std::cos(height) * std::cos(angle)), static_cast<float>(std::cos(height) * std::sin(angle)),
+                                      static_cast<float>(std::sin(height))));
+    }
+  }
+  for (int ring = 0; ring < kUp; ++ring) {
+    for (int k = 0; k < kAround; ++k) {
+      const int a = ring * kAround + k, b = ring * kAround + (k + 1) % kAround;
+      for (const int index : {a, b, b + kAround, a, b + kAround, a + kAround}) triangles->push_back(static_cast<GLushort>(index));
+    }
+  }
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  geometry->setUseDisplayList(false);
+  geometry->setUseVertexBufferObjects(true);
+  geometry->setVertexArray(directions);
+  geometry->addPrimitiveSet(triangles);
+  geometry->setCullingActive(false);
+  osg::StateSet* state = geometry->getOrCreateStateSet();
+  state->setAttributeAndModes(ProgramOf(SkyVertexShader(), SkyFragmentShader()));
+  state->setTextureAttribute(0, noise_);
+  state->addUniform(new osg::Uniform("noise", 0));
+  state->addUniform(new osg::Uniform("sun_world", sun_W_));
+  state->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, false));
+  state->setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
+  state->setRenderBinDetails(kSkyBin, "RenderBin");
+  return geometry;
+}
+
+osg::ref_ptr<osg::Node> Look::MakeShadow(float rear_m, float front_m, float half_width_m) {
+  const float grown = 1.28F;
+  const float middle = 0.5F * (rear_m + front_m), along = 0.5F * (front_m - rear_m) * 1.12F, aside = half_width_m * grown, z = 0.03F;
+  osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
+  osg::ref_ptr<osg::Vec2Array> parts = new osg::Vec2Array;
+  for (const auto& [u, v] : {std::pair(-1.0F, -1.0F), std::pair(1.0F, -1.0F), std::pair(1.0F, 1.0F), std::pair(-1.0F, 1.0F)}) {
+    positions->push_back({middle + u * along, v * aside, z});
+    parts->push_back({u, v});
+  }
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  geometry->setUseDisplayList(false);
+  geometry->setUseVertexBufferObjects(true);
+  geometry->setVertexArray(positions);
+  geometry->setTexCoordArray(0, parts);
+  geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_FAN, 0, 4));
+  osg::StateSet* state = geometry->getOrCreateStateSet();
+  state->setAttributeAndModes(shadow_);
+  state->setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA));
+  state->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
+  state->setAttributeAndModes(new osg::PolygonOffset(-3.0F, -16.0F));
+  state->setMode(GL_POLYGON_OFFSET_FILL, osg::StateAttribute::ON);
+  state->setRenderBinDetails(kShadowBin, "RenderBin");
+  return geometry;
+}
+
+}  // namespace rodeira::view

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/Program>
+#include <osg/StateSet>
+#include <osg/Texture2D>
+#include <osg/ref_ptr>
+
+#include <array>
+#include <span>
+
+#include "common/scene/mesh.hpp"
+
+namespace rodeira::view {
+
+// From the scene's plain meshes to OpenSceneGraph's nodes. What it makes belongs to one OpenGL context.
+class Look {
+ public:
+  explicit Look(const osg::Vec3f& sun_W);
+
+  // How a material is drawn; one shared state for each.
+  osg::StateSet* StateOf(scene::Material material);
+  // The mesh without its origin.
+  osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh);
+  // The meshes at their places in the world. They must have the same origin, and at least one there must be.
+  osg::ref_ptr<osg::MatrixTransform> Placed(std::span<const scene::Mesh* const> meshes);
+  osg::ref_ptr<osg::Node> MakeSky();
+  // A soft shadow on the ground under a car, on z = 0 of its frame.
+  osg::ref_ptr<osg::Node> MakeShadow(float rear_m, float front_m, float half_width_m);
+
+ private:
+  osg::ref_ptr<osg::StateSet> MakeState(scene::Material material);
+
+  osg::Vec3f sun_W_;
+  osg::ref_ptr<osg::Texture2D> noise_;  // repeats: fine in its red part, coarse in its green one
+  osg::ref_ptr<osg::Program> shadow_;
+  std::array<osg::ref_ptr<osg::StateSet>, 9> states_;
+};
+
+}  // namespace rodeira::view

@@ -1,0 +1,153 @@
+#include "nodes/view/painter.hpp"
+
+#include <osg/Camera>
+#include <osg/CullFace>
+#include <osg/LOD>
+#include <osg/Uniform>
+#include <osgViewer/Viewer>
+
+#include <cmath>
+
+#include "nodes/view/car_node.hpp"
+#include "nodes/view/instruments.hpp"
+#include "nodes/view/look.hpp"
+
+namespace rodeira::view {
+namespace {
+
+constexpr double kNear_m = 0.3;  // fixed: depths then mean the same in every frame
+constexpr double kFar_m = 15'000.0;
+constexpr float kMarksSeen_m = 900.0F;
+constexpr float kTreesSeen_m = 1'100.0F;
+constexpr std::array<float, scene::kTerrainLevels> kLevelSeen_m = {450.0F, 1'300.0F, 1e9F};  // up to this distance of the tile's centre
+
+const osg::Vec3f kSun_W = [] {
+  osg::Vec3f sun(-0.45F, -0.60F, 0.72F);  // an afternoon's, from the south-west
+  sun.normalize();
+  return sun;
+}();
+
+osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+osg::ref_ptr<osg::Node> TerrainNode(Look& look, const scene::TerrainTile& tile) {
+  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+  lod->setCenter(ToOsg(tile.centre_W));
+  lod->setRadius(tile.radius_m);
+  float from = 0.0F;
+  for (std::size_t level = 0; level < tile.levels.size(); ++level) {
+    const scene::Mesh* mesh = &tile.levels[level];
+    const float to = kLevelSeen_m[level] + static_cast<float>(tile.radius_m);
+    lod->addChild(look.Placed({&mesh, 1}), from, to);
+    from = to;
+  }
+  return lod;
+}
+
+void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group) {
+  std::vector<const scene::Mesh*> ground;
+  for (const scene::Mesh& mesh : tile.ground) ground.push_back(&mesh);
+  if (!ground.empty()) group.addChild(look.Placed(ground));
+  if (tile.marks.triangles.empty()) return;
+  const scene::Mesh* marks = &tile.marks;
+  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+  lod->addChild(look.Placed({&marks, 1}), 0.0F, kMarksSeen_m);
+  group.addChild(lod);
+}
+
+}  // namespace
+
+struct Painter::Parts {
+  Look look{kSun_W};
+  Fleet fleet{look};
+  Instruments instruments;
+  osg::ref_ptr<osg::Group> root = new osg::Group;
+  osg::ref_ptr<osg::Uniform> sun_eye = new osg::Uniform("sun_eye", osg::Vec3f(0.0F, 0.0F, 1.0F));
+  osg::ref_ptr<osg::Uniform> up_eye = new osg::Uniform("up_eye", osg::Vec3f(0.0F, 0.0F, 1.0F));
+  osgViewer::Viewer viewer;
+};
+
+Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing)
+    : surface_(surface), world_(world), parts_(std::make_unique<Parts>()) {
+  Look& look = parts_->look;
+  osg::Group& root = *parts_->root;
+  for (const scene::TerrainTile& tile : standing.terrain) root.addChild(TerrainNode(look, tile));
+  for (const scene::RoadTile& tile : standing.roads) AddRoadTile(look, tile, root);
+  for (const scene::Mesh& trees : standing.trees) {
+    const scene::Mesh* mesh = &trees;
+    osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+    lod->addChild(look.Placed({&mesh, 1}), 0.0F, kTreesSeen_m);
+    root.addChild(lod);
+  }
+  root.addChild(parts_->fleet.node());
+  root.addChild(look.MakeSky());
+  root.addChild(parts_->instruments.node());
+  osg::StateSet* state = root.getOrCreateStateSet();
+  state->addUniform(parts_->sun_eye);
+  state->addUniform(parts_->up_eye);
+  state->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+  state->setMode(GL_MULTISAMPLE, osg::StateAttribute::ON);
+
+  osgViewer::Viewer& viewer = parts_->viewer;
+  viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
+  viewer.setUpViewerAsEmbeddedInWindow(0, 0, surface.width_px(), surface.height_px());
+  viewer.setLightingMode(osg::View::NO_LIGHT);
+  viewer.setKeyEventSetsDone(0);
+  viewer.setReleaseContextAtEndOfFrameHint(false);
+  osg::Camera& camera = *viewer.getCamera();
+  camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
+  camera.setClearColor({0.8F, 0.86F, 0.91F, 1.0F});
+  viewer.setSceneData(&root);
+  viewer.realize();
+}
+
+Painter::~Painter() {
+  parts_->root->releaseGLObjects(parts_->viewer.getCamera()->getGraphicsContext()->getState());
+}
+
+void Painter::Draw(const Picture& picture) {
+  const int width = surface_.width_px(), height = surface_.height_px();
+  scene::Camera camera;
+  if (picture.followed < picture.moment.cars.size()) camera = scene::MakeCamera(picture.camera, picture.moment.cars[picture.followed], world_);
+  osg::Camera& eye = *parts_->viewer.getCamera();
+  if (eye.getViewport() == nullptr || static_cast<int>(eye.getViewport()->width()) != width || static_cast<int>(eye.getViewport()->height()) != height) {
+    eye.getGraphicsContext()->resized(0, 0, width, height);
+    eye.setViewport(0, 0, width, height);
+  }
+  const osg::Vec3d forward = ToOsg(camera.forward_W), up = ToOsg(camera.up_W), at = ToOsg(camera.eye_W);
+  eye.setViewMatrixAsLookAt(at, at + forward, up);
+  eye.setProjectionMatrixAsPerspective(camera.vertical_view_rad * 180.0 / 3.14159265358979323846, static_cast<double>(width) / height, kNear_m, kFar_m);
+  const osg::Matrixd view = eye.getViewMatrix();
+  parts_->sun_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(kSun_W), view)));
+  parts_->up_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, 1.0), view)));
+  parts_->fleet.Show(picture.moment);
+  parts_->instruments.Show(picture, width, height);
+  parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);
+}
+
+Image Painter::Read() const {
+  Image image;
+  image.width_px = surface_.width_px();
+  image.height_px = surface_.height_px();
+  const auto row = 3 * static_cast<std::size_t>(image.width_px);
+  std::vector<std::uint8_t> upward(row * static_cast<std::size_t>(image.height_px));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, image.width_px, image.height_px, GL_RGB, GL_UNSIGNED_BYTE, upward.data());
+  image.rgb.reserve(upward.size());
+  for (std::size_t y = static_cast<std::size_t>(image.height_px); y-- > 0;) {
+    const auto begin = upward.begin() + static_cast<std::ptrdiff_t>(y * row);
+    image.rgb.insert(image.rgb.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
+  }
+  return image;
+}
+
+base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px) {
+  auto surface = Surface::Open(SurfaceKind::kOffscreen, width_px, height_px, "Rodeira");
+  if (!surface) return surface.error();
+  const scene::WorldScene standing = scene::BuildWorldScene(world);
+  Painter painter(*surface.value(), world, standing);
+  painter.Draw(picture);
+  return painter.Read();
+}
+
+}  // namespace rodeira::view

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/scene/camera.hpp"
+#include "common/scene/moment.hpp"
+
+namespace rodeira::view {
+
+// What one picture shows.
+struct Picture {
+  scene::Moment moment;
+  scene::CameraKind camera = scene::CameraKind::kChase;
+  std::size_t followed = 0;         // which of the moment's cars the camera goes with
+  bool show_instruments = true;     // speed, gear, time
+  std::string text;                 // more lines for a person: help, statistics
+};
+
+// Rows from the top, three bytes a pixel: red, green, blue.
+struct Image {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint8_t> rgb;
+
+  const std::uint8_t* At(int x_px, int y_px) const { return &rgb[3 * (static_cast<std::size_t>(y_px) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x_px))]; }
+};
+
+}  // namespace rodeira::view

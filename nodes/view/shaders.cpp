@@ -1,0 +1,161 @@
+#include "nodes/view/shaders.hpp"
+
+namespace rodeira::view {
+namespace {
+
+// The sky over a direction given by its height (1: zenith), without sun and clouds; the fog has its horizon's colour.
+constexpr const char* kAir = R"(
+const vec3 horizon_colour = vec3(0.80, 0.86, 0.91);
+const vec3 zenith_colour = vec3(0.27, 0.47, 0.76);
+vec3 SkyColour(float up) { return mix(horizon_colour, zenith_colour, pow(clamp(up, 0.0, 1.0), 0.55)); }
+vec3 Hazy(vec3 colour, float distance_m) {
+  float clear = exp(-pow(distance_m * 1.6e-4, 1.3));
+  return mix(horizon_colour * vec3(0.93, 0.96, 1.0), colour, clear);
+}
+)";
+
+constexpr const char* kHead = R"(#version 120
+varying vec3 at_eye;
+varying vec3 normal_eye;
+varying vec3 light;
+varying vec2 ground;
+uniform vec3 sun_eye;
+uniform vec3 up_eye;
+)";
+
+const char* FragmentBody(scene::Material material) {
+  switch (material) {
+    case scene::Material::kGround: return R"(
+uniform sampler2D noise;
+vec3 Look() {
+  float near = texture2D(noise, ground / 4.0).r + texture2D(noise, ground / 32.0).g;
+  return gl_Color.rgb * light * (0.62 + 0.38 * near);
+})";
+    case scene::Material::kCheckers: return R"(
+uniform sampler2D noise;
+vec3 Look() {
+  vec2 square = ground / 16.0;
+  vec2 soft = clamp(abs(fract(square) - 0.5) * 2.0 / max(fwidth(square) * 2.0, 0.001), 0.0, 1.0);
+  vec2 sign_xy = (step(0.5, fract(square * 0.5)) * 2.0 - 1.0);
+  float far = clamp(1.6 - max(fwidth(square).x, fwidth(square).y) * 2.0, 0.0, 1.0);
+  float checker = sign_xy.x * sign_xy.y * far;
+  float grain = texture2D(noise, ground / 4.0).r;
+  return gl_Color.rgb * light * (0.9 + 0.10 * checker + 0.2 * (grain - 0.5));
+})";
+    case scene::Material::kRoad: return R"(
+uniform sampler2D noise;
+vec3 Look() {
+  float grain = texture2D(noise, ground / 2.0).r;
+  float wear = texture2D(noise, ground / 16.0).g;
+  return gl_Color.rgb * light * (0.80 + 0.24 * grain + 0.16 * wear);
+})";
+    case scene::Material::kMark: return R"(
+uniform sampler2D noise;
+vec3 Look() { return gl_Color.rgb * light * (0.88 + 0.12 * texture2D(noise, ground / 2.0).r); })";
+    case scene::Material::kCarPaint: return R"(
+vec3 Look() {
+  vec3 n = normalize(normal_eye);
+  vec3 view = normalize(at_eye);
+  vec3 mirrored = reflect(view, n);
+  float fresnel = 0.04 + 0.5 * pow(1.0 - max(dot(-view, n), 0.0), 4.0);
+  float up = dot(mirrored, up_eye);
+  vec3 around = mix(vec3(0.25, 0.27, 0.22), SkyColour(up), smoothstep(-0.05, 0.05, up));
+  float shine = pow(max(dot(mirrored, sun_eye), 0.0), 60.0);
+  return gl_Color.rgb * light + fresnel * around + 0.7 * shine;
+})";
+    case scene::Material::kGlass: return R"(
+vec3 Look() {
+  vec3 n = normalize(normal_eye);
+  vec3 view = normalize(at_eye);
+  vec3 mirrored = reflect(view, n);
+  float fresnel = 0.10 + 0.75 * pow(1.0 - max(dot(-view, n), 0.0), 3.0);
+  float up = dot(mirrored, up_eye);
+  vec3 around = mix(vec3(0.20, 0.23, 0.17), SkyColour(up), smoothstep(-0.05, 0.05, up));
+  return gl_Color.rgb * 0.6 * light + fresnel * around + 0.8 * pow(max(dot(mirrored, sun_eye), 0.0), 120.0);
+})";
+    case scene::Material::kLamp: return R"(
+uniform float glow;
+vec3 Look() { return gl_Color.rgb * glow; })";
+    case scene::Material::kMatt:
+    case scene::Material::kFoliage: break;
+  }
+  return R"(
+vec3 Look() { return gl_Color.rgb * light; })";
+}
+
+}  // namespace
+
+std::string VertexShader() {
+  return std::string(kHead) + R"(
+void main() {
+  vec4 p = gl_ModelViewMatrix * gl_Vertex;
+  gl_Position = gl_ProjectionMatrix * p;
+  at_eye = p.xyz;
+  normal_eye = normalize(gl_NormalMatrix * gl_Normal);
+  float sun = max(dot(normal_eye, sun_eye), 0.0);
+  float sky = 0.5 + 0.5 * dot(normal_eye, up_eye);
+  light = vec3(0.30, 0.31, 0.30) + sky * vec3(0.20, 0.24, 0.30) + sun * vec3(0.78, 0.73, 0.62);
+  ground = gl_Vertex.xy;
+  gl_FrontColor = gl_Color;
+}
+)";
+}
+
+std::string FragmentShader(scene::Material material) {
+  return std::string(kHead) + kAir + FragmentBody(material) + R"(
+void main() { gl_FragColor = vec4(Hazy(Look(), length(at_eye)), 1.0); }
+)";
+}
+
+std::string SkyVertexShader() {
+  return R"(#version 120
+varying vec3 direction;
+void main() {
+  direction = gl_Vertex.xyz;
+  vec4 p = gl_ProjectionMatrix * vec4(mat3(gl_ModelViewMatrix) * gl_Vertex.xyz, 1.0);
+  gl_Position = vec4(p.xy, p.w * 0.999999, p.w);
+}
+)";
+}
+
+std::string SkyFragmentShader() {
+  return std::string(R"(#version 120
+varying vec3 direction;
+uniform vec3 sun_world;
+uniform sampler2D noise;
+)") + kAir + R"(
+void main() {
+  vec3 d = normalize(direction);
+  vec3 colour = SkyColour(d.z);
+  vec2 cloud_at = d.xy / (max(d.z, 0.0) + 0.12);
+  float cloud = texture2D(noise, cloud_at * 0.11).g * 0.6 + texture2D(noise, cloud_at * 0.31 + 0.37).g * 0.3 + texture2D(noise, cloud_at * 0.9).g * 0.1;
+  float cover = smoothstep(0.52, 0.78, cloud) * smoothstep(0.02, 0.25, d.z);
+  colour = mix(colour, vec3(0.97, 0.97, 0.98), 0.75 * cover);
+  float towards = max(dot(d, sun_world), 0.0);
+  colour += vec3(1.0, 0.92, 0.75) * (0.25 * pow(towards, 24.0) + 2.0 * pow(towards, 1800.0));
+  gl_FragColor = vec4(min(colour, 1.0), 1.0);
+}
+)";
+}
+
+std::string ShadowVertexShader() {
+  return R"(#version 120
+varying vec2 part;
+void main() {
+  part = gl_MultiTexCoord0.xy;
+  gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
+}
+)";
+}
+
+std::string ShadowFragmentShader() {
+  return R"(#version 120
+varying vec2 part;
+void main() {
+  vec2 inner = 1.0 - smoothstep(vec2(0.62, 0.45), vec2(1.0), abs(part));
+  gl_FragColor = vec4(0.05, 0.06, 0.09, 0.62 * inner.x * inner.y);
+}
+)";
+}
+
+}  // namespace rodeira::view

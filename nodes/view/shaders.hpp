@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "common/scene/mesh.hpp"
+
+namespace rodeira::view {
+
+// GLSL 1.20, which every OpenGL from 2.1 on understands. Uniforms: sun_eye, up_eye (unit vectors in the eye's frame),
+// noise (a texture that repeats), glow (of lamps).
+std::string VertexShader();
+std::string FragmentShader(scene::Material material);
+std::string SkyVertexShader();
+std::string SkyFragmentShader();
+std::string ShadowVertexShader();
+std::string ShadowFragmentShader();
+
+}  // namespace rodeira::view

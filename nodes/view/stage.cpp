@@ -1,0 +1,210 @@
+#include "nodes/view/stage.hpp"
+
+#include <SDL.h>
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "common/base/assert.hpp"
+#include "common/scene/world_scene.hpp"
+#include "nodes/view/painter.hpp"
+#include "nodes/view/surface.hpp"
+
+namespace rodeira::view {
+namespace {
+
+constexpr double kLongestRate_Hz = 60.0;
+constexpr const char* kHelp = "k  camera\ntab  next car\nf  full screen\ns  statistics\nh  this help\nesc  close the window (the run goes on)";
+
+double WallSeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+// A car where the world's start is: what the first picture is drawn with, so that everything is loaded before it counts.
+Picture FirstPicture(const road::World& world) {
+  Picture picture;
+  scene::CarPose car;
+  const road::StartPose& start = world.start();
+  car.p_WB_W = {start.x_m, start.y_m, world.At(start.x_m, start.y_m).z_m};
+  car.q_WB = scene::Attitude(start.heading_rad, 0.0, 0.0);
+  for (std::size_t i = 0; i < 4; ++i) car.wheels[i].hub_B = {i < 2 ? 1.2 : -1.2, i % 2 == 0 ? 0.7 : -0.7, 0.29};
+  picture.moment.cars.push_back(car);
+  return picture;
+}
+
+}  // namespace
+
+struct Stage::Hand {
+  std::unique_ptr<Surface> surface;
+  scene::WorldScene standing;
+  std::unique_ptr<Painter> painter;
+  Picture live;  // camera, followed car, texts as the person chose
+  bool help = false;
+  bool statistics = false;
+  double frame_s = 0.0;      // smoothed time of drawing
+  double interval_s = 0.02;  // smoothed time from picture to picture
+  double shown_wall_s = 0.0;
+};
+
+Stage::Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world) : settings_(settings), world_(std::move(world)) {
+  thread_ = std::thread([this] { Run(); });
+}
+
+base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, std::shared_ptr<const road::World> world) {
+  std::unique_ptr<Stage> stage(new Stage(settings, std::move(world)));
+  {
+    std::unique_lock lock(stage->mutex_);
+    stage->changed_.wait(lock, [&] { return stage->ready_; });
+    if (!stage->set_up_) return stage->set_up_.error();
+    if (!stage->nothing_to_draw_) return stage;
+  }
+  return std::unique_ptr<Stage>();
+}
+
+Stage::~Stage() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+bool Stage::has_window() const {
+  const std::lock_guard lock(mutex_);
+  return window_;
+}
+
+void Stage::Show(scene::Moment moment) {
+  const double wall_s = WallSeconds();
+  const std::lock_guard lock(mutex_);
+  history_.Add(std::move(moment));
+  clock_.Arrived(wall_s, static_cast<double>(history_.newest_ns()) * 1e-9, static_cast<double>(history_.interval_ns()) * 1e-9);
+}
+
+Image Stage::Draw(const Picture& picture) {
+  std::unique_lock lock(mutex_);
+  RODEIRA_ASSERT(request_ == nullptr);
+  request_ = &picture;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return answer_.has_value(); });
+  Image image = std::move(*answer_);
+  answer_.reset();
+  return image;
+}
+
+void Stage::Run() {
+  Hand hand;
+  base::Status status = SetUp(hand);
+  const bool go_on = status.ok() && hand.painter != nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    set_up_ = std::move(status);
+    nothing_to_draw_ = hand.painter == nullptr;
+    window_ = go_on && hand.surface->kind() == SurfaceKind::kWindow;
+    ready_ = true;
+  }
+  changed_.notify_all();
+  if (go_on) Loop(hand);
+  hand.painter.reset();  // before its surface
+  hand.surface.reset();
+}
+
+base::Status Stage::SetUp(Hand& hand) {
+  const std::string title = world_->name().empty() ? "Rodeira" : fmt::format("Rodeira: {}", world_->name());
+  const auto open = [&](SurfaceKind kind) -> base::Status {
+    auto surface = Surface::Open(kind, settings_.width_px, settings_.height_px, title, settings_.frame_steps.empty());
+    if (!surface) return surface.error();
+    hand.surface = std::move(surface).value();
+    return {};
+  };
+  if (settings_.window == WindowWish::kAlways) {
+    if (auto status = open(SurfaceKind::kWindow); !status) return status;
+  } else if (settings_.window == WindowWish::kAuto && HasDisplay()) {
+    (void)open(SurfaceKind::kWindow);  // a display without OpenGL is as good as none
+  }
+  if (hand.surface == nullptr) {
+    if (settings_.frame_steps.empty()) return {};
+    if (auto status = open(SurfaceKind::kOffscreen); !status) return status;
+  }
+  hand.standing = scene::BuildWorldScene(*world_);
+  hand.painter = std::make_unique<Painter>(*hand.surface, *world_, hand.standing);
+  hand.standing = {};  // the painter has its own copy
+  hand.painter->Draw(FirstPicture(*world_));
+  (void)hand.painter->Read();
+  hand.live.camera = settings_.camera;
+  hand.live.followed = settings_.followed;
+  hand.live.show_instruments = settings_.instruments;
+  return {};
+}
+
+void Stage::Loop(Hand& hand) {
+  std::unique_lock lock(mutex_);
+  while (!quit_) {
+    if (request_ != nullptr) {
+      ServeRequest(hand, lock);
+    } else if (window_ && !history_.empty()) {
+      ShowWindow(hand, lock);
+    } else {
+      changed_.wait_for(lock, std::chrono::milliseconds(window_ ? 10 : 1000), [&] { return quit_ || request_ != nullptr; });
+      if (window_) window_ = ReadKeys(hand);
+    }
+  }
+}
+
+void Stage::ServeRequest(Hand& hand, std::unique_lock<std::mutex>& lock) {
+  const Picture& picture = *request_;  // whoever asked waits, so it stays
+  lock.unlock();
+  hand.painter->Draw(picture);
+  Image image = hand.painter->Read();
+  lock.lock();
+  request_ = nullptr;
+  answer_ = std::move(image);
+  changed_.notify_all();
+}
+
+void Stage::ShowWindow(Hand& hand, std::unique_lock<std::mutex>& lock) {
+  const double begin_s = WallSeconds();
+  const double rate = clock_.rate();
+  hand.live.moment = history_.At(clock_.Now(begin_s) * 1e9);
+  lock.unlock();
+  const bool open = ReadKeys(hand);
+  if (hand.live.followed >= hand.live.moment.cars.size()) hand.live.followed = 0;
+  hand.live.text = hand.help ? kHelp : "";
+  if (hand.statistics) {
+    hand.live.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", hand.help ? "\n\n" : "", 1.0 / hand.interval_s, hand.frame_s * 1e3, rate,
+                                  hand.surface->renderer());
+  }
+  hand.painter->Draw(hand.live);
+  hand.surface->Swap();
+  const double end_s = WallSeconds();
+  hand.frame_s += 0.1 * (end_s - begin_s - hand.frame_s);
+  hand.interval_s += 0.1 * (std::min(end_s - hand.shown_wall_s, 1.0) - hand.interval_s);
+  hand.shown_wall_s = end_s;
+  lock.lock();
+  if (!open) window_ = false;
+  // Where the display does not hold us back, we do it ourselves.
+  const double rest_s = 1.0 / kLongestRate_Hz - (WallSeconds() - begin_s);
+  if (rest_s > 0.0) changed_.wait_for(lock, std::chrono::duration<double>(rest_s), [&] { return quit_ || request_ != nullptr; });
+}
+
+// False where the person closed the window.
+bool Stage::ReadKeys(Hand& hand) {
+  SDL_Event event;
+  bool open = true;
+  while (SDL_PollEvent(&event) != 0) {
+    if (event.type == SDL_QUIT) open = false;
+    if (event.type != SDL_KEYDOWN || event.key.repeat != 0) continue;
+    switch (event.key.keysym.sym) {
+      case SDLK_k: hand.live.camera = hand.live.camera == scene::CameraKind::kChase ? scene::CameraKind::kDriver : scene::CameraKind::kChase; break;
+      case SDLK_TAB: ++hand.live.followed; break;
+      case SDLK_h: hand.help = !hand.help; break;
+      case SDLK_s: hand.statistics = !hand.statistics; break;
+      case SDLK_f: hand.surface->ToggleFullScreen(); break;
+      case SDLK_ESCAPE: open = false; break;
+      default: break;
+    }
+  }
+  if (!open) hand.surface->Hide();
+  return open;
+}
+
+}  // namespace rodeira::view

@@ -1,0 +1,104 @@
+#include "nodes/view/surface.hpp"
+
+#include <SDL.h>
+#include <SDL_opengl.h>
+
+#include <cstdlib>
+#include <cstring>
+
+namespace rodeira::view {
+namespace {
+
+// Starts SDL's video with one of its drivers, or nullptr for the display's own.
+bool StartVideo(const char* driver) {
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // signals are the run's
+  SDL_SetMainReady();
+  return SDL_VideoInit(driver) == 0;
+}
+
+bool IsDisplay(const char* driver) { return driver != nullptr && std::strcmp(driver, "offscreen") != 0 && std::strcmp(driver, "dummy") != 0; }
+
+void AskForContext(int samples) {
+  SDL_GL_ResetAttributes();
+  SDL_GL_SetAttribute(SDL_GL_RED_SIZE, 8);
+  SDL_GL_SetAttribute(SDL_GL_GREEN_SIZE, 8);
+  SDL_GL_SetAttribute(SDL_GL_BLUE_SIZE, 8);
+  SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 24);
+  SDL_GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
+  SDL_GL_SetAttribute(SDL_GL_MULTISAMPLEBUFFERS, samples > 0 ? 1 : 0);
+  SDL_GL_SetAttribute(SDL_GL_MULTISAMPLESAMPLES, samples);
+}
+
+}  // namespace
+
+bool HasDisplay() {
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return false;
+  if (!StartVideo(nullptr)) return false;
+  const bool display = IsDisplay(SDL_GetCurrentVideoDriver());
+  SDL_VideoQuit();
+  return display;
+}
+
+base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable) {
+  std::unique_ptr<Surface> surface(new Surface());
+  surface->kind_ = kind;
+  if (!StartVideo(kind == SurfaceKind::kOffscreen ? "offscreen" : nullptr)) {
+    return base::WrongInput(std::string(kind == SurfaceKind::kWindow ? "a window is wanted, but no display answers (" : "OpenGL without a display does not start (") +
+                            SDL_GetError() + (kind == SurfaceKind::kWindow ? "); set DISPLAY, or 'window: never'" : "); the packages libegl1 and libegl-mesa0 were expected"));
+  }
+  surface->video_ = true;
+  if (kind == SurfaceKind::kWindow && !IsDisplay(SDL_GetCurrentVideoDriver())) {
+    return base::WrongInput("a window is wanted, but there is no display; set DISPLAY, or 'window: never'");
+  }
+  if (auto status = surface->MakeWindow(width_px, height_px, title, resizable); !status) return status.error();
+  return surface;
+}
+
+base::Status Surface::MakeWindow(int width_px, int height_px, const std::string& title, bool resizable) {
+  resizable_ = resizable;
+  Uint32 flags = SDL_WINDOW_OPENGL;
+  if (kind_ == SurfaceKind::kWindow) flags |= SDL_WINDOW_SHOWN;
+  if (resizable) flags |= SDL_WINDOW_RESIZABLE;
+  for (const int samples : {4, 0}) {  // smooth edges where they are to be had
+    AskForContext(samples);
+    window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width_px, height_px, flags);
+    if (window_ != nullptr) context_ = SDL_GL_CreateContext(window_);
+    if (context_ != nullptr) break;
+    if (window_ != nullptr) SDL_DestroyWindow(window_);
+    window_ = nullptr;
+  }
+  if (context_ == nullptr) return base::WrongInput(std::string("no OpenGL context can be made (") + SDL_GetError() + "); the package libgl1-mesa-dri was expected");
+  if (kind_ == SurfaceKind::kWindow && SDL_GL_SetSwapInterval(1) != 0) SDL_ClearError();
+  if (const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER)); name != nullptr) renderer_ = name;
+  return {};
+}
+
+Surface::~Surface() {
+  if (context_ != nullptr) SDL_GL_DeleteContext(context_);
+  if (window_ != nullptr) SDL_DestroyWindow(window_);
+  if (video_) SDL_VideoQuit();
+}
+
+int Surface::width_px() const {
+  int width = 0, height = 0;
+  SDL_GL_GetDrawableSize(window_, &width, &height);
+  return width;
+}
+
+int Surface::height_px() const {
+  int width = 0, height = 0;
+  SDL_GL_GetDrawableSize(window_, &width, &height);
+  return height;
+}
+
+void Surface::Swap() { SDL_GL_SwapWindow(window_); }
+
+void Surface::ToggleFullScreen() {
+  if (!resizable_) return;
+  full_screen_ = !full_screen_;
+  SDL_SetWindowFullscreen(window_, full_screen_ ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+}
+
+void Surface::Hide() { SDL_HideWindow(window_); }
+
+}  // namespace rodeira::view

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "common/base/result.hpp"
+
+struct SDL_Window;
+
+namespace rodeira::view {
+
+enum class SurfaceKind { kWindow, kOffscreen };
+
+// Where pictures are drawn: an SDL2 window, or pixels without a display (EGL). Made, used and destroyed on one thread;
+// its OpenGL context is current there all the while. At most one a process.
+class Surface {
+ public:
+  // A window that is not resizable keeps its size, full screen included: frames are read from it.
+  // Wrong input where there is no display (kWindow) or no OpenGL: a sentence that says what is missing.
+  static base::Result<std::unique_ptr<Surface>> Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable = false);
+  ~Surface();
+  Surface(const Surface&) = delete;
+  Surface& operator=(const Surface&) = delete;
+
+  SurfaceKind kind() const { return kind_; }
+  int width_px() const;  // of the drawing area, now
+  int height_px() const;
+  // Shows what was drawn (waits for the display where it can).
+  void Swap();
+  void ToggleFullScreen();
+  // The window goes away; drawing and reading go on.
+  void Hide();
+  // "llvmpipe (LLVM 15.0.6, 256 bits)" or the like.
+  const std::string& renderer() const { return renderer_; }
+
+ private:
+  Surface() = default;
+  base::Status MakeWindow(int width_px, int height_px, const std::string& title, bool resizable);
+
+  SurfaceKind kind_ = SurfaceKind::kOffscreen;
+  SDL_Window* window_ = nullptr;
+  void* context_ = nullptr;
+  bool video_ = false;
+  bool resizable_ = false;
+  bool full_screen_ = false;
+  std::string renderer_;
+};
+
+// Whether a window could be opened: a display server answers. Cheap; must not be called while a Surface is open.
+bool HasDisplay();
+
+}  // namespace rodeira::view

@@ -1,0 +1,157 @@
+#include "nodes/view/view_node.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "idl/codec.hpp"
+#include "idl/topics.hpp"
+#include "nodes/view/from_wire.hpp"
+#include "nodes/view/png.hpp"
+#include "nodes/view/stage.hpp"
+#include "nodes/view/view_settings.hpp"
+
+namespace rodeira::nodes {
+namespace {
+
+namespace topics = idl::topics;
+using lockstep::Sample;
+using lockstep::SourceIndex;
+using lockstep::Step;
+
+class ViewNode final : public lockstep::Node {
+ public:
+  ViewNode(const lockstep::Roster& roster, std::string name, view::ViewSettings settings, std::unique_ptr<view::Stage> stage)
+      : roster_(roster), name_(std::move(name)), settings_(std::move(settings)), stage_(std::move(stage)) {}
+
+  base::Status Initialise(lockstep::Outbox&) override { return {}; }
+
+  base::Status Step(const lockstep::StepInfo& info, const lockstep::Inbox& inbox, lockstep::Outbox&) override {
+    if (auto status = Take(inbox, info.step - info.period, info.step); !status) return status;
+    if (stage_ == nullptr || !stage_->has_window()) return {};
+    auto moment = MomentAt(info.step);
+    if (!moment) return moment.error();
+    stage_->Show(std::move(moment).value());
+    return {};
+  }
+
+  base::Status Finish(const lockstep::Inbox& rest, lockstep::Step last_step, bool complete) override {
+    const lockstep::Step after = taken_through_;
+    if (auto status = Take(rest, after, last_step); !status) return status;
+    const auto missed = std::upper_bound(settings_.frame_steps.begin(), settings_.frame_steps.end(), last_step);
+    if (complete && missed != settings_.frame_steps.end()) {
+      fmt::print(stderr, "rodeira: node '{}': the run ended at step {}, before {} of the frames asked for (the first of them is of step {})\n", name_, last_step,
+                 settings_.frame_steps.end() - missed, *missed);
+    }
+    return {};
+  }
+
+  void Save(base::StateWriter& out) const override {
+    out.Put("taken_through", taken_through_);
+    out.Put("sources", static_cast<std::uint32_t>(newest_.size()));
+    for (const auto& [source, payload] : newest_) {
+      out.Put("source", source);
+      out.Put("payload", std::span<const std::uint8_t>(reinterpret_cast<const std::uint8_t*>(payload->data()), payload->size()));
+    }
+  }
+
+  void Restore(base::StateReader& in) override {
+    newest_.clear();
+    std::uint32_t count = 0;
+    in.Get("taken_through", taken_through_);
+    in.Get("sources", count);
+    for (std::uint32_t i = 0; i < count && i < roster_.sources().size(); ++i) {
+      SourceIndex source = 0;
+      std::vector<std::uint8_t> payload;
+      in.Get("source", source);
+      in.Get("payload", payload);
+      const auto bytes = std::as_bytes(std::span(payload));
+      newest_[source] = std::make_shared<const base::Bytes>(bytes.begin(), bytes.end());
+    }
+  }
+
+ private:
+  // Takes the samples in their order and writes the frames of steps in (after, through] on the way.
+  base::Status Take(const lockstep::Inbox& inbox, lockstep::Step after, lockstep::Step through) {
+    std::vector<const Sample*> samples;
+    for (const std::string_view topic : {topics::kVehicleState, topics::kTrafficState}) {
+      if (!inbox.Has(topic)) continue;
+      for (const Sample& sample : inbox.All(topic)) samples.push_back(&sample);
+    }
+    std::stable_sort(samples.begin(), samples.end(), [](const Sample* a, const Sample* b) { return a->valid() < b->valid(); });
+    auto next = samples.begin();
+    const auto take_through = [&](lockstep::Step step) {
+      for (; next != samples.end() && (*next)->valid() <= step; ++next) newest_[(*next)->source()] = (*next)->payload;
+    };
+    const auto first = std::upper_bound(settings_.frame_steps.begin(), settings_.frame_steps.end(), after);
+    for (auto frame = first; frame != settings_.frame_steps.end() && *frame <= through; ++frame) {
+      take_through(*frame);
+      if (auto status = WriteFrame(*frame); !status) return status;
+    }
+    take_through(through);
+    taken_through_ = through;
+    return {};
+  }
+
+  // Everything as the newest samples tell it.
+  base::Result<scene::Moment> MomentAt(lockstep::Step step) const {
+    scene::Moment moment;
+    moment.time_ns = step * roster_.base_step_ns();
+    for (const auto& [source, payload] : newest_) {
+      if (roster_.source(source).topic == topics::kVehicleState) {
+        const auto message = idl::Decode<msg::VehicleState>(*payload);
+        if (!message) return message.error();
+        moment.cars.push_back(view::FromWire(message.value(), source, moment.cars.size()));
+      } else {
+        const auto message = idl::Decode<msg::TrafficState>(*payload);
+        if (!message) return message.error();
+        view::AppendAgents(message.value(), source, moment.agents);
+      }
+    }
+    return moment;
+  }
+
+  base::Status WriteFrame(lockstep::Step step) {
+    auto moment = MomentAt(step);
+    if (!moment) return moment.error();
+    view::Picture picture;
+    picture.moment = std::move(moment).value();
+    picture.camera = settings_.camera;
+    picture.followed = settings_.followed;
+    picture.show_instruments = settings_.instruments;
+    return view::WritePng(settings_.folder / view::FrameName(step), stage_->Draw(picture));
+  }
+
+  const lockstep::Roster& roster_;
+  std::string name_;
+  view::ViewSettings settings_;
+  std::unique_ptr<view::Stage> stage_;  // null: nothing is drawn
+  std::map<SourceIndex, std::shared_ptr<const base::Bytes>> newest_;
+  lockstep::Step taken_through_ = -1;
+};
+
+base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch& launch) {
+  if (!launch.world().empty()) return road::World::Load(launch.world());
+  road::WorldSpec level;  // a run without a world stands on a level plane
+  level.plane = road::PlaneSpec{};
+  level.terrain_surface = terrain::Surface::kAsphalt;
+  return road::World::Make(std::move(level));
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<lockstep::Node>> MakeViewNode(launch::NodeContext& context) {
+  auto settings = view::ReadViewSettings(context);
+  if (!settings) return settings.error();
+  auto world = LoadWorld(context.launch());
+  if (!world) return world.error();
+  if (!context.launch().world().empty()) context.set_world_hash(world.value()->content_hash());
+  auto stage = view::Stage::Open(settings.value(), world.value());
+  if (!stage) return stage.error();
+  return std::unique_ptr<lockstep::Node>(
+      std::make_unique<ViewNode>(context.roster(), context.spec().name, std::move(settings).value(), std::move(stage).value()));
+}
+
+}  // namespace rodeira::nodes

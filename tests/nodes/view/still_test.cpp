@@ -1,0 +1,153 @@
+// What a person sees, asked of single pixels: where a thing of the world projects to, there its colour is.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/base/random.hpp"
+#include "tests/nodes/view/pictures.hpp"
+
+namespace rodeira::view {
+namespace {
+
+constexpr int kWidth = 960, kHeight = 540;
+
+std::shared_ptr<const road::World> Load(const char* name) {
+  const auto world = road::World::Load(std::string(RODEIRA_SOURCE_DIR "/configs/worlds/") + name);
+  EXPECT_TRUE(world.ok()) << world.error().Text();
+  return world.value();
+}
+
+Image Still(const road::World& world, const Picture& picture) {
+  auto image = RenderStill(world, picture, kWidth, kHeight);
+  EXPECT_TRUE(image.ok()) << image.error().Text();
+  return image.value();
+}
+
+TEST(Still, OnAPlane) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = Load("plane.yaml");
+  Picture picture;
+  picture.show_instruments = false;
+  picture.moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
+  const scene::CarPose& car = picture.moment.cars[0];
+  const Image image = Still(*world, picture);
+  ASSERT_EQ(image.width_px, kWidth);
+  ASSERT_EQ(image.height_px, kHeight);
+  const scene::Camera camera = scene::ChaseCamera(car, *world);
+  for (int x = 20; x < kWidth; x += 60) EXPECT_TRUE(ProbeAt(image, x, 12).IsSky()) << x << " " << ProbeAt(image, x, 12);
+  const auto ground = [&](double ahead, double aside) { return car.p_WB_W + car.q_WB * Eigen::Vector3d(ahead, aside, 0.0); };
+  for (const double ahead : {15.0, 30.0, 60.0}) {
+    EXPECT_TRUE(ProbeAt(image, camera, ground(ahead, 8.0)).IsAsphalt()) << ahead << " " << ProbeAt(image, camera, ground(ahead, 8.0));
+  }
+  // Paint, glass, tyre: the middle of the tailgate, the rear window, the left rear wheel.
+  EXPECT_TRUE(ProbeAt(image, camera, car.p_WB_W + car.q_WB * Eigen::Vector3d(-1.8, 0.0, 0.80)).IsRed());
+  const Probe glass = ProbeAt(image, camera, car.p_WB_W + car.q_WB * Eigen::Vector3d(-1.5, 0.0, 1.12));
+  EXPECT_LT(glass.red, 110.0) << glass;
+  EXPECT_FALSE(glass.IsRed());
+  // The squares of the plane: neighbours differ, so that motion is seen.
+  double light = 0.0, dark = 255.0;
+  for (int k = 0; k < 40; ++k) {
+    const double green = ProbeAt(image, camera, ground(12.0 + 0.9 * k, -6.0), 2).green;
+    light = std::max(light, green);
+    dark = std::min(dark, green);
+  }
+  EXPECT_GT(light, dark + 8.0);
+}
+
+TEST(Still, OnN222) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = Load("n222.yaml");
+  const road::Road& road = world->roads()[0];
+  // One surface and painter for all, as the node has them.
+  auto surface = Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test");
+  ASSERT_TRUE(surface.ok());
+  const scene::WorldScene standing = scene::BuildWorldScene(*world);
+  Painter painter(*surface.value(), *world, standing);
+  int edge_marks = 0, middle_marks = 0, asphalt = 0, green = 0, sky = 0, asked = 0;
+  for (double s = 60.0; s < road.length_m() - 80.0; s += 230.0, ++asked) {
+    Picture picture;
+    picture.show_instruments = false;
+    picture.moment.cars.push_back(CarOn(road, s, -1.45));
+    painter.Draw(picture);
+    const Image image = painter.Read();
+    const scene::Camera camera = scene::ChaseCamera(picture.moment.cars[0], *world);
+    // 7 m ahead, beside the car: nothing stands between.
+    asphalt += ProbeAt(image, camera, road.Position(s + 7.0, 1.6)).IsAsphalt();
+    edge_marks += ProbeAt(image, camera, road.Position(s + 7.0, -2.96), 0).IsWhite() && ProbeAt(image, camera, road.Position(s + 7.0, 2.96), 0).IsWhite();
+    green += ProbeAt(image, camera, road.Position(s + 7.0, -4.3)).IsGreen() && ProbeAt(image, camera, road.Position(s + 7.0, 4.3)).IsGreen();
+    sky += ProbeAt(image, 0.5 * kWidth, 10).IsSky();
+    const bool painted = world->At(road.Position(s + 7.0, 0.0).x(), road.Position(s + 7.0, 0.0).y()).surface == terrain::Surface::kRoadMark;
+    middle_marks += painted == ProbeAt(image, camera, road.Position(s + 7.0, 0.0), 0).IsWhite();
+    EXPECT_TRUE(ProbeAt(image, camera, picture.moment.cars[0].p_WB_W + picture.moment.cars[0].q_WB * Eigen::Vector3d(-1.8, 0.0, 0.80)).IsRed()) << s;
+  }
+  ASSERT_GT(asked, 20);
+  EXPECT_EQ(asphalt, asked);
+  EXPECT_EQ(edge_marks, asked);
+  EXPECT_EQ(green, asked);
+  EXPECT_GE(sky, asked - 2) << "a hill may stand before it";
+  EXPECT_GE(middle_marks, asked - 1) << "the end of a dash may fall on a pixel";
+}
+
+TEST(Still, TheDriverSeesTheRoadAndNotTheCabin) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = Load("n222.yaml");
+  const road::Road& road = world->roads()[0];
+  Picture picture;
+  picture.camera = scene::CameraKind::kDriver;
+  picture.show_instruments = false;
+  picture.moment.cars.push_back(CarOn(road, 40.0, -1.45));
+  const Image image = Still(*world, picture);
+  const scene::Camera camera = scene::DriverCamera(picture.moment.cars[0]);
+  EXPECT_TRUE(ProbeAt(image, camera, road.Position(60.0, -1.45)).IsAsphalt());
+  EXPECT_TRUE(ProbeAt(image, camera, road.Position(55.0, 2.96), 0).IsWhite());
+  EXPECT_TRUE(ProbeAt(image, 0.5 * kWidth, 10).IsSky());
+  EXPECT_TRUE(ProbeAt(image, 0.55 * kWidth, kHeight - 4).IsRed()) << "the bonnet";
+}
+
+TEST(Still, TrafficIsWhereItIs) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = Load("n222.yaml");
+  const road::Road& road = world->roads()[0];
+  Picture picture;
+  picture.show_instruments = false;
+  picture.moment.cars.push_back(CarOn(road, 30.0, -1.45));
+  const scene::CarPose ahead = CarOn(road, 52.0, 1.45);
+  scene::AgentPose agent;
+  agent.colour = scene::Colour::Of(0x1040e0);
+  agent.p_WB_W = ahead.p_WB_W;
+  agent.q_WB = ahead.q_WB;
+  const Image without = Still(*world, picture);
+  picture.moment.agents.push_back(agent);
+  const Image with = Still(*world, picture);
+  const scene::Camera camera = scene::ChaseCamera(picture.moment.cars[0], *world);
+  const Eigen::Vector3d tailgate = agent.p_WB_W + agent.q_WB * Eigen::Vector3d(-2.0, 0.0, 0.82);
+  EXPECT_FALSE(ProbeAt(without, camera, tailgate).IsBlue());
+  EXPECT_TRUE(ProbeAt(with, camera, tailgate).IsBlue()) << ProbeAt(with, camera, tailgate);
+  // Nothing else changed: beyond the agent's own surroundings the pictures are the same.
+  const auto at = camera.Project(tailgate, kWidth, kHeight);
+  std::size_t differ = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      if (std::hypot(x - at->x(), y - at->y()) < 90.0) continue;
+      differ += std::memcmp(with.At(x, y), without.At(x, y), 3) != 0;
+    }
+  }
+  EXPECT_EQ(differ, 0U);
+}
+
+TEST(Still, TheSameMomentGivesTheSamePicture) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = Load("plane.yaml");
+  Picture picture;
+  picture.moment.time_ns = 12'340'000'000;
+  picture.moment.cars.push_back(CarAt({1.0, 2.0, 0.0}, 0.3));
+  const Image one = Still(*world, picture), again = Still(*world, picture);
+  EXPECT_EQ(one.rgb, again.rgb);
+  picture.moment.cars[0].p_WB_W.x() += 0.4;
+  EXPECT_NE(Still(*world, picture).rgb, one.rgb);
+  picture.show_instruments = false;
+  EXPECT_NE(Still(*world, picture).rgb, Still(*world, picture = [&] { Picture shown = picture; shown.show_instruments = true; return shown; }()).rgb);
+}
+
+}  // namespace
+}  // namespace rodeira::view

@@ -1,0 +1,84 @@
+#include "nodes/view/view_settings.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "common/base/files.hpp"
+#include "nodes/view/view_node.hpp"
+#include "tests/nodes/view/fake_run.hpp"
+
+namespace rodeira::view {
+namespace {
+
+// What the node says to a configuration; empty where it takes it.
+std::string Complaint(const std::string& config, const std::string& vehicle_period_s = "0.001") {
+  const auto launch = launch::Launch::Parse(LaunchText(config, vehicle_period_s), "fake.yaml");
+  EXPECT_TRUE(launch.ok()) << launch.error().Text();
+  const PlainContext context(launch.value(), launch.value().roster().Find("picture"));
+  const auto settings = ReadViewSettings(context);
+  if (settings.ok()) return {};
+  EXPECT_EQ(settings.error().exit_status(), 2);
+  return settings.error().Text();
+}
+
+TEST(ViewSettings, NothingNeedsToBeSaid) {
+  const auto launch = launch::Launch::Parse(LaunchText("{}"), "fake.yaml");
+  ASSERT_TRUE(launch.ok());
+  const PlainContext context(launch.value(), launch.value().roster().Find("picture"));
+  const auto settings = ReadViewSettings(context);
+  ASSERT_TRUE(settings.ok()) << settings.error().Text();
+  EXPECT_EQ(settings.value().width_px, 1280);
+  EXPECT_EQ(settings.value().window, WindowWish::kAuto);
+  EXPECT_TRUE(settings.value().frame_steps.empty());
+}
+
+TEST(ViewSettings, WrongOnesAreRefusedWithTheirPlace) {
+  EXPECT_EQ(Complaint("{widht_px: 800}"), "fake.yaml:9: unknown key 'nodes.picture.config.widht_px'; did you mean 'width_px'?");
+  EXPECT_NE(Complaint("{camera: chaise}").find("did you mean 'chase'"), std::string::npos) << Complaint("{camera: chaise}");
+  EXPECT_NE(Complaint("{width_px: 10}").find("width_px"), std::string::npos);
+  EXPECT_EQ(Complaint("{follow: egg}"), "fake.yaml:9: 'egg' is no vehicle that this view is wired to; did you mean 'ego'?");
+  EXPECT_EQ(Complaint("{follow: ego}"), "");
+  EXPECT_NE(Complaint("{frames: {times_s: [1]}}").find("folder"), std::string::npos);
+}
+
+TEST(ViewSettings, AFramesTimeMustBeASampleOfTheCar) {
+  const std::string folder = (std::filesystem::temp_directory_path() / ("rodeira-view-settings-" + std::to_string(::getpid()))).string();
+  const auto with = [&](const std::string& times) { return "{frames: {times_s: " + times + ", folder: " + folder + "}}"; };
+  EXPECT_EQ(Complaint(with("[2, 1.004, 1]")), "");
+  EXPECT_EQ(Complaint(with("[1.0005]")), "fake.yaml:9: 1.0005 s is no multiple of the base step of 0.001 s");
+  EXPECT_EQ(Complaint(with("[1.003]"), "0.005"), "fake.yaml:9: at 1.003 s ego.rodeira/vehicle_state has no sample; a multiple of its period of 0.005 s was expected");
+  EXPECT_NE(Complaint(with("[-1]")), "");
+  std::filesystem::remove_all(folder);
+}
+
+TEST(ViewSettings, AFolderThatCannotBeIsRefusedAtTheStart) {
+  const auto file = std::filesystem::temp_directory_path() / ("rodeira-view-file-" + std::to_string(::getpid()));
+  ASSERT_TRUE(base::WriteWhole(file, "no folder").ok());
+  const std::string said = Complaint("{frames: {times_s: [1], folder: " + (file / "frames").string() + "}}");
+  EXPECT_NE(said.find("fake.yaml:9: '" + (file / "frames").string() + "' is no folder, and none can be made"), std::string::npos) << said;
+  EXPECT_EQ(Complaint("{frames: {times_s: [1], folder: /proc}}").substr(0, 44), "fake.yaml:9: '/proc' cannot be written to (");
+  std::filesystem::remove(file);
+}
+
+TEST(ViewNodeWithoutDisplay, AWindowThatMustBeIsRefused) {
+  ::unsetenv("DISPLAY");
+  ::unsetenv("WAYLAND_DISPLAY");
+  const auto make = [](const std::string& config) {
+    const auto launch = launch::Launch::Parse(LaunchText(config), "fake.yaml");
+    EXPECT_TRUE(launch.ok());
+    PlainContext context(launch.value(), launch.value().roster().Find("picture"));
+    const auto node = nodes::MakeViewNode(context);
+    return node.ok() ? std::string() : std::to_string(node.error().exit_status()) + " " + node.error().Text();
+  };
+  const std::string said = make("{window: always}");
+  EXPECT_EQ(said.substr(0, 20), "2 a window is wanted") << said;
+  EXPECT_NE(said.find("'window: never'"), std::string::npos) << said;
+  EXPECT_EQ(make("{window: auto}"), "") << "without frames and display there is nothing to do, and that is fine";
+}
+
+TEST(FrameName, HasTheStep) { EXPECT_EQ(FrameName(12340), "step_000012340.png"); }
+
+}  // namespace
+}  // namespace rodeira::view
