@@ -104,7 +104,7 @@ base::Status Ask(End& end, std::uint64_t number, bool again, const LoopBackSetti
     }
   }
   if (settings.cancelled()) return base::Failed("stopped by a signal");
-  return base::Failed(fmt::format("question {} of {} between two processes over {} in domain {} was not answered within {:.0f} s", number, settings.round_trips,
+  return base::Failed(fmt::format("question {} of {} between two processes over {} in domain {} was not answered within {:g} s", number, settings.round_trips,
                                   Word(settings.transport), settings.domain, std::chrono::duration<double>(settings.patience).count()));
 }
 

@@ -1,5 +1,6 @@
 #include "launch/doctor_machine.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gnu/libc-version.h>
 #include <sys/socket.h>
@@ -71,6 +72,18 @@ std::string ProblemOf(const std::filesystem::path& program) {
 
 }  // namespace
 
+std::string WriteProblem(const std::filesystem::path& folder) {
+  const std::string file = (folder / fmt::format("rodeira-doctor-{}", ::getpid())).string();
+  const int made = ::open(file.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0600);
+  if (made < 0) return std::strerror(errno);
+  const char byte = 1;
+  const bool written = ::write(made, &byte, 1) == 1;
+  const std::string problem = written ? "" : std::strerror(errno);
+  ::close(made);
+  ::unlink(file.c_str());
+  return problem;
+}
+
 std::vector<DebianPackage> ParsePackages(std::string_view text) {
   std::vector<DebianPackage> packages;
   std::istringstream lines{std::string(text)};
@@ -114,7 +127,7 @@ Finding CheckPrograms(const std::vector<std::string>& programs, const std::files
   for (const std::string& program : programs) {
     if (const std::string problem = ProblemOf(folder / program); !problem.empty()) problems.push_back(program + " " + problem);
   }
-  if (problems.empty()) return Ok("programs", fmt::format("{} in {} start", programs.size(), folder.string()));
+  if (problems.empty()) return Ok("programs", fmt::format("{} in {} start", fmt::join(programs, ", "), folder.string()));
   return Fault("programs", fmt::format("in {}: {}; build again (ninja -C build) or copy the whole folder", folder.string(), fmt::join(problems, ", ")));
 }
 
@@ -163,7 +176,7 @@ Finding CheckDisplay(const DisplayPlace& place) {
 }
 
 Finding CheckCores(unsigned int cores) {
-  if (cores >= 2) return Ok("cores", fmt::format("{}", cores));
+  if (cores >= 2) return Ok("cores", fmt::format("{} are there", cores));
   return Warning("cores", fmt::format("{} was found; at least 2 were expected, or a run of several processes is slow", cores));
 }
 
@@ -189,9 +202,10 @@ Finding CheckDisk(const std::filesystem::path& folder, std::uint64_t wanted_byte
   if (!std::filesystem::is_directory(there, problem)) {
     return Fault(check, fmt::format("recordings go to {}, but {} is no folder; set XDG_DATA_HOME or name each by --record", folder.string(), there.string()));
   }
-  if (::access(there.c_str(), W_OK | X_OK) != 0 || ::statvfs(there.c_str(), &info) != 0) {
-    return Fault(check, fmt::format("recordings go to {}, but {} takes no files ({}); set XDG_DATA_HOME or name each by --record", folder.string(), there.string(),
-                                    std::strerror(errno)));
+  std::string refused = WriteProblem(there);
+  if (refused.empty() && ::statvfs(there.c_str(), &info) != 0) refused = std::strerror(errno);
+  if (!refused.empty()) {
+    return Fault(check, fmt::format("recordings go to {}, but {} takes no files ({}); set XDG_DATA_HOME or name each by --record", folder.string(), there.string(), refused));
   }
   const std::uint64_t free_bytes = static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize;
   const std::string found = fmt::format("recordings go to {}, where {:.0f} MB are free", folder.string(), static_cast<double>(free_bytes) / kMega);

@@ -13,6 +13,9 @@
 // check looks at is in its arguments, so that a test can break it.
 namespace rodeira::front {
 
+// The system's reason why no file can be made in a folder; empty where one can (it is tried).
+std::string WriteProblem(const std::filesystem::path& folder);
+
 struct DebianPackage {
   std::string name;
   bool to_run = false;  // otherwise only to build and test

@@ -1,16 +1,13 @@
 #include "launch/doctor_network.hpp"
 
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
-
+#include "launch/doctor_machine.hpp"
 #include "launch/shared_memory.hpp"
 
 namespace rodeira::front {
@@ -44,19 +41,6 @@ std::vector<int> PortsOf(std::uint32_t domain) {
   return ports;
 }
 
-// The system's reason why no file can be made there; empty where one can.
-std::string WriteProblem(const std::filesystem::path& folder) {
-  const std::string file = (folder / fmt::format("rodeira-doctor-{}", ::getpid())).string();
-  const int made = ::open(file.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0600);
-  if (made < 0) return std::strerror(errno);
-  const char byte = 1;
-  const bool written = ::write(made, &byte, 1) == 1;
-  const std::string problem = written ? "" : std::strerror(errno);
-  ::close(made);
-  ::unlink(file.c_str());
-  return problem;
-}
-
 double MegabytesOf(const std::set<std::string>& files, const std::filesystem::path& folder) {
   double bytes = 0.0;
   for (const std::string& file : files) {
@@ -82,8 +66,8 @@ Finding CheckSharedMemory(const std::filesystem::path& folder, std::uint64_t wan
   struct statvfs info {};
   const std::uint64_t free_bytes = ::statvfs(folder.c_str(), &info) == 0 ? static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize : 0;
   const std::set<std::string> dead = DeadFiles({}, folder);
-  const std::string left = dead.empty() ? "" : fmt::format("{} files ({:.0f} MB) of dead processes of yours lie there: rodeira doctor --clean removes them",
-                                                           dead.size(), MegabytesOf(dead, folder));
+  const std::string left = dead.empty() ? "" : fmt::format("{} file{} of dead processes of yours ({:.0f} MB) there: rodeira doctor --clean", dead.size(),
+                                                           dead.size() == 1 ? "" : "s", MegabytesOf(dead, folder));
   const std::string found = fmt::format("{} has {:.0f} MB free", where, static_cast<double>(free_bytes) / kMega);
   if (free_bytes < wanted_bytes) {
     return Fault(check, fmt::format("{}; at least {:.0f} MB were expected: {}", found, static_cast<double>(wanted_bytes) / kMega,
