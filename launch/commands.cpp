@@ -7,6 +7,7 @@
 
 #include "common/base/mathematics.hpp"
 #include "common/base/suggest.hpp"
+#include "launch/doctor.hpp"
 #include "launch/info_command.hpp"
 #include "launch/run_command.hpp"
 #include "launch/world_command.hpp"
@@ -65,6 +66,16 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
   }
 }
 
+void AddDoctor(CLI::App& app, DoctorOptions& options) {
+  CLI::App* doctor = app.add_subcommand("doctor", "is this PC ready: packages, GL, DDS, ports, shared memory");
+  doctor->add_option("--transport", options.transport, "of the DDS loop-back")->check(CLI::IsMember({"shared_memory", "udp"}))->capture_default_str();
+  doctor->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232))->capture_default_str();
+  doctor->add_flag("--quiet", options.quiet, "only what is not well");
+  doctor->add_flag("--clean", options.clean, "first remove what dead processes of yours left in /dev/shm");
+  doctor->add_option("--answer", options.answer)->group("");  // the second process of the loop-back
+  doctor->callback([&options] { options.asked = true; });
+}
+
 }  // namespace
 
 int Main(int argc, char** argv) {
@@ -78,6 +89,8 @@ int Main(int argc, char** argv) {
   AddRun(app, run, sets);
   WorldOptions world;
   AddWorld(app, world);
+  DoctorOptions doctor;
+  AddDoctor(app, doctor);
   std::string info_file;
   CLI::App* info = app.add_subcommand("info", "what a recording holds");
   info->add_option("FILE.mcap", info_file, "recording")->required();
@@ -87,6 +100,7 @@ int Main(int argc, char** argv) {
     return app.exit(problem) == 0 ? 0 : 2;
   }
   if (!world.command.empty()) return World(world);
+  if (doctor.asked) return Doctor(doctor);
   if (info->parsed()) return Info(info_file);
   for (const std::string& set : sets) {
     const auto pair = KeyValue(set);

@@ -71,8 +71,12 @@ Child& Child::operator=(Child&& other) noexcept {
 
 Child::~Child() { Close(); }
 
-void Child::Close() {
+void Child::CloseInput() {
   if (in_ >= 0) ::close(std::exchange(in_, -1));
+}
+
+void Child::Close() {
+  CloseInput();
   if (out_ >= 0) ::close(std::exchange(out_, -1));
 }
 

@@ -38,6 +38,7 @@ class Child {
   std::string Fate() const;
   int out() const { return out_; }  // to read from; -1 without pipes
   void Send(const std::string& line) const;  // to its standard input
+  void CloseInput();
 
  private:
   Child() = default;

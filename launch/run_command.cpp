@@ -11,7 +11,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <random>
@@ -20,6 +19,7 @@
 #include "common/dds/options.hpp"
 #include "launch/in_process_command.hpp"
 #include "launch/processes.hpp"
+#include "launch/recording_folder.hpp"
 #include "launch/run_report.hpp"
 #include "launch/shared_memory.hpp"
 
@@ -43,13 +43,10 @@ std::string FreshRunName() {
 }
 
 std::string DatedRecording(const std::string& name) {
-  const char* data = std::getenv("XDG_DATA_HOME");
-  const char* home = std::getenv("HOME");
-  const std::string folder = data != nullptr && *data != '\0' ? data : std::string(home != nullptr ? home : ".") + "/.local/share";
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   ::localtime_r(&now, &local);
-  return fmt::format("{}/rodeira/{}-{:%Y%m%d-%H%M%S}.mcap", folder, name, local);
+  return (RecordingFolder() / fmt::format("{}-{:%Y%m%d-%H%M%S}.mcap", name, local)).string();
 }
 
 // The processes of a run, their clock's words, and their end.
@@ -255,8 +252,12 @@ base::Status ResolveRecording(const launch::Launch& launch, RunOptions& options,
   }
   if (options.record.empty() && recorder.empty()) return {};
   if (has_file && options.record == launch.node(launch.roster().Find(recorder)).config->OptionalChild("config").Path("file").string()) return {};
-  if (options.record.empty()) options.record = DatedRecording(launch.name());
   std::error_code problem;
+  if (options.record.empty()) {
+    options.record = DatedRecording(launch.name());
+    std::filesystem::create_directories(RecordingFolder(), problem);
+    if (problem) return base::Failed(fmt::format("the folder for recordings cannot be made: {}; name a file by --record", problem.message()), RecordingFolder().string());
+  }
   options.record = std::filesystem::absolute(options.record, problem).string();
   if (std::filesystem::exists(options.record, problem)) return base::WrongInput("the file exists; a recording is never overwritten", options.record);
   if (recorder.empty()) {

@@ -3,8 +3,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <fstream>
-#include <vector>
 
 namespace rodeira::front {
 namespace {
@@ -51,16 +51,17 @@ std::set<std::string> SharedMemoryFiles(const std::filesystem::path& folder) {
   return names;
 }
 
-int RemoveLeftOvers(const std::set<std::string>& before, const std::filesystem::path& folder) {
-  std::vector<std::string> fresh;
+std::set<std::string> DeadFiles(const std::set<std::string>& before, const std::filesystem::path& folder) {
+  std::set<std::string> dead;
   for (const std::string& name : SharedMemoryFiles(folder)) {
     struct stat info {};
-    if (!before.contains(name) && ::stat((folder / name).c_str(), &info) == 0 && info.st_uid == ::geteuid()) fresh.push_back(name);
+    if (!before.contains(name) && ::stat((folder / name).c_str(), &info) == 0 && info.st_uid == ::geteuid()) dead.insert(name);
   }
-  if (fresh.empty()) return 0;
+  if (dead.empty()) return dead;
   const std::set<std::string> used = InUse(folder);
   // A port's semaphore is mapped, its lock file is only locked: they share the port's name and its fate.
-  const auto port_in_use = [&](const std::string& name) {
+  const auto in_use = [&](const std::string& name) {
+    if (name.ends_with("_el") && used.contains(name.substr(0, name.size() - 3))) return true;
     const auto at = name.find("fastrtps_port");
     if (at == std::string::npos) return used.contains(name);
     const std::string port = name.substr(at, name.find_first_not_of("0123456789", at + 13) - at);
@@ -70,10 +71,13 @@ int RemoveLeftOvers(const std::set<std::string>& before, const std::filesystem::
     }
     return false;
   };
+  std::erase_if(dead, in_use);
+  return dead;
+}
+
+int RemoveLeftOvers(const std::set<std::string>& before, const std::filesystem::path& folder) {
   int removed = 0;
-  for (const std::string& name : fresh) {
-    if (port_in_use(name)) continue;
-    if (name.ends_with("_el") && used.contains(name.substr(0, name.size() - 3))) continue;
+  for (const std::string& name : DeadFiles(before, folder)) {
     if (::unlink((folder / name).c_str()) == 0) ++removed;
   }
   return removed;

@@ -9,8 +9,11 @@ namespace rodeira::front {
 // Names of Fast DDS's files in /dev/shm (segments, ports and their semaphores).
 std::set<std::string> SharedMemoryFiles(const std::filesystem::path& folder = "/dev/shm");
 
-// Removes those that are this user's, did not exist before (`before`), and that no living process has mapped or open:
-// what dead processes of a run left behind. Returns how many.
+// Those that are this user's, did not exist before (`before`), and that no living process has mapped or open: what dead
+// processes left behind.
+std::set<std::string> DeadFiles(const std::set<std::string>& before, const std::filesystem::path& folder = "/dev/shm");
+
+// Removes them. Returns how many.
 int RemoveLeftOvers(const std::set<std::string>& before, const std::filesystem::path& folder = "/dev/shm");
 
 }  // namespace rodeira::front

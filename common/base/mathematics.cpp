@@ -49,9 +49,14 @@ Digest MathematicsDigest() {
   return Hash(out.bytes());
 }
 
-void FixMathematics(char** argv) {
+bool MathematicsFixed() {
   const char* tunables = std::getenv("GLIBC_TUNABLES");
-  if (tunables != nullptr && std::strstr(tunables, kTunables) != nullptr) return;
+  return tunables != nullptr && std::strstr(tunables, kTunables) != nullptr;
+}
+
+void FixMathematics(char** argv) {
+  if (MathematicsFixed()) return;
+  const char* tunables = std::getenv("GLIBC_TUNABLES");
   const std::string wanted = tunables == nullptr || *tunables == '\0' ? std::string(kTunables) : std::string(tunables) + ":" + kTunables;
   ::setenv("GLIBC_TUNABLES", wanted.c_str(), 1);
   ::execv("/proc/self/exe", argv);

@@ -1,6 +1,7 @@
 #include "common/config/config.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -71,6 +72,20 @@ std::optional<std::int64_t> ToInteger(const std::string& text) {
   const auto [at, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (problem != std::errc{} || at != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+// The first document of a text, which `what` names in a sentence. The error's context is the line, where there is one.
+base::Result<YAML::Node> LoadYaml(const std::string& text, const char* what) {
+  const auto failed = [](const std::string& why, const YAML::Mark& mark) {
+    return base::WrongInput(why, mark.is_null() ? "" : std::to_string(mark.line + 1));
+  };
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::DeepRecursion& problem) {  // the library's own bound: it descends a level of its stack with each level of the text
+    return failed(fmt::format("{} is nested too deeply: lists and mappings lie in one another, {} levels are too many", what, problem.depth()), problem.mark);
+  } catch (const YAML::Exception& problem) {
+    return failed(fmt::format("{} is no YAML: {}", what, problem.msg), problem.mark);
+  }
 }
 
 YAML::Node Find(const YAML::Node& map, std::string_view key) {
@@ -343,12 +358,9 @@ base::Result<File> File::Parse(std::string_view text, const std::filesystem::pat
   context->path = name;
   context->text = std::string(text);
   if (text.find('\0') != std::string_view::npos) return base::WrongInput("the file holds a zero byte; YAML text was expected", name.string());
-  try {
-    context->root = YAML::Load(context->text);
-  } catch (const YAML::Exception& problem) {
-    return base::WrongInput(fmt::format("this is no YAML: {}", problem.msg),
-                            problem.mark.is_null() ? name.string() : fmt::format("{}:{}", name.string(), problem.mark.line + 1));
-  }
+  const auto root = LoadYaml(context->text, "this");
+  if (!root) return base::WrongInput(root.error().message, root.error().context.empty() ? name.string() : name.string() + ":" + root.error().context);
+  context->root.reset(root.value());
   if (!context->root.IsMap()) {
     return base::WrongInput(fmt::format("the file holds {}; a mapping (key: value) was expected", KindOf(context->root)), name.string());
   }
@@ -357,12 +369,8 @@ base::Result<File> File::Parse(std::string_view text, const std::filesystem::pat
 
 base::Status File::Override(std::string_view key, std::string_view value) {
   const std::string where = fmt::format("--set {}={}", key, value);
-  YAML::Node leaf;
-  try {
-    leaf.reset(YAML::Load(std::string(value)));
-  } catch (const YAML::Exception& problem) {
-    return base::WrongInput(fmt::format("the value is no YAML: {}", problem.msg), where);
-  }
+  const auto leaf = LoadYaml(std::string(value), "the value");
+  if (!leaf) return base::WrongInput(leaf.error().message, where);
   YAML::Node at;
   at.reset(context_->root);
   std::size_t from = 0;
@@ -372,7 +380,7 @@ base::Status File::Override(std::string_view key, std::string_view value) {
     if (part.empty()) return base::WrongInput("a key of the form a.b.c was expected", where);
     if (!at.IsMap() && !at.IsNull()) return base::WrongInput(fmt::format("'{}' is {}, no mapping", key.substr(0, from == 0 ? 0 : from - 1), KindOf(at)), where);
     if (dot == std::string_view::npos) {
-      at[part] = leaf;
+      at[part] = leaf.value();
       return {};
     }
     if (!Find(at, part).IsDefined()) at[part] = YAML::Node(YAML::NodeType::Map);

@@ -25,7 +25,7 @@ class Clock {
   // Everybody is ready: the first grant may go out.
   bool all_ready() const;
   bool all_finished() const;
-  // Who has not yet come as far as `phase`.
+  // Who has not come as far as `phase`; who failed never will.
   std::vector<std::string> Missing(Phase phase) const;
   // The smallest next activation of all stepped nodes.
   Step slowest_progress() const;

@@ -186,7 +186,9 @@ class ShuffledRun {
     while (fault_.empty() && !AllOver()) {
       const bool deliver = !in_flight_.empty() && Draw(3) != 0;
       const bool moved = deliver ? DeliverOne() : AdvanceOne();
-      if (!in_flight_.empty() && in_flight_.size() > 64) DeliverOne();
+      // A node that waits says its first samples again at each turn: without a bound they would bury the one message
+      // that it waits for.
+      while (fault_.empty() && in_flight_.size() > 64) DeliverOne();
       idle = moved || !in_flight_.empty() ? 0 : idle + 1;
       if (idle > patience) {
         fault_ = "deadlock: " + Standing();

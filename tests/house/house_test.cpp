@@ -109,6 +109,17 @@ TEST(House, TheTableHasNoCircle) {
   EXPECT_EQ(done.size() + 1, layers.size()) << "a room uses itself by way of others, or one that the table does not name";
 }
 
+TEST(House, NoFileHoldsBothSidesOfAMerge) {
+  for (const char* top : {"cmake", "common", "configs", "docs", "idl", "launch", "nodes", "tests", "tools"}) {
+    for (auto entry = fs::recursive_directory_iterator(kRoot / top); entry != fs::recursive_directory_iterator(); ++entry) {
+      if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
+      if (!entry->is_regular_file()) continue;
+      std::ifstream in(entry->path());
+      for (std::string line; std::getline(in, line);) EXPECT_FALSE(line.starts_with("<<<<" "<<< ") || line.starts_with(">>>>" ">>> ")) << entry->path() << ": " << line;
+    }
+  }
+}
+
 TEST(House, OnlyTheDdsRoomKnowsFastDds) {
   static const std::regex include(R"(^\s*#\s*include\s+[<"](fastdds|fastrtps)/)");
   for (const char* top : {"common", "nodes", "launch"}) {

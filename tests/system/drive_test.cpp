@@ -46,6 +46,26 @@ TEST_F(Drive, RecordsTheSameBytesEveryTimeAndInOneProcessToo) {
   EXPECT_TRUE(Bytes(Path("a.mcap")) == Bytes(Path("c.mcap")));
 }
 
+TEST_F(Drive, WithoutANameTheRecordingGoesToTheDataFolderWhichIsMade) {
+  const auto run = RunCommand({"XDG_DATA_HOME=" + Path("fresh"), Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--for", "0.1"});
+  ASSERT_EQ(run.status, 0) << run.out;
+  int recordings = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(Path("fresh") + "/rodeira")) {
+    EXPECT_TRUE(entry.path().filename().string().starts_with("first_drive-")) << entry.path();
+    ++recordings;
+  }
+  EXPECT_EQ(recordings, 1);
+}
+
+// However short the run is: what failed has not finished.
+TEST_F(Drive, ARecorderThatCannotWriteFailsTheRun) {
+  for (int i = 0; i < 10; ++i) {
+    const auto run = RunCommand(Command({"--for", "0.05", "--record", Path("no/such/folder/a.mcap")}));
+    ASSERT_NE(run.status, 0) << run.out;
+    EXPECT_NE(run.out.find("node 'recorder' failed at step 0: " + Path("no/such/folder/a.mcap") + ": the recording cannot be created"), std::string::npos) << run.out;
+  }
+}
+
 TEST_F(Drive, TheRecordingHoldsEverySampleOnceAndTheCarHasDriven) {
   ASSERT_EQ(RunCommand(Command({"--for", "8", "--record", Path("a.mcap")})).status, 0);
   const auto reader = record::McapReader::Open(Path("a.mcap"));

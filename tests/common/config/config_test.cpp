@@ -68,6 +68,23 @@ TEST(Config, RefusesWhatIsNoMapping) {
   EXPECT_EQ(File::Parse("", "x.yaml").error().code, base::ErrorCode::kWrongInput);
 }
 
+TEST(Config, NestingIsBounded) {
+  for (const std::size_t depth : {1000u, 100'000u}) {
+    for (const char* open : {"[", "{a: ", "- ", "? "}) {
+      std::string text = "a:\n  ";
+      for (std::size_t i = 0; i < depth; ++i) text += open;
+      const auto file = File::Parse(text, "x.yaml");
+      ASSERT_FALSE(file.ok());
+      EXPECT_NE(file.error().Text().find(":2: this is nested too deeply"), std::string::npos) << file.error().Text();
+    }
+    const std::string closed = "a: " + std::string(depth, '[') + std::string(depth, ']') + "\n";
+    EXPECT_EQ(File::Parse(closed, "x.yaml").error().Text(), "x.yaml:1: this is nested too deeply: lists and mappings lie in one another, 500 levels are too many");
+  }
+  EXPECT_TRUE(File::Parse("a: " + std::string(200, '[') + std::string(200, ']') + "\n", "x.yaml").ok());
+  File file = Parsed("a: 1\n");
+  EXPECT_NE(file.Override("a", std::string(1000, '[')).error().Text().find("the value is nested too deeply"), std::string::npos);
+}
+
 TEST(Config, OverridesReplaceAndAdd) {
   File file = Parsed("a: 1\nb: {c: 2}\n");
   ASSERT_TRUE(file.Override("a", "5").ok());

@@ -58,6 +58,18 @@ TEST_F(ClockTest, TheLastStepIsFinal) {
   EXPECT_TRUE(clock.all_finished());
 }
 
+TEST_F(ClockTest, WhoFailedIsNeitherReadyNorFinished) {
+  Take(Make(0, Phase::kReady, 0));
+  Take(Make(1, Phase::kFailed, 0));
+  Take(Make(2, Phase::kReady, 0));
+  EXPECT_FALSE(clock_.all_ready());
+  EXPECT_EQ(clock_.Update(kFree).through, -1) << "nothing is granted to the others";
+  Take(Make(0, Phase::kFinished, 0));
+  Take(Make(2, Phase::kFinished, 0));
+  EXPECT_FALSE(clock_.all_finished());
+  EXPECT_EQ(clock_.Missing(Phase::kFinished), std::vector<std::string>{"b"});
+}
+
 TEST_F(ClockTest, StopMakesTheGrantedStepTheLast) {
   for (const NodeIndex n : {0u, 1u, 2u}) Take(Make(n, Phase::kReady, 0));
   (void)clock_.Update(kFree);
