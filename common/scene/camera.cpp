@@ -36,7 +36,7 @@ std::optional<Eigen::Vector2d> Camera::Project(const Eigen::Vector3d& p_W, int w
 Camera ChaseCamera(const CarPose& car, const road::World& world) {
   const Eigen::Vector3d nose = car.q_WB * Eigen::Vector3d::UnitX();
   const Eigen::Vector3d ahead = std::hypot(nose.x(), nose.y()) > 1e-3 ? Eigen::Vector3d(nose.x(), nose.y(), 0.7 * nose.z()).normalized() : Eigen::Vector3d::UnitX();
-  Eigen::Vector3d eye = car.p_WB_W - 6.6 * ahead + Eigen::Vector3d(0.0, 0.0, 2.3);
+  Eigen::Vector3d eye = car.p_WB_W - 7.2 * ahead + Eigen::Vector3d(0.0, 0.0, 2.45);
   const road::SurfacePoint below = world.At(eye.x(), eye.y());
   if (below.inside) eye.z() = std::max(eye.z(), below.z_m + kClearance_m);
   const Eigen::Vector3d target = car.p_WB_W + 9.0 * ahead + Eigen::Vector3d(0.0, 0.0, 0.75);
@@ -44,8 +44,8 @@ Camera ChaseCamera(const CarPose& car, const road::World& world) {
 }
 
 Camera DriverCamera(const CarPose& car) {
-  const Eigen::Vector3d eye_B(0.05, 0.22 * car.width_m, 1.17);
-  const Eigen::Vector3d forward_B(1.0, 0.0, -0.05);
+  const Eigen::Vector3d eye_B(0.10, 0.22 * car.width_m, 1.20);
+  const Eigen::Vector3d forward_B(1.0, 0.0, -0.015);
   return Look(car.p_WB_W + car.q_WB * eye_B, car.q_WB * forward_B, car.q_WB * Eigen::Vector3d::UnitZ(), 52.0 * kDegree);
 }
 

@@ -64,8 +64,8 @@ class Body {
 void AddPaint(const Body& body, Colour paint, CarMeshes& car) {
   static constexpr double kSections[][4] = {// along, low, top, wide
                                             {0.000, 0.36, 0.60, 0.82}, {0.010, 0.30, 0.66, 0.90}, {0.04, 0.23, 0.71, 0.96}, {0.13, 0.17, 0.715, 1.0},
-                                            {0.35, 0.16, 0.69, 1.0},   {0.60, 0.16, 0.67, 1.0},   {0.73, 0.16, 0.655, 0.99}, {0.84, 0.17, 0.61, 0.97},
-                                            {0.93, 0.20, 0.55, 0.92},  {0.975, 0.25, 0.49, 0.84}, {0.993, 0.30, 0.45, 0.76}, {1.0, 0.34, 0.42, 0.70}};
+                                            {0.35, 0.16, 0.69, 1.0},   {0.60, 0.16, 0.66, 1.0},   {0.73, 0.16, 0.635, 0.99}, {0.84, 0.17, 0.59, 0.97},
+                                            {0.93, 0.20, 0.535, 0.92},  {0.975, 0.25, 0.49, 0.84}, {0.993, 0.30, 0.45, 0.76}, {1.0, 0.34, 0.42, 0.70}};
   std::vector<Ring> rings;
   for (const auto& [along, low, top, wide] : kSections) rings.push_back(body.Section(along, low, top, wide));
   car.body.push_back(Loft(rings, Material::kCarPaint, paint, kCrease_rad));
@@ -73,10 +73,10 @@ void AddPaint(const Body& body, Colour paint, CarMeshes& car) {
                                   body.Oblong(0.16, 0.51, 0.66, 0.10, 0.992), body.Oblong(0.22, 0.45, 0.45, 0.12, 1.0)};
   car.body.push_back(Loft(roof, Material::kCarPaint, paint, kCrease_rad));
   for (const double side : {-1.0, 1.0}) {
-    car.body.push_back(body.Pillar(0.705, side * 0.865, 0.512, side * 0.70, 0.055, paint));
-    car.body.push_back(body.Pillar(0.385, side * 0.905, 0.36, side * 0.725, 0.06, kTrimColour));
-    car.body.push_back(body.Pillar(0.055, side * 0.85, 0.155, side * 0.68, 0.10, paint));
-    car.body.push_back(body.BoxAt(0.655, 0.695, side * 0.97, side * 1.11, 0.655, 0.725, Material::kCarPaint, paint));  // mirror
+    car.frame.push_back(body.Pillar(0.705, side * 0.865, 0.512, side * 0.70, 0.055, paint));
+    car.frame.push_back(body.Pillar(0.385, side * 0.905, 0.36, side * 0.725, 0.06, kTrimColour));
+    car.frame.push_back(body.Pillar(0.055, side * 0.85, 0.155, side * 0.68, 0.10, paint));
+    car.frame.push_back(body.BoxAt(0.655, 0.695, side * 0.97, side * 1.11, 0.655, 0.725, Material::kCarPaint, paint));  // mirror
   }
 }
 

@@ -27,7 +27,8 @@ struct CarShape {
 
 // A small hatchback, every part a closed surface.
 struct CarMeshes {
-  std::vector<Mesh> body;  // paint, glass, trim, lamps
+  std::vector<Mesh> body;   // paint, glass, trim, lamps
+  std::vector<Mesh> frame;  // what would stand in the driver's eyes: posts, mirrors
   Mesh brake_lamps;        // the same place whether they shine or not
   std::vector<Mesh> wheel;  // about its hub, axle along y; the same for all four
 };

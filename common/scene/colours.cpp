@@ -23,7 +23,7 @@ Colour SurfaceColour(terrain::Surface surface) {
     case terrain::Surface::kAsphalt: return Colour::Of(0x5d5e61);
     case terrain::Surface::kConcrete: return Colour::Of(0xa19d93);
     case terrain::Surface::kGravel: return Colour::Of(0x958a76);
-    case terrain::Surface::kGrass: return Colour::Of(0x667a3c);
+    case terrain::Surface::kGrass: return Colour::Of(0x6e7c40);
     case terrain::Surface::kSoil: return Colour::Of(0x8d6f4d);
     case terrain::Surface::kRoadMark: return Colour::Of(0xe8e8e4);
   }
@@ -44,7 +44,7 @@ Colour GroundColour(terrain::Surface surface, double x_m, double y_m, const Eige
   const double fine = SmoothNoise(x_m, y_m, 35.0, 2);
   if (surface != terrain::Surface::kGrass) return Shade(own, 1.0 + 0.04 * fine);
   const double broad = 0.7 * SmoothNoise(x_m, y_m, 420.0, 1) + 0.45 * SmoothNoise(x_m, y_m, 120.0, 3);
-  const Colour meadow = broad > 0.0 ? Mix(own, Colour::Of(0x8f8a4c), std::min(broad, 1.0)) : Mix(own, Colour::Of(0x47602f), std::min(-broad, 1.0));
+  const Colour meadow = broad > 0.0 ? Mix(own, Colour::Of(0x968c50), std::min(broad, 1.0)) : Mix(own, Colour::Of(0x4f6434), std::min(-broad, 1.0));
   const double steep = std::clamp((0.90 - normal_W.z()) / 0.16, 0.0, 1.0);  // from 26 to 42 degrees
   return Shade(Mix(meadow, Colour::Of(0x86745a), 0.85 * Ease(steep)), 1.0 + 0.10 * fine);
 }

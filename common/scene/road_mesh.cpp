@@ -115,7 +115,9 @@ class Weaver {
     Colour colour = SurfaceColour(strip.surface);
     if (strip.material != Material::kRoad && wild.inside) {
       const double wildness = Wildness(t_m, line.beyond_m);
-      const Colour verge = GroundColour(strip.surface, p_W.x(), p_W.y(), Eigen::Vector3d::UnitZ());
+      Colour verge = GroundColour(strip.surface, p_W.x(), p_W.y(), Eigen::Vector3d::UnitZ());
+      const double beside = std::max(t_m - section_.paved_left_m(), section_.paved_right_m() - t_m);
+      if (beside < 0.5) verge = Mix(verge, SurfaceColour(terrain::Surface::kGravel), 0.6);  // little grows right beside the road
       colour = Mix(verge, wild.colour, std::max(wildness, line.beyond_m != 0.0 ? 0.5 : 0.0));
       normal = ((1.0 - wildness) * normal + wildness * wild.normal_W).normalized();
     }

@@ -10,7 +10,7 @@ osg::Matrixd ToOsg(const Eigen::Vector3d& p, const Eigen::Quaterniond& q) {
 }  // namespace
 
 CarNode::CarNode(Look& look, const scene::CarShape& shape, scene::Colour paint)
-    : shape_(shape), body_(new osg::MatrixTransform), brake_glow_(new osg::Uniform("glow", 1.0F)) {
+    : shape_(shape), body_(new osg::MatrixTransform), frame_(new osg::Group), brake_glow_(new osg::Uniform("glow", 1.0F)) {
   const scene::CarMeshes car = scene::BuildCar(shape, paint);
   std::map<scene::Material, scene::Mesh> parts;  // as few as there are materials: each costs a call a frame
   const auto gather = [&parts](const scene::Mesh& mesh) {
@@ -20,6 +20,10 @@ CarNode::CarNode(Look& look, const scene::CarShape& shape, scene::Colour paint)
   };
   for (const scene::Mesh& mesh : car.body) gather(mesh);
   for (const auto& [material, part] : parts) body_->addChild(look.GeometryOf(part));
+  parts.clear();
+  for (const scene::Mesh& mesh : car.frame) gather(mesh);
+  for (const auto& [material, part] : parts) frame_->addChild(look.GeometryOf(part));
+  body_->addChild(frame_);
   const osg::ref_ptr<osg::Geometry> lamps = look.GeometryOf(car.brake_lamps);
   osg::ref_ptr<osg::Group> lamps_group = new osg::Group;
   lamps_group->addChild(lamps);
@@ -71,8 +75,9 @@ void Fleet::Match(const std::vector<Pose>& poses, std::map<std::uint64_t, CarNod
   }
 }
 
-void Fleet::Show(const scene::Moment& moment) {
-  Match(moment.cars, cars_, [](CarNode& node, const scene::CarPose& car) {
+void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside) {
+  Match(moment.cars, cars_, [&](CarNode& node, const scene::CarPose& car) {
+    node.SeenFromInside(inside && &car == &moment.cars[*inside]);
     for (std::size_t i = 0; i < car.wheels.size(); ++i) node.Turn(i, car.wheels[i].hub_B, car.wheels[i].steer_rad, car.wheels[i].spin_rad);
     node.Brake(car.brake > 0.02);
   });

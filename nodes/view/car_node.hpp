@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 
 #include "common/scene/car_mesh.hpp"
 #include "common/scene/moment.hpp"
@@ -22,11 +23,14 @@ class CarNode {
   void Place(const Eigen::Vector3d& p_WB_W, const Eigen::Quaterniond& q_WB);
   void Turn(std::size_t wheel, const Eigen::Vector3d& hub_B, double steer_rad, double spin_rad);
   void Brake(bool braking);
+  // Leaves away what stands in the eyes of somebody who sits in it.
+  void SeenFromInside(bool inside) { frame_->setNodeMask(inside ? 0U : ~0U); }
 
  private:
   scene::CarShape shape_;
   osg::ref_ptr<osg::MatrixTransform> body_;
   std::array<osg::ref_ptr<osg::MatrixTransform>, 4> wheels_;
+  osg::ref_ptr<osg::Group> frame_;
   osg::ref_ptr<osg::Uniform> brake_glow_;
 };
 
@@ -35,7 +39,8 @@ class Fleet {
  public:
   explicit Fleet(Look& look) : look_(look), group_(new osg::Group) {}
   osg::Node* node() { return group_; }
-  void Show(const scene::Moment& moment);
+  // `inside`: the number, in the moment, of the car that the camera is in, or none.
+  void Show(const scene::Moment& moment, std::optional<std::size_t> inside);
 
  private:
   template <class Pose, class Update>

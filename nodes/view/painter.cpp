@@ -108,7 +108,8 @@ Painter::~Painter() {
 void Painter::Draw(const Picture& picture) {
   const int width = surface_.width_px(), height = surface_.height_px();
   scene::Camera camera;
-  if (picture.followed < picture.moment.cars.size()) camera = scene::MakeCamera(picture.camera, picture.moment.cars[picture.followed], world_);
+  const bool follows = picture.followed < picture.moment.cars.size();
+  if (follows) camera = scene::MakeCamera(picture.camera, picture.moment.cars[picture.followed], world_);
   osg::Camera& eye = *parts_->viewer.getCamera();
   if (eye.getViewport() == nullptr || static_cast<int>(eye.getViewport()->width()) != width || static_cast<int>(eye.getViewport()->height()) != height) {
     eye.getGraphicsContext()->resized(0, 0, width, height);
@@ -120,7 +121,7 @@ void Painter::Draw(const Picture& picture) {
   const osg::Matrixd view = eye.getViewMatrix();
   parts_->sun_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(kSun_W), view)));
   parts_->up_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, 1.0), view)));
-  parts_->fleet.Show(picture.moment);
+  parts_->fleet.Show(picture.moment, follows && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt);
   parts_->instruments.Show(picture, width, height);
   parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);
 }

@@ -133,6 +133,8 @@ void main() {
   colour = mix(colour, vec3(0.97, 0.97, 0.98), 0.75 * cover);
   float towards = max(dot(d, sun_world), 0.0);
   colour += vec3(1.0, 0.92, 0.75) * (0.25 * pow(towards, 24.0) + 2.0 * pow(towards, 1800.0));
+  // Beyond the edge of the world there is land, far and hazy.
+  colour = mix(colour, vec3(0.52, 0.57, 0.42), 0.85 * (1.0 - smoothstep(-0.06, 0.0, d.z)));
   gl_FragColor = vec4(min(colour, 1.0), 1.0);
 }
 )";

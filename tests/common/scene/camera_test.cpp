@@ -54,7 +54,7 @@ TEST(Camera, TheDriverSitsOnTheLeftAndRollsWithTheCar) {
   const Camera camera = DriverCamera(car);
   const Eigen::Vector3d eye_B = car.q_WB.conjugate() * (camera.eye_W - car.p_WB_W);
   EXPECT_GT(eye_B.y(), 0.2);
-  EXPECT_NEAR(eye_B.z(), 1.17, 1e-9);
+  EXPECT_NEAR(eye_B.z(), 1.20, 1e-9);
   EXPECT_NEAR((car.q_WB.conjugate() * camera.up_W).y(), 0.0, 1e-12);
 }
 

@@ -43,6 +43,7 @@ TEST(CarMesh, EveryPartIsClosedAndLooksOutward) {
   for (const CarShape& shape : {CarShape::Of(SmallCar()), CarShape::Of(AgentPose{}), CarShape::Of(van)}) {
     const CarMeshes car = BuildCar(shape, Colour::Of(0x123456));
     for (const Mesh& mesh : car.body) ExpectClosed(mesh, "a part of the body");
+    for (const Mesh& mesh : car.frame) ExpectClosed(mesh, "a post or a mirror");
     ExpectClosed(car.brake_lamps, "the brake lamps");
     for (const Mesh& mesh : car.wheel) ExpectClosed(mesh, "a part of the wheel");
   }
@@ -59,6 +60,10 @@ TEST(CarMesh, HasTheCarsMeasures) {
     painted = painted || (mesh.material == Material::kCarPaint && mesh.colours[0] == Colour::Of(0x123456));
   }
   EXPECT_TRUE(painted);
+  EXPECT_NEAR(box.max().y(), 0.5 * 1.65, 0.01) << "the wheel arches stand out a little";
+  for (const Mesh& mesh : car.frame) {
+    for (const Eigen::Vector3f& p : mesh.positions) box.extend(p);
+  }
   EXPECT_NEAR(box.max().x(), 2.01, 0.03);
   EXPECT_NEAR(box.min().x(), 2.01 - 3.85, 0.03);
   EXPECT_NEAR(box.max().z(), 1.42, 0.01);

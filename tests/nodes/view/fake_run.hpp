@@ -26,10 +26,9 @@ class PlainContext final : public launch::NodeContext {
 
 inline double HeadingAt(double time_s) { return 0.2 * time_s; }
 inline Eigen::Vector3d CarAtTime(double time_s) { return {20.0 * time_s, 3.0 * std::sin(time_s), 0.0}; }
-inline Eigen::Vector3d AgentAtTime(double time_s) {
-  return CarAtTime(time_s) + 16.0 * Eigen::Vector3d(std::cos(HeadingAt(time_s)), std::sin(HeadingAt(time_s)), 0.0) +
-         (3.0 - 4.0 * time_s) * Eigen::Vector3d(-std::sin(HeadingAt(time_s)), std::cos(HeadingAt(time_s)), 0.0);
-}
+// 16 m ahead of the car, passing from its left to its right.
+inline Eigen::Vector3d AgentInCar(double time_s) { return {16.0, 3.0 - 4.0 * time_s, 0.0}; }
+inline Eigen::Vector3d AgentAtTime(double time_s) { return CarAtTime(time_s) + scene::Attitude(HeadingAt(time_s), 0.0, 0.0) * AgentInCar(time_s); }
 
 class FakeSource final : public lockstep::Node {
  public:

@@ -48,8 +48,8 @@ struct Probe {
   bool IsAsphalt() const { return std::max({red, green, blue}) - std::min({red, green, blue}) < 22.0 && green > 45.0 && green < 160.0; }
   bool IsWhite() const { return std::min({red, green, blue}) > 165.0; }
   bool IsYellow() const { return red > 150.0 && green > 110.0 && blue < 0.6 * red; }
-  bool IsGreen() const { return green > red && green > blue + 20.0; }
-  bool IsRed() const { return red > 80.0 && red > 1.8 * green && red > 1.8 * blue; }
+  bool IsGrown() const { return green > 1.25 * blue && red < 1.2 * green && green > 50.0; }  // meadows, dry ones too
+  bool IsRed() const { return red > 60.0 && red > 1.8 * green && red > 1.8 * blue; }
   bool IsBlue() const { return blue > 1.25 * red && blue > 1.1 * green; }
 };
 inline std::ostream& operator<<(std::ostream& out, const Probe& p) { return out << "(" << p.red << ", " << p.green << ", " << p.blue << ")"; }

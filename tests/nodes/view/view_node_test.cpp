@@ -30,7 +30,7 @@ class ViewNode : public testing::Test {
   }
 
   // Runs hands, ego, others and the view in this process; the digest of all samples.
-  base::Digest Drive(const std::string& times, const std::filesystem::path& folder, lockstep::Step last, bool with_view = true, std::uint64_t shuffle = 0) {
+  base::Digest Drive(const std::string& times, const std::filesystem::path& folder, lockstep::Step last, std::uint64_t shuffle = 0) {
     const std::string config = "{width_px: 640, height_px: 360, window: never, instruments: false, frames: {times_s: " + times + ", folder: " + folder.string() + "}}";
     auto launch = launch::Launch::Parse(LaunchText(config), "fake.yaml");
     EXPECT_TRUE(launch.ok()) << launch.error().Text();
@@ -50,7 +50,6 @@ class ViewNode : public testing::Test {
     settings.last_step = last;
     const auto outcome = shuffle == 0 ? lockstep::RunThreaded(roster, nodes, settings) : lockstep::RunShuffled(roster, nodes, settings, shuffle);
     EXPECT_TRUE(outcome.ok) << outcome.fault;
-    (void)with_view;
     return outcome.digest;
   }
 
@@ -124,8 +123,10 @@ TEST_F(ViewNode, AFrameShowsTheTrafficWhereItWas) {
     char name[32];
     std::snprintf(name, sizeof(name), "step_%09d.png", step);
     const Image frame = ReadPng(folder_ / name);
-    const auto tailgate = [&](double at_s) {
-      return ProbeAt(frame, camera, AgentAtTime(at_s) + scene::Attitude(HeadingAt(at_s), 0.0, 0.0) * Eigen::Vector3d(-2.1, 0.0, 0.82));
+    const auto tailgate = [&](double at_s) {  // of the agent, were it where it is beside the car at at_s
+      const Eigen::Vector3d p_B = AgentInCar(at_s) + Eigen::Vector3d(-2.1, 0.0, 0.82);
+      const Eigen::Vector3d p_W = CarAtTime(time_s) + scene::Attitude(HeadingAt(time_s), 0.0, 0.0) * p_B;
+      return ProbeAt(frame, camera, p_W);
     };
     EXPECT_TRUE(tailgate(time_s).IsBlue()) << tailgate(time_s);
     EXPECT_FALSE(tailgate(1.0 - time_s).IsBlue()) << "where it is at the other frame's time";
@@ -139,7 +140,7 @@ TEST_F(ViewNode, TheOrderOfArrivalCannotChangeAFrame) {
   ASSERT_TRUE(first.ok());
   for (const std::uint64_t seed : {1U, 2U}) {
     std::filesystem::remove_all(folder_);
-    EXPECT_EQ(Drive("[0.05, 0.1]", folder_, 120, true, seed), digest);
+    EXPECT_EQ(Drive("[0.05, 0.1]", folder_, 120, seed), digest);
     const auto again = base::ReadBytes(folder_ / "step_000000050.png");
     ASSERT_TRUE(again.ok());
     EXPECT_EQ(first.value(), again.value());
