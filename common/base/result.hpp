@@ -2,10 +2,12 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
 #include "common/base/assert.hpp"
+#include "common/base/printable.hpp"
 
 namespace rodeira::base {
 
@@ -25,11 +27,12 @@ struct Error {
   int exit_status() const { return code == ErrorCode::kWrongInput ? 2 : 1; }
 };
 
-inline Error WrongInput(std::string message, std::string context = {}) {
-  return Error{ErrorCode::kWrongInput, std::move(message), std::move(context)};
+// What others wrote may stand in both texts: they come out as one printable line.
+inline Error WrongInput(std::string_view message, std::string_view context = {}) {
+  return Error{ErrorCode::kWrongInput, Printable(message), Printable(context)};
 }
-inline Error Failed(std::string message, std::string context = {}) {
-  return Error{ErrorCode::kFailed, std::move(message), std::move(context)};
+inline Error Failed(std::string_view message, std::string_view context = {}) {
+  return Error{ErrorCode::kFailed, Printable(message), Printable(context)};
 }
 
 // A T, or the Error that explains why there is none. Asking for the one that is not there is our mistake.

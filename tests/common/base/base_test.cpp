@@ -9,7 +9,9 @@
 #include "common/base/files.hpp"
 #include "common/base/hash.hpp"
 #include "common/base/mathematics.hpp"
+#include "common/base/printable.hpp"
 #include "common/base/random.hpp"
+#include "common/base/result.hpp"
 #include "common/base/state.hpp"
 #include "common/base/suggest.hpp"
 
@@ -144,6 +146,17 @@ TEST(Files, AreWrittenWholeOrNotAtAll) {
   EXPECT_NE(ReadText(path, 2).error().message.find("3 bytes"), std::string::npos);
   EXPECT_NE(ReadText(folder).error().message.find("folder"), std::string::npos);
   std::filesystem::remove_all(folder);
+}
+
+TEST(Printable, WhatATerminalWouldObeyBecomesVisible) {
+  EXPECT_EQ(Printable("Régua to Pinhão, 3 µs …"), "Régua to Pinhão, 3 µs …");
+  EXPECT_EQ(Printable("a\nb\tc\x1b[31m\x7f"), "a\\nb\\tc\\x1b[31m\\x7f");
+  EXPECT_EQ(Printable(std::string_view("\0", 1)), "\\x00");
+  EXPECT_EQ(Printable("\xc2\x9b" "31m"), "\\xc2\\x9b31m");                // a control sequence in one character
+  EXPECT_EQ(Printable("\xc3("), "\\xc3(");                                 // cut short
+  EXPECT_EQ(Printable("\xc0\xaf \xed\xa0\x80 \xf5"), "\\xc0\\xaf \\xed\\xa0\\x80 \\xf5");  // overlong, surrogate, beyond Unicode
+  EXPECT_EQ(Printable(std::string(5000, 'x'), 10), "xxxxxxxxxx…");
+  EXPECT_EQ(WrongInput("'a\nb' was found", "file\n:3").Text(), "file\\n:3: 'a\\nb' was found");
 }
 
 TEST(Mathematics, TheDigestIsTheSameTwice) { EXPECT_EQ(MathematicsDigest(), MathematicsDigest()); }

@@ -1,0 +1,212 @@
+// Every reader of a text file that a person writes, against many seeded mutations of good files: what comes is the thing
+// itself, which then can be used, or one sentence (law L6); never a crash, never a hang. RODEIRA_FUZZ_FILES sets how many
+// texts a format is tried with, RODEIRA_FUZZ_FIRST with which number they begin.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <fstream>
+#include <optional>
+
+#include "common/base/files.hpp"
+#include "common/config/config.hpp"
+#include "common/driver/autopilot.hpp"
+#include "common/launch/launch.hpp"
+#include "common/road/world.hpp"
+#include "common/vehicle/vehicle_model.hpp"
+#include "nodes/input/script_source.hpp"
+#include "tests/common/road/sample_world.hpp"
+#include "tests/common/vehicle/test_ground.hpp"
+#include "tests/property/mutate.hpp"
+
+namespace rodeira::property {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr unsigned kHangSeconds = 60;
+const fs::path kRoot = RODEIRA_SOURCE_DIR;
+
+std::size_t Setting(const char* name, std::size_t otherwise) {
+  const char* set = std::getenv(name);
+  return set == nullptr ? otherwise : static_cast<std::size_t>(std::strtoull(set, nullptr, 10));
+}
+
+// Which text is being read, said where that ends the process.
+char g_now[128] = "";
+void SayAndDie(int number) {
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, g_now, std::char_traits<char>::length(g_now));
+  ::signal(number, SIG_DFL);
+  ::raise(number);
+}
+
+std::string GoodFile(const char* path) {
+  const auto text = base::ReadText(kRoot / path);
+  EXPECT_TRUE(text.ok()) << path;
+  return text.ok() ? text.value() : "";
+}
+
+// One sentence for a terminal: with a place, without line breaks or other control characters.
+void ExpectSentence(const base::Error& error) {
+  EXPECT_FALSE(error.message.empty());
+  EXPECT_FALSE(error.context.empty()) << error.message;
+  EXPECT_EQ(error.exit_status(), 2) << error.Text();
+  for (const char c : error.Text()) EXPECT_FALSE((c >= 0 && c < 0x20) || c == 0x7F) << "a control character in: " << error.Text();
+}
+
+using Read = std::function<std::optional<base::Error>(const std::string& text)>;
+
+void Fuzz(const char* format, const std::vector<std::string>& good, const Read& read) {
+  for (const int number : {SIGALRM, SIGABRT, SIGFPE, SIGSEGV}) ::signal(number, SayAndDie);
+  for (const std::string& text : good) {
+    const auto error = read(text);
+    ASSERT_FALSE(error) << error->Text();
+  }
+  const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
+  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 2000);
+  std::size_t accepted = 0;
+  for (std::size_t number = first; number < first + count; ++number) {
+    Draw draw(number);
+    std::string text = good[draw.Below(good.size())];
+    for (std::size_t mutations = 1 + draw.Below(3); mutations > 0; --mutations) Mutate(text, draw);
+    std::snprintf(g_now, sizeof(g_now), "%s, text %zu (RODEIRA_FUZZ_FIRST=%zu RODEIRA_FUZZ_FILES=1)\n", format, number, number);
+    if (Setting("RODEIRA_FUZZ_SHOW", 0) != 0) std::fprintf(stderr, "%s%s\n", g_now, text.c_str());
+    ::alarm(kHangSeconds);
+    const auto error = read(text);
+    ::alarm(0);
+    if (error) ExpectSentence(*error);
+    else ++accepted;
+    if (testing::Test::HasFailure()) FAIL() << g_now << text;
+  }
+  if (count < 1000) return;
+  EXPECT_GT(accepted, count / 50) << "the mutations are so wild that all is refused at the door";
+  EXPECT_LT(accepted, count - count / 5) << "the mutations are so mild that nearly all is accepted";
+}
+
+// For readers that take a path.
+class OnDisk {
+ public:
+  OnDisk() { fs::create_directories(folder_); }
+  ~OnDisk() { fs::remove_all(folder_); }
+  OnDisk(const OnDisk&) = delete;
+  OnDisk& operator=(const OnDisk&) = delete;
+  fs::path Put(const std::string& text) const {
+    std::ofstream(folder_ / "file.yaml", std::ios::binary | std::ios::trunc) << text;
+    return folder_ / "file.yaml";
+  }
+
+ private:
+  const fs::path folder_ = fs::temp_directory_path() / ("rodeira-property-" + std::to_string(::getpid()));
+};
+
+// Asks a mapping for everything in all the ways there are.
+void AskAll(const config::Map& map, int depth) {
+  for (const std::string& key : map.Keys()) {
+    (void)map.Number(key, config::Range::Positive());
+    (void)map.Integer(key, -5, 5);
+    (void)map.Text(key);
+    (void)map.Choice(key, {"a", "b"});
+    (void)map.Numbers(key);
+    (void)map.Path(key);
+    (void)map.Place(key);
+    const config::List list = map.OptionalItems(key);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      (void)list.Number(i);
+      (void)list.Text(i);
+      (void)list.Numbers(i);
+      if (depth > 0) AskAll(list.At(i), depth - 1);
+    }
+    if (depth > 0) AskAll(map.OptionalChild(key), depth - 1);
+  }
+}
+
+TEST(TextFiles, AnyYaml) {
+  const std::string special = "a: &d [1, {e: f}]\nb: *d\nc: >\n  folded\n  text\nd: |-\n  x\ne: &x {f: 'g'}\nh: {<<: *x}\n? k\n: \"\\u00e9\"\n";
+  Fuzz("yaml", {GoodFile("launch/demo.yaml"), GoodFile("configs/vehicles/default.yaml"), special}, [](const std::string& text) -> std::optional<base::Error> {
+    auto file = config::File::Parse(text, "some.yaml");
+    if (!file) return file.error();
+    AskAll(file.value().root(), 4);
+    for (const base::Error& problem : file.value().Problems()) ExpectSentence(problem);
+    for (const char* key : {"a", "nodes.ego.period_s", "body.mass_kg", "nodes"}) {
+      if (const auto status = file.value().Override(key, "{a: [1, 2]}"); !status) ExpectSentence(status.error());
+    }
+    AskAll(file.value().root(), 4);
+    return std::nullopt;
+  });
+}
+
+TEST(TextFiles, LaunchFiles) {
+  Fuzz("launch", {GoodFile("launch/demo.yaml"), GoodFile("launch/first_drive.yaml"), GoodFile("launch/empty.yaml"), GoodFile("tests/data/drive_without_recorder.yaml")},
+       [](const std::string& text) -> std::optional<base::Error> {
+         const auto launch = launch::Launch::Parse(text, kRoot / "launch/fuzz.yaml");
+         if (!launch) return launch.error();
+         const auto& roster = launch.value().roster();
+         EXPECT_EQ(roster.nodes().size(), launch.value().nodes().size());
+         EXPECT_GT(roster.base_step_ns(), 0);
+         for (const auto& node : roster.nodes()) EXPECT_EQ(node.delay % node.period, 0);
+         return std::nullopt;
+       });
+}
+
+TEST(TextFiles, Worlds) {
+  Fuzz("world", {road::kSample, road::kSample, GoodFile("configs/worlds/plane.yaml")}, [](const std::string& text) -> std::optional<base::Error> {
+    const auto world = road::World::Parse(text, "fuzz.yaml");
+    if (!world) return world.error();
+    const auto ground = world.value()->MakeGround();
+    std::vector<terrain::GroundQuery> queries;
+    for (const double x : {0.0, -50.25, 37.5, 1e6, -1e300}) queries.push_back({x, 0.3 * x, 0.0});
+    std::vector<terrain::GroundPoint> points(queries.size());
+    ground->Query(queries, points);
+    for (const auto& point : points) EXPECT_TRUE(std::isfinite(point.z_m) || !point.inside);
+    return std::nullopt;
+  });
+}
+
+TEST(TextFiles, Vehicles) {
+  const OnDisk disk;
+  Fuzz("vehicle", {GoodFile("configs/vehicles/default.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
+    const auto loaded = vehicle::LoadVehicle(disk.Put(text));
+    if (!loaded) return loaded.error();
+    vehicle::VehicleModel& model = *loaded.value();
+    vehicle::HillGround ground(1, {});
+    vehicle::InitialCondition initial;
+    initial.speed_mps = 10.0;
+    if (!model.Initialise(initial, ground)) return std::nullopt;
+    vehicle::Controls controls;
+    controls.throttle = 0.5;
+    controls.steering_wheel_rad = 0.3;
+    for (int i = 0; i < 20; ++i) model.Step(controls, ground, 0.001);
+    return std::nullopt;
+  });
+}
+
+TEST(TextFiles, Drivers) {
+  const OnDisk disk;
+  Fuzz("driver", {GoodFile("configs/drivers/default.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
+    const auto driver = driver::LoadDriver(disk.Put(text));
+    if (!driver) return driver.error();
+    return std::nullopt;
+  });
+}
+
+TEST(TextFiles, InputScripts) {
+  Fuzz("script", {GoodFile("configs/scenarios/first_drive.csv"), "time_s,clutch,gear,manual,starter\n0,1,1,1,1\n0.5,0.5,1,1,0\n2,0,2,1,0\n"},
+       [](const std::string& text) -> std::optional<base::Error> {
+         const auto script = nodes::Script::Parse(text, "fuzz.csv");
+         if (!script) return script.error();
+         for (const double t : {-1.0, 0.0, 0.3, 6.5, 1e7, 1e9}) {
+           const vehicle::Controls controls = script.value().At(t);
+           EXPECT_TRUE(std::isfinite(controls.steering_wheel_rad));
+           EXPECT_TRUE(controls.throttle >= 0.0 && controls.throttle <= 1.0 && controls.brake >= 0.0 && controls.brake <= 1.0);
+         }
+         return std::nullopt;
+       });
+}
+
+}  // namespace
+}  // namespace rodeira::property
