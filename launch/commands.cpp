@@ -42,6 +42,7 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   run->add_option("--seed", options.seed, "seed of everything that is drawn");
   run->add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file");
   run->add_flag("--in-process", options.in_process, "the same nodes in one process");
+  run->add_flag("--headless", options.headless, "no window, even where there is a display");
   run->add_flag("--quiet", options.quiet, "no progress, no table");
   run->add_option("--host", options.host, "start only what belongs to this host");
   run->add_option("--run", options.run, "name of the run: only processes of the same name meet");

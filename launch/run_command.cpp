@@ -276,6 +276,11 @@ int Run(const RunOptions& options) {
   if (options.seed) overrides.emplace_back("seed", std::to_string(*options.seed));
   RunOptions resolved = options;
   auto launch = launch::Launch::Load(options.launch_file, overrides);
+  if (launch.ok() && options.headless) {
+    for (const launch::LaunchNode& node : launch.value().nodes()) {
+      if (node.kind->name == "view") overrides.emplace_back("nodes." + node.name + ".config.window", "never");
+    }
+  }
   if (launch.ok()) {
     if (auto status = ResolveRecording(launch.value(), resolved, overrides); !status) return Complain(status.error());
     launch = launch::Launch::Load(options.launch_file, overrides);

@@ -18,6 +18,7 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;
   launch::Overrides overrides;
   bool in_process = false;
+  bool headless = false;
   bool quiet = false;
   std::string host;         // only the nodes of this host; empty: all
   std::string run;          // empty: a name of its own
