@@ -29,6 +29,16 @@ void AskForContext(int samples) {
   SDL_GL_SetAttribute(SDL_GL_MULTISAMPLESAMPLES, samples);
 }
 
+// Of the current context.
+std::string RendererName() {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return name != nullptr ? name : "";
+}
+
+bool IsSoftware(const std::string& renderer) {
+  return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos || renderer.find("swrast") != std::string::npos;
+}
+
 }  // namespace
 
 bool HasDisplay() {
@@ -63,13 +73,17 @@ base::Status Surface::MakeWindow(int width_px, int height_px, const std::string&
     AskForContext(samples);
     window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width_px, height_px, flags);
     if (window_ != nullptr) context_ = SDL_GL_CreateContext(window_);
-    if (context_ != nullptr) break;
+    // A window drawn by the processor needs its time for more pictures a second, not for smooth edges.
+    const bool too_dear = samples > 0 && kind_ == SurfaceKind::kWindow && context_ != nullptr && IsSoftware(RendererName());
+    if (context_ != nullptr && !too_dear) break;
+    if (context_ != nullptr) SDL_GL_DeleteContext(context_);
     if (window_ != nullptr) SDL_DestroyWindow(window_);
+    context_ = nullptr;
     window_ = nullptr;
   }
   if (context_ == nullptr) return base::WrongInput(std::string("no OpenGL context can be made (") + SDL_GetError() + "); the package libgl1-mesa-dri was expected");
   if (kind_ == SurfaceKind::kWindow && SDL_GL_SetSwapInterval(1) != 0) SDL_ClearError();
-  if (const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER)); name != nullptr) renderer_ = name;
+  renderer_ = RendererName();
   return {};
 }
 
