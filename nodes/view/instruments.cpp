@@ -47,6 +47,9 @@ Instruments::Instruments() : camera_(new osg::Camera), panel_(new osg::Vec3Array
   gear_ = AddText(38.0F, osgText::TextBase::RIGHT_BASE_LINE);
   time_ = AddText(20.0F, osgText::TextBase::RIGHT_BASE_LINE);
   lines_ = AddText(20.0F, osgText::TextBase::LEFT_TOP);
+  lines_->setBackdropType(osgText::Text::DROP_SHADOW_BOTTOM_RIGHT);  // it has no panel behind it
+  lines_->setBackdropOffset(0.05F);
+  lines_->setBackdropColor({0.0F, 0.0F, 0.0F, 0.8F});
 }
 
 osg::ref_ptr<osgText::Text> Instruments::AddText(float size_px, osgText::TextBase::AlignmentType alignment) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kNear_m = 0.3;  // fixed: depths then mean the same in every frame
 constexpr double kFar_m = 15'000.0;
-constexpr float kMarksSeen_m = 900.0F;
+constexpr float kMarksSeen_m = 650.0F;
 constexpr float kTreesSeen_m = 1'100.0F;
 constexpr std::array<float, scene::kTerrainLevels> kLevelSeen_m = {450.0F, 1'300.0F, 1e9F};  // up to this distance of the tile's centre
 

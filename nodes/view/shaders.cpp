@@ -51,7 +51,11 @@ vec3 Look() {
 })";
     case scene::Material::kMark: return R"(
 uniform sampler2D noise;
-vec3 Look() { return gl_Color.rgb * light * (0.88 + 0.12 * texture2D(noise, ground / 2.0).r); })";
+vec3 Look() {
+  // Far away a line is thinner than a pixel: it fades into the asphalt instead of flickering.
+  vec3 paint = mix(gl_Color.rgb, vec3(0.38), 0.9 * smoothstep(90.0, 480.0, length(at_eye)));
+  return paint * light * (0.88 + 0.12 * texture2D(noise, ground / 2.0).r);
+})";
     case scene::Material::kCarPaint: return R"(
 vec3 Look() {
   vec3 n = normalize(normal_eye);

@@ -5,9 +5,9 @@
 
 #include <chrono>
 
-#include "common/base/assert.hpp"
 #include "common/scene/world_scene.hpp"
 #include "nodes/view/painter.hpp"
+#include "nodes/view/png.hpp"
 #include "nodes/view/surface.hpp"
 
 namespace rodeira::view {
@@ -80,15 +80,19 @@ void Stage::Show(scene::Moment moment) {
   clock_.Arrived(wall_s, static_cast<double>(history_.newest_ns()) * 1e-9, static_cast<double>(history_.interval_ns()) * 1e-9);
 }
 
-Image Stage::Draw(const Picture& picture) {
+base::Status Stage::Order(Picture picture, std::filesystem::path file) {
   std::unique_lock lock(mutex_);
-  RODEIRA_ASSERT(request_ == nullptr);
-  request_ = &picture;
+  changed_.wait(lock, [&] { return orders_.size() < kMostOrders || !written_; });
+  if (!written_) return written_;
+  orders_.push_back({std::move(picture), std::move(file)});
   changed_.notify_all();
-  changed_.wait(lock, [&] { return answer_.has_value(); });
-  Image image = std::move(*answer_);
-  answer_.reset();
-  return image;
+  return {};
+}
+
+base::Status Stage::Drain() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return orders_.empty() || !written_; });
+  return written_;
 }
 
 void Stage::Run() {
@@ -139,25 +143,25 @@ base::Status Stage::SetUp(Hand& hand) {
 void Stage::Loop(Hand& hand) {
   std::unique_lock lock(mutex_);
   while (!quit_) {
-    if (request_ != nullptr) {
-      ServeRequest(hand, lock);
+    if (!orders_.empty()) {
+      ServeOrder(hand, lock);
     } else if (window_ && !history_.empty()) {
       ShowWindow(hand, lock);
     } else {
-      changed_.wait_for(lock, std::chrono::milliseconds(window_ ? 10 : 1000), [&] { return quit_ || request_ != nullptr; });
+      changed_.wait_for(lock, std::chrono::milliseconds(window_ ? 10 : 1000), [&] { return quit_ || !orders_.empty(); });
       if (window_) window_ = ReadKeys(hand);
     }
   }
 }
 
-void Stage::ServeRequest(Hand& hand, std::unique_lock<std::mutex>& lock) {
-  const Picture& picture = *request_;  // whoever asked waits, so it stays
+void Stage::ServeOrder(Hand& hand, std::unique_lock<std::mutex>& lock) {
+  const Ordered& order = orders_.front();  // others are only added behind it
   lock.unlock();
-  hand.painter->Draw(picture);
-  Image image = hand.painter->Read();
+  hand.painter->Draw(order.picture);
+  base::Status status = WritePng(order.file, hand.painter->Read());
   lock.lock();
-  request_ = nullptr;
-  answer_ = std::move(image);
+  if (written_) written_ = std::move(status);
+  orders_.pop_front();
   changed_.notify_all();
 }
 
@@ -183,7 +187,7 @@ void Stage::ShowWindow(Hand& hand, std::unique_lock<std::mutex>& lock) {
   if (!open) window_ = false;
   // Where the display does not hold us back, we do it ourselves.
   const double rest_s = 1.0 / kLongestRate_Hz - (WallSeconds() - begin_s);
-  if (rest_s > 0.0) changed_.wait_for(lock, std::chrono::duration<double>(rest_s), [&] { return quit_ || request_ != nullptr; });
+  if (rest_s > 0.0) changed_.wait_for(lock, std::chrono::duration<double>(rest_s), [&] { return quit_ || !orders_.empty(); });
 }
 
 // False where the person closed the window.

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <condition_variable>
+#include <deque>
+#include <filesystem>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <thread>
 
 #include "common/base/result.hpp"
@@ -15,8 +16,8 @@
 
 namespace rodeira::view {
 
-// The thread that draws. OpenGL and the window live there and nowhere else; the run's thread only hands over moments, and
-// waits only for pictures that it asked for.
+// The thread that draws. OpenGL and the window live there and nowhere else. The run's thread only hands over values: what
+// is drawn depends on them alone, not on when.
 class Stage {
  public:
   // Starts the thread and waits until everything is loaded and drawn once. Null where the settings want no picture here:
@@ -28,16 +29,24 @@ class Stage {
   bool has_window() const;
   // What the window shows next. Never waits for the drawing.
   void Show(scene::Moment moment);
-  // Exactly this picture, drawn now.
-  Image Draw(const Picture& picture);
+  // Orders exactly this picture as a PNG file. Waits where kMostOrders are not yet written: a slow disk slows the run. The
+  // first order that failed is every later one's answer.
+  base::Status Order(Picture picture, std::filesystem::path file);
+  // Waits until all orders are written.
+  base::Status Drain();
 
  private:
+  static constexpr std::size_t kMostOrders = 4;
   struct Hand;  // what only the thread touches
+  struct Ordered {
+    Picture picture;
+    std::filesystem::path file;
+  };
   Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world);
   void Run();
   base::Status SetUp(Hand& hand);
   void Loop(Hand& hand);
-  void ServeRequest(Hand& hand, std::unique_lock<std::mutex>& lock);
+  void ServeOrder(Hand& hand, std::unique_lock<std::mutex>& lock);
   void ShowWindow(Hand& hand, std::unique_lock<std::mutex>& lock);
   bool ReadKeys(Hand& hand);
 
@@ -53,8 +62,8 @@ class Stage {
   bool nothing_to_draw_ = false;
   scene::PoseHistory history_;
   scene::DisplayClock clock_;
-  const Picture* request_ = nullptr;
-  std::optional<Image> answer_;
+  std::deque<Ordered> orders_;  // the first is being drawn
+  base::Status written_;
   std::thread thread_;  // last: it starts when all else is there
 };
 

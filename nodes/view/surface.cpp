@@ -9,6 +9,8 @@
 namespace rodeira::view {
 namespace {
 
+constexpr const char* kNoDisplay = "a window is wanted, but there is no display; set DISPLAY, or 'window: never'";
+
 // Starts SDL's video with one of its drivers, or nullptr for the display's own.
 bool StartVideo(const char* driver) {
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // signals are the run's
@@ -17,6 +19,9 @@ bool StartVideo(const char* driver) {
 }
 
 bool IsDisplay(const char* driver) { return driver != nullptr && std::strcmp(driver, "offscreen") != 0 && std::strcmp(driver, "dummy") != 0; }
+
+// Without a name there is nobody to ask, and libraries that try complain aloud.
+bool NamesDisplay() { return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr; }
 
 void AskForContext(int samples) {
   SDL_GL_ResetAttributes();
@@ -29,10 +34,20 @@ void AskForContext(int samples) {
   SDL_GL_SetAttribute(SDL_GL_MULTISAMPLESAMPLES, samples);
 }
 
+// Of the current context.
+std::string RendererName() {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return name != nullptr ? name : "";
+}
+
+bool IsSoftware(const std::string& renderer) {
+  return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos || renderer.find("swrast") != std::string::npos;
+}
+
 }  // namespace
 
 bool HasDisplay() {
-  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return false;
+  if (!NamesDisplay()) return false;
   if (!StartVideo(nullptr)) return false;
   const bool display = IsDisplay(SDL_GetCurrentVideoDriver());
   SDL_VideoQuit();
@@ -42,13 +57,14 @@ bool HasDisplay() {
 base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable) {
   std::unique_ptr<Surface> surface(new Surface());
   surface->kind_ = kind;
+  if (kind == SurfaceKind::kWindow && !NamesDisplay()) return base::WrongInput(kNoDisplay);
   if (!StartVideo(kind == SurfaceKind::kOffscreen ? "offscreen" : nullptr)) {
     return base::WrongInput(std::string(kind == SurfaceKind::kWindow ? "a window is wanted, but no display answers (" : "OpenGL without a display does not start (") +
                             SDL_GetError() + (kind == SurfaceKind::kWindow ? "); set DISPLAY, or 'window: never'" : "); the packages libegl1 and libegl-mesa0 were expected"));
   }
   surface->video_ = true;
   if (kind == SurfaceKind::kWindow && !IsDisplay(SDL_GetCurrentVideoDriver())) {
-    return base::WrongInput("a window is wanted, but there is no display; set DISPLAY, or 'window: never'");
+    return base::WrongInput(kNoDisplay);
   }
   if (auto status = surface->MakeWindow(width_px, height_px, title, resizable); !status) return status.error();
   return surface;
@@ -63,13 +79,17 @@ base::Status Surface::MakeWindow(int width_px, int height_px, const std::string&
     AskForContext(samples);
     window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width_px, height_px, flags);
     if (window_ != nullptr) context_ = SDL_GL_CreateContext(window_);
-    if (context_ != nullptr) break;
+    // A window drawn by the processor needs its time for more pictures a second, not for smooth edges.
+    const bool too_dear = samples > 0 && kind_ == SurfaceKind::kWindow && context_ != nullptr && IsSoftware(RendererName());
+    if (context_ != nullptr && !too_dear) break;
+    if (context_ != nullptr) SDL_GL_DeleteContext(context_);
     if (window_ != nullptr) SDL_DestroyWindow(window_);
+    context_ = nullptr;
     window_ = nullptr;
   }
   if (context_ == nullptr) return base::WrongInput(std::string("no OpenGL context can be made (") + SDL_GetError() + "); the package libgl1-mesa-dri was expected");
   if (kind_ == SurfaceKind::kWindow && SDL_GL_SetSwapInterval(1) != 0) SDL_ClearError();
-  if (const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER)); name != nullptr) renderer_ = name;
+  renderer_ = RendererName();
   return {};
 }
 

@@ -9,7 +9,6 @@
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
 #include "nodes/view/from_wire.hpp"
-#include "nodes/view/png.hpp"
 #include "nodes/view/stage.hpp"
 #include "nodes/view/view_settings.hpp"
 
@@ -40,6 +39,9 @@ class ViewNode final : public lockstep::Node {
   base::Status Finish(const lockstep::Inbox& rest, lockstep::Step last_step, bool complete) override {
     const lockstep::Step after = taken_through_;
     if (auto status = Take(rest, after, last_step); !status) return status;
+    if (stage_ != nullptr) {
+      if (auto status = stage_->Drain(); !status) return status;
+    }
     const auto missed = std::upper_bound(settings_.frame_steps.begin(), settings_.frame_steps.end(), last_step);
     if (complete && missed != settings_.frame_steps.end()) {
       fmt::print(stderr, "rodeira: node '{}': the run ended at step {}, before {} of the frames asked for (the first of them is of step {})\n", name_, last_step,
@@ -73,7 +75,7 @@ class ViewNode final : public lockstep::Node {
   }
 
  private:
-  // Takes the samples in their order and writes the frames of steps in (after, through] on the way.
+  // Takes the samples in their order and orders the frames of steps in (after, through] on the way.
   base::Status Take(const lockstep::Inbox& inbox, lockstep::Step after, lockstep::Step through) {
     std::vector<const Sample*> samples;
     for (const std::string_view topic : {topics::kVehicleState, topics::kTrafficState}) {
@@ -121,7 +123,7 @@ class ViewNode final : public lockstep::Node {
     picture.camera = settings_.camera;
     picture.followed = settings_.followed;
     picture.show_instruments = settings_.instruments;
-    return view::WritePng(settings_.folder / view::FrameName(step), stage_->Draw(picture));
+    return stage_->Order(std::move(picture), settings_.folder / view::FrameName(step));
   }
 
   const lockstep::Roster& roster_;

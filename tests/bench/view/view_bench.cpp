@@ -1,0 +1,64 @@
+// What pictures cost: a world's meshes once, a frame of 1280 x 720 pixels each time, its PNG file.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "common/road/world.hpp"
+#include "common/scene/world_scene.hpp"
+#include "nodes/view/painter.hpp"
+#include "nodes/view/png.hpp"
+
+namespace rodeira::view {
+namespace {
+
+const road::World& N222() {
+  static const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml");
+  return *world.value();
+}
+
+Picture AlongTheRoad(double s_m, scene::CameraKind camera) {
+  const road::Road& road = N222().roads()[0];
+  const road::RoadFrame frame = road.Evaluate(s_m);
+  Picture picture;
+  picture.camera = camera;
+  scene::CarPose car;
+  car.p_WB_W = road.Position(s_m, -1.45);
+  car.q_WB = scene::Attitude(frame.heading_rad, -std::atan(frame.grade), 0.0);
+  for (std::size_t i = 0; i < 4; ++i) car.wheels[i].hub_B = {i < 2 ? 1.23 : -1.23, i % 2 == 0 ? 0.71 : -0.71, 0.29};
+  picture.moment.cars.push_back(car);
+  return picture;
+}
+
+void Meshes(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(scene::BuildWorldScene(N222()));
+}
+BENCHMARK(Meshes)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void Frame(benchmark::State& state) {
+  auto surface = Surface::Open(SurfaceKind::kOffscreen, 1280, 720, "bench");
+  if (!surface) return state.SkipWithError(surface.error().Text().c_str());
+  const scene::WorldScene standing = scene::BuildWorldScene(N222());
+  Painter painter(*surface.value(), N222(), standing);
+  const auto camera = state.range(0) == 0 ? scene::CameraKind::kChase : scene::CameraKind::kDriver;
+  double s_m = 30.0;
+  for (auto _ : state) {
+    painter.Draw(AlongTheRoad(s_m, camera));
+    benchmark::DoNotOptimize(painter.Read());
+    s_m = std::fmod(s_m + 37.0, N222().roads()[0].length_m() - 60.0);
+  }
+  state.SetLabel(surface.value()->renderer() + (state.range(0) == 0 ? ", chase" : ", driver"));
+}
+BENCHMARK(Frame)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+
+void Png(benchmark::State& state) {
+  const auto image = RenderStill(N222(), AlongTheRoad(300.0, scene::CameraKind::kChase), 1280, 720);
+  if (!image) return state.SkipWithError(image.error().Text().c_str());
+  const auto path = std::filesystem::temp_directory_path() / "rodeira-view-bench.png";
+  for (auto _ : state) (void)WritePng(path, image.value());
+  std::filesystem::remove(path);
+}
+BENCHMARK(Png)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace rodeira::view
