@@ -58,7 +58,8 @@ class ClockProcess {
   int Run() {
     auto participant = Participant::Open(DomainOf(options_, launch_, "clock"));
     if (!participant) return Complain(participant.error());
-    if (auto status = Connect(*participant.value()); !status) return Complain(status.error());
+    participant_ = std::move(participant).value();
+    if (auto status = Connect(*participant_); !status) return Complain(status.error());
     Say("starting {} nodes", roster_.nodes().size());
     if (options_.listen) std::thread([this] { Listen(); }).detach();  // ends with the process
     start_ = WallClock::now();
@@ -271,6 +272,7 @@ class ClockProcess {
   std::condition_variable woken_;
   std::deque<base::Bytes> inbox_;
   std::string told_;
+  std::unique_ptr<Participant> participant_;  // outlives its endpoints
   std::unique_ptr<Writer> grants_;
   std::unique_ptr<Reader> others_;
   std::unique_ptr<Reader> reports_;
