@@ -55,6 +55,7 @@ void ExpectRestorable(const std::string& launch_file) {
 }
 
 TEST(Restore, TheFirstDrive) { ExpectRestorable(std::string(RODEIRA_SOURCE_DIR) + "/tests/data/drive_without_recorder.yaml"); }
+TEST(Restore, TheAutopilotAndTheTrafficOfN222) { ExpectRestorable(std::string(RODEIRA_SOURCE_DIR) + "/tests/data/n222_traffic.yaml"); }
 TEST(Restore, EmptyNodes) { ExpectRestorable(std::string(RODEIRA_SOURCE_DIR) + "/launch/empty.yaml"); }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -93,6 +94,28 @@ TEST_F(Drive, TheRecordingHoldsEverySampleOnceAndTheCarHasDriven) {
   EXPECT_EQ(expected, 8001);
   EXPECT_GT(last.position_w_m().x(), 20.0) << "seven seconds of half throttle move a car";
   EXPECT_EQ(last.inside_world(), 1u);
+}
+
+TEST_F(Drive, AutopilotAndTrafficOnN222GiveTheSameDigestHoweverTheyRun) {
+  const std::string launch = std::string(RODEIRA_SOURCE_DIR) + "/tests/data/n222_traffic.yaml";
+  const auto digest = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {Bin("rodeira"), "run", launch, "--for", "10"});
+    const Ended ended = RunCommand(more);
+    EXPECT_EQ(ended.status, 0) << ended.out;
+    return DigestIn(ended.out);
+  };
+  const std::string first = digest({});
+  EXPECT_EQ(first.size(), 16u);
+  std::atomic<bool> busy = true;
+  std::thread load([&busy] {
+    while (busy) {
+    }
+  });
+  EXPECT_EQ(digest({}), first) << "under load";
+  busy = false;
+  load.join();
+  EXPECT_EQ(digest({"--in-process"}), first);
+  EXPECT_NE(digest({"--seed", "6"}), first);
 }
 
 TEST_F(Drive, OfAKilledRecorderTheFileIsReadable) {
