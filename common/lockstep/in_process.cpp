@@ -13,6 +13,7 @@
 #include "common/lockstep/kept_samples.hpp"
 #include "common/lockstep/mailbox.hpp"
 #include "common/lockstep/pacer.hpp"
+#include "common/lockstep/pump.hpp"
 #include "common/lockstep/runner.hpp"
 
 namespace rodeira::lockstep {
@@ -63,7 +64,7 @@ RunOutcome Outcome(const Clock& clock, const std::string& fault) {
 class ThreadedRun {
  public:
   ThreadedRun(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings)
-      : roster_(roster), settings_(settings), clock_(roster, settings.last_step, settings.first_step),
+      : roster_(roster), nodes_(nodes), settings_(settings), clock_(roster, settings.last_step, settings.first_step),
         pacer_(roster.base_step_ns(), settings.pace), consumers_(ConsumersOf(roster)) {
     ReportServices(roster, clock_);
     for (NodeIndex n = 0; n < nodes.size(); ++n) {
@@ -78,8 +79,15 @@ class ThreadedRun {
 
   RunOutcome Run() {
     std::vector<std::thread> threads;
-    for (auto& runner : runners_) {
-      if (runner != nullptr) threads.emplace_back([&runner] { runner->Run(); });
+    for (NodeIndex n = 0; n < runners_.size(); ++n) {
+      if (runners_[n] == nullptr) continue;
+      threads.emplace_back([this, n] {
+        if (nodes_[n]->is_brief()) {
+          RunWhereMessagesArrive(*runners_[n], *mailboxes_[n], {});
+        } else {
+          runners_[n]->Run();
+        }
+      });
     }
     std::unique_lock lock(mutex_);
     const auto start = std::chrono::steady_clock::now();
@@ -152,6 +160,7 @@ class ThreadedRun {
   }
 
   const Roster& roster_;
+  const std::vector<Node*>& nodes_;
   const InProcessSettings& settings_;
   Clock clock_;
   Pacer pacer_;
