@@ -6,6 +6,7 @@
 #include "ground.h"
 #include "pulse.h"
 #include "scenario.h"
+#include "snapshot.h"
 #include "traffic.h"
 #include "vehicle.h"
 #include "world.h"

@@ -12,6 +12,7 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kVehicleState, "rodeira::msg::VehicleState", "vehicle", true},
       {topics::kTrafficState, "rodeira::msg::TrafficState", "traffic", true},
       {topics::kScenarioEvents, "rodeira::msg::ScenarioEvents", "scenario", true},
+      {topics::kSnapshot, "rodeira::msg::Snapshot", "snapshot", true},
       {topics::kPulse, "rodeira::msg::Pulse", "pulse", true},
       {topics::kGrant, "rodeira::msg::Grant", "clock", false},
       {topics::kAsk, "rodeira::msg::Ask", "clock", false},

@@ -63,7 +63,9 @@ base::Status NodeBus::Connect(Participant& participant) {
     readers_.push_back(std::move(reader).value());
     return {};
   };
-  for (const lockstep::SourceIndex output : roster_.node(settings_.node).outputs) {
+  outputs_ = roster_.node(settings_.node).outputs;
+  if (const auto& snapshots = roster_.node(settings_.node).snapshots) outputs_.push_back(*snapshots);
+  for (const lockstep::SourceIndex output : outputs_) {
     auto writer = participant.MakeWriter(roster_.source(output).topic, Delivery::kSaidAgain);
     if (!writer) return writer.error();
     writers_.push_back(std::move(writer).value());
@@ -93,10 +95,9 @@ base::Status NodeBus::Publish(const lockstep::Sample& sample) {
 }
 
 base::Status NodeBus::Say(const lockstep::Sample& sample) {
-  const auto& outputs = roster_.node(settings_.node).outputs;
-  const auto output = std::find(outputs.begin(), outputs.end(), sample.source());
-  RODEIRA_ASSERT(output != outputs.end());
-  return writers_[static_cast<std::size_t>(output - outputs.begin())]->Write(*sample.payload);
+  const auto output = std::find(outputs_.begin(), outputs_.end(), sample.source());
+  RODEIRA_ASSERT(output != outputs_.end());
+  return writers_[static_cast<std::size_t>(output - outputs_.begin())]->Write(*sample.payload);
 }
 
 void NodeBus::Ask(const lockstep::Gap& gap) {

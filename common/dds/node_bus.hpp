@@ -62,7 +62,8 @@ class NodeBus final : public lockstep::Bus {
   const lockstep::Roster& roster_;
   lockstep::Mailbox& mailbox_;
   Settings settings_;
-  std::vector<std::unique_ptr<Writer>> writers_;  // one for each output, in the roster's order
+  std::vector<lockstep::SourceIndex> outputs_;    // with the snapshots
+  std::vector<std::unique_ptr<Writer>> writers_;  // one for each of them
   std::unique_ptr<Writer> questions_;
   std::unique_ptr<Writer> reports_;
   std::vector<std::unique_ptr<Reader>> readers_;

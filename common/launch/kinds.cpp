@@ -23,7 +23,8 @@ const std::vector<NodeKind>& NodeKinds() {
         {topics::kVehicleState, PortKind::kEvent, true, false},
         {topics::kTrafficState, PortKind::kEvent, true, false},
         {topics::kScenarioEvents, PortKind::kEvent, true, false},
-        {topics::kPulse, PortKind::kEvent, true, false}},
+        {topics::kPulse, PortKind::kEvent, true, false},
+        {topics::kSnapshot, PortKind::kEvent, true, false}},
        "rodeira-recorder"},
       {"empty", Role::kStepped, 0.001, {topics::kPulse}, {{topics::kPulse, PortKind::kState, true, false}}, "rodeira-empty"},
   };

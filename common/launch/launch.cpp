@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/base/suggest.hpp"
 
@@ -41,11 +43,28 @@ NodeWish ReadNode(const config::Map& map, const std::string& name, const NodeKin
   return wish;
 }
 
+// Where there is a recorder, all others but sinks publish their state, at the same steps: each `snapshot_every_s`, rounded
+// up to a common multiple of their periods.
+void SetSnapshots(const config::Map& root, std::int64_t base_step_ns, std::vector<NodeWish>& wishes) {
+  Step every = ToSteps(root, "snapshot_every_s", root.Number("snapshot_every_s", config::Range::Positive(), 1.0), base_step_ns);
+  const auto has_state = [](const NodeWish& wish) { return wish.role == lockstep::Role::kStepped && !wish.outputs.empty(); };
+  if (std::none_of(wishes.begin(), wishes.end(), [](const NodeWish& wish) { return wish.kind == "recorder"; })) return;
+  Step common = 1;
+  for (const NodeWish& wish : wishes) {
+    if (has_state(wish)) common = std::lcm(common, wish.period);
+  }
+  every = lockstep::CeilTo(every, common);
+  for (NodeWish& wish : wishes) {
+    if (has_state(wish)) wish.snapshot_every = every;
+  }
+}
+
 // Names of the other nodes that publish a topic.
 std::vector<std::string> Publishers(const std::vector<NodeWish>& wishes, std::string_view topic, const std::string& except) {
   std::vector<std::string> names;
   for (const NodeWish& wish : wishes) {
     if (wish.name == except) continue;
+    if (topic == lockstep::kSnapshotTopic && wish.snapshot_every > 0) names.push_back(wish.name);
     for (const std::string& output : wish.outputs) {
       if (output == topic) names.push_back(wish.name);
     }
@@ -125,6 +144,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
     launch.nodes_.push_back(std::move(node));
     maps.push_back(map);
   }
+  SetSnapshots(root, base_step_ns, wishes);
   for (std::size_t n = 0; n < wishes.size(); ++n) Wire(maps[n], *launch.nodes_[n].kind, wishes, wishes[n]);
   if (auto status = launch.file_->Finish(); !status) return status.error();
   if (wishes.empty()) return base::WrongInput("'nodes' is empty; at least one node was expected", nodes.Place());

@@ -6,7 +6,10 @@
 
 namespace rodeira::lockstep {
 
-KeptSamples::KeptSamples(const Roster& roster, NodeIndex node) : roster_(roster), outputs_(roster.node(node).outputs), samples_(outputs_.size()) {}
+KeptSamples::KeptSamples(const Roster& roster, NodeIndex node) : roster_(roster), outputs_(roster.node(node).outputs) {
+  if (const auto& snapshots = roster.node(node).snapshots) outputs_.push_back(*snapshots);
+  samples_.resize(outputs_.size());
+}
 
 void KeptSamples::Add(const Sample& sample) {
   const auto output = std::find(outputs_.begin(), outputs_.end(), sample.source());

@@ -78,6 +78,11 @@ Runner::Outcome Runner::Begin() {
     std::stable_sort(first.begin(), first.end(), [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
   }
   if (auto status = PublishAll(std::move(first)); !status) return Fail(status.error());
+  if (!settings_.resume && spec_.snapshots) {  // like every sample valid at 0, before anybody is ready
+    base::StateWriter out;
+    node_.Save(out);
+    if (auto status = PublishSnapshot({index_, 0, out.bytes(), {}, 0, report_.digest}); !status) return Fail(status.error());
+  }
   stage_ = Stage::kInputs;
   return Outcome::kWorking;
 }
@@ -115,7 +120,7 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
       NoteWaiting(next_);
       return Outcome::kBlocked;
   }
-  TakeSnapshotIfDue(next_);
+  if (auto status = TakeSnapshotIfDue(next_); !status) return Fail(status.error());
   const Inbox inbox = mailbox_.Open(next_);
   const StepInfo info{next_, next_ * roster_.base_step_ns(), spec_.period,
                       static_cast<double>(spec_.period) * static_cast<double>(roster_.base_step_ns()) * 1e-9, next_ + spec_.delay};
@@ -201,17 +206,26 @@ void Runner::AskAgain() {
   for (const Gap& gap : gaps) bus_.Ask(gap);
 }
 
-void Runner::TakeSnapshotIfDue(Step step) {
-  if (settings_.snapshot_every <= 0) return;
-  const Step at = FloorTo(step, settings_.snapshot_every);
-  if (at <= step - spec_.period || at == 0) return;  // none lies between the last activation and this one
+base::Status Runner::PublishSnapshot(const Snapshot& snapshot) { return bus_.Publish(snapshot.ToSample(roster_, settings_.incarnation)); }
+
+base::Status Runner::TakeSnapshotIfDue(Step step) {
+  const bool publish = spec_.snapshots && step > 0 && step % roster_.source(*spec_.snapshots).period == 0;
+  Step at = settings_.snapshot_every > 0 ? FloorTo(step, settings_.snapshot_every) : 0;
+  const bool keep = at > step - spec_.period && at != 0;  // one lies between the last activation and this one
+  if (!publish && !keep) return {};
   base::StateWriter out;
   node_.Save(out);
-  Snapshot snapshot{index_, at, out.bytes(), {}, report_.steps, report_.digest};
+  Snapshot snapshot{index_, step, out.bytes(), {}, report_.steps, report_.digest};
+  if (publish) {
+    if (auto status = PublishSnapshot(snapshot); !status) return status;
+  }
+  if (!keep) return {};
+  snapshot.at = at;
   for (const Sample& sample : own_) {
     if (sample.valid() >= roster_.OldestNeeded(sample.source(), at)) snapshot.samples.push_back(sample);
   }
   bus_.Keep(snapshot);
+  return {};
 }
 
 void Runner::ForgetOwnSamples(Step step) {

@@ -52,7 +52,8 @@ class Runner {
   Outcome Fail(const base::Error& error);
   Outcome FinishAborted();
   base::Status PublishAll(std::vector<Sample> samples);
-  void TakeSnapshotIfDue(Step step);
+  base::Status PublishSnapshot(const Snapshot& snapshot);
+  base::Status TakeSnapshotIfDue(Step step);
   void ForgetOwnSamples(Step step);
   base::Digest StateDigest();
   void Note(Phase phase, Waiting waiting);
