@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <sstream>
 
 #include "idl/messages.hpp"
@@ -72,7 +73,7 @@ TEST(Query, OnARealElevationFileItIsTheOraclesPoint) {
 
 // N222 begins with a straight under 20 degrees whose lanes fall by 2.5 % to both sides of the axis (its world file).
 TEST(Query, TheRoadShowsItsCrossfall) {
-  const double heading = 20.0 * M_PI / 180.0;
+  const double heading = 20.0 * std::numbers::pi / 180.0;
   const Eigen::Vector2d along(std::cos(heading), std::sin(heading)), left(-along.y(), along.x());
   const auto at = [&](double s_m, double t_m) {
     const Eigen::Vector2d p = Eigen::Vector2d(-1989, -543) + s_m * along + t_m * left;
@@ -111,7 +112,7 @@ class Ground : public ::testing::Test {
 TEST_F(Ground, TheWheelsStandOnTheCrossfallOfTheRoad) {
   const auto states = Drive((kRoot / "tests/data/n222_traffic.yaml").string(), "0.1", {"--set", "nodes.traffic.config.vehicles=0"});
   ASSERT_EQ(states.size(), 101u);
-  const double heading = 20.0 * M_PI / 180.0;
+  const double heading = 20.0 * std::numbers::pi / 180.0;
   for (const auto& wheel : states.front().wheels()) {
     EXPECT_EQ(wheel.in_contact(), 1u);
     const auto& n = wheel.contact_normal_w();
