@@ -21,6 +21,20 @@ bool DifferOnlyByUnit(const std::string& a, const std::string& b) {
   return kUnits.contains(a.substr(cut_a + 1)) && kUnits.contains(b.substr(cut_b + 1));
 }
 
+// What an unknown key was probably meant to be, and the end of the sentence that says so.
+struct Meant {
+  std::string key;  // empty: nothing is near
+  std::string hint;
+};
+
+Meant MeantBy(const std::string& key, const std::set<std::string, std::less<>>& asked) {
+  const std::vector<std::string> known(asked.begin(), asked.end());
+  for (const std::string& other : known) {
+    if (DifferOnlyByUnit(other, key)) return {other, fmt::format("; the unit is part of the name: '{}'", other)};
+  }
+  return {base::NearestName(key, known), base::DidYouMean(key, known)};
+}
+
 }  // namespace
 
 File::File(std::shared_ptr<detail::Context> context) : context_(std::move(context)) {}
@@ -76,28 +90,25 @@ Map File::root() const {
 }
 
 std::vector<base::Error> File::Problems() const {
-  std::vector<std::pair<int, std::string>> all = context_->problems;
+  std::vector<detail::Problem> all = context_->problems;
   for (const auto& [place, asked] : context_->asked) {
-    const std::vector<std::string> known(asked.keys.begin(), asked.keys.end());
     std::set<std::string> seen;
     for (const auto& item : asked.node) {
       if (!item.first.IsScalar()) {
-        all.emplace_back(LineOf(item.first), "a key is no plain word");
+        all.push_back({LineOf(item.first), "a key is no plain word", ""});
         continue;
       }
       const std::string key = item.first.Scalar();
-      if (!seen.insert(key).second) all.emplace_back(LineOf(item.first), fmt::format("key '{}' stands twice", Sub(asked.path, key)));
+      if (!seen.insert(key).second) all.push_back({LineOf(item.first), fmt::format("key '{}' stands twice", Sub(asked.path, key)), ""});
       if (asked.keys.contains(key)) continue;
-      std::string hint = base::DidYouMean(key, known);
-      for (const std::string& other : known) {
-        if (DifferOnlyByUnit(other, key)) hint = fmt::format("; the unit is part of the name: '{}'", other);
-      }
-      all.emplace_back(LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), hint));
+      const Meant meant = MeantBy(key, asked.keys);
+      if (!meant.key.empty()) std::erase_if(all, [&](const auto& problem) { return problem.missing == Sub(asked.path, meant.key); });
+      all.push_back({LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
     }
   }
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
   std::vector<base::Error> errors;
-  for (auto& [line, message] : all) errors.push_back(base::WrongInput(message, PlaceOf(*context_, line)));
+  for (auto& problem : all) errors.push_back(base::WrongInput(problem.message, PlaceOf(*context_, problem.line)));
   return errors;
 }
 

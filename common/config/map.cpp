@@ -30,12 +30,17 @@ void Map::Problem(std::string_view key, std::string message) const {
   context_->Add(node_->present ? LineOfKey(node_->node, key) : 0, std::move(message));
 }
 
+void Map::Missing(std::string_view key, std::string_view expected) const {
+  const std::string path = Sub(path_, key);
+  context_->Add(LineOf(node_->node), fmt::format("key '{}' is missing; {} was expected", path, expected), path);
+}
+
 template <class T>
 std::optional<T> Map::Scalar(std::string_view key, bool required, std::string_view expected) const {
   if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].keys.emplace(key);
   const YAML::Node found = node_->present ? Find(node_->node, key) : YAML::Node(YAML::NodeType::Undefined);
   if (!found.IsDefined()) {
-    if (required && node_->present) Problem(key, fmt::format("key '{}' is missing; {} was expected", Sub(path_, key), expected));
+    if (required && node_->present) Missing(key, expected);
     return std::nullopt;
   }
   std::optional<T> value;
@@ -135,7 +140,7 @@ Map Map::OptionalChild(std::string_view key) const {
   return Map(context_, child, Sub(path_, key));
 }
 Map Map::Child(std::string_view key) const {
-  if (node_->present && !Has(key)) Problem(key, fmt::format("key '{}' is missing; a mapping was expected", Sub(path_, key)));
+  if (node_->present && !Has(key)) Missing(key, "a mapping");
   return OptionalChild(key);
 }
 
@@ -150,7 +155,7 @@ List Map::OptionalItems(std::string_view key) const {
   return List(context_, child, Sub(path_, key));
 }
 List Map::Items(std::string_view key) const {
-  if (node_->present && !Has(key)) Problem(key, fmt::format("key '{}' is missing; a list was expected", Sub(path_, key)));
+  if (node_->present && !Has(key)) Missing(key, "a list");
   return OptionalItems(key);
 }
 

@@ -25,11 +25,17 @@ struct YamlNode {
   bool present = true;
 };
 
+struct Problem {
+  int line = 0;  // from 1; 0: no place
+  std::string message;
+  std::string missing;  // the key's path, where it is that a key is missing
+};
+
 struct Context {
   std::filesystem::path path;
   std::string text;
   YAML::Node root;
-  std::vector<std::pair<int, std::string>> problems;  // line (1-based, 0: no place), message
+  std::vector<Problem> problems;
   // Which keys of which mapping were asked for; the mapping is named by its mark in the text.
   struct Asked {
     YAML::Node node;
@@ -38,7 +44,7 @@ struct Context {
   };
   std::map<std::pair<int, std::string>, Asked> asked;
 
-  void Add(int line, std::string message) { problems.emplace_back(line, std::move(message)); }
+  void Add(int line, std::string message, std::string missing = "") { problems.push_back({line, std::move(message), std::move(missing)}); }
 };
 
 }  // namespace detail

@@ -56,7 +56,7 @@ TEST_P(DemoFault, IsNamedWithinASecondAndTheRecordingIsReadable) {
   EXPECT_EQ(info.status, 0) << info.out;
   const auto reader = record::McapReader::Open(recording);
   ASSERT_TRUE(reader.ok()) << reader.error().Text();
-  EXPECT_GT(reader.value().statistics().messages, 900u);
+  EXPECT_GT(reader.value().statistics().messages, 500u) << "a second of driving, or as much as a chunk takes";
   if (node == "recorder") return;  // what it had on the disk is there
   EXPECT_TRUE(reader.value().condition().whole);
   EXPECT_TRUE(reader.value().Verify().empty());

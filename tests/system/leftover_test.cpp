@@ -26,11 +26,11 @@ class Leftover : public ::testing::Test {
                                "nodes.view.config.frames.folder=" + (folder_.path() / "frames").string()});
     return more;
   }
-  // Clock, six nodes of processes of their own, and the road server.
+  // The clock and six nodes.
   static void WaitUntilAllAreThere(const std::string& run_name) {
     const auto until = std::chrono::steady_clock::now() + 30s;
-    while (ProcessesWith("--run " + run_name, "/rodeira-").size() < 7 && std::chrono::steady_clock::now() < until) ::usleep(5000);
-    ASSERT_EQ(ProcessesWith("--run " + run_name, "/rodeira-").size(), 7u);
+    while (ProcessesWith("--run " + run_name, "bin/rodeira-").size() < 7 && std::chrono::steady_clock::now() < until) ::usleep(5000);
+    ASSERT_EQ(ProcessesWith("--run " + run_name, "bin/rodeira-").size(), 7u);
   }
   // Files of DDS in /dev/shm that were not there before.
   std::set<std::string> Left() const {
@@ -55,7 +55,7 @@ TEST_F(Leftover, TwoSecondsAfterCtrlC) {
   std::this_thread::sleep_for(3s);
   ::kill(run.pid(), SIGINT);
   std::this_thread::sleep_for(2s);
-  EXPECT_TRUE(ProcessesWith("--run left-ctrlc", "/rodeira-").empty());
+  EXPECT_TRUE(ProcessesWith("--run left-ctrlc", "bin/rodeira-").empty());
   EXPECT_EQ(run.Wait(1s).status, 0);
   EXPECT_EQ(Left(), std::set<std::string>());
 }
@@ -66,7 +66,7 @@ TEST_F(Leftover, TwoSecondsAfterCtrlCDuringTheStart) {
   WaitUntilAllAreThere("left-early");
   ::kill(run.pid(), SIGINT);
   std::this_thread::sleep_for(2s);
-  EXPECT_TRUE(ProcessesWith("--run left-early", "/rodeira-").empty());
+  EXPECT_TRUE(ProcessesWith("--run left-early", "bin/rodeira-").empty());
   EXPECT_NE(run.Wait(1s).status, 0) << "nothing has been driven";
   EXPECT_EQ(Left(), std::set<std::string>());
 }
@@ -77,7 +77,7 @@ TEST_F(Leftover, TwoSecondsAfterRodeiraItselfWasKilled) {
   std::this_thread::sleep_for(3s);
   ::kill(run.pid(), SIGKILL);
   std::this_thread::sleep_for(2s);
-  EXPECT_TRUE(ProcessesWith("--run left-killed", "/rodeira-").empty());
+  EXPECT_TRUE(ProcessesWith("--run left-killed", "bin/rodeira-").empty());
   EXPECT_EQ(Left(), std::set<std::string>());
 }
 
