@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -123,6 +124,7 @@ class ProcessRun {
         if (&child != &clock && Broken(child)) TellClock(fmt::format("node '{}' {} at about step {}", child.name(), child.Fate(), report_.step));
       }
       const int interrupts = g_interrupts;
+      if (interrupts > 0 && !interrupted_at_) interrupted_at_ = WallClock::now();
       for (; passed_on_ < interrupts; ++passed_on_) clock.Signal(SIGINT);
       ShowProgress();
     }
@@ -169,7 +171,7 @@ class ProcessRun {
     return true;
   }
 
-  // Everybody goes: by themselves within two seconds, or by force.
+  // Everybody goes: by themselves, or by force before two seconds have passed since Ctrl-C.
   void EndAll() {
     const bool orderly = report_.ended;
     for (Child& child : children_) {
@@ -177,7 +179,8 @@ class ProcessRun {
       if (!orderly) child.Signal(SIGTERM);
       if (child.stopped() || (!orderly && &child == &children_.front())) child.Signal(SIGKILL);
     }
-    const auto until = WallClock::now() + 1500ms;
+    auto until = WallClock::now() + 1500ms;
+    if (interrupted_at_) until = std::min(until, *interrupted_at_ + 1700ms);
     while (WallClock::now() < until && std::any_of(children_.begin(), children_.end(), [](const Child& child) { return !child.ended(); })) {
       std::this_thread::sleep_for(5ms);
       for (Child& child : children_) child.Poll();
@@ -233,6 +236,7 @@ class ProcessRun {
   std::string fault_;
   std::string pending_;
   int passed_on_ = 0;
+  std::optional<WallClock::time_point> interrupted_at_;
   bool told_ = false;
   bool shown_ = false;
   WallClock::time_point start_ = WallClock::now();

@@ -72,6 +72,7 @@ class Map {
   friend class List;
   Map(std::shared_ptr<detail::Context> context, std::shared_ptr<detail::YamlNode> node, std::string path);
 
+  void Missing(std::string_view key, std::string_view expected) const;
   template <class T>
   std::optional<T> Scalar(std::string_view key, bool required, std::string_view expected) const;
   std::optional<double> Checked(std::string_view key, std::optional<double> value, Range range) const;
@@ -113,7 +114,8 @@ class File {
   base::Status Override(std::string_view key, std::string_view value);
 
   Map root() const;
-  // All problems so far and every key that nobody asked for, in the order of lines.
+  // All problems so far and every key that nobody asked for, in the order of lines. A key that is missing because it is
+  // misspelt, or stands there in another unit, is told of once.
   std::vector<base::Error> Problems() const;
   // The first of them, or ok.
   base::Status Finish() const;
