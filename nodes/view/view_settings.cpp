@@ -58,12 +58,11 @@ void ReadTimes(const launch::NodeContext& context, const config::Map& frames, Vi
 void ReadDriving(const launch::Launch& launch, ViewSettings& settings) {
   for (const launch::LaunchNode& node : launch.nodes()) {
     if (node.kind->name != "input") continue;
-    const config::Map config = node.config->OptionalChild("config");
-    if (config.Text("source", "") != "keyboard") continue;
+    if (node.config->Peek({"config", "source"}) != "keyboard") continue;
     settings.drives = true;
-    const auto file = config.OptionalPath("keyboard");
+    const auto file = node.config->Peek({"config", "keyboard"});
     if (!file) continue;
-    const auto keyboard = hands::LoadKeyboard(*file);
+    const auto keyboard = hands::LoadKeyboard((launch.path().parent_path() / *file).lexically_normal());
     if (keyboard) settings.driving_help = hands::KeyboardHelp(keyboard.value());
   }
 }

@@ -21,7 +21,7 @@ namespace {
 using lockstep::Step;
 namespace topics = idl::topics;
 
-struct Run {
+struct Driven {
   lockstep::RunOutcome outcome;
   std::map<Step, std::vector<msg::ScenarioEvent>> events;  // of each sample that holds some
   std::map<Step, msg::TrafficState> traffic;
@@ -56,10 +56,10 @@ class Scenario : public testing::Test {
     EXPECT_TRUE(launch.ok()) << launch.error().Text();
     return std::move(launch).value();
   }
-  static Run Drive(const launch::Launch& launch, Step last, Step snapshot_every = 0) {
+  static Driven Drive(const launch::Launch& launch, Step last, Step snapshot_every = 0) {
     auto nodes = front::LocalNodes::Make(launch);
     EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
-    Run run;
+    Driven run;
     lockstep::InProcessSettings settings;
     settings.last_step = last;
     settings.snapshot_every = snapshot_every;
@@ -81,7 +81,7 @@ class Scenario : public testing::Test {
     run.outcome = lockstep::RunThreaded(launch.roster(), nodes.value().nodes(), settings);
     return run;
   }
-  static std::optional<msg::TrafficAgent> Agent(const Run& run, Step step, std::uint32_t id) {
+  static std::optional<msg::TrafficAgent> Agent(const Driven& run, Step step, std::uint32_t id) {
     for (const msg::TrafficAgent& agent : run.traffic.at(step).agents()) {
       if (agent.id() == id) return agent;
     }
@@ -95,7 +95,7 @@ class Scenario : public testing::Test {
     return nodes.error().Text();
   }
   // An agent that drives far from anything that could disturb it, at `step` of an undisturbed run.
-  static std::uint32_t SomeAgent(const Run& run, Step step) {
+  static std::uint32_t SomeAgent(const Driven& run, Step step) {
     for (const msg::TrafficAgent& agent : run.traffic.at(step).agents()) {
       if (agent.speed_mps() > 12.0 && std::fabs(agent.acceleration_mps2()) < 1.0) return agent.id();
     }
@@ -109,11 +109,11 @@ class Scenario : public testing::Test {
 
 // Valid at exactly 2 s; the traffic's activation at 2 s sees it, and its sample of 2.01 s brakes: v(t) = v0 - a t to rest.
 TEST_F(Scenario, AnAgentBrakesFromExactlyItsStepToRestAndDrivesOn) {
-  const Run calm = Drive(LaunchOf(Text(File("  - {at_s: 0.5, name: mark, text: nothing}\n"))), 2100);
+  const Driven calm = Drive(LaunchOf(Text(File("  - {at_s: 0.5, name: mark, text: nothing}\n"))), 2100);
   ASSERT_TRUE(calm.outcome.ok) << calm.outcome.fault;
   const std::uint32_t id = SomeAgent(calm, 2000);
   const std::string agent = std::to_string(id);
-  const Run run =
+  const Driven run =
       Drive(LaunchOf(Text(File("  - {at_s: 2, name: traffic.brake, agent: " + agent +
                                ", deceleration_mps2: 5}\n  - {at_s: 8, name: traffic.release, agent: " + agent + "}\n"))),
             12000);
@@ -136,11 +136,11 @@ TEST_F(Scenario, AnAgentBrakesFromExactlyItsStepToRestAndDrivesOn) {
 
 // A traffic of 0.1 s behind a scenario of 0.01 s: ten samples between two activations, every event counts, in order.
 TEST_F(Scenario, ASlowConsumerLosesNoEvent) {
-  const Run calm = Drive(LaunchOf(Text(File("  - {at_s: 0.5, name: mark, text: nothing}\n"), ", period_s: 0.1")), 1100);
+  const Driven calm = Drive(LaunchOf(Text(File("  - {at_s: 0.5, name: mark, text: nothing}\n"), ", period_s: 0.1")), 1100);
   const std::uint32_t id = SomeAgent(calm, 1000);
   const std::string agent = std::to_string(id);
   const auto last_speed = [&](const std::string& events) {
-    const Run run = Drive(LaunchOf(Text(File(events), ", period_s: 0.1")), 3000);
+    const Driven run = Drive(LaunchOf(Text(File(events), ", period_s: 0.1")), 3000);
     EXPECT_TRUE(run.outcome.ok) << run.outcome.fault;
     return Agent(run, 3000, id)->speed_mps();
   };
@@ -159,7 +159,7 @@ TEST_F(Scenario, AConditionalEventComesOnePeriodAfterTheCarHasPassed) {
   const launch::Launch launch =
       LaunchOf(Text(File("  - {when: {road: n222, passes_m: 45}, name: mark, text: passed}\n  - {when: {passes_m: 5000}, name: "
                          "mark, text: never}\n")));
-  const Run run = Drive(launch, 9000);
+  const Driven run = Drive(launch, 9000);
   ASSERT_TRUE(run.outcome.ok) << run.outcome.fault;
   ASSERT_EQ(run.events.size(), 1u) << "once, and only the one";
   const auto world = road::World::Load(launch.world()).value();
@@ -174,7 +174,7 @@ TEST_F(Scenario, AConditionalEventComesOnePeriodAfterTheCarHasPassed) {
 
 TEST_F(Scenario, TheOneAheadIsTheOneInFrontOfTheDriver) {
   // At 12 s the autopilot drives; who is in front of it brakes hard, and nobody else.
-  const Run run = Drive(LaunchOf(Text(File("  - {at_s: 12, name: traffic.brake, agent: ahead, deceleration_mps2: 9}\n"))), 12500);
+  const Driven run = Drive(LaunchOf(Text(File("  - {at_s: 12, name: traffic.brake, agent: ahead, deceleration_mps2: 9}\n"))), 12500);
   ASSERT_TRUE(run.outcome.ok) << run.outcome.fault;
   int braking = 0;
   for (const msg::TrafficAgent& agent : run.traffic.at(12100).agents()) {
@@ -198,7 +198,7 @@ TEST_F(Scenario, RestoredAnywhereItGoesOnWithTheSameDigest) {
                          "  - {when: {passes_m: 60}, name: traffic.release, agent: all}\n  - {at_s: 7.77, name: traffic.brake, "
                          "agent: all, deceleration_mps2: 2}\n")));
   for (const Step at : {1003, 5555, 7771}) {
-    const Run whole = Drive(launch, 9000, at);
+    const Driven whole = Drive(launch, 9000, at);
     ASSERT_TRUE(whole.outcome.ok) << whole.outcome.fault;
     EXPECT_GE(whole.events.size(), 3u);
     auto nodes = front::LocalNodes::Make(launch);
@@ -230,7 +230,7 @@ TEST_F(Scenario, WhatCannotBeIsRefusedAtTheStart) {
 }
 
 TEST_F(Scenario, AnAgentThatIsNotThereFailsTheRunWithASentence) {
-  const Run run = Drive(LaunchOf(Text(File("  - {at_s: 1, name: traffic.brake, agent: 20, deceleration_mps2: 3}\n"))), 2000);
+  const Driven run = Drive(LaunchOf(Text(File("  - {at_s: 1, name: traffic.brake, agent: 20, deceleration_mps2: 3}\n"))), 2000);
   EXPECT_FALSE(run.outcome.ok);
   EXPECT_NE(run.outcome.fault.find("event 'traffic.brake' at step 1000: there is no agent 20; there are 20, from 0 on"),
             std::string::npos)
