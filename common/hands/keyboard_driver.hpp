@@ -41,7 +41,7 @@ struct KeyboardSettings {
   double lock_rad = 7.85;            // of the steering wheel, at rest
   double half_lock_speed_mps = 6.5;  // where only half of it is left
   double turn_s = 1.1;               // from straight ahead to the lock of that speed
-  double centre_s = 0.7;             // from there back
+  double centre_s = 0.3;             // from there back: quick, or a person steers into a wheel that is still on its way
   PedalRates throttle{0.5, 0.2, 1.0};
   PedalRates brake{0.4, 0.15, 0.85};
   PedalRates clutch{0.1, 0.4, 1.0};

@@ -59,7 +59,8 @@ KeyboardSettings ReadKeyboard(const config::Map& root) {
   KeyboardSettings s;
   (void)root.Choice("rodeira", {"keyboard/1"});
   (void)root.Text("name", "");
-  ReadKeys(root.Child("keys"), s);
+  const config::Map keys = root.Child("keys");
+  if (root.Has("keys")) ReadKeys(keys, s);
   const config::Map steering = root.OptionalChild("steering");
   s.lock_rad = steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / std::numbers::pi) * std::numbers::pi / 180.0;
   s.half_lock_speed_mps = steering.Number("half_lock_speed_mps", {0.5, 200.0}, s.half_lock_speed_mps);

@@ -30,7 +30,8 @@ std::vector<DeviceUse> ReadDevices(const config::Map& map) {
 
 // Which of the devices; a single one needs no name.
 std::size_t ReadDevice(const config::Map& map, const std::vector<DeviceUse>& devices) {
-  if (devices.size() == 1 && !map.Has("device")) return 0;
+  if (devices.empty()) map.LeaveToOthers("device");  // which is said already
+  if (devices.empty() || (devices.size() == 1 && !map.Has("device"))) return 0;
   std::vector<std::string> names;
   for (const DeviceUse& device : devices) names.push_back(device.name);
   const std::string name = map.Text("device");
@@ -97,7 +98,7 @@ WheelSettings ReadWheel(const config::Map& root) {
   const bool manual = root.Choice("gearbox", {"automatic", "manual"}, "automatic") == "manual";
   s.gearbox = manual ? vehicle::GearboxMode::kManual : vehicle::GearboxMode::kAutomatic;
   s.devices = ReadDevices(root.Child("devices"));
-  if (s.devices.empty()) root.Problem("devices", "'devices' names none; at least one device with its GUID was expected");
+  if (root.Has("devices") && s.devices.empty()) root.Problem("devices", "'devices' names none; at least one device with its GUID was expected");
   const config::Map steering = root.Child("steering");
   s.lock_rad = steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / std::numbers::pi) * std::numbers::pi / 180.0;
   s.axes[0] = ReadAxis(steering, s.devices, true);
