@@ -25,14 +25,14 @@ const AgentPose& PoseOf(const TrafficModel& model, std::uint32_t id) {
   return *std::find_if(model.poses().begin(), model.poses().end(), [id](const AgentPose& pose) { return pose.id == id; });
 }
 
-void Run(TrafficModel& model, double seconds) {
+void Pass(TrafficModel& model, double seconds) {
   for (int i = 0; i < std::lround(seconds / kStep_s); ++i) model.Step(kStep_s, {});
 }
 
 // From v0 at a to rest: v0 / a seconds, v0² / (2 a) metres.
 TEST(TrafficCommands, BrakesAtTheRateGivenToRestAndStays) {
   TrafficModel model = Made(1);
-  Run(model, 10.0);
+  Pass(model, 10.0);
   const AgentPose before = PoseOf(model, 0);
   ASSERT_GT(before.speed_mps, 15.0);
   model.Brake(0, 4.0);
@@ -44,16 +44,16 @@ TEST(TrafficCommands, BrakesAtTheRateGivenToRestAndStays) {
   EXPECT_NEAR(t, before.speed_mps / 4.0, kStep_s);
   EXPECT_NEAR((PoseOf(model, 0).p_WB_W - before.p_WB_W).norm(), before.speed_mps * before.speed_mps / 8.0, 1e-6);
   const Eigen::Vector3d rest = PoseOf(model, 0).p_WB_W;
-  Run(model, 5.0);
+  Pass(model, 5.0);
   EXPECT_EQ((PoseOf(model, 0).p_WB_W - rest).norm(), 0.0);
   model.Release(0);
-  Run(model, 15.0);
+  Pass(model, 15.0);
   EXPECT_GT(PoseOf(model, 0).speed_mps, 12.0);
 }
 
 TEST(TrafficCommands, WhoFollowsStopsBehind) {
   TrafficModel model = Made(12, 900.0);
-  Run(model, 5.0);
+  Pass(model, 5.0);
   model.Brake(4, 9.0);
   for (int i = 0; i < 2500; ++i) {
     model.Step(kStep_s, {});
@@ -69,7 +69,7 @@ TEST(TrafficCommands, WhoFollowsStopsBehind) {
 
 TEST(TrafficCommands, ACappedAgentIsNeverFasterAndDrivesTheCap) {
   TrafficModel model = Made(1, 4000.0);
-  Run(model, 10.0);
+  Pass(model, 10.0);
   model.CapSpeed(0, 9.0);
   double before = PoseOf(model, 0).speed_mps;
   for (int i = 0; i < 6000; ++i) {
@@ -88,13 +88,13 @@ TEST(TrafficCommands, ACommandEndsWhereTheAgentLeavesTheRoad) {
   for (int i = 0; i < 30'000 && (model.on_road() == 0 || PoseOf(model, 0).trip == trip); ++i) model.Step(kStep_s, {});
   ASSERT_EQ(model.on_road(), 1u);
   ASSERT_GT(PoseOf(model, 0).trip, trip);
-  Run(model, 5.0);
+  Pass(model, 5.0);
   EXPECT_GT(PoseOf(model, 0).speed_mps, 10.0);
 }
 
 TEST(TrafficCommands, AheadIsInTheOwnLaneAndInFront) {
   TrafficModel model = Made(16, 900.0);
-  Run(model, 2.0);
+  Pass(model, 2.0);
   const auto footprint = [&](const AgentPose& pose) { return FootprintOf(pose, model.traits(pose.id)); };
   int found = 0;
   for (const AgentPose& own : model.poses()) {
@@ -118,10 +118,10 @@ TEST(TrafficCommands, AheadIsInTheOwnLaneAndInFront) {
 
 TEST(TrafficCommands, RestoredInTheMiddleOfACommandItGoesOnWithTheSameBits) {
   TrafficModel model = Made(8);
-  Run(model, 3.0);
+  Pass(model, 3.0);
   model.Brake(2, 3.0);
   model.CapSpeed(5, 7.0);
-  Run(model, 1.0);
+  Pass(model, 1.0);
   base::StateWriter out;
   model.Save(out);
   TrafficModel restored = Made(8);
