@@ -14,6 +14,7 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kScenarioEvents, "rodeira::msg::ScenarioEvents", "scenario", true},
       {topics::kPulse, "rodeira::msg::Pulse", "pulse", true},
       {topics::kGrant, "rodeira::msg::Grant", "clock", false},
+      {topics::kAsk, "rodeira::msg::Ask", "clock", false},
       {topics::kReport, "rodeira::msg::Report", "clock", false},
       {topics::kGroundRequest, "rodeira::msg::GroundRequest", "ground", false},
       {topics::kGroundReply, "rodeira::msg::GroundReply", "ground", false},

@@ -16,6 +16,7 @@ inline constexpr std::string_view kTrafficState = "rodeira/traffic_state";
 inline constexpr std::string_view kScenarioEvents = "rodeira/scenario_events";
 inline constexpr std::string_view kPulse = "rodeira/pulse";
 inline constexpr std::string_view kGrant = "rodeira/grant";
+inline constexpr std::string_view kAsk = "rodeira/ask";
 inline constexpr std::string_view kReport = "rodeira/report";
 inline constexpr std::string_view kGroundRequest = "rodeira/ground_request";
 inline constexpr std::string_view kGroundReply = "rodeira/ground_reply";

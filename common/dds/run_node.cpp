@@ -11,6 +11,7 @@
 #include "common/dds/remote_ground.hpp"
 #include "common/dds/remote_keys.hpp"
 #include "common/dds/run.hpp"
+#include "common/lockstep/pump.hpp"
 #include "common/lockstep/runner.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -100,7 +101,8 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
   lockstep::Runner runner(context.roster(), context.index(), *node.value(), bus, mailbox, settings);
   context.Follow(&runner);
   bus.Follow(&runner);
-  const auto outcome = runner.Run();
+  const bool brief = node.value()->is_brief();
+  const auto outcome = brief ? lockstep::RunWhereMessagesArrive(runner, mailbox, settings) : runner.Run();
   context.Follow(nullptr);
   bus.Linger(runner.report(), outcome == lockstep::Runner::Outcome::kFinished ? 3000ms : 500ms);
   return outcome == lockstep::Runner::Outcome::kFinished ? 0 : 1;

@@ -21,9 +21,12 @@ Runner::Runner(const Roster& roster, NodeIndex index, Node& node, Bus& bus, Mail
 }
 
 Runner::Outcome Runner::Run() {
+  auto patience = settings_.patience;
   for (;;) {
-    const Outcome outcome = Advance(settings_.repeat);
+    const Outcome outcome = Advance(patience);
     if (outcome != Outcome::kWorking && outcome != Outcome::kBlocked) return outcome;
+    if (outcome == Outcome::kBlocked) AskAgain();
+    patience = outcome == Outcome::kWorking ? settings_.patience : std::min(2 * patience, settings_.most_patience);
   }
 }
 
@@ -94,8 +97,6 @@ Runner::Outcome Runner::AwaitInputs(std::chrono::milliseconds limit) {
     default: break;
   }
   NoteWaiting(next_);
-  if (auto status = RepeatFirstSamples(); !status) return Fail(status.error());
-  TellReport();
   return Outcome::kBlocked;
 }
 
@@ -112,10 +113,6 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
     case Mailbox::Woken::kAborted: return FinishAborted();
     case Mailbox::Woken::kTimeout:
       NoteWaiting(next_);
-      if (!mailbox_.HasGrant()) {
-        if (auto status = RepeatFirstSamples(); !status) return Fail(status.error());
-        TellReport();
-      }
       return Outcome::kBlocked;
   }
   TakeSnapshotIfDue(next_);
@@ -191,11 +188,17 @@ base::Status Runner::PublishAll(std::vector<Sample> samples) {
   return {};
 }
 
-base::Status Runner::RepeatFirstSamples() {
-  for (const Sample& sample : own_) {
-    if (auto status = bus_.Publish(sample); !status) return status;
+void Runner::AskAgain() {
+  std::vector<Gap> gaps;
+  switch (stage_) {
+    case Stage::kInputs: gaps = mailbox_.Missing(settings_.resume ? settings_.resume->at : 0); break;
+    case Stage::kStepping:
+      if (mailbox_.IsGranted(next_)) gaps = mailbox_.Missing(next_);  // before that nobody owes us anything
+      break;
+    case Stage::kEnding: gaps = mailbox_.MissingEvents(mailbox_.grant().through); break;
+    default: break;
   }
-  return {};
+  for (const Gap& gap : gaps) bus_.Ask(gap);
 }
 
 void Runner::TakeSnapshotIfDue(Step step) {
@@ -230,12 +233,12 @@ void Runner::Note(Phase phase, Waiting waiting) {
 }
 
 void Runner::NoteWaiting(Step step) {
-  const auto missing = mailbox_.FirstMissing(step);
+  const auto missing = mailbox_.Missing(step);
   const std::lock_guard lock(report_mutex_);
-  const Waiting waiting = missing ? Waiting::kInputs : Waiting::kGrant;
+  const Waiting waiting = missing.empty() ? Waiting::kGrant : Waiting::kInputs;
   if (report_.waiting != waiting) since_ = WallClock::now();
   report_.waiting = waiting;
-  report_.waiting_source = missing.value_or(0);
+  report_.waiting_source = missing.empty() ? 0 : missing.front().source;
 }
 
 void Runner::BeginServerCall() {

@@ -31,7 +31,7 @@ std::optional<std::uint32_t> TrafficModel::AheadOf(const driver::Footprint& othe
     if (std::cos(other.heading_rad - lane.path.At(place->d_m).heading_rad) <= 0.0) continue;  // faces the other way
     for (const std::uint32_t id : lane.order) {
       const double gap = agents_[id].d_m - place->d_m;
-      if (gap <= 0.0 || gap > gap_m) continue;
+      if (id == other.id || gap <= 0.0 || gap > gap_m) continue;
       gap_m = gap;
       nearest = id;
     }

@@ -56,7 +56,7 @@ class TrafficModel {
   void CapSpeed(std::uint32_t id, double speed_mps);       // never faster
   void Release(std::uint32_t id);
   // The next agent in front of this rectangle, in the lane on which its middle stands and whose way it faces; nothing where
-  // none is in sight.
+  // none is in sight. One of the agents itself (by its id) is not in front of itself.
   std::optional<std::uint32_t> AheadOf(const driver::Footprint& other) const;
 
   // Those on the road, by ascending id.
