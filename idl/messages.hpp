@@ -4,6 +4,7 @@
 #include "clock.h"
 #include "driving.h"
 #include "ground.h"
+#include "live.h"
 #include "pulse.h"
 #include "scenario.h"
 #include "snapshot.h"

@@ -20,6 +20,7 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kGroundRequest, "rodeira::msg::GroundRequest", "ground", false},
       {topics::kGroundReply, "rodeira::msg::GroundReply", "ground", false},
       {topics::kWorldInfo, "rodeira::msg::WorldInfo", "world", false},
+      {topics::kLiveKeys, "rodeira::msg::LiveKeys", "live", false},
   };
   return kTopics;
 }

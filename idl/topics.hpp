@@ -22,6 +22,7 @@ inline constexpr std::string_view kReport = "rodeira/report";
 inline constexpr std::string_view kGroundRequest = "rodeira/ground_request";
 inline constexpr std::string_view kGroundReply = "rodeira/ground_reply";
 inline constexpr std::string_view kWorldInfo = "rodeira/world_info";
+inline constexpr std::string_view kLiveKeys = "rodeira/live_keys";
 }  // namespace topics
 
 struct TopicInfo {

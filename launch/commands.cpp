@@ -9,6 +9,7 @@
 #include "common/base/suggest.hpp"
 #include "launch/doctor.hpp"
 #include "launch/info_command.hpp"
+#include "launch/joysticks_command.hpp"
 #include "launch/run_command.hpp"
 #include "launch/world_command.hpp"
 
@@ -37,7 +38,7 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   CLI::App* run = app.add_subcommand("run", "drive: start every process of a launch file");
   run->add_option("LAUNCH.yaml", options.launch_file, "launch file")->required();
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
-  run->add_option("--pace", options.pace, "max, real or a factor of real time")->capture_default_str();
+  run->add_option("--pace", options.pace, "max, real or a factor of real time; otherwise the launch file's, or max");
   run->add_option("--record", options.record, "recording (MCAP)");
   run->add_option("--seed", options.seed, "seed of everything that is drawn");
   run->add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file");
@@ -77,6 +78,13 @@ void AddDoctor(CLI::App& app, DoctorOptions& options) {
   doctor->callback([&options] { options.asked = true; });
 }
 
+void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
+  CLI::App* joysticks = app.add_subcommand("joysticks", "wheels and joysticks that are plugged in, with their GUIDs");
+  CLI::Option* watch = joysticks->add_flag("--watch", options.watch, "say which axis and button moves");
+  joysticks->add_option("--for", options.duration_s, "seconds of watching")->check(Positive)->needs(watch);
+  joysticks->callback([&options] { options.asked = true; });
+}
+
 }  // namespace
 
 int Main(int argc, char** argv) {
@@ -92,6 +100,8 @@ int Main(int argc, char** argv) {
   AddWorld(app, world);
   DoctorOptions doctor;
   AddDoctor(app, doctor);
+  JoysticksOptions joysticks;
+  AddJoysticks(app, joysticks);
   std::string info_file;
   CLI::App* info = app.add_subcommand("info", "what a recording holds");
   info->add_option("FILE.mcap", info_file, "recording")->required();
@@ -102,6 +112,7 @@ int Main(int argc, char** argv) {
   }
   if (!world.command.empty()) return World(world);
   if (doctor.asked) return Doctor(doctor);
+  if (joysticks.asked) return ListJoysticks(joysticks);
   if (info->parsed()) return Info(info_file);
   for (const std::string& set : sets) {
     const auto pair = KeyValue(set);

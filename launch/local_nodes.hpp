@@ -17,9 +17,12 @@ class LocalNodes {
 
   // One for each node of the roster; null for services.
   const std::vector<lockstep::Node*>& nodes() const { return nodes_; }
+  // Where the windows' keys pass.
+  launch::LiveKeysBoard& keys() { return *keys_; }
 
  private:
   LocalNodes() = default;
+  std::unique_ptr<launch::LiveKeysBoard> keys_ = std::make_unique<launch::LiveKeysBoard>();  // the nodes use it
   std::vector<std::unique_ptr<launch::NodeContext>> contexts_;
   std::vector<std::unique_ptr<lockstep::Node>> owned_;
   std::vector<lockstep::Node*> nodes_;

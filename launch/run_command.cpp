@@ -17,7 +17,7 @@
 #include <random>
 #include <thread>
 
-#include "common/dds/options.hpp"
+#include "common/launch/pace.hpp"
 #include "launch/in_process_command.hpp"
 #include "launch/processes.hpp"
 #include "launch/recording_folder.hpp"
@@ -275,7 +275,7 @@ base::Status ResolveRecording(const launch::Launch& launch, RunOptions& options,
 }  // namespace
 
 int Run(const RunOptions& options) {
-  if (const auto pace = dds::ParsePace(options.pace); !pace) return Complain(pace.error());
+  if (const auto pace = launch::ParsePace(options.pace.empty() ? "max" : options.pace); !pace) return Complain(pace.error());
   launch::Overrides overrides = options.overrides;
   if (options.seed) overrides.emplace_back("seed", std::to_string(*options.seed));
   RunOptions resolved = options;
@@ -290,6 +290,7 @@ int Run(const RunOptions& options) {
     launch = launch::Launch::Load(options.launch_file, overrides);
   }
   if (!launch) return Complain(launch.error());
+  if (resolved.pace.empty()) resolved.pace = launch.value().pace().empty() ? "max" : launch.value().pace();
   if (options.in_process) return RunInProcess(resolved, launch.value());
   return ProcessRun(resolved, launch.value(), std::move(overrides)).Run();
 }

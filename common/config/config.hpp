@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -58,6 +59,9 @@ class Map {
   List OptionalItems(std::string_view key) const;
   // Marks a key as known without looking into it: somebody else reads what stands there.
   void LeaveToOthers(std::string_view key) const;
+  // The text at the end of a way of keys, without asking for it: it is somebody else's, who says what is wrong with it.
+  // Nothing where there is none.
+  std::optional<std::string> Peek(std::initializer_list<std::string_view> way) const;
   // All keys in the file's order, for mappings whose keys are names (nodes, materials). Marks them as known.
   std::vector<std::string> Keys() const;
 

@@ -163,6 +163,15 @@ void Map::LeaveToOthers(std::string_view key) const {
   if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].keys.emplace(key);
 }
 
+std::optional<std::string> Map::Peek(std::initializer_list<std::string_view> way) const {
+  if (!node_->present) return std::nullopt;
+  YAML::Node node;
+  node.reset(node_->node);
+  for (const std::string_view key : way) node.reset(Find(node, key));
+  if (!node.IsDefined() || !node.IsScalar()) return std::nullopt;
+  return node.Scalar();
+}
+
 std::vector<std::string> Map::Keys() const {
   std::vector<std::string> keys;
   if (!node_->present || !node_->node.IsMap()) return keys;

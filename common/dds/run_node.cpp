@@ -9,6 +9,7 @@
 #include "common/dds/node_bus.hpp"
 #include "common/dds/options.hpp"
 #include "common/dds/remote_ground.hpp"
+#include "common/dds/remote_keys.hpp"
 #include "common/dds/run.hpp"
 #include "common/lockstep/pump.hpp"
 #include "common/lockstep/runner.hpp"
@@ -53,6 +54,16 @@ class ProcessContext final : public launch::NodeContext {
     reader.value().reset();  // its callback uses what lies on this stack
     if (!summary) return base::Failed("the road server says nothing of the world");
     return *summary;
+  }
+  std::unique_ptr<launch::LiveKeysSender> KeysSender() override {
+    auto sender = OpenKeysSender(participant_);
+    RODEIRA_ASSERT(sender.ok());  // fails only where Fast DDS has no memory left
+    return std::move(sender).value();
+  }
+  std::unique_ptr<launch::LiveKeysReceiver> KeysReceiver() override {
+    auto receiver = OpenKeysReceiver(participant_);
+    RODEIRA_ASSERT(receiver.ok());
+    return std::move(receiver).value();
   }
   void Follow(lockstep::Runner* runner) {
     if (ground_ != nullptr) ground_->Follow(runner);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "common/base/suggest.hpp"
+#include "common/launch/pace.hpp"
 
 namespace rodeira::launch {
 namespace {
@@ -123,6 +124,10 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   launch.seed_ = static_cast<std::uint64_t>(root.Integer("seed", 0, INT64_MAX, 1));
   if (root.Has("duration_s")) launch.duration_s_ = root.Number("duration_s", config::Range::Positive());
   launch.transport_ = root.Choice("transport", {"shared_memory", "udp"}, "shared_memory") == "udp" ? Transport::kUdp : Transport::kSharedMemory;
+  launch.pace_ = root.Text("pace", "");
+  if (root.Has("pace") && !ParsePace(launch.pace_).ok()) {
+    root.Problem("pace", fmt::format("'pace' is '{}'; max, real or a positive number was expected", launch.pace_));
+  }
   const double base_step_s = root.Number("base_step_s", {1e-6, 1.0}, 0.001);
   const auto base_step_ns = static_cast<std::int64_t>(std::llround(base_step_s * 1e9));
   const Step window = root.Integer("window_steps", 1, 1'000'000, 100);

@@ -44,6 +44,7 @@ class Launch {
   std::uint64_t seed() const { return seed_; }
   std::optional<double> duration_s() const { return duration_s_; }
   Transport transport() const { return transport_; }
+  const std::string& pace() const { return pace_; }  // as --pace takes it; empty: not said
   const lockstep::Watchdog::Settings& watchdog() const { return watchdog_; }
   const lockstep::Roster& roster() const { return *roster_; }
   const std::vector<LaunchNode>& nodes() const { return nodes_; }  // in the roster's order
@@ -58,6 +59,7 @@ class Launch {
   std::uint64_t seed_ = 0;
   std::optional<double> duration_s_;
   Transport transport_ = Transport::kSharedMemory;
+  std::string pace_;
   lockstep::Watchdog::Settings watchdog_;
   std::shared_ptr<const lockstep::Roster> roster_;
   std::vector<LaunchNode> nodes_;

@@ -125,6 +125,19 @@ TEST(Config, WhatIsLeftToOthersIsNotUnknown) {
   EXPECT_TRUE(file.Finish().ok());
 }
 
+TEST(Config, PeekingAsksForNothing) {
+  const File file = Parsed("yours: {x: {y: here}, z: 1}\nlist: [1]\n");
+  const Map root = file.root();
+  root.LeaveToOthers("yours");
+  root.LeaveToOthers("list");
+  EXPECT_EQ(root.Peek({"yours", "x", "y"}), "here");
+  EXPECT_EQ(root.Peek({"yours", "z"}), "1");
+  EXPECT_FALSE(root.Peek({"yours", "x"}).has_value()) << "no text";
+  EXPECT_FALSE(root.Peek({"yours", "w", "y"}).has_value());
+  EXPECT_FALSE(root.Peek({"list", "x"}).has_value());
+  EXPECT_TRUE(file.Finish().ok()) << "what stands in yours is not ours to judge";
+}
+
 TEST(Config, NumbersAreNeverInfinite) {
   const File file = Parsed("a: .inf\nb: nan\nc: 1e999\n");
   for (const char* key : {"a", "b", "c"}) (void)file.root().Number(key);
