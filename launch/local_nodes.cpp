@@ -10,8 +10,9 @@ namespace {
 
 class LocalContext final : public launch::NodeContext {
  public:
-  LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world, launch::LiveKeysBoard& keys)
-      : NodeContext(launch, index), world_(std::move(world)), keys_(keys) {
+  LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world, launch::LiveKeysBoard& keys,
+               launch::RunLogBoard& log)
+      : NodeContext(launch, index), world_(std::move(world)), keys_(keys), log_(log) {
     if (world_ != nullptr) ground_ = world_->MakeGround();
   }
   terrain::Ground& Ground() override {
@@ -24,11 +25,13 @@ class LocalContext final : public launch::NodeContext {
   }
   std::unique_ptr<launch::LiveKeysSender> KeysSender() override { return keys_.MakeSender(); }
   std::unique_ptr<launch::LiveKeysReceiver> KeysReceiver() override { return keys_.MakeReceiver(); }
+  std::unique_ptr<launch::RunLogReceiver> RunLog() override { return log_.MakeReceiver(); }
 
  private:
   std::shared_ptr<const road::World> world_;
   std::unique_ptr<terrain::Ground> ground_;
   launch::LiveKeysBoard& keys_;
+  launch::RunLogBoard& log_;
 };
 
 // The world of the run, where a road server would load it.
@@ -52,7 +55,7 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch) {
   if (!world) return world.error();
   LocalNodes made;
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    made.contexts_.push_back(std::make_unique<LocalContext>(launch, n, world.value(), *made.keys_));
+    made.contexts_.push_back(std::make_unique<LocalContext>(launch, n, world.value(), *made.keys_, *made.log_));
     made.nodes_.push_back(nullptr);
     if (roster.node(n).role == lockstep::Role::kService) continue;
     const launch::NodeFactory factory = FactoryOf(roster.node(n).kind);

@@ -19,10 +19,13 @@ class LocalNodes {
   const std::vector<lockstep::Node*>& nodes() const { return nodes_; }
   // Where the windows' keys pass.
   launch::LiveKeysBoard& keys() { return *keys_; }
+  // Where the clock's log passes.
+  launch::RunLogBoard& log() { return *log_; }
 
  private:
   LocalNodes() = default;
   std::unique_ptr<launch::LiveKeysBoard> keys_ = std::make_unique<launch::LiveKeysBoard>();  // the nodes use it
+  std::unique_ptr<launch::RunLogBoard> log_ = std::make_unique<launch::RunLogBoard>();
   std::vector<std::unique_ptr<launch::NodeContext>> contexts_;
   std::vector<std::unique_ptr<lockstep::Node>> owned_;
   std::vector<lockstep::Node*> nodes_;

@@ -21,7 +21,7 @@ struct ProcessOptions {
   // For the clock alone.
   double pace = 0.0;                     // 0: as fast as possible
   std::optional<double> duration_s;
-  bool listen = false;                   // take lines "fault TEXT" from standard input: a parent saw a process die
+  bool listen = false;                   // take lines from standard input: a parent saw a process die, an operator asks
 };
 
 // The options, or the status to leave with (0 after --help, 2 after a wrong option); what a person should read has been

@@ -15,10 +15,13 @@
 #include "common/base/suggest.hpp"
 #include "common/dds/options.hpp"
 #include "common/dds/participant.hpp"
+#include "common/dds/remote_log.hpp"
 #include "common/dds/run.hpp"
+#include "common/dds/triggers.hpp"
 #include "common/dds/wire.hpp"
+#include "common/launch/command_text.hpp"
 #include "common/lockstep/clock.hpp"
-#include "common/lockstep/pacer.hpp"
+#include "common/lockstep/conductor.hpp"
 #include "common/lockstep/watchdog.hpp"
 #include "idl/topics.hpp"
 
@@ -49,7 +52,8 @@ std::string OneLine(std::string text) {
 class ClockProcess {
  public:
   ClockProcess(const launch::Launch& launch, const ProcessOptions& options)
-      : launch_(launch), roster_(launch.roster()), options_(options), clock_(roster_, LastStep()), pacer_(roster_.base_step_ns(), options.pace),
+      : launch_(launch), roster_(launch.roster()), options_(options), clock_(roster_, LastStep()),
+        conductor_(clock_, lockstep::Pacer(roster_.base_step_ns(), options.pace)),
         watchdog_(roster_, launch.watchdog()), own_(OwnHello(roster_.hash())) {
     std::random_device device;
     while (clock_id_ == 0) clock_id_ = (static_cast<std::uint64_t>(device()) << 32) | device();
@@ -64,8 +68,7 @@ class ClockProcess {
     if (options_.listen) std::thread([this] { Listen(); }).detach();  // ends with the process
     start_ = WallClock::now();
     if (const int status = Loop(); status != 0) return status;
-    Say("end ok last_step={} wall_s={:.6f} digest={} slipped_s={:.6f}", clock_.grant().through, RunSeconds(), base::Hex(clock_.RunDigest()),
-        static_cast<double>(pacer_.slipped_ns()) * 1e-9);
+    SayEnd("ok", clock_.grant().through, clock_.RunDigest());
     return 0;
   }
 
@@ -80,7 +83,10 @@ class ClockProcess {
     return error.exit_status();
   }
   std::int64_t NowNs() const { return std::chrono::nanoseconds(WallClock::now() - start_).count(); }
-  double RunSeconds() const { return first_grant_ns_ == 0 ? 0.0 : static_cast<double>(NowNs() - first_grant_ns_) * 1e-9; }
+  lockstep::Wall Now() const {
+    return {NowNs(), std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()};
+  }
+  double RunSeconds() const { return static_cast<double>(conductor_.RunNs(Now())) * 1e-9; }
 
   base::Status Connect(Participant& participant) {
     // Before anything is said: another clock's word in this run means that this one is too many.
@@ -102,6 +108,12 @@ class ClockProcess {
     auto grants = participant.MakeWriter(topics::kGrant, Delivery::kSaidAgain);
     if (!grants) return grants.error();
     grants_ = std::move(grants).value();
+    auto log = OpenLogSpeaker(participant, roster_.hash(), clock_id_, roster_.base_step_ns());
+    if (!log) return log.error();
+    log_ = std::move(log).value();
+    auto triggers = Triggers::Open(participant, options_.run, roster_.base_step_ns());
+    if (!triggers) return triggers.error();
+    triggers_.emplace(std::move(triggers).value());
     return {};
   }
   base::Status SecondClock() const {
@@ -109,21 +121,46 @@ class ClockProcess {
                                         base::Hex(other_clock_)));
   }
 
-  // What `rodeira run` sees sooner than any heartbeat: a process of its own that died or was stopped.
+  // From `rodeira run`: "fault TEXT", which it sees sooner than any heartbeat (a process of its own died or was stopped),
+  // and "do NUMBER COMMAND", what the operator asks for.
   void Listen() {
     char line[4096];
     while (std::fgets(line, sizeof(line), stdin) != nullptr) {
       std::string text(line);
       while (!text.empty() && text.back() == '\n') text.pop_back();
-      if (!text.starts_with("fault ")) continue;
       const std::lock_guard lock(mutex_);
-      if (told_.empty()) told_ = text.substr(6);
+      if (text.starts_with("fault ") && told_.empty()) told_ = text.substr(6);
+      if (text.starts_with("do ")) asked_.push_back(text.substr(3));
       woken_.notify_one();
     }
   }
   std::string Told() {
     const std::lock_guard lock(mutex_);
     return told_;
+  }
+
+  // "answer NUMBER ok|wrong|failed SENTENCE".
+  void DoCommands() {
+    std::deque<std::string> asked;
+    {
+      const std::lock_guard lock(mutex_);
+      asked.swap(asked_);
+    }
+    for (const std::string& line : asked) {
+      const auto space = std::min(line.find(' '), line.size());
+      const std::string number = line.substr(0, space);
+      const auto command = launch::ParseCommand(std::string_view(line).substr(space));
+      const auto done = command ? conductor_.Do(command.value(), Now()) : base::Result<std::string>(command.error());
+      const std::string_view how = done ? "ok" : done.error().code == base::ErrorCode::kWrongInput ? "wrong" : "failed";
+      Say("answer {} {} {}", number, how, OneLine(done ? done.value() : done.error().Text()));
+    }
+  }
+
+  void FlushLog() {
+    const auto batch = conductor_.log().Take(NowNs());
+    if (!batch) return;
+    log_->Say(*batch);
+    for (const lockstep::Remark& remark : batch->remarks) triggers_->Say(remark);
   }
 
   // Two clocks that began at the same moment: the one with the larger number is the one too many.
@@ -144,25 +181,28 @@ class ClockProcess {
         if (auto fault = watchdog_.Check(NowNs() / 1'000'000)) return Abort(fault->reason, 1);
         if (const int signals = g_signals; signals > 0) {
           if (signals > 2 || clock_.grant().through < 0) return Abort("stopped by a signal", 1);
-          clock_.Stop();
+          conductor_.Stop(Now());
         }
       }
       if (!told_ready && clock_.all_ready()) {
         told_ready = true;
-        first_grant_ns_ = std::max<std::int64_t>(NowNs(), 1);
         Say("ready");
       }
       const lockstep::Grant before = clock_.grant();
-      const lockstep::Step limit = told_ready ? pacer_.Limit(NowNs(), clock_.window_limit()) : -1;
-      const lockstep::Grant grant = clock_.Update(limit);
+      DoCommands();
+      if (clock_.grant().abort) return Abort(clock_.grant().reason, 1);
+      const lockstep::Grant grant = conductor_.Move(Now());
       if (grant.through != before.through || grant.final != before.final || now - said >= 10ms) {
         said = now;
         SayGrant(grant);
         ShowProgress(now);
       }
+      if (grant.final && clock_.all_sources_finished()) conductor_.CloseLog(Now());
+      FlushLog();
       Wait();
     }
     lockstep::Grant last = clock_.grant();
+    triggers_->SayEnd(last.through, Now().utc_ns, "ok");
     SayNodes();
     last.over = true;
     for (int i = 0; i < 10; ++i) {  // until everybody has heard it; who has gone already does not matter
@@ -174,9 +214,9 @@ class ClockProcess {
 
   void Wait() {
     std::unique_lock lock(mutex_);
-    const auto due = std::chrono::nanoseconds(clock_.all_ready() && !clock_.grant().final ? pacer_.NextDueIn(NowNs()) : 0);
+    const auto due = std::chrono::nanoseconds(conductor_.NextDueIn(Now()));
     const std::chrono::nanoseconds limit = due > 0ns ? std::min<std::chrono::nanoseconds>(due, 10ms) : 10ms;
-    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || !told_.empty(); });
+    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || !told_.empty() || !asked_.empty(); });
   }
 
   void TakeReports() {
@@ -217,10 +257,11 @@ class ClockProcess {
   void ShowProgress(WallClock::time_point now) {
     if (now - shown_ < 200ms) return;
     shown_ = now;
-    if (first_grant_ns_ == 0) {
+    if (!conductor_.begun()) {
       Say("waiting for {}", fmt::join(clock_.Missing(lockstep::Phase::kReady), ", "));
     } else {
-      Say("progress step={} wall_s={:.3f}", clock_.slowest_progress(), RunSeconds());
+      Say("progress step={} wall_s={:.3f} pace={:g} paused={}", clock_.slowest_progress(), RunSeconds(), conductor_.pacer().pace(),
+          conductor_.pacer().paused() ? 1 : 0);
     }
   }
 
@@ -235,7 +276,9 @@ class ClockProcess {
 
   // Time stops everywhere; sinks get a moment to close their files.
   int Abort(const std::string& reason, int status) {
-    clock_.Abort(reason);
+    conductor_.Abort(reason, Now());
+    FlushLog();
+    triggers_->SayEnd(clock_.slowest_progress() - 1, Now().utc_ns, clock_.grant().reason);
     Say("fault {}", OneLine(reason));
     for (int i = 0; i < 100 && !AllButTheDeadHaveFinished(); ++i) {
       SayGrant(clock_.grant());
@@ -243,9 +286,16 @@ class ClockProcess {
       TakeReports();
     }
     SayNodes();
-    Say("end aborted last_step={} wall_s={:.6f} digest={} slipped_s={:.6f}", clock_.slowest_progress() - 1, RunSeconds(), base::Hex(0),
-        static_cast<double>(pacer_.slipped_ns()) * 1e-9);
+    SayEnd("aborted", clock_.slowest_progress() - 1, 0);
     return status;
+  }
+  void SayEnd(std::string_view how, lockstep::Step last, base::Digest digest) {
+    const lockstep::Pacer& pacer = conductor_.pacer();
+    const lockstep::Lateness& late = pacer.lateness();
+    const auto seconds = [](auto ns) { return static_cast<double>(ns) * 1e-9; };
+    Say("end {} last_step={} wall_s={:.6f} digest={} slipped_s={:.6f} paused_s={:.6f} paced_steps={} late_steps={} late_mean_s={:.9f} late_worst_s={:.9f}",
+        how, last, RunSeconds(), base::Hex(digest), seconds(pacer.slipped_ns()), seconds(pacer.PausedNs(NowNs())), late.steps, late.late,
+        seconds(late.mean_ns()), seconds(late.worst_ns));
   }
   bool AllButTheDeadHaveFinished() const {
     for (lockstep::NodeIndex n = 0; n < roster_.nodes().size(); ++n) {
@@ -258,7 +308,7 @@ class ClockProcess {
   const lockstep::Roster& roster_;
   const ProcessOptions& options_;
   lockstep::Clock clock_;
-  lockstep::Pacer pacer_;
+  lockstep::Conductor conductor_;
   lockstep::Watchdog watchdog_;
   Hello own_;
   std::uint64_t clock_id_ = 0;
@@ -266,14 +316,16 @@ class ClockProcess {
   std::atomic<std::uint64_t> other_clock_ = 0;
   WallClock::time_point start_ = WallClock::now();
   WallClock::time_point shown_{};
-  std::int64_t first_grant_ns_ = 0;
   std::string refusal_;
   std::mutex mutex_;
   std::condition_variable woken_;
   std::deque<base::Bytes> inbox_;
   std::string told_;
+  std::deque<std::string> asked_;
   std::unique_ptr<Participant> participant_;  // outlives its endpoints
   std::unique_ptr<Writer> grants_;
+  std::unique_ptr<LogSpeaker> log_;
+  std::optional<Triggers> triggers_;
   std::unique_ptr<Reader> others_;
   std::unique_ptr<Reader> reports_;
 };
