@@ -35,6 +35,19 @@ std::pair<std::string, std::string> KeyValue(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+// False, after a sentence, where one of them is none.
+bool TakePairs(const char* option, const std::vector<std::string>& texts, std::vector<std::pair<std::string, std::string>>& out) {
+  for (const std::string& text : texts) {
+    const auto pair = KeyValue(text);
+    if (pair.first.empty()) {
+      std::cerr << "rodeira: " << option << " " << text << ": KEY=VALUE was expected\n";
+      return false;
+    }
+    out.push_back(pair);
+  }
+  return true;
+}
+
 void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) {
   CLI::App* run = app.add_subcommand("run", "drive: start every process of a launch file");
   run->add_option("LAUNCH.yaml", options.launch_file, "launch file")->required();
@@ -86,11 +99,14 @@ void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
   joysticks->callback([&options] { options.asked = true; });
 }
 
-CLI::App* AddReplay(CLI::App& app, ReplayOptions& options) {
+CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::string>& changes) {
   CLI::App* replay = app.add_subcommand("replay", "run a recording again");
   replay->add_option("FILE.mcap", options.file, "recording")->required();
   replay->add_flag("--verify", options.verify, "compute everything again and compare every sample and state");
   replay->add_option("--from", options.from_s, "simulated seconds at which to begin")->check(CLI::NonNegativeNumber);
+  replay->add_option("--branch", changes, "KEY=VALUE: go on from --from with another value of the launch file");
+  replay->add_option("--for", options.for_s, "simulated seconds of the branch")->check(Positive);
+  replay->add_option("--record", options.record, "recording of the branch (MCAP)");
   replay->add_flag("--quiet", options.quiet, "no progress");
   return replay;
 }
@@ -116,7 +132,8 @@ int Main(int argc, char** argv) {
   CLI::App* info = app.add_subcommand("info", "what a recording holds");
   info->add_option("FILE.mcap", info_file, "recording")->required();
   ReplayOptions replay_options;
-  CLI::App* replay = AddReplay(app, replay_options);
+  std::vector<std::string> changes;
+  CLI::App* replay = AddReplay(app, replay_options, changes);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -126,15 +143,8 @@ int Main(int argc, char** argv) {
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);
   if (info->parsed()) return Info(info_file);
+  if (!TakePairs("--set", sets, run.overrides) || !TakePairs("--branch", changes, replay_options.changes)) return 2;
   if (replay->parsed()) return Replay(replay_options);
-  for (const std::string& set : sets) {
-    const auto pair = KeyValue(set);
-    if (pair.first.empty()) {
-      std::cerr << "rodeira: --set " << set << ": KEY=VALUE was expected\n";
-      return 2;
-    }
-    run.overrides.push_back(pair);
-  }
   return Run(run);
 }
 
