@@ -9,6 +9,7 @@
 #include "common/base/suggest.hpp"
 #include "launch/doctor.hpp"
 #include "launch/info_command.hpp"
+#include "launch/mechanism_command.hpp"
 #include "launch/run_command.hpp"
 #include "launch/world_command.hpp"
 
@@ -77,6 +78,19 @@ void AddDoctor(CLI::App& app, DoctorOptions& options) {
   doctor->callback([&options] { options.asked = true; });
 }
 
+void AddMechanism(CLI::App& app, MechanismOptions& options) {
+  CLI::App* mechanism = app.add_subcommand("mechanism", "multibody mechanisms, alone");
+  mechanism->require_subcommand(1);
+  CLI::App* run = mechanism->add_subcommand("run", "simulate a mechanism file");
+  run->add_option("MECHANISM.yaml", options.file, "mechanism file")->required();
+  run->add_option("--until", options.until_s, "simulated seconds")->required()->check(Positive);
+  run->add_option("--step", options.step_s, "step in seconds")->required()->check(Positive);
+  run->add_option("--csv", options.csv, "write the outputs of every step into this file");
+  run->add_option("--svg", options.svg, "draw the outputs over time into this file");
+  run->add_flag("--quiet", options.quiet, "no progress, no table");
+  run->callback([&options] { options.asked = true; });
+}
+
 }  // namespace
 
 int Main(int argc, char** argv) {
@@ -90,6 +104,8 @@ int Main(int argc, char** argv) {
   AddRun(app, run, sets);
   WorldOptions world;
   AddWorld(app, world);
+  MechanismOptions mechanism;
+  AddMechanism(app, mechanism);
   DoctorOptions doctor;
   AddDoctor(app, doctor);
   std::string info_file;
@@ -101,6 +117,7 @@ int Main(int argc, char** argv) {
     return app.exit(problem) == 0 ? 0 : 2;
   }
   if (!world.command.empty()) return World(world);
+  if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (info->parsed()) return Info(info_file);
   for (const std::string& set : sets) {
