@@ -12,7 +12,10 @@ endif()
 
 # The same bits on every machine (law L7): no contraction, no value-changing optimisation, no -march.
 add_compile_options(-ffp-contract=off -fno-fast-math)
-if(RODEIRA_SANITIZE)
+if(RODEIRA_SANITIZE STREQUAL "thread")
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=thread)
+elseif(RODEIRA_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=address,undefined)
 endif()

@@ -12,12 +12,15 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kVehicleState, "rodeira::msg::VehicleState", "vehicle", true},
       {topics::kTrafficState, "rodeira::msg::TrafficState", "traffic", true},
       {topics::kScenarioEvents, "rodeira::msg::ScenarioEvents", "scenario", true},
+      {topics::kSnapshot, "rodeira::msg::Snapshot", "snapshot", true},
       {topics::kPulse, "rodeira::msg::Pulse", "pulse", true},
       {topics::kGrant, "rodeira::msg::Grant", "clock", false},
+      {topics::kAsk, "rodeira::msg::Ask", "clock", false},
       {topics::kReport, "rodeira::msg::Report", "clock", false},
       {topics::kGroundRequest, "rodeira::msg::GroundRequest", "ground", false},
       {topics::kGroundReply, "rodeira::msg::GroundReply", "ground", false},
       {topics::kWorldInfo, "rodeira::msg::WorldInfo", "world", false},
+      {topics::kLiveKeys, "rodeira::msg::LiveKeys", "live", false},
   };
   return kTopics;
 }

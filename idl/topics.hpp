@@ -15,11 +15,14 @@ inline constexpr std::string_view kVehicleState = "rodeira/vehicle_state";
 inline constexpr std::string_view kTrafficState = "rodeira/traffic_state";
 inline constexpr std::string_view kScenarioEvents = "rodeira/scenario_events";
 inline constexpr std::string_view kPulse = "rodeira/pulse";
+inline constexpr std::string_view kSnapshot = "rodeira/snapshot";
 inline constexpr std::string_view kGrant = "rodeira/grant";
+inline constexpr std::string_view kAsk = "rodeira/ask";
 inline constexpr std::string_view kReport = "rodeira/report";
 inline constexpr std::string_view kGroundRequest = "rodeira/ground_request";
 inline constexpr std::string_view kGroundReply = "rodeira/ground_reply";
 inline constexpr std::string_view kWorldInfo = "rodeira/world_info";
+inline constexpr std::string_view kLiveKeys = "rodeira/live_keys";
 }  // namespace topics
 
 struct TopicInfo {

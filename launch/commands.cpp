@@ -9,7 +9,9 @@
 #include "common/base/suggest.hpp"
 #include "launch/doctor.hpp"
 #include "launch/info_command.hpp"
+#include "launch/joysticks_command.hpp"
 #include "launch/mechanism_command.hpp"
+#include "launch/replay_command.hpp"
 #include "launch/run_command.hpp"
 #include "launch/world_command.hpp"
 
@@ -38,7 +40,7 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   CLI::App* run = app.add_subcommand("run", "drive: start every process of a launch file");
   run->add_option("LAUNCH.yaml", options.launch_file, "launch file")->required();
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
-  run->add_option("--pace", options.pace, "max, real or a factor of real time")->capture_default_str();
+  run->add_option("--pace", options.pace, "max, real or a factor of real time; otherwise the launch file's, or max");
   run->add_option("--record", options.record, "recording (MCAP)");
   run->add_option("--seed", options.seed, "seed of everything that is drawn");
   run->add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file");
@@ -91,6 +93,22 @@ void AddMechanism(CLI::App& app, MechanismOptions& options) {
   run->callback([&options] { options.asked = true; });
 }
 
+void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
+  CLI::App* joysticks = app.add_subcommand("joysticks", "wheels and joysticks that are plugged in, with their GUIDs");
+  CLI::Option* watch = joysticks->add_flag("--watch", options.watch, "say which axis and button moves");
+  joysticks->add_option("--for", options.duration_s, "seconds of watching")->check(Positive)->needs(watch);
+  joysticks->callback([&options] { options.asked = true; });
+}
+
+CLI::App* AddReplay(CLI::App& app, ReplayOptions& options) {
+  CLI::App* replay = app.add_subcommand("replay", "run a recording again");
+  replay->add_option("FILE.mcap", options.file, "recording")->required();
+  replay->add_flag("--verify", options.verify, "compute everything again and compare every sample and state");
+  replay->add_option("--from", options.from_s, "simulated seconds at which to begin")->check(CLI::NonNegativeNumber);
+  replay->add_flag("--quiet", options.quiet, "no progress");
+  return replay;
+}
+
 }  // namespace
 
 int Main(int argc, char** argv) {
@@ -108,9 +126,13 @@ int Main(int argc, char** argv) {
   AddMechanism(app, mechanism);
   DoctorOptions doctor;
   AddDoctor(app, doctor);
+  JoysticksOptions joysticks;
+  AddJoysticks(app, joysticks);
   std::string info_file;
   CLI::App* info = app.add_subcommand("info", "what a recording holds");
   info->add_option("FILE.mcap", info_file, "recording")->required();
+  ReplayOptions replay_options;
+  CLI::App* replay = AddReplay(app, replay_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -119,7 +141,9 @@ int Main(int argc, char** argv) {
   if (!world.command.empty()) return World(world);
   if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
+  if (joysticks.asked) return ListJoysticks(joysticks);
   if (info->parsed()) return Info(info_file);
+  if (replay->parsed()) return Replay(replay_options);
   for (const std::string& set : sets) {
     const auto pair = KeyValue(set);
     if (pair.first.empty()) {

@@ -15,6 +15,7 @@
 #include "launch/doctor_gl.hpp"
 #include "launch/doctor_machine.hpp"
 #include "launch/doctor_network.hpp"
+#include "launch/joysticks_command.hpp"
 #include "launch/processes.hpp"
 #include "launch/recording_folder.hpp"
 #include "launch/shared_memory.hpp"
@@ -26,6 +27,13 @@ std::atomic<bool> g_interrupted = false;
 void OnInterrupt(int) { g_interrupted = true; }
 
 using Check = std::function<Finding()>;
+
+Finding LookForJoysticks() {
+  auto joysticks = nodes::Joysticks::Start();
+  if (!joysticks) return Warning("joysticks", joysticks.error().Text() + "; a run without `source: joystick` needs none");
+  joysticks.value()->Update();
+  return CheckJoysticks(joysticks.value()->Connected());
+}
 
 // Drawing comes before DDS: it forks, which wants a process without threads.
 std::vector<Check> Checks(const DoctorOptions& options, launch::Transport transport) {
@@ -40,6 +48,7 @@ std::vector<Check> Checks(const DoctorOptions& options, launch::Transport transp
       [] { return CheckMathematics(base::MathematicsFixed(), base::MathematicsDigest()); },
       [] { return CheckGl(); },
       [] { return CheckDisplay(DisplayPlace::OfThisProcess()); },
+      [] { return LookForJoysticks(); },
       [] { return CheckSharedMemory(); },
       [domain = options.domain] { return CheckPorts(domain); },
       [loop_back] { return CheckLoopBack(loop_back); },

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/dds/options.hpp"
+#include "common/launch/pace.hpp"
 #include "common/lockstep/in_process.hpp"
 #include "launch/local_nodes.hpp"
 #include "launch/run_report.hpp"
@@ -48,7 +48,7 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   lockstep::InProcessSettings settings;
   const auto seconds = options.duration_s ? options.duration_s : launch.duration_s();
   if (seconds) settings.last_step = static_cast<lockstep::Step>(std::llround(*seconds * 1e9 / static_cast<double>(roster.base_step_ns())));
-  settings.pace = dds::ParsePace(options.pace).value();
+  settings.pace = launch::ParsePace(options.pace).value();
   settings.stop_requested = [] { return g_interrupted.load(); };
   ::signal(SIGINT, OnInterrupt);
   ::signal(SIGTERM, OnInterrupt);

@@ -10,8 +10,8 @@ namespace {
 
 class LocalContext final : public launch::NodeContext {
  public:
-  LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world)
-      : NodeContext(launch, index), world_(std::move(world)) {
+  LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world, launch::LiveKeysBoard& keys)
+      : NodeContext(launch, index), world_(std::move(world)), keys_(keys) {
     if (world_ != nullptr) ground_ = world_->MakeGround();
   }
   terrain::Ground& Ground() override {
@@ -22,10 +22,13 @@ class LocalContext final : public launch::NodeContext {
     if (world_ == nullptr) return base::WrongInput("the launch file has no node of kind 'road'", launch().path().string());
     return nodes::Summary(*world_);
   }
+  std::unique_ptr<launch::LiveKeysSender> KeysSender() override { return keys_.MakeSender(); }
+  std::unique_ptr<launch::LiveKeysReceiver> KeysReceiver() override { return keys_.MakeReceiver(); }
 
  private:
   std::shared_ptr<const road::World> world_;
   std::unique_ptr<terrain::Ground> ground_;
+  launch::LiveKeysBoard& keys_;
 };
 
 // The world of the run, where a road server would load it.
@@ -43,15 +46,20 @@ base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch&
 LocalNodes::LocalNodes(LocalNodes&&) noexcept = default;
 LocalNodes::~LocalNodes() = default;
 
-base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch) {
+base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const StandIn& stand_in) {
   const auto& roster = launch.roster();
   auto world = LoadWorld(launch);
   if (!world) return world.error();
   LocalNodes made;
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    made.contexts_.push_back(std::make_unique<LocalContext>(launch, n, world.value()));
+    made.contexts_.push_back(std::make_unique<LocalContext>(launch, n, world.value(), *made.keys_));
     made.nodes_.push_back(nullptr);
     if (roster.node(n).role == lockstep::Role::kService) continue;
+    if (auto other = stand_in ? stand_in(n) : nullptr) {
+      made.owned_.push_back(std::move(other));
+      made.nodes_.back() = made.owned_.back().get();
+      continue;
+    }
     const launch::NodeFactory factory = FactoryOf(roster.node(n).kind);
     if (factory == nullptr) return base::WrongInput(fmt::format("nodes of kind '{}' do not run in one process", roster.node(n).kind), fmt::format("node '{}'", roster.node(n).name));
     auto node = factory(*made.contexts_.back());

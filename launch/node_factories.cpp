@@ -3,6 +3,7 @@
 #include "nodes/empty/empty_node.hpp"
 #include "nodes/input/input_node.hpp"
 #include "nodes/recorder/recorder_node.hpp"
+#include "nodes/scenario/scenario_node.hpp"
 #include "nodes/traffic/traffic_node.hpp"
 #include "nodes/vehicle/vehicle_node.hpp"
 #include "nodes/view/view_node.hpp"
@@ -13,6 +14,7 @@ launch::NodeFactory FactoryOf(std::string_view kind) {
   if (kind == "empty") return nodes::MakeEmptyNode;
   if (kind == "input") return nodes::MakeInputNode;
   if (kind == "recorder") return nodes::MakeRecorderNode;
+  if (kind == "scenario") return nodes::MakeScenarioNode;
   if (kind == "traffic") return nodes::MakeTrafficNode;
   if (kind == "vehicle") return nodes::MakeVehicleNode;
   if (kind == "view") return nodes::MakeViewNode;

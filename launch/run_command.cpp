@@ -13,10 +13,11 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <random>
 #include <thread>
 
-#include "common/dds/options.hpp"
+#include "common/launch/pace.hpp"
 #include "launch/in_process_command.hpp"
 #include "launch/processes.hpp"
 #include "launch/recording_folder.hpp"
@@ -123,6 +124,7 @@ class ProcessRun {
         if (&child != &clock && Broken(child)) TellClock(fmt::format("node '{}' {} at about step {}", child.name(), child.Fate(), report_.step));
       }
       const int interrupts = g_interrupts;
+      if (interrupts > 0 && !interrupted_at_) interrupted_at_ = WallClock::now();
       for (; passed_on_ < interrupts; ++passed_on_) clock.Signal(SIGINT);
       ShowProgress();
     }
@@ -169,7 +171,7 @@ class ProcessRun {
     return true;
   }
 
-  // Everybody goes: by themselves within two seconds, or by force.
+  // Everybody goes: by themselves, or by force before two seconds have passed since Ctrl-C.
   void EndAll() {
     const bool orderly = report_.ended;
     for (Child& child : children_) {
@@ -177,7 +179,8 @@ class ProcessRun {
       if (!orderly) child.Signal(SIGTERM);
       if (child.stopped() || (!orderly && &child == &children_.front())) child.Signal(SIGKILL);
     }
-    const auto until = WallClock::now() + 1500ms;
+    auto until = WallClock::now() + 1500ms;
+    if (interrupted_at_) until = std::min(until, *interrupted_at_ + 1700ms);
     while (WallClock::now() < until && std::any_of(children_.begin(), children_.end(), [](const Child& child) { return !child.ended(); })) {
       std::this_thread::sleep_for(5ms);
       for (Child& child : children_) child.Poll();
@@ -233,6 +236,7 @@ class ProcessRun {
   std::string fault_;
   std::string pending_;
   int passed_on_ = 0;
+  std::optional<WallClock::time_point> interrupted_at_;
   bool told_ = false;
   bool shown_ = false;
   WallClock::time_point start_ = WallClock::now();
@@ -271,7 +275,7 @@ base::Status ResolveRecording(const launch::Launch& launch, RunOptions& options,
 }  // namespace
 
 int Run(const RunOptions& options) {
-  if (const auto pace = dds::ParsePace(options.pace); !pace) return Complain(pace.error());
+  if (const auto pace = launch::ParsePace(options.pace.empty() ? "max" : options.pace); !pace) return Complain(pace.error());
   launch::Overrides overrides = options.overrides;
   if (options.seed) overrides.emplace_back("seed", std::to_string(*options.seed));
   RunOptions resolved = options;
@@ -286,6 +290,7 @@ int Run(const RunOptions& options) {
     launch = launch::Launch::Load(options.launch_file, overrides);
   }
   if (!launch) return Complain(launch.error());
+  if (resolved.pace.empty()) resolved.pace = launch.value().pace().empty() ? "max" : launch.value().pace();
   if (options.in_process) return RunInProcess(resolved, launch.value());
   return ProcessRun(resolved, launch.value(), std::move(overrides)).Run();
 }

@@ -13,7 +13,7 @@ namespace rodeira::front {
 struct RunOptions {
   std::string launch_file;
   std::optional<double> duration_s;
-  std::string pace = "max";
+  std::string pace;  // empty: as the launch file says, otherwise as fast as it can
   std::string record;       // empty: as the launch file says
   std::optional<std::uint64_t> seed;
   launch::Overrides overrides;

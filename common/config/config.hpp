@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -58,6 +59,9 @@ class Map {
   List OptionalItems(std::string_view key) const;
   // Marks a key as known without looking into it: somebody else reads what stands there.
   void LeaveToOthers(std::string_view key) const;
+  // The text at the end of a way of keys, without asking for it: it is somebody else's, who says what is wrong with it.
+  // Nothing where there is none.
+  std::optional<std::string> Peek(std::initializer_list<std::string_view> way) const;
   // All keys in the file's order, for mappings whose keys are names (nodes, materials). Marks them as known.
   std::vector<std::string> Keys() const;
 
@@ -72,6 +76,7 @@ class Map {
   friend class List;
   Map(std::shared_ptr<detail::Context> context, std::shared_ptr<detail::YamlNode> node, std::string path);
 
+  void Missing(std::string_view key, std::string_view expected) const;
   template <class T>
   std::optional<T> Scalar(std::string_view key, bool required, std::string_view expected) const;
   std::optional<double> Checked(std::string_view key, std::optional<double> value, Range range) const;
@@ -113,10 +118,13 @@ class File {
   base::Status Override(std::string_view key, std::string_view value);
 
   Map root() const;
-  // All problems so far and every key that nobody asked for, in the order of lines.
+  // All problems so far and every key that nobody asked for, in the order of lines. A key that is missing because it is
+  // misspelt, or stands there in another unit, is told of once.
   std::vector<base::Error> Problems() const;
   // The first of them, or ok.
   base::Status Finish() const;
+  // Every scalar value of the file as it is now, overrides included, in the file's order: where paths may stand.
+  std::vector<std::string> Scalars() const;
   const std::string& text() const;
   const std::filesystem::path& path() const;
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <set>
 #include <utility>
@@ -32,7 +33,7 @@ namespace topics = idl::topics;
 using WallClock = std::chrono::steady_clock;
 
 NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings)
-    : roster_(roster), mailbox_(mailbox), settings_(settings) {
+    : roster_(roster), mailbox_(mailbox), settings_(settings), kept_(roster, settings.node) {
   last_.node = settings.node;
   last_.incarnation = settings.incarnation;
 }
@@ -62,17 +63,23 @@ base::Status NodeBus::Connect(Participant& participant) {
     readers_.push_back(std::move(reader).value());
     return {};
   };
-  for (const lockstep::SourceIndex output : roster_.node(settings_.node).outputs) {
-    auto writer = participant.MakeWriter(roster_.source(output).topic, Delivery::kEverySample);
+  outputs_ = roster_.node(settings_.node).outputs;
+  if (const auto& snapshots = roster_.node(settings_.node).snapshots) outputs_.push_back(*snapshots);
+  for (const lockstep::SourceIndex output : outputs_) {
+    auto writer = participant.MakeWriter(roster_.source(output).topic, Delivery::kSaidAgain);
     if (!writer) return writer.error();
     writers_.push_back(std::move(writer).value());
-    met_.push_back(false);
-    consumers_.push_back(roster_.Consumers(output));
   }
   for (const lockstep::Port& port : roster_.node(settings_.node).inputs) {
     const std::string_view topic = port.topic;
-    if (auto status = add_reader(topic, Delivery::kEverySample, [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); }); !status) return status;
+    if (auto status = add_reader(topic, Delivery::kSaidAgain, [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); }); !status) return status;
   }
+  if (!writers_.empty()) {
+    if (auto status = add_reader(topics::kAsk, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); }); !status) return status;
+  }
+  auto questions = participant.MakeWriter(topics::kAsk, Delivery::kSaidAgain);
+  if (!questions) return questions.error();
+  questions_ = std::move(questions).value();
   auto reports = participant.MakeWriter(topics::kReport, Delivery::kSaidAgain);
   if (!reports) return reports.error();
   reports_ = std::move(reports).value();
@@ -80,15 +87,32 @@ base::Status NodeBus::Connect(Participant& participant) {
 }
 
 base::Status NodeBus::Publish(const lockstep::Sample& sample) {
-  const auto& outputs = roster_.node(settings_.node).outputs;
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    if (outputs[i] != sample.source()) continue;
-    // Nothing is said before everybody who must hear it is known (decisions/0005); the runner says it again.
-    if (!met_[i] && writers_[i]->matched() < consumers_[i]) return {};
-    met_[i] = true;
-    return writers_[i]->Write(*sample.payload);
+  {
+    const std::lock_guard lock(kept_mutex_);
+    kept_.Add(sample);
   }
-  RODEIRA_ASSERT(!"a node publishes for another");
+  return Say(sample);
+}
+
+base::Status NodeBus::Say(const lockstep::Sample& sample) {
+  const auto output = std::find(outputs_.begin(), outputs_.end(), sample.source());
+  RODEIRA_ASSERT(output != outputs_.end());
+  return writers_[static_cast<std::size_t>(output - outputs_.begin())]->Write(*sample.payload);
+}
+
+void NodeBus::Ask(const lockstep::Gap& gap) {
+  (void)questions_->Write(EncodeAsk(roster_.hash(), gap));  // a lost question is put again by the runner
+}
+
+void NodeBus::OnAsk(const base::Bytes& payload) {
+  const auto gap = DecodeAsk(roster_.hash(), payload);
+  if (!gap) return;
+  std::vector<lockstep::Sample> again;
+  {
+    const std::lock_guard lock(kept_mutex_);
+    again = kept_.From(*gap);
+  }
+  for (const lockstep::Sample& sample : again) (void)Say(sample);
 }
 
 void NodeBus::Tell(const lockstep::Report& report) {
@@ -140,6 +164,10 @@ void NodeBus::OnGrant(base::Bytes&& payload) {
     if (grant.value().grant.abort && fault_.empty()) fault_ = grant.value().grant.reason;
   }
   mailbox_.DeliverGrant(grant.value().grant);
+  {
+    const std::lock_guard lock(kept_mutex_);
+    kept_.Granted(grant.value().grant.through);
+  }
   if (grant.value().grant.over || grant.value().grant.abort) woken_.notify_all();
 }
 

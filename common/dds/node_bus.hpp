@@ -13,6 +13,7 @@
 #include "common/dds/participant.hpp"
 #include "common/dds/wire.hpp"
 #include "common/lockstep/bus.hpp"
+#include "common/lockstep/kept_samples.hpp"
 #include "common/lockstep/mailbox.hpp"
 #include "common/lockstep/runner.hpp"
 
@@ -33,6 +34,7 @@ class NodeBus final : public lockstep::Bus {
   ~NodeBus() override;
 
   base::Status Publish(const lockstep::Sample& sample) override;
+  void Ask(const lockstep::Gap& gap) override;
   void Tell(const lockstep::Report& report) override;
 
   // From then on heartbeats carry the runner's report; before, "starting". Null before the runner goes.
@@ -49,8 +51,10 @@ class NodeBus final : public lockstep::Bus {
  private:
   NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings);
   base::Status Connect(Participant& participant);
+  base::Status Say(const lockstep::Sample& sample);
   void OnSample(std::string_view topic, base::Bytes&& payload);
   void OnGrant(base::Bytes&& payload);
+  void OnAsk(const base::Bytes& payload);
   void Abort(std::string reason);
   void Heartbeat();
   std::uint64_t clock_id() const;  // 0 before the clock was heard
@@ -58,11 +62,14 @@ class NodeBus final : public lockstep::Bus {
   const lockstep::Roster& roster_;
   lockstep::Mailbox& mailbox_;
   Settings settings_;
-  std::vector<std::unique_ptr<Writer>> writers_;  // one for each output, in the roster's order
-  std::vector<int> consumers_;                    // of each output
-  std::vector<bool> met_;                         // all of them were known once
+  std::vector<lockstep::SourceIndex> outputs_;    // with the snapshots
+  std::vector<std::unique_ptr<Writer>> writers_;  // one for each of them
+  std::unique_ptr<Writer> questions_;
   std::unique_ptr<Writer> reports_;
   std::vector<std::unique_ptr<Reader>> readers_;
+
+  std::mutex kept_mutex_;
+  lockstep::KeptSamples kept_;
 
   mutable std::mutex mutex_;
   std::condition_variable woken_;

@@ -1,10 +1,11 @@
 #include "common/dds/options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+
+#include "common/launch/pace.hpp"
 
 namespace rodeira::dds {
 namespace {
@@ -19,17 +20,6 @@ const CLI::Validator Positive(
     "SECONDS");
 
 }  // namespace
-
-base::Result<double> ParsePace(const std::string& text) {
-  if (text == "max") return 0.0;
-  if (text == "real") return 1.0;
-  double pace = 0.0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), pace);
-  if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(pace) || pace <= 0.0) {
-    return base::WrongInput("'" + text + "' was found; max, real or a positive number was expected", "--pace");
-  }
-  return pace;
-}
 
 ParsedOptions ParseOptions(const std::string& program, bool is_clock, int argc, char** argv) {
   ParsedOptions parsed;
@@ -66,7 +56,7 @@ ParsedOptions ParseOptions(const std::string& program, bool is_clock, int argc, 
     }
     options.overrides.emplace_back(set.substr(0, equals), set.substr(equals + 1));
   }
-  const auto factor = ParsePace(pace);
+  const auto factor = launch::ParsePace(pace);
   if (!factor) {
     std::cerr << program << ": " << factor.error().Text() << "\n";
     parsed.leave_with = 2;

@@ -32,9 +32,6 @@ struct ParsedOptions {
 };
 ParsedOptions ParseOptions(const std::string& program, bool is_clock, int argc, char** argv);
 
-// "max" is 0, "real" is 1, otherwise a positive number.
-base::Result<double> ParsePace(const std::string& text);
-
 DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& launch, const std::string& name);
 
 }  // namespace rodeira::dds

@@ -69,12 +69,8 @@ class FastWriter final : public Writer {
   base::Status Write(const base::Bytes& payload) override {
     RawSample sample;
     sample.to_send = &payload;
-    if (!writer_->write(&sample)) return base::Failed("a sample could not be written within ten seconds: a reader takes nothing any more", "topic " + topic_);
+    if (!writer_->write(&sample)) return base::Failed("Fast DDS does not take a sample", "topic " + topic_);
     return {};
-  }
-  int matched() const override {
-    fdds::PublicationMatchedStatus status;
-    return writer_->get_publication_matched_status(status) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK ? status.current_count : 0;
   }
 
  private:
@@ -123,7 +119,6 @@ class FastParticipant final : public Participant {
     Common(qos, delivery);
     qos.durability().kind = delivery == Delivery::kForLateComers ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
     qos.reliability().kind = delivery == Delivery::kSaidAgain ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
-    qos.reliability().max_blocking_time = Duration_t{10, 0};
     auto& times = qos.reliable_writer_qos().times;
     times.initialHeartbeatDelay = Duration_t{0, 0};
     times.heartbeatPeriod = Duration_t{0, 3u * kMilli};
@@ -153,12 +148,11 @@ class FastParticipant final : public Participant {
  private:
   template <class Qos>
   static void Common(Qos& qos, Delivery delivery) {
-    const bool every = delivery == Delivery::kEverySample;
-    qos.history().kind = every ? fdds::KEEP_ALL_HISTORY_QOS : fdds::KEEP_LAST_HISTORY_QOS;
-    qos.history().depth = every || delivery == Delivery::kForLateComers ? 1 : 64;  // of all writers together: the types have no keys
-    qos.resource_limits().max_samples = every ? 200'000 : 1000;
+    qos.history().kind = fdds::KEEP_LAST_HISTORY_QOS;
+    qos.history().depth = delivery == Delivery::kForLateComers ? 1 : 256;  // of all writers together: the types have no keys
+    qos.resource_limits().max_samples = 1000;
     qos.resource_limits().max_instances = 1;
-    qos.resource_limits().max_samples_per_instance = every ? 200'000 : 1000;
+    qos.resource_limits().max_samples_per_instance = 1000;
     qos.resource_limits().allocated_samples = 64;
     qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
     qos.data_sharing().off();

@@ -14,8 +14,7 @@ namespace rodeira::dds {
 
 // How a topic's samples are kept and handed over (docs/architecture.md says why).
 enum class Delivery {
-  kEverySample,    // reliable, keep all, volatile: samples of the lockstep
-  kSaidAgain,      // best effort: what its sender repeats anyway (grants, reports, questions and their answers)
+  kSaidAgain,      // best effort: what is repeated where it is missed (samples, grants, reports, questions and answers)
   kForLateComers,  // reliable, transient local, the newest: world information
   kObserve,      // best effort: whoever only looks on, and never slows a run (law L5)
 };
@@ -30,10 +29,8 @@ struct DomainSettings {
 class Writer {
  public:
   virtual ~Writer() = default;
-  // Blocks where the history is full; Failed where it stays so for ten seconds.
+  // Failed where the library takes no more.
   virtual base::Status Write(const base::Bytes& payload) = 0;
-  // Readers that this writer knows of. They may not know it yet: no promise, but see decisions/0005.
-  virtual int matched() const = 0;
 };
 
 class Reader {

@@ -9,7 +9,9 @@
 #include "common/dds/node_bus.hpp"
 #include "common/dds/options.hpp"
 #include "common/dds/remote_ground.hpp"
+#include "common/dds/remote_keys.hpp"
 #include "common/dds/run.hpp"
+#include "common/lockstep/pump.hpp"
 #include "common/lockstep/runner.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -53,6 +55,16 @@ class ProcessContext final : public launch::NodeContext {
     if (!summary) return base::Failed("the road server says nothing of the world");
     return *summary;
   }
+  std::unique_ptr<launch::LiveKeysSender> KeysSender() override {
+    auto sender = OpenKeysSender(participant_);
+    RODEIRA_ASSERT(sender.ok());  // fails only where Fast DDS has no memory left
+    return std::move(sender).value();
+  }
+  std::unique_ptr<launch::LiveKeysReceiver> KeysReceiver() override {
+    auto receiver = OpenKeysReceiver(participant_);
+    RODEIRA_ASSERT(receiver.ok());
+    return std::move(receiver).value();
+  }
   void Follow(lockstep::Runner* runner) {
     if (ground_ != nullptr) ground_->Follow(runner);
   }
@@ -89,7 +101,8 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
   lockstep::Runner runner(context.roster(), context.index(), *node.value(), bus, mailbox, settings);
   context.Follow(&runner);
   bus.Follow(&runner);
-  const auto outcome = runner.Run();
+  const bool brief = node.value()->is_brief();
+  const auto outcome = brief ? lockstep::RunWhereMessagesArrive(runner, mailbox, settings) : runner.Run();
   context.Follow(nullptr);
   bus.Linger(runner.report(), outcome == lockstep::Runner::Outcome::kFinished ? 3000ms : 500ms);
   return outcome == lockstep::Runner::Outcome::kFinished ? 0 : 1;

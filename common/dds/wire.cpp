@@ -127,4 +127,18 @@ base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload) {
   return out;
 }
 
+base::Bytes EncodeAsk(base::Digest roster_hash, const lockstep::Gap& gap) {
+  msg::Ask out;
+  out.roster_hash(roster_hash);
+  out.from_step(gap.from);
+  out.source(gap.source);
+  return idl::Encode(out);
+}
+
+std::optional<lockstep::Gap> DecodeAsk(base::Digest roster_hash, const base::Bytes& payload) {
+  const auto in = idl::Decode<msg::Ask>(payload);
+  if (!in || in.value().roster_hash() != roster_hash) return std::nullopt;
+  return lockstep::Gap{in.value().source(), in.value().from_step()};
+}
+
 }  // namespace rodeira::dds

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/base/bytes.hpp"
 #include "common/base/result.hpp"
+#include "common/lockstep/mailbox.hpp"
 #include "common/lockstep/report.hpp"
 #include "common/lockstep/roster.hpp"
 
@@ -42,5 +44,9 @@ struct NumberedGrant {
 
 base::Bytes EncodeGrant(const NumberedGrant& grant);
 base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload);
+
+base::Bytes EncodeAsk(base::Digest roster_hash, const lockstep::Gap& gap);
+// Nothing where it is of another roster or cannot be read: whoever asks will ask again.
+std::optional<lockstep::Gap> DecodeAsk(base::Digest roster_hash, const base::Bytes& payload);
 
 }  // namespace rodeira::dds

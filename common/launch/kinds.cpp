@@ -12,10 +12,11 @@ const std::vector<NodeKind>& NodeKinds() {
   static const std::vector<NodeKind> kKinds = {
       {"road", Role::kService, 0.0, {}, {}, "rodeira-road"},
       {"vehicle", Role::kStepped, 0.001, {topics::kVehicleState}, {{topics::kControls, PortKind::kState, false, true}}, "rodeira-vehicle"},
-      {"traffic", Role::kStepped, 0.01, {topics::kTrafficState}, {{topics::kVehicleState, PortKind::kState, true, false}}, "rodeira-traffic"},
+      {"traffic", Role::kStepped, 0.01, {topics::kTrafficState}, 
+       {{topics::kVehicleState, PortKind::kState, true, false}, {topics::kScenarioEvents, PortKind::kEvent, true, false}}, "rodeira-traffic"},
       {"input", Role::kStepped, 0.01, {topics::kControls},
        {{topics::kVehicleState, PortKind::kState, false, false}, {topics::kTrafficState, PortKind::kState, true, false}}, "rodeira-input"},
-      {"scenario", Role::kStepped, 0.01, {topics::kScenarioEvents}, {}, "rodeira-scenario"},
+      {"scenario", Role::kStepped, 0.01, {topics::kScenarioEvents}, {{topics::kVehicleState, PortKind::kState, false, false}}, "rodeira-scenario"},
       {"view", Role::kStepped, 0.02, {},
        {{topics::kVehicleState, PortKind::kEvent, true, false}, {topics::kTrafficState, PortKind::kEvent, true, false}}, "rodeira-view"},
       {"recorder", Role::kStepped, 0.05, {},
@@ -23,7 +24,8 @@ const std::vector<NodeKind>& NodeKinds() {
         {topics::kVehicleState, PortKind::kEvent, true, false},
         {topics::kTrafficState, PortKind::kEvent, true, false},
         {topics::kScenarioEvents, PortKind::kEvent, true, false},
-        {topics::kPulse, PortKind::kEvent, true, false}},
+        {topics::kPulse, PortKind::kEvent, true, false},
+        {topics::kSnapshot, PortKind::kEvent, true, false}},
        "rodeira-recorder"},
       {"empty", Role::kStepped, 0.001, {topics::kPulse}, {{topics::kPulse, PortKind::kState, true, false}}, "rodeira-empty"},
   };

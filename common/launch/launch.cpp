@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/base/suggest.hpp"
+#include "common/launch/pace.hpp"
 
 namespace rodeira::launch {
 namespace {
@@ -41,11 +44,28 @@ NodeWish ReadNode(const config::Map& map, const std::string& name, const NodeKin
   return wish;
 }
 
+// Where there is a recorder, all others but sinks publish their state, at the same steps: each `snapshot_every_s`, rounded
+// up to a common multiple of their periods.
+void SetSnapshots(const config::Map& root, std::int64_t base_step_ns, std::vector<NodeWish>& wishes) {
+  Step every = ToSteps(root, "snapshot_every_s", root.Number("snapshot_every_s", config::Range::Positive(), 1.0), base_step_ns);
+  const auto has_state = [](const NodeWish& wish) { return wish.role == lockstep::Role::kStepped && !wish.outputs.empty(); };
+  if (std::none_of(wishes.begin(), wishes.end(), [](const NodeWish& wish) { return wish.kind == "recorder"; })) return;
+  Step common = 1;
+  for (const NodeWish& wish : wishes) {
+    if (has_state(wish)) common = std::lcm(common, wish.period);
+  }
+  every = lockstep::CeilTo(every, common);
+  for (NodeWish& wish : wishes) {
+    if (has_state(wish)) wish.snapshot_every = every;
+  }
+}
+
 // Names of the other nodes that publish a topic.
 std::vector<std::string> Publishers(const std::vector<NodeWish>& wishes, std::string_view topic, const std::string& except) {
   std::vector<std::string> names;
   for (const NodeWish& wish : wishes) {
     if (wish.name == except) continue;
+    if (topic == lockstep::kSnapshotTopic && wish.snapshot_every > 0) names.push_back(wish.name);
     for (const std::string& output : wish.outputs) {
       if (output == topic) names.push_back(wish.name);
     }
@@ -96,6 +116,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
     if (auto status = file.Override(key, value); !status) return status.error();
   }
   Launch launch;
+  launch.overrides_ = overrides;
   launch.file_ = std::make_shared<config::File>(std::move(file));
   const config::Map root = launch.file_->root();
   (void)root.Choice("rodeira", {"launch/1"});
@@ -104,6 +125,10 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   launch.seed_ = static_cast<std::uint64_t>(root.Integer("seed", 0, INT64_MAX, 1));
   if (root.Has("duration_s")) launch.duration_s_ = root.Number("duration_s", config::Range::Positive());
   launch.transport_ = root.Choice("transport", {"shared_memory", "udp"}, "shared_memory") == "udp" ? Transport::kUdp : Transport::kSharedMemory;
+  launch.pace_ = root.Text("pace", "");
+  if (root.Has("pace") && !ParsePace(launch.pace_).ok()) {
+    root.Problem("pace", fmt::format("'pace' is '{}'; max, real or a positive number was expected", launch.pace_));
+  }
   const double base_step_s = root.Number("base_step_s", {1e-6, 1.0}, 0.001);
   const auto base_step_ns = static_cast<std::int64_t>(std::llround(base_step_s * 1e9));
   const Step window = root.Integer("window_steps", 1, 1'000'000, 100);
@@ -125,6 +150,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
     launch.nodes_.push_back(std::move(node));
     maps.push_back(map);
   }
+  SetSnapshots(root, base_step_ns, wishes);
   for (std::size_t n = 0; n < wishes.size(); ++n) Wire(maps[n], *launch.nodes_[n].kind, wishes, wishes[n]);
   if (auto status = launch.file_->Finish(); !status) return status.error();
   if (wishes.empty()) return base::WrongInput("'nodes' is empty; at least one node was expected", nodes.Place());

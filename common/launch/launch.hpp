@@ -39,11 +39,13 @@ class Launch {
   const std::filesystem::path& path() const { return file_->path(); }
   const std::string& text() const { return file_->text(); }
   const config::File& file() const { return *file_; }
+  const Overrides& overrides() const { return overrides_; }
   const std::string& name() const { return name_; }
   const std::filesystem::path& world() const { return world_; }  // empty: the run has none
   std::uint64_t seed() const { return seed_; }
   std::optional<double> duration_s() const { return duration_s_; }
   Transport transport() const { return transport_; }
+  const std::string& pace() const { return pace_; }  // as --pace takes it; empty: not said
   const lockstep::Watchdog::Settings& watchdog() const { return watchdog_; }
   const lockstep::Roster& roster() const { return *roster_; }
   const std::vector<LaunchNode>& nodes() const { return nodes_; }  // in the roster's order
@@ -53,11 +55,13 @@ class Launch {
   static base::Result<Launch> Read(config::File file, const Overrides& overrides);
 
   std::shared_ptr<config::File> file_;
+  Overrides overrides_;
   std::string name_;
   std::filesystem::path world_;
   std::uint64_t seed_ = 0;
   std::optional<double> duration_s_;
   Transport transport_ = Transport::kSharedMemory;
+  std::string pace_;
   lockstep::Watchdog::Settings watchdog_;
   std::shared_ptr<const lockstep::Roster> roster_;
   std::vector<LaunchNode> nodes_;

@@ -5,6 +5,7 @@
 
 #include "common/base/result.hpp"
 #include "common/launch/launch.hpp"
+#include "common/launch/live_keys.hpp"
 #include "common/lockstep/node.hpp"
 #include "common/terrain/ground.hpp"
 
@@ -37,6 +38,10 @@ class NodeContext {
   virtual terrain::Ground& Ground() = 0;
   // From the road server, waited for; Failed where it does not come.
   virtual base::Result<WorldSummary> World() = 0;
+  // The keys held in the run's windows, for who has a window and for who drives by them. Null where the host has no such
+  // border.
+  virtual std::unique_ptr<LiveKeysSender> KeysSender() { return nullptr; }
+  virtual std::unique_ptr<LiveKeysReceiver> KeysReceiver() { return nullptr; }
   // A node that has loaded the world says so; all who did must agree.
   void set_world_hash(base::Digest hash) { world_hash_ = hash; }
   base::Digest world_hash() const { return world_hash_; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/lockstep/mailbox.hpp"
 #include "common/lockstep/report.hpp"
 #include "common/lockstep/sample.hpp"
 #include "common/lockstep/snapshot.hpp"
@@ -10,8 +11,11 @@ namespace rodeira::lockstep {
 class Bus {
  public:
   virtual ~Bus() = default;
-  // Reliably, to every node that is wired to the sample's source.
+  // To every node that is wired to the sample's source. It may be lost on its way: then its consumer asks for it.
   virtual base::Status Publish(const Sample& sample) = 0;
+  // The consumer lacks samples of this source, `gap.from` and what follows: whoever keeps them says them again. The
+  // question may be lost too; it is put again as long as the samples are missing.
+  virtual void Ask(const Gap& gap) = 0;
   // To the clock.
   virtual void Tell(const Report& report) = 0;
   // To whoever keeps snapshots; the default keeps none.

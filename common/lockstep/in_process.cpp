@@ -10,8 +10,10 @@
 #include <utility>
 
 #include "common/base/random.hpp"
+#include "common/lockstep/kept_samples.hpp"
 #include "common/lockstep/mailbox.hpp"
 #include "common/lockstep/pacer.hpp"
+#include "common/lockstep/pump.hpp"
 #include "common/lockstep/runner.hpp"
 
 namespace rodeira::lockstep {
@@ -62,7 +64,7 @@ RunOutcome Outcome(const Clock& clock, const std::string& fault) {
 class ThreadedRun {
  public:
   ThreadedRun(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings)
-      : roster_(roster), settings_(settings), clock_(roster, settings.last_step, settings.first_step),
+      : roster_(roster), nodes_(nodes), settings_(settings), clock_(roster, settings.last_step, settings.first_step),
         pacer_(roster.base_step_ns(), settings.pace), consumers_(ConsumersOf(roster)) {
     ReportServices(roster, clock_);
     for (NodeIndex n = 0; n < nodes.size(); ++n) {
@@ -77,8 +79,15 @@ class ThreadedRun {
 
   RunOutcome Run() {
     std::vector<std::thread> threads;
-    for (auto& runner : runners_) {
-      if (runner != nullptr) threads.emplace_back([&runner] { runner->Run(); });
+    for (NodeIndex n = 0; n < runners_.size(); ++n) {
+      if (runners_[n] == nullptr) continue;
+      threads.emplace_back([this, n] {
+        if (nodes_[n]->is_brief()) {
+          RunWhereMessagesArrive(*runners_[n], *mailboxes_[n], {});
+        } else {
+          runners_[n]->Run();
+        }
+      });
     }
     std::unique_lock lock(mutex_);
     const auto start = std::chrono::steady_clock::now();
@@ -110,6 +119,7 @@ class ThreadedRun {
   struct ThreadBus final : Bus {
     explicit ThreadBus(ThreadedRun& owner) : run(owner) {}
     base::Status Publish(const Sample& sample) override { return run.Route(sample); }
+    void Ask(const Gap&) override {}  // nothing is lost here
     void Tell(const Report& report) override { run.Hear(report); }
     void Keep(const Snapshot& snapshot) override {
       const std::lock_guard lock(run.trace_mutex_);
@@ -150,6 +160,7 @@ class ThreadedRun {
   }
 
   const Roster& roster_;
+  const std::vector<Node*>& nodes_;
   const InProcessSettings& settings_;
   Clock clock_;
   Pacer pacer_;
@@ -173,7 +184,7 @@ class ShuffledRun {
     ReportServices(roster, clock_);
     for (NodeIndex n = 0; n < nodes.size(); ++n) {
       mailboxes_.push_back(std::make_unique<Mailbox>(roster, n));
-      buses_.push_back(std::make_unique<ShuffleBus>(*this));
+      buses_.push_back(std::make_unique<ShuffleBus>(*this, n));
       runners_.push_back(nodes[n] == nullptr ? nullptr
                                              : std::make_unique<Runner>(roster, n, *nodes[n], *buses_[n], *mailboxes_[n], RunnerSettings(settings, n)));
       over_.push_back(nodes[n] == nullptr);
@@ -182,14 +193,13 @@ class ShuffledRun {
 
   RunOutcome Run() {
     std::size_t idle = 0;
-    const std::size_t patience = 50 * runners_.size();
+    const std::size_t patience = 5000 * runners_.size();
     while (fault_.empty() && !AllOver()) {
       const bool deliver = !in_flight_.empty() && Draw(3) != 0;
       const bool moved = deliver ? DeliverOne() : AdvanceOne();
-      // A node that waits says its first samples again at each turn: without a bound they would bury the one message
-      // that it waits for.
+      // A node that waits asks at each turn: without a bound the answers would bury the one message that it waits for.
       while (fault_.empty() && in_flight_.size() > 64) DeliverOne();
-      idle = moved || !in_flight_.empty() ? 0 : idle + 1;
+      idle = moved ? 0 : idle + 1;
       if (idle > patience) {
         fault_ = "deadlock: " + Standing();
       }
@@ -199,28 +209,38 @@ class ShuffledRun {
 
  private:
   struct Message {
-    enum class Kind { kSample, kGrant, kReport } kind;
+    enum class Kind { kSample, kGrant, kReport, kAsk } kind;
     NodeIndex to = 0;
-    Sample sample;
-    Grant grant;
-    Report report;
+    Sample sample{};
+    Grant grant{};
+    Report report{};
+    Gap gap{};
   };
   struct ShuffleBus final : Bus {
-    explicit ShuffleBus(ShuffledRun& owner) : run(owner) {}
+    ShuffleBus(ShuffledRun& owner, NodeIndex n) : run(owner), kept(run.roster_, n) {}
     base::Status Publish(const Sample& sample) override {
       if (run.settings_.on_sample) run.settings_.on_sample(sample);
-      for (const NodeIndex n : run.consumers_[sample.source()]) run.in_flight_.push_back({Message::Kind::kSample, n, sample, {}, {}});
+      kept.Add(sample);
+      Say(sample);
       return {};
     }
-    void Tell(const Report& report) override { run.in_flight_.push_back({Message::Kind::kReport, 0, {}, {}, report}); }
+    void Say(const Sample& sample) {
+      for (const NodeIndex n : run.consumers_[sample.source()]) run.in_flight_.push_back({.kind = Message::Kind::kSample, .to = n, .sample = sample});
+    }
+    void Ask(const Gap& gap) override {
+      run.in_flight_.push_back({.kind = Message::Kind::kAsk, .to = run.roster_.source(gap.source).node, .gap = gap});
+    }
+    void Tell(const Report& report) override { run.in_flight_.push_back({.kind = Message::Kind::kReport, .report = report}); }
     void Keep(const Snapshot& snapshot) override {
       if (run.settings_.on_snapshot) run.settings_.on_snapshot(snapshot);
     }
     ShuffledRun& run;
+    KeptSamples kept;
   };
 
   std::uint64_t Draw(std::uint64_t below) { return base::RandomBits({seed_, draws_++}) % below; }
 
+  // Nobody has moved by that: who waits in vain may ask and be answered for ever.
   bool DeliverOne() {
     const std::size_t at = Draw(in_flight_.size());
     const Message message = in_flight_[at];
@@ -228,14 +248,22 @@ class ShuffledRun {
       in_flight_[at] = in_flight_.back();
       in_flight_.pop_back();
     }
+    const bool may_be_lost = message.kind == Message::Kind::kSample || message.kind == Message::Kind::kAsk;
+    if (may_be_lost && base::RandomUniform({seed_, draws_++}) < settings_.loss) return false;
     switch (message.kind) {
       case Message::Kind::kSample:
         if (auto status = mailboxes_[message.to]->Deliver(message.sample); !status) fault_ = status.error().Text();
         break;
-      case Message::Kind::kGrant: mailboxes_[message.to]->DeliverGrant(message.grant); break;
+      case Message::Kind::kGrant:
+        mailboxes_[message.to]->DeliverGrant(message.grant);
+        buses_[message.to]->kept.Granted(message.grant.through);
+        break;
+      case Message::Kind::kAsk:
+        for (const Sample& sample : buses_[message.to]->kept.From(message.gap)) buses_[message.to]->Say(sample);
+        break;
       case Message::Kind::kReport: Hear(message.report); break;
     }
-    return true;
+    return false;
   }
   void Hear(const Report& report) {
     if (report.phase == Phase::kFailed) fault_ = fmt::format("node '{}' failed: {}", roster_.node(report.node).name, report.message);
@@ -243,13 +271,16 @@ class ShuffledRun {
     const Step before = clock_.grant().through;
     const Grant grant = clock_.Update(clock_.window_limit());
     if (grant.through == before) return;
-    for (NodeIndex n = 0; n < mailboxes_.size(); ++n) in_flight_.push_back({Message::Kind::kGrant, n, {}, grant, {}});
+    for (NodeIndex n = 0; n < mailboxes_.size(); ++n) in_flight_.push_back({.kind = Message::Kind::kGrant, .to = n, .grant = grant});
   }
   bool AdvanceOne() {
     const std::size_t n = Draw(runners_.size());
     if (over_[n]) return false;
     const Runner::Outcome outcome = runners_[n]->Advance(std::chrono::milliseconds(0));
-    if (outcome == Runner::Outcome::kBlocked) return false;
+    if (outcome == Runner::Outcome::kBlocked) {
+      runners_[n]->AskAgain();
+      return false;
+    }
     over_[n] = outcome != Runner::Outcome::kWorking;
     return true;
   }

@@ -23,6 +23,7 @@ struct InProcessSettings {
   Step first_step = 0;                   // where those snapshots were taken
   std::function<void(const Sample&)> on_sample;      // every sample published; one call at a time
   std::function<void(const Snapshot&)> on_snapshot;  // one call at a time
+  double loss = 0.0;                     // RunShuffled: the share of samples and questions that never arrive
   std::function<bool()> stop_requested;  // asked about every 20 ms
   std::function<void(const Clock&)> on_progress;     // called now and then on the caller's thread
 };

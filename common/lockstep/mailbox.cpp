@@ -32,8 +32,23 @@ const Mailbox::Track* Mailbox::TrackOf(SourceIndex source) const { return const_
 base::Status Mailbox::Deliver(Sample sample) {
   bool wake = false;
   auto status = Keep(std::move(sample), wake);
-  if (wake) woken_.notify_all();  // without the lock: who wakes would only run into it
+  if (wake) Wake();  // without the lock: who wakes would only run into it
   return status;
+}
+
+void Mailbox::Wake() {
+  std::shared_ptr<const std::function<void()>> on_ready;
+  {
+    const std::lock_guard lock(mutex_);
+    on_ready = on_ready_;
+  }
+  woken_.notify_all();
+  if (on_ready) (*on_ready)();
+}
+
+void Mailbox::OnReady(std::shared_ptr<const std::function<void()>> on_ready) {
+  const std::lock_guard lock(mutex_);
+  on_ready_ = std::move(on_ready);
 }
 
 base::Status Mailbox::Keep(Sample sample, bool& wake) {
@@ -60,37 +75,35 @@ base::Status Mailbox::Keep(Sample sample, bool& wake) {
     return base::WrongInput(fmt::format("two different samples are valid at step {}", step), roster_.SourceName(sample.source()));
   }
   track->slots[at] = std::move(sample);
-  wake = want_.what != Want::What::kNothing && Satisfied(want_);
+  wake = want_.what != Want::What::kNothing && IsOver(want_);
   return {};
 }
 
 void Mailbox::DeliverGrant(const Grant& grant) {
+  bool wake = false;
   {
     const std::lock_guard lock(mutex_);
     if (!IsNews(grant)) return;  // said again, or overtaken on its way
     grant_ = grant;
+    wake = want_.what != Want::What::kNothing && IsOver(want_);
   }
-  woken_.notify_all();
+  if (wake) Wake();
 }
 
 bool Mailbox::IsNews(const Grant& grant) const {
   return grant.through > grant_.through || (grant.final && !grant_.final) || (grant.abort && !grant_.abort) || (grant.over && !grant_.over);
 }
 
-bool Mailbox::Has(const Track& track, Step from, Step through) const {
+std::optional<Step> Mailbox::FirstGap(const Track& track, Step from, Step through) {
   for (Step step = CeilTo(from, track.period); step <= through; step += track.period) {
-    if (track.Find(step) == nullptr) return false;
-  }
-  return true;
-}
-
-std::optional<SourceIndex> Mailbox::MissingFor(Step step) const {
-  for (const Track& track : tracks_) {
-    const Step newest = FloorTo(step, track.period);
-    const Step from = track.events ? std::max<Step>(step - spec_.period + 1, 0) : newest;
-    if (!Has(track, from, newest)) return track.source;
+    if (track.Find(step) == nullptr) return step;
   }
   return std::nullopt;
+}
+
+std::optional<Step> Mailbox::GapFor(const Track& track, Step step) const {
+  const Step newest = FloorTo(step, track.period);
+  return FirstGap(track, track.events ? std::max<Step>(step - spec_.period + 1, 0) : newest, newest);
 }
 
 bool Mailbox::Satisfied(const Want& want) const {
@@ -99,24 +112,25 @@ bool Mailbox::Satisfied(const Want& want) const {
     case Want::What::kInputs:
       return std::all_of(tracks_.begin(), tracks_.end(),
                          [&](const Track& track) { return track.Find(FloorTo(want.step, track.period)) != nullptr; });
-    case Want::What::kActivation: return grant_.through >= want.step && !MissingFor(want.step);
+    case Want::What::kActivation: return grant_.through >= want.step && std::none_of(tracks_.begin(), tracks_.end(), [&](const Track& track) { return GapFor(track, want.step).has_value(); });
     case Want::What::kEvents:
       return std::all_of(tracks_.begin(), tracks_.end(),
-                         [&](const Track& track) { return !track.events || Has(track, track.first, want.step); });
+                         [&](const Track& track) { return !track.events || !FirstGap(track, track.first, want.step); });
   }
   return false;
 }
 
+bool Mailbox::IsOver(const Want& want) const {
+  return grant_.abort || (want.what == Want::What::kActivation && grant_.final && want.step > grant_.through) || Satisfied(want);
+}
+
 Mailbox::Woken Mailbox::Wait(const Want& want, std::chrono::milliseconds limit) {
   std::unique_lock lock(mutex_);
-  const auto behind_the_end = [&] { return want.what == Want::What::kActivation && grant_.final && want.step > grant_.through; };
   want_ = want;
-  const auto over = [&] { return grant_.abort || behind_the_end() || Satisfied(want); };
-  const bool done = over() || (limit.count() > 0 && woken_.wait_for(lock, limit, over));
+  if (!IsOver(want) && !(limit.count() > 0 && woken_.wait_for(lock, limit, [&] { return IsOver(want); }))) return Woken::kTimeout;
   want_ = {};
   if (grant_.abort) return Woken::kAborted;
-  if (behind_the_end()) return Woken::kFinal;
-  return done ? Woken::kReady : Woken::kTimeout;
+  return Satisfied(want) ? Woken::kReady : Woken::kFinal;
 }
 
 Mailbox::Woken Mailbox::WaitForInputs(Step step, std::chrono::milliseconds limit) { return Wait({Want::What::kInputs, step}, limit); }
@@ -131,17 +145,26 @@ bool Mailbox::IsGranted(Step step) const {
   const std::lock_guard lock(mutex_);
   return grant_.through >= step;
 }
-bool Mailbox::HasGrant() const {
-  const std::lock_guard lock(mutex_);
-  return grant_.through >= 0 || grant_.abort;
-}
 Grant Mailbox::grant() const {
   const std::lock_guard lock(mutex_);
   return grant_;
 }
-std::optional<SourceIndex> Mailbox::FirstMissing(Step step) const {
+std::vector<Gap> Mailbox::Missing(Step step) const {
   const std::lock_guard lock(mutex_);
-  return MissingFor(step);
+  std::vector<Gap> gaps;
+  for (const Track& track : tracks_) {
+    if (const auto from = GapFor(track, step)) gaps.push_back({track.source, *from});
+  }
+  return gaps;
+}
+std::vector<Gap> Mailbox::MissingEvents(Step last) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Gap> gaps;
+  for (const Track& track : tracks_) {
+    if (!track.events) continue;
+    if (const auto from = FirstGap(track, track.first, last)) gaps.push_back({track.source, *from});
+  }
+  return gaps;
 }
 
 Inbox Mailbox::Open(Step step) {

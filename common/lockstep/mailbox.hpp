@@ -3,6 +3,8 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -14,6 +16,12 @@
 #include "common/lockstep/sample.hpp"
 
 namespace rodeira::lockstep {
+
+// A source, and its oldest sample that a consumer lacks.
+struct Gap {
+  SourceIndex source = 0;
+  Step from = 0;
+};
 
 // Holds a node's incoming samples and grants. Any thread delivers, in any order; the runner waits for exactly what the
 // law names, so the order of arrival cannot change what it sees.
@@ -35,11 +43,16 @@ class Mailbox {
   // For sinks: waits for all events through the run's last step.
   Woken WaitForEventsThrough(Step last, std::chrono::milliseconds limit);
 
+  // Instead of a thread that waits: `on_ready` is called, on the thread that delivers and with no lock held, when what
+  // the last wait timed out for is there, or the run ends. Null: nobody is called any more.
+  void OnReady(std::shared_ptr<const std::function<void()>> on_ready);
+
   bool IsGranted(Step step) const;
-  bool HasGrant() const;
   Grant grant() const;
-  // The first source that is missing for activation `step`, or none.
-  std::optional<SourceIndex> FirstMissing(Step step) const;
+  // What activation `step` still lacks: each source with the oldest sample of it that is not there.
+  std::vector<Gap> Missing(Step step) const;
+  // The same for WaitForEventsThrough(last).
+  std::vector<Gap> MissingEvents(Step last) const;
 
   // What activation `step` sees. Call it once everything is there.
   Inbox Open(Step step);
@@ -69,11 +82,14 @@ class Mailbox {
 
   static void DropBefore(Track& track, Step oldest);  // `oldest` is a multiple of the track's period
   base::Status Keep(Sample sample, bool& wake);
+  bool IsOver(const Want& want) const;  // satisfied, or it never will be
+  void Wake();
   bool IsNews(const Grant& grant) const;
   Track* TrackOf(SourceIndex source);
   const Track* TrackOf(SourceIndex source) const;
-  bool Has(const Track& track, Step from, Step through) const;  // every multiple of the period in [from, through]
-  std::optional<SourceIndex> MissingFor(Step step) const;
+  // The oldest multiple of the period in [from, through] that is not there.
+  static std::optional<Step> FirstGap(const Track& track, Step from, Step through);
+  std::optional<Step> GapFor(const Track& track, Step step) const;  // of activation `step`
   bool Satisfied(const Want& want) const;
   Woken Wait(const Want& want, std::chrono::milliseconds limit);
 
@@ -83,7 +99,8 @@ class Mailbox {
   std::condition_variable woken_;
   std::vector<Track> tracks_;
   Grant grant_;
-  Want want_;
+  Want want_;  // of the last wait, until it was satisfied
+  std::shared_ptr<const std::function<void()>> on_ready_;
 };
 
 }  // namespace rodeira::lockstep

@@ -18,6 +18,10 @@ class Node {
   // One activation: what `inbox` shows is all that the node may know; returning means "step done".
   virtual base::Status Step(const StepInfo& step, const Inbox& inbox, Outbox& outbox) = 0;
 
+  // Its steps are short, ask no server (SUELO) and may run on any thread, one at a time: then they are done where the last
+  // input arrives, without a switch between threads.
+  virtual bool is_brief() const { return false; }
+
   // The whole state, before an activation: Restore into a fresh node gives the same bits from there on.
   virtual void Save(base::StateWriter& out) const = 0;
   virtual void Restore(base::StateReader& in) = 0;

@@ -20,6 +20,9 @@ base::Status CheckNode(const NodeWish& wish) {
   if (wish.delay != 0 && (wish.delay < wish.period || wish.delay % wish.period != 0)) {
     return base::WrongInput(fmt::format("delay {} was found, a multiple of the period {} was expected", wish.delay, wish.period), where);
   }
+  if (wish.snapshot_every < 0 || wish.snapshot_every % wish.period != 0) {
+    return base::WrongInput(fmt::format("snapshots each {} steps were found, a multiple of the period {} was expected", wish.snapshot_every, wish.period), where);
+  }
   return {};
 }
 
@@ -34,6 +37,7 @@ base::Digest HashOf(std::int64_t base_step_ns, Step window, const std::vector<No
     out.Put(node.period);
     out.Put(node.delay);
     for (const SourceIndex output : node.outputs) out.PutString(sources[output].topic);
+    if (node.snapshots) out.Put(sources[*node.snapshots].period);
     for (const Port& port : node.inputs) {
       out.PutString(port.topic);
       out.Put(port.kind);
@@ -54,12 +58,18 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
   for (const NodeWish& wish : wishes) {
     if (auto status = CheckNode(wish); !status) return status.error();
     if (roster.Find(wish.name) != roster.nodes_.size()) return base::WrongInput(fmt::format("two nodes are named '{}'", wish.name));
-    NodeSpec node{wish.name, wish.kind, wish.role, wish.period, wish.delay == 0 ? wish.period : wish.delay, wish.deadline_ms, {}, {}};
+    NodeSpec node{wish.name, wish.kind, wish.role, wish.period, wish.delay == 0 ? wish.period : wish.delay, wish.deadline_ms, {}, {}, {}};
     for (const std::string& topic : wish.outputs) {
       node.outputs.push_back(static_cast<SourceIndex>(roster.sources_.size()));
       roster.sources_.push_back({static_cast<NodeIndex>(roster.nodes_.size()), topic, node.period, node.delay});
     }
     roster.nodes_.push_back(std::move(node));
+  }
+  // Behind all others, so that who keeps snapshots changes no other source's number.
+  for (NodeIndex n = 0; n < roster.nodes_.size(); ++n) {
+    if (wishes[n].snapshot_every == 0) continue;
+    roster.nodes_[n].snapshots = static_cast<SourceIndex>(roster.sources_.size());
+    roster.sources_.push_back({n, std::string(kSnapshotTopic), wishes[n].snapshot_every, wishes[n].snapshot_every});
   }
   for (std::size_t n = 0; n < wishes.size(); ++n) {
     for (const PortWish& wish : wishes[n].inputs) {
@@ -69,6 +79,11 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
         const std::string where = fmt::format("node '{}', input '{}'", wishes[n].name, wish.topic);
         if (from == roster.nodes_.size()) {
           return base::WrongInput(fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, roster.Names())), where);
+        }
+        if (wish.topic == kSnapshotTopic && roster.nodes_[from].snapshots) {
+          if (!roster.nodes_[n].is_sink()) return base::WrongInput("only a sink can be wired to snapshots", where);
+          port.sources.push_back(*roster.nodes_[from].snapshots);
+          continue;
         }
         const auto& outputs = roster.nodes_[from].outputs;
         const auto found = std::find_if(outputs.begin(), outputs.end(), [&](SourceIndex s) { return roster.sources_[s].topic == wish.topic; });
@@ -103,14 +118,6 @@ std::vector<std::string> Roster::Names() const {
 std::string Roster::SourceName(SourceIndex index) const {
   if (index >= sources_.size()) return fmt::format("source {}", index);
   return nodes_[sources_[index].node].name + "." + sources_[index].topic;
-}
-
-int Roster::Consumers(SourceIndex source) const {
-  int count = 0;
-  for (const NodeSpec& node : nodes_) {
-    for (const Port& port : node.inputs) count += std::binary_search(port.sources.begin(), port.sources.end(), source) ? 1 : 0;
-  }
-  return count;
 }
 
 Step Roster::OldestNeeded(SourceIndex source, Step step) const {

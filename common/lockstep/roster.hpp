@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,9 @@ enum class PortKind : std::uint32_t {
   kEvent = 1,  // at activation k, from each source: all samples valid in (k - P, k], ordered by step, then source
 };
 
+// The topic on which a runner publishes its node's state for sinks that keep it.
+inline constexpr std::string_view kSnapshotTopic = "rodeira/snapshot";
+
 // One input of a node: a topic and the nodes that it is wired to.
 struct PortWish {
   std::string topic;
@@ -42,6 +46,7 @@ struct NodeWish {
   std::int64_t deadline_ms = 0;  // longest wall time of one step; 0 means the run's default
   std::vector<std::string> outputs;  // topics
   std::vector<PortWish> inputs;
+  Step snapshot_every = 0;     // a multiple of the period: the node's state is a stream of samples too; 0: it is not
 };
 
 // One stream of samples: a node's output on a topic. Its index in the roster is its number on the wire.
@@ -67,6 +72,9 @@ struct NodeSpec {
   std::int64_t deadline_ms = 0;
   std::vector<SourceIndex> outputs;
   std::vector<Port> inputs;
+  // The node's snapshots (law L3), valid at each multiple of this source's period. They are published by the activation at
+  // that very step, before it is done, and therefore only sinks may be wired to them: a sink keeps nobody waiting.
+  std::optional<SourceIndex> snapshots;
 
   bool is_sink() const { return role == Role::kStepped && outputs.empty(); }
 };
@@ -90,8 +98,6 @@ class Roster {
   std::vector<std::string> Names() const;
   // "ego.rodeira/vehicle_state", for messages.
   std::string SourceName(SourceIndex index) const;
-  // How many nodes are wired to the source.
-  int Consumers(SourceIndex source) const;
   // Of everything above: two processes with equal hashes agree on every wire.
   base::Digest hash() const { return hash_; }
 

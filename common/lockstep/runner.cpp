@@ -21,9 +21,12 @@ Runner::Runner(const Roster& roster, NodeIndex index, Node& node, Bus& bus, Mail
 }
 
 Runner::Outcome Runner::Run() {
+  auto patience = settings_.patience;
   for (;;) {
-    const Outcome outcome = Advance(settings_.repeat);
+    const Outcome outcome = Advance(patience);
     if (outcome != Outcome::kWorking && outcome != Outcome::kBlocked) return outcome;
+    if (outcome == Outcome::kBlocked) AskAgain();
+    patience = outcome == Outcome::kWorking ? settings_.patience : std::min(2 * patience, settings_.most_patience);
   }
 }
 
@@ -75,12 +78,19 @@ Runner::Outcome Runner::Begin() {
     std::stable_sort(first.begin(), first.end(), [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
   }
   if (auto status = PublishAll(std::move(first)); !status) return Fail(status.error());
+  // The first snapshot is, like every first sample, there before anybody is ready.
+  begun_at_ = settings_.resume ? settings_.resume->at : 0;
+  if (spec_.snapshots && begun_at_ % roster_.source(*spec_.snapshots).period == 0) {
+    base::StateWriter out;
+    node_.Save(out);
+    if (auto status = PublishSnapshot({index_, begun_at_, out.bytes(), {}, report_.steps, report_.digest}); !status) return Fail(status.error());
+  }
   stage_ = Stage::kInputs;
   return Outcome::kWorking;
 }
 
 Runner::Outcome Runner::AwaitInputs(std::chrono::milliseconds limit) {
-  switch (mailbox_.WaitForInputs(settings_.resume ? settings_.resume->at : 0, limit)) {
+  switch (mailbox_.WaitForInputs(begun_at_, limit)) {
     case Mailbox::Woken::kReady:
       {
         const std::lock_guard lock(report_mutex_);
@@ -94,8 +104,6 @@ Runner::Outcome Runner::AwaitInputs(std::chrono::milliseconds limit) {
     default: break;
   }
   NoteWaiting(next_);
-  if (auto status = RepeatFirstSamples(); !status) return Fail(status.error());
-  TellReport();
   return Outcome::kBlocked;
 }
 
@@ -112,13 +120,9 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
     case Mailbox::Woken::kAborted: return FinishAborted();
     case Mailbox::Woken::kTimeout:
       NoteWaiting(next_);
-      if (!mailbox_.HasGrant()) {
-        if (auto status = RepeatFirstSamples(); !status) return Fail(status.error());
-        TellReport();
-      }
       return Outcome::kBlocked;
   }
-  TakeSnapshotIfDue(next_);
+  if (auto status = TakeSnapshotIfDue(next_); !status) return Fail(status.error());
   const Inbox inbox = mailbox_.Open(next_);
   const StepInfo info{next_, next_ * roster_.base_step_ns(), spec_.period,
                       static_cast<double>(spec_.period) * static_cast<double>(roster_.base_step_ns()) * 1e-9, next_ + spec_.delay};
@@ -191,24 +195,39 @@ base::Status Runner::PublishAll(std::vector<Sample> samples) {
   return {};
 }
 
-base::Status Runner::RepeatFirstSamples() {
-  for (const Sample& sample : own_) {
-    if (auto status = bus_.Publish(sample); !status) return status;
+void Runner::AskAgain() {
+  std::vector<Gap> gaps;
+  switch (stage_) {
+    case Stage::kInputs: gaps = mailbox_.Missing(begun_at_); break;
+    case Stage::kStepping:
+      if (mailbox_.IsGranted(next_)) gaps = mailbox_.Missing(next_);  // before that nobody owes us anything
+      break;
+    case Stage::kEnding: gaps = mailbox_.MissingEvents(mailbox_.grant().through); break;
+    default: break;
   }
-  return {};
+  for (const Gap& gap : gaps) bus_.Ask(gap);
 }
 
-void Runner::TakeSnapshotIfDue(Step step) {
-  if (settings_.snapshot_every <= 0) return;
-  const Step at = FloorTo(step, settings_.snapshot_every);
-  if (at <= step - spec_.period || at == 0) return;  // none lies between the last activation and this one
+base::Status Runner::PublishSnapshot(const Snapshot& snapshot) { return bus_.Publish(snapshot.ToSample(roster_, settings_.incarnation)); }
+
+base::Status Runner::TakeSnapshotIfDue(Step step) {
+  const bool publish = spec_.snapshots && step > begun_at_ && step % roster_.source(*spec_.snapshots).period == 0;
+  Step at = settings_.snapshot_every > 0 ? FloorTo(step, settings_.snapshot_every) : 0;
+  const bool keep = at > step - spec_.period && at != 0;  // one lies between the last activation and this one
+  if (!publish && !keep) return {};
   base::StateWriter out;
   node_.Save(out);
-  Snapshot snapshot{index_, at, out.bytes(), {}, report_.steps, report_.digest};
+  Snapshot snapshot{index_, step, out.bytes(), {}, report_.steps, report_.digest};
+  if (publish) {
+    if (auto status = PublishSnapshot(snapshot); !status) return status;
+  }
+  if (!keep) return {};
+  snapshot.at = at;
   for (const Sample& sample : own_) {
     if (sample.valid() >= roster_.OldestNeeded(sample.source(), at)) snapshot.samples.push_back(sample);
   }
   bus_.Keep(snapshot);
+  return {};
 }
 
 void Runner::ForgetOwnSamples(Step step) {
@@ -230,12 +249,12 @@ void Runner::Note(Phase phase, Waiting waiting) {
 }
 
 void Runner::NoteWaiting(Step step) {
-  const auto missing = mailbox_.FirstMissing(step);
+  const auto missing = mailbox_.Missing(step);
   const std::lock_guard lock(report_mutex_);
-  const Waiting waiting = missing ? Waiting::kInputs : Waiting::kGrant;
+  const Waiting waiting = missing.empty() ? Waiting::kGrant : Waiting::kInputs;
   if (report_.waiting != waiting) since_ = WallClock::now();
   report_.waiting = waiting;
-  report_.waiting_source = missing.value_or(0);
+  report_.waiting_source = missing.empty() ? 0 : missing.front().source;
 }
 
 void Runner::BeginServerCall() {

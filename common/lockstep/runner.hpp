@@ -21,7 +21,8 @@ class Runner {
     std::uint32_t incarnation = 0;
     Step snapshot_every = 0;             // 0: none; otherwise one at each multiple, the node's state handed to Bus::Keep
     std::optional<Snapshot> resume;      // begin here instead of at step 0
-    std::chrono::milliseconds repeat{20};  // before the first grant: how often what may have been lost is said again
+    std::chrono::milliseconds patience{2};       // how long a sample may be missing before it is asked for again …
+    std::chrono::milliseconds most_patience{50};  // … doubled after each question up to this
   };
   enum class Outcome { kWorking, kBlocked, kFinished, kAborted, kFailed };
 
@@ -32,6 +33,8 @@ class Runner {
   // One piece of work: starts, or does one activation, or finishes; waits at most `limit` for what it needs (0: not at
   // all) and says kBlocked where that was not enough.
   Outcome Advance(std::chrono::milliseconds limit);
+  // After kBlocked: asks the others to say again what is missing and could be there. Called where the waiting is long.
+  void AskAgain();
 
   // Where the node stands, for heartbeats: any thread may ask at any time.
   Report report() const;
@@ -49,8 +52,8 @@ class Runner {
   Outcome Fail(const base::Error& error);
   Outcome FinishAborted();
   base::Status PublishAll(std::vector<Sample> samples);
-  base::Status RepeatFirstSamples();
-  void TakeSnapshotIfDue(Step step);
+  base::Status PublishSnapshot(const Snapshot& snapshot);
+  base::Status TakeSnapshotIfDue(Step step);
   void ForgetOwnSamples(Step step);
   base::Digest StateDigest();
   void Note(Phase phase, Waiting waiting);
@@ -66,6 +69,7 @@ class Runner {
   Settings settings_;
   Outbox outbox_;
   Stage stage_ = Stage::kBegin;
+  Step begun_at_ = 0;       // 0, or the step of the snapshot that was resumed
   Step next_ = 0;           // the next activation
   Step told_ = -1;          // the progress last told
   std::deque<Sample> own_;  // own samples that a snapshot or a late peer may still need

@@ -1,5 +1,9 @@
 #include "common/lockstep/snapshot.hpp"
 
+#include <fmt/format.h>
+
+#include "common/base/assert.hpp"
+
 namespace rodeira::lockstep {
 
 base::Bytes Snapshot::Encode() const {
@@ -39,6 +43,35 @@ base::Result<Snapshot> Snapshot::Decode(std::span<const std::byte> bytes) {
   if (!in.ok()) return base::WrongInput("the snapshot is cut short");
   if (in.remaining() != 0) return base::WrongInput("bytes are left over behind the snapshot");
   return snapshot;
+}
+
+namespace {
+constexpr std::size_t kContentAt = SampleHeader::kEncapsulation + SampleHeader::kSize;
+}
+
+Sample Snapshot::ToSample(const Roster& roster, std::uint32_t incarnation) const {
+  const NodeSpec& spec = roster.node(node);
+  RODEIRA_ASSERT(spec.snapshots.has_value());
+  const base::Bytes content = Encode();
+  base::ByteWriter out;
+  for (const unsigned char byte : {0, 1, 0, 0}) out.Put(byte);  // little-endian CDR
+  out.PutRaw(base::Bytes(SampleHeader::kSize));
+  out.Put(static_cast<std::uint32_t>(content.size()));
+  out.PutRaw(content);
+  while (out.bytes().size() % 4 != 0) out.Put(static_cast<unsigned char>(0));
+  out.Put(static_cast<std::uint32_t>(0));
+  base::Bytes payload = std::move(out.bytes());
+  const SampleHeader header{at, at * roster.base_step_ns(), *spec.snapshots, incarnation, 0};
+  header.Write(payload);
+  return {header, std::make_shared<const base::Bytes>(std::move(payload))};
+}
+
+base::Result<Snapshot> Snapshot::FromSample(std::span<const std::byte> payload) {
+  if (payload.size() < kContentAt + sizeof(std::uint32_t)) return base::WrongInput(fmt::format("a snapshot of {} bytes was found", payload.size()));
+  base::ByteReader in(payload.subspan(kContentAt));
+  const auto size = in.Get<std::uint32_t>();
+  if (size > in.remaining()) return base::WrongInput("the snapshot is cut short");
+  return Decode(in.GetRaw(size));
 }
 
 }  // namespace rodeira::lockstep

@@ -21,6 +21,9 @@ struct Snapshot {
   base::Digest digest = 0;       // the chain of samples so far
 
   base::Bytes Encode() const;
+  // As a sample of the snapshot source (idl/snapshot.idl): CDR with the header, this, and padding of zeros.
+  Sample ToSample(const Roster& roster, std::uint32_t incarnation) const;
+  static base::Result<Snapshot> FromSample(std::span<const std::byte> payload);
   // Wrong input: cut short, of another node's shape, or left-over bytes.
   static base::Result<Snapshot> Decode(std::span<const std::byte> bytes);
 };

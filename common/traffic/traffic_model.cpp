@@ -122,9 +122,10 @@ double TrafficModel::Wanted(std::size_t lane, std::size_t place, const Blocks& b
   const double v = agent.speed_mps;
   const driver::SpeedPlan::Allowed allowed = l.plan.At(agent.d_m);
   const double planned = allowed.speed_mps * traits.speed_factor;
-  const double limit = l.path.speed_limit_mps() * traits.speed_factor;
+  const double limit = std::min(l.path.speed_limit_mps() * traits.speed_factor, agent.cap_mps);
   double wanted = std::min(driver::IdmFreeAcceleration(traits.idm, v, limit),
                            allowed.slope_1ps * traits.speed_factor * v + (planned - v) / settings_.tracking_s);
+  if (planned > agent.cap_mps) wanted = std::min(wanted, (agent.cap_mps - v) / settings_.tracking_s);
   if (place + 1 < l.order.size()) {
     const std::uint32_t next = l.order[place + 1];
     const double gap = agents_[next].d_m - agent.d_m - 0.5 * (traits_[next].length_m + traits.length_m);
@@ -132,7 +133,8 @@ double TrafficModel::Wanted(std::size_t lane, std::size_t place, const Blocks& b
   }
   const Ahead block = BlockAhead(lane, blocks, agent.d_m, traits);
   if (block.any) wanted = std::min(wanted, driver::IdmAcceleration(traits.idm, v, limit, block.gap_m, block.speed_mps));
-  return std::clamp(wanted, -traits.idm.hardest_mps2, traits.idm.acceleration_mps2);
+  wanted = std::clamp(wanted, -traits.idm.hardest_mps2, traits.idm.acceleration_mps2);
+  return agent.brake_mps2 > 0.0 ? std::min(wanted, -agent.brake_mps2) : wanted;
 }
 
 // Constant acceleration over the step; a car that comes to rest stays at rest.
@@ -166,6 +168,7 @@ void TrafficModel::Leave(std::size_t lane) {
     agent.on_road = false;
     agent.speed_mps = 0.0;
     agent.acceleration_mps2 = 0.0;
+    Release(id);
     ++agent.trip;
     agent.lane = DrawLane(id, agent.trip);
     lanes_[static_cast<std::size_t>(agent.lane)].waiting.push_back(id);

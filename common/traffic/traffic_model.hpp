@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -49,16 +50,27 @@ class TrafficModel {
 
   void Step(double dt_s, std::span<const driver::Footprint> others);
 
+  // A scenario's commands, from the next step on until the agent leaves the road or is released. An agent that waits to
+  // enter obeys when it has entered.
+  void Brake(std::uint32_t id, double deceleration_mps2);  // at exactly this rate down to rest, and stay; harder where it must
+  void CapSpeed(std::uint32_t id, double speed_mps);       // never faster
+  void Release(std::uint32_t id);
+  // The next agent in front of this rectangle, in the lane on which its middle stands and whose way it faces; nothing where
+  // none is in sight. One of the agents itself (by its id) is not in front of itself.
+  std::optional<std::uint32_t> AheadOf(const driver::Footprint& other) const;
+
   // Those on the road, by ascending id.
   const std::vector<AgentPose>& poses() const { return poses_; }
   const AgentTraits& traits(std::uint32_t id) const { return traits_[id]; }
   std::size_t on_road() const { return poses_.size(); }
+  std::size_t vehicles() const { return agents_.size(); }
   std::size_t waiting() const { return agents_.size() - poses_.size(); }
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
 
  private:
+  static constexpr double kNoCap_mps = 1e3;
   struct Lane {
     driver::LanePath path;
     driver::SpeedPlan plan;
@@ -74,6 +86,8 @@ class TrafficModel {
     double acceleration_mps2 = 0.0;
     double driven_m = 0.0;
     std::uint32_t trip = 0;
+    double brake_mps2 = 0.0;  // commanded; 0: not
+    double cap_mps = kNoCap_mps;
   };
   // The next thing ahead of a place in a lane: the car in front, and what else stands there.
   struct Ahead {

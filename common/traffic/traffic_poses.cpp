@@ -60,6 +60,8 @@ void TrafficModel::Save(base::StateWriter& writer) const {
     writer.Put("acceleration_mps2", agent.acceleration_mps2);
     writer.Put("driven_m", agent.driven_m);
     writer.Put("trip", agent.trip);
+    writer.Put("brake_mps2", agent.brake_mps2);
+    writer.Put("cap_mps", agent.cap_mps);
   }
   for (const Lane& lane : lanes_) {
     writer.Put("order", lane.order);
@@ -76,6 +78,8 @@ void TrafficModel::Restore(base::StateReader& reader) {
     reader.Get("acceleration_mps2", agent.acceleration_mps2);
     reader.Get("driven_m", agent.driven_m);
     reader.Get("trip", agent.trip);
+    reader.Get("brake_mps2", agent.brake_mps2);
+    reader.Get("cap_mps", agent.cap_mps);
   }
   for (Lane& lane : lanes_) {
     reader.Get("order", lane.order);

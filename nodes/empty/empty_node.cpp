@@ -35,6 +35,7 @@ class EmptyNode final : public lockstep::Node {
     return {};
   }
 
+  bool is_brief() const override { return true; }
   void Save(base::StateWriter& out) const override { out.Put("value", value_); }
   void Restore(base::StateReader& in) override { in.Get("value", value_); }
 

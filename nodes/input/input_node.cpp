@@ -7,6 +7,8 @@
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "nodes/input/autopilot_source.hpp"
+#include "nodes/input/joystick_source.hpp"
+#include "nodes/input/keyboard_source.hpp"
 #include "nodes/input/script_source.hpp"
 #include "nodes/input/source.hpp"
 
@@ -61,7 +63,10 @@ base::Result<std::unique_ptr<Source>> MakeScript(const config::Map& config, laun
 }
 
 base::Result<std::unique_ptr<Source>> MakeSource(const config::Map& config, launch::NodeContext& context) {
-  if (config.Choice("source", {"script", "autopilot"}) == "autopilot") return MakeAutopilotSource(config, context);
+  const std::string source = config.Choice("source", {"script", "autopilot", "keyboard", "joystick"});
+  if (source == "autopilot") return MakeAutopilotSource(config, context);
+  if (source == "keyboard") return MakeKeyboardSource(config, context);
+  if (source == "joystick") return MakeJoystickSource(config, context);
   return MakeScript(config, context);
 }
 

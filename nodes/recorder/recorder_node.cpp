@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "common/record/mcap_writer.hpp"
 #include "idl/topics.hpp"
+#include "nodes/recorder/embed.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -16,11 +19,18 @@ constexpr const char* kProfile = "rodeira/1";
 
 class RecorderNode final : public lockstep::Node {
  public:
-  RecorderNode(record::McapWriter writer, const lockstep::Roster& roster) : writer_(std::move(writer)), roster_(roster) {}
+  RecorderNode(record::McapWriter writer, std::filesystem::path file, const lockstep::Roster& roster)
+      : writer_(std::move(writer)), file_(std::move(file)), roster_(roster) {}
+  // Of a run that never began no recording is left. What is no plain file (a device, a pipe) was not made here.
+  ~RecorderNode() override {
+    std::error_code problem;
+    if (!complete_ && writer_.statistics().messages == 0 && std::filesystem::is_regular_file(file_, problem)) std::filesystem::remove(file_, problem);
+  }
 
   base::Status Begin(const launch::Launch& launch, lockstep::NodeIndex self) {
     const record::TextMap about{
         {"launch", launch.name()},
+        {"launch_file", launch.path().filename().string()},
         {"roster_hash", base::Hex(roster_.hash())},
         {"protocol_hash", base::Hex(idl::ProtocolHash())},
         {"base_step_ns", std::to_string(roster_.base_step_ns())},
@@ -28,8 +38,7 @@ class RecorderNode final : public lockstep::Node {
         {"version", "0.1.0"},
     };
     if (auto status = writer_.AddMetadata("rodeira", about); !status) return status;
-    const auto text = std::as_bytes(std::span(launch.text()));
-    if (auto status = writer_.AddAttachment("launch.yaml", "application/yaml", text, 0, 0); !status) return status;
+    if (auto status = EmbedFiles(launch, writer_); !status) return status;
     channels_.assign(roster_.sources().size(), 0);
     for (const lockstep::Port& port : roster_.node(self).inputs) {
       const idl::TopicInfo* topic = idl::FindTopic(port.topic);
@@ -53,6 +62,7 @@ class RecorderNode final : public lockstep::Node {
   base::Status Initialise(lockstep::Outbox&) override { return {}; }
   base::Status Step(const lockstep::StepInfo&, const lockstep::Inbox& inbox, lockstep::Outbox&) override { return WriteAll(inbox); }
   base::Status Finish(const lockstep::Inbox& rest, lockstep::Step last_step, bool complete) override {
+    complete_ = complete;
     if (auto status = WriteAll(rest); !status) return status;
     const record::TextMap end{{"last_step", std::to_string(last_step)}, {"complete", complete ? "true" : "false"}};
     if (auto status = writer_.AddMetadata("rodeira.end", end); !status) return status;
@@ -85,6 +95,8 @@ class RecorderNode final : public lockstep::Node {
   }
 
   record::McapWriter writer_;
+  std::filesystem::path file_;
+  bool complete_ = false;
   const lockstep::Roster& roster_;
   std::vector<record::ChannelId> channels_;  // by source
   base::Bytes payload_;
@@ -99,7 +111,7 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeRecorderNode(launch::NodeConte
   settings.profile = kProfile;
   auto writer = record::McapWriter::Open(file, settings);
   if (!writer) return writer.error();
-  auto node = std::make_unique<RecorderNode>(std::move(writer).value(), context.roster());
+  auto node = std::make_unique<RecorderNode>(std::move(writer).value(), file, context.roster());
   if (auto status = node->Begin(context.launch(), context.index()); !status) return status.error();
   return std::unique_ptr<lockstep::Node>(std::move(node));
 }

@@ -1,8 +1,12 @@
 #include "nodes/traffic/traffic_node.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
+#include "common/scenario/event.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -49,7 +53,7 @@ driver::Footprint FootprintOf(const msg::VehicleState& in, std::uint32_t id) {
 
 class TrafficNode final : public lockstep::Node {
  public:
-  explicit TrafficNode(traffic::TrafficModel model) : model_(std::move(model)) {}
+  TrafficNode(std::string name, traffic::TrafficModel model) : name_(std::move(name)), model_(std::move(model)) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     Publish(outbox);
@@ -63,6 +67,11 @@ class TrafficNode final : public lockstep::Node {
       if (!state) return state.error();
       others_.push_back(FootprintOf(state.value(), kFirstCar + sample.source()));
     }
+    if (inbox.Has(topics::kScenarioEvents)) {
+      for (const lockstep::Sample& sample : inbox.All(topics::kScenarioEvents)) {
+        if (auto status = Obey(sample); !status) return status;
+      }
+    }
     model_.Step(step.dt_s, others_);
     Publish(outbox);
     return {};
@@ -71,6 +80,45 @@ class TrafficNode final : public lockstep::Node {
   void Restore(base::StateReader& in) override { in.Get("model", model_); }
 
  private:
+  base::Status Obey(const lockstep::Sample& sample) {
+    const auto events = idl::Decode<msg::ScenarioEvents>(*sample.payload);
+    if (!events) return events.error();
+    for (const msg::ScenarioEvent& event : events.value().events()) {
+      if (!event.name().starts_with("traffic.")) continue;
+      const std::string where = fmt::format("event '{}' at step {}", event.name(), sample.valid());
+      const auto agents = Meant(event.argument(), where);
+      if (!agents) return agents.error();
+      for (const std::uint32_t id : agents.value()) {
+        if (event.name() == scenario::kTrafficBrake) model_.Brake(id, event.value());
+        else if (event.name() == scenario::kTrafficSpeed) model_.CapSpeed(id, event.value());
+        else if (event.name() == scenario::kTrafficRelease) model_.Release(id);
+        else return base::WrongInput("the traffic does not know this event", where);
+      }
+    }
+    return {};
+  }
+  // The agents that an event speaks to. Nobody ahead is no mistake of the scenario's, but a person should know.
+  base::Result<std::vector<std::uint32_t>> Meant(const std::string& argument, const std::string& where) const {
+    const auto choice = scenario::ParseAgent(argument);
+    if (!choice) return base::WrongInput(choice.error().message, where);
+    std::vector<std::uint32_t> agents;
+    switch (choice.value().kind) {
+      case scenario::AgentChoice::Kind::kOne:
+        if (choice.value().id >= model_.vehicles()) {
+          return base::WrongInput(fmt::format("there is no agent {}; there are {}, from 0 on", choice.value().id, model_.vehicles()), where);
+        }
+        agents.push_back(choice.value().id);
+        break;
+      case scenario::AgentChoice::Kind::kAll:
+        for (std::uint32_t id = 0; id < model_.vehicles(); ++id) agents.push_back(id);
+        break;
+      case scenario::AgentChoice::Kind::kAhead:
+        if (const auto ahead = others_.empty() ? std::nullopt : model_.AheadOf(others_.front())) agents.push_back(*ahead);
+        else fmt::print(stderr, "rodeira: node '{}': {}: nobody is ahead of the driver's car, nothing happens\n", name_, where);
+        break;
+    }
+    return agents;
+  }
   void Publish(lockstep::Outbox& outbox) const {
     msg::TrafficState state;
     state.agents().reserve(model_.poses().size());
@@ -78,6 +126,7 @@ class TrafficNode final : public lockstep::Node {
     outbox.Put(topics::kTrafficState, idl::Encode(state));
   }
 
+  std::string name_;
   traffic::TrafficModel model_;
   std::vector<driver::Footprint> others_;
 };
@@ -96,7 +145,7 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
   const std::vector<driver::Footprint> clear{{0, start.x_m, start.y_m, start.heading_rad, 0.0, 20.0, 2.0}};
   auto model = traffic::TrafficModel::Make(settings, std::move(world).value(), clear);
   if (!model) return model.error();
-  return std::unique_ptr<lockstep::Node>(std::make_unique<TrafficNode>(std::move(model).value()));
+  return std::unique_ptr<lockstep::Node>(std::make_unique<TrafficNode>(context.spec().name, std::move(model).value()));
 }
 
 }  // namespace rodeira::nodes

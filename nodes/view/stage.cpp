@@ -5,7 +5,9 @@
 
 #include <chrono>
 
+#include "common/hands/key_names.hpp"
 #include "common/scene/world_scene.hpp"
+#include "nodes/view/key_forwarder.hpp"
 #include "nodes/view/painter.hpp"
 #include "nodes/view/png.hpp"
 #include "nodes/view/surface.hpp"
@@ -14,9 +16,17 @@ namespace rodeira::view {
 namespace {
 
 constexpr double kLongestRate_Hz = 60.0;
-constexpr const char* kHelp = "k  camera\ntab  next car\nf  full screen\ns  statistics\nh  this help\nesc  close the window (the run goes on)";
 
 double WallSeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+// The window's own keys, and below them those of the car where one is driven from here.
+std::string HelpText(const std::string& driving) {
+  std::string text;
+  for (const hands::WindowKey& key : hands::WindowKeys()) {
+    if (!key.does.empty()) text += fmt::format("{}{}  {}", text.empty() ? "" : "\n", key.name, key.does);
+  }
+  return driving.empty() ? text : text + "\n\n" + driving;
+}
 
 // A car where the world's start is: what the first picture is drawn with, so that everything is loaded before it counts.
 Picture FirstPicture(const road::World& world) {
@@ -36,6 +46,8 @@ struct Stage::Hand {
   std::unique_ptr<Surface> surface;
   scene::WorldScene standing;
   std::unique_ptr<Painter> painter;
+  std::unique_ptr<KeyForwarder> keys;  // null: nobody drives by this window
+  std::string help_text;
   Picture live;  // camera, followed car, texts as the person chose
   bool help = false;
   bool statistics = false;
@@ -44,12 +56,14 @@ struct Stage::Hand {
   double shown_wall_s = 0.0;
 };
 
-Stage::Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world) : settings_(settings), world_(std::move(world)) {
+Stage::Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world, std::unique_ptr<launch::LiveKeysSender> keys)
+    : settings_(settings), world_(std::move(world)), keys_(std::move(keys)) {
   thread_ = std::thread([this] { Run(); });
 }
 
-base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, std::shared_ptr<const road::World> world) {
-  std::unique_ptr<Stage> stage(new Stage(settings, std::move(world)));
+base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, std::shared_ptr<const road::World> world,
+                                                 std::unique_ptr<launch::LiveKeysSender> keys) {
+  std::unique_ptr<Stage> stage(new Stage(settings, std::move(world), std::move(keys)));
   {
     std::unique_lock lock(stage->mutex_);
     stage->changed_.wait(lock, [&] { return stage->ready_; });
@@ -134,6 +148,8 @@ base::Status Stage::SetUp(Hand& hand) {
   hand.standing = {};  // the painter has its own copy
   hand.painter->Draw(FirstPicture(*world_));
   (void)hand.painter->Read();
+  hand.help_text = HelpText(settings_.driving_help);
+  if (keys_ != nullptr) hand.keys = std::make_unique<KeyForwarder>(std::move(keys_));
   hand.live.camera = settings_.camera;
   hand.live.followed = settings_.followed;
   hand.live.show_instruments = settings_.instruments;
@@ -172,7 +188,7 @@ void Stage::ShowWindow(Hand& hand, std::unique_lock<std::mutex>& lock) {
   lock.unlock();
   const bool open = ReadKeys(hand);
   if (hand.live.followed >= hand.live.moment.cars.size()) hand.live.followed = 0;
-  hand.live.text = hand.help ? kHelp : "";
+  hand.live.text = hand.help ? hand.help_text : "";
   if (hand.statistics) {
     hand.live.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", hand.help ? "\n\n" : "", 1.0 / hand.interval_s, hand.frame_s * 1e3, rate,
                                   hand.surface->renderer());
@@ -196,19 +212,33 @@ bool Stage::ReadKeys(Hand& hand) {
   bool open = true;
   while (SDL_PollEvent(&event) != 0) {
     if (event.type == SDL_QUIT) open = false;
-    if (event.type != SDL_KEYDOWN || event.key.repeat != 0) continue;
-    switch (event.key.keysym.sym) {
-      case SDLK_k: hand.live.camera = hand.live.camera == scene::CameraKind::kChase ? scene::CameraKind::kDriver : scene::CameraKind::kChase; break;
-      case SDLK_TAB: ++hand.live.followed; break;
-      case SDLK_h: hand.help = !hand.help; break;
-      case SDLK_s: hand.statistics = !hand.statistics; break;
-      case SDLK_f: hand.surface->ToggleFullScreen(); break;
-      case SDLK_ESCAPE: open = false; break;
-      default: break;
-    }
+    if (event.type == SDL_KEYDOWN && event.key.repeat == 0 && event.key.keysym.sym == SDLK_ESCAPE) open = false;
+    const bool own = event.type == SDL_KEYDOWN && event.key.repeat == 0 && TakeOwnKey(hand, event.key.keysym.sym);
+    if (!own && hand.keys != nullptr) hand.keys->Take(event);
+  }
+  if (hand.keys != nullptr) {
+    if (!open) hand.keys->ReleaseAll();
+    hand.keys->Tell(launch::WallSeconds());
   }
   if (!open) hand.surface->Hide();
   return open;
+}
+
+// Whether the key is the window's own and not the car's.
+bool Stage::TakeOwnKey(Hand& hand, int symbol) {
+  switch (symbol) {
+    case SDLK_k: hand.live.camera = hand.live.camera == scene::CameraKind::kChase ? scene::CameraKind::kDriver : scene::CameraKind::kChase; return true;
+    case SDLK_TAB: ++hand.live.followed; return true;
+    case SDLK_h: hand.help = !hand.help; return true;
+    case SDLK_F3: hand.statistics = !hand.statistics; return true;
+    case SDLK_s:  // the brake of w a s d, where somebody drives
+      if (hand.keys != nullptr) return false;
+      hand.statistics = !hand.statistics;
+      return true;
+    case SDLK_f: hand.surface->ToggleFullScreen(); return true;
+    case SDLK_ESCAPE: return true;
+    default: return false;
+  }
 }
 
 }  // namespace rodeira::view

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "common/base/result.hpp"
+#include "common/launch/live_keys.hpp"
 #include "common/road/world.hpp"
 #include "common/scene/display_clock.hpp"
 #include "common/scene/moment.hpp"
@@ -22,7 +23,9 @@ class Stage {
  public:
   // Starts the thread and waits until everything is loaded and drawn once. Null where the settings want no picture here:
   // no frames, and no window or no display for one. Wrong input where a display or OpenGL is missing.
-  static base::Result<std::unique_ptr<Stage>> Open(const ViewSettings& settings, std::shared_ptr<const road::World> world);
+  // `keys` is told what is held in the window; null where nobody drives by it.
+  static base::Result<std::unique_ptr<Stage>> Open(const ViewSettings& settings, std::shared_ptr<const road::World> world,
+                                                   std::unique_ptr<launch::LiveKeysSender> keys = nullptr);
   ~Stage();
 
   // Whether there is a window, now.
@@ -42,16 +45,18 @@ class Stage {
     Picture picture;
     std::filesystem::path file;
   };
-  Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world);
+  Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world, std::unique_ptr<launch::LiveKeysSender> keys);
   void Run();
   base::Status SetUp(Hand& hand);
   void Loop(Hand& hand);
   void ServeOrder(Hand& hand, std::unique_lock<std::mutex>& lock);
   void ShowWindow(Hand& hand, std::unique_lock<std::mutex>& lock);
   bool ReadKeys(Hand& hand);
+  bool TakeOwnKey(Hand& hand, int symbol);
 
   const ViewSettings settings_;
   const std::shared_ptr<const road::World> world_;
+  std::unique_ptr<launch::LiveKeysSender> keys_;  // until the thread takes it
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -150,7 +150,7 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeViewNode(launch::NodeContext& 
   auto world = LoadWorld(context.launch());
   if (!world) return world.error();
   if (!context.launch().world().empty()) context.set_world_hash(world.value()->content_hash());
-  auto stage = view::Stage::Open(settings.value(), world.value());
+  auto stage = view::Stage::Open(settings.value(), world.value(), settings.value().drives ? context.KeysSender() : nullptr);
   if (!stage) return stage.error();
   return std::unique_ptr<lockstep::Node>(
       std::make_unique<ViewNode>(context.roster(), context.spec().name, std::move(settings).value(), std::move(stage).value()));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/base/suggest.hpp"
+#include "common/hands/keyboard_driver.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::view {
@@ -53,6 +54,19 @@ void ReadTimes(const launch::NodeContext& context, const config::Map& frames, Vi
   settings.frame_steps.erase(std::unique(settings.frame_steps.begin(), settings.frame_steps.end()), settings.frame_steps.end());
 }
 
+// Whether an input of the run drives by its windows' keys, and by which. What is wrong there the input itself says.
+void ReadDriving(const launch::Launch& launch, ViewSettings& settings) {
+  for (const launch::LaunchNode& node : launch.nodes()) {
+    if (node.kind->name != "input") continue;
+    if (node.config->Peek({"config", "source"}) != "keyboard") continue;
+    settings.drives = true;
+    const auto file = node.config->Peek({"config", "keyboard"});
+    if (!file) continue;
+    const auto keyboard = hands::LoadKeyboard((launch.path().parent_path() / *file).lexically_normal());
+    if (keyboard) settings.driving_help = hands::KeyboardHelp(keyboard.value());
+  }
+}
+
 // Makes the folder where it is missing, and tries to write there before time is spent.
 void PrepareFolder(const config::Map& frames, const std::filesystem::path& folder) {
   std::error_code problem;
@@ -83,6 +97,7 @@ base::Result<ViewSettings> ReadViewSettings(const launch::NodeContext& context) 
   settings.window = window == "always" ? WindowWish::kAlways : window == "never" ? WindowWish::kNever : WindowWish::kAuto;
   settings.instruments = map.Flag("instruments", true);
   ReadFollowed(context, map, settings);
+  ReadDriving(context.launch(), settings);
   if (map.Has("frames")) {
     const config::Map frames = map.Child("frames");
     ReadTimes(context, frames, settings);

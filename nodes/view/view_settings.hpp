@@ -21,6 +21,8 @@ struct ViewSettings {
   std::size_t followed = 0;                  // which of the cars wired to the view, in the roster's order
   std::vector<lockstep::Step> frame_steps;   // ascending, each once
   std::filesystem::path folder;              // of the frames
+  bool drives = false;                       // somebody in this run drives by the keys of its windows …
+  std::string driving_help;                  // … by these
 };
 
 // Reads the settings. Wrong input where a frame's time is not one at which every car wired to the view has a sample, where

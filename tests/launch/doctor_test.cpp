@@ -23,7 +23,7 @@ TEST(Doctor, AFaultIsStatusOneAWarningIsNot) {
 TEST(Doctor, SaysALineACheck) {
   const TemporaryFolder folder;
   const auto ended = RunCommand({"XDG_DATA_HOME=" + folder.path().string(), Bin("rodeira"), "doctor", "--domain", "231"});
-  for (const char* check : {"packages", "programs", "mathematics", "GL", "display", "shared memory", "ports", "DDS shared memory", "sockets", "cores", "memory", "disk"}) {
+  for (const char* check : {"packages", "programs", "mathematics", "GL", "display", "joysticks", "shared memory", "ports", "DDS shared memory", "sockets", "cores", "memory", "disk"}) {
     EXPECT_THAT(ended.out, ::testing::ContainsRegex(std::string("(ok|warning|fault) +") + check + " ")) << ended.out;
   }
   // Status 1 only with a fault that says what to do; which one depends on the machine.

@@ -16,9 +16,12 @@
 #include "common/base/files.hpp"
 #include "common/config/config.hpp"
 #include "common/driver/autopilot.hpp"
+#include "common/hands/keyboard_driver.hpp"
+#include "common/hands/wheel_driver.hpp"
 #include "common/launch/launch.hpp"
 #include "common/multibody/mechanism.hpp"
 #include "common/road/world.hpp"
+#include "common/scenario/scenario_file.hpp"
 #include "common/vehicle/vehicle_model.hpp"
 #include "nodes/input/script_source.hpp"
 #include "tests/common/road/sample_world.hpp"
@@ -142,7 +145,7 @@ TEST(TextFiles, AnyYaml) {
 }
 
 TEST(TextFiles, LaunchFiles) {
-  Fuzz("launch", {GoodFile("launch/demo.yaml"), GoodFile("launch/first_drive.yaml"), GoodFile("launch/empty.yaml"), GoodFile("tests/data/drive_without_recorder.yaml")},
+  Fuzz("launch", {GoodFile("launch/demo.yaml"), GoodFile("launch/first_drive.yaml"), GoodFile("launch/empty.yaml"), GoodFile("tests/data/drive_without_recorder.yaml"), GoodFile("launch/keyboard.yaml")},
        [](const std::string& text) -> std::optional<base::Error> {
          const auto launch = launch::Launch::Parse(text, kRoot / "launch/fuzz.yaml");
          if (!launch) return launch.error();
@@ -216,6 +219,61 @@ TEST(TextFiles, Drivers) {
   Fuzz("driver", {GoodFile("configs/drivers/default.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
     const auto driver = driver::LoadDriver(disk.Put(text));
     if (!driver) return driver.error();
+    return std::nullopt;
+  });
+}
+
+TEST(TextFiles, Keyboards) {
+  const OnDisk disk;
+  Fuzz("keyboard", {GoodFile("configs/drivers/keyboard.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
+    const auto settings = hands::LoadKeyboard(disk.Put(text));
+    if (!settings) return settings.error();
+    EXPECT_FALSE(hands::KeyboardHelp(settings.value()).empty());
+    hands::KeyboardDriver driver(settings.value());
+    hands::KeyboardInput all;
+    for (bool& held : all.held) held = true;
+    all.held[1] = false;
+    all.lever = {1, 3, 1, 2};
+    for (int i = 0; i < 20; ++i) {
+      const vehicle::Controls controls = driver.Step(all, 0.1);
+      EXPECT_TRUE(std::isfinite(controls.steering_wheel_rad) && controls.throttle >= 0.0 && controls.throttle <= 1.0 && controls.brake <= 1.0);
+    }
+    return std::nullopt;
+  });
+}
+
+TEST(TextFiles, Wheels) {
+  const OnDisk disk;
+  const std::string rich =
+      "rodeira: wheel/1\ndevices:\n  rim: 030000006d0400004fc2000011010000\n  feet: 03000000b70400004fc2000011010000\n"
+      "steering: {device: rim, axis: 0, centre: 12, dead_zone: 0.01, exponent: 1.5, lock_deg: 540}\npedals: {device: feet, axis: 1, inverted: true}\n"
+      "clutch: {device: feet, axis: 2, min: 0, max: 255}\nbuttons:\n  starter: {device: rim, button: 3}\nlever:\n  reverse: {device: rim, button: 8}\n  1: {device: rim, button: 9}\n";
+  Fuzz("wheel", {GoodFile("configs/drivers/wheel.yaml"), rich}, [&disk](const std::string& text) -> std::optional<base::Error> {
+    const auto settings = hands::LoadWheel(disk.Put(text));
+    if (!settings) return settings.error();
+    hands::WheelDriver driver(settings.value());
+    std::vector<hands::DeviceReading> readings(settings.value().devices.size());
+    for (const double raw : {0.0, 32767.0, -32768.0, 100.0}) {
+      for (auto& reading : readings) reading = {true, std::vector<double>(3, raw), std::vector<std::uint8_t>(10, raw > 0.0)};
+      const vehicle::Controls controls = driver.Step(readings, 1);
+      EXPECT_TRUE(std::isfinite(controls.steering_wheel_rad));
+      for (const double pedal : {controls.throttle, controls.brake, controls.clutch, controls.handbrake}) EXPECT_TRUE(pedal >= 0.0 && pedal <= 1.0) << pedal;
+    }
+    return std::nullopt;
+  });
+}
+
+TEST(TextFiles, Scenarios) {
+  const OnDisk disk;
+  Fuzz("scenario", {GoodFile("configs/scenarios/car_ahead_brakes.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
+    const auto scenario = scenario::LoadScenario(disk.Put(text), {1'000'000, 10, 10});
+    if (!scenario) return scenario.error();
+    std::int64_t before = 10;
+    for (const auto& event : scenario.value().scheduled) {
+      EXPECT_TRUE(event.step >= before && event.step % 10 == 0) << event.step;
+      EXPECT_NE(scenario::FindEventKind(event.event.name), nullptr) << event.event.name;
+      before = event.step;
+    }
     return std::nullopt;
   });
 }

@@ -40,6 +40,25 @@ TEST(Config, AWrongUnitIsNamed) {
   EXPECT_EQ(file.Finish().error().Text(), "folder/car.yaml:1: unknown key 'length_cm'; the unit is part of the name: 'length_m'");
 }
 
+TEST(Config, AMisspeltKeyIsNotMissingToo) {
+  const auto problems = [](const std::string& text) {
+    auto file = File::Parse(text, "car.yaml").value();
+    const Map body = file.root().Child("body");
+    (void)body.Number("mass_kg");
+    (void)body.Child("wheels");
+    (void)body.Items("axles");
+    std::vector<std::string> said;
+    for (const auto& problem : file.Problems()) said.push_back(problem.Text());
+    return said;
+  };
+  const std::string rest = "  wheels: {}\n  axles: []\n";
+  EXPECT_EQ(problems("body:\n  mas_kg: 1\n" + rest), std::vector<std::string>{"car.yaml:2: unknown key 'body.mas_kg'; did you mean 'mass_kg'?"});
+  EXPECT_EQ(problems("body:\n  mass_t: 1\n" + rest), std::vector<std::string>{"car.yaml:2: unknown key 'body.mass_t'; the unit is part of the name: 'mass_kg'"});
+  EXPECT_EQ(problems("body:\n  mass_kg: 1\n  wheel: {}\n  axle: []\n"),
+            (std::vector<std::string>{"car.yaml:3: unknown key 'body.wheel'; did you mean 'wheels'?", "car.yaml:4: unknown key 'body.axle'; did you mean 'axles'?"}));
+  EXPECT_EQ(problems("body:\n" + rest), std::vector<std::string>{"car.yaml:2: key 'body.mass_kg' is missing; a number was expected"}) << "what is just missing is said";
+}
+
 TEST(Config, EveryProblemIsCollectedInTheOrderOfLines) {
   const File file = Parsed("a_m: -1\nb_m: long\nc: {d: 1, d: 2}\ne: [1, x]\nf: violet\n");
   const Map root = file.root();
@@ -104,6 +123,19 @@ TEST(Config, WhatIsLeftToOthersIsNotUnknown) {
   (void)file.root().Number("mine");
   file.root().LeaveToOthers("yours");
   EXPECT_TRUE(file.Finish().ok());
+}
+
+TEST(Config, PeekingAsksForNothing) {
+  const File file = Parsed("yours: {x: {y: here}, z: 1}\nlist: [1]\n");
+  const Map root = file.root();
+  root.LeaveToOthers("yours");
+  root.LeaveToOthers("list");
+  EXPECT_EQ(root.Peek({"yours", "x", "y"}), "here");
+  EXPECT_EQ(root.Peek({"yours", "z"}), "1");
+  EXPECT_FALSE(root.Peek({"yours", "x"}).has_value()) << "no text";
+  EXPECT_FALSE(root.Peek({"yours", "w", "y"}).has_value());
+  EXPECT_FALSE(root.Peek({"list", "x"}).has_value());
+  EXPECT_TRUE(file.Finish().ok()) << "what stands in yours is not ours to judge";
 }
 
 TEST(Config, NumbersAreNeverInfinite) {

@@ -58,6 +58,8 @@ TEST(Launch, RefusesWhatIsWrongWithPlaceAndNearestName) {
   EXPECT_EQ(Refusal("rodeira: launch/2\nnodes: {road: {kind: road}}\n"), "dir/drive.yaml:1: 'rodeira' is 'launch/2'; did you mean 'launch/1'?");
   EXPECT_EQ(Refusal("rodeira: launch/1\n"), "dir/drive.yaml:1: key 'nodes' is missing; a mapping was expected");
   EXPECT_EQ(Refusal("rodeira: launch/1\nnodes: {ego: {kind: vehicle}}\n"), "dir/drive.yaml:2: node 'ego' needs 'controls', but no node publishes it");
+  EXPECT_EQ(Refusal(text + "pace: rael\n"), "dir/drive.yaml:10: 'pace' is 'rael'; max, real or a positive number was expected");
+  EXPECT_EQ(Refusal(text + "pace: -1\n"), "dir/drive.yaml:10: 'pace' is '-1'; max, real or a positive number was expected");
   EXPECT_EQ(Refusal(text, {{"base_step_s", "fast"}}), "dir/drive.yaml: 'base_step_s' is 'fast'; a number was expected");
 }
 

@@ -56,6 +56,7 @@ class Rememberer final : public Node {
     }
     return {};
   }
+  bool is_brief() const override { return index_ % 2 == 1; }
   void Save(base::StateWriter& out) const override { out.Put("memory", memory_); }
   void Restore(base::StateReader& in) override { in.Get("memory", memory_); }
 

@@ -1,4 +1,5 @@
 // Law L1 as it is lived: whatever the order of arrival, the threads and the rates, every sample is the one of the law.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -55,6 +56,32 @@ TEST(Law, HoldsWithOneThreadANode) {
     ASSERT_TRUE(outcome.ok) << outcome.fault;
     ExpectLawful(roster, contents, 300);
   }
+}
+
+TEST(Law, HoldsWhereMessagesAreLost) {
+  EXPECT_TRUE(rc::check("runs with losses equal the reference", [](std::uint64_t seed) {
+    const Roster roster = law::RandomRoster(seed);
+    const Step last = 40 + static_cast<Step>(seed % 13);
+    auto made = law::MakeNodes(roster);
+    Contents contents;
+    auto settings = Tracing(contents, last);
+    settings.loss = 0.05 + 0.1 * static_cast<double>(seed % 5);
+    const RunOutcome outcome = RunShuffled(roster, made.nodes, settings, seed + 1);
+    RC_ASSERT(outcome.fault == "");
+    RC_ASSERT(outcome.ok);
+    RC_ASSERT(contents == law::Reference(roster, last));
+  }));
+}
+
+TEST(Law, WhereNothingArrivesTheRunEndsWithWhoWaits) {
+  const Roster roster = law::RandomRoster(1);
+  auto made = law::MakeNodes(roster);
+  InProcessSettings settings;
+  settings.last_step = 100;
+  settings.loss = 1.0;
+  const RunOutcome outcome = RunShuffled(roster, made.nodes, settings, 1);
+  EXPECT_FALSE(outcome.ok);
+  EXPECT_THAT(outcome.fault, ::testing::StartsWith("deadlock: "));
 }
 
 TEST(Law, TheDigestTellsRunsApart) {

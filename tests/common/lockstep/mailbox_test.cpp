@@ -33,12 +33,36 @@ class MailboxTest : public ::testing::Test {
   Mailbox mailbox_{roster_, 2};
 };
 
+TEST_F(MailboxTest, NamesTheOldestSampleThatIsMissingOfEachSource) {
+  ASSERT_TRUE(mailbox_.Deliver(Make(1, 6, 1)).ok());
+  const auto gaps = mailbox_.Missing(10);  // sees 'slow' at 10, and of 'fast' 6, 8 and 10
+  ASSERT_EQ(gaps.size(), 2u);
+  EXPECT_EQ(gaps[0].source, 0u);
+  EXPECT_EQ(gaps[0].from, 10);
+  EXPECT_EQ(gaps[1].source, 1u);
+  EXPECT_EQ(gaps[1].from, 8);
+  EXPECT_EQ(mailbox_.MissingEvents(10).front().from, 0);
+}
+
+TEST_F(MailboxTest, CallsWhenWhatTheLastWaitLackedIsThere) {
+  int calls = 0;
+  mailbox_.OnReady(std::make_shared<const std::function<void()>>([&] { ++calls; }));
+  ASSERT_EQ(mailbox_.WaitForInputs(0, 0ms), Mailbox::Woken::kTimeout);
+  ASSERT_TRUE(mailbox_.Deliver(Make(0, 0, 1)).ok());
+  EXPECT_EQ(calls, 0);
+  ASSERT_TRUE(mailbox_.Deliver(Make(1, 0, 1)).ok());
+  EXPECT_EQ(calls, 1);
+  ASSERT_EQ(mailbox_.WaitForInputs(0, 0ms), Mailbox::Woken::kReady);
+  ASSERT_TRUE(mailbox_.Deliver(Make(1, 2, 1)).ok());  // nobody waits for it
+  EXPECT_EQ(calls, 1);
+}
+
 TEST_F(MailboxTest, WaitsForExactlyTheSamplesOfTheLaw) {
   mailbox_.DeliverGrant(Through(100));
   EXPECT_EQ(mailbox_.WaitForActivation(0, 0ms), Mailbox::Woken::kTimeout);
-  EXPECT_EQ(mailbox_.FirstMissing(0), 0u);
+  EXPECT_EQ(mailbox_.Missing(0).front().source, 0u);
   ASSERT_TRUE(mailbox_.Deliver(Make(0, 0, 1)).ok());
-  EXPECT_EQ(mailbox_.FirstMissing(0), 1u);
+  EXPECT_EQ(mailbox_.Missing(0).front().source, 1u);
   ASSERT_TRUE(mailbox_.Deliver(Make(1, 0, 2)).ok());
   EXPECT_EQ(mailbox_.WaitForActivation(0, 0ms), Mailbox::Woken::kReady);
   mailbox_.Forget(5);
@@ -61,7 +85,6 @@ TEST_F(MailboxTest, WithoutAGrantNothingRuns) {
   ASSERT_TRUE(mailbox_.Deliver(Make(1, 0, 2)).ok());
   EXPECT_EQ(mailbox_.WaitForInputs(0, 0ms), Mailbox::Woken::kReady);
   EXPECT_EQ(mailbox_.WaitForActivation(0, 0ms), Mailbox::Woken::kTimeout);
-  EXPECT_FALSE(mailbox_.HasGrant());
   mailbox_.DeliverGrant(Through(0));
   EXPECT_EQ(mailbox_.WaitForActivation(0, 0ms), Mailbox::Woken::kReady);
   mailbox_.DeliverGrant(Through(-1));  // an older grant that comes late takes nothing back

@@ -43,6 +43,25 @@ TEST(ViewSettings, WrongOnesAreRefusedWithTheirPlace) {
   EXPECT_NE(Complaint("{frames: {times_s: [1]}}").find("folder"), std::string::npos);
 }
 
+TEST(ViewSettings, KnowsByWhichKeysItsCarIsDriven) {
+  const auto settings = [](const std::string& input) {
+    std::string text = LaunchText("{}");
+    text.replace(text.find("{kind: input}"), 13, "{kind: input, config: " + input + "}");
+    const auto launch = launch::Launch::Parse(text, std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/fake.yaml");
+    EXPECT_TRUE(launch.ok());
+    const PlainContext context(launch.value(), launch.value().roster().Find("picture"));
+    const auto read = ReadViewSettings(context);
+    EXPECT_TRUE(read.ok()) << read.error().Text();
+    return read.value();
+  };
+  EXPECT_FALSE(settings("{source: autopilot, driver: x.yaml, lane: -1}").drives) << "and what else stands there is not the view's to judge";
+  EXPECT_FALSE(settings("[nonsense]").drives);
+  const ViewSettings driven = settings("{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml, nonsense: 1}");
+  EXPECT_TRUE(driven.drives);
+  EXPECT_NE(driven.driving_help.find("left, a  steer left"), std::string::npos) << driven.driving_help;
+  EXPECT_TRUE(settings("{source: keyboard, keyboard: missing.yaml}").drives) << "the input says that it is missing";
+}
+
 TEST(ViewSettings, AFramesTimeMustBeASampleOfTheCar) {
   const std::string folder = (std::filesystem::temp_directory_path() / ("rodeira-view-settings-" + std::to_string(::getpid()))).string();
   const auto with = [&](const std::string& times) { return "{frames: {times_s: " + times + ", folder: " + folder + "}}"; };

@@ -1,0 +1,80 @@
+#include "common/hands/keyboard_driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/assert.hpp"
+
+namespace rodeira::hands {
+namespace {
+
+double MovePedal(double value, bool held, const PedalRates& rates, double dt_s) {
+  if (held) return std::min(rates.most, value + dt_s / rates.press_s);
+  return std::max(0.0, value - dt_s / rates.release_s);
+}
+
+// The wheel after dt_s: first back towards the middle where the target lies there, then outwards with what is left of dt_s.
+double TurnWheel(double wheel, double target, double out_radps, double back_radps, double dt_s) {
+  const bool across = wheel * target < 0.0;
+  if (across || std::fabs(target) < std::fabs(wheel)) {
+    const double goal = across ? 0.0 : target;
+    const double needed_s = std::fabs(wheel - goal) / back_radps;
+    if (needed_s > dt_s) return wheel - std::copysign(back_radps * dt_s, wheel);
+    wheel = goal;
+    dt_s -= needed_s;
+  }
+  if (wheel == target) return wheel;
+  return wheel + std::copysign(std::min(out_radps * dt_s, std::fabs(target - wheel)), target - wheel);
+}
+
+}  // namespace
+
+vehicle::Controls KeyboardDriver::Step(const KeyboardInput& input, double dt_s) {
+  RODEIRA_ASSERT(dt_s > 0.0);
+  const auto held = [&](Action action) { return input.held[static_cast<std::size_t>(action)]; };
+  const double ratio = input.speed_mps / settings_.half_lock_speed_mps;
+  const double lock = settings_.lock_rad / (1.0 + ratio * ratio);
+  const double direction = (held(Action::kSteerLeft) ? 1.0 : 0.0) - (held(Action::kSteerRight) ? 1.0 : 0.0);
+  wheel_rad_ = TurnWheel(wheel_rad_, direction * lock, lock / settings_.turn_s, lock / settings_.centre_s, dt_s);
+  throttle_ = MovePedal(throttle_, held(Action::kThrottle), settings_.throttle, dt_s);
+  brake_ = MovePedal(brake_, held(Action::kBrake), settings_.brake, dt_s);
+  clutch_ = MovePedal(clutch_, held(Action::kClutch), settings_.clutch, dt_s);
+  handbrake_ = held(Action::kHandbrake);
+  starter_ = held(Action::kStarter);
+  lever_.Step(input.lever);
+  return controls();
+}
+
+vehicle::Controls KeyboardDriver::controls() const {
+  vehicle::Controls controls;
+  controls.steering_wheel_rad = wheel_rad_;
+  controls.throttle = throttle_;
+  controls.brake = brake_;
+  controls.clutch = clutch_;
+  controls.handbrake = handbrake_ ? 1.0 : 0.0;
+  controls.starter = starter_;
+  lever_.Show(controls);
+  return controls;
+}
+
+void KeyboardDriver::Save(base::StateWriter& out) const {
+  out.Put("wheel_rad", wheel_rad_);
+  out.Put("throttle", throttle_);
+  out.Put("brake", brake_);
+  out.Put("clutch", clutch_);
+  out.Put("handbrake", handbrake_);
+  out.Put("starter", starter_);
+  out.Put("lever", lever_);
+}
+
+void KeyboardDriver::Restore(base::StateReader& in) {
+  in.Get("wheel_rad", wheel_rad_);
+  in.Get("throttle", throttle_);
+  in.Get("brake", brake_);
+  in.Get("clutch", clutch_);
+  in.Get("handbrake", handbrake_);
+  in.Get("starter", starter_);
+  in.Get("lever", lever_);
+}
+
+}  // namespace rodeira::hands

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/base/state.hpp"
+#include "common/config/config.hpp"
+#include "common/hands/axis.hpp"
+#include "common/hands/gear_selector.hpp"
+#include "common/vehicle/controls.hpp"
+
+namespace rodeira::hands {
+
+struct ButtonUse {
+  std::size_t device = 0;
+  std::size_t button = 0;
+  std::string place;
+};
+
+// A device is known by its GUID (32 hexadecimal digits: kind of connection, maker, product), never by a number that
+// changes with the order of plugging in.
+struct DeviceUse {
+  std::string name;  // in this file
+  std::string guid;
+  std::string place;
+};
+
+enum class WheelAxis : std::size_t { kSteering, kThrottle, kBrake, kClutch, kHandbrake, kPedals };
+inline constexpr std::size_t kWheelAxes = 6;
+enum class WheelButton : std::size_t { kGearUp, kGearDown, kGearboxMode, kClutch, kHandbrake, kStarter };
+inline constexpr std::size_t kWheelButtons = 6;
+
+// `rodeira: wheel/1` (docs/formats.md).
+struct WheelSettings {
+  std::vector<DeviceUse> devices;
+  std::optional<AxisUse> axes[kWheelAxes];  // kPedals: throttle on its positive side, brake on the other
+  std::optional<ButtonUse> buttons[kWheelButtons];
+  std::map<std::int32_t, ButtonUse> lever;  // places of a lever: gear → button that is down there; none down is neutral
+  double lock_rad = 7.85;                   // of the car's steering wheel where the axis is at its end
+  std::int32_t gears = 5;
+  vehicle::GearboxMode gearbox = vehicle::GearboxMode::kAutomatic;
+
+  const std::optional<AxisUse>& AxisOf(WheelAxis axis) const { return axes[static_cast<std::size_t>(axis)]; }
+};
+
+// Problems stay in the file's collection.
+WheelSettings ReadWheel(const config::Map& root);
+base::Result<WheelSettings> LoadWheel(const std::filesystem::path& path);
+// 32 hexadecimal digits.
+bool IsGuid(std::string_view text);
+
+// What one device says now.
+struct DeviceReading {
+  bool connected = false;
+  std::vector<double> axes;
+  std::vector<std::uint8_t> buttons;
+};
+
+// Steering wheel, pedals and lever of flesh and plastic. Where one of its devices is unplugged the pedals are released, the
+// steering stays as it is, and the run goes on; plugged in again, each of its axes counts from its first move on.
+class WheelDriver {
+ public:
+  explicit WheelDriver(const WheelSettings& settings) : settings_(settings), lever_(settings.gears, settings.gearbox) {}
+
+  // From the readings of all devices, in the settings' order; `engaged` is the gear that is in. Steering is positive to the
+  // left, a device's axis to the right.
+  vehicle::Controls Step(std::span<const DeviceReading> devices, std::int32_t engaged);
+  const vehicle::Controls& controls() const { return controls_; }
+
+  void Save(base::StateWriter& out) const;
+  void Restore(base::StateReader& in);
+
+ private:
+  std::optional<double> Raw(std::span<const DeviceReading> devices, WheelAxis axis);
+  double Pedal(std::span<const DeviceReading> devices, WheelAxis axis);
+  bool Down(std::span<const DeviceReading> devices, const ButtonUse& use) const;
+  bool Down(std::span<const DeviceReading> devices, WheelButton button) const;
+  bool Pressed(std::span<const DeviceReading> devices, WheelButton button);
+  void ReleasePedals();
+
+  WheelSettings settings_;
+  GearSelector lever_;
+  AxisWatch watches_[kWheelAxes];
+  bool down_[kWheelButtons] = {};
+  vehicle::Controls controls_;
+};
+
+}  // namespace rodeira::hands

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "common/lockstep/mailbox.hpp"
+#include "common/lockstep/roster.hpp"
+#include "common/lockstep/sample.hpp"
+
+namespace rodeira::lockstep {
+
+// A node's own samples that a consumer may still ask for. No acknowledgement is needed to know which: time is granted at
+// most a window beyond the slowest node (law L2), so what nobody at `through` − window can need any more has been seen by
+// everybody. One thread at a time.
+class KeptSamples {
+ public:
+  KeptSamples(const Roster& roster, NodeIndex node);
+
+  void Add(const Sample& sample);
+  // Drops what no consumer can ask for once `through` is granted.
+  void Granted(Step through);
+  // The samples of gap.source valid at or after gap.from, oldest first; none where the source is another node's.
+  std::vector<Sample> From(const Gap& gap) const;
+  std::size_t size() const;
+
+ private:
+  const Roster& roster_;
+  std::vector<SourceIndex> outputs_;
+  std::vector<std::deque<Sample>> samples_;  // of each output, by step
+};
+
+}  // namespace rodeira::lockstep

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "common/base/result.hpp"
+
+// The vocabulary of scenario events, for those who publish and those who obey.
+namespace rodeira::scenario {
+
+inline constexpr std::string_view kMark = "mark";                       // a text in the recording; nobody obeys
+inline constexpr std::string_view kTrafficBrake = "traffic.brake";      // at a deceleration down to rest, and stay
+inline constexpr std::string_view kTrafficSpeed = "traffic.speed";      // drive no faster than this
+inline constexpr std::string_view kTrafficRelease = "traffic.release";  // forget both
+
+// As on the wire (idl/scenario.idl).
+struct Event {
+  std::string name;
+  std::string argument;
+  double value = 0.0;
+};
+
+// What a kind of event is told, and under which keys a person writes it.
+struct EventKind {
+  std::string_view name;
+  std::string_view argument_key;   // text or agent
+  bool argument_is_agent = false;  // otherwise any text
+  std::string_view value_key;      // with its unit; empty: it has none
+  double low = 0.0, high = 0.0;    // of the value
+};
+std::span<const EventKind> EventKinds();
+// Null where there is no such kind.
+const EventKind* FindEventKind(std::string_view name);
+
+// Which agents of the traffic are meant: a number, "all", or "ahead": the next one in front of the driver's car in its lane
+// at the moment at which the event acts.
+struct AgentChoice {
+  enum class Kind { kOne, kAll, kAhead };
+  Kind kind = Kind::kOne;
+  std::uint32_t id = 0;
+};
+base::Result<AgentChoice> ParseAgent(std::string_view text);
+
+}  // namespace rodeira::scenario

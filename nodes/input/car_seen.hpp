@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/base/result.hpp"
+#include "common/lockstep/inbox.hpp"
+
+namespace rodeira::nodes {
+
+// What a person's controls need to know of the car: nothing where no vehicle is wired to the node.
+struct CarSeen {
+  double speed_mps = 0.0;  // forward
+  std::int32_t gear = 1;   // that is in
+};
+base::Result<CarSeen> SeeCar(const lockstep::Inbox& inbox);
+
+}  // namespace rodeira::nodes

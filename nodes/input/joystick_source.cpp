@@ -1,0 +1,137 @@
+#include "nodes/input/joystick_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <utility>
+
+#include "common/base/suggest.hpp"
+#include "common/hands/wheel_driver.hpp"
+#include "nodes/input/car_seen.hpp"
+#include "nodes/input/joysticks.hpp"
+
+namespace rodeira::nodes {
+namespace {
+
+class JoystickSource final : public Source {
+ public:
+  JoystickSource(std::string node, const hands::WheelSettings& settings, std::unique_ptr<Joysticks> joysticks)
+      : node_(std::move(node)),
+        settings_(settings),
+        driver_(settings),
+        joysticks_(std::move(joysticks)),
+        there_(settings.devices.size(), true) {}
+
+  vehicle::Controls First() override { return driver_.controls(); }
+
+  base::Result<vehicle::Controls> Step(const lockstep::StepInfo&, std::int64_t, const lockstep::Inbox& inbox) override {
+    const auto car = SeeCar(inbox);
+    if (!car) return car.error();
+    joysticks_->Update();
+    readings_.clear();
+    for (std::size_t place = 0; place < settings_.devices.size(); ++place) {
+      readings_.push_back(joysticks_->reading(place));
+      Tell(place, readings_.back().connected);
+    }
+    return driver_.Step(readings_, car.value().gear);
+  }
+
+  void Save(base::StateWriter& out) const override { out.Put("wheel", driver_); }
+  void Restore(base::StateReader& in) override { in.Get("wheel", driver_); }
+
+ private:
+  // To the person, once for each time.
+  void Tell(std::size_t place, bool there) {
+    if (there_[place] == there) return;
+    there_[place] = there;
+    fmt::print(stderr, "rodeira: node '{}': {} '{}' ({}) {}\n", node_, settings_.devices[place].name, joysticks_->name(place),
+               settings_.devices[place].guid, there ? "is there again" : "was unplugged: pedals released, steering held");
+  }
+
+  std::string node_;
+  hands::WheelSettings settings_;
+  hands::WheelDriver driver_;
+  std::unique_ptr<Joysticks> joysticks_;
+  std::vector<bool> there_;
+  std::vector<hands::DeviceReading> readings_;
+};
+
+// GUIDs of the launch file stand above those of the wheel file: the same file then serves several seats.
+void ReplaceGuids(const config::Map& config, hands::WheelSettings& settings) {
+  const config::Map devices = config.OptionalChild("devices");
+  std::vector<std::string> names;
+  for (const hands::DeviceUse& device : settings.devices) names.push_back(device.name);
+  for (const std::string& name : devices.Keys()) {
+    std::string guid = devices.Text(name);
+    std::transform(guid.begin(), guid.end(), guid.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      devices.Problem(name, fmt::format("the wheel file has no device '{}'{}", name, base::DidYouMean(name, names)));
+    } else if (!hands::IsGuid(guid)) {
+      devices.Problem(
+          name, fmt::format("'{}' is '{}'; a GUID of 32 hexadecimal digits was expected, as `rodeira joysticks` lists them", name,
+                            guid));
+    } else {
+      auto& device = settings.devices[static_cast<std::size_t>(found - names.begin())];
+      device.guid = guid;
+      device.place = devices.Place(name);
+    }
+  }
+}
+
+// Everything that the file names is there, now.
+base::Status CheckDevices(const hands::WheelSettings& settings, const Joysticks& joysticks) {
+  for (std::size_t place = 0; place < settings.devices.size(); ++place) {
+    const hands::DeviceUse& device = settings.devices[place];
+    if (joysticks.reading(place).connected) continue;
+    return base::WrongInput(
+        fmt::format("device '{}' with GUID {} is not there; {}", device.name, device.guid, ListJoysticks(joysticks.Connected())),
+        device.place);
+  }
+  const auto check = [&](std::size_t place, std::size_t number, std::size_t count, const char* kind,
+                         const std::string& where) -> base::Status {
+    if (number < count) return {};
+    return base::WrongInput(fmt::format("{} {} of device '{}' was asked for; '{}' has {} (the first is 0)", kind, number,
+                                        settings.devices[place].name, joysticks.name(place), count),
+                            where);
+  };
+  for (const auto& axis : settings.axes) {
+    if (!axis) continue;
+    if (auto status = check(axis->device, axis->axis, joysticks.reading(axis->device).axes.size(), "axis", axis->place); !status)
+      return status;
+  }
+  std::vector<hands::ButtonUse> buttons;
+  for (const auto& button : settings.buttons) {
+    if (button) buttons.push_back(*button);
+  }
+  for (const auto& [gear, button] : settings.lever) buttons.push_back(button);
+  for (const hands::ButtonUse& use : buttons) {
+    if (auto status = check(use.device, use.button, joysticks.reading(use.device).buttons.size(), "button", use.place); !status)
+      return status;
+  }
+  return {};
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<Source>> MakeJoystickSource(const config::Map& config, launch::NodeContext& context) {
+  const std::filesystem::path file = config.Path("wheel");
+  config.LeaveToOthers("devices");
+  if (auto status = context.launch().file().Finish(); !status) return status.error();
+  auto settings = hands::LoadWheel(file);
+  if (!settings) return settings.error();
+  ReplaceGuids(config, settings.value());
+  if (auto status = context.launch().file().Finish(); !status) return status.error();
+  auto joysticks = Joysticks::Start();
+  if (!joysticks) return joysticks.error();
+  std::vector<std::string> guids;
+  for (const hands::DeviceUse& device : settings.value().devices) guids.push_back(device.guid);
+  joysticks.value()->Use(guids);
+  if (auto status = CheckDevices(settings.value(), *joysticks.value()); !status) return status.error();
+  return std::unique_ptr<Source>(
+      std::make_unique<JoystickSource>(context.spec().name, settings.value(), std::move(joysticks).value()));
+}
+
+}  // namespace rodeira::nodes

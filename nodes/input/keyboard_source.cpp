@@ -1,0 +1,65 @@
+#include "nodes/input/keyboard_source.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/hands/keyboard_driver.hpp"
+#include "nodes/input/car_seen.hpp"
+
+namespace rodeira::nodes {
+namespace {
+
+using hands::Action;
+
+class KeyboardSource final : public Source {
+ public:
+  KeyboardSource(const hands::KeyboardSettings& settings, std::unique_ptr<launch::LiveKeysReceiver> keys)
+      : settings_(settings), driver_(settings), keys_(std::move(keys)) {}
+
+  vehicle::Controls First() override { return driver_.controls(); }
+
+  base::Result<vehicle::Controls> Step(const lockstep::StepInfo& step, std::int64_t, const lockstep::Inbox& inbox) override {
+    const auto car = SeeCar(inbox);
+    if (!car) return car.error();
+    const launch::KeysNow now = keys_->Take();
+    hands::KeyboardInput input;
+    for (std::size_t action = 0; action < hands::kActions; ++action) {
+      const auto& keys = settings_.keys[action];
+      input.held[action] = std::any_of(keys.begin(), keys.end(), [&](hands::Key key) { return now.Holds(key); });
+    }
+    input.lever.up = Presses(now, Action::kGearUp);
+    input.lever.down = Presses(now, Action::kGearDown);
+    input.lever.mode = Presses(now, Action::kGearboxMode);
+    input.lever.engaged = car.value().gear;
+    input.speed_mps = car.value().speed_mps;
+    return driver_.Step(input, step.dt_s);
+  }
+
+  void Save(base::StateWriter& out) const override { out.Put("keyboard", driver_); }
+  void Restore(base::StateReader& in) override { in.Get("keyboard", driver_); }
+
+ private:
+  std::uint32_t Presses(const launch::KeysNow& now, Action action) const {
+    std::uint32_t presses = 0;
+    for (const hands::Key key : settings_.KeysOf(action)) presses += now.PressesOf(key);
+    return presses;
+  }
+
+  hands::KeyboardSettings settings_;
+  hands::KeyboardDriver driver_;
+  std::unique_ptr<launch::LiveKeysReceiver> keys_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<Source>> MakeKeyboardSource(const config::Map& config, launch::NodeContext& context) {
+  const std::filesystem::path file = config.Path("keyboard");
+  if (auto status = context.launch().file().Finish(); !status) return status.error();
+  const auto settings = hands::LoadKeyboard(file);
+  if (!settings) return settings.error();
+  auto keys = context.KeysReceiver();
+  RODEIRA_ASSERT(keys != nullptr);
+  return std::unique_ptr<Source>(std::make_unique<KeyboardSource>(settings.value(), std::move(keys)));
+}
+
+}  // namespace rodeira::nodes

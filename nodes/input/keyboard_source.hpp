@@ -1,0 +1,14 @@
+#pragma once
+
+#include <memory>
+
+#include "common/launch/node_context.hpp"
+#include "nodes/input/source.hpp"
+
+namespace rodeira::nodes {
+
+// Drives by the keys that the run's windows forward (common/launch/live_keys.hpp), as a keyboard file says
+// (docs/formats.md). What is held at an activation becomes the controls of that activation.
+base::Result<std::unique_ptr<Source>> MakeKeyboardSource(const config::Map& config, launch::NodeContext& context);
+
+}  // namespace rodeira::nodes

@@ -1,0 +1,187 @@
+#include "nodes/scenario/scenario_node.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/base/suggest.hpp"
+#include "common/road/world.hpp"
+#include "common/scenario/scenario_file.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::nodes {
+namespace {
+
+namespace topics = idl::topics;
+
+constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+
+// A station that the car may pass, and whether it has.
+class Gate {
+ public:
+  Gate(const road::Road& road, double passes_m) : road_(&road), passes_m_(passes_m) {}
+
+  // Whether the car, now at (x, y), has passed since it was last seen; true once only.
+  bool Passed(double x_m, double y_m) {
+    const auto place = road_->Locate(x_m, y_m);
+    const double before_m = seen_m_;
+    seen_m_ = place ? place->s_m : kNowhere;
+    if (done_ || std::isnan(before_m) || std::isnan(seen_m_)) return false;
+    done_ = (before_m < passes_m_) != (seen_m_ < passes_m_);
+    return done_;
+  }
+
+  void Save(base::StateWriter& out) const {
+    out.Put("seen_m", seen_m_);
+    out.Put("done", done_);
+  }
+  void Restore(base::StateReader& in) {
+    in.Get("seen_m", seen_m_);
+    in.Get("done", done_);
+  }
+
+ private:
+  const road::Road* road_;
+  double passes_m_;
+  double seen_m_ = kNowhere;
+  bool done_ = false;
+};
+
+class ScenarioNode final : public lockstep::Node {
+ public:
+  ScenarioNode(scenario::Scenario scenario, std::shared_ptr<const road::World> world, std::vector<Gate> gates)
+      : scenario_(std::move(scenario)), world_(std::move(world)), gates_(std::move(gates)) {}
+
+  // The initial sample may stand at several steps (law L1), so nothing is said in it.
+  base::Status Initialise(lockstep::Outbox& outbox) override {
+    outbox.Put(topics::kScenarioEvents, idl::Encode(msg::ScenarioEvents()));
+    return {};
+  }
+
+  base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
+    msg::ScenarioEvents events;
+    const auto due = std::lower_bound(scenario_.scheduled.begin(), scenario_.scheduled.end(), step.output_valid,
+                                      [](const scenario::ScheduledEvent& event, lockstep::Step at) { return event.step < at; });
+    for (auto event = due; event != scenario_.scheduled.end() && event->step == step.output_valid; ++event)
+      Add(event->event, events);
+    if (!gates_.empty()) {
+      const auto car = idl::Decode<msg::VehicleState>(*inbox.Latest(topics::kVehicleState).payload);
+      if (!car) return car.error();
+      for (std::size_t i = 0; i < gates_.size(); ++i) {
+        if (gates_[i].Passed(car.value().position_w_m().x(), car.value().position_w_m().y()))
+          Add(scenario_.conditional[i].event, events);
+      }
+    }
+    outbox.Put(topics::kScenarioEvents, idl::Encode(events));
+    return {};
+  }
+
+  void Save(base::StateWriter& out) const override {
+    for (const Gate& gate : gates_) out.Put("gate", gate);
+  }
+  void Restore(base::StateReader& in) override {
+    for (Gate& gate : gates_) in.Get("gate", gate);
+  }
+
+ private:
+  static void Add(const scenario::Event& event, msg::ScenarioEvents& events) {
+    msg::ScenarioEvent out;
+    out.name(event.name);
+    out.argument(event.argument);
+    out.value(event.value);
+    out.index(static_cast<std::uint32_t>(events.events().size()));
+    events.events().push_back(std::move(out));
+  }
+
+  scenario::Scenario scenario_;
+  std::shared_ptr<const road::World> world_;
+  std::vector<Gate> gates_;  // one for each conditional event
+};
+
+// Whether somebody of this kind obeys the node's events.
+bool Obeyed(const launch::NodeContext& context, std::string_view kind) {
+  for (const lockstep::NodeSpec& node : context.roster().nodes()) {
+    if (node.kind != kind) continue;
+    for (const lockstep::Port& port : node.inputs) {
+      for (const lockstep::SourceIndex source : port.sources) {
+        if (context.roster().source(source).node == context.index()) return true;
+      }
+    }
+  }
+  return false;
+}
+
+base::Status CheckObeyed(const launch::NodeContext& context, const scenario::Scenario& scenario,
+                         const std::filesystem::path& file) {
+  if (Obeyed(context, "traffic")) return {};
+  const auto check = [&](const scenario::Event& event) -> base::Status {
+    if (!event.name.starts_with("traffic.")) return {};
+    return base::WrongInput(
+        fmt::format("'{}' speaks to the traffic, but no node of kind 'traffic' is wired to this scenario", event.name),
+        file.string());
+  };
+  for (const auto& event : scenario.scheduled) {
+    if (auto status = check(event.event); !status) return status;
+  }
+  for (const auto& event : scenario.conditional) {
+    if (auto status = check(event.event); !status) return status;
+  }
+  return {};
+}
+
+base::Result<std::vector<Gate>> MakeGates(const launch::NodeContext& context, const scenario::Scenario& scenario,
+                                          const road::World& world) {
+  const bool sees = std::any_of(context.spec().inputs.begin(), context.spec().inputs.end(),
+                                [](const lockstep::Port& port) { return port.topic == topics::kVehicleState; });
+  std::vector<std::string> names;
+  for (const road::Road& road : world.roads()) names.push_back(road.id());
+  std::vector<Gate> gates;
+  for (const scenario::ConditionalEvent& event : scenario.conditional) {
+    if (!sees)
+      return base::WrongInput("'passes_m' waits for the driver's car; wire 'vehicle_state' to the scenario", event.place);
+    auto road = std::find(names.begin(), names.end(), event.road);
+    if (event.road.empty() && names.size() == 1) road = names.begin();
+    if (road == names.end())
+      return base::WrongInput(fmt::format("there is no road '{}'{}", event.road, base::DidYouMean(event.road, names)),
+                              event.place);
+    const road::Road& found = world.roads()[static_cast<std::size_t>(road - names.begin())];
+    if (event.passes_m > found.length_m()) {
+      return base::WrongInput(
+          fmt::format("'passes_m' is {}; road '{}' is {:.1f} m long", event.passes_m, found.id(), found.length_m()), event.place);
+    }
+    gates.emplace_back(found, event.passes_m);
+  }
+  return gates;
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<lockstep::Node>> MakeScenarioNode(launch::NodeContext& context) {
+  const std::filesystem::path file = context.config().Path("scenario");
+  if (auto status = context.launch().file().Finish(); !status) return status.error();
+  auto scenario = scenario::LoadScenario(file, {context.roster().base_step_ns(), context.spec().period, context.spec().delay});
+  if (!scenario) return scenario.error();
+  if (auto status = CheckObeyed(context, scenario.value(), file); !status) return status.error();
+  std::shared_ptr<const road::World> world;
+  std::vector<Gate> gates;
+  if (!scenario.value().conditional.empty()) {
+    if (context.launch().world().empty())
+      return base::WrongInput("key 'world' is missing; 'passes_m' needs roads", context.launch().path().string());
+    auto loaded = road::World::Load(context.launch().world());
+    if (!loaded) return loaded.error();
+    world = std::move(loaded).value();
+    context.set_world_hash(world->content_hash());
+    auto made = MakeGates(context, scenario.value(), *world);
+    if (!made) return made.error();
+    gates = std::move(made).value();
+  }
+  return std::unique_ptr<lockstep::Node>(
+      std::make_unique<ScenarioNode>(std::move(scenario).value(), std::move(world), std::move(gates)));
+}
+
+}  // namespace rodeira::nodes

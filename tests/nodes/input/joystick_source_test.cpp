@@ -1,0 +1,186 @@
+// The input node at a steering wheel: SDL's virtual joystick, no display and no device.
+#include <SDL.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+
+#include "common/base/files.hpp"
+#include "nodes/input/joysticks.hpp"
+#include "tests/nodes/input/live_drive.hpp"
+
+namespace rodeira {
+namespace {
+
+// A wheel with four axes and eight buttons.
+class VirtualWheel {
+ public:
+  VirtualWheel() { Attach(); }
+  ~VirtualWheel() { Detach(); }
+  VirtualWheel(const VirtualWheel&) = delete;
+  VirtualWheel& operator=(const VirtualWheel&) = delete;
+
+  void Attach() {
+    const int index = SDL_JoystickAttachVirtual(SDL_JOYSTICK_TYPE_WHEEL, 4, 8, 0);
+    ASSERT_GE(index, 0) << SDL_GetError();
+    char text[33] = {};
+    SDL_JoystickGetGUIDString(SDL_JoystickGetDeviceGUID(index), text, sizeof(text));
+    guid_ = text;
+    joystick_ = SDL_JoystickOpen(index);
+    ASSERT_NE(joystick_, nullptr) << SDL_GetError();
+  }
+  void Detach() {
+    if (joystick_ == nullptr) return;
+    const SDL_JoystickID id = SDL_JoystickInstanceID(joystick_);
+    for (int index = 0; index < SDL_NumJoysticks(); ++index) {
+      if (SDL_JoystickGetDeviceInstanceID(index) == id) SDL_JoystickDetachVirtual(index);
+    }
+    SDL_JoystickClose(joystick_);
+    joystick_ = nullptr;
+  }
+  void Axis(int axis, int value) { EXPECT_EQ(SDL_JoystickSetVirtualAxis(joystick_, axis, static_cast<Sint16>(value)), 0); }
+  void Button(int button, bool down) { EXPECT_EQ(SDL_JoystickSetVirtualButton(joystick_, button, down ? 1 : 0), 0); }
+  const std::string& guid() const { return guid_; }
+
+ private:
+  SDL_Joystick* joystick_ = nullptr;
+  std::string guid_;
+};
+
+class JoystickSource : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto started = nodes::Joysticks::Start();
+    ASSERT_TRUE(started.ok()) << started.error().Text();
+    joysticks_ = std::move(started).value();
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string WheelFile(const std::string& guid, const std::string& more = "") const {
+    const std::string text = "rodeira: wheel/1\ndevices: {rim: \"" + guid + "\"}\nsteering: {axis: 0, lock_deg: 450}\n" +
+                             "throttle: {axis: 2, inverted: true}\nbrake: {axis: 3, inverted: true}\nbuttons: {gear_up: {button: "
+                             "4}, gear_down: {button: 5}}\n" +
+                             more;
+    const auto path = folder_ / "wheel.yaml";
+    EXPECT_TRUE(base::WriteWhole(path, std::string_view(text)).ok());
+    return path.string();
+  }
+  static launch::Launch LaunchOf(const std::string& config) {
+    return launch::Launch::Parse(LiveLaunch(config), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml").value();
+  }
+  static std::string Complaint(const std::string& config) {
+    const launch::Launch launch = LaunchOf(config);
+    const auto nodes = front::LocalNodes::Make(launch);
+    if (nodes.ok()) return {};
+    EXPECT_EQ(nodes.error().exit_status(), 2);
+    return nodes.error().Text();
+  }
+
+  std::unique_ptr<nodes::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("rodeira-joystick-" + std::to_string(::getpid()));
+};
+
+TEST_F(JoystickSource, AWheelIsFoundByItsGuidAndRead) {
+  VirtualWheel wheel;
+  bool listed = false;
+  for (const auto& info : joysticks_->Connected()) {
+    if (info.guid != wheel.guid()) continue;
+    listed = true;
+    EXPECT_EQ(info.axes, 4);
+    EXPECT_EQ(info.buttons, 8);
+  }
+  EXPECT_TRUE(listed);
+  joysticks_->Use({wheel.guid(), std::string(32, 'f')});
+  EXPECT_TRUE(joysticks_->reading(0).connected);
+  EXPECT_FALSE(joysticks_->reading(1).connected);
+  wheel.Axis(0, -12345);
+  wheel.Button(4, true);
+  joysticks_->Update();
+  EXPECT_EQ(joysticks_->reading(0).axes.at(0), -12345.0);
+  EXPECT_EQ(joysticks_->reading(0).buttons.at(4), 1);
+}
+
+TEST_F(JoystickSource, TheWheelDrivesTheCar) {
+  VirtualWheel wheel;
+  wheel.Axis(2, 32767);
+  wheel.Axis(3, 32767);
+  const launch::Launch launch = LaunchOf("{source: joystick, wheel: " + WheelFile(wheel.guid()) + "}");
+  auto nodes = front::LocalNodes::Make(launch);
+  ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
+  const LiveDrive drive = DriveLive(launch, nodes.value(), 4000, [&](lockstep::Step step) {
+    if (step == 100) wheel.Axis(2, -32768);
+    if (step == 2500) wheel.Axis(0, -16384);
+    if (step == 3000) wheel.Axis(2, 32767);
+    if (step == 3000) wheel.Axis(3, 0);
+  });
+  EXPECT_EQ(drive.controls.at(100).throttle(), 0.0) << "nobody has touched it";
+  EXPECT_EQ(drive.controls.at(110).throttle(), 1.0) << "what is there at an activation is that activation's sample";
+  EXPECT_EQ(drive.controls.at(2500).steering_wheel_rad(), 0.0);
+  EXPECT_NEAR(drive.controls.at(2510).steering_wheel_rad(), 225.0 * 3.14159265358979 / 180.0, 1e-3) << "half to the left";
+  EXPECT_EQ(drive.controls.at(3010).throttle(), 0.0);
+  EXPECT_NEAR(drive.controls.at(3010).brake(), 0.5, 1e-4);
+  EXPECT_GT(drive.last.odometer_m(), 4.0);
+}
+
+TEST_F(JoystickSource, UnpluggedInTheRunThePedalsAreReleasedTheSteeringStaysAndTheRunGoesOn) {
+  VirtualWheel wheel;
+  wheel.Axis(2, 32767);
+  const launch::Launch launch = LaunchOf("{source: joystick, wheel: " + WheelFile(wheel.guid()) + "}");
+  auto nodes = front::LocalNodes::Make(launch);
+  ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
+  testing::internal::CaptureStderr();
+  const LiveDrive drive = DriveLive(launch, nodes.value(), 2000, [&](lockstep::Step step) {
+    if (step == 100) wheel.Axis(2, -32768);
+    if (step == 100) wheel.Axis(0, 8192);
+    if (step == 1000) wheel.Detach();
+    if (step == 1500) {
+      wheel.Attach();
+      wheel.Axis(2, 32767);
+    }
+    if (step == 1600) wheel.Axis(2, -32768);
+  });
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(drive.controls.at(1000).throttle(), 1.0);
+  const double steering = drive.controls.at(1000).steering_wheel_rad();
+  EXPECT_LT(steering, -1.0);
+  for (lockstep::Step step = 1010; step <= 1500; step += 10) {
+    ASSERT_EQ(drive.controls.at(step).throttle(), 0.0) << step;
+    ASSERT_EQ(drive.controls.at(step).steering_wheel_rad(), steering) << step;
+  }
+  EXPECT_EQ(drive.controls.at(1700).throttle(), 1.0) << "plugged in again";
+  EXPECT_NE(said.find("node 'driver': rim '"), std::string::npos) << said;
+  EXPECT_NE(said.find("was unplugged: pedals released, steering held"), std::string::npos) << said;
+  EXPECT_NE(said.find("is there again"), std::string::npos) << said;
+}
+
+TEST_F(JoystickSource, AMissingDeviceIsOneSentenceThatListsWhatIsThere) {
+  const std::string nowhere(32, 'f');
+  EXPECT_NE(Complaint("{source: joystick, wheel: " + WheelFile(nowhere) + "}")
+                .find("wheel.yaml:2: device 'rim' with GUID " + nowhere + " is not there; "),
+            std::string::npos)
+      << Complaint("{source: joystick, wheel: " + WheelFile(nowhere) + "}");
+  VirtualWheel wheel;
+  const std::string said = Complaint("{source: joystick, wheel: " + WheelFile(nowhere) + "}");
+  EXPECT_NE(said.find("connected: "), std::string::npos) << said;
+  EXPECT_NE(said.find(wheel.guid()), std::string::npos) << said;
+  // The GUID of the launch file stands above that of the wheel file.
+  EXPECT_EQ(Complaint("{source: joystick, wheel: " + WheelFile(nowhere) + ", devices: {rim: \"" + wheel.guid() + "\"}}"), "");
+  EXPECT_NE(Complaint("{source: joystick, wheel: " + WheelFile(nowhere) + ", devices: {rym: \"" + wheel.guid() + "\"}}")
+                .find("the wheel file has no device 'rym'; did you mean 'rim'?"),
+            std::string::npos);
+}
+
+TEST_F(JoystickSource, AnAxisThatTheDeviceDoesNotHaveIsRefused) {
+  VirtualWheel wheel;
+  const std::string axis = Complaint("{source: joystick, wheel: " + WheelFile(wheel.guid(), "clutch: {axis: 7}\n") + "}");
+  EXPECT_NE(axis.find("wheel.yaml:7: axis 7 of device 'rim' was asked for; "), std::string::npos) << axis;
+  EXPECT_NE(axis.find("has 4 (the first is 0)"), std::string::npos) << axis;
+  const std::string button =
+      Complaint("{source: joystick, wheel: " + WheelFile(wheel.guid(), "lever: {reverse: {button: 8}}\n") + "}");
+  EXPECT_NE(button.find("wheel.yaml:7: button 8 of device 'rim' was asked for; "), std::string::npos) << button;
+}
+
+}  // namespace
+}  // namespace rodeira

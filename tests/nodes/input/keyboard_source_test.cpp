@@ -1,0 +1,106 @@
+// The input node at the keyboard, in a run of one process; the test holds the keys.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/hands/keyboard_driver.hpp"
+#include "tests/nodes/input/live_drive.hpp"
+
+namespace rodeira {
+namespace {
+
+const std::string kConfig = "{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}";
+
+// Keys down from a step on (until the next entry).
+using Script = std::map<lockstep::Step, std::vector<std::string>>;
+
+LiveDrive Drive(const Script& script, lockstep::Step last) {
+  const auto launch = launch::Launch::Parse(LiveLaunch(kConfig), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml");
+  EXPECT_TRUE(launch.ok()) << launch.error().Text();
+  auto nodes = front::LocalNodes::Make(launch.value());
+  EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
+  const auto window = nodes.value().keys().MakeSender();
+  std::map<hands::Key, launch::LiveKey> keys;
+  return DriveLive(launch.value(), nodes.value(), last, [&](lockstep::Step step) {
+    if (const auto now = script.find(step); now != script.end()) {
+      for (auto& [key, entry] : keys) entry.held = false;
+      for (const std::string& name : now->second) {
+        launch::LiveKey& entry = keys[hands::KeyOf(name).value()];
+        entry.key = hands::KeyOf(name).value();
+        entry.held = true;
+        ++entry.presses;
+      }
+    }
+    std::vector<launch::LiveKey> all;
+    for (const auto& [key, entry] : keys) all.push_back(entry);
+    window->Say(std::move(all));
+  });
+}
+
+// Held when the sample valid at 100 appears (activation 90): activation 100 sees it first, its sample is valid at 110.
+TEST(KeyboardSource, AKeyBecomesControlsAtTheNextActivation) {
+  const auto settings = hands::LoadKeyboard(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/drivers/keyboard.yaml").value();
+  const LiveDrive drive = Drive({{100, {"w"}}, {2000, {}}}, 3000);
+  for (const auto& [step, controls] : drive.controls) {
+    const double held_s = std::clamp(static_cast<double>(step - 100), 0.0, 1900.0) * 1e-3;
+    const double released_s = std::max(0.0, static_cast<double>(step - 2000) * 1e-3);
+    const double expected =
+        std::max(0.0, std::min(1.0, held_s / settings.throttle.press_s) - released_s / settings.throttle.release_s);
+    EXPECT_NEAR(controls.throttle(), expected, 1e-9) << step;
+    EXPECT_EQ(controls.steering_wheel_rad(), 0.0);
+    EXPECT_EQ(controls.gear(), 1);
+  }
+  EXPECT_EQ(drive.controls.size(), 302u) << "valid at 0, and what the activations of 0 to 3000 give";
+  EXPECT_GT(drive.last.odometer_m(), 3.0) << "the car went";
+}
+
+TEST(KeyboardSource, TheSteeringLockFollowsTheSpeedOfTheCar) {
+  const LiveDrive slow = Drive({{1000, {"left"}}}, 4000);
+  const LiveDrive fast = Drive({{10, {"w"}}, {8000, {"left"}}}, 11000);
+  const double full = slow.controls.at(4000).steering_wheel_rad();
+  EXPECT_NEAR(full, 450.0 * 3.14159265358979 / 180.0, 1e-9) << "at rest the whole lock";
+  EXPECT_GT(fast.controls.at(11000).steering_wheel_rad(), 0.0);
+  EXPECT_LT(fast.controls.at(11000).steering_wheel_rad(), 0.4 * full);
+}
+
+TEST(KeyboardSource, AGearIsChangedOncePerPressAndTheCarGoesBackward) {
+  const LiveDrive drive = Drive({{100, {"q"}}, {200, {}}, {300, {"q"}}, {320, {"w"}}}, 4000);
+  EXPECT_EQ(drive.controls.at(100).gear(), 1);
+  EXPECT_EQ(drive.controls.at(200).gear(), 0);
+  EXPECT_EQ(drive.controls.at(400).gear(), -1);
+  EXPECT_LT(drive.last.position_w_m().x() - 0.0, drive.last.odometer_m()) << "not forward";
+  EXPECT_LT(drive.last.velocity_w_mps().x(), -0.5) << "the plane's start looks east";
+}
+
+TEST(KeyboardSource, NobodyTouchesAKeyAndTwoRunsAreEqual) {
+  const base::Digest digest = Drive({}, 1500).outcome.digest;
+  EXPECT_EQ(Drive({}, 1500).outcome.digest, digest);
+  // Which window speaks, and how often, is in no state: only what is held.
+  const auto launch = launch::Launch::Parse(LiveLaunch(kConfig), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml");
+  auto nodes = front::LocalNodes::Make(launch.value());
+  EXPECT_EQ(DriveLive(launch.value(), nodes.value(), 1500, nullptr).outcome.digest, digest) << "without any window";
+  EXPECT_NE(Drive({{100, {"w"}}}, 1500).outcome.digest, digest);
+  EXPECT_EQ(Drive({{100, {"w"}}}, 1500).outcome.digest, Drive({{100, {"up"}}}, 1500).outcome.digest)
+      << "either key for the same thing";
+}
+
+TEST(KeyboardSource, WrongFilesAreRefused) {
+  const auto complaint = [](const std::string& config) {
+    const auto launch = launch::Launch::Parse(LiveLaunch(config), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml");
+    if (!launch) return launch.error().Text();
+    auto nodes = front::LocalNodes::Make(launch.value());
+    if (nodes.ok()) return std::string();
+    EXPECT_EQ(nodes.error().exit_status(), 2);
+    return nodes.error().Text();
+  };
+  EXPECT_NE(complaint("{source: keybord}").find("did you mean 'keyboard'?"), std::string::npos) << complaint("{source: keybord}");
+  EXPECT_NE(complaint("{source: keyboard}").find("'nodes.driver.config.keyboard' is missing"), std::string::npos)
+      << complaint("{source: keyboard}");
+  EXPECT_NE(complaint("{source: keyboard, keyboard: no.yaml}").find("there is no such file"), std::string::npos);
+  EXPECT_NE(complaint("{source: keyboard, keyboard: ../configs/drivers/default.yaml}").find("'rodeira' is 'driver/1'"),
+            std::string::npos)
+      << complaint("{source: keyboard, keyboard: ../configs/drivers/default.yaml}");
+}
+
+}  // namespace
+}  // namespace rodeira

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "common/launch/launch.hpp"
+#include "common/lockstep/in_process.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+#include "launch/local_nodes.hpp"
+
+namespace rodeira {
+
+// A car on the plane, driven by an input node of the test's choice, in this process.
+inline std::string LiveLaunch(const std::string& input_config) {
+  return "rodeira: launch/1\nworld: ../configs/worlds/plane.yaml\nnodes:\n  road: {kind: road}\n  driver:\n    kind: input\n    "
+         "config: " +
+         input_config + "\n  ego: {kind: vehicle, config: {vehicle: ../configs/vehicles/default.yaml}}\n";
+}
+
+struct LiveDrive {
+  lockstep::RunOutcome outcome;
+  std::map<lockstep::Step, msg::Controls> controls;  // by the step at which they are valid
+  msg::VehicleState last;
+};
+
+// `hands` is called with each of the input's samples, on its thread, before its next activation: what a test does there
+// comes at the same step every time.
+inline LiveDrive DriveLive(const launch::Launch& launch, front::LocalNodes& nodes, lockstep::Step last,
+                           const std::function<void(lockstep::Step)>& hands) {
+  LiveDrive drive;
+  lockstep::InProcessSettings settings;
+  settings.last_step = last;
+  settings.on_sample = [&](const lockstep::Sample& sample) {
+    const auto& topic = launch.roster().source(sample.source()).topic;
+    if (topic == idl::topics::kControls) {
+      drive.controls[sample.valid()] = idl::Decode<msg::Controls>(*sample.payload).value();
+      if (hands) hands(sample.valid());
+    } else if (topic == idl::topics::kVehicleState && sample.valid() == last) {
+      drive.last = idl::Decode<msg::VehicleState>(*sample.payload).value();
+    }
+  };
+  drive.outcome = lockstep::RunThreaded(launch.roster(), nodes.nodes(), settings);
+  EXPECT_TRUE(drive.outcome.ok) << drive.outcome.fault;
+  return drive;
+}
+
+}  // namespace rodeira

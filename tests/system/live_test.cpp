@@ -1,0 +1,135 @@
+// Live input between processes: this test plays a window of the run, its keys travel over DDS into recorded controls.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <thread>
+#include <vector>
+
+#include "common/base/files.hpp"
+#include "common/dds/participant.hpp"
+#include "common/dds/remote_keys.hpp"
+#include "common/record/mcap_reader.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+#include "tests/system/command.hpp"
+
+namespace rodeira::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint32_t kDomain = 217;
+constexpr std::uint32_t kUp = 82, kLeft = 80, kQ = 20;  // USB usages
+
+class Live : public ::testing::Test {
+ protected:
+  Live() {
+    std::filesystem::create_directories(folder_);
+    const std::string root = RODEIRA_SOURCE_DIR;
+    const std::string text = "rodeira: launch/1\nworld: " + root + "/configs/worlds/plane.yaml\nnodes:\n  road: {kind: road}\n" +
+                             "  driver: {kind: input, config: {source: keyboard, keyboard: " + root +
+                             "/configs/drivers/keyboard.yaml}}\n" + "  ego: {kind: vehicle, config: {vehicle: " + root +
+                             "/configs/vehicles/default.yaml}}\n";
+    EXPECT_TRUE(base::WriteWhole(Path("live.yaml"), std::string_view(text)).ok());
+  }
+  ~Live() override { std::filesystem::remove_all(folder_); }
+  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("rodeira-live-" + std::to_string(::getpid()));
+};
+
+template <class Message>
+std::vector<Message> Recorded(const std::string& file, std::string_view topic) {
+  std::vector<Message> all;
+  const auto reader = record::McapReader::Open(file);
+  EXPECT_TRUE(reader.ok()) << reader.error().Text();
+  if (!reader) return all;
+  record::Query query;
+  query.channels = std::set<record::ChannelId>{reader.value().ChannelsOf(topic).at(0)};
+  auto cursor = reader.value().Messages(query);
+  for (;;) {
+    const auto message = cursor.Next();
+    EXPECT_TRUE(message.ok());
+    if (!message.ok() || !message.value()) return all;
+    all.push_back(idl::Decode<Message>(message.value()->data).value());
+  }
+}
+
+TEST_F(Live, KeysOfAWindowInAnotherProcessBecomeRecordedControls) {
+  Started run({Bin("rodeira"), "run", Path("live.yaml"), "--for", "7", "--pace", "real", "--record", Path("live.mcap"), "--run",
+               "live-keys", "--domain", std::to_string(kDomain)});
+  auto participant = dds::Participant::Open({kDomain, "live-keys", "a window", launch::Transport::kSharedMemory});
+  ASSERT_TRUE(participant.ok()) << participant.error().Text();
+  auto window = dds::OpenKeysSender(*participant.value());
+  ASSERT_TRUE(window.ok()) << window.error().Text();
+  // What is said for how long; at the end the window dies without a word while it holds the throttle.
+  const auto say = [&](std::vector<launch::LiveKey> keys, std::chrono::milliseconds how_long) {
+    const auto until = std::chrono::steady_clock::now() + how_long;
+    while (std::chrono::steady_clock::now() < until) {
+      window.value()->Say(keys);
+      std::this_thread::sleep_for(20ms);
+    }
+  };
+  say({}, 2500ms);  // processes start and meet
+  say({{kUp, true, 1}}, 1000ms);
+  say({{kUp, true, 1}, {kLeft, true, 1}}, 500ms);
+  say({{kUp, true, 1}, {kLeft, false, 1}, {kQ, true, 1}}, 500ms);
+  window.value().reset();
+  const Ended ended = run.Wait(30s);
+  ASSERT_EQ(ended.status, 0) << ended.out;
+
+  const auto controls = Recorded<msg::Controls>(Path("live.mcap"), idl::topics::kControls);
+  ASSERT_EQ(controls.size(), 701u);
+  const auto first = [&](auto&& is) { return std::find_if(controls.begin(), controls.end(), is) - controls.begin(); };
+  const auto pressed = first([](const msg::Controls& c) { return c.throttle() > 0.0; });
+  ASSERT_LT(pressed, 701) << "no key has arrived";
+  EXPECT_NEAR(controls[static_cast<std::size_t>(pressed)].throttle(), 0.01 / 0.5, 1e-12)
+      << "one activation of the rate in the file";
+  const auto to_the_floor = first([](const msg::Controls& c) { return c.throttle() == 1.0; });
+  EXPECT_EQ(to_the_floor - pressed, 49) << "then every activation, whatever messages were lost";
+  const auto left = first([](const msg::Controls& c) { return c.steering_wheel_rad() > 0.0; });
+  EXPECT_GT(left, to_the_floor);
+  const auto neutral = first([](const msg::Controls& c) { return c.gear() == 0; });
+  EXPECT_GT(neutral, left);
+  ASSERT_LT(neutral, 701);
+  EXPECT_EQ(controls.back().gear(), 0) << "one press, one gear";
+  EXPECT_EQ(controls.back().throttle(), 0.0) << "the window that died holds nothing any more";
+  EXPECT_EQ(controls.back().steering_wheel_rad(), 0.0);
+  const auto states = Recorded<msg::VehicleState>(Path("live.mcap"), idl::topics::kVehicleState);
+  EXPECT_GT(states.back().odometer_m(), 1.0);
+}
+
+TEST_F(Live, NobodyTouchesAKeyAndTwoRunsAreEqual) {
+  const auto digest = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {Bin("rodeira"), "run", Path("live.yaml"), "--for", "2"});
+    const Ended ended = RunCommand(more);
+    EXPECT_EQ(ended.status, 0) << ended.out;
+    return DigestIn(ended.out);
+  };
+  const std::string first = digest({});
+  EXPECT_EQ(first.size(), 16u);
+  EXPECT_EQ(digest({}), first);
+  EXPECT_EQ(digest({"--in-process"}), first);
+}
+
+TEST_F(Live, AMissingWheelIsOneSentenceAndStatusTwo) {
+  const Ended ended =
+      RunCommand({Bin("rodeira"), "run", LaunchFile("wheel.yaml"), "--headless", "--record", Path("never.mcap"), "--for", "1"});
+  EXPECT_EQ(ended.status, 2) << ended.out;
+  EXPECT_NE(
+      ended.out.find("configs/drivers/wheel.yaml:7: device 'wheel' with GUID 00000000000000000000000000000000 is not there; "),
+      std::string::npos)
+      << ended.out;
+}
+
+TEST_F(Live, DrivingByKeysNeedsAWindow) {
+  const Ended ended = RunCommand({"DISPLAY=:987", "WAYLAND_DISPLAY=nowhere", Bin("rodeira"), "run", LaunchFile("keyboard.yaml"),
+                                  "--record", Path("never.mcap"), "--for", "1"});
+  EXPECT_EQ(ended.status, 2) << ended.out;
+  EXPECT_NE(ended.out.find("a window is wanted"), std::string::npos) << ended.out;
+}
+
+}  // namespace
+}  // namespace rodeira::system_test

@@ -1,0 +1,151 @@
+// SUELO as a user asks for it: `rodeira world query`, and the ground under the wheels of a run.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <sstream>
+
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+#include "tests/launch/temporary_folder.hpp"
+#include "tests/system/command.hpp"
+#include "tests/system/recording.hpp"
+
+namespace rodeira::system_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = RODEIRA_SOURCE_DIR;
+const std::string kN222 = (kRoot / "configs/worlds/n222.yaml").string();
+
+// The words behind "key: " in the answer.
+std::string Value(const std::string& answer, const std::string& key) {
+  std::istringstream lines(answer);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(key + ": ")) return line.substr(key.size() + 2);
+  }
+  ADD_FAILURE() << "no '" << key << "' in\n" << answer;
+  return "nan";
+}
+
+struct Point {
+  double z_m = 0.0;
+  Eigen::Vector3d normal;
+};
+
+std::string Query(const std::string& world, double x_m, double y_m) {
+  std::ostringstream x, y;
+  x.precision(12);
+  y.precision(12);
+  x << x_m;
+  y << y_m;
+  const Ended ended = RunCommand({Bin("rodeira"), "world", "query", world, x.str(), y.str()});
+  EXPECT_EQ(ended.status, 0) << ended.out;
+  return ended.out;
+}
+
+Point PointOf(const std::string& answer) {
+  Point point;
+  point.z_m = std::stod(Value(answer, "z_m"));
+  char bracket = 0, comma = 0;
+  std::istringstream in(Value(answer, "normal"));
+  in >> bracket >> point.normal.x() >> comma >> point.normal.y() >> comma >> point.normal.z();
+  return point;
+}
+
+// The oracle of the real elevation file: altitude and normal by VTP's own rules (posts, the diagonal from SE to NW).
+TEST(Query, OnARealElevationFileItIsTheOraclesPoint) {
+  const fs::path crater = kRoot / "../shared/data/road/bt/crater_0513.bt";
+  if (!fs::exists(crater)) GTEST_SKIP() << crater << " is not on this machine";
+  const front::TemporaryFolder folder;
+  const auto world = folder.Write("crater.yaml", "rodeira: world/1\nname: crater\nterrain: {file: " + fs::weakly_canonical(crater).string() + ", surface: soil}\n");
+  const std::string answer = Query(world.string(), 566300, 4754000);
+  EXPECT_EQ(Value(answer, "inside"), "true");
+  EXPECT_NEAR(PointOf(answer).z_m, 2123.4310516, 1e-6);
+  EXPECT_NEAR((PointOf(answer).normal - Eigen::Vector3d(-0.191350, -0.176795, 0.965468)).norm(), 0.0, 1e-6);
+  EXPECT_EQ(Value(answer, "surface"), "soil");
+  EXPECT_EQ(Value(Query(world.string(), 500000, 4754000), "inside"), "false");
+}
+
+// N222 begins with a straight under 20 degrees whose lanes fall by 2.5 % to both sides of the axis (its world file).
+TEST(Query, TheRoadShowsItsCrossfall) {
+  const double heading = 20.0 * std::numbers::pi / 180.0;
+  const Eigen::Vector2d along(std::cos(heading), std::sin(heading)), left(-along.y(), along.x());
+  const auto at = [&](double s_m, double t_m) {
+    const Eigen::Vector2d p = Eigen::Vector2d(-1989, -543) + s_m * along + t_m * left;
+    return PointOf(Query(kN222, p.x(), p.y()));
+  };
+  for (const double side : {1.0, -1.0}) {
+    const Point inner = at(100.0, side * 0.5), outer = at(100.0, side * 2.5);
+    EXPECT_NEAR(outer.z_m - inner.z_m, -0.025 * 2.0, 1e-6) << side;
+    EXPECT_NEAR(inner.normal.head<2>().dot(left) / inner.normal.z(), side * 0.025, 1e-6) << side;
+    // Along the axis the grade from (0, 120) to (210, 125.7), before its parabola begins at 145.
+    EXPECT_NEAR(-inner.normal.head<2>().dot(along) / inner.normal.z(), 5.7 / 210.0, 1e-6) << side;
+  }
+}
+
+TEST(Query, OutsideTheWorldItSaysSo) {
+  const std::string answer = Query(kN222, 1e6, 0);
+  EXPECT_EQ(Value(answer, "inside"), "false");
+  EXPECT_NE(answer.find("extents_m: "), std::string::npos) << "and where the world lies";
+  EXPECT_EQ(answer.find("z_m: "), std::string::npos) << "no altitude is made up:\n" << answer;
+}
+
+class Ground : public ::testing::Test {
+ protected:
+  // Drives a launch file in separate processes or one and gives the car's states.
+  std::vector<msg::VehicleState> Drive(const std::string& launch, const std::string& for_s, std::vector<std::string> more = {}) const {
+    const std::string recording = (folder_.path() / "drive.mcap").string();
+    more.insert(more.begin(), {Bin("rodeira"), "run", launch, "--for", for_s, "--record", recording});
+    const Ended ended = RunCommand(more);
+    EXPECT_EQ(ended.status, 0) << ended.out;
+    return MessagesOf<msg::VehicleState>(recording, idl::topics::kVehicleState);
+  }
+  const front::TemporaryFolder folder_;
+};
+
+// The server's answers over DDS, as the wheels of a car that stands in its lane felt them.
+TEST_F(Ground, TheWheelsStandOnTheCrossfallOfTheRoad) {
+  const auto states = Drive((kRoot / "tests/data/n222_traffic.yaml").string(), "0.1", {"--set", "nodes.traffic.config.vehicles=0"});
+  ASSERT_EQ(states.size(), 101u);
+  const double heading = 20.0 * std::numbers::pi / 180.0;
+  for (const auto& wheel : states.front().wheels()) {
+    EXPECT_EQ(wheel.in_contact(), 1u);
+    const auto& n = wheel.contact_normal_w();
+    // Lane -1 lies to the right of the axis and falls to the right: the normal leans to the right.
+    EXPECT_NEAR((-std::sin(heading) * n.x() + std::cos(heading) * n.y()) / n.z(), -0.025, 1e-6);
+    EXPECT_NEAR(-(std::cos(heading) * n.x() + std::sin(heading) * n.y()) / n.z(), 5.7 / 210.0, 1e-6);
+    const auto& c = wheel.contact_w_m();
+    EXPECT_NEAR(PointOf(Query(kN222, c.x(), c.y())).z_m, c.z(), 1e-6);
+  }
+  EXPECT_EQ(states.front().inside_world(), 1u);
+}
+
+// A terrain of 100 m × 100 m whose eastern edge a car drives over.
+TEST_F(Ground, BeyondTheTerrainsEdgeTheFlagIsClear) {
+  const auto world = folder_.Write("small.yaml",
+                                   "rodeira: world/1\nname: small\nterrain:\n  surface: asphalt\n  generate: {seed: 1, columns: 11, rows: 11, spacing_m: 10, west_m: 0, "
+                                   "south_m: 0, relief: [{wavelength_m: 50, amplitude_m: 0}]}\nstart: {x_m: 60, y_m: 50}\n");
+  const auto states = Drive(LaunchFile("first_drive.yaml"), "4", {"--in-process", "--set", "world=" + world.string(), "--set", "nodes.ego.config.start={speed_mps: 20}"});
+  ASSERT_EQ(states.size(), 4001u);
+  bool left = false;
+  for (const auto& state : states) {
+    double foremost = -1e9;
+    for (const auto& wheel : state.wheels()) foremost = std::max(foremost, wheel.contact_w_m().x());
+    if (foremost < 99.9) {
+      EXPECT_EQ(state.inside_world(), left ? 0u : 1u) << state.header().step();
+    } else if (foremost > 100.1) {
+      EXPECT_EQ(state.inside_world(), 0u) << state.header().step();
+      left = true;
+    }
+    ASSERT_TRUE(std::isfinite(state.position_w_m().z()));
+  }
+  EXPECT_TRUE(left);
+}
+
+}  // namespace
+}  // namespace rodeira::system_test

@@ -1,0 +1,40 @@
+#include "tests/system/recording.hpp"
+
+#include <fmt/format.h>
+
+#include "common/lockstep/sample.hpp"
+
+namespace rodeira::system_test {
+
+std::vector<Recorded> SamplesOf(const std::string& recording) {
+  std::vector<Recorded> samples;
+  const auto reader = record::McapReader::Open(recording);
+  if (!reader || !reader.value().condition().whole) return {};
+  record::Query query;
+  query.order = record::Query::Order::kFile;
+  auto cursor = reader.value().Messages(query);
+  for (;;) {
+    const auto message = cursor.Next();
+    if (!message) return {};
+    if (!message.value()) return samples;
+    const auto& bytes = message.value()->data;
+    if (!lockstep::SampleHeader::HasHeader(bytes)) return {};
+    const auto header = lockstep::SampleHeader::Read(bytes);
+    samples.push_back({reader.value().channels().at(message.value()->channel).topic, header.source, header.step, base::Hash(bytes), header.state_digest});
+  }
+}
+
+std::string FirstDifference(const std::vector<Recorded>& a, const std::vector<Recorded>& b) {
+  const auto text = [](const std::vector<Recorded>& samples, std::size_t at) -> std::string {
+    if (at >= samples.size()) return "nothing";
+    const Recorded& s = samples[at];
+    return fmt::format("{} of source {} at step {} (payload {}, state {})", s.topic, s.source, s.step, base::Hex(s.payload), base::Hex(s.state));
+  };
+  for (std::size_t i = 0; i < a.size() || i < b.size(); ++i) {
+    if (i < a.size() && i < b.size() && a[i] == b[i]) continue;
+    return fmt::format("sample {}: {} here, {} there", i, text(a, i), text(b, i));
+  }
+  return "";
+}
+
+}  // namespace rodeira::system_test
