@@ -10,6 +10,7 @@
 #include "launch/doctor.hpp"
 #include "launch/info_command.hpp"
 #include "launch/joysticks_command.hpp"
+#include "launch/mechanism_command.hpp"
 #include "launch/replay_command.hpp"
 #include "launch/run_command.hpp"
 #include "launch/world_command.hpp"
@@ -92,6 +93,19 @@ void AddDoctor(CLI::App& app, DoctorOptions& options) {
   doctor->callback([&options] { options.asked = true; });
 }
 
+void AddMechanism(CLI::App& app, MechanismOptions& options) {
+  CLI::App* mechanism = app.add_subcommand("mechanism", "multibody mechanisms, alone");
+  mechanism->require_subcommand(1);
+  CLI::App* run = mechanism->add_subcommand("run", "simulate a mechanism file");
+  run->add_option("MECHANISM.yaml", options.file, "mechanism file")->required();
+  run->add_option("--until", options.until_s, "simulated seconds")->required()->check(Positive);
+  run->add_option("--step", options.step_s, "step in seconds")->required()->check(Positive);
+  run->add_option("--csv", options.csv, "write the outputs of every step into this file");
+  run->add_option("--svg", options.svg, "draw the outputs over time into this file");
+  run->add_flag("--quiet", options.quiet, "no progress, no table");
+  run->callback([&options] { options.asked = true; });
+}
+
 void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
   CLI::App* joysticks = app.add_subcommand("joysticks", "wheels and joysticks that are plugged in, with their GUIDs");
   CLI::Option* watch = joysticks->add_flag("--watch", options.watch, "say which axis and button moves");
@@ -124,6 +138,8 @@ int Main(int argc, char** argv) {
   AddRun(app, run, sets);
   WorldOptions world;
   AddWorld(app, world);
+  MechanismOptions mechanism;
+  AddMechanism(app, mechanism);
   DoctorOptions doctor;
   AddDoctor(app, doctor);
   JoysticksOptions joysticks;
@@ -140,6 +156,7 @@ int Main(int argc, char** argv) {
     return app.exit(problem) == 0 ? 0 : 2;
   }
   if (!world.command.empty()) return World(world);
+  if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);
   if (info->parsed()) return Info(info_file);
