@@ -10,6 +10,7 @@
 #include "launch/doctor.hpp"
 #include "launch/info_command.hpp"
 #include "launch/joysticks_command.hpp"
+#include "launch/replay_command.hpp"
 #include "launch/run_command.hpp"
 #include "launch/world_command.hpp"
 
@@ -86,6 +87,15 @@ void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
   joysticks->callback([&options] { options.asked = true; });
 }
 
+CLI::App* AddReplay(CLI::App& app, ReplayOptions& options) {
+  CLI::App* replay = app.add_subcommand("replay", "run a recording again");
+  replay->add_option("FILE.mcap", options.file, "recording")->required();
+  replay->add_flag("--verify", options.verify, "compute everything again and compare every sample and state");
+  replay->add_option("--from", options.from_s, "simulated seconds at which to begin")->check(CLI::NonNegativeNumber);
+  replay->add_flag("--quiet", options.quiet, "no progress");
+  return replay;
+}
+
 }  // namespace
 
 int Main(int argc, char** argv) {
@@ -106,6 +116,8 @@ int Main(int argc, char** argv) {
   std::string info_file;
   CLI::App* info = app.add_subcommand("info", "what a recording holds");
   info->add_option("FILE.mcap", info_file, "recording")->required();
+  ReplayOptions replay_options;
+  CLI::App* replay = AddReplay(app, replay_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -115,6 +127,7 @@ int Main(int argc, char** argv) {
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);
   if (info->parsed()) return Info(info_file);
+  if (replay->parsed()) return Replay(replay_options);
   for (const std::string& set : sets) {
     const auto pair = KeyValue(set);
     if (pair.first.empty()) {

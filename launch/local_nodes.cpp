@@ -46,7 +46,7 @@ base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch&
 LocalNodes::LocalNodes(LocalNodes&&) noexcept = default;
 LocalNodes::~LocalNodes() = default;
 
-base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch) {
+base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const StandIn& stand_in) {
   const auto& roster = launch.roster();
   auto world = LoadWorld(launch);
   if (!world) return world.error();
@@ -55,6 +55,11 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch) {
     made.contexts_.push_back(std::make_unique<LocalContext>(launch, n, world.value(), *made.keys_));
     made.nodes_.push_back(nullptr);
     if (roster.node(n).role == lockstep::Role::kService) continue;
+    if (auto other = stand_in ? stand_in(n) : nullptr) {
+      made.owned_.push_back(std::move(other));
+      made.nodes_.back() = made.owned_.back().get();
+      continue;
+    }
     const launch::NodeFactory factory = FactoryOf(roster.node(n).kind);
     if (factory == nullptr) return base::WrongInput(fmt::format("nodes of kind '{}' do not run in one process", roster.node(n).kind), fmt::format("node '{}'", roster.node(n).name));
     auto node = factory(*made.contexts_.back());

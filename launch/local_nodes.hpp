@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -10,8 +11,11 @@ namespace rodeira::front {
 // All stepped nodes of a launch file in this process, with SUELO from the library on one common world.
 class LocalNodes {
  public:
+  // A node that stands for the roster's own (of a recording), or null where the launch file's is made.
+  using StandIn = std::function<std::unique_ptr<lockstep::Node>(lockstep::NodeIndex)>;
+
   // Wrong input where a configuration, the world or another file is wrong; it names the node. The launch must outlive it.
-  static base::Result<LocalNodes> Make(const launch::Launch& launch);
+  static base::Result<LocalNodes> Make(const launch::Launch& launch, const StandIn& stand_in = {});
   LocalNodes(LocalNodes&&) noexcept;
   ~LocalNodes();
 

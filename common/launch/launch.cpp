@@ -116,6 +116,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
     if (auto status = file.Override(key, value); !status) return status.error();
   }
   Launch launch;
+  launch.overrides_ = overrides;
   launch.file_ = std::make_shared<config::File>(std::move(file));
   const config::Map root = launch.file_->root();
   (void)root.Choice("rodeira", {"launch/1"});

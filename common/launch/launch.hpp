@@ -40,6 +40,7 @@ class Launch {
   const std::filesystem::path& path() const { return file_->path(); }
   const std::string& text() const { return file_->text(); }
   const config::File& file() const { return *file_; }
+  const Overrides& overrides() const { return overrides_; }
   const std::string& name() const { return name_; }
   const std::filesystem::path& lab() const { return lab_; }  // laboratory file; empty: none is named
   const std::filesystem::path& world() const { return world_; }  // empty: the run has none
@@ -57,6 +58,7 @@ class Launch {
   static base::Result<Launch> Read(config::File file, const Overrides& overrides);
 
   std::shared_ptr<config::File> file_;
+  Overrides overrides_;
   std::string name_;
   std::filesystem::path lab_;
   std::filesystem::path world_;

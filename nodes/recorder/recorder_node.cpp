@@ -10,6 +10,7 @@
 
 #include "common/record/mcap_writer.hpp"
 #include "idl/topics.hpp"
+#include "nodes/recorder/embed.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -29,6 +30,7 @@ class RecorderNode final : public lockstep::Node {
   base::Status Begin(const launch::Launch& launch, lockstep::NodeIndex self) {
     const record::TextMap about{
         {"launch", launch.name()},
+        {"launch_file", launch.path().filename().string()},
         {"roster_hash", base::Hex(roster_.hash())},
         {"protocol_hash", base::Hex(idl::ProtocolHash())},
         {"base_step_ns", std::to_string(roster_.base_step_ns())},
@@ -36,8 +38,7 @@ class RecorderNode final : public lockstep::Node {
         {"version", "0.1.0"},
     };
     if (auto status = writer_.AddMetadata("rodeira", about); !status) return status;
-    const auto text = std::as_bytes(std::span(launch.text()));
-    if (auto status = writer_.AddAttachment("launch.yaml", "application/yaml", text, 0, 0); !status) return status;
+    if (auto status = EmbedFiles(launch, writer_); !status) return status;
     channels_.assign(roster_.sources().size(), 0);
     for (const lockstep::Port& port : roster_.node(self).inputs) {
       const idl::TopicInfo* topic = idl::FindTopic(port.topic);

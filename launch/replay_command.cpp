@@ -1,0 +1,66 @@
+#include "launch/replay_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "launch/verify.hpp"
+
+namespace rodeira::front {
+namespace {
+
+int Complain(const base::Error& error) {
+  fmt::print(stderr, "rodeira: {}\n", error.Text());
+  return error.exit_status();
+}
+
+// A line on the terminal that is written over; nothing where standard error is no terminal.
+class Progress {
+ public:
+  Progress(bool quiet, double base_step_s, lockstep::Step last) : shown_(!quiet && ::isatty(STDERR_FILENO) != 0), base_step_s_(base_step_s), last_(last) {}
+  ~Progress() {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+  }
+  void Show(lockstep::Step step) const {
+    if (shown_) fmt::print(stderr, "\r\033[Kverified {:.1f} s of {:.1f} s", static_cast<double>(step) * base_step_s_, static_cast<double>(last_) * base_step_s_);
+  }
+
+ private:
+  bool shown_;
+  double base_step_s_;
+  lockstep::Step last_;
+};
+
+}  // namespace
+
+int Replay(const ReplayOptions& options) {
+  if (!options.verify) return Complain(base::WrongInput("nothing to do was named; --verify was expected", "rodeira replay"));
+  const auto run = replay::RecordedRun::Open(options.file);
+  if (!run) return Complain(run.error());
+  const double base_step_s = static_cast<double>(run.value().roster().base_step_ns()) * 1e-9;
+  const auto from = static_cast<lockstep::Step>(std::floor(options.from_s.value_or(0.0) / base_step_s + 1e-9));
+  if (from > run.value().last_step()) {
+    return Complain(base::WrongInput(fmt::format("--from {} s was found, but the run ends at {:.3f} s", options.from_s.value_or(0.0),
+                                                 static_cast<double>(run.value().last_step()) * base_step_s), options.file));
+  }
+  const Progress progress(options.quiet, base_step_s, run.value().last_step());
+  const auto begin = std::chrono::steady_clock::now();
+  const auto verdict = Verify(run.value(), from, [&](lockstep::Step step) { progress.Show(step); });
+  if (!verdict) return Complain(verdict.error());
+  const Verdict& found = verdict.value();
+  if (!found.substituted.empty()) fmt::print("live input taken from the recording: {}\n", fmt::join(found.substituted, ", "));
+  if (found.difference) {
+    fmt::print("{}\n", found.difference->Text());
+    return 1;
+  }
+  fmt::print("identical: {} steps, {} nodes ({} samples, {} snapshots; from {:.3f} s; {:.1f} s of wall time)\n", found.last_step - found.first_step, found.nodes,
+             found.samples, found.snapshots, static_cast<double>(found.first_step) * base_step_s,
+             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  return 0;
+}
+
+}  // namespace rodeira::front

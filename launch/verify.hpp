@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "common/replay/comparison.hpp"
+#include "common/replay/recorded_run.hpp"
+
+namespace rodeira::front {
+
+struct Verdict {
+  lockstep::Step first_step = 0;  // where the computation began: a snapshot at or before what was asked
+  lockstep::Step last_step = 0;
+  std::size_t nodes = 0;          // computed again
+  std::uint64_t samples = 0;      // compared
+  std::uint64_t snapshots = 0;
+  std::vector<std::string> substituted;  // live input: their samples were taken from the recording
+  std::optional<replay::Difference> difference;
+};
+
+// Runs the recording's nodes again in this process, from its launch file and configurations and from the snapshot at or
+// before `from`, and compares every sample, every state digest and every snapshot. Live input is substituted by its
+// recorded samples, sinks by nobody. Failed where a node fails that did not fail then.
+base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from, const std::function<void(lockstep::Step)>& on_progress = {});
+
+}  // namespace rodeira::front
