@@ -60,7 +60,8 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   run->add_flag("--in-process", options.in_process, "the same nodes in one process");
   run->add_flag("--headless", options.headless, "no window, even where there is a display");
   run->add_flag("--quiet", options.quiet, "no progress, no table");
-  run->add_option("--host", options.host, "start only what belongs to this host");
+  run->add_option("--lab", options.lab, "laboratory file: the PCs and their network");
+  run->add_option("--host", options.host, "start only what belongs to this host of the laboratory");
   run->add_option("--run", options.run, "name of the run: only processes of the same name meet");
   run->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232));
 }
