@@ -88,6 +88,8 @@ TEST_F(ReplayTest, ATurnedBitIsFound) {
   EXPECT_EQ(verdict.value().difference->step, 1234);
   EXPECT_EQ(verdict.value().difference->node, "ego");
   EXPECT_EQ(verdict.value().difference->topic, "rodeira/vehicle_state");
+  EXPECT_THAT(verdict.value().difference->field, HasSubstr("_w"));  // a component of a vector, in the world's axes
+  EXPECT_NE(verdict.value().difference->recorded, verdict.value().difference->computed);
 }
 
 TEST_F(ReplayTest, ATurnedBitOfAStateIsFoundAndTheFieldNamed) {
