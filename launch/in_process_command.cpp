@@ -63,7 +63,8 @@ std::optional<lockstep::Asked> NextCommand(Operator& desk) {
 int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   const auto& roster = launch.roster();
   Operator desk(options.run, options.quiet);
-  auto nodes = LocalNodes::Make(launch);
+  launch::RunLogBoard log;
+  auto nodes = LocalNodes::Make(launch, {}, &log);
   if (!nodes) {
     fmt::print(stderr, "rodeira: {}\n", nodes.error().Text());
     return nodes.error().exit_status();
@@ -73,7 +74,7 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   if (seconds) settings.last_step = static_cast<lockstep::Step>(std::llround(*seconds * 1e9 / static_cast<double>(roster.base_step_ns())));
   settings.pace = launch::ParsePace(options.pace).value();
   settings.stop_requested = [] { return g_interrupted.load(); };
-  settings.on_log = [&nodes](const lockstep::LogBatch& batch) { nodes.value().log().Say(batch); };
+  settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
   settings.next_command = [&desk] { return NextCommand(desk); };
   ::signal(SIGINT, OnInterrupt);
   ::signal(SIGTERM, OnInterrupt);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -10,8 +11,12 @@ namespace rodeira::front {
 // All stepped nodes of a launch file in this process, with SUELO from the library on one common world.
 class LocalNodes {
  public:
+  // A node that stands for the roster's own (of a recording), or null where the launch file's is made.
+  using StandIn = std::function<std::unique_ptr<lockstep::Node>(lockstep::NodeIndex)>;
+
   // Wrong input where a configuration, the world or another file is wrong; it names the node. The launch must outlive it.
-  static base::Result<LocalNodes> Make(const launch::Launch& launch);
+  // `log`: where the clock's log passes, outlives it; null: no node hears of it.
+  static base::Result<LocalNodes> Make(const launch::Launch& launch, const StandIn& stand_in = {}, launch::RunLogBoard* log = nullptr);
   LocalNodes(LocalNodes&&) noexcept;
   ~LocalNodes();
 
@@ -19,13 +24,10 @@ class LocalNodes {
   const std::vector<lockstep::Node*>& nodes() const { return nodes_; }
   // Where the windows' keys pass.
   launch::LiveKeysBoard& keys() { return *keys_; }
-  // Where the clock's log passes.
-  launch::RunLogBoard& log() { return *log_; }
 
  private:
   LocalNodes() = default;
   std::unique_ptr<launch::LiveKeysBoard> keys_ = std::make_unique<launch::LiveKeysBoard>();  // the nodes use it
-  std::unique_ptr<launch::RunLogBoard> log_ = std::make_unique<launch::RunLogBoard>();
   std::vector<std::unique_ptr<launch::NodeContext>> contexts_;
   std::vector<std::unique_ptr<lockstep::Node>> owned_;
   std::vector<lockstep::Node*> nodes_;

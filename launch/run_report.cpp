@@ -36,6 +36,8 @@ void RunReport::Take(std::string_view line) {
     paused = Number<int>(line, "paused") != 0;
   } else if (line.starts_with("waiting for ")) {
     waiting_for = rest("waiting for ");
+  } else if (line == "met") {
+    met = true;
   } else if (line == "ready") {
     ready = true;
   } else if (line.starts_with("fault ")) {

@@ -4,16 +4,20 @@
 
 namespace rodeira::base {
 
-void StateWriter::Name(std::string_view name, std::size_t size) {
+void StateWriter::Name(std::string_view name, FieldShape shape, FieldScalar scalar, std::uint8_t size) {
   if (names_ == Names::kWithout) return;
   out_.PutString(name);
-  out_.Put(static_cast<std::uint32_t>(size));
+  out_.Put(shape);
+  out_.Put(scalar);
+  out_.Put(size);
 }
 
-bool StateReader::ExpectName(std::string_view name) {
+bool StateReader::Expect(std::string_view name, FieldShape shape, FieldScalar scalar, std::uint8_t size) {
   if (!problem_.empty()) return false;
   const std::string found = in_.GetString();
-  size_ = in_.Get<std::uint32_t>();
+  const auto found_shape = in_.Get<FieldShape>();
+  const auto found_scalar = in_.Get<FieldScalar>();
+  const auto found_size = in_.Get<std::uint8_t>();
   if (!in_.ok()) {
     Fail(name, "the end of the snapshot");
     return false;
@@ -22,13 +26,9 @@ bool StateReader::ExpectName(std::string_view name) {
     Fail(name, "field '" + found.substr(0, 64) + "'");
     return false;
   }
-  return true;
-}
-
-bool StateReader::Expect(std::string_view name, std::size_t size) {
-  if (!ExpectName(name)) return false;
-  if (size_ != size) {
-    Fail(name, fmt::format("{} bytes, not {}", size_, size));
+  if (found_shape != shape || found_scalar != scalar || found_size != size) {
+    Fail(name, fmt::format("another type (shape {}, scalar {}, {} bytes instead of {}, {}, {})", static_cast<int>(found_shape), static_cast<int>(found_scalar),
+                           found_size, static_cast<int>(shape), static_cast<int>(scalar), size));
     return false;
   }
   return true;

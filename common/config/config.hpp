@@ -123,6 +123,8 @@ class File {
   std::vector<base::Error> Problems() const;
   // The first of them, or ok.
   base::Status Finish() const;
+  // Every scalar value of the file as it is now, overrides included, in the file's order: where paths may stand.
+  std::vector<std::string> Scalars() const;
   const std::string& text() const;
   const std::filesystem::path& path() const;
 

@@ -35,6 +35,16 @@ Meant MeantBy(const std::string& key, const std::set<std::string, std::less<>>& 
   return {base::NearestName(key, known), base::DidYouMean(key, known)};
 }
 
+void CollectScalars(const YAML::Node& node, std::vector<std::string>& out) {
+  if (node.IsScalar()) out.push_back(node.Scalar());
+  if (node.IsSequence()) {
+    for (const auto& item : node) CollectScalars(item, out);
+  }
+  if (node.IsMap()) {
+    for (const auto& item : node) CollectScalars(item.second, out);
+  }
+}
+
 }  // namespace
 
 File::File(std::shared_ptr<detail::Context> context) : context_(std::move(context)) {}
@@ -116,6 +126,12 @@ base::Status File::Finish() const {
   const auto problems = Problems();
   if (problems.empty()) return {};
   return problems.front();
+}
+
+std::vector<std::string> File::Scalars() const {
+  std::vector<std::string> scalars;
+  CollectScalars(context_->root, scalars);
+  return scalars;
 }
 
 const std::string& File::text() const { return context_->text; }

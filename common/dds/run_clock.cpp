@@ -5,18 +5,20 @@
 #include <cmath>
 #include <condition_variable>
 #include <csignal>
-#include <cstdio>
 #include <deque>
 #include <mutex>
 #include <random>
+#include <string>
 #include <thread>
 
 #include "common/base/mathematics.hpp"
 #include "common/base/suggest.hpp"
 #include "common/dds/options.hpp"
+#include "common/dds/parents_word.hpp"
 #include "common/dds/participant.hpp"
 #include "common/dds/remote_log.hpp"
 #include "common/dds/run.hpp"
+#include "common/dds/statements.hpp"
 #include "common/dds/triggers.hpp"
 #include "common/dds/wire.hpp"
 #include "common/launch/command_text.hpp"
@@ -35,20 +37,6 @@ namespace topics = idl::topics;
 std::atomic<int> g_signals = 0;
 void OnSignal(int) { ++g_signals; }
 
-// One line a statement on standard output: `rodeira run` reads them, people may too.
-template <class... Args>
-void Say(fmt::format_string<Args...> format, Args&&... args) {
-  fmt::print(format, std::forward<Args>(args)...);
-  std::fputc('\n', stdout);
-  std::fflush(stdout);
-}
-
-// Newlines would end a statement.
-std::string OneLine(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 class ClockProcess {
  public:
   ClockProcess(const launch::Launch& launch, const ProcessOptions& options)
@@ -60,16 +48,16 @@ class ClockProcess {
   }
 
   int Run() {
-    auto participant = Participant::Open(DomainOf(options_, launch_, "clock"));
+    DomainSettings settings = DomainOf(options_, launch_, "clock");
+    settings.serves_discovery = true;
+    auto participant = Participant::Open(settings);
     if (!participant) return Complain(participant.error());
     participant_ = std::move(participant).value();
     if (auto status = Connect(*participant_); !status) return Complain(status.error());
     Say("starting {} nodes", roster_.nodes().size());
-    if (options_.listen) std::thread([this] { Listen(); }).detach();  // ends with the process
+    if (options_.listen) parents_.Listen([this] { woken_.notify_one(); });
     start_ = WallClock::now();
-    if (const int status = Loop(); status != 0) return status;
-    SayEnd("ok", clock_.grant().through, clock_.RunDigest());
-    return 0;
+    return Loop();
   }
 
  private:
@@ -121,32 +109,15 @@ class ClockProcess {
                                         base::Hex(other_clock_)));
   }
 
-  // From `rodeira run`: "fault TEXT", which it sees sooner than any heartbeat (a process of its own died or was stopped),
-  // and "do NUMBER COMMAND", what the operator asks for.
-  void Listen() {
-    char line[4096];
-    while (std::fgets(line, sizeof(line), stdin) != nullptr) {
-      std::string text(line);
-      while (!text.empty() && text.back() == '\n') text.pop_back();
-      const std::lock_guard lock(mutex_);
-      if (text.starts_with("fault ") && told_.empty()) told_ = text.substr(6);
-      if (text.starts_with("do ")) asked_.push_back(text.substr(3));
-      woken_.notify_one();
-    }
-  }
-  std::string Told() {
-    const std::lock_guard lock(mutex_);
-    return told_;
+  // What `rodeira run` has told us, if anything.
+  std::string Told() const {
+    const std::string word = parents_.word();
+    return word.starts_with("fault ") ? word.substr(6) : "";
   }
 
   // "answer NUMBER ok|wrong|failed SENTENCE".
   void DoCommands() {
-    std::deque<std::string> asked;
-    {
-      const std::lock_guard lock(mutex_);
-      asked.swap(asked_);
-    }
-    for (const std::string& line : asked) {
+    for (const std::string& line : parents_.TakeAsked()) {
       const auto space = std::min(line.find(' '), line.size());
       const std::string number = line.substr(0, space);
       const auto command = launch::ParseCommand(std::string_view(line).substr(space));
@@ -178,7 +149,7 @@ class ClockProcess {
       const auto now = WallClock::now();
       if (now - checked >= 20ms) {
         checked = now;
-        if (auto fault = watchdog_.Check(NowNs() / 1'000'000)) return Abort(fault->reason, 1);
+        if (auto fault = watchdog_.Check(NowNs() / 1'000'000)) return Abort(fault->reason, fault->status);
         if (const int signals = g_signals; signals > 0) {
           if (signals > 2 || clock_.grant().through < 0) return Abort("stopped by a signal", 1);
           conductor_.Stop(Now());
@@ -201,22 +172,38 @@ class ClockProcess {
       FlushLog();
       Wait();
     }
+    triggers_->SayEnd(clock_.grant().through, Now().utc_ns, "ok");
+    Close(NodeLines() + EndLine("ok", clock_.grant().through, clock_.RunDigest(), 0));
+    return 0;
+  }
+
+  // The closing words, here and to who follows on other PCs. Said again until everybody must have heard them; who has gone
+  // already does not matter.
+  void Close(const std::string& words) {
     lockstep::Grant last = clock_.grant();
-    triggers_->SayEnd(last.through, Now().utc_ns, "ok");
-    SayNodes();
     last.over = true;
-    for (int i = 0; i < 10; ++i) {  // until everybody has heard it; who has gone already does not matter
+    last.reason = words;
+    for (int i = 0; i < 10; ++i) {
       SayGrant(last);
       std::this_thread::sleep_for(5ms);
     }
-    return 0;
+    SayLine(words);
+  }
+  std::string EndLine(const char* how, lockstep::Step last_step, base::Digest digest, int status) const {
+    const lockstep::Pacer& pacer = conductor_.pacer();
+    const lockstep::Lateness& late = pacer.lateness();
+    const auto seconds = [](auto ns) { return static_cast<double>(ns) * 1e-9; };
+    return fmt::format("end {} last_step={} wall_s={:.6f} digest={} slipped_s={:.6f} paused_s={:.6f} paced_steps={} late_steps={} "
+                       "late_mean_s={:.9f} late_worst_s={:.9f} status={}",
+                       how, last_step, RunSeconds(), base::Hex(digest), seconds(pacer.slipped_ns()), seconds(pacer.PausedNs(NowNs())),
+                       late.steps, late.late, seconds(late.mean_ns()), seconds(late.worst_ns), status);
   }
 
   void Wait() {
     std::unique_lock lock(mutex_);
     const auto due = std::chrono::nanoseconds(conductor_.NextDueIn(Now()));
     const std::chrono::nanoseconds limit = due > 0ns ? std::min<std::chrono::nanoseconds>(due, 10ms) : 10ms;
-    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || !told_.empty() || !asked_.empty(); });
+    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || parents_.is_waiting(); });
   }
 
   void TakeReports() {
@@ -265,13 +252,16 @@ class ClockProcess {
     }
   }
 
-  void SayNodes() const {
+  // A line each, with its line break.
+  std::string NodeLines() const {
+    std::string lines;
     for (lockstep::NodeIndex n = 0; n < roster_.nodes().size(); ++n) {
       const lockstep::Report& report = clock_.report(n);
       const double mean_us = report.steps == 0 ? 0.0 : static_cast<double>(report.busy_ns) * 1e-3 / static_cast<double>(report.steps);
-      Say("node {} steps={} mean_us={:.2f} worst_us={:.1f} server_calls={} digest={}", roster_.node(n).name, report.steps, mean_us,
-          static_cast<double>(report.worst_ns) * 1e-3, report.server_calls, base::Hex(report.digest));
+      lines += fmt::format("node {} steps={} mean_us={:.2f} worst_us={:.1f} server_calls={} digest={}\n", roster_.node(n).name, report.steps, mean_us,
+                           static_cast<double>(report.worst_ns) * 1e-3, report.server_calls, base::Hex(report.digest));
     }
+    return lines;
   }
 
   // Time stops everywhere; sinks get a moment to close their files.
@@ -280,22 +270,14 @@ class ClockProcess {
     FlushLog();
     triggers_->SayEnd(clock_.slowest_progress() - 1, Now().utc_ns, clock_.grant().reason);
     Say("fault {}", OneLine(reason));
-    for (int i = 0; i < 100 && !AllButTheDeadHaveFinished(); ++i) {
+    // At least some times: no process of another PC is told of it by anybody else.
+    for (int i = 0; i < 10 || (i < 100 && !AllButTheDeadHaveFinished()); ++i) {
       SayGrant(clock_.grant());
       std::this_thread::sleep_for(10ms);
       TakeReports();
     }
-    SayNodes();
-    SayEnd("aborted", clock_.slowest_progress() - 1, 0);
+    Close(fmt::format("fault {}\n", OneLine(reason)) + NodeLines() + EndLine("aborted", clock_.slowest_progress() - 1, 0, status));
     return status;
-  }
-  void SayEnd(std::string_view how, lockstep::Step last, base::Digest digest) {
-    const lockstep::Pacer& pacer = conductor_.pacer();
-    const lockstep::Lateness& late = pacer.lateness();
-    const auto seconds = [](auto ns) { return static_cast<double>(ns) * 1e-9; };
-    Say("end {} last_step={} wall_s={:.6f} digest={} slipped_s={:.6f} paused_s={:.6f} paced_steps={} late_steps={} late_mean_s={:.9f} late_worst_s={:.9f}",
-        how, last, RunSeconds(), base::Hex(digest), seconds(pacer.slipped_ns()), seconds(pacer.PausedNs(NowNs())), late.steps, late.late,
-        seconds(late.mean_ns()), seconds(late.worst_ns));
   }
   bool AllButTheDeadHaveFinished() const {
     for (lockstep::NodeIndex n = 0; n < roster_.nodes().size(); ++n) {
@@ -320,8 +302,7 @@ class ClockProcess {
   std::mutex mutex_;
   std::condition_variable woken_;
   std::deque<base::Bytes> inbox_;
-  std::string told_;
-  std::deque<std::string> asked_;
+  ParentsWord parents_;
   std::unique_ptr<Participant> participant_;  // outlives its endpoints
   std::unique_ptr<Writer> grants_;
   std::unique_ptr<LogSpeaker> log_;
@@ -341,6 +322,7 @@ int RunClock(int argc, char** argv) {
     fmt::print(stderr, "rodeira-clock: {}\n", launch.error().Text());
     return launch.error().exit_status();
   }
+  if (!parsed.options.follow.empty()) return FollowClock(launch.value(), parsed.options);
   std::signal(SIGINT, OnSignal);
   std::signal(SIGTERM, OnSignal);
   return ClockProcess(launch.value(), parsed.options).Run();

@@ -116,14 +116,20 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
     if (auto status = file.Override(key, value); !status) return status.error();
   }
   Launch launch;
+  launch.overrides_ = overrides;
   launch.file_ = std::make_shared<config::File>(std::move(file));
   const config::Map root = launch.file_->root();
   (void)root.Choice("rodeira", {"launch/1"});
   launch.name_ = root.Text("name", launch.file_->path().stem().string());
   if (const auto world = root.OptionalPath("world")) launch.world_ = *world;
+  if (const auto lab = root.OptionalPath("lab")) launch.lab_ = *lab;
   launch.seed_ = static_cast<std::uint64_t>(root.Integer("seed", 0, INT64_MAX, 1));
   if (root.Has("duration_s")) launch.duration_s_ = root.Number("duration_s", config::Range::Positive());
   launch.transport_ = root.Choice("transport", {"shared_memory", "udp"}, "shared_memory") == "udp" ? Transport::kUdp : Transport::kSharedMemory;
+  launch.discovery_ = ReadDiscovery(root.OptionalChild("discovery"));
+  if (launch.discovery_.kind != DiscoveryKind::kMulticast && launch.transport_ != Transport::kUdp) {
+    root.Problem("discovery", fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(launch.discovery_.kind)));
+  }
   launch.pace_ = root.Text("pace", "");
   if (root.Has("pace") && !ParsePace(launch.pace_).ok()) {
     root.Problem("pace", fmt::format("'pace' is '{}'; max, real or a positive number was expected", launch.pace_));

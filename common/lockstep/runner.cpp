@@ -78,17 +78,19 @@ Runner::Outcome Runner::Begin() {
     std::stable_sort(first.begin(), first.end(), [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
   }
   if (auto status = PublishAll(std::move(first)); !status) return Fail(status.error());
-  if (!settings_.resume && spec_.snapshots) {  // like every sample valid at 0, before anybody is ready
+  // The first snapshot is, like every first sample, there before anybody is ready.
+  begun_at_ = settings_.resume ? settings_.resume->at : 0;
+  if (spec_.snapshots && begun_at_ % roster_.source(*spec_.snapshots).period == 0) {
     base::StateWriter out;
     node_.Save(out);
-    if (auto status = PublishSnapshot({index_, 0, out.bytes(), {}, 0, report_.digest}); !status) return Fail(status.error());
+    if (auto status = PublishSnapshot({index_, begun_at_, out.bytes(), {}, report_.steps, report_.digest}); !status) return Fail(status.error());
   }
   stage_ = Stage::kInputs;
   return Outcome::kWorking;
 }
 
 Runner::Outcome Runner::AwaitInputs(std::chrono::milliseconds limit) {
-  switch (mailbox_.WaitForInputs(settings_.resume ? settings_.resume->at : 0, limit)) {
+  switch (mailbox_.WaitForInputs(begun_at_, limit)) {
     case Mailbox::Woken::kReady:
       {
         const std::lock_guard lock(report_mutex_);
@@ -196,7 +198,7 @@ base::Status Runner::PublishAll(std::vector<Sample> samples) {
 void Runner::AskAgain() {
   std::vector<Gap> gaps;
   switch (stage_) {
-    case Stage::kInputs: gaps = mailbox_.Missing(settings_.resume ? settings_.resume->at : 0); break;
+    case Stage::kInputs: gaps = mailbox_.MissingInputs(begun_at_); break;
     case Stage::kStepping:
       if (mailbox_.IsGranted(next_)) gaps = mailbox_.Missing(next_);  // before that nobody owes us anything
       break;
@@ -209,7 +211,7 @@ void Runner::AskAgain() {
 base::Status Runner::PublishSnapshot(const Snapshot& snapshot) { return bus_.Publish(snapshot.ToSample(roster_, settings_.incarnation)); }
 
 base::Status Runner::TakeSnapshotIfDue(Step step) {
-  const bool publish = spec_.snapshots && step > 0 && step % roster_.source(*spec_.snapshots).period == 0;
+  const bool publish = spec_.snapshots && step > begun_at_ && step % roster_.source(*spec_.snapshots).period == 0;
   Step at = settings_.snapshot_every > 0 ? FloorTo(step, settings_.snapshot_every) : 0;
   const bool keep = at > step - spec_.period && at != 0;  // one lies between the last activation and this one
   if (!publish && !keep) return {};

@@ -69,6 +69,7 @@ class Runner {
   Settings settings_;
   Outbox outbox_;
   Stage stage_ = Stage::kBegin;
+  Step begun_at_ = 0;       // 0, or the step of the snapshot that was resumed
   Step next_ = 0;           // the next activation
   Step told_ = -1;          // the progress last told
   std::deque<Sample> own_;  // own samples that a snapshot or a late peer may still need

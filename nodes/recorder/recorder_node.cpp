@@ -8,8 +8,10 @@
 #include <system_error>
 #include <utility>
 
+#include "common/base/mathematics.hpp"
 #include "common/record/mcap_writer.hpp"
 #include "idl/topics.hpp"
+#include "nodes/recorder/embed.hpp"
 #include "nodes/recorder/log_channels.hpp"
 
 namespace rodeira::nodes {
@@ -30,8 +32,10 @@ class RecorderNode final : public lockstep::Node {
   base::Status Begin(const launch::Launch& launch, lockstep::NodeIndex self, const record::TextMap& meta) {
     const record::TextMap about{
         {"launch", launch.name()},
+        {"launch_file", launch.path().filename().string()},
         {"roster_hash", base::Hex(roster_.hash())},
         {"protocol_hash", base::Hex(idl::ProtocolHash())},
+        {"mathematics_hash", base::Hex(base::MathematicsDigest())},
         {"base_step_ns", std::to_string(roster_.base_step_ns())},
         {"seed", std::to_string(launch.seed())},
         {"version", "0.1.0"},
@@ -40,8 +44,7 @@ class RecorderNode final : public lockstep::Node {
     if (!meta.empty()) {
       if (auto status = writer_.AddMetadata("rodeira.meta", meta); !status) return status;
     }
-    const auto text = std::as_bytes(std::span(launch.text()));
-    if (auto status = writer_.AddAttachment("launch.yaml", "application/yaml", text, 0, 0); !status) return status;
+    if (auto status = EmbedFiles(launch, writer_); !status) return status;
     channels_.assign(roster_.sources().size(), 0);
     for (const lockstep::Port& port : roster_.node(self).inputs) {
       const idl::TopicInfo* topic = idl::FindTopic(port.topic);

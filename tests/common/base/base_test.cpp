@@ -13,6 +13,7 @@
 #include "common/base/random.hpp"
 #include "common/base/result.hpp"
 #include "common/base/state.hpp"
+#include "common/base/state_fields.hpp"
 #include "common/base/suggest.hpp"
 
 namespace rodeira::base {
@@ -85,6 +86,29 @@ TEST(State, AFieldThatDoesNotFitIsNamed) {
   EXPECT_FALSE(cut.Finish().ok());
   StateReader left(out.bytes());
   EXPECT_FALSE(left.Finish().ok());
+}
+
+TEST(State, SaysItsFieldsAndWhereTwoDiffer) {
+  const auto state = [](double x, std::int8_t third, const std::string& name) {
+    StateWriter out;
+    out.Put("steps", std::uint64_t{7});
+    out.Put("part", Part{x, {1, -2, third}});
+    out.Put("name", name);
+    return out.bytes();
+  };
+  const auto fields = StateFields(state(0.1, 3, "abc"));
+  ASSERT_TRUE(fields.ok());
+  const std::vector<StateField> expected{{"steps", "7"},        {"part.x", "0.1"},      {"part.list.size", "3"}, {"part.list[0]", "1"},
+                                         {"part.list[1]", "-2"}, {"part.list[2]", "3"}, {"part.name", "abc"}};
+  EXPECT_EQ(fields.value(), expected);
+  const Bytes one = state(0.1, 3, "abc");
+  EXPECT_FALSE(FirstStateDifference(one, one).value().has_value());
+  const auto x = FirstStateDifference(one, state(0.1 + 2e-17, 4, "abc")).value();
+  EXPECT_EQ(x->path, "part.x");
+  EXPECT_EQ(x->first + " " + x->second, "0.1 0.10000000000000002");
+  EXPECT_EQ(FirstStateDifference(one, state(0.1, 4, "abd")).value()->path, "part.list[2]");
+  for (std::size_t size = 0; size < one.size(); ++size) (void)StateFields(std::span(one).first(size));  // never beyond its end
+  EXPECT_FALSE(StateFields(std::span(one).first(one.size() - 1)).ok());
 }
 
 TEST(State, TheDigestNeedsNoNames) {

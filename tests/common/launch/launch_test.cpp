@@ -34,7 +34,7 @@ TEST(Launch, WiresEverybodyByTopic) {
   const auto& traffic = roster.node(roster.Find("traffic"));
   EXPECT_EQ(traffic.period, 20);
   EXPECT_EQ(traffic.delay, 40);
-  EXPECT_EQ(roster.node(roster.Find("recorder")).inputs.size(), 3u);
+  EXPECT_EQ(roster.node(roster.Find("recorder")).inputs.size(), 4u) << "three streams of samples, and the snapshots";
   EXPECT_EQ(roster.node(roster.Find("road")).role, lockstep::Role::kService);
   EXPECT_EQ(launch.node(1).config->OptionalChild("config").Text("source"), "script");
 }

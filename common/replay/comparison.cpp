@@ -1,0 +1,119 @@
+#include "common/replay/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/base/state_fields.hpp"
+#include "common/decode/difference.hpp"
+#include "common/decode/idl_reader.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::replay {
+
+using lockstep::Sample;
+using lockstep::SampleHeader;
+
+std::string Difference::Text() const {
+  return fmt::format("first difference at step {}: node '{}', topic {}, field '{}': recorded {}, computed {}", step, node, topic, field, recorded, computed);
+}
+
+Comparison::Comparison(const RecordedRun& run, lockstep::Step from, const std::vector<bool>& trusted)
+    : run_(run), from_(from), trusted_(trusted), stream_(run.Samples(from)), waiting_(run.roster().sources().size()) {}
+
+bool Comparison::ReadOne() {
+  if (over_ || problem_) return false;
+  auto sample = stream_.Next();
+  if (!sample) {
+    problem_ = sample.error();
+    return false;
+  }
+  if (!sample.value()) {
+    over_ = true;
+    return false;
+  }
+  const auto source = sample.value()->source();
+  if (!trusted_[run_.roster().source(source).node]) waiting_[source].push_back(std::move(*sample.value()));
+  return true;
+}
+
+std::optional<Sample> Comparison::Recorded(lockstep::SourceIndex source, lockstep::Step valid) {
+  auto& waiting = waiting_[source];
+  while (waiting.empty() || waiting.back().valid() < valid) {
+    if (!ReadOne()) break;
+  }
+  if (waiting.empty() || waiting.front().valid() > valid) return std::nullopt;
+  Sample sample = std::move(waiting.front());
+  waiting.pop_front();
+  return sample;
+}
+
+void Comparison::Take(const Sample& computed) {
+  const auto source = computed.source();
+  if (problem_ || computed.valid() < from_ || computed.valid() > run_.last_step() || trusted_[run_.roster().source(source).node]) return;
+  const auto recorded = Recorded(source, computed.valid());
+  if (problem_) return;
+  if (!recorded) return Note(computed, "(sample)", "nothing", "a sample");
+  if (recorded->valid() != computed.valid()) return Note(*recorded, "(sample)", "a sample", "nothing");
+  Compare(*recorded, computed);
+}
+
+void Comparison::Compare(const Sample& recorded, const Sample& computed) {
+  ++compared_;
+  const bool is_snapshot = run_.roster().source(computed.source()).topic == lockstep::kSnapshotTopic;
+  if (is_snapshot) ++snapshots_;
+  if (lockstep::SameContent(recorded, computed)) return;
+  if (is_snapshot) {
+    const auto a = lockstep::Snapshot::FromSample(*recorded.payload);
+    const auto b = lockstep::Snapshot::FromSample(*computed.payload);
+    if (a.ok() && b.ok()) {
+      const auto field = base::FirstStateDifference(a.value().state, b.value().state);
+      if (field.ok() && field.value()) return Note(computed, "state." + field.value()->path, field.value()->first, field.value()->second);
+    }
+    return Note(computed, "(snapshot)", base::Hex(lockstep::PayloadDigest(*recorded.payload)), base::Hex(lockstep::PayloadDigest(*computed.payload)));
+  }
+  // The digest of the state comes in the header and differs with every value: the value says more.
+  constexpr std::size_t kContent = SampleHeader::kEncapsulation + SampleHeader::kSize;
+  const auto& a = *recorded.payload;
+  const auto& b = *computed.payload;
+  if (std::equal(a.begin() + kContent, a.end(), b.begin() + kContent, b.end())) {
+    return Note(computed, "header.state_digest", base::Hex(recorded.header.state_digest), base::Hex(computed.header.state_digest));
+  }
+  base::Bytes alike = a;
+  std::copy(b.begin(), b.begin() + kContent, alike.begin());
+  const auto* type = TypeOf(computed.source());
+  const auto field = type == nullptr ? std::nullopt : decode::FirstDifference(*type, alike, b);
+  if (field) return Note(computed, field->path, field->a, field->b);
+  Note(computed, "(sample)", base::Hex(lockstep::PayloadDigest(a)), base::Hex(lockstep::PayloadDigest(b)));
+}
+
+const decode::Type* Comparison::TypeOf(lockstep::SourceIndex source) {
+  const std::string& topic = run_.roster().source(source).topic;
+  const auto known = types_.find(topic);
+  if (known != types_.end()) return known->second.get();
+  const idl::TopicInfo* info = idl::FindTopic(topic);
+  const auto type = info == nullptr ? base::Result<decode::TypePtr>(base::WrongInput("")) : decode::ReadType(idl::IdlTextOf(info->subject), std::string(info->type));
+  return (types_[topic] = type.ok() ? type.value() : nullptr).get();
+}
+
+void Comparison::Note(const Sample& sample, std::string field, std::string recorded, std::string computed) {
+  // A snapshot at s is of the state before that step's activation, whose sample is valid later: the same order serves.
+  const std::pair at{sample.valid(), sample.source()};
+  if (first_ && first_at_ <= at) return;
+  first_at_ = at;
+  const auto& source = run_.roster().source(sample.source());
+  first_ = Difference{sample.valid(), run_.roster().node(source.node).name, source.topic, std::move(field), std::move(recorded), std::move(computed)};
+}
+
+void Comparison::Finish(lockstep::Step through) {
+  while (!problem_ && ReadOne()) {
+    bool beyond = true;
+    for (const auto& waiting : waiting_) beyond = beyond && (waiting.empty() || waiting.back().valid() > through);
+    if (beyond) break;
+  }
+  for (const auto& waiting : waiting_) {
+    if (!waiting.empty() && waiting.front().valid() <= through) Note(waiting.front(), "(sample)", "a sample", "nothing");
+  }
+}
+
+}  // namespace rodeira::replay

@@ -1,0 +1,235 @@
+#include "common/replay/recorded_run.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <charconv>
+#include <limits>
+#include <system_error>
+
+#include "common/base/mathematics.hpp"
+#include "common/launch/files_of.hpp"
+#include "common/record/compress.hpp"
+#include "common/replay/splice.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::replay {
+namespace {
+
+namespace fs = std::filesystem;
+using lockstep::Step;
+constexpr std::uint64_t kMostFileBytes = 256u << 20;
+constexpr const char* kCompressed = "application/x-rodeira-zstd";
+
+std::string Entry(const record::TextMap& map, const std::string& key) {
+  const auto found = map.find(key);
+  return found == map.end() ? std::string() : found->second;
+}
+
+std::optional<std::int64_t> Whole(const std::string& text) {
+  std::int64_t value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return problem == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+base::Result<base::Bytes> Unpacked(const record::Attachment& attachment) {
+  if (attachment.media_type != kCompressed) return base::Bytes(attachment.data.begin(), attachment.data.end());
+  base::ByteReader in(attachment.data);
+  const auto size = in.Get<std::uint64_t>();
+  if (!in.ok() || size > kMostFileBytes) return base::WrongInput(fmt::format("the embedded file '{}' is damaged", attachment.name));
+  return record::ZstdDecompress(in.GetRaw(in.remaining()), size);
+}
+
+}  // namespace
+
+base::Result<TemporaryFolder> TemporaryFolder::Make() {
+  std::string pattern = (fs::temp_directory_path() / "rodeira-replay-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) return base::Failed("no temporary folder can be made", pattern);
+  return TemporaryFolder(pattern);
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  if (path_.empty()) return;
+  std::error_code problem;
+  fs::remove_all(path_, problem);
+}
+
+base::Result<std::optional<lockstep::Sample>> SampleStream::Next() {
+  for (;;) {
+    auto message = cursor_.Next();
+    if (!message) return message.error();
+    if (!message.value()) return std::optional<lockstep::Sample>();
+    const auto source = sources_.find(message.value()->channel);
+    if (source == sources_.end()) continue;  // a channel of its own: wall times, remarks
+    const auto data = message.value()->data;
+    if (!lockstep::SampleHeader::HasHeader(data)) return base::WrongInput(fmt::format("a sample of {} bytes was found, which has no header", data.size()));
+    const auto header = lockstep::SampleHeader::Read(data);
+    if (header.source != source->second) return base::WrongInput(fmt::format("a sample of source {} was found on the channel of source {}", header.source, source->second));
+    if (header.step > last_) continue;
+    return std::optional(lockstep::Sample{header, std::make_shared<const base::Bytes>(data.begin(), data.end())});
+  }
+}
+
+base::Result<RecordedRun> RecordedRun::Open(const fs::path& path, const launch::Overrides& extra) {
+  auto reader = record::McapReader::Open(path);
+  if (!reader) return reader.error();
+  if (!reader.value().condition().whole) {
+    const auto& findings = reader.value().condition().findings;
+    return base::WrongInput(fmt::format("the recording is not whole{}; `rodeira repair` saves what can be saved", findings.empty() ? "" : " (" + findings.front() + ")"),
+                            path.string());
+  }
+  auto folder = TemporaryFolder::Make();
+  if (!folder) return folder.error();
+  RecordedRun run(std::move(reader).value(), std::move(folder).value());
+  run.path_ = path;
+  if (auto status = run.Read(extra); !status) return base::Error{status.error().code, status.error().Text(), path.string()};
+  return run;
+}
+
+base::Result<std::vector<launch::NamedFile>> RecordedRun::Files(const record::TextMap& about) const {
+  std::vector<launch::NamedFile> files;
+  for (const record::AttachmentInfo& info : reader_.attachments()) {
+    const bool is_launch = info.name == "launch.yaml";
+    if (!is_launch && !info.name.starts_with("files/")) continue;
+    const auto attachment = reader_.ReadAttachment(info);
+    if (!attachment) return attachment.error();
+    auto bytes = Unpacked(attachment.value());
+    if (!bytes) return bytes.error();
+    const std::string launch_file = Entry(about, "launch_file");
+    if (is_launch) {
+      files.insert(files.begin(), {launch_file.empty() ? "launch.yaml" : launch_file, std::move(bytes).value()});
+    } else {
+      files.push_back({info.name.substr(6), std::move(bytes).value()});
+    }
+  }
+  return files;
+}
+
+base::Status RecordedRun::Read(const launch::Overrides& extra) {
+  const auto metadata = reader_.FindMetadata("rodeira");
+  if (!metadata) return metadata.error();
+  if (!metadata.value()) return base::WrongInput("this is no recording of Rodeira: its metadata 'rodeira' is missing");
+  const record::TextMap& about = metadata.value()->entries;
+  const std::string protocol = Entry(about, "protocol_hash");
+  if (protocol != base::Hex(idl::ProtocolHash())) {
+    return base::WrongInput(fmt::format("the recording's protocol hash is {}, this program's is {}: it was written by another version ({}); read it with that one",
+                                        protocol, base::Hex(idl::ProtocolHash()), Entry(about, "version")));
+  }
+  mathematics_ = Entry(about, "mathematics_hash");
+  const auto files = Files(about);
+  if (!files) return files.error();
+  const auto launch_file = launch::LayOut(files.value(), folder_.path());
+  if (!launch_file) return launch_file.error();
+  launch::Overrides overrides;
+  for (const record::AttachmentInfo& info : reader_.attachments()) {
+    if (info.name != "override") continue;
+    const auto attachment = reader_.ReadAttachment(info);
+    if (!attachment) return attachment.error();
+    const std::string line(reinterpret_cast<const char*>(attachment.value().data.data()), attachment.value().data.size());
+    const auto equals = line.find('=');
+    if (equals == std::string::npos) return base::WrongInput(fmt::format("the recorded override '{}' is no KEY=VALUE", line.substr(0, 100)));
+    overrides.emplace_back(line.substr(0, equals), launch::LaidOut(line.substr(equals + 1), launch_file.value()));
+  }
+  // The run as it was: its roster must be the recorded one, whatever is changed afterwards.
+  auto recorded = launch::Launch::Load(launch_file.value(), overrides);
+  if (!recorded) return recorded.error();
+  if (base::Hex(recorded.value().roster().hash()) != Entry(about, "roster_hash")) {
+    return base::WrongInput(fmt::format("the recorded launch file gives the roster {}, the recording says {}", base::Hex(recorded.value().roster().hash()),
+                                        Entry(about, "roster_hash")));
+  }
+  overrides.insert(overrides.end(), extra.begin(), extra.end());
+  if (!extra.empty()) {
+    recorded = launch::Launch::Load(launch_file.value(), overrides);
+    if (!recorded) return recorded.error();
+  }
+  launch_ = std::make_shared<launch::Launch>(std::move(recorded).value());
+
+  for (const auto& [id, channel] : reader_.channels()) {
+    const auto number = Whole(Entry(channel.metadata, "source_number"));
+    if (!number) continue;
+    if (*number < 0 || static_cast<std::size_t>(*number) >= roster().sources().size() || roster().source(static_cast<lockstep::SourceIndex>(*number)).topic != channel.topic) {
+      return base::WrongInput(fmt::format("the channel '{}' says that it is source {}, which the roster does not know", channel.topic, *number));
+    }
+    sources_[id] = static_cast<lockstep::SourceIndex>(*number);
+  }
+  const auto branch = reader_.FindMetadata(kBranchMetadata);
+  if (!branch) return branch.error();
+  if (branch.value()) {
+    const auto at = Whole(Entry(branch.value()->entries, "step"));
+    if (!at || *at < 0) return base::WrongInput("the recording does not say at which step it left its parent");
+    branched_at_ = *at;
+  }
+  const auto end = reader_.FindMetadata("rodeira.end");
+  if (!end) return end.error();
+  const auto last = end.value() ? Whole(Entry(end.value()->entries, "last_step")) : std::nullopt;
+  if (!last || *last < 0) return base::WrongInput("the recording does not say at which step the run ended; `rodeira repair` makes one that does");
+  last_step_ = *last;
+  complete_ = Entry(end.value()->entries, "complete") == "true";
+  return {};
+}
+
+base::Status RecordedRun::CheckMathematics() const {
+  const std::string own = base::Hex(base::MathematicsDigest());
+  if (mathematics_ == own) return {};
+  return base::WrongInput(fmt::format("the recording's mathematics hash is {}, this program's is {}: its mathematics library computes other bits", mathematics_, own), path_.string());
+}
+
+SampleStream RecordedRun::Samples(Step from) const {
+  record::Query query;
+  query.from_ns = static_cast<std::uint64_t>(from * roster().base_step_ns());
+  return SampleStream(reader_.Messages(query), sources_, last_step_);
+}
+
+base::Result<Step> RecordedRun::SnapshotAtOrBefore(Step step) const {
+  for (const lockstep::NodeSpec& node : roster().nodes()) {
+    if (!node.snapshots) continue;
+    const Step period = roster().source(*node.snapshots).period;
+    const Step own = lockstep::CeilTo(branched_at_, period);
+    if (own > last_step_) return base::WrongInput("the branch is shorter than the distance of two snapshots; it holds none of its own", path_.string());
+    return std::max(own, lockstep::FloorTo(std::min(step, last_step_), period));
+  }
+  return Step{0};
+}
+
+base::Result<std::vector<lockstep::Snapshot>> RecordedRun::Snapshots(Step at) const {
+  std::vector<lockstep::Snapshot> snapshots(roster().nodes().size());
+  std::vector<bool> found(snapshots.size(), false);
+  for (lockstep::NodeIndex n = 0; n < snapshots.size(); ++n) {
+    snapshots[n].node = n;
+    snapshots[n].at = at;
+  }
+  // From the oldest sample that anybody may still need, to the newest that was there before the snapshot.
+  Step oldest = at;
+  for (lockstep::SourceIndex s = 0; s < roster().sources().size(); ++s) oldest = std::min(oldest, roster().OldestNeeded(s, at));
+  Step newest = at;
+  for (const lockstep::NodeSpec& node : roster().nodes()) newest = std::max(newest, at - node.period + node.delay);
+  SampleStream samples = Samples(oldest);
+  for (;;) {
+    auto sample = samples.Next();
+    if (!sample) return sample.error();
+    if (!sample.value() || sample.value()->valid() > newest) break;
+    const auto source = sample.value()->source();
+    const Step valid = sample.value()->valid();
+    const lockstep::NodeIndex n = roster().source(source).node;
+    const lockstep::NodeSpec& spec = roster().node(n);
+    if (spec.snapshots == source) {
+      if (valid != at) continue;
+      auto snapshot = lockstep::Snapshot::FromSample(*sample.value()->payload);
+      if (!snapshot) return snapshot.error();
+      auto samples_so_far = std::move(snapshots[n].samples);
+      snapshots[n] = std::move(snapshot).value();
+      snapshots[n].samples = std::move(samples_so_far);
+      found[n] = true;
+    } else if (valid >= roster().OldestNeeded(source, at) && valid <= lockstep::CeilTo(at, spec.period) - spec.period + spec.delay) {
+      snapshots[n].samples.push_back(std::move(*sample.value()));
+    }
+  }
+  for (lockstep::NodeIndex n = 0; n < snapshots.size(); ++n) {
+    if (roster().node(n).snapshots && !found[n]) {
+      return base::WrongInput(fmt::format("the snapshot of node '{}' at step {} is missing", roster().node(n).name, at), path_.string());
+    }
+  }
+  return snapshots;
+}
+
+}  // namespace rodeira::replay

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/launch/files_of.hpp"
+#include "common/launch/launch.hpp"
+#include "common/lockstep/snapshot.hpp"
+#include "common/record/mcap_reader.hpp"
+
+namespace rodeira::replay {
+
+// A folder of its own below the system's temporary one, removed with everything in it at the end.
+class TemporaryFolder {
+ public:
+  static base::Result<TemporaryFolder> Make();
+  TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::move(other.path_)) { other.path_.clear(); }
+  TemporaryFolder& operator=(TemporaryFolder&&) = delete;
+  ~TemporaryFolder();
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  explicit TemporaryFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  std::filesystem::path path_;
+};
+
+// The samples of a recording in the order of (step, source), as the law's consumers see them.
+class SampleStream {
+ public:
+  // Nothing at the end; wrong input where the file is damaged there.
+  base::Result<std::optional<lockstep::Sample>> Next();
+
+ private:
+  friend class RecordedRun;
+  SampleStream(record::MessageCursor cursor, const std::map<record::ChannelId, lockstep::SourceIndex>& sources, lockstep::Step last)
+      : cursor_(std::move(cursor)), sources_(sources), last_(last) {}
+  record::MessageCursor cursor_;
+  const std::map<record::ChannelId, lockstep::SourceIndex>& sources_;
+  lockstep::Step last_;
+};
+
+// A recording as a run: its launch file and configurations as they were, its roster, samples and snapshots.
+class RecordedRun {
+ public:
+  // `extra` replaces values of the recorded launch file, behind the run's own --set. Wrong input where this is no
+  // recording of Rodeira, is not whole, or was written by another version of the protocol.
+  static base::Result<RecordedRun> Open(const std::filesystem::path& path, const launch::Overrides& extra = {});
+
+  const std::filesystem::path& path() const { return path_; }
+  const launch::Launch& launch() const { return *launch_; }
+  const lockstep::Roster& roster() const { return launch_->roster(); }
+  lockstep::Step last_step() const { return last_step_; }
+  bool complete() const { return complete_; }  // false: the run was aborted
+  // Wrong input where this process would compute other bits than the one that recorded (law L7).
+  base::Status CheckMathematics() const;
+  // Where this run left its parent; 0 where it has none. What lies before was computed by the parent's nodes.
+  lockstep::Step branched_at() const { return branched_at_; }
+
+  // From the samples valid at or after `from` on. The run must outlive the stream.
+  SampleStream Samples(lockstep::Step from = 0) const;
+  const record::McapReader& reader() const { return reader_; }
+  // The newest step at or before `step` at which every node's snapshot was taken (of a branch: the first of its own, at
+  // least); 0 where there is only the beginning. Wrong input where a branch has none.
+  base::Result<lockstep::Step> SnapshotAtOrBefore(lockstep::Step step) const;
+  // Of every node of the roster, in its order, at such a step; sinks' and services' are without a state.
+  base::Result<std::vector<lockstep::Snapshot>> Snapshots(lockstep::Step at) const;
+
+ private:
+  explicit RecordedRun(record::McapReader reader, TemporaryFolder folder) : reader_(std::move(reader)), folder_(std::move(folder)) {}
+  base::Status Read(const launch::Overrides& extra);
+  base::Result<std::vector<launch::NamedFile>> Files(const record::TextMap& about) const;
+
+  std::filesystem::path path_;
+  record::McapReader reader_;
+  TemporaryFolder folder_;
+  std::shared_ptr<launch::Launch> launch_;
+  std::map<record::ChannelId, lockstep::SourceIndex> sources_;
+  lockstep::Step last_step_ = 0;
+  lockstep::Step branched_at_ = 0;
+  std::string mathematics_;
+  bool complete_ = false;
+};
+
+}  // namespace rodeira::replay

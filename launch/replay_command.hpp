@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rodeira::front {
+
+struct ReplayOptions {
+  std::string file;
+  bool verify = false;
+  std::optional<double> from_s;
+  std::vector<std::pair<std::string, std::string>> changes;  // --branch
+  std::optional<double> for_s;                               // of the branch: simulated seconds behind it
+  std::string record;                                        // of the branch
+  bool quiet = false;
+};
+
+// `rodeira replay`: exit status 0, 1 where a verification found a difference, 2 for wrong input.
+int Replay(const ReplayOptions& options);
+
+}  // namespace rodeira::front

@@ -1,0 +1,90 @@
+#include "launch/verify.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+
+#include "common/lockstep/in_process.hpp"
+#include "common/replay/recorded_node.hpp"
+#include "launch/local_nodes.hpp"
+
+namespace rodeira::front {
+
+bool IsLive(const launch::LaunchNode& node) {
+  const auto source = node.config->Peek({"config", "source"});
+  return node.kind->name == "input" && source && (*source == "keyboard" || *source == "joystick");
+}
+
+base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from, const std::function<void(lockstep::Step)>& on_progress) {
+  Recomputation wish;
+  wish.from = from;
+  wish.on_progress = on_progress;
+  auto done = Recompute(run, wish);
+  if (!done) return done.error();
+  return std::move(done.value().verdict);
+}
+
+base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish) {
+  const auto& roster = run.roster();
+  if (auto status = run.CheckMathematics(); !status) return status.error();
+  const auto at = run.SnapshotAtOrBefore(wish.from);
+  if (!at) return at.error();
+  Recomputed recomputed;
+  Verdict& verdict = recomputed.verdict;
+  verdict.first_step = at.value();
+  std::vector<bool> trusted(roster.nodes().size(), false);
+  for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
+    trusted[n] = IsLive(run.launch().node(n));
+    if (trusted[n]) verdict.substituted.push_back(roster.node(n).name);
+    if (!trusted[n] && !roster.node(n).is_sink() && roster.node(n).role == lockstep::Role::kStepped) ++verdict.nodes;
+  }
+  auto nodes = LocalNodes::Make(run.launch(), [&](lockstep::NodeIndex n) -> std::unique_ptr<lockstep::Node> {
+    if (roster.node(n).is_sink()) return replay::MakeNullSink();
+    if (trusted[n]) return replay::MakeRecordedNode(run, n, at.value());
+    return nullptr;
+  });
+  if (!nodes) return nodes.error();
+
+  lockstep::InProcessSettings settings;
+  settings.first_step = at.value();
+  settings.last_step = wish.last_step.value_or(run.last_step());
+  if (wish.snapshot_at && *wish.snapshot_at > at.value()) {
+    recomputed.snapshots.resize(roster.nodes().size());
+    settings.snapshot_every = *wish.snapshot_at;
+    settings.on_snapshot = [&](const lockstep::Snapshot& snapshot) {
+      if (snapshot.at == *wish.snapshot_at) recomputed.snapshots[snapshot.node] = snapshot;
+    };
+  }
+  if (at.value() > 0) {
+    auto snapshots = run.Snapshots(at.value());
+    if (!snapshots) return snapshots.error();
+    settings.resume = std::move(snapshots).value();
+    if (wish.snapshot_at == at.value()) recomputed.snapshots = settings.resume;
+    for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
+      if (trusted[n]) settings.resume[n].state.clear();  // it was another node's
+    }
+  }
+  replay::Comparison comparison(run, at.value(), trusted);
+  std::atomic<bool> stop = false;
+  settings.on_sample = [&](const lockstep::Sample& sample) {
+    comparison.Take(sample);
+    if (comparison.differs()) stop = true;
+  };
+  settings.stop_requested = [&] { return stop.load(); };
+  if (wish.on_progress) settings.on_progress = [&](const lockstep::Clock& clock) { wish.on_progress(clock.slowest_progress()); };
+  const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
+  comparison.Finish(std::min(outcome.last_step, run.last_step()));
+  for (lockstep::NodeIndex n = 0; n < recomputed.snapshots.size(); ++n) {
+    recomputed.snapshots[n].node = n;
+    recomputed.snapshots[n].at = *wish.snapshot_at;
+  }
+  if (comparison.problem()) return *comparison.problem();
+  if (!outcome.ok && !comparison.first()) return base::Failed(fmt::format("the run could not be computed again: {}", outcome.fault), run.path().string());
+  verdict.last_step = outcome.last_step;
+  verdict.samples = comparison.compared();
+  verdict.snapshots = comparison.snapshots_compared();
+  verdict.difference = comparison.first();
+  return recomputed;
+}
+
+}  // namespace rodeira::front

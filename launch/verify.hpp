@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/replay/comparison.hpp"
+#include "common/replay/recorded_run.hpp"
+
+namespace rodeira::front {
+
+struct Verdict {
+  lockstep::Step first_step = 0;  // where the computation began: a snapshot at or before what was asked
+  lockstep::Step last_step = 0;
+  std::size_t nodes = 0;          // computed again
+  std::uint64_t samples = 0;      // compared
+  std::uint64_t snapshots = 0;
+  std::vector<std::string> substituted;  // live input: their samples were taken from the recording
+  std::optional<replay::Difference> difference;
+};
+
+// Whether a node's samples came from a person's hands.
+bool IsLive(const launch::LaunchNode& node);
+
+// What is computed again of a recording.
+struct Recomputation {
+  lockstep::Step from = 0;       // begins at the snapshot at or before
+  std::optional<lockstep::Step> last_step;    // none: the recording's
+  std::optional<lockstep::Step> snapshot_at;  // every node's snapshot before this step is handed back
+  std::function<void(lockstep::Step)> on_progress;
+};
+struct Recomputed {
+  Verdict verdict;
+  std::vector<lockstep::Snapshot> snapshots;  // one for each node where they were asked for
+};
+base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish);
+
+// Runs the recording's nodes again in this process, from its launch file and configurations and from the snapshot at or
+// before `from`, and compares every sample, every state digest and every snapshot. Live input is substituted by its
+// recorded samples, sinks by nobody. Failed where a node fails that did not fail then.
+base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from, const std::function<void(lockstep::Step)>& on_progress = {});
+
+}  // namespace rodeira::front
