@@ -15,7 +15,7 @@ namespace rodeira::front {
 namespace {
 
 constexpr std::size_t kMostConnections = 32;
-constexpr std::size_t kLongestLine = 4096;
+constexpr std::size_t kLongestLine = 1024;  // the clock takes at most 4096 at a time
 
 }  // namespace
 

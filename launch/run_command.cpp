@@ -159,7 +159,8 @@ class ProcessRun {
   // What the operator asks for goes to the clock; its answer comes among its other words.
   void AskClock() {
     while (auto asked = desk_ ? desk_->Next() : std::nullopt) {
-      std::erase(asked->line, '\r');
+      // What would end a line or a text is no part of a command.
+      std::replace_if(asked->line.begin(), asked->line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
       children_.front().Send(fmt::format("do {} {}", ++asked_, asked->line));
       answers_[asked_] = std::move(asked->answer);
     }
@@ -169,7 +170,8 @@ class ProcessRun {
     const auto [end, problem] = std::from_chars(line.data(), line.data() + line.size(), number);
     const auto waiting = answers_.find(number);
     if (problem != std::errc{} || waiting == answers_.end()) return;
-    waiting->second(std::string(line.substr(static_cast<std::size_t>(end - line.data()) + 1)));
+    line.remove_prefix(std::min(static_cast<std::size_t>(end - line.data()) + 1, line.size()));
+    waiting->second(std::string(line));
     answers_.erase(waiting);
   }
   // Dead or stopped though the run is not over. A node that left with a sentence has told the clock itself.
