@@ -97,8 +97,8 @@ class ThreadedRun {
     while (!Over()) {
       const Wall now = ReadWall();
       DoCommands(now);
-      if (settings_.stop_requested && settings_.stop_requested()) conductor_.Stop(now);
       (void)conductor_.Move(now);
+      if (settings_.stop_requested && settings_.stop_requested()) conductor_.Stop(now);
       news_ = false;
       SendNews(lock);
       if (clock_.grant().final && clock_.all_sources_finished()) conductor_.CloseLog(now);
