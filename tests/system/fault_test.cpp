@@ -87,6 +87,23 @@ TEST(Fault, AnotherProtocolIsRefused) { ExpectRefused("RODEIRA_PRETEND_PROTOCOL=
 TEST(Fault, OtherMathematicsAreRefused) { ExpectRefused("RODEIRA_PRETEND_MATHEMATICS=9", {}, "mathematics hash"); }
 TEST(Fault, AnotherRosterIsRefused) { ExpectRefused("", {"--set", "nodes.b.period_s=0.002"}, "roster hash"); }
 
+// Two PCs with other world files: the road server and the traffic each load their own.
+TEST(Fault, AnotherWorldIsRefused) {
+  const std::string launch = std::string(RODEIRA_SOURCE_DIR) + "/tests/data/n222_traffic.yaml";
+  const auto command = [&](const std::string& program, std::vector<std::string> more) {
+    std::vector<std::string> words{Bin(program), "--launch", launch, "--run", "worlds"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  Started clock(command("rodeira-clock", {}));
+  Started road(command("rodeira-road", {"--node", "road"}));
+  Started traffic(command("rodeira-traffic", {"--node", "traffic", "--set", "world=straight.yaml"}));
+  const Ended ended = clock.Wait(30s);
+  EXPECT_EQ(ended.status, 2) << ended.out;
+  EXPECT_NE(ended.out.find("was refused: its world hash is "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("both need the same world files"), std::string::npos) << ended.out;
+}
+
 TEST(Fault, WhoIsMissingIsSaid) {
   Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "lonely", "--set", "limits.start_s=1"});
   Started node({Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "lonely", "--set", "limits.start_s=1", "--node", "a"});
