@@ -7,6 +7,7 @@
 
 #include "common/base/mathematics.hpp"
 #include "common/base/suggest.hpp"
+#include "launch/ctl_command.hpp"
 #include "launch/doctor.hpp"
 #include "launch/info_command.hpp"
 #include "launch/joysticks_command.hpp"
@@ -57,6 +58,7 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   run->add_option("--record", options.record, "recording (MCAP)");
   run->add_option("--seed", options.seed, "seed of everything that is drawn");
   run->add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file");
+  run->add_option("--meta", options.meta, "KEY=VALUE: written into the recording (participant=P07)");
   run->add_flag("--in-process", options.in_process, "the same nodes in one process");
   run->add_flag("--headless", options.headless, "no window, even where there is a display");
   run->add_flag("--quiet", options.quiet, "no progress, no table");
@@ -64,6 +66,13 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   run->add_option("--host", options.host, "start only what belongs to this host of the laboratory");
   run->add_option("--run", options.run, "name of the run: only processes of the same name meet");
   run->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232));
+}
+
+CLI::App* AddCtl(CLI::App& app, CtlOptions& options) {
+  CLI::App* ctl = app.add_subcommand("ctl", "control a run that is going on: pause | resume | step [N] | pace X | mark TEXT | stop | state");
+  ctl->add_option("COMMAND", options.words, "what to do")->required();
+  ctl->add_option("--run", options.run, "name of the run; the only one otherwise");
+  return ctl;
 }
 
 void AddWorld(CLI::App& app, WorldOptions& options) {
@@ -145,6 +154,8 @@ int Main(int argc, char** argv) {
   AddDoctor(app, doctor);
   JoysticksOptions joysticks;
   AddJoysticks(app, joysticks);
+  CtlOptions ctl_options;
+  const CLI::App* ctl = AddCtl(app, ctl_options);
   std::string info_file;
   CLI::App* info = app.add_subcommand("info", "what a recording holds");
   info->add_option("FILE.mcap", info_file, "recording")->required();
@@ -160,6 +171,7 @@ int Main(int argc, char** argv) {
   if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);
+  if (ctl->parsed()) return Ctl(ctl_options);
   if (info->parsed()) return Info(info_file);
   if (!TakePairs("--set", sets, run.overrides) || !TakePairs("--branch", changes, replay_options.changes)) return 2;
   if (replay->parsed()) return Replay(replay_options);

@@ -20,7 +20,7 @@ int Info(const std::string& file) {
   for (const std::string& finding : in.condition().findings) fmt::print("  {}\n", finding);
   fmt::print("time    {:.3f} s to {:.3f} s, {} samples in {} chunks\n", static_cast<double>(statistics.first_log_time_ns) * 1e-9,
              static_cast<double>(statistics.last_log_time_ns) * 1e-9, statistics.messages, statistics.chunks);
-  for (const char* name : {"rodeira", "rodeira.end"}) {
+  for (const char* name : {"rodeira", "rodeira.meta", "rodeira.end"}) {
     const auto metadata = in.FindMetadata(name);
     if (!metadata || !metadata.value()) continue;
     for (const auto& [key, value] : metadata.value()->entries) fmt::print("{:<14}  {}\n", key, value);

@@ -9,19 +9,24 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <random>
 #include <thread>
 
 #include "common/launch/pace.hpp"
 #include "launch/in_process_command.hpp"
+#include "launch/operator.hpp"
 #include "launch/placement.hpp"
 #include "launch/processes.hpp"
 #include "launch/recording_folder.hpp"
+#include "launch/run_meta.hpp"
 #include "launch/run_report.hpp"
 #include "launch/shared_memory.hpp"
 
@@ -55,10 +60,11 @@ std::string DatedRecording(const std::string& name) {
 class ProcessRun {
  public:
   ProcessRun(const RunOptions& options, const Placement& placement, const launch::Launch& launch, launch::Overrides overrides)
-      : options_(options), placement_(placement), launch_(launch), overrides_(std::move(overrides)), run_(options.run.empty() ? FreshRunName() : options.run),
+      : options_(options), placement_(placement), launch_(launch), overrides_(std::move(overrides)), run_(options.run),
         domain_(options.domain.value_or(static_cast<std::uint32_t>(1 + base::Hash(run_) % 200))) {
     RemoveLeftOvers({});  // of dead runs
     before_ = SharedMemoryFiles();
+    if (placement.has_clock()) desk_.emplace(options.run, options.quiet);
   }
 
   int Run() {
@@ -146,8 +152,27 @@ class ProcessRun {
       const int interrupts = g_interrupts;
       if (interrupts > 0 && !interrupted_at_) interrupted_at_ = WallClock::now();
       for (; passed_on_ < interrupts; ++passed_on_) clock.Signal(SIGINT);
+      AskClock();
       ShowProgress();
     }
+  }
+  // What the operator asks for goes to the clock; its answer comes among its other words.
+  void AskClock() {
+    while (auto asked = desk_ ? desk_->Next() : std::nullopt) {
+      // What would end a line or a text is no part of a command.
+      std::replace_if(asked->line.begin(), asked->line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+      children_.front().Send(fmt::format("do {} {}", ++asked_, asked->line));
+      answers_[asked_] = std::move(asked->answer);
+    }
+  }
+  void TakeAnswer(std::string_view line) {
+    std::size_t number = 0;
+    const auto [end, problem] = std::from_chars(line.data(), line.data() + line.size(), number);
+    const auto waiting = answers_.find(number);
+    if (problem != std::errc{} || waiting == answers_.end()) return;
+    line.remove_prefix(std::min(static_cast<std::size_t>(end - line.data()) + 1, line.size()));
+    waiting->second(std::string(line));
+    answers_.erase(waiting);
   }
   // Dead or stopped though the run is not over. A node that left with a sentence has told the clock itself.
   bool Broken(const Child& child) const {
@@ -185,7 +210,12 @@ class ProcessRun {
     }
     pending_.append(buffer, static_cast<std::size_t>(size));
     for (auto end = pending_.find('\n'); end != std::string::npos; end = pending_.find('\n')) {
-      report_.Take(std::string_view(pending_).substr(0, end));
+      const std::string_view line = std::string_view(pending_).substr(0, end);
+      if (line.starts_with("answer ")) {
+        TakeAnswer(line.substr(7));
+      } else {
+        report_.Take(line);
+      }
       pending_.erase(0, end + 1);
       if (!report_.faults.empty()) Fault(report_.faults.front());
     }
@@ -224,8 +254,8 @@ class ProcessRun {
       fmt::print(stderr, "\r\033[Kwaiting for {}{}", report_.waiting_for, nodes_started_ ? "" : " on " + placement_.ClocksPlace());
     } else {
       const double simulated_s = static_cast<double>(report_.step) * static_cast<double>(launch_.roster().base_step_ns()) * 1e-9;
-      fmt::print(stderr, "\r\033[K{:.1f} s simulated, {:.1f} s passed, {:.2f} × real time", simulated_s, report_.wall_s,
-                 report_.wall_s > 0.0 ? simulated_s / report_.wall_s : 0.0);
+      fmt::print(stderr, "\r\033[K{:.1f} s simulated, {:.1f} s passed, {:.2f} × real time{}{}", simulated_s, report_.wall_s,
+                 report_.wall_s > 0.0 ? simulated_s / report_.wall_s : 0.0, report_.paused ? ", paused" : "", desk_ && desk_->has_keys() ? " (h: keys)" : "");
     }
     shown_ = true;
   }
@@ -257,6 +287,9 @@ class ProcessRun {
   RunReport report_;
   std::string fault_;
   std::string pending_;
+  std::optional<Operator> desk_;  // where the clock is
+  std::size_t asked_ = 0;
+  std::map<std::size_t, std::function<void(const std::string&)>> answers_;
   int passed_on_ = 0;
   std::optional<WallClock::time_point> interrupted_at_;
   bool nodes_started_ = false;
@@ -319,10 +352,12 @@ int Run(const RunOptions& options) {
     if (!found) return Complain(found.error());
     placement = std::move(found).value();
     if (auto status = ResolveRecording(launch.value(), placement, resolved, overrides); !status) return Complain(status.error());
+    if (auto status = AddMeta(launch.value(), resolved.meta, overrides); !status) return Complain(status.error());
     launch = launch::Launch::Load(options.launch_file, overrides);
   }
   if (!launch) return Complain(launch.error());
   if (resolved.pace.empty()) resolved.pace = launch.value().pace().empty() ? "max" : launch.value().pace();
+  if (resolved.run.empty()) resolved.run = FreshRunName();
   if (options.in_process) return RunInProcess(resolved, launch.value());
   return ProcessRun(resolved, placement, launch.value(), std::move(overrides)).Run();
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/base/result.hpp"
 #include "common/launch/launch.hpp"
@@ -17,6 +18,7 @@ struct RunOptions {
   std::string record;       // empty: as the launch file says
   std::optional<std::uint64_t> seed;
   launch::Overrides overrides;
+  std::vector<std::string> meta;  // KEY=VALUE, for the recording
   bool in_process = false;
   bool headless = false;
   bool quiet = false;

@@ -21,7 +21,7 @@ struct ProcessOptions {
   // For the clock alone.
   double pace = 0.0;                     // 0: as fast as possible
   std::optional<double> duration_s;
-  bool listen = false;                   // take lines "fault TEXT" from standard input: a parent saw a process die
+  bool listen = false;                   // take lines from standard input: a parent saw a process die, an operator asks
   std::string follow;                    // name of this host: grant nothing, say what the run's clock elsewhere says
 };
 

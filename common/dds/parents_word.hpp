@@ -5,11 +5,13 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace rodeira::dds {
 
 // The first line "fault TEXT" or "lost NODE TEXT" that the parent writes to standard input: what it sees sooner than any
-// heartbeat, a process of its own that died or was stopped.
+// heartbeat, a process of its own that died or was stopped. And all lines "do NUMBER COMMAND": what the operator asks for.
 class ParentsWord {
  public:
   // Once. The thread ends with the process; `this` must live as long.
@@ -19,10 +21,12 @@ class ParentsWord {
       while (std::fgets(line, sizeof(line), stdin) != nullptr) {
         std::string text(line);
         while (!text.empty() && text.back() == '\n') text.pop_back();
-        if (!text.starts_with("fault ") && !text.starts_with("lost ")) continue;
+        const bool asks = text.starts_with("do ");
+        if (!asks && !text.starts_with("fault ") && !text.starts_with("lost ")) continue;
         {
           const std::lock_guard lock(mutex_);
-          if (word_.empty()) word_ = text;
+          if (asks) asked_.push_back(text.substr(3));
+          if (!asks && word_.empty()) word_ = text;
         }
         on_word();
       }
@@ -33,10 +37,21 @@ class ParentsWord {
     const std::lock_guard lock(mutex_);
     return word_;
   }
+  // "NUMBER COMMAND", each once.
+  std::vector<std::string> TakeAsked() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(asked_, {});
+  }
+  // There is a word, or something asked that was not taken.
+  bool is_waiting() const {
+    const std::lock_guard lock(mutex_);
+    return !word_.empty() || !asked_.empty();
+  }
 
  private:
   mutable std::mutex mutex_;
   std::string word_;
+  std::vector<std::string> asked_;
 };
 
 }  // namespace rodeira::dds

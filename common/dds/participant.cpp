@@ -86,7 +86,7 @@ class FastParticipant final : public Participant {
     if (made_topic == nullptr) return Refused(topic);
     fdds::DataWriterQos qos = fdds::DATAWRITER_QOS_DEFAULT;
     Common(qos, delivery);
-    qos.durability().kind = delivery == Delivery::kForLateComers ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
+    qos.durability().kind = IsKept(delivery) ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
     qos.reliability().kind = delivery == Delivery::kSaidAgain ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
     auto& times = qos.reliable_writer_qos().times;
     times.initialHeartbeatDelay = Duration_t{0, 0};
@@ -103,7 +103,7 @@ class FastParticipant final : public Participant {
     if (made_topic == nullptr) return Refused(topic);
     fdds::DataReaderQos qos = fdds::DATAREADER_QOS_DEFAULT;
     Common(qos, delivery);
-    qos.durability().kind = delivery == Delivery::kForLateComers ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
+    qos.durability().kind = IsKept(delivery) ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
     const bool best_effort = delivery == Delivery::kObserve || delivery == Delivery::kSaidAgain;
     qos.reliability().kind = best_effort ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
     qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t{0, 0};
@@ -115,6 +115,7 @@ class FastParticipant final : public Participant {
   }
 
  private:
+  static bool IsKept(Delivery delivery) { return delivery == Delivery::kForLateComers || delivery == Delivery::kHistory; }
   template <class Qos>
   static void Common(Qos& qos, Delivery delivery) {
     qos.history().kind = fdds::KEEP_LAST_HISTORY_QOS;

@@ -16,11 +16,14 @@
 #include "common/dds/options.hpp"
 #include "common/dds/parents_word.hpp"
 #include "common/dds/participant.hpp"
+#include "common/dds/remote_log.hpp"
 #include "common/dds/run.hpp"
 #include "common/dds/statements.hpp"
+#include "common/dds/triggers.hpp"
 #include "common/dds/wire.hpp"
+#include "common/launch/command_text.hpp"
 #include "common/lockstep/clock.hpp"
-#include "common/lockstep/pacer.hpp"
+#include "common/lockstep/conductor.hpp"
 #include "common/lockstep/watchdog.hpp"
 #include "idl/topics.hpp"
 
@@ -37,7 +40,8 @@ void OnSignal(int) { ++g_signals; }
 class ClockProcess {
  public:
   ClockProcess(const launch::Launch& launch, const ProcessOptions& options)
-      : launch_(launch), roster_(launch.roster()), options_(options), clock_(roster_, LastStep()), pacer_(roster_.base_step_ns(), options.pace),
+      : launch_(launch), roster_(launch.roster()), options_(options), clock_(roster_, LastStep()),
+        conductor_(clock_, lockstep::Pacer(roster_.base_step_ns(), options.pace)),
         watchdog_(roster_, launch.watchdog()), own_(OwnHello(roster_.hash())) {
     std::random_device device;
     while (clock_id_ == 0) clock_id_ = (static_cast<std::uint64_t>(device()) << 32) | device();
@@ -67,7 +71,10 @@ class ClockProcess {
     return error.exit_status();
   }
   std::int64_t NowNs() const { return std::chrono::nanoseconds(WallClock::now() - start_).count(); }
-  double RunSeconds() const { return first_grant_ns_ == 0 ? 0.0 : static_cast<double>(NowNs() - first_grant_ns_) * 1e-9; }
+  lockstep::Wall Now() const {
+    return {NowNs(), std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()};
+  }
+  double RunSeconds() const { return static_cast<double>(conductor_.RunNs(Now())) * 1e-9; }
 
   base::Status Connect(Participant& participant) {
     // Before anything is said: another clock's word in this run means that this one is too many.
@@ -89,6 +96,12 @@ class ClockProcess {
     auto grants = participant.MakeWriter(topics::kGrant, Delivery::kSaidAgain);
     if (!grants) return grants.error();
     grants_ = std::move(grants).value();
+    auto log = OpenLogSpeaker(participant, roster_.hash(), clock_id_, roster_.base_step_ns());
+    if (!log) return log.error();
+    log_ = std::move(log).value();
+    auto triggers = Triggers::Open(participant, options_.run, roster_.base_step_ns());
+    if (!triggers) return triggers.error();
+    triggers_.emplace(std::move(triggers).value());
     return {};
   }
   base::Status SecondClock() const {
@@ -100,6 +113,25 @@ class ClockProcess {
   std::string Told() const {
     const std::string word = parents_.word();
     return word.starts_with("fault ") ? word.substr(6) : "";
+  }
+
+  // "answer NUMBER ok|wrong|failed SENTENCE".
+  void DoCommands() {
+    for (const std::string& line : parents_.TakeAsked()) {
+      const auto space = std::min(line.find(' '), line.size());
+      const std::string number = line.substr(0, space);
+      const auto command = launch::ParseCommand(std::string_view(line).substr(space));
+      const auto done = command ? conductor_.Do(command.value(), Now()) : base::Result<std::string>(command.error());
+      const std::string_view how = done ? "ok" : done.error().code == base::ErrorCode::kWrongInput ? "wrong" : "failed";
+      Say("answer {} {} {}", number, how, OneLine(done ? done.value() : done.error().Text()));
+    }
+  }
+
+  void FlushLog() {
+    const auto batch = conductor_.log().Take(NowNs());
+    if (!batch) return;
+    log_->Say(*batch);
+    for (const lockstep::Remark& remark : batch->remarks) triggers_->Say(remark);
   }
 
   // Two clocks that began at the same moment: the one with the larger number is the one too many.
@@ -120,24 +152,27 @@ class ClockProcess {
         if (auto fault = watchdog_.Check(NowNs() / 1'000'000)) return Abort(fault->reason, fault->status);
         if (const int signals = g_signals; signals > 0) {
           if (signals > 2 || clock_.grant().through < 0) return Abort("stopped by a signal", 1);
-          clock_.Stop();
+          conductor_.Stop(Now());
         }
       }
       if (!told_ready && clock_.all_ready()) {
         told_ready = true;
-        first_grant_ns_ = std::max<std::int64_t>(NowNs(), 1);
         Say("ready");
       }
       const lockstep::Grant before = clock_.grant();
-      const lockstep::Step limit = told_ready ? pacer_.Limit(NowNs(), clock_.window_limit()) : -1;
-      const lockstep::Grant grant = clock_.Update(limit);
+      DoCommands();
+      if (clock_.grant().abort) return Abort(clock_.grant().reason, 1);
+      const lockstep::Grant grant = conductor_.Move(Now());
       if (grant.through != before.through || grant.final != before.final || now - said >= 10ms) {
         said = now;
         SayGrant(grant);
         ShowProgress(now);
       }
+      if (grant.final && clock_.all_sources_finished()) conductor_.CloseLog(Now());
+      FlushLog();
       Wait();
     }
+    triggers_->SayEnd(clock_.grant().through, Now().utc_ns, "ok");
     Close(NodeLines() + EndLine("ok", clock_.grant().through, clock_.RunDigest(), 0));
     return 0;
   }
@@ -155,15 +190,20 @@ class ClockProcess {
     SayLine(words);
   }
   std::string EndLine(const char* how, lockstep::Step last_step, base::Digest digest, int status) const {
-    return fmt::format("end {} last_step={} wall_s={:.6f} digest={} slipped_s={:.6f} status={}", how, last_step, RunSeconds(), base::Hex(digest),
-                       static_cast<double>(pacer_.slipped_ns()) * 1e-9, status);
+    const lockstep::Pacer& pacer = conductor_.pacer();
+    const lockstep::Lateness& late = pacer.lateness();
+    const auto seconds = [](auto ns) { return static_cast<double>(ns) * 1e-9; };
+    return fmt::format("end {} last_step={} wall_s={:.6f} digest={} slipped_s={:.6f} paused_s={:.6f} paced_steps={} late_steps={} "
+                       "late_mean_s={:.9f} late_worst_s={:.9f} status={}",
+                       how, last_step, RunSeconds(), base::Hex(digest), seconds(pacer.slipped_ns()), seconds(pacer.PausedNs(NowNs())),
+                       late.steps, late.late, seconds(late.mean_ns()), seconds(late.worst_ns), status);
   }
 
   void Wait() {
     std::unique_lock lock(mutex_);
-    const auto due = std::chrono::nanoseconds(clock_.all_ready() && !clock_.grant().final ? pacer_.NextDueIn(NowNs()) : 0);
+    const auto due = std::chrono::nanoseconds(conductor_.NextDueIn(Now()));
     const std::chrono::nanoseconds limit = due > 0ns ? std::min<std::chrono::nanoseconds>(due, 10ms) : 10ms;
-    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || !parents_.word().empty(); });
+    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || parents_.is_waiting(); });
   }
 
   void TakeReports() {
@@ -204,10 +244,11 @@ class ClockProcess {
   void ShowProgress(WallClock::time_point now) {
     if (now - shown_ < 200ms) return;
     shown_ = now;
-    if (first_grant_ns_ == 0) {
+    if (!conductor_.begun()) {
       Say("waiting for {}", fmt::join(clock_.Missing(lockstep::Phase::kReady), ", "));
     } else {
-      Say("progress step={} wall_s={:.3f}", clock_.slowest_progress(), RunSeconds());
+      Say("progress step={} wall_s={:.3f} pace={:g} paused={}", clock_.slowest_progress(), RunSeconds(), conductor_.pacer().pace(),
+          conductor_.pacer().paused() ? 1 : 0);
     }
   }
 
@@ -225,7 +266,9 @@ class ClockProcess {
 
   // Time stops everywhere; sinks get a moment to close their files.
   int Abort(const std::string& reason, int status) {
-    clock_.Abort(reason);
+    conductor_.Abort(reason, Now());
+    FlushLog();
+    triggers_->SayEnd(clock_.slowest_progress() - 1, Now().utc_ns, clock_.grant().reason);
     Say("fault {}", OneLine(reason));
     // At least some times: no process of another PC is told of it by anybody else.
     for (int i = 0; i < 10 || (i < 100 && !AllButTheDeadHaveFinished()); ++i) {
@@ -247,7 +290,7 @@ class ClockProcess {
   const lockstep::Roster& roster_;
   const ProcessOptions& options_;
   lockstep::Clock clock_;
-  lockstep::Pacer pacer_;
+  lockstep::Conductor conductor_;
   lockstep::Watchdog watchdog_;
   Hello own_;
   std::uint64_t clock_id_ = 0;
@@ -255,7 +298,6 @@ class ClockProcess {
   std::atomic<std::uint64_t> other_clock_ = 0;
   WallClock::time_point start_ = WallClock::now();
   WallClock::time_point shown_{};
-  std::int64_t first_grant_ns_ = 0;
   std::string refusal_;
   std::mutex mutex_;
   std::condition_variable woken_;
@@ -263,6 +305,8 @@ class ClockProcess {
   ParentsWord parents_;
   std::unique_ptr<Participant> participant_;  // outlives its endpoints
   std::unique_ptr<Writer> grants_;
+  std::unique_ptr<LogSpeaker> log_;
+  std::optional<Triggers> triggers_;
   std::unique_ptr<Reader> others_;
   std::unique_ptr<Reader> reports_;
 };

@@ -10,6 +10,7 @@
 #include "common/dds/options.hpp"
 #include "common/dds/remote_ground.hpp"
 #include "common/dds/remote_keys.hpp"
+#include "common/dds/remote_log.hpp"
 #include "common/dds/run.hpp"
 #include "common/lockstep/pump.hpp"
 #include "common/lockstep/runner.hpp"
@@ -62,6 +63,11 @@ class ProcessContext final : public launch::NodeContext {
   }
   std::unique_ptr<launch::LiveKeysReceiver> KeysReceiver() override {
     auto receiver = OpenKeysReceiver(participant_);
+    RODEIRA_ASSERT(receiver.ok());
+    return std::move(receiver).value();
+  }
+  std::unique_ptr<launch::RunLogReceiver> RunLog() override {
+    auto receiver = OpenLogReceiver(participant_, roster().hash());
     RODEIRA_ASSERT(receiver.ok());
     return std::move(receiver).value();
   }

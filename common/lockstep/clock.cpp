@@ -52,6 +52,14 @@ std::vector<std::string> Clock::Missing(Phase phase) const {
 bool Clock::all_ready() const { return Missing(Phase::kReady).empty(); }
 bool Clock::all_finished() const { return Missing(Phase::kFinished).empty(); }
 
+bool Clock::all_sources_finished() const {
+  for (NodeIndex n = 0; n < reports_.size(); ++n) {
+    if (roster_.node(n).is_sink()) continue;
+    if (!heard_[n] || reports_[n].phase != Phase::kFinished) return false;
+  }
+  return true;
+}
+
 Step Clock::slowest_progress() const {
   Step slowest = std::numeric_limits<Step>::max();
   for (NodeIndex n = 0; n < reports_.size(); ++n) {
