@@ -8,8 +8,10 @@
 #include "common/base/mathematics.hpp"
 #include "common/base/suggest.hpp"
 #include "launch/doctor.hpp"
+#include "launch/export_command.hpp"
 #include "launch/info_command.hpp"
 #include "launch/joysticks_command.hpp"
+#include "launch/repair_command.hpp"
 #include "launch/replay_command.hpp"
 #include "launch/run_command.hpp"
 #include "launch/world_command.hpp"
@@ -40,7 +42,8 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   run->add_option("LAUNCH.yaml", options.launch_file, "launch file")->required();
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
   run->add_option("--pace", options.pace, "max, real or a factor of real time; otherwise the launch file's, or max");
-  run->add_option("--record", options.record, "recording (MCAP)");
+  CLI::Option* record = run->add_option("--record", options.record, "recording (MCAP); otherwise a dated file in the folder of recordings");
+  run->add_flag("--no-record", options.no_record, "no recording")->excludes(record);
   run->add_option("--seed", options.seed, "seed of everything that is drawn");
   run->add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file");
   run->add_flag("--in-process", options.in_process, "the same nodes in one process");
@@ -95,6 +98,26 @@ CLI::App* AddReplay(CLI::App& app, ReplayOptions& options) {
   return replay;
 }
 
+// What is asked of a recording.
+struct RecordingOptions {
+  std::string info_file;
+  std::string repair_file;
+  std::string repair_out;
+  ExportOptions exported;
+};
+
+void AddRecording(CLI::App& app, RecordingOptions& options) {
+  CLI::App* info = app.add_subcommand("info", "what a recording holds, and whether every sample is there");
+  info->add_option("FILE.mcap", options.info_file, "recording")->required();
+  CLI::App* tables = app.add_subcommand("export", "write a recording as tables");
+  tables->add_option("--csv", options.exported.csv, "new folder, one CSV file a topic")->required();
+  tables->add_option("FILE.mcap", options.exported.recording, "recording")->required();
+  tables->add_flag("--quiet", options.exported.quiet, "no progress, no list");
+  CLI::App* repair = app.add_subcommand("repair", "write what is left of a damaged recording as a whole one");
+  repair->add_option("FILE.mcap", options.repair_file, "recording")->required();
+  repair->add_option("--out", options.repair_out, "the new file")->required();
+}
+
 }  // namespace
 
 int Main(int argc, char** argv) {
@@ -112,9 +135,8 @@ int Main(int argc, char** argv) {
   AddDoctor(app, doctor);
   JoysticksOptions joysticks;
   AddJoysticks(app, joysticks);
-  std::string info_file;
-  CLI::App* info = app.add_subcommand("info", "what a recording holds");
-  info->add_option("FILE.mcap", info_file, "recording")->required();
+  RecordingOptions recording;
+  AddRecording(app, recording);
   ReplayOptions replay_options;
   CLI::App* replay = AddReplay(app, replay_options);
   try {
@@ -125,7 +147,9 @@ int Main(int argc, char** argv) {
   if (!world.command.empty()) return World(world);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);
-  if (info->parsed()) return Info(info_file);
+  if (!recording.info_file.empty()) return Info(recording.info_file);
+  if (!recording.exported.recording.empty()) return Export(recording.exported);
+  if (!recording.repair_file.empty()) return RepairRecording(recording.repair_file, recording.repair_out);
   if (replay->parsed()) return Replay(replay_options);
   for (const std::string& set : sets) {
     const auto pair = KeyValue(set);
