@@ -19,6 +19,7 @@
 
 #include "common/launch/pace.hpp"
 #include "launch/in_process_command.hpp"
+#include "launch/placement.hpp"
 #include "launch/processes.hpp"
 #include "launch/recording_folder.hpp"
 #include "launch/run_report.hpp"
@@ -70,9 +71,12 @@ std::string FreeName(const launch::Launch& launch, const std::string& name) {
 // The processes of a run, their clock's words, and their end.
 class ProcessRun {
  public:
-  ProcessRun(const RunOptions& options, const launch::Launch& launch, launch::Overrides overrides)
-      : options_(options), launch_(launch), overrides_(std::move(overrides)), run_(options.run.empty() ? FreshRunName() : options.run),
-        domain_(options.domain.value_or(static_cast<std::uint32_t>(1 + base::Hash(run_) % 200))), before_(SharedMemoryFiles()) {}
+  ProcessRun(const RunOptions& options, const Placement& placement, const launch::Launch& launch, launch::Overrides overrides)
+      : options_(options), placement_(placement), launch_(launch), overrides_(std::move(overrides)), run_(options.run.empty() ? FreshRunName() : options.run),
+        domain_(options.domain.value_or(static_cast<std::uint32_t>(1 + base::Hash(run_) % 200))) {
+    RemoveLeftOvers({});  // of dead runs
+    before_ = SharedMemoryFiles();
+  }
 
   int Run() {
     struct sigaction action {};
@@ -80,13 +84,16 @@ class ProcessRun {
     ::sigaction(SIGINT, &action, nullptr);
     ::sigaction(SIGTERM, &action, nullptr);
     ::signal(SIGPIPE, SIG_IGN);
-    if (auto status = StartAll(); !status) {
+    base::Status status = StartClock();
+    if (status.ok() && placement_.has_clock()) status = StartNodes();
+    if (!status) {
       EndAll();
       return Complain(status.error());
     }
-    Watch();
+    status = Watch();
     EndAll();
     RemoveLeftOvers(before_);
+    if (!status) return Complain(status.error());
     Close();
     return ExitStatus();
   }
@@ -103,15 +110,24 @@ class ProcessRun {
     return command;
   }
 
-  base::Status StartAll() {
+  // The clock, or on the other PCs of a laboratory who follows it.
+  base::Status StartClock() {
     std::vector<std::string> clock = Command("rodeira-clock");
-    clock.insert(clock.end(), {"--listen", "--pace", options_.pace});
-    if (options_.duration_s) clock.insert(clock.end(), {"--for", fmt::format("{}", *options_.duration_s)});
-    auto child = Child::Start("clock", clock, true);
+    if (placement_.has_clock()) {
+      clock.insert(clock.end(), {"--listen", "--pace", options_.pace});
+      if (options_.duration_s) clock.insert(clock.end(), {"--for", fmt::format("{}", *options_.duration_s)});
+    } else {
+      clock.insert(clock.end(), {"--follow", placement_.host()});
+    }
+    auto child = Child::Start(placement_.has_clock() ? "clock" : "follower of the clock", clock, true);
     if (!child) return child.error();
     children_.push_back(std::move(child).value());
+    return {};
+  }
+  base::Status StartNodes() {
+    nodes_started_ = true;
     for (const launch::LaunchNode& node : launch_.nodes()) {
-      if (!options_.host.empty() && node.host != options_.host) continue;
+      if (!placement_.Has(node)) continue;
       std::vector<std::string> command = Command(std::string(node.kind->program));
       command.insert(command.end(), {"--node", node.name});
       auto started = Child::Start(node.name, command, false);
@@ -122,23 +138,27 @@ class ProcessRun {
   }
 
   // Until the clock has ended, by itself or not.
-  void Watch() {
+  base::Status Watch() {
     while (true) {
       ReadClock(50);
+      // Beside a clock elsewhere nothing begins before it is met: this PC may wait for the others as long as it likes.
+      if (report_.met && !nodes_started_) {
+        if (auto status = StartNodes(); !status) return status;
+      }
       for (Child& child : children_) child.Poll();
       Child& clock = children_.front();
       if (clock.ended()) {
         while (ReadClock(0)) {
         }
-        if (!report_.ended && clock.exit_status() != 2) Fault(fmt::format("the clock {} at about step {}", clock.Fate(), report_.step));
-        return;
+        if (!report_.ended && clock.exit_status() != 2) Fault(fmt::format("the {} {} at about step {}", clock.name(), clock.Fate(), report_.step));
+        return {};
       }
       if (clock.stopped()) {
-        Fault(fmt::format("the clock {} at about step {}", clock.Fate(), report_.step));
-        return;
+        Fault(fmt::format("the {} {} at about step {}", clock.name(), clock.Fate(), report_.step));
+        return {};
       }
       for (const Child& child : children_) {
-        if (&child != &clock && Broken(child)) TellClock(fmt::format("node '{}' {} at about step {}", child.name(), child.Fate(), report_.step));
+        if (&child != &clock && Broken(child)) TellClock(child);
       }
       const int interrupts = g_interrupts;
       if (interrupts > 0 && !interrupted_at_) interrupted_at_ = WallClock::now();
@@ -154,11 +174,12 @@ class ProcessRun {
     const bool by_itself = child.exit_status() && *child.exit_status() <= 2;
     return !by_itself || WallClock::now() - child.ended_at() > 1s;
   }
-  void TellClock(const std::string& fault) {
+  void TellClock(const Child& broken) {
     if (told_) return;
     told_ = true;
+    const std::string fault = fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step);
     Fault(fault);
-    children_.front().Send("fault " + fault);
+    children_.front().Send(placement_.has_clock() ? "fault " + fault : fmt::format("lost {} it {}", broken.name(), broken.Fate()));
   }
   // The first fault is the cause, what follows are its consequences; it is said at once.
   void Fault(const std::string& fault) {
@@ -217,7 +238,7 @@ class ProcessRun {
   void ShowProgress() {
     if (options_.quiet || ::isatty(STDERR_FILENO) == 0 || WallClock::now() - start_ < 2s) return;
     if (!report_.ready) {
-      fmt::print(stderr, "\r\033[Kwaiting for {}", report_.waiting_for);
+      fmt::print(stderr, "\r\033[Kwaiting for {}{}", report_.waiting_for, nodes_started_ ? "" : " on " + placement_.ClocksPlace());
     } else {
       const double simulated_s = static_cast<double>(report_.step) * static_cast<double>(launch_.roster().base_step_ns()) * 1e-9;
       fmt::print(stderr, "\r\033[K{:.1f} s simulated, {:.1f} s passed, {:.2f} × real time", simulated_s, report_.wall_s,
@@ -243,6 +264,7 @@ class ProcessRun {
   }
 
   const RunOptions& options_;
+  const Placement& placement_;
   const launch::Launch& launch_;
   launch::Overrides overrides_;
   std::string run_;
@@ -254,21 +276,26 @@ class ProcessRun {
   std::string pending_;
   int passed_on_ = 0;
   std::optional<WallClock::time_point> interrupted_at_;
+  bool nodes_started_ = false;
   bool told_ = false;
   bool shown_ = false;
   WallClock::time_point start_ = WallClock::now();
 };
 
 // Where the recording goes: --record, else the launch file's own, else a dated file in the user's data folder. A recorder
-// that the launch file does not have is added; --no-record takes those away that it has. Where a run is started PC by PC
-// (--host), all must agree on who takes part: then only what is asked for is recorded.
-base::Status ResolveRecording(const launch::Launch& launch, RunOptions& options, launch::Overrides& overrides) {
+// that the launch file does not have is added; --no-record takes those away that it has. On a PC of a laboratory only its own
+// recorder counts, and none is added: all PCs must agree on who takes part.
+base::Status ResolveRecording(const launch::Launch& launch, const Placement& placement, RunOptions& options, launch::Overrides& overrides) {
   std::string recorder;
   std::string own;  // what the launch file says
   for (const launch::LaunchNode& node : launch.nodes()) {
     if (node.kind->name != "recorder") continue;
     if (options.no_record) overrides.emplace_back("nodes." + node.name + ".kind", std::string(launch::kNoKind));
-    if (!recorder.empty()) continue;
+    if (options.no_record || !recorder.empty()) continue;
+    if (!placement.Has(node)) {
+      if (options.record.empty()) return {};
+      return base::WrongInput(fmt::format("the recorder '{}' runs on another host; say it there", node.name), "--record");
+    }
     recorder = node.name;
     own = node.config->OptionalChild("config").Peek({"file"}).value_or("");
     if (!own.empty()) own = node.config->OptionalChild("config").Path("file").string();
@@ -276,7 +303,7 @@ base::Status ResolveRecording(const launch::Launch& launch, RunOptions& options,
   if (options.no_record) return {};
   if (options.record.empty()) options.record = own;
   if (!own.empty() && options.record == own) return {};
-  if (options.record.empty() && recorder.empty() && !options.host.empty()) return {};
+  if (options.record.empty() && recorder.empty() && !placement.host().empty()) return {};
   std::error_code problem;
   if (options.record.empty()) {
     options.record = DatedRecording(launch.name());
@@ -289,6 +316,9 @@ base::Status ResolveRecording(const launch::Launch& launch, RunOptions& options,
   options.record = std::filesystem::absolute(options.record, problem).string();
   if (std::filesystem::exists(options.record, problem)) return base::WrongInput("the file exists; a recording is never overwritten", options.record);
   if (recorder.empty()) {
+    if (!placement.host().empty()) {
+      return base::WrongInput("the launch file has no recorder; with several PCs it must have one, 'recorder: {kind: recorder}'", "--record");
+    }
     recorder = FreeName(launch, "recorder");
     overrides.emplace_back("nodes." + recorder + ".kind", "recorder");
   }
@@ -303,6 +333,7 @@ int Run(const RunOptions& options) {
   launch::Overrides overrides = options.overrides;
   if (options.seed) overrides.emplace_back("seed", std::to_string(*options.seed));
   RunOptions resolved = options;
+  Placement placement;
   auto launch = launch::Launch::Load(options.launch_file, overrides);
   if (launch.ok() && options.headless) {
     for (const launch::LaunchNode& node : launch.value().nodes()) {
@@ -310,13 +341,16 @@ int Run(const RunOptions& options) {
     }
   }
   if (launch.ok()) {
-    if (auto status = ResolveRecording(launch.value(), resolved, overrides); !status) return Complain(status.error());
+    auto found = Placement::Find(launch.value(), resolved, overrides);
+    if (!found) return Complain(found.error());
+    placement = std::move(found).value();
+    if (auto status = ResolveRecording(launch.value(), placement, resolved, overrides); !status) return Complain(status.error());
     launch = launch::Launch::Load(options.launch_file, overrides);
   }
   if (!launch) return Complain(launch.error());
   if (resolved.pace.empty()) resolved.pace = launch.value().pace().empty() ? "max" : launch.value().pace();
   if (options.in_process) return RunInProcess(resolved, launch.value());
-  return ProcessRun(resolved, launch.value(), std::move(overrides)).Run();
+  return ProcessRun(resolved, placement, launch.value(), std::move(overrides)).Run();
 }
 
 }  // namespace rodeira::front

@@ -21,7 +21,8 @@ struct RunOptions {
   bool in_process = false;
   bool headless = false;
   bool quiet = false;
-  std::string host;         // only the nodes of this host; empty: all
+  std::string lab;          // laboratory file; empty: as the launch file says
+  std::string host;         // only what belongs to this host of the laboratory; empty: all
   std::string run;          // empty: a name of its own
   std::optional<std::uint32_t> domain;
 };

@@ -35,6 +35,8 @@ void RunReport::Take(std::string_view line) {
     wall_s = Number<double>(line, "wall_s");
   } else if (line.starts_with("waiting for ")) {
     waiting_for = rest("waiting for ");
+  } else if (line == "met") {
+    met = true;
   } else if (line == "ready") {
     ready = true;
   } else if (line.starts_with("fault ")) {

@@ -16,6 +16,7 @@ struct RunReport {
     double worst_us = 0.0;
     std::uint64_t server_calls = 0;
   };
+  bool met = false;            // said by who follows a clock on another PC
   bool ready = false;
   bool ended = false;
   bool ok = false;

@@ -24,16 +24,17 @@ std::set<std::string> InUse(const std::filesystem::path& folder) {
   for (const auto& process : std::filesystem::directory_iterator("/proc", problem)) {
     const std::string pid = process.path().filename().string();
     if (pid.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::ifstream maps(process.path() / "maps");
-    for (std::string line; std::getline(maps, line);) {
-      const auto at = line.find(prefix);
-      if (at != std::string::npos) used.insert(line.substr(at + prefix.size()));
-    }
     std::error_code closed;
     for (const auto& descriptor : std::filesystem::directory_iterator(process.path() / "fd", closed)) {
       std::error_code gone;
       const std::string target = std::filesystem::read_symlink(descriptor.path(), gone).string();
       if (!gone && target.starts_with(prefix)) used.insert(target.substr(prefix.size()));
+    }
+    // After the descriptors: who has just opened a file maps it, and then closes it.
+    std::ifstream maps(process.path() / "maps");
+    for (std::string line; std::getline(maps, line);) {
+      const auto at = line.find(prefix);
+      if (at != std::string::npos) used.insert(line.substr(at + prefix.size()));
     }
   }
   return used;

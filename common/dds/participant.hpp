@@ -24,6 +24,8 @@ struct DomainSettings {
   std::string run;                // one a run: becomes the partition, never empty
   std::string name;               // of the participant, for people
   launch::Transport transport = launch::Transport::kSharedMemory;
+  launch::Discovery discovery;
+  bool serves_discovery = false;  // the one that DiscoveryKind::kServer asks: the clock
 };
 
 class Writer {
@@ -44,6 +46,7 @@ using OnPayload = std::function<void(base::Bytes&&)>;
 // A DDS participant, one a process. Topics and types are those of idl/topics.hpp.
 class Participant {
  public:
+  // Wrong input where the discovery server's port is in use: the library would silently take another.
   static base::Result<std::unique_ptr<Participant>> Open(const DomainSettings& settings);
   virtual ~Participant() = default;
   virtual base::Result<std::unique_ptr<Writer>> MakeWriter(std::string_view topic, Delivery delivery) = 0;

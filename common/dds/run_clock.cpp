@@ -5,17 +5,19 @@
 #include <cmath>
 #include <condition_variable>
 #include <csignal>
-#include <cstdio>
 #include <deque>
 #include <mutex>
 #include <random>
+#include <string>
 #include <thread>
 
 #include "common/base/mathematics.hpp"
 #include "common/base/suggest.hpp"
 #include "common/dds/options.hpp"
+#include "common/dds/parents_word.hpp"
 #include "common/dds/participant.hpp"
 #include "common/dds/run.hpp"
+#include "common/dds/statements.hpp"
 #include "common/dds/wire.hpp"
 #include "common/lockstep/clock.hpp"
 #include "common/lockstep/pacer.hpp"
@@ -32,20 +34,6 @@ namespace topics = idl::topics;
 std::atomic<int> g_signals = 0;
 void OnSignal(int) { ++g_signals; }
 
-// One line a statement on standard output: `rodeira run` reads them, people may too.
-template <class... Args>
-void Say(fmt::format_string<Args...> format, Args&&... args) {
-  fmt::print(format, std::forward<Args>(args)...);
-  std::fputc('\n', stdout);
-  std::fflush(stdout);
-}
-
-// Newlines would end a statement.
-std::string OneLine(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 class ClockProcess {
  public:
   ClockProcess(const launch::Launch& launch, const ProcessOptions& options)
@@ -56,17 +44,16 @@ class ClockProcess {
   }
 
   int Run() {
-    auto participant = Participant::Open(DomainOf(options_, launch_, "clock"));
+    DomainSettings settings = DomainOf(options_, launch_, "clock");
+    settings.serves_discovery = true;
+    auto participant = Participant::Open(settings);
     if (!participant) return Complain(participant.error());
     participant_ = std::move(participant).value();
     if (auto status = Connect(*participant_); !status) return Complain(status.error());
     Say("starting {} nodes", roster_.nodes().size());
-    if (options_.listen) std::thread([this] { Listen(); }).detach();  // ends with the process
+    if (options_.listen) parents_.Listen([this] { woken_.notify_one(); });
     start_ = WallClock::now();
-    if (const int status = Loop(); status != 0) return status;
-    Say("end ok last_step={} wall_s={:.6f} digest={} slipped_s={:.6f}", clock_.grant().through, RunSeconds(), base::Hex(clock_.RunDigest()),
-        static_cast<double>(pacer_.slipped_ns()) * 1e-9);
-    return 0;
+    return Loop();
   }
 
  private:
@@ -109,21 +96,10 @@ class ClockProcess {
                                         base::Hex(other_clock_)));
   }
 
-  // What `rodeira run` sees sooner than any heartbeat: a process of its own that died or was stopped.
-  void Listen() {
-    char line[4096];
-    while (std::fgets(line, sizeof(line), stdin) != nullptr) {
-      std::string text(line);
-      while (!text.empty() && text.back() == '\n') text.pop_back();
-      if (!text.starts_with("fault ")) continue;
-      const std::lock_guard lock(mutex_);
-      if (told_.empty()) told_ = text.substr(6);
-      woken_.notify_one();
-    }
-  }
-  std::string Told() {
-    const std::lock_guard lock(mutex_);
-    return told_;
+  // What `rodeira run` has told us, if anything.
+  std::string Told() const {
+    const std::string word = parents_.word();
+    return word.starts_with("fault ") ? word.substr(6) : "";
   }
 
   // Two clocks that began at the same moment: the one with the larger number is the one too many.
@@ -141,7 +117,7 @@ class ClockProcess {
       const auto now = WallClock::now();
       if (now - checked >= 20ms) {
         checked = now;
-        if (auto fault = watchdog_.Check(NowNs() / 1'000'000)) return Abort(fault->reason, 1);
+        if (auto fault = watchdog_.Check(NowNs() / 1'000'000)) return Abort(fault->reason, fault->status);
         if (const int signals = g_signals; signals > 0) {
           if (signals > 2 || clock_.grant().through < 0) return Abort("stopped by a signal", 1);
           clock_.Stop();
@@ -162,21 +138,32 @@ class ClockProcess {
       }
       Wait();
     }
+    Close(NodeLines() + EndLine("ok", clock_.grant().through, clock_.RunDigest(), 0));
+    return 0;
+  }
+
+  // The closing words, here and to who follows on other PCs. Said again until everybody must have heard them; who has gone
+  // already does not matter.
+  void Close(const std::string& words) {
     lockstep::Grant last = clock_.grant();
-    SayNodes();
     last.over = true;
-    for (int i = 0; i < 10; ++i) {  // until everybody has heard it; who has gone already does not matter
+    last.reason = words;
+    for (int i = 0; i < 10; ++i) {
       SayGrant(last);
       std::this_thread::sleep_for(5ms);
     }
-    return 0;
+    SayLine(words);
+  }
+  std::string EndLine(const char* how, lockstep::Step last_step, base::Digest digest, int status) const {
+    return fmt::format("end {} last_step={} wall_s={:.6f} digest={} slipped_s={:.6f} status={}", how, last_step, RunSeconds(), base::Hex(digest),
+                       static_cast<double>(pacer_.slipped_ns()) * 1e-9, status);
   }
 
   void Wait() {
     std::unique_lock lock(mutex_);
     const auto due = std::chrono::nanoseconds(clock_.all_ready() && !clock_.grant().final ? pacer_.NextDueIn(NowNs()) : 0);
     const std::chrono::nanoseconds limit = due > 0ns ? std::min<std::chrono::nanoseconds>(due, 10ms) : 10ms;
-    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || !told_.empty(); });
+    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || !parents_.word().empty(); });
   }
 
   void TakeReports() {
@@ -224,27 +211,29 @@ class ClockProcess {
     }
   }
 
-  void SayNodes() const {
+  // A line each, with its line break.
+  std::string NodeLines() const {
+    std::string lines;
     for (lockstep::NodeIndex n = 0; n < roster_.nodes().size(); ++n) {
       const lockstep::Report& report = clock_.report(n);
       const double mean_us = report.steps == 0 ? 0.0 : static_cast<double>(report.busy_ns) * 1e-3 / static_cast<double>(report.steps);
-      Say("node {} steps={} mean_us={:.2f} worst_us={:.1f} server_calls={} digest={}", roster_.node(n).name, report.steps, mean_us,
-          static_cast<double>(report.worst_ns) * 1e-3, report.server_calls, base::Hex(report.digest));
+      lines += fmt::format("node {} steps={} mean_us={:.2f} worst_us={:.1f} server_calls={} digest={}\n", roster_.node(n).name, report.steps, mean_us,
+                           static_cast<double>(report.worst_ns) * 1e-3, report.server_calls, base::Hex(report.digest));
     }
+    return lines;
   }
 
   // Time stops everywhere; sinks get a moment to close their files.
   int Abort(const std::string& reason, int status) {
     clock_.Abort(reason);
     Say("fault {}", OneLine(reason));
-    for (int i = 0; i < 100 && !AllButTheDeadHaveFinished(); ++i) {
+    // At least some times: no process of another PC is told of it by anybody else.
+    for (int i = 0; i < 10 || (i < 100 && !AllButTheDeadHaveFinished()); ++i) {
       SayGrant(clock_.grant());
       std::this_thread::sleep_for(10ms);
       TakeReports();
     }
-    SayNodes();
-    Say("end aborted last_step={} wall_s={:.6f} digest={} slipped_s={:.6f}", clock_.slowest_progress() - 1, RunSeconds(), base::Hex(0),
-        static_cast<double>(pacer_.slipped_ns()) * 1e-9);
+    Close(fmt::format("fault {}\n", OneLine(reason)) + NodeLines() + EndLine("aborted", clock_.slowest_progress() - 1, 0, status));
     return status;
   }
   bool AllButTheDeadHaveFinished() const {
@@ -271,7 +260,7 @@ class ClockProcess {
   std::mutex mutex_;
   std::condition_variable woken_;
   std::deque<base::Bytes> inbox_;
-  std::string told_;
+  ParentsWord parents_;
   std::unique_ptr<Participant> participant_;  // outlives its endpoints
   std::unique_ptr<Writer> grants_;
   std::unique_ptr<Reader> others_;
@@ -289,6 +278,7 @@ int RunClock(int argc, char** argv) {
     fmt::print(stderr, "rodeira-clock: {}\n", launch.error().Text());
     return launch.error().exit_status();
   }
+  if (!parsed.options.follow.empty()) return FollowClock(launch.value(), parsed.options);
   std::signal(SIGINT, OnSignal);
   std::signal(SIGTERM, OnSignal);
   return ClockProcess(launch.value(), parsed.options).Run();

@@ -87,7 +87,7 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
     lockstep::Report report;
     report.node = context.index();
     report.incarnation = options.incarnation;
-    report.phase = lockstep::Phase::kFailed;
+    report.phase = error.exit_status() == 2 ? lockstep::Phase::kRefused : lockstep::Phase::kFailed;
     report.message = error.Text();
     bus.Linger(report, 1000ms);
     return error.exit_status();

@@ -44,7 +44,7 @@ base::Status Clock::Take(const Report& report) {
 std::vector<std::string> Clock::Missing(Phase phase) const {
   std::vector<std::string> names;
   for (NodeIndex n = 0; n < reports_.size(); ++n) {
-    if (!heard_[n] || reports_[n].phase < phase || reports_[n].phase == Phase::kFailed) names.push_back(roster_.node(n).name);
+    if (!heard_[n] || reports_[n].phase < phase || reports_[n].phase >= Phase::kFailed) names.push_back(roster_.node(n).name);
   }
   return names;
 }
