@@ -182,9 +182,9 @@ int Main(int argc, char** argv) {
   if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);
-  if (!recording.info_file.empty()) return Info(recording.info_file);
-  if (!recording.exported.recording.empty()) return Export(recording.exported);
-  if (!recording.repair_file.empty()) return RepairRecording(recording.repair_file, recording.repair_out);
+  if (app.got_subcommand("info")) return Info(recording.info_file);
+  if (app.got_subcommand("export")) return Export(recording.exported);
+  if (app.got_subcommand("repair")) return RepairRecording(recording.repair_file, recording.repair_out);
   if (!TakePairs("--set", sets, run.overrides) || !TakePairs("--branch", changes, replay_options.changes)) return 2;
   if (replay->parsed()) return Replay(replay_options);
   return Run(run);
