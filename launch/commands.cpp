@@ -10,6 +10,7 @@
 #include "launch/doctor.hpp"
 #include "launch/info_command.hpp"
 #include "launch/joysticks_command.hpp"
+#include "launch/mechanism_command.hpp"
 #include "launch/replay_command.hpp"
 #include "launch/run_command.hpp"
 #include "launch/world_command.hpp"
@@ -33,6 +34,19 @@ std::pair<std::string, std::string> KeyValue(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0) return {};
   return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+// False, after a sentence, where one of them is none.
+bool TakePairs(const char* option, const std::vector<std::string>& texts, std::vector<std::pair<std::string, std::string>>& out) {
+  for (const std::string& text : texts) {
+    const auto pair = KeyValue(text);
+    if (pair.first.empty()) {
+      std::cerr << "rodeira: " << option << " " << text << ": KEY=VALUE was expected\n";
+      return false;
+    }
+    out.push_back(pair);
+  }
+  return true;
 }
 
 void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) {
@@ -80,6 +94,19 @@ void AddDoctor(CLI::App& app, DoctorOptions& options) {
   doctor->callback([&options] { options.asked = true; });
 }
 
+void AddMechanism(CLI::App& app, MechanismOptions& options) {
+  CLI::App* mechanism = app.add_subcommand("mechanism", "multibody mechanisms, alone");
+  mechanism->require_subcommand(1);
+  CLI::App* run = mechanism->add_subcommand("run", "simulate a mechanism file");
+  run->add_option("MECHANISM.yaml", options.file, "mechanism file")->required();
+  run->add_option("--until", options.until_s, "simulated seconds")->required()->check(Positive);
+  run->add_option("--step", options.step_s, "step in seconds")->required()->check(Positive);
+  run->add_option("--csv", options.csv, "write the outputs of every step into this file");
+  run->add_option("--svg", options.svg, "draw the outputs over time into this file");
+  run->add_flag("--quiet", options.quiet, "no progress, no table");
+  run->callback([&options] { options.asked = true; });
+}
+
 void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
   CLI::App* joysticks = app.add_subcommand("joysticks", "wheels and joysticks that are plugged in, with their GUIDs");
   CLI::Option* watch = joysticks->add_flag("--watch", options.watch, "say which axis and button moves");
@@ -87,11 +114,14 @@ void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
   joysticks->callback([&options] { options.asked = true; });
 }
 
-CLI::App* AddReplay(CLI::App& app, ReplayOptions& options) {
+CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::string>& changes) {
   CLI::App* replay = app.add_subcommand("replay", "run a recording again");
   replay->add_option("FILE.mcap", options.file, "recording")->required();
   replay->add_flag("--verify", options.verify, "compute everything again and compare every sample and state");
   replay->add_option("--from", options.from_s, "simulated seconds at which to begin")->check(CLI::NonNegativeNumber);
+  replay->add_option("--branch", changes, "KEY=VALUE: go on from --from with another value of the launch file");
+  replay->add_option("--for", options.for_s, "simulated seconds of the branch")->check(Positive);
+  replay->add_option("--record", options.record, "recording of the branch (MCAP)");
   replay->add_flag("--quiet", options.quiet, "no progress");
   return replay;
 }
@@ -109,6 +139,8 @@ int Main(int argc, char** argv) {
   AddRun(app, run, sets);
   WorldOptions world;
   AddWorld(app, world);
+  MechanismOptions mechanism;
+  AddMechanism(app, mechanism);
   DoctorOptions doctor;
   AddDoctor(app, doctor);
   JoysticksOptions joysticks;
@@ -117,25 +149,20 @@ int Main(int argc, char** argv) {
   CLI::App* info = app.add_subcommand("info", "what a recording holds");
   info->add_option("FILE.mcap", info_file, "recording")->required();
   ReplayOptions replay_options;
-  CLI::App* replay = AddReplay(app, replay_options);
+  std::vector<std::string> changes;
+  CLI::App* replay = AddReplay(app, replay_options, changes);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? 0 : 2;
   }
   if (!world.command.empty()) return World(world);
+  if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);
   if (info->parsed()) return Info(info_file);
+  if (!TakePairs("--set", sets, run.overrides) || !TakePairs("--branch", changes, replay_options.changes)) return 2;
   if (replay->parsed()) return Replay(replay_options);
-  for (const std::string& set : sets) {
-    const auto pair = KeyValue(set);
-    if (pair.first.empty()) {
-      std::cerr << "rodeira: --set " << set << ": KEY=VALUE was expected\n";
-      return 2;
-    }
-    run.overrides.push_back(pair);
-  }
   return Run(run);
 }
 

@@ -35,7 +35,7 @@ TyreForces Tyre::Forces(const TyreSettings& tyre, const TyreMotion& motion, doub
   const double across = std::max(CorneringStiffness(tyre.formula, load_N), kTiny_N);
   slip_ = u_m_ / tyre.relaxation_longitudinal_m - damping / along * motion.vsx_mps;
   slip_angle_tan_ = v_m_ / tyre.relaxation_lateral_m + damping / across * motion.vsy_mps;
-  return SteadyForces(tyre.formula, {slip_, slip_angle_tan_, 0.0}, load_N, friction);
+  return SteadyForces(tyre.formula, {slip_, slip_angle_tan_, motion.camber_rad}, load_N, friction);
 }
 
 void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction, double dt_s) {
@@ -59,7 +59,7 @@ void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& motion, double lo
   v_m_ = std::clamp(v_m_, -v_most, v_most);
 }
 
-void Tyre::SetToBear(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction) {
+void Tyre::SetToBear(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction, double camber_rad) {
   Reset();
   if (!(load_N > 0.0)) return;
   const double along = std::max(LongitudinalStiffness(tyre.formula, load_N), kTiny_N);
@@ -70,7 +70,7 @@ void Tyre::SetToBear(const TyreSettings& tyre, const TyreForces& forces, double 
   double alpha = 0.0;
   // The initial slope is the steepest, so each correction falls short and the iteration approaches from one side.
   for (int i = 0; i < 60; ++i) {
-    const TyreForces now = SteadyForces(tyre.formula, {kappa, alpha, 0.0}, load_N, friction);
+    const TyreForces now = SteadyForces(tyre.formula, {kappa, alpha, camber_rad}, load_N, friction);
     kappa = std::clamp(kappa + (forces.longitudinal_N - now.longitudinal_N) / along, -kappa_most, kappa_most);
     alpha = std::clamp(alpha - (forces.lateral_N - now.lateral_N) / across, -alpha_most, alpha_most);
   }

@@ -18,6 +18,7 @@ struct TyreMotion {
   double vx_mps = 0.0;   // of the hub along the wheel
   double vsx_mps = 0.0;  // slip speed along the wheel: vx - spin · rolling radius; positive when braked
   double vsy_mps = 0.0;  // slip speed to the left
+  double camber_rad = 0.0;  // about the contact's x axis: positive when the wheel leans to the right
 };
 
 // The Magic Formula's transient by relaxation of the contact patch's deflections u and v:
@@ -33,7 +34,7 @@ class Tyre {
   void Advance(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction, double dt_s);
   // Deflections at which the tyre bears these forces steadily at standstill, as near as friction allows (inverse of the
   // pure formulas below the peaks).
-  void SetToBear(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction);
+  void SetToBear(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction, double camber_rad = 0.0);
   // Deflections of steady rolling with this motion.
   void SetToRoll(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction);
   void Reset() { *this = Tyre(); }

@@ -4,6 +4,7 @@
 
 #include "common/base/suggest.hpp"
 #include "common/vehicle/bicycle_model.hpp"
+#include "common/vehicle/multibody_model.hpp"
 
 namespace rodeira::vehicle {
 
@@ -25,6 +26,8 @@ namespace {
 std::vector<ModelKind> AllKinds(std::span<const ModelKind> more) {
   std::vector<ModelKind> kinds;
   kinds.push_back({"bicycle", [](const config::Map& root) { return std::make_unique<BicycleModel>(ReadBicycle(root)); }});
+  kinds.push_back({"multibody", [](const config::Map& root) { return std::make_unique<MultibodyModel>(ReadMultibody(root)); },
+                   [](VehicleModel& model) { return static_cast<MultibodyModel&>(model).Build(); }});
   kinds.insert(kinds.end(), more.begin(), more.end());
   return kinds;
 }
@@ -46,6 +49,11 @@ base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::p
     std::unique_ptr<VehicleModel> model = kind.make(root);
     // Keys that a broken file keeps the reader from asking for are no news to the user: his first problem is.
     if (const base::Status status = file.value().Finish(); !status) return status.error();
+    if (kind.complete) {
+      if (const base::Status status = kind.complete(*model); !status) {
+        return status.error().context.empty() ? base::Error{status.error().code, status.error().message, path.string()} : status.error();
+      }
+    }
     return model;
   }
   // Without a known model nobody can say which other keys are known.

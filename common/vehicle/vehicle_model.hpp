@@ -71,10 +71,12 @@ class VehicleModel {
 };
 
 // A kind of model that a vehicle file may name, and what makes one of it from the file's mapping. Problems of the file
-// are left in its collection (config::File); `make` may then return anything, even null.
+// are left in its collection (config::File); `make` may then return anything, even null. `complete`, where there is one,
+// is called when the file has no problems: what takes sound numbers to build.
 struct ModelKind {
   std::string name;
   std::function<std::unique_ptr<VehicleModel>(const config::Map& root)> make;
+  std::function<base::Status(VehicleModel& model)> complete = nullptr;
 };
 
 // Reads a vehicle file (`rodeira: vehicle/1`, `model: bicycle`). Wrong input, with file:line, where it cannot be read, a

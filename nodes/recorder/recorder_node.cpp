@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "common/base/mathematics.hpp"
 #include "common/record/mcap_writer.hpp"
 #include "idl/topics.hpp"
 #include "nodes/recorder/embed.hpp"
@@ -33,6 +34,7 @@ class RecorderNode final : public lockstep::Node {
         {"launch_file", launch.path().filename().string()},
         {"roster_hash", base::Hex(roster_.hash())},
         {"protocol_hash", base::Hex(idl::ProtocolHash())},
+        {"mathematics_hash", base::Hex(base::MathematicsDigest())},
         {"base_step_ns", std::to_string(roster_.base_step_ns())},
         {"seed", std::to_string(launch.seed())},
         {"version", "0.1.0"},

@@ -20,6 +20,7 @@
 #include "common/hands/wheel_driver.hpp"
 #include "common/launch/lab.hpp"
 #include "common/launch/launch.hpp"
+#include "common/multibody/mechanism.hpp"
 #include "common/road/world.hpp"
 #include "common/scenario/scenario_file.hpp"
 #include "common/vehicle/vehicle_model.hpp"
@@ -189,7 +190,7 @@ TEST(TextFiles, Worlds) {
 
 TEST(TextFiles, Vehicles) {
   const OnDisk disk;
-  Fuzz("vehicle", {GoodFile("configs/vehicles/default.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
+  Fuzz("vehicle", {GoodFile("configs/vehicles/default.yaml"), GoodFile("configs/vehicles/prototype.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
     const auto loaded = vehicle::LoadVehicle(disk.Put(text));
     if (!loaded) return loaded.error();
     vehicle::VehicleModel& model = *loaded.value();
@@ -203,6 +204,31 @@ TEST(TextFiles, Vehicles) {
     for (int i = 0; i < 20; ++i) model.Step(controls, ground, 0.001);
     return std::nullopt;
   });
+}
+
+TEST(TextFiles, Mechanisms) {
+  const std::string forces =
+      "rodeira: mechanism/1\npoints: {O: {at_m: [0, 0, 0], fixed: true}, P: {at_m: [1, 0, 0], velocity_mps: [0, 1, 0]}}\n"
+      "vectors: {u: {direction: [1, 0, 0]}, v: {direction: [0, 1, 0]}, w: {direction: [0, 0, 1], fixed: true}}\n"
+      "bodies: {b: {points: [P], vectors: [u, v, w], mass_kg: 2, centre_m: [1, 0, 0.1], inertia_kgm2: [1, 1, 1, 0, 0, 0.1]}}\n"
+      "markers: {M: {body: b, at_m: [2, 0, 0]}}\nangles: {a: {of: [u], from: [world x], to: [world y], rate_radps: 2}}\n"
+      "distances: {s: {points: [O, P]}}\nforces:\n"
+      "  f: {kind: spring, coordinate: s, spring_m_N: [[-1, -10], [1, 10]], damper_mps_N: [[-1, -5], [1, 3]], stops_m: [0.5, 2], stop_stiffness_Npm: 100}\n"
+      "  t: {kind: torsion, coordinate: a, stiffness_Nmprad: 5, damping_Nmsprad: 0.1}\n"
+      "  g: {kind: force, point: M, direction: [0, 1, 1], force_N: 3, sine: {amplitude: 2, frequency_Hz: 3}}\n"
+      "  d: {kind: drag, point: M, drag_area_m2: 0.1}\noutputs: {x: M.x, v: M.vz, a: a.rate, f: force f, e: energy}\n";
+  Fuzz("mechanism", {GoodFile("configs/mechanisms/pendulum.yaml"), GoodFile("configs/mechanisms/four_bar_2.yaml"), GoodFile("configs/mechanisms/andrews.yaml"),
+                     GoodFile("configs/mechanisms/bricard.yaml"), forces},
+       [](const std::string& text) -> std::optional<base::Error> {
+         auto loaded = multibody::ParseMechanism(text, "fuzz.yaml");
+         if (!loaded) return loaded.error();
+         multibody::Mechanism& mechanism = loaded.value();
+         for (int i = 0; i < 20; ++i) {
+           if (!mechanism.system->Step(1e-4).converged) break;
+         }
+         for (const auto& output : mechanism.outputs) (void)output.ValueOf(*mechanism.system);
+         return std::nullopt;
+       });
 }
 
 TEST(TextFiles, Drivers) {

@@ -1,12 +1,16 @@
 // What a step of the bicycle costs, and its tyre formula. Simulated seconds a second = 1e6 / (microseconds a 1 ms step).
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <vector>
 
 #include "common/base/state.hpp"
 #include "common/terrain/ground.hpp"
 #include "common/vehicle/bicycle_model.hpp"
+#include "common/vehicle/multibody_model.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -46,6 +50,46 @@ void BM_Initialise(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(car.Initialise({.heading_rad = 0.3}, ground).ok());
 }
 
+// The 159 variables through a lane change at 20 m/s, step after step: mean, and what one in ten thousand exceeds.
+void BM_PrototypeLaneChange(benchmark::State& state) {
+  auto loaded = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/prototype.yaml");
+  auto& car = static_cast<MultibodyModel&>(*loaded.value());
+  terrain::PlaneGround ground;
+  std::vector<double> microseconds;
+  double iterations = 0.0, projections = 0.0, factorisations = 0.0, most = 0.0;
+  int step = 0;
+  for (auto _ : state) {
+    if (step % 4000 == 0) {
+      state.PauseTiming();
+      (void)car.Initialise({.speed_mps = 20.0}, ground);
+      state.ResumeTiming();
+    }
+    const double t = 0.001 * (step++ % 4000);
+    const double turn = t < 1.0 ? 0.0 : t < 3.0 ? std::sin(3.14159265 * (t - 1.0)) : 0.0;
+    const auto begin = std::chrono::steady_clock::now();
+    car.Step({.steering_wheel_rad = turn, .throttle = 0.2}, ground, 0.001);
+    microseconds.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
+    iterations += car.report().iterations;
+    projections += car.report().projections;
+    factorisations += car.report().factorisations;
+    most = std::max(most, static_cast<double>(car.report().iterations));
+  }
+  const auto count = static_cast<double>(microseconds.size());
+  std::sort(microseconds.begin(), microseconds.end());
+  state.counters["us_median"] = microseconds[microseconds.size() / 2];
+  state.counters["us_9999"] = microseconds[static_cast<std::size_t>(0.9999 * (count - 1.0))];
+  state.counters["iterations"] = iterations / count;
+  state.counters["iterations_most"] = most;
+  state.counters["projections"] = projections / count;
+  state.counters["factorisations"] = factorisations / count;
+}
+
+void BM_PrototypeInitialise(benchmark::State& state) {
+  auto loaded = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/prototype.yaml");
+  terrain::PlaneGround ground(Eigen::Vector3d::Zero(), 0.1, 0.05);
+  for (auto _ : state) benchmark::DoNotOptimize(loaded.value()->Initialise({.heading_rad = 0.3}, ground).ok());
+}
+
 void BM_MagicFormula(benchmark::State& state) {
   const MagicFormulaSettings tyre;
   double alpha = 0.0;
@@ -59,6 +103,8 @@ BENCHMARK(BM_StepStanding);
 BENCHMARK(BM_StepDriving);
 BENCHMARK(BM_StepWithDigest);
 BENCHMARK(BM_Initialise);
+BENCHMARK(BM_PrototypeLaneChange)->Iterations(60000);
+BENCHMARK(BM_PrototypeInitialise)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_MagicFormula);
 
 }  // namespace

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+namespace rodeira::multibody {
+
+// y(x) by samples ascending in x: linear between them, going on with the end slopes beyond.
+class Curve {
+ public:
+  struct Sample {
+    double x = 0.0;
+    double y = 0.0;
+  };
+  Curve() = default;
+  // At least two samples, x strictly ascending.
+  explicit Curve(std::vector<Sample> samples);
+  static Curve Linear(double slope) { return Curve({{0.0, 0.0}, {1.0, slope}}); }
+
+  double Value(double x) const;
+  double Slope(double x) const;
+  // Integral from 0 to x: the energy of a spring whose force the curve is.
+  double Integral(double x) const { return FromFirst(x) - FromFirst(0.0); }
+  bool empty() const { return samples_.empty(); }
+  const std::vector<Sample>& samples() const { return samples_; }
+
+ private:
+  std::size_t Segment(double x) const;
+  double FromFirst(double x) const;  // integral from the first sample
+
+  std::vector<Sample> samples_;
+  std::vector<double> integral_;  // from the first sample to each
+};
+
+}  // namespace rodeira::multibody

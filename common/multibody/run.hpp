@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/multibody/mechanism.hpp"
+
+namespace rodeira::multibody {
+
+// What a run of a mechanism leaves: its outputs at the beginning and after every step.
+struct RunTable {
+  std::vector<std::string> names;  // the first is time_s
+  std::vector<double> values;      // row after row
+
+  std::size_t rows() const { return names.empty() ? 0 : values.size() / names.size(); }
+  double At(std::size_t row, std::size_t column) const { return values[row * names.size() + column]; }
+};
+
+struct RunSummary {
+  long steps = 0;
+  double step_s = 0.0;  // the whole time is divided evenly, so it may be a little shorter than asked
+  long iterations = 0;
+  int most_iterations = 0;
+  long factorisations = 0;
+  double violation_m = 0.0;
+  double violation_mps = 0.0;
+  double energy_start_J = 0.0;
+  double energy_end_J = 0.0;
+};
+
+// Runs until `until_s` in steps of `step_s`; `progress` is called now and then with a share from 0 to 1. Wrong input for
+// times that make no sense or a table beyond 100 million values; failed, with the time, where a step does not converge (the
+// table then ends there).
+base::Status RunMechanism(Mechanism& mechanism, double until_s, double step_s, RunTable& table, RunSummary& summary,
+                          const std::function<void(double)>& progress = {});
+
+// Comma-separated values with a header, each number so that it reads back to the same bits.
+std::string ToCsv(const RunTable& table);
+// One small diagram an output over time.
+std::string ToSvg(const RunTable& table, const std::string& title);
+
+}  // namespace rodeira::multibody

@@ -1,0 +1,90 @@
+// Diagrams of a run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "common/multibody/run.hpp"
+
+namespace rodeira::multibody {
+namespace {
+
+constexpr int kWidth = 720, kHeight = 120, kLeft = 110, kTop = 34, kGap = 26;
+constexpr std::size_t kMostDiagrams = 24;
+constexpr std::size_t kMostPoints = 1400;  // along the axis; between two of them the extremes are kept
+
+struct Extent {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+Extent ExtentOf(const RunTable& table, std::size_t column) {
+  Extent extent{table.At(0, column), table.At(0, column)};
+  for (std::size_t row = 1; row < table.rows(); ++row) {
+    extent.low = std::min(extent.low, table.At(row, column));
+    extent.high = std::max(extent.high, table.At(row, column));
+  }
+  const double room = std::max({0.05 * (extent.high - extent.low), 1e-9 * std::fabs(extent.high), 1e-12});
+  return {extent.low - room, extent.high + room};
+}
+
+std::string Escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<') out += "&lt;";
+    else if (c == '&') out += "&amp;";
+    else out += c;
+  }
+  return out;
+}
+
+void AddLine(const RunTable& table, std::size_t column, int top, const Extent& extent, std::string& svg) {
+  const double from = table.At(0, 0), to = table.At(table.rows() - 1, 0);
+  const auto x = [&](double t) { return kLeft + (to > from ? (t - from) / (to - from) : 0.0) * kWidth; };
+  const auto y = [&](double v) { return top + kHeight * (extent.high - v) / (extent.high - extent.low); };
+  svg += "<polyline fill='none' stroke='#1f5f8b' stroke-width='1.2' points='";
+  const std::size_t stride = std::max<std::size_t>(1, 2 * table.rows() / kMostPoints);
+  for (std::size_t row = 0; row < table.rows(); row += stride) {
+    std::size_t low = row, high = row;
+    for (std::size_t i = row; i < std::min(row + stride, table.rows()); ++i) {
+      if (table.At(i, column) < table.At(low, column)) low = i;
+      if (table.At(i, column) > table.At(high, column)) high = i;
+    }
+    for (const std::size_t i : {std::min(low, high), std::max(low, high)}) {
+      fmt::format_to(std::back_inserter(svg), "{:.1f},{:.1f} ", x(table.At(i, 0)), y(table.At(i, column)));
+    }
+  }
+  svg += "'/>\n";
+}
+
+}  // namespace
+
+std::string ToSvg(const RunTable& table, const std::string& title) {
+  const std::size_t diagrams = std::min(kMostDiagrams, table.names.size() - 1);
+  const int height = kTop + static_cast<int>(diagrams) * (kHeight + kGap) + 20;
+  std::string svg = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}' font-family='sans-serif' font-size='11'>\n"
+      "<rect width='{0}' height='{1}' fill='white'/>\n<text x='{2}' y='20' font-size='14'>{3}</text>\n",
+      kLeft + kWidth + 20, height, kLeft, Escaped(title));
+  if (table.rows() == 0) return svg + "</svg>\n";
+  const double from = table.At(0, 0), to = table.At(table.rows() - 1, 0);
+  for (std::size_t k = 0; k < diagrams; ++k) {
+    const int top = kTop + static_cast<int>(k) * (kHeight + kGap);
+    const Extent extent = ExtentOf(table, k + 1);
+    svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#bbb'/>\n", kLeft, top, kWidth, kHeight);
+    svg += fmt::format("<text x='{}' y='{}' fill='#1f5f8b'>{}</text>\n", kLeft + 6, top + 13, Escaped(table.names[k + 1]));
+    svg += fmt::format("<text x='{0}' y='{1}' text-anchor='end'>{2:.5g}</text><text x='{0}' y='{3}' text-anchor='end'>{4:.5g}</text>\n", kLeft - 6,
+                       top + 10, extent.high, top + kHeight, extent.low);
+    for (int tick = 0; tick <= 10; ++tick) {
+      const int x = kLeft + kWidth * tick / 10;
+      svg += fmt::format("<line x1='{0}' y1='{1}' x2='{0}' y2='{2}' stroke='#eee'/>\n", x, top, top + kHeight);
+      if (k + 1 == diagrams) svg += fmt::format("<text x='{}' y='{}' text-anchor='middle'>{:.4g}</text>\n", x, top + kHeight + 14, from + (to - from) * tick / 10);
+    }
+    AddLine(table, k + 1, top, extent, svg);
+  }
+  svg += fmt::format("<text x='{}' y='{}' text-anchor='end'>time_s</text>\n</svg>\n", kLeft - 6, height - 20 + 8);
+  return svg;
+}
+
+}  // namespace rodeira::multibody

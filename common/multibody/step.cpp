@@ -1,0 +1,165 @@
+// One time step: Newton's method on the positions, then the projections.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/base/assert.hpp"
+#include "common/multibody/system.hpp"
+
+namespace rodeira::multibody {
+namespace {
+
+constexpr double kRounding = 5e-16;  // far from the world's origin a length is not known better
+constexpr double kSettledShare = 0.01;  // a projection ends when its next turn would be this small against its first
+constexpr double kNearer = 0.3;       // a turn that leaves more than this has got no nearer
+
+}  // namespace
+
+// Expects constraints evaluated; the matrix then holds what K and C the loads gave.
+bool System::Factorise(double dt_s) {
+  std::copy(constant_.begin(), constant_.end(), matrix_.values().begin());
+  constraints_.AddRows(weight_, matrix_.values().data());
+  SumForces(matrix_.values().data(), 0.25 * dt_s * dt_s, 0.5 * dt_s);
+  return matrix_.Factorise();
+}
+
+StepReport System::Step(double dt_s) {
+  RODEIRA_ASSERT(dt_s > 0.0);
+  StepReport report;
+  const double quarter = 0.25 * dt_s * dt_s;
+  const double alpha = weight_ / quarter;
+  const std::size_t size = q_.size();
+  const double rounding_m = kRounding * FreeMaximum(q_.data());
+  const double violation_m = settings_.violation_m + rounding_m;
+  const double change_m = settings_.change_mps2 * quarter + rounding_m;
+  std::copy(q_.begin(), q_.end(), q0_.begin());
+  std::copy(qd_.begin(), qd_.end(), qd0_.begin());
+  std::copy(qdd_.begin(), qdd_.end(), qdd0_.begin());
+  std::copy(lambda_.begin(), lambda_.end(), lambda0_.begin());
+  time0_s_ = time_s_;
+  for (std::size_t i = 0; i < size; ++i) way_[i] = dt_s * (qd0_[i] + 0.5 * dt_s * qdd0_[i]);
+  time_s_ += dt_s;
+  report.converged = false;
+  double changed = 0.0;
+  double changed_before = std::numeric_limits<double>::infinity();
+  double violation_before = changed_before;
+  for (int turn = 0; turn < settings_.most_iterations; ++turn) {
+    // The way since the step's beginning is the unknown: no digits are lost to where in the world this happens.
+    for (std::size_t i = 0; i < size; ++i) {
+      q_[i] = q0_[i] + way_[i];
+      qd_[i] = 2.0 / dt_s * way_[i] - qd0_[i];
+      qdd_[i] = (way_[i] - dt_s * qd0_[i]) / quarter - qdd0_[i];
+    }
+    constraints_.Evaluate(q_.data(), time_s_);
+    const auto values = constraints_.values();
+    if (turn > 0) {
+      for (std::size_t i = 0; i < lambda_.size(); ++i) lambda_[i] += alpha * values[i];
+      const double violation = LargestOf(values);
+      const bool nearer = changed < kNearer * changed_before || violation < kNearer * violation_before;
+      const double next = turn > 1 ? changed * std::min(1.0, changed / changed_before) : changed;
+      report.converged = (next <= change_m && violation <= violation_m) ||
+                         (!nearer && changed <= settings_.accepted_m && violation <= settings_.accepted_m);
+      if (report.converged) break;
+      changed_before = changed;
+      violation_before = violation;
+    }
+    if (turn == 0) moved_m_ = 2.0 * stale_m_;
+    if (moved_m_ > stale_m_) {
+      if (!Refresh(dt_s, report)) return report;
+    } else {
+      SumForces(nullptr, 0.0, 0.0);
+    }
+    std::fill(residual_.begin(), residual_.end(), 0.0);
+    MultiplyMass(qdd_.data(), residual_.data());
+    for (std::size_t i = 0; i < size; ++i) residual_[i] = quarter * (residual_[i] - forces_[i]);
+    for (std::size_t i = 0; i < mu_.size(); ++i) mu_[i] = quarter * lambda_[i] + weight_ * values[i];
+    constraints_.AddTransposed(mu_.data(), residual_.data());
+    Mask(residual_.data());
+    matrix_.Solve(residual_.data(), change_.data());
+    for (std::size_t i = 0; i < size; ++i) way_[i] -= change_[i];
+    changed = FreeMaximum(change_.data());
+    moved_m_ += changed;
+    ++report.iterations;
+    if (!(changed < 1e6)) return report;
+  }
+  if (!report.converged) return report;
+  if (moved_m_ > stale_m_ && !Refresh(dt_s, report)) {
+    report.converged = false;
+    return report;
+  }
+  report.converged = ProjectVelocities(report) && ProjectAccelerations(report);
+  return report;
+}
+
+void System::Undo() {
+  std::copy(q0_.begin(), q0_.end(), q_.begin());
+  std::copy(qd0_.begin(), qd0_.end(), qd_.begin());
+  std::copy(qdd0_.begin(), qdd0_.end(), qdd_.begin());
+  std::copy(lambda0_.begin(), lambda0_.end(), lambda_.begin());
+  time_s_ = time0_s_;
+}
+
+bool System::Refresh(double dt_s, StepReport& report) {
+  ++report.factorisations;
+  moved_m_ = 0.0;
+  return Factorise(dt_s);
+}
+
+// The v nearest to the given one in the metric of M that fulfils Φq v + bias = 0 (bias_ holds it): M (v - v*) + Φqᵀ nu = 0 by
+// augmented Lagrangian, so that the result does not depend on the matrix having been made at exactly these coordinates.
+bool System::Project(std::vector<double>& v, double wanted, double accepted, StepReport& report) {
+  std::copy(v.begin(), v.end(), way_.begin());
+  std::fill(nu_.begin(), nu_.end(), 0.0);
+  double before = std::numeric_limits<double>::infinity();
+  double first = 0.0;
+  double changed = 0.0;
+  double changed_before = 0.0;
+  for (int turn = 0;; ++turn) {
+    constraints_.Multiply(v.data(), mu_.data());
+    for (std::size_t i = 0; i < mu_.size(); ++i) mu_[i] += bias_[i];
+    const double violation = LargestOf(mu_);
+    const bool settled = turn == 0 || (turn > 1 && changed * changed <= kSettledShare * first * changed_before);
+    if (violation <= wanted && settled) return true;
+    if (violation <= accepted && violation > kNearer * before && turn > 2) return true;
+    if (turn == settings_.most_iterations || !std::isfinite(violation)) return false;
+    before = violation;
+    for (std::size_t i = 0; i < mu_.size(); ++i) {
+      if (turn > 0) nu_[i] += weight_ * mu_[i];
+      mu_[i] = nu_[i] + weight_ * mu_[i];
+    }
+    for (std::size_t i = 0; i < v.size(); ++i) change_[i] = v[i] - way_[i];
+    std::fill(residual_.begin(), residual_.end(), 0.0);
+    if (turn > 0) MultiplyMass(change_.data(), residual_.data());
+    constraints_.AddTransposed(mu_.data(), residual_.data());
+    Mask(residual_.data());
+    matrix_.Solve(residual_.data(), change_.data());
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] -= change_[i];
+    changed_before = changed;
+    changed = FreeMaximum(change_.data());
+    if (turn == 0) first = changed;
+    ++report.projections;
+  }
+}
+
+bool System::ProjectVelocities(StepReport& report) {
+  std::fill(bias_.begin(), bias_.end(), 0.0);
+  constraints_.AddTimeRate(time_s_, bias_.data());
+  return Project(qd_, settings_.violation_mps, settings_.accepted_mps, report);
+}
+
+bool System::ProjectAccelerations(StepReport& report) {
+  constraints_.Bias(q_.data(), qd_.data(), time_s_, bias_.data());
+  return Project(qdd_, settings_.violation_mps2, std::numeric_limits<double>::max(), report);
+}
+
+// v -= A⁻¹ Φqᵀ α h²/4 mu.
+void System::Correct(std::vector<double>& v) {
+  for (double& each : mu_) each *= weight_;
+  std::fill(residual_.begin(), residual_.end(), 0.0);
+  constraints_.AddTransposed(mu_.data(), residual_.data());
+  Mask(residual_.data());
+  matrix_.Solve(residual_.data(), change_.data());
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] -= change_[i];
+}
+
+}  // namespace rodeira::multibody

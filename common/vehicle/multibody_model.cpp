@@ -1,0 +1,203 @@
+#include "common/vehicle/multibody_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/assert.hpp"
+#include "common/geometry/angle.hpp"
+
+namespace rodeira::vehicle {
+namespace {
+
+constexpr double kMostStep_s = 0.1;
+constexpr double kBottom = 0.5;  // share of the radius that a tyre can be pressed in
+constexpr int kMostHalvings = 3;
+
+std::size_t AxleOf(std::size_t wheel) { return wheel / 2; }
+
+}  // namespace
+
+base::Status MultibodyModel::Build() {
+  multibody::Drawing drawing = settings_.mechanism;
+  const multibody::Frame& chassis = drawing.bodies[static_cast<std::size_t>(settings_.chassis)].frame;
+  origin_ = chassis.PointAt(Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const MultibodyWheelSettings& hung = settings_.wheels[i];
+    WheelLoad::Settings load;
+    load.carrier = drawing.bodies[static_cast<std::size_t>(hung.carrier)].frame;
+    load.centre = hung.centre;
+    load.axle = hung.axle;
+    load.radius_m = settings_.wheel.radius_m;
+    load.vertical_Npm = settings_.wheel.vertical_Npm;
+    load.damping_Nspm = settings_.tyre_damping_Nspm;
+    load.bottom_m = kBottom * settings_.wheel.radius_m;
+    load.spin_inertia_kgm2 = settings_.wheel.inertia_kgm2;
+    wheels_[i].load = std::make_shared<WheelLoad>(load);
+    drawing.loads.push_back({"wheel", wheels_[i].load});
+  }
+  chassis_load_ = std::make_shared<ChassisLoad>(chassis, chassis.PointAt(settings_.drag_point_m), 0.5 * settings_.air_density_kgpm3 * settings_.drag_area_m2);
+  column_load_ = std::make_shared<ColumnLoad>(settings_.steering.angle, settings_.steering.column_Nmprad, settings_.steering.column_Nmsprad);
+  drawing.loads.push_back({"chassis", chassis_load_});
+  drawing.loads.push_back({"column", column_load_});
+  auto system = multibody::System::Make(drawing);
+  if (!system) return system.error();
+  system_ = std::move(system).value();
+  if (auto status = system_->Start(); !status) return status;
+  // Where the car stands level on z = 0 is the published frame.
+  terrain::PlaneGround level;
+  if (auto status = Settle({}, level); !status) return status;
+  const Eigen::Isometry3d X_WC = X_WB();  // X_CB is the identity as yet
+  X_CB_ = X_WC.inverse();
+  for (std::size_t i = 0; i < kWheels; ++i) hub_rest_B_[i] = Hub_W(i);
+  SetInMotion({});
+  Publish(Controls{}, 0.0);
+  return {};
+}
+
+Eigen::Vector3d MultibodyModel::Hub_W(std::size_t wheel) const { return system_->motion().At(settings_.wheels[wheel].centre); }
+
+Eigen::Isometry3d MultibodyModel::X_WB() const {
+  Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+  X_WC.linear() = system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame.Rotation(system_->q().data());
+  X_WC.translation() = multibody::Evaluate(origin_, system_->q().data());
+  return X_WC * X_CB_;
+}
+
+// ½ Σ e × ė.
+Eigen::Vector3d MultibodyModel::Turning_W(const multibody::Frame& frame) const {
+  Eigen::Vector3d turning = Eigen::Vector3d::Zero();
+  for (const multibody::Form& axis : frame.axes) {
+    turning += 0.5 * multibody::Evaluate(axis, system_->q().data()).cross(multibody::Evaluate(axis, system_->qd().data()));
+  }
+  return turning;
+}
+
+void MultibodyModel::GiveGround(std::size_t wheel) { wheels_[wheel].load->SetPlane(wheels_[wheel].plane_W, wheels_[wheel].normal_W); }
+
+void MultibodyModel::AskGround(terrain::Ground& ground) {
+  std::array<terrain::GroundQuery, kWheels> queries;
+  std::array<terrain::GroundPoint, kWheels> points;
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const Eigen::Vector3d hub = Hub_W(i);
+    queries[i] = {hub.x(), hub.y(), hub.z()};
+  }
+  ground.Query(queries, points);
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    Wheel& wheel = wheels_[i];
+    wheel.inside = points[i].inside;
+    wheel.surface = points[i].surface;
+    if (!wheel.inside) continue;  // goes on upon the plane that it knows
+    wheel.plane_W = {queries[i].x_m, queries[i].y_m, points[i].z_m};
+    wheel.normal_W = points[i].normal_W;
+    wheel.friction = points[i].friction;
+  }
+}
+
+void MultibodyModel::Step(const Controls& controls, terrain::Ground& ground, double dt_s) {
+  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
+  const Controls cut = Cut(controls);
+  AskGround(ground);
+  const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / settings_.longest_substep_s - 1e-6)));
+  for (int i = 0; i < substeps; ++i) Substep(cut, dt_s / substeps);
+  Publish(cut, dt_s);
+}
+
+MultibodyModel::Contacts MultibodyModel::FindContacts() const {
+  Contacts contacts;
+  for (std::size_t i = 0; i < kWheels; ++i) contacts[i] = wheels_[i].load->ContactAt(system_->motion());
+  return contacts;
+}
+
+// Sideways the contact moves with the carrier (camber and steer rates count); along, the hub's speed and the spin do.
+TyreMotion MultibodyModel::MotionOf(std::size_t wheel, const WheelLoad::Contact& contact) const {
+  const MultibodyWheelSettings& hung = settings_.wheels[wheel];
+  const Eigen::Vector3d hub_v = system_->motion().RateOf(hung.centre);
+  const Eigen::Vector3d turning = Turning_W(system_->drawing().bodies[static_cast<std::size_t>(hung.carrier)].frame);
+  const Eigen::Vector3d v = hub_v + turning.cross(contact.point_W - Hub_W(wheel));
+  TyreMotion motion;
+  motion.vx_mps = hub_v.dot(contact.along_W);
+  motion.vsx_mps = motion.vx_mps - wheels_[wheel].spin_radps * settings_.wheel.rolling_radius_m;
+  motion.vsy_mps = v.dot(contact.across_W);
+  motion.camber_rad = contact.camber_rad;
+  return motion;
+}
+
+MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls, const Contacts& contacts, double dt_s) {
+  WheelTorques torques;
+  const double radius = settings_.wheel.rolling_radius_m;
+  std::array<double, kWheels> road{};
+  std::array<double, kWheels> friction{};
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    road[i] = -radius * forces_[i].longitudinal_N;
+    torques.brake_Nm[i] = BrakeTorque(settings_.brakes, i, controls.brake, controls.handbrake);
+    friction[i] = torques.brake_Nm[i] + settings_.wheel.rolling_resistance * contacts[i].load_N * radius;
+  }
+  const std::size_t driven = settings_.front_driven ? kFrontLeft : kRearLeft;
+  const std::size_t free = settings_.front_driven ? kRearLeft : kFrontLeft;
+  PowertrainInput input;
+  input.wheel_inertia_kgm2 = settings_.wheel.inertia_kgm2;
+  const Eigen::Vector3d forward = system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame.Rotation(system_->q().data()).col(0);
+  input.speed_mps = multibody::Evaluate(origin_, system_->qd().data()).dot(forward);
+  input.inertia_torque_Nm = settings_.mass_kg * radius * forward_mps2_;
+  for (std::size_t i = 0; i < 2; ++i) {
+    input.wheel_radps[i] = wheels_[driven + i].spin_radps;
+    input.road_torque_Nm[i] = road[driven + i];
+    input.friction_torque_Nm[i] = friction[driven + i];
+  }
+  const DrivelineMotion& motion = powertrain_.Step(settings_.powertrain, controls, input, dt_s);
+  for (std::size_t i = 0; i < 2; ++i) {
+    wheels_[driven + i].spin_radps = motion.wheel_radps[i];
+    torques.drive_Nm[driven + i] = motion.drive_torque_Nm;
+    torques.friction_Nm[driven + i] = motion.friction_torque_Nm[i];
+    Wheel& rolling = wheels_[free + i];
+    torques.friction_Nm[free + i] = friction[free + i];
+    rolling.spin_radps = StepFreeWheel(rolling.spin_radps, settings_.wheel.inertia_kgm2, road[free + i], torques.friction_Nm[free + i], dt_s);
+  }
+  // The brake's share of the friction that acted: the rest is rolling resistance and gears.
+  for (std::size_t i = 0; i < kWheels; ++i) torques.friction_Nm[i] *= friction[i] > 0.0 ? torques.brake_Nm[i] / friction[i] : 0.0;
+  return torques;
+}
+
+void MultibodyModel::Substep(const Controls& controls, double dt_s) {
+  for (std::size_t i = 0; i < kWheels; ++i) GiveGround(i);
+  const Contacts before = FindContacts();
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    Wheel& wheel = wheels_[i];
+    forces_[i] = wheel.tyre.Forces(settings_.tyre[AxleOf(i)], MotionOf(i, before[i]), before[i].load_N, wheel.friction);
+  }
+  torques_ = TurnWheels(controls, before, dt_s);
+  double drive_Nm = 0.0;
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    wheels_[i].load->SetStep(forces_[i].longitudinal_N, forces_[i].lateral_N, torques_.friction_Nm[i], wheels_[i].spin_radps);
+    drive_Nm += torques_.drive_Nm[i];
+  }
+  chassis_load_->SetDrive(drive_Nm);
+  const double limit = settings_.steering.limit_rad;
+  const double hands = std::clamp(controls.steering_wheel_rad, -limit, limit);
+  column_load_->SetHands(hands, 0.0);
+  hands_rad_ = hands;
+  const double speed_before = multibody::Evaluate(origin_, system_->qd().data()).norm();
+  Advance(dt_s, 0);
+  forward_mps2_ = (multibody::Evaluate(origin_, system_->qd().data()).norm() - speed_before) / dt_s;
+  const Contacts after = FindContacts();
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    Wheel& wheel = wheels_[i];
+    wheel.tyre.Advance(settings_.tyre[AxleOf(i)], MotionOf(i, after[i]), after[i].load_N, wheel.friction, dt_s);
+    wheel.spin_rad = geometry::WrapAngle(wheel.spin_rad + dt_s * wheel.spin_radps);
+  }
+}
+
+// A step that does not converge (a blow, a wall) is divided; at last the car is brought to rest where it was.
+void MultibodyModel::Advance(double dt_s, int depth) {
+  report_ = system_->Step(dt_s);
+  if (report_.converged) return;
+  system_->Undo();
+  if (depth < kMostHalvings) {
+    for (int half = 0; half < 2; ++half) Advance(0.5 * dt_s, depth + 1);
+    return;
+  }
+  std::fill(system_->qd().begin(), system_->qd().end(), 0.0);
+  (void)system_->FindAccelerations();
+}
+
+}  // namespace rodeira::vehicle

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+namespace rodeira::front {
+
+struct MechanismOptions {
+  bool asked = false;
+  std::string file;
+  double until_s = 0.0;
+  double step_s = 0.0;
+  std::string csv;
+  std::string svg;
+  bool quiet = false;
+};
+
+// `rodeira mechanism run`: a mechanism file alone, without a network. Returns the exit status.
+int RunMechanismFile(const MechanismOptions& options);
+
+}  // namespace rodeira::front

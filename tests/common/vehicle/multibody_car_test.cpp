@@ -1,0 +1,302 @@
+// The multibody car (prototype): what it is made of, how it stands, drives, turns, stops and holds, and that it repeats.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "common/vehicle/multibody_model.hpp"
+#include "tests/common/vehicle/test_ground.hpp"
+
+namespace rodeira::vehicle {
+namespace {
+
+using terrain::PlaneGround;
+
+constexpr double kStep = 0.001;
+constexpr double kG = 9.81;
+
+std::unique_ptr<VehicleModel> Prototype() {
+  auto model = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/prototype.yaml");
+  EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().Text());
+  return std::move(model).value();
+}
+
+MultibodyModel& Multibody(VehicleModel& model) { return static_cast<MultibodyModel&>(model); }
+
+void DriveFor(VehicleModel& car, terrain::Ground& ground, const Controls& controls, double seconds) {
+  const auto steps = static_cast<int>(std::lround(seconds / kStep));
+  for (int i = 0; i < steps; ++i) car.Step(controls, ground, kStep);
+}
+
+// C6: 44 points, 7 unit vectors, 1 angle, 5 distances: 159 variables. Eleven ways to move: body 6, wheels 4, steering 1.
+TEST(Prototype, HasTheCoordinatesOfItsSource) {
+  auto car = Prototype();
+  const multibody::System& system = Multibody(*car).system();
+  int points = 0, vectors = 0, angles = 0, distances = 0;
+  for (const auto& entity : system.drawing().entities) {
+    if (entity.fixed[0] && entity.fixed[1] && entity.fixed[2]) continue;  // the world's axes
+    points += entity.kind == multibody::EntityKind::kPoint;
+    vectors += entity.kind == multibody::EntityKind::kVector;
+    angles += entity.kind == multibody::EntityKind::kAngle;
+    distances += entity.kind == multibody::EntityKind::kDistance;
+  }
+  EXPECT_EQ(points, 44);
+  EXPECT_EQ(vectors, 7);
+  EXPECT_EQ(angles, 1);
+  EXPECT_EQ(distances, 5);
+  EXPECT_EQ(system.variables(), 159);
+  EXPECT_EQ(system.constraints().count(), 148);
+  EXPECT_EQ(system.degrees_of_freedom(), 11);
+}
+
+TEST(PrototypeAtRest, StandsInEquilibrium) {
+  auto car = Prototype();
+  const double weight = Multibody(*car).settings().mass_kg * kG;
+  for (const auto& [slope_x, slope_y] : {std::pair(0.0, 0.0), std::pair(0.1, 0.0), std::pair(-0.05, 0.08)}) {
+    PlaneGround ground(Eigen::Vector3d(0, 0, 12.5), slope_x, slope_y);
+    ASSERT_TRUE(car->Initialise({.x_m = 100.0, .y_m = -7.0, .heading_rad = 0.7}, ground).ok());
+    const VehicleState& s = car->state();
+    EXPECT_NEAR(s.p_WB_W.x(), 100.0, 1e-9);
+    EXPECT_NEAR(s.p_WB_W.y(), -7.0, 1e-9);
+    EXPECT_NEAR(s.heading_rad(), 0.7, 1e-9);
+    double most = 0.0;
+    for (const double each : Multibody(*car).system().qdd()) most = std::max(most, std::fabs(each));
+    EXPECT_LE(most, 1e-6) << slope_x;
+    if (slope_x == 0.0) {
+      double sum = 0.0;
+      for (const auto& wheel : s.wheels) sum += wheel.load_N;
+      EXPECT_NEAR(sum, weight, 1e-9 * weight);
+      EXPECT_NEAR(s.p_WB_W.z(), 12.5, 1e-7);
+      EXPECT_NEAR(s.pitch_rad(), 0.0, 1e-7);
+    }
+  }
+}
+
+TEST(PrototypeAtRest, RefusesPlacesOutsideAndStaysAsItWas) {
+  auto car = Prototype();
+  HillGround::Kind kind;
+  kind.edge_m = 50.0;
+  HillGround ground(1, kind);
+  base::StateWriter before, after;
+  car->Save(before);
+  const auto refused = car->Initialise({.x_m = 1000.0}, ground);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("outside of the world"), std::string::npos);
+  car->Save(after);
+  EXPECT_EQ(before.bytes(), after.bytes());
+  EXPECT_FALSE(car->Initialise({.x_m = std::nan("")}, ground).ok());
+}
+
+// Handbrake on a 20 % slope: at most 1 mm a minute.
+TEST(PrototypeAtRest, TheHandbrakeHoldsOnASlope) {
+  auto car = Prototype();
+  PlaneGround ground(Eigen::Vector3d::Zero(), 0.2, 0.0);
+  ASSERT_TRUE(car->Initialise({}, ground).ok());
+  Controls controls;
+  controls.gearbox = GearboxMode::kManual;
+  controls.gear = 0;
+  controls.handbrake = 1.0;
+  DriveFor(*car, ground, controls, 10.0);
+  const Eigen::Vector3d settled = car->state().p_WB_W;
+  DriveFor(*car, ground, controls, 60.0);
+  EXPECT_LT((car->state().p_WB_W - settled).norm(), 1e-3);
+}
+
+// Dropped, settles, drives off, shifts, brakes, stops, reverses.
+TEST(PrototypeStory, DrivesOffShiftsBrakesStopsAndReverses) {
+  auto car = Prototype();
+  PlaneGround ground;
+  ASSERT_TRUE(car->Initialise({}, ground).ok());
+  Controls controls;
+  controls.throttle = 0.7;
+  int gear = 0;
+  double worst_m = 0.0, worst_mps = 0.0;
+  int iterations = 0;
+  multibody::System& system = Multibody(*car).system();
+  for (int i = 0; i < 12000; ++i) {
+    car->Step(controls, ground, kStep);
+    gear = std::max(gear, static_cast<int>(car->state().gear));
+    ASSERT_TRUE(Multibody(*car).report().converged) << i;
+    iterations = std::max(iterations, Multibody(*car).report().iterations);
+    worst_m = std::max(worst_m, system.Violation());
+    worst_mps = std::max(worst_mps, system.RateViolation());
+  }
+  EXPECT_GT(car->state().speed_mps(), 20.0);
+  EXPECT_GE(gear, 3);
+  EXPECT_LE(worst_m, 1e-8);
+  EXPECT_LE(worst_mps, 1e-6);
+  EXPECT_LE(iterations, 4);
+  EXPECT_LT(std::fabs(car->state().p_WB_W.y()), 1e-3);
+  controls.throttle = 0.0;
+  controls.brake = 0.8;
+  DriveFor(*car, ground, controls, 8.0);
+  EXPECT_LT(std::fabs(car->state().speed_mps()), 1e-3);
+  controls.brake = 0.0;
+  controls.gear = -1;
+  controls.throttle = 0.3;
+  DriveFor(*car, ground, controls, 4.0);
+  EXPECT_LT(car->state().speed_mps(), -1.0);
+  EXPECT_EQ(car->state().gear, -1);
+}
+
+// Braking: the body pitches nose down, and what the front axle gains is m a h / L.
+TEST(PrototypeDynamics, LoadTransferOfBraking) {
+  auto car = Prototype();
+  PlaneGround ground;
+  ASSERT_TRUE(car->Initialise({.speed_mps = 25.0}, ground).ok());
+  const MultibodySettings& settings = Multibody(*car).settings();
+  double front_at_rest = 0.0;
+  for (const auto i : {kFrontLeft, kFrontRight}) front_at_rest += car->state().wheels[i].load_N;
+  Controls controls;
+  controls.gearbox = GearboxMode::kManual;
+  controls.gear = 0;
+  controls.brake = 0.35;
+  DriveFor(*car, ground, controls, 1.5);
+  const VehicleState& s = car->state();
+  double front = 0.0, along = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    along += s.wheels[i].longitudinal_N;
+    all += s.wheels[i].load_N;
+    if (i < 2) front += s.wheels[i].load_N;
+  }
+  // Height and place of the whole car's mass, from the mechanism as drawn.
+  double moment = 0.0;
+  for (const auto& body : settings.mechanism.bodies) {
+    std::vector<double> drawn;
+    for (const auto& entity : settings.mechanism.entities) drawn.insert(drawn.end(), entity.at.data(), entity.at.data() + 3);
+    moment += body.mass_kg * multibody::Evaluate(body.centre, drawn.data()).z();
+  }
+  const double height = moment / settings.mass_kg;
+  EXPECT_GT(s.pitch_rad(), 0.003);
+  EXPECT_LT(along, -2000.0);
+  EXPECT_NEAR(all, settings.mass_kg * kG, 0.01 * settings.mass_kg * kG);
+  // Air drag acts at its own height; the rest at the mass's. The body's lean moves it a little.
+  const double deceleration = -s.a_WB_B().x();
+  const double expected = (settings.mass_kg * deceleration * height - s.drag_N * settings.drag_point_m.z()) / settings.dimensions.wheelbase_m;
+  EXPECT_NEAR(front - front_at_rest, expected, 0.05 * expected);
+  EXPECT_NEAR(-along + s.drag_N, settings.mass_kg * deceleration, 0.03 * settings.mass_kg * deceleration);
+}
+
+TEST(PrototypeDynamics, TurnsTowardsTheWheelAndLeansOut) {
+  auto car = Prototype();
+  PlaneGround ground;
+  ASSERT_TRUE(car->Initialise({.speed_mps = 15.0}, ground).ok());
+  Controls controls;
+  controls.steering_wheel_rad = 0.5;
+  controls.throttle = 0.15;
+  DriveFor(*car, ground, controls, 3.0);
+  const VehicleState& s = car->state();
+  const MultibodySettings& settings = Multibody(*car).settings();
+  EXPECT_GT(s.w_WB_B.z(), 0.1);
+  EXPECT_GT(s.roll_rad(), 0.01);
+  EXPECT_LT(s.steering_torque_Nm, 0.0);  // the road turns the wheel back
+  EXPECT_GT(s.wheels[kFrontRight].load_N, s.wheels[kFrontLeft].load_N);
+  const double ay = s.w_WB_B.z() * s.speed_mps();
+  double side = 0.0;
+  for (const auto& wheel : s.wheels) side += wheel.lateral_N * std::cos(wheel.steer_rad) + wheel.longitudinal_N * std::sin(wheel.steer_rad);
+  EXPECT_NEAR(side, settings.mass_kg * ay, 0.05 * side);
+  // The steering ratio that the file names is that of rack and steering arms.
+  const double steer = 0.5 * (s.wheels[kFrontLeft].steer_rad + s.wheels[kFrontRight].steer_rad);
+  EXPECT_NEAR(0.5 / steer, settings.steering.ratio, 0.15 * settings.steering.ratio);
+}
+
+TEST(PrototypeDynamics, LeftAndRightAreMirrorImages) {
+  auto left = Prototype();
+  auto right = Prototype();
+  PlaneGround ground;
+  ASSERT_TRUE(left->Initialise({.speed_mps = 15.0}, ground).ok());
+  ASSERT_TRUE(right->Initialise({.speed_mps = 15.0}, ground).ok());
+  for (int i = 0; i < 2000; ++i) {
+    Controls controls;
+    controls.throttle = 0.2;
+    controls.steering_wheel_rad = 0.8 * std::sin(0.003 * i);
+    left->Step(controls, ground, kStep);
+    controls.steering_wheel_rad = -controls.steering_wheel_rad;
+    right->Step(controls, ground, kStep);
+  }
+  EXPECT_NEAR(left->state().p_WB_W.y(), -right->state().p_WB_W.y(), 1e-6);
+  EXPECT_NEAR(left->state().p_WB_W.x(), right->state().p_WB_W.x(), 1e-6);
+  EXPECT_NEAR(left->state().wheels[kFrontLeft].load_N, right->state().wheels[kFrontRight].load_N, 1e-3);
+}
+
+// Ten milliseconds against a tenth of one, steering a function of time: yaw rate within 1 % RMS, path within 2 cm.
+TEST(PrototypeDynamics, TenMillisecondsAgreeWithATenthOfOne) {
+  auto coarse = Prototype();
+  auto fine = Prototype();
+  PlaneGround ground;
+  ASSERT_TRUE(coarse->Initialise({.speed_mps = 15.0}, ground).ok());
+  ASSERT_TRUE(fine->Initialise({.speed_mps = 15.0}, ground).ok());
+  Controls controls;
+  controls.throttle = 0.15;
+  double square = 0.0, difference = 0.0, path = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    controls.steering_wheel_rad = 0.8 * std::sin(0.02 * i);
+    coarse->Step(controls, ground, 0.01);
+    for (int k = 0; k < 100; ++k) fine->Step(controls, ground, 0.0001);
+    square += std::pow(fine->state().w_WB_B.z(), 2);
+    difference += std::pow(fine->state().w_WB_B.z() - coarse->state().w_WB_B.z(), 2);
+    path = std::max(path, (fine->state().p_WB_W - coarse->state().p_WB_W).norm());
+  }
+  EXPECT_LE(std::sqrt(difference / square), 0.01);
+  EXPECT_LE(path, 0.02);
+}
+
+TEST(PrototypeBits, RestoredItGoesOnWithTheSameBits) {
+  auto first = Prototype();
+  auto second = Prototype();
+  HillGround ground(3, {});
+  ASSERT_TRUE(first->Initialise({.speed_mps = 10.0}, ground).ok());
+  Controls controls;
+  controls.throttle = 0.5;
+  for (int i = 0; i < 700; ++i) {
+    controls.steering_wheel_rad = 0.01 * (i % 90);
+    first->Step(controls, ground, kStep);
+  }
+  base::StateWriter snapshot;
+  first->Save(snapshot);
+  base::StateReader reader(snapshot.bytes());
+  second->Restore(reader);
+  ASSERT_TRUE(reader.Finish().ok());
+  for (int i = 0; i < 1000; ++i) {
+    controls.steering_wheel_rad = 0.01 * (i % 70);
+    first->Step(controls, ground, kStep);
+    second->Step(controls, ground, kStep);
+    base::StateWriter a, b;
+    first->Save(a);
+    second->Save(b);
+    ASSERT_EQ(a.bytes(), b.bytes()) << "step " << i;
+  }
+}
+
+// Whatever the driver does on whatever hills: finite numbers, loads at least 0.
+TEST(PrototypeBits, AnythingAnywhereStaysFinite) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const auto draw = [&](std::uint64_t what, int i, double low, double high) {
+      return base::RandomUniform({seed, what, static_cast<std::uint64_t>(i / 200)}, low, high);
+    };
+    HillGround::Kind kind;
+    kind.amplitude_m = 2.0 * static_cast<double>(seed);
+    kind.wave_m = 60.0;
+    kind.terrace_m = seed == 5 ? 1.0 : 0.0;
+    HillGround ground(seed, kind);
+    auto car = Prototype();
+    if (!car->Initialise({.speed_mps = 5.0 * static_cast<double>(seed)}, ground).ok()) continue;
+    for (int i = 0; i < 4000; ++i) {
+      Controls c;
+      c.steering_wheel_rad = draw(0, i, -9.0, 9.0);
+      c.throttle = draw(1, i, 0.0, 1.0);
+      c.brake = std::max(0.0, draw(2, i, -2.0, 1.0));
+      c.handbrake = std::max(0.0, draw(3, i, -4.0, 1.0));
+      c.gear = draw(4, i, 0.0, 1.0) < 0.2 ? -1 : 1;
+      car->Step(c, ground, kStep);
+      const VehicleState& s = car->state();
+      ASSERT_TRUE(s.p_WB_W.allFinite() && s.q_WB.coeffs().allFinite() && s.v_WB_W.allFinite() && s.w_WB_B.allFinite()) << seed << " " << i;
+      ASSERT_LT(s.v_WB_W.norm(), 150.0) << seed << " " << i;
+      for (const WheelState& wheel : s.wheels) ASSERT_TRUE(std::isfinite(wheel.load_N) && wheel.load_N >= 0.0) << seed << " " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::vehicle
