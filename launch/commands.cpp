@@ -9,9 +9,11 @@
 #include "common/base/suggest.hpp"
 #include "launch/ctl_command.hpp"
 #include "launch/doctor.hpp"
+#include "launch/export_command.hpp"
 #include "launch/info_command.hpp"
 #include "launch/joysticks_command.hpp"
 #include "launch/mechanism_command.hpp"
+#include "launch/repair_command.hpp"
 #include "launch/replay_command.hpp"
 #include "launch/run_command.hpp"
 #include "launch/world_command.hpp"
@@ -55,7 +57,8 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   run->add_option("LAUNCH.yaml", options.launch_file, "launch file")->required();
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
   run->add_option("--pace", options.pace, "max, real or a factor of real time; otherwise the launch file's, or max");
-  run->add_option("--record", options.record, "recording (MCAP)");
+  CLI::Option* record = run->add_option("--record", options.record, "recording (MCAP); otherwise a dated file in the folder of recordings");
+  run->add_flag("--no-record", options.no_record, "no recording")->excludes(record);
   run->add_option("--seed", options.seed, "seed of everything that is drawn");
   run->add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file");
   run->add_option("--meta", options.meta, "KEY=VALUE: written into the recording (participant=P07)");
@@ -135,6 +138,26 @@ CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::stri
   return replay;
 }
 
+// What is asked of a recording.
+struct RecordingOptions {
+  std::string info_file;
+  std::string repair_file;
+  std::string repair_out;
+  ExportOptions exported;
+};
+
+void AddRecording(CLI::App& app, RecordingOptions& options) {
+  CLI::App* info = app.add_subcommand("info", "what a recording holds, and whether every sample is there");
+  info->add_option("FILE.mcap", options.info_file, "recording")->required();
+  CLI::App* tables = app.add_subcommand("export", "write a recording as tables");
+  tables->add_option("--csv", options.exported.csv, "new folder, one CSV file a topic")->required();
+  tables->add_option("FILE.mcap", options.exported.recording, "recording")->required();
+  tables->add_flag("--quiet", options.exported.quiet, "no progress, no list");
+  CLI::App* repair = app.add_subcommand("repair", "write what is left of a damaged recording as a whole one");
+  repair->add_option("FILE.mcap", options.repair_file, "recording")->required();
+  repair->add_option("--out", options.repair_out, "the new file")->required();
+}
+
 }  // namespace
 
 int Main(int argc, char** argv) {
@@ -156,9 +179,8 @@ int Main(int argc, char** argv) {
   AddJoysticks(app, joysticks);
   CtlOptions ctl_options;
   const CLI::App* ctl = AddCtl(app, ctl_options);
-  std::string info_file;
-  CLI::App* info = app.add_subcommand("info", "what a recording holds");
-  info->add_option("FILE.mcap", info_file, "recording")->required();
+  RecordingOptions recording;
+  AddRecording(app, recording);
   ReplayOptions replay_options;
   std::vector<std::string> changes;
   CLI::App* replay = AddReplay(app, replay_options, changes);
@@ -172,7 +194,9 @@ int Main(int argc, char** argv) {
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);
   if (ctl->parsed()) return Ctl(ctl_options);
-  if (info->parsed()) return Info(info_file);
+  if (app.got_subcommand("info")) return Info(recording.info_file);
+  if (app.got_subcommand("export")) return Export(recording.exported);
+  if (app.got_subcommand("repair")) return RepairRecording(recording.repair_file, recording.repair_out);
   if (!TakePairs("--set", sets, run.overrides) || !TakePairs("--branch", changes, replay_options.changes)) return 2;
   if (replay->parsed()) return Replay(replay_options);
   return Run(run);

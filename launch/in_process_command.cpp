@@ -78,6 +78,7 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   settings.next_command = [&desk] { return NextCommand(desk); };
   ::signal(SIGINT, OnInterrupt);
   ::signal(SIGTERM, OnInterrupt);
+  ::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error to report, like a full disk
   const auto start = std::chrono::steady_clock::now();
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -49,7 +49,8 @@ int RunMechanismFile(const MechanismOptions& options) {
     fmt::print(stderr, "\r{:3.0f} %", 100.0 * share);
     shown = true;
   };
-  const base::Status status = multibody::RunMechanism(mechanism.value(), options.until_s, options.step_s, table, summary, progress);
+  const base::Status status =
+      multibody::RunMechanism(mechanism.value(), options.until_s, options.step_s, table, summary, progress);
   const double wall_s = SecondsSince(begin);
   if (shown) fmt::print(stderr, "\r     \r");
   if (!status) {

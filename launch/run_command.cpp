@@ -49,11 +49,28 @@ std::string FreshRunName() {
   return fmt::format("{:08x}{:08x}", device(), device());
 }
 
-std::string DatedRecording(const std::string& name) {
+// NAME-DATE-TIME.mcap; with a number behind it where a run of the same second has taken the name.
+std::string DatedRecording(const std::string& launch_name) {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   ::localtime_r(&now, &local);
-  return (RecordingFolder() / fmt::format("{}-{:%Y%m%d-%H%M%S}.mcap", name, local)).string();
+  std::string name = launch_name;
+  std::ranges::replace(name, '/', '_');
+  const std::string stem = fmt::format("{}-{:%Y%m%d-%H%M%S}", name, local);
+  std::error_code problem;
+  for (int number = 1;; ++number) {
+    const auto path = RecordingFolder() / (stem + (number == 1 ? "" : fmt::format("-{}", number)) + ".mcap");
+    if (!std::filesystem::exists(path, problem)) return path.string();
+  }
+}
+
+// The name, or name2, name3 …: what no node of the launch file is called.
+std::string FreeName(const launch::Launch& launch, const std::string& name) {
+  std::string free = name;
+  const auto is_it = [&free](const launch::LaunchNode& node) { return node.name == free; };
+  const auto taken = [&] { return std::ranges::any_of(launch.nodes(), is_it); };
+  for (int number = 2; taken(); ++number) free = fmt::format("{}{}", name, number);
+  return free;
 }
 
 // The processes of a run, their clock's words, and their end.
@@ -298,36 +315,45 @@ class ProcessRun {
   WallClock::time_point start_ = WallClock::now();
 };
 
-// Where the recording goes: --record, else the launch file's own, else a dated file in the user's data folder. Adds a
-// recorder where --record asks for one that the launch file does not have. On a PC of a laboratory only its own recorder counts.
+// Where the recording goes: --record, else the launch file's own, else a dated file in the user's data folder. A recorder
+// that the launch file does not have is added; --no-record takes those away that it has. On a PC of a laboratory only its own
+// recorder counts, and none is added: all PCs must agree on who takes part.
 base::Status ResolveRecording(const launch::Launch& launch, const Placement& placement, RunOptions& options, launch::Overrides& overrides) {
   std::string recorder;
-  bool has_file = false;
+  std::string own;  // what the launch file says
   for (const launch::LaunchNode& node : launch.nodes()) {
-    if (node.kind->name != "recorder" || !recorder.empty()) continue;
+    if (node.kind->name != "recorder") continue;
+    if (options.no_record) overrides.emplace_back("nodes." + node.name + ".kind", std::string(launch::kNoKind));
+    if (options.no_record || !recorder.empty()) continue;
     if (!placement.Has(node)) {
       if (options.record.empty()) return {};
       return base::WrongInput(fmt::format("the recorder '{}' runs on another host; say it there", node.name), "--record");
     }
     recorder = node.name;
-    const config::Map config = node.config->OptionalChild("config");
-    has_file = config.Has("file");
-    if (has_file && options.record.empty()) options.record = config.Path("file").string();
+    own = node.config->OptionalChild("config").Peek({"file"}).value_or("");
+    if (!own.empty()) own = node.config->OptionalChild("config").Path("file").string();
   }
-  if (options.record.empty() && recorder.empty()) return {};
-  if (has_file && options.record == launch.node(launch.roster().Find(recorder)).config->OptionalChild("config").Path("file").string()) return {};
+  if (options.no_record) return {};
+  if (options.record.empty()) options.record = own;
+  if (!own.empty() && options.record == own) return {};
+  if (options.record.empty() && recorder.empty() && !placement.host().empty()) return {};
   std::error_code problem;
   if (options.record.empty()) {
     options.record = DatedRecording(launch.name());
     std::filesystem::create_directories(RecordingFolder(), problem);
-    if (problem) return base::Failed(fmt::format("the folder for recordings cannot be made: {}; name a file by --record", problem.message()), RecordingFolder().string());
+    if (problem) {
+      const std::string what = fmt::format("the folder for recordings cannot be made: {}; name a file by --record, or say --no-record", problem.message());
+      return base::Failed(what, RecordingFolder().string());
+    }
   }
   options.record = std::filesystem::absolute(options.record, problem).string();
   if (std::filesystem::exists(options.record, problem)) return base::WrongInput("the file exists; a recording is never overwritten", options.record);
   if (recorder.empty()) {
-    if (!placement.host().empty()) return base::WrongInput("the launch file has no recorder; with several PCs it must have one, 'recorder: {kind: recorder}'", "--record");
-    recorder = "recorder";
-    overrides.emplace_back("nodes.recorder.kind", "recorder");
+    if (!placement.host().empty()) {
+      return base::WrongInput("the launch file has no recorder; with several PCs it must have one, 'recorder: {kind: recorder}'", "--record");
+    }
+    recorder = FreeName(launch, "recorder");
+    overrides.emplace_back("nodes." + recorder + ".kind", "recorder");
   }
   overrides.emplace_back("nodes." + recorder + ".config.file", "\"" + options.record + "\"");
   return {};

@@ -15,7 +15,8 @@ struct RunOptions {
   std::string launch_file;
   std::optional<double> duration_s;
   std::string pace;  // empty: as the launch file says, otherwise as fast as it can
-  std::string record;       // empty: as the launch file says
+  std::string record;       // empty: as the launch file says, otherwise a dated file in the folder of recordings
+  bool no_record = false;
   std::optional<std::uint64_t> seed;
   launch::Overrides overrides;
   std::vector<std::string> meta;  // KEY=VALUE, for the recording

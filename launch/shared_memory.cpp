@@ -1,5 +1,7 @@
 #include "launch/shared_memory.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -40,6 +42,28 @@ std::set<std::string> InUse(const std::filesystem::path& folder) {
   return used;
 }
 
+// What belongs to one segment or port: "fastrtps_port7410" of "sem.fastrtps_port7410_mutex" and "fastrtps_port7410_el".
+std::string GroupOf(std::string name) {
+  if (name.starts_with("sem.")) name.erase(0, 4);
+  for (const std::string_view end : {"_mutex", "_el", "_sl"}) {
+    if (name.ends_with(end)) name.erase(name.size() - end.size());
+  }
+  return name;
+}
+
+// Fast DDS locks a file beside each segment and port as long as it lives: this tells of processes too that /proc does not
+// show, in a container with the same /dev/shm.
+bool IsLocked(const std::filesystem::path& folder, const std::string& group) {
+  for (const char* end : {"_el", "_sl"}) {
+    const int file = ::open((folder / (group + end)).c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) continue;
+    const bool locked = ::flock(file, LOCK_EX | LOCK_NB) != 0;
+    ::close(file);
+    if (locked) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::set<std::string> SharedMemoryFiles(const std::filesystem::path& folder) {
@@ -73,6 +97,7 @@ std::set<std::string> DeadFiles(const std::set<std::string>& before, const std::
     return false;
   };
   std::erase_if(dead, in_use);
+  std::erase_if(dead, [&folder](const std::string& name) { return IsLocked(folder, GroupOf(name)); });
   return dead;
 }
 

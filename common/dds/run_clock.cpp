@@ -234,9 +234,21 @@ class ClockProcess {
       refusal_ = fmt::format("node '{}' (process {} on host {}) was refused: {}", named.node, named.hello.pid, named.hello.host, status.error().Text());
       return;
     }
+    if (named.report.phase < lockstep::Phase::kFailed && IsTwice(node, named)) return;
     named.report.node = node;
     watchdog_.Heard(named.report, NowNs() / 1'000'000);
     if (auto status = clock_.Take(named.report); !status) Say("refused {}", OneLine(status.error().Text()));
+  }
+
+  // Two processes as one node, of one life: somebody has started the same host twice.
+  bool IsTwice(lockstep::NodeIndex node, const NamedReport& named) {
+    const Who now{named.report.incarnation, named.hello.host, named.hello.pid};
+    Who& known = who_[node];
+    if (known.pid == 0 || known.incarnation < now.incarnation) known = now;
+    if (known.incarnation != now.incarnation || (known.pid == now.pid && known.host == now.host)) return false;
+    refusal_ = fmt::format("node '{}' takes part twice, as process {} on host {} and as process {} on host {}; end one of them", named.node, known.pid, known.host,
+                           now.pid, now.host);
+    return true;
   }
 
   void SayGrant(const lockstep::Grant& grant) { (void)grants_->Write(EncodeGrant({clock_id_, ++serial_, grant})); }
@@ -293,6 +305,12 @@ class ClockProcess {
   lockstep::Conductor conductor_;
   lockstep::Watchdog watchdog_;
   Hello own_;
+  struct Who {
+    std::uint32_t incarnation = 0;
+    std::string host;
+    std::uint32_t pid = 0;
+  };
+  std::vector<Who> who_ = std::vector<Who>(roster_.nodes().size());
   std::uint64_t clock_id_ = 0;
   std::uint32_t serial_ = 0;
   std::atomic<std::uint64_t> other_clock_ = 0;

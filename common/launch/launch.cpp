@@ -146,6 +146,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   std::vector<NodeWish> wishes;
   std::vector<config::Map> maps;
   for (const std::string& name : nodes.Keys()) {
+    if (nodes.Peek({name, "kind"}) == kNoKind) continue;  // as if it were not there, with all that stands under it
     const config::Map map = nodes.OptionalChild(name);
     const std::string kind_name = map.Choice("kind", KindNames());
     const NodeKind* kind = FindKind(kind_name);

@@ -87,7 +87,8 @@ void BlockLdlt::Analyse(int entities, std::span<const int> free, std::span<const
   std::size_t longest = 0;
   targets_.clear();
   for (int j = 0; j < count; ++j) {
-    const std::span<const int> rows(rows_.data() + start_[static_cast<std::size_t>(j)], rows_.data() + start_[static_cast<std::size_t>(j) + 1]);
+    const std::span<const int> rows(rows_.data() + start_[static_cast<std::size_t>(j)],
+                                    rows_.data() + start_[static_cast<std::size_t>(j) + 1]);
     longest = std::max(longest, rows.size());
     for (std::size_t a = 0; a < rows.size(); ++a) {
       for (std::size_t b = 0; b <= a; ++b) {
@@ -154,7 +155,8 @@ bool BlockLdlt::Factorise() {
       }
     }
     for (int a = 0; a < size; ++a) {
-      for (int b = 0; b <= a; ++b) Subtract(column[a], column_[static_cast<std::size_t>(b)], values_[static_cast<std::size_t>(*target++)]);
+      for (int b = 0; b <= a; ++b)
+        Subtract(column[a], column_[static_cast<std::size_t>(b)], values_[static_cast<std::size_t>(*target++)]);
     }
   }
   return true;

@@ -67,7 +67,7 @@ class BlockLdlt {
 // Adds weight · gₐ g_bᵀ to blocks: what a scalar with gradient g adds to a normal matrix.
 struct OuterPair {
   int block = 0;
-  int row = 0;  // which of the gradients stands for the row …
+  int row = 0;     // which of the gradients stands for the row …
   int column = 0;  // … and for the column
 };
 std::vector<OuterPair> OuterPairs(const BlockLdlt& matrix, std::span<const int> entities);

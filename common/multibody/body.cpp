@@ -23,7 +23,8 @@ struct Direction {
   int vector = -1;  // a vector entity keeps its own length
 };
 
-std::vector<Direction> DirectionsOf(const BodyDrawing& body, const std::vector<double>& at, const std::vector<std::string>& names) {
+std::vector<Direction> DirectionsOf(const BodyDrawing& body, const std::vector<double>& at,
+                                    const std::vector<std::string>& names) {
   std::vector<Direction> directions;
   for (const int vector : body.vectors) {
     directions.push_back({Single(vector), At(at, vector), names[static_cast<std::size_t>(vector)], vector});
@@ -31,7 +32,8 @@ std::vector<Direction> DirectionsOf(const BodyDrawing& body, const std::vector<d
   for (std::size_t i = 1; i < body.points.size(); ++i) {
     const Form way = Sum(Single(body.points[i]), Single(body.points[0]), -1.0);
     directions.push_back({way, At(at, body.points[i]) - At(at, body.points[0]),
-                          names[static_cast<std::size_t>(body.points[0])] + "-" + names[static_cast<std::size_t>(body.points[i])], -1});
+                          names[static_cast<std::size_t>(body.points[0])] + "-" + names[static_cast<std::size_t>(body.points[i])],
+                          -1});
   }
   return directions;
 }
@@ -53,7 +55,8 @@ std::vector<std::size_t> Basis(const std::vector<Direction>& directions, std::si
 
 RowDrawing KeepDot(const BodyDrawing& body, const Direction& a, const Direction& b) {
   RowDrawing row;
-  row.name = &a == &b ? fmt::format("{} (length {})", body.name, a.name) : fmt::format("{} (angle {} to {})", body.name, a.name, b.name);
+  row.name =
+      &a == &b ? fmt::format("{} (length {})", body.name, a.name) : fmt::format("{} (angle {} to {})", body.name, a.name, b.name);
   row.place = body.place;
   row.kind = RowKind::kDot;
   row.v = a.form;
@@ -70,7 +73,8 @@ Eigen::Matrix4d PseudoInertia(const BodyDrawing& body, const Vector3d& origin) {
   j(0, 0) = body.mass_kg;
   j.block<3, 1>(1, 0) = body.mass_kg * c;
   j.block<1, 3>(0, 1) = body.mass_kg * c.transpose();
-  j.block<3, 3>(1, 1) = 0.5 * body.inertia_kgm2.trace() * Eigen::Matrix3d::Identity() - body.inertia_kgm2 + body.mass_kg * c * c.transpose();
+  j.block<3, 3>(1, 1) =
+      0.5 * body.inertia_kgm2.trace() * Eigen::Matrix3d::Identity() - body.inertia_kgm2 + body.mass_kg * c * c.transpose();
   return j;
 }
 
@@ -110,16 +114,20 @@ base::Status CheckMass(const BodyDrawing& body, const Vector3d& line_origin, con
   if (body.kind == BodyKind::kRod || body.kind == BodyKind::kParticle) {
     const Vector3d off = body.centre_m - line_origin;
     const Vector3d beside = line.isZero() ? off : Vector3d(off - off.dot(line) / line.squaredNorm() * line);
-    if (beside.norm() > 1e-9 * (1.0 + off.norm())) return Refuse(body, "has its centre beside its points; a general body can have that");
+    if (beside.norm() > 1e-9 * (1.0 + off.norm()))
+      return Refuse(body, "has its centre beside its points; a general body can have that");
     return {};
   }
   if (body.kind == BodyKind::kPlanar) return {};
-  if (body.kind == BodyKind::kPlate && std::fabs((body.centre_m - line_origin).dot(normal)) > 1e-9 * (1.0 + (body.centre_m - line_origin).norm())) {
+  if (body.kind == BodyKind::kPlate &&
+      std::fabs((body.centre_m - line_origin).dot(normal)) > 1e-9 * (1.0 + (body.centre_m - line_origin).norm())) {
     return Refuse(body, "has its centre beside the plane of its points; a general body can have that");
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(0.5 * body.inertia_kgm2.trace() * Eigen::Matrix3d::Identity() - body.inertia_kgm2);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(0.5 * body.inertia_kgm2.trace() * Eigen::Matrix3d::Identity() -
+                                                              body.inertia_kgm2);
   if (solver.eigenvalues().minCoeff() < -1e-9 * (1e-12 + body.inertia_kgm2.norm())) {
-    return Refuse(body, "has moments of inertia that no mass has: each of the principal ones must be at most the sum of the other two");
+    return Refuse(body,
+                  "has moments of inertia that no mass has: each of the principal ones must be at most the sum of the other two");
   }
   return {};
 }
@@ -129,7 +137,9 @@ std::array<Form, 3> AxesFrom(const std::array<Form, 3>& basis, const Eigen::Matr
   const Eigen::Matrix3d inverse = drawn.inverse();
   std::array<Form, 3> axes;
   for (int axis = 0; axis < 3; ++axis) {
-    for (int k = 0; k < 3; ++k) axes[static_cast<std::size_t>(axis)] = Sum(axes[static_cast<std::size_t>(axis)], basis[static_cast<std::size_t>(k)], inverse(k, axis));
+    for (int k = 0; k < 3; ++k)
+      axes[static_cast<std::size_t>(axis)] =
+          Sum(axes[static_cast<std::size_t>(axis)], basis[static_cast<std::size_t>(k)], inverse(k, axis));
   }
   return axes;
 }
@@ -137,7 +147,8 @@ std::array<Form, 3> AxesFrom(const std::array<Form, 3>& basis, const Eigen::Matr
 // A direction as a combination of the basis: what it needs to be tied to it.
 Tie TieTo(const BodyDrawing& body, const Frame& frame, const Direction& direction) {
   const Form combined = frame.DirectionOf(direction.drawn);
-  return {fmt::format("{} ({})", body.name, direction.name), body.place, Sum(direction.form, combined, -1.0).terms, direction.vector};
+  return {fmt::format("{} ({})", body.name, direction.name), body.place, Sum(direction.form, combined, -1.0).terms,
+          direction.vector};
 }
 
 }  // namespace
@@ -147,7 +158,8 @@ Form Frame::DirectionOf(const Vector3d& drawn) const {
   for (int c = 0; c < 3; ++c) {
     if (drawn[c] != 0.0) form = Sum(form, axes[static_cast<std::size_t>(c)], drawn[c]);
   }
-  std::erase_if(form.terms, [&drawn](const Term& term) { return std::fabs(term.a) + std::fabs(term.b) < 1e-15 * (1.0 + drawn.norm()); });
+  std::erase_if(form.terms,
+                [&drawn](const Term& term) { return std::fabs(term.a) + std::fabs(term.b) < 1e-15 * (1.0 + drawn.norm()); });
   return form;
 }
 
@@ -183,7 +195,8 @@ base::Result<BodyParts> MakeBody(const BodyDrawing& body, const std::vector<doub
   const std::vector<std::size_t> basis = Basis(directions, wanted);
   if (basis.size() < wanted) {
     if (wanted == 2) return Refuse(body, "is a plate, but its points lie on a line");
-    return Refuse(body, wanted == 3 ? "has no three independent directions; it needs one more point or vector that does not lie in the plane (or on the line) of the others"
+    return Refuse(body, wanted == 3 ? "has no three independent directions; it needs one more point or vector that does not lie "
+                                      "in the plane (or on the line) of the others"
                                     : "needs two points that do not coincide");
   }
   Vector3d normal = Vector3d::Zero();
@@ -193,7 +206,10 @@ base::Result<BodyParts> MakeBody(const BodyDrawing& body, const std::vector<doub
     normal = drawn.col(0).cross(drawn.col(1)).normalized();
     const Eigen::Matrix<double, 2, 3> inverse = (drawn.transpose() * drawn).inverse() * drawn.transpose();
     for (int axis = 0; axis < 3; ++axis) {
-      for (int k = 0; k < 2; ++k) parts.frame.axes[static_cast<std::size_t>(axis)] = Sum(parts.frame.axes[static_cast<std::size_t>(axis)], directions[basis[static_cast<std::size_t>(k)]].form, inverse(k, axis));
+      for (int k = 0; k < 2; ++k)
+        parts.frame.axes[static_cast<std::size_t>(axis)] =
+            Sum(parts.frame.axes[static_cast<std::size_t>(axis)], directions[basis[static_cast<std::size_t>(k)]].form,
+                inverse(k, axis));
     }
   } else if (body.kind == BodyKind::kGeneral) {
     Eigen::Matrix3d drawn;

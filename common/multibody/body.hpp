@@ -37,9 +37,9 @@ struct Frame {
   Form origin;
   std::array<Form, 3> axes;
 
-  Form PointAt(const Vector3d& drawn) const;          // the body's material point that was drawn there
-  Form DirectionOf(const Vector3d& drawn) const;      // the body's direction that was drawn so
-  Eigen::Matrix3d Rotation(const double* q) const;    // from drawn to now
+  Form PointAt(const Vector3d& drawn) const;        // the body's material point that was drawn there
+  Form DirectionOf(const Vector3d& drawn) const;    // the body's direction that was drawn so
+  Eigen::Matrix3d Rotation(const double* q) const;  // from drawn to now
 };
 
 // A term of the mass matrix between two entities: a I + b (z ×).
@@ -61,17 +61,18 @@ struct Tie {
 // What a body means for the equations.
 struct BodyParts {
   Frame frame;
-  std::vector<MassTerm> mass;      // row >= column entity
-  Form centre;                     // where its weight acts
+  std::vector<MassTerm> mass;  // row >= column entity
+  Form centre;                 // where its weight acts
   double mass_kg = 0.0;
   std::vector<int> entities;
-  bool turns = false;              // has a frame that torques can act on
-  std::vector<RowDrawing> rows;    // keep its directions' lengths and angles
-  std::vector<Tie> ties;           // points and vectors beyond the four that make its frame
+  bool turns = false;            // has a frame that torques can act on
+  std::vector<RowDrawing> rows;  // keep its directions' lengths and angles
+  std::vector<Tie> ties;         // points and vectors beyond the four that make its frame
 };
 
 // `at`: the drawn coordinates. Refused where the entities do not make a frame or the mass is no mass.
-base::Result<BodyParts> MakeBody(const BodyDrawing& drawing, const std::vector<double>& at, const std::vector<std::string>& names);
+base::Result<BodyParts> MakeBody(const BodyDrawing& drawing, const std::vector<double>& at,
+                                 const std::vector<std::string>& names);
 
 // Q of a torque (in the world's axes) on the body: every axis e takes ½ torque × e.
 void PushTorque(const Frame& frame, const Vector3d& torque_W, const double* q, double* out);

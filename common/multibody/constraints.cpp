@@ -136,7 +136,8 @@ void Constraints::AddTies(const BlockLdlt& matrix, double weight, Block* blocks)
     for (int component = 0; component < 3; ++component) {
       std::vector<Triple> gradients;
       for (const Term& term : terms) {
-        const Vector3d g = Transposed(term, Vector3d::Unit(component)).cwiseProduct(Eigen::Map<const Vector3d>(free_.data() + 3 * term.entity));
+        const Vector3d g =
+            Transposed(term, Vector3d::Unit(component)).cwiseProduct(Eigen::Map<const Vector3d>(free_.data() + 3 * term.entity));
         gradients.push_back({{g.x(), g.y(), g.z(), 0.0}});
       }
       AddOuter(pairs, gradients.data(), weight, blocks);

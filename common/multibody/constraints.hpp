@@ -49,7 +49,7 @@ class Constraints {
   std::vector<Tie> ties_;
   std::vector<Term> tie_terms_;       // of all ties, one after the other
   std::vector<std::size_t> tie_end_;  // of each
-  std::vector<std::size_t> first_;  // of each row in gradients_
+  std::vector<std::size_t> first_;    // of each row in gradients_
   std::vector<Triple> gradients_;
   std::vector<std::vector<OuterPair>> pairs_;
   std::vector<double> values_;

@@ -97,7 +97,8 @@ void DrawingReader::ReadDistances(const Map& root) {
 }
 
 // "beta" or "P.x".
-std::optional<DrawingReader::Coordinate> DrawingReader::CoordinateNamed(const Map& map, std::string_view key, const std::string& name) const {
+std::optional<DrawingReader::Coordinate> DrawingReader::CoordinateNamed(const Map& map, std::string_view key,
+                                                                        const std::string& name) const {
   const auto dot = name.rfind('.');
   if (dot != std::string::npos && dot + 2 == name.size() && std::string("xyz").find(name[dot + 1]) != std::string::npos) {
     const auto entity = Entity(map, key, name.substr(0, dot), false);
@@ -139,7 +140,8 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
     if (!points) return;
     row.v = row.w = Sum((*points)[1], (*points)[0], -1.0);
     const double length = map.Has("length_m") ? map.Number("length_m", {kShort, 1e6}) : Drawn(row.v).norm();
-    if (!(length >= kShort)) return map.Problem("points", "the points coincide; a distance over 0 was expected ('kind: same' joins points)");
+    if (!(length >= kShort))
+      return map.Problem("points", "the points coincide; a distance over 0 was expected ('kind: same' joins points)");
     row.value = length * length;
     row.scale = 0.5 / length;
     return drawing_.rows.push_back(row);
@@ -152,7 +154,8 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
     if (!(sizes > kShort * kShort)) return map.Problem("a", "a direction has no length");
     row.v = *a;
     row.w = *b;
-    row.value = kind == "perpendicular" ? 0.0 : (map.Has("value_m2") ? map.Number("value_m2", {-1e12, 1e12}) : Drawn(*a).dot(Drawn(*b)));
+    row.value =
+        kind == "perpendicular" ? 0.0 : (map.Has("value_m2") ? map.Number("value_m2", {-1e12, 1e12}) : Drawn(*a).dot(Drawn(*b)));
     row.scale = 1.0 / std::sqrt(sizes);
     return drawing_.rows.push_back(row);
   }
@@ -177,7 +180,8 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
     for (int c = 0; c < (planar_ ? 2 : 3); ++c) {
       row.name = fmt::format("{} ({})", name, "xyz"[c]);
       row.sum.clear();
-      for (const Term& term : Sum((*points)[1], (*points)[0], -1.0).terms) row.sum.emplace_back(term.entity, Transposed(term, Vector3d::Unit(c)));
+      for (const Term& term : Sum((*points)[1], (*points)[0], -1.0).terms)
+        row.sum.emplace_back(term.entity, Transposed(term, Vector3d::Unit(c)));
       drawing_.rows.push_back(row);
     }
     return;
@@ -186,7 +190,9 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
     const auto coordinate = CoordinateNamed(map, "coordinate", map.Text("coordinate"));
     row.law = ReadLaw(map, "value");
     if (!coordinate) return;
-    if (!map.Has("value")) row.law.c0 = at_[static_cast<std::size_t>(3 * coordinate->entity + coordinate->component)] - row.law.amplitude * std::sin(row.law.phase_rad);
+    if (!map.Has("value"))
+      row.law.c0 = at_[static_cast<std::size_t>(3 * coordinate->entity + coordinate->component)] -
+                   row.law.amplitude * std::sin(row.law.phase_rad);
     row.sum = {{coordinate->entity, Vector3d::Unit(coordinate->component)}};
     return drawing_.rows.push_back(row);
   }

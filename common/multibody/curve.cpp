@@ -16,7 +16,8 @@ Curve::Curve(std::vector<Sample> samples) : samples_(std::move(samples)) {
 }
 
 std::size_t Curve::Segment(double x) const {
-  const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, x, [](double value, const Sample& sample) { return value < sample.x; });
+  const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, x,
+                                      [](double value, const Sample& sample) { return value < sample.x; });
   return static_cast<std::size_t>(above - samples_.begin()) - 1;
 }
 

@@ -26,7 +26,8 @@ DrawingReader::DrawingReader(const Map& root) {
   planar_ = root.Flag("planar", false);
   drawing_.redundant = root.Flag("redundant", false);
   if (root.Has("gravity_mps2")) drawing_.gravity_mps2 = ThreeNumbers(root, "gravity_mps2", 1e4);
-  for (const auto& [name, direction] : {std::pair("world x", Vector3d::UnitX()), std::pair("world y", Vector3d::UnitY()), std::pair("world z", Vector3d::UnitZ())}) {
+  for (const auto& [name, direction] : {std::pair("world x", Vector3d::UnitX()), std::pair("world y", Vector3d::UnitY()),
+                                        std::pair("world z", Vector3d::UnitZ())}) {
     const int entity = AddEntity(root, name, EntityKind::kVector, direction);
     drawing_.entities[static_cast<std::size_t>(entity)].fixed = {true, true, true};
     if (name == std::string("world x")) world_x_ = entity;
@@ -41,7 +42,8 @@ DrawingReader::DrawingReader(const Map& root) {
   ReadConstraints(root);
   ReadForces(root);
   if (drawing_.entities.size() > kMostEntities) {
-    root.Problem("points", fmt::format("the mechanism has {} points, vectors and coordinates; at most {} were expected", drawing_.entities.size(), kMostEntities));
+    root.Problem("points", fmt::format("the mechanism has {} points, vectors and coordinates; at most {} were expected",
+                                       drawing_.entities.size(), kMostEntities));
   }
 }
 
@@ -81,7 +83,8 @@ void DrawingReader::ReadPoints(const Map& root) {
     if (!IsNew(points, name)) continue;
     const int index = AddEntity(points, name, EntityKind::kPoint, at);
     EntityDrawing& entity = drawing_.entities.back();
-    for (std::size_t c = 0; c < 3; ++c) entity.fixed[c] = fixed == "true" || (fixed != "false" && fixed.find("xyz"[c]) != std::string::npos);
+    for (std::size_t c = 0; c < 3; ++c)
+      entity.fixed[c] = fixed == "true" || (fixed != "false" && fixed.find("xyz"[c]) != std::string::npos);
     if (planar_) entity.fixed[2] = true;
     if (!map.Has("velocity_mps")) continue;
     const Vector3d velocity = ThreeNumbers(map, "velocity_mps", kMostSpeed_mps);
@@ -117,7 +120,11 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
   body.name = name;
   body.place = bodies.Place(name);
   const std::string kind = map.Choice("kind", {"general", "plate", "planar", "rod", "particle"}, planar_ ? "planar" : "general");
-  body.kind = kind == "planar" ? BodyKind::kPlanar : kind == "plate" ? BodyKind::kPlate : kind == "rod" ? BodyKind::kRod : kind == "particle" ? BodyKind::kParticle : BodyKind::kGeneral;
+  body.kind = kind == "planar"     ? BodyKind::kPlanar
+              : kind == "plate"    ? BodyKind::kPlate
+              : kind == "rod"      ? BodyKind::kRod
+              : kind == "particle" ? BodyKind::kParticle
+                                   : BodyKind::kGeneral;
   bool good = true;
   const auto read = [&](const char* key, EntityKind wanted, std::vector<int>& into) {
     const List list = map.OptionalItems(key);
@@ -126,7 +133,8 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
       const auto found = entities_.find(entity);
       if (found == entities_.end() || drawing_.entities[static_cast<std::size_t>(found->second)].kind != wanted) {
         list.Problem(i, fmt::format("'{}' is no {}{}", entity, wanted == EntityKind::kPoint ? "point" : "vector",
-                                    base::DidYouMean(entity, NamesOf(wanted == EntityKind::kPoint, wanted == EntityKind::kVector, false))));
+                                    base::DidYouMean(
+                                        entity, NamesOf(wanted == EntityKind::kPoint, wanted == EntityKind::kVector, false))));
         good = false;
         continue;
       }
@@ -150,7 +158,8 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
   for (const int point : body.points) centre += at(point) / static_cast<double>(body.points.size());
   const bool line = body.kind == BodyKind::kRod || body.kind == BodyKind::kParticle;
   if (line && body.points.size() > (body.kind == BodyKind::kRod ? 2u : 1u)) {
-    map.Problem("points", fmt::format("a {} has {} points; {} expected", kind, body.points.size(), body.kind == BodyKind::kRod ? "two were" : "one was"));
+    map.Problem("points", fmt::format("a {} has {} points; {} expected", kind, body.points.size(),
+                                      body.kind == BodyKind::kRod ? "two were" : "one was"));
     good = false;
   }
   body.centre_m = line && !map.Has("centre_m") ? centre : ThreeNumbers(map, "centre_m", kMostLength_m);
@@ -165,7 +174,9 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
   } else if (body.kind == BodyKind::kGeneral || body.kind == BodyKind::kPlate) {
     const std::vector<double> i = map.Numbers("inertia_kgm2", {-1e12, 1e12});
     if (map.Has("inertia_kgm2") && i.size() != 6 && i.size() != 3) {
-      map.Problem("inertia_kgm2", fmt::format("'inertia_kgm2' holds {} numbers; three (xx, yy, zz) or six (xx, yy, zz, xy, xz, yz) were expected", i.size()));
+      map.Problem("inertia_kgm2",
+                  fmt::format("'inertia_kgm2' holds {} numbers; three (xx, yy, zz) or six (xx, yy, zz, xy, xz, yz) were expected",
+                              i.size()));
       good = false;
     }
     if (i.size() == 3) body.inertia_kgm2 = Vector3d(i[0], i[1], i[2]).asDiagonal();
@@ -203,7 +214,8 @@ std::vector<std::string> DrawingReader::NamesOf(bool points, bool vectors, bool 
 
 std::optional<int> DrawingReader::Entity(const Map& map, std::string_view key, const std::string& name, bool scalar) const {
   const auto found = entities_.find(name);
-  if (found != entities_.end() && drawing_.entities[static_cast<std::size_t>(found->second)].is_scalar() == scalar) return found->second;
+  if (found != entities_.end() && drawing_.entities[static_cast<std::size_t>(found->second)].is_scalar() == scalar)
+    return found->second;
   map.Problem(key, fmt::format("'{}' is no {}{}", name, scalar ? "angle or distance" : "point or vector",
                                base::DidYouMean(name, NamesOf(!scalar, !scalar, scalar))));
   return std::nullopt;
@@ -213,7 +225,8 @@ std::optional<Form> DrawingReader::Point(const Map& map, std::string_view key, c
   const auto marker = markers_.find(name);
   if (marker != markers_.end()) return marker->second;
   const auto found = entities_.find(name);
-  if (found != entities_.end() && drawing_.entities[static_cast<std::size_t>(found->second)].kind == EntityKind::kPoint) return Single(found->second);
+  if (found != entities_.end() && drawing_.entities[static_cast<std::size_t>(found->second)].kind == EntityKind::kPoint)
+    return Single(found->second);
   map.Problem(key, fmt::format("'{}' is no point{}", name, base::DidYouMean(name, NamesOf(true, false, false))));
   return std::nullopt;
 }
@@ -255,12 +268,14 @@ std::optional<Form> DrawingReader::Direction(const Map& map, std::string_view ke
   if (list.size() == 1) {
     const std::string name = list.Text(0);
     const auto found = entities_.find(name);
-    if (found != entities_.end() && drawing_.entities[static_cast<std::size_t>(found->second)].kind == EntityKind::kVector) return Single(found->second);
+    if (found != entities_.end() && drawing_.entities[static_cast<std::size_t>(found->second)].kind == EntityKind::kVector)
+      return Single(found->second);
     map.Problem(key, fmt::format("'{}' is no vector{}", name, base::DidYouMean(name, NamesOf(false, true, false))));
     return std::nullopt;
   }
   if (list.size() != 2) {
-    if (map.Has(key)) map.Problem(key, fmt::format("'{}' has {} names; [VECTOR] or [POINT, POINT] was expected", key, list.size()));
+    if (map.Has(key))
+      map.Problem(key, fmt::format("'{}' has {} names; [VECTOR] or [POINT, POINT] was expected", key, list.size()));
     return std::nullopt;
   }
   const auto points = TwoPoints(map, key);

@@ -57,8 +57,8 @@ class DrawingReader {
 
   bool planar_ = false;
   Drawing drawing_;
-  std::vector<double> at_;                 // drawn coordinates
-  std::vector<std::string> names_;         // of entities
+  std::vector<double> at_;          // drawn coordinates
+  std::vector<std::string> names_;  // of entities
   std::map<std::string, int, std::less<>> entities_;
   std::map<std::string, Form, std::less<>> markers_;
   int world_x_ = 0, world_y_ = 0;  // fixed vectors

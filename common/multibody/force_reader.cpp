@@ -15,7 +15,8 @@ using config::Map;
 constexpr double kStiffest = 1e12;
 
 Curve ReadCurve(const Map& map, std::string_view curve_key, std::string_view slope_key) {
-  if (map.Has(curve_key) && map.Has(slope_key)) map.Problem(curve_key, fmt::format("'{}' and '{}' say the same; one of them was expected", curve_key, slope_key));
+  if (map.Has(curve_key) && map.Has(slope_key))
+    map.Problem(curve_key, fmt::format("'{}' and '{}' say the same; one of them was expected", curve_key, slope_key));
   const double slope = map.Number(slope_key, {0.0, kStiffest}, 0.0);
   const List list = map.OptionalItems(curve_key);
   std::vector<Curve::Sample> samples;
@@ -40,8 +41,11 @@ Curve ReadCurve(const Map& map, std::string_view curve_key, std::string_view slo
 struct Keys {
   const char *stiffness, *damping, *free, *preload, *spring_curve, *damper_curve, *stops, *stop_stiffness, *stop_damping;
 };
-constexpr Keys kLengths = {"stiffness_Npm", "damping_Nspm", "free_m", "preload_N", "spring_m_N", "damper_mps_N", "stops_m", "stop_stiffness_Npm", "stop_damping_Nspm"};
-constexpr Keys kAngles = {"stiffness_Nmprad", "damping_Nmsprad", "free_rad", "preload_Nm", "spring_rad_Nm", "damper_radps_Nm", "stops_rad", "stop_stiffness_Nmprad", "stop_damping_Nmsprad"};
+constexpr Keys kLengths = {"stiffness_Npm", "damping_Nspm",       "free_m",           "preload_N", "spring_m_N", "damper_mps_N",
+                           "stops_m",       "stop_stiffness_Npm", "stop_damping_Nspm"};
+constexpr Keys kAngles = {"stiffness_Nmprad", "damping_Nmsprad",       "free_rad",
+                          "preload_Nm",       "spring_rad_Nm",         "damper_radps_Nm",
+                          "stops_rad",        "stop_stiffness_Nmprad", "stop_damping_Nmsprad"};
 
 SpringLaw ReadSpringLaw(const Map& map, const Keys& keys, double drawn) {
   SpringLaw law;
@@ -82,7 +86,8 @@ std::shared_ptr<Load> DrawingReader::ReadSpring(const Map& map, bool torsion) {
     if (!coordinate) return nullptr;
     const bool angle = drawing_.entities[static_cast<std::size_t>(*coordinate)].kind == EntityKind::kAngle;
     if (angle != torsion) {
-      map.Problem("coordinate", angle ? "this is an angle; 'kind: torsion' was expected" : "this is a distance; 'kind: spring' was expected");
+      map.Problem("coordinate",
+                  angle ? "this is an angle; 'kind: torsion' was expected" : "this is a distance; 'kind: spring' was expected");
       return nullptr;
     }
     return std::make_shared<CoordinateSpring>(*coordinate, law);
@@ -144,14 +149,16 @@ std::shared_ptr<Load> DrawingReader::ReadForce(const Map& map, const std::string
   if (map.Has("damping_Nspm")) settings.damping_Nspm = ThreeNumbers(map, "damping_Nspm", kStiffest);
   settings.turn_Nmprad = map.Number("stiffness_Nmprad", {0.0, kStiffest}, 0.0);
   settings.turn_Nmsprad = map.Number("damping_Nmsprad", {0.0, kStiffest}, 0.0);
-  if (settings.stiffness_Npm.minCoeff() < 0.0 || settings.damping_Nspm.minCoeff() < 0.0) map.Problem("stiffness_Npm", "a bushing's stiffness or damping is negative");
+  if (settings.stiffness_Npm.minCoeff() < 0.0 || settings.damping_Nspm.minCoeff() < 0.0)
+    map.Problem("stiffness_Npm", "a bushing's stiffness or damping is negative");
   if (!first || !second) return nullptr;
   for (const int body : {*first, *second}) {
     if (drawing_.bodies[static_cast<std::size_t>(body)].turns) continue;
     map.Problem(body == *first ? "first" : "second", "a bushing joins general or planar bodies only");
     return nullptr;
   }
-  return std::make_shared<Bushing>(drawing_.bodies[static_cast<std::size_t>(*first)].frame, drawing_.bodies[static_cast<std::size_t>(*second)].frame, at, settings);
+  return std::make_shared<Bushing>(drawing_.bodies[static_cast<std::size_t>(*first)].frame,
+                                   drawing_.bodies[static_cast<std::size_t>(*second)].frame, at, settings);
 }
 
 }  // namespace rodeira::multibody

@@ -14,8 +14,12 @@ struct Law {
   double phase_rad = 0.0;
 
   bool IsZero() const { return c0 == 0.0 && c1 == 0.0 && c2 == 0.0 && amplitude == 0.0; }
-  double Value(double t) const { return c0 + t * (c1 + t * c2) + (amplitude == 0.0 ? 0.0 : amplitude * std::sin(omega() * t + phase_rad)); }
-  double Rate(double t) const { return c1 + 2.0 * c2 * t + (amplitude == 0.0 ? 0.0 : amplitude * omega() * std::cos(omega() * t + phase_rad)); }
+  double Value(double t) const {
+    return c0 + t * (c1 + t * c2) + (amplitude == 0.0 ? 0.0 : amplitude * std::sin(omega() * t + phase_rad));
+  }
+  double Rate(double t) const {
+    return c1 + 2.0 * c2 * t + (amplitude == 0.0 ? 0.0 : amplitude * omega() * std::cos(omega() * t + phase_rad));
+  }
   double Acceleration(double t) const {
     return 2.0 * c2 - (amplitude == 0.0 ? 0.0 : amplitude * omega() * omega() * std::sin(omega() * t + phase_rad));
   }

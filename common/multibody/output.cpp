@@ -11,25 +11,34 @@ namespace rodeira::multibody {
 
 double Output::ValueOf(const System& system) const {
   switch (kind_) {
-    case Kind::kPosition: return Evaluate(form_, system.q().data())[component_];
-    case Kind::kVelocity: return Evaluate(form_, system.qd().data())[component_];
-    case Kind::kAcceleration: return Evaluate(form_, system.qdd().data())[component_];
+    case Kind::kPosition:
+      return Evaluate(form_, system.q().data())[component_];
+    case Kind::kVelocity:
+      return Evaluate(form_, system.qd().data())[component_];
+    case Kind::kAcceleration:
+      return Evaluate(form_, system.qdd().data())[component_];
     case Kind::kAngle: {
       const Vector3d way = Evaluate(form_, system.q().data());
       return std::atan2(way.y(), way.x());
     }
-    case Kind::kEnergy: return system.Energy();
-    case Kind::kKinetic: return system.KineticEnergy();
-    case Kind::kPotential: return system.PotentialEnergy();
-    case Kind::kReaction: return system.multipliers()[static_cast<std::size_t>(index_)];
-    case Kind::kForce: return system.drawing().loads[static_cast<std::size_t>(index_)].load->Force(system.motion());
+    case Kind::kEnergy:
+      return system.Energy();
+    case Kind::kKinetic:
+      return system.KineticEnergy();
+    case Kind::kPotential:
+      return system.PotentialEnergy();
+    case Kind::kReaction:
+      return system.multipliers()[static_cast<std::size_t>(index_)];
+    case Kind::kForce:
+      return system.drawing().loads[static_cast<std::size_t>(index_)].load->Force(system.motion());
   }
   return 0.0;
 }
 
 class OutputReader {
  public:
-  OutputReader(const config::Map& outputs, const DrawingReader& reader, const System& system) : outputs_(outputs), reader_(reader), system_(system) {}
+  OutputReader(const config::Map& outputs, const DrawingReader& reader, const System& system)
+      : outputs_(outputs), reader_(reader), system_(system) {}
 
   void Read(const std::string& name) {
     std::istringstream words(outputs_.Text(name));
@@ -46,7 +55,12 @@ class OutputReader {
     } else if (what.size() >= 2 && (what[0] == "reaction" || what[0] == "force")) {
       if (!FindIndex(name, what, output)) return;
     } else if (what.size() != 1 || !FindOne(name, what[0], output)) {
-      if (what.size() != 1) outputs_.Problem(name, fmt::format("'{}' is no output; P.x, P.vx, P.ax, a coordinate, energy, reaction NAME, force NAME or angle P Q was expected", outputs_.Text(name)));
+      if (what.size() != 1)
+        outputs_.Problem(
+            name,
+            fmt::format(
+                "'{}' is no output; P.x, P.vx, P.ax, a coordinate, energy, reaction NAME, force NAME or angle P Q was expected",
+                outputs_.Text(name)));
       return;
     }
     found.push_back(output);
@@ -61,9 +75,12 @@ class OutputReader {
       output.form_ = Single(static_cast<int>(i));
       for (int c = 0; c < 3; ++c) {
         output.component_ = c;
-        if (entity.is_scalar() && c == 0) output.name = entity.name + (entity.kind == EntityKind::kAngle ? "_rad" : "_m");
-        else if (entity.kind == EntityKind::kPoint && !entity.fixed[static_cast<std::size_t>(c)]) output.name = fmt::format("{}_{}_m", entity.name, "xyz"[c]);
-        else continue;
+        if (entity.is_scalar() && c == 0)
+          output.name = entity.name + (entity.kind == EntityKind::kAngle ? "_rad" : "_m");
+        else if (entity.kind == EntityKind::kPoint && !entity.fixed[static_cast<std::size_t>(c)])
+          output.name = fmt::format("{}_{}_m", entity.name, "xyz"[c]);
+        else
+          continue;
         found.push_back(output);
       }
     }
@@ -88,13 +105,16 @@ class OutputReader {
       output.index_ = i;
       return true;
     }
-    outputs_.Problem(name, fmt::format("'{}' is no {}{}", wanted, force ? "force" : "constraint", base::DidYouMean(wanted, names)));
+    outputs_.Problem(name,
+                     fmt::format("'{}' is no {}{}", wanted, force ? "force" : "constraint", base::DidYouMean(wanted, names)));
     return false;
   }
 
   bool FindOne(const std::string& name, const std::string& what, Output& output) {
     if (what == "energy" || what == "kinetic" || what == "potential") {
-      output.kind_ = what == "energy" ? Output::Kind::kEnergy : what == "kinetic" ? Output::Kind::kKinetic : Output::Kind::kPotential;
+      output.kind_ = what == "energy"    ? Output::Kind::kEnergy
+                     : what == "kinetic" ? Output::Kind::kKinetic
+                                         : Output::Kind::kPotential;
       return true;
     }
     const auto dot = what.rfind('.');
@@ -103,14 +123,17 @@ class OutputReader {
     if (part.empty() || part == "rate" || part == "acceleration") {
       const auto entity = reader_.Entity(outputs_, name, of, true);
       if (!entity) return false;
-      output.kind_ = part.empty() ? Output::Kind::kPosition : part == "rate" ? Output::Kind::kVelocity : Output::Kind::kAcceleration;
+      output.kind_ = part.empty()     ? Output::Kind::kPosition
+                     : part == "rate" ? Output::Kind::kVelocity
+                                      : Output::Kind::kAcceleration;
       output.form_ = Single(*entity);
       return true;
     }
     const std::size_t component = std::string("xyz").find(part.back());
     const std::string kind = part.substr(0, part.size() - 1);
     if (component == std::string::npos || (kind != "" && kind != "v" && kind != "a")) {
-      outputs_.Problem(name, fmt::format("'{}' was found after the dot; x, y, z, vx … az, rate or acceleration was expected", part));
+      outputs_.Problem(name,
+                       fmt::format("'{}' was found after the dot; x, y, z, vx … az, rate or acceleration was expected", part));
       return false;
     }
     const auto point = reader_.Point(outputs_, name, of);

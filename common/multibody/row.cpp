@@ -6,8 +6,13 @@
 namespace rodeira::multibody {
 
 Row::Row(const RowDrawing& drawing, const std::vector<double>& free)
-    : name_(drawing.name), place_(drawing.place), kind_(drawing.kind), coordinate_(drawing.coordinate), value_(drawing.value),
-      scale_(drawing.scale), law_(drawing.law) {
+    : name_(drawing.name),
+      place_(drawing.place),
+      kind_(drawing.kind),
+      coordinate_(drawing.coordinate),
+      value_(drawing.value),
+      scale_(drawing.scale),
+      law_(drawing.law) {
   const auto local = [this](int entity) -> Local& {
     for (Local& known : locals_) {
       if (known.entity == entity) return known;
@@ -108,11 +113,13 @@ double Row::Evaluate(const double* q, double time_s, Triple* gradients) const {
     case RowKind::kTriple:
       Gradients({scale_ * v.cross(w), scale_ * w.cross(u), scale_ * u.cross(v)}, 0.0, gradients);
       return scale_ * (u.cross(v).dot(w) - value_);
-    default: break;
+    default:
+      break;
   }
   const double sine = std::sin(s), cosine = std::cos(s);
   const double uw = u.dot(w), uv = u.dot(v);
-  Gradients({scale_ * (cosine * w - sine * v), -scale_ * sine * u, scale_ * cosine * u}, -scale_ * (uw * sine + uv * cosine), gradients);
+  Gradients({scale_ * (cosine * w - sine * v), -scale_ * sine * u, scale_ * cosine * u}, -scale_ * (uw * sine + uv * cosine),
+            gradients);
   return scale_ * (uw * cosine - uv * sine);
 }
 

@@ -75,10 +75,10 @@ class Row {
   double value_;
   double scale_;
   Law law_;
-  bool one_way_ = false;          // v and w are the same, or w is not there
-  bool turned_ = false;           // some b is not 0
-  std::size_t first_form_ = 0;    // 1 without u
-  std::vector<Local> locals_;     // free ones first
+  bool one_way_ = false;        // v and w are the same, or w is not there
+  bool turned_ = false;         // some b is not 0
+  std::size_t first_form_ = 0;  // 1 without u
+  std::vector<Local> locals_;   // free ones first
   std::vector<int> entities_;
 };
 

@@ -21,13 +21,17 @@ void AddRow(const Mechanism& mechanism, RunTable& table) {
 
 base::Status RunMechanism(Mechanism& mechanism, double until_s, double step_s, RunTable& table, RunSummary& summary,
                           const std::function<void(double)>& progress) {
-  if (!(until_s > 0.0 && std::isfinite(until_s))) return base::WrongInput(fmt::format("--until is {}; a time over 0 s was expected", until_s));
-  if (!(step_s > 0.0 && step_s <= until_s)) return base::WrongInput(fmt::format("--step is {}; a time over 0 and at most --until ({} s) was expected", step_s, until_s));
+  if (!(until_s > 0.0 && std::isfinite(until_s)))
+    return base::WrongInput(fmt::format("--until is {}; a time over 0 s was expected", until_s));
+  if (!(step_s > 0.0 && step_s <= until_s))
+    return base::WrongInput(fmt::format("--step is {}; a time over 0 and at most --until ({} s) was expected", step_s, until_s));
   table.names.assign(1, "time_s");
   for (const Output& output : mechanism.outputs) table.names.push_back(output.name);
   const double wanted = std::ceil(until_s / step_s - 1e-6);
   if (wanted * static_cast<double>(table.names.size()) > kMostValues) {
-    return base::WrongInput(fmt::format("{:.3g} steps of {} outputs are too many for a table; at most 100 million values were expected", wanted, table.names.size()));
+    return base::WrongInput(
+        fmt::format("{:.3g} steps of {} outputs are too many for a table; at most 100 million values were expected", wanted,
+                    table.names.size()));
   }
   System& system = *mechanism.system;
   summary = {};
@@ -39,8 +43,9 @@ base::Status RunMechanism(Mechanism& mechanism, double until_s, double step_s, R
     const StepReport report = system.Step(summary.step_s);
     system.set_time_s(static_cast<double>(i + 1) * summary.step_s);  // no rounding gathers
     if (!report.converged) {
-      return base::Failed(fmt::format("the step to {:.6g} s did not converge ({} iterations, {} projections); a shorter --step may help", system.time_s(),
-                                      report.iterations, report.projections));
+      return base::Failed(
+          fmt::format("the step to {:.6g} s did not converge ({} iterations, {} projections); a shorter --step may help",
+                      system.time_s(), report.iterations, report.projections));
     }
     AddRow(mechanism, table);
     summary.iterations += report.iterations;
@@ -59,7 +64,8 @@ std::string ToCsv(const RunTable& table) {
   for (std::size_t c = 0; c < table.names.size(); ++c) text += (c == 0 ? "" : ",") + table.names[c];
   text += "\n";
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    for (std::size_t c = 0; c < table.names.size(); ++c) fmt::format_to(std::back_inserter(text), "{}{}", c == 0 ? "" : ",", table.At(row, c));
+    for (std::size_t c = 0; c < table.names.size(); ++c)
+      fmt::format_to(std::back_inserter(text), "{}{}", c == 0 ? "" : ",", table.At(row, c));
     text += "\n";
   }
   return text;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kWidth = 720, kHeight = 120, kLeft = 110, kTop = 34, kGap = 26;
 constexpr std::size_t kMostDiagrams = 24;
-constexpr std::size_t kMostPoints = 1400;  // along the axis; between two of them the extremes are kept
+constexpr std::size_t kMostPoints = 800;  // along the axis; between two of them the extremes are kept
 
 struct Extent {
   double low = 0.0;
@@ -32,9 +32,12 @@ Extent ExtentOf(const RunTable& table, std::size_t column) {
 std::string Escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '<') out += "&lt;";
-    else if (c == '&') out += "&amp;";
-    else out += c;
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '&')
+      out += "&amp;";
+    else
+      out += c;
   }
   return out;
 }
@@ -64,7 +67,8 @@ std::string ToSvg(const RunTable& table, const std::string& title) {
   const std::size_t diagrams = std::min(kMostDiagrams, table.names.size() - 1);
   const int height = kTop + static_cast<int>(diagrams) * (kHeight + kGap) + 20;
   std::string svg = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}' font-family='sans-serif' font-size='11'>\n"
+      "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}' font-family='sans-serif' "
+      "font-size='11'>\n"
       "<rect width='{0}' height='{1}' fill='white'/>\n<text x='{2}' y='20' font-size='14'>{3}</text>\n",
       kLeft + kWidth + 20, height, kLeft, Escaped(title));
   if (table.rows() == 0) return svg + "</svg>\n";
@@ -73,13 +77,16 @@ std::string ToSvg(const RunTable& table, const std::string& title) {
     const int top = kTop + static_cast<int>(k) * (kHeight + kGap);
     const Extent extent = ExtentOf(table, k + 1);
     svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#bbb'/>\n", kLeft, top, kWidth, kHeight);
-    svg += fmt::format("<text x='{}' y='{}' fill='#1f5f8b'>{}</text>\n", kLeft + 6, top + 13, Escaped(table.names[k + 1]));
-    svg += fmt::format("<text x='{0}' y='{1}' text-anchor='end'>{2:.5g}</text><text x='{0}' y='{3}' text-anchor='end'>{4:.5g}</text>\n", kLeft - 6,
-                       top + 10, extent.high, top + kHeight, extent.low);
+    svg += fmt::format("<text x='{}' y='{}' fill='#1f5f8b'>{}</text>\n", kLeft, top - 4, Escaped(table.names[k + 1]));
+    svg += fmt::format(
+        "<text x='{0}' y='{1}' text-anchor='end'>{2:.5g}</text><text x='{0}' y='{3}' text-anchor='end'>{4:.5g}</text>\n",
+        kLeft - 6, top + 10, extent.high, top + kHeight, extent.low);
     for (int tick = 0; tick <= 10; ++tick) {
       const int x = kLeft + kWidth * tick / 10;
       svg += fmt::format("<line x1='{0}' y1='{1}' x2='{0}' y2='{2}' stroke='#eee'/>\n", x, top, top + kHeight);
-      if (k + 1 == diagrams) svg += fmt::format("<text x='{}' y='{}' text-anchor='middle'>{:.4g}</text>\n", x, top + kHeight + 14, from + (to - from) * tick / 10);
+      if (k + 1 == diagrams)
+        svg += fmt::format("<text x='{}' y='{}' text-anchor='middle'>{:.4g}</text>\n", x, top + kHeight + 14,
+                           from + (to - from) * tick / 10);
     }
     AddLine(table, k + 1, top, extent, svg);
   }

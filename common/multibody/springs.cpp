@@ -10,7 +10,8 @@ constexpr int kMostEntities = 24;
 constexpr double kShort_m = 1e-9;  // a spring shorter than this has no direction
 
 // Gradients of a form along n for a load's entities.
-void AlongForm(const Form& form, const std::vector<int>& entities, const std::vector<Vector3d>& free, const Vector3d& n, Triple* gradients) {
+void AlongForm(const Form& form, const std::vector<int>& entities, const std::vector<Vector3d>& free, const Vector3d& n,
+               Triple* gradients) {
   for (std::size_t k = 0; k < entities.size(); ++k) {
     Vector3d g = Vector3d::Zero();
     for (const Term& term : form.terms) {
@@ -93,8 +94,12 @@ void Drag::Add(const Motion& motion, Sink& sink) const {
 }
 
 Bushing::Bushing(const Frame& first, const Frame& second, const Vector3d& drawn, const BushingSettings& settings)
-    : first_(first), second_(second), at_first_(first.PointAt(drawn)), at_second_(second.PointAt(drawn)),
-      gap_(Sum(at_second_, at_first_, -1.0)), settings_(settings) {}
+    : first_(first),
+      second_(second),
+      at_first_(first.PointAt(drawn)),
+      at_second_(second.PointAt(drawn)),
+      gap_(Sum(at_second_, at_first_, -1.0)),
+      settings_(settings) {}
 
 std::vector<int> Bushing::Stiffens() const {
   std::vector<int> entities = EntitiesOf(gap_);

@@ -12,10 +12,10 @@ namespace rodeira::multibody {
 
 // Force over a length (or angle) x and its rate: spring, damper, stops. Tension, or pull back towards less x, is positive.
 struct SpringLaw {
-  Curve spring;           // over x - free
-  double free = 0.0;      // x without spring force
-  double preload = 0.0;   // added to it
-  Curve damper;           // over the rate
+  Curve spring;                                           // over x - free
+  double free = 0.0;                                      // x without spring force
+  double preload = 0.0;                                   // added to it
+  Curve damper;                                           // over the rate
   double low = -std::numeric_limits<double>::infinity();  // stops: beyond them a spring and a damper more
   double high = std::numeric_limits<double>::infinity();
   double stop_stiffness = 0.0;
@@ -59,7 +59,8 @@ class CoordinateSpring final : public Load {
 // A given force at a point, in the world's axes, or a torque on a body, times a function of time.
 class GivenForce final : public Load {
  public:
-  GivenForce(Form point, const Vector3d& direction, const Law& law) : point_(std::move(point)), direction_(direction), law_(law) {}
+  GivenForce(Form point, const Vector3d& direction, const Law& law)
+      : point_(std::move(point)), direction_(direction), law_(law) {}
   void Add(const Motion& motion, Sink& sink) const override { sink.Push(point_, law_.Value(motion.time_s) * direction_); }
   double Force(const Motion& motion) const override { return law_.Value(motion.time_s) * direction_.norm(); }
 
@@ -71,8 +72,11 @@ class GivenForce final : public Load {
 
 class GivenTorque final : public Load {
  public:
-  GivenTorque(Frame frame, const Vector3d& direction, const Law& law) : frame_(std::move(frame)), direction_(direction), law_(law) {}
-  void Add(const Motion& motion, Sink& sink) const override { PushTorque(frame_, law_.Value(motion.time_s) * direction_, motion.q, sink.forces()); }
+  GivenTorque(Frame frame, const Vector3d& direction, const Law& law)
+      : frame_(std::move(frame)), direction_(direction), law_(law) {}
+  void Add(const Motion& motion, Sink& sink) const override {
+    PushTorque(frame_, law_.Value(motion.time_s) * direction_, motion.q, sink.forces());
+  }
   double Force(const Motion& motion) const override { return law_.Value(motion.time_s) * direction_.norm(); }
 
  private:

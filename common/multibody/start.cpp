@@ -14,8 +14,8 @@ namespace {
 constexpr int kAssemblyTurns = 100;
 constexpr double kAssembled_m = 1e-12;
 constexpr double kNoAssembly_m = 1e-9;
-constexpr double kDependent = 1e-8;    // what a gradient has beyond those before it, over its size
-constexpr double kMassless = 1e-12;    // smallest over largest eigenvalue of M + Φqᵀ Φq
+constexpr double kDependent = 1e-8;  // what a gradient has beyond those before it, over its size
+constexpr double kMassless = 1e-12;  // smallest over largest eigenvalue of M + Φqᵀ Φq
 
 // Coordinates that can move, as columns of dense matrices (start only).
 std::vector<int> Columns(const std::vector<double>& free) {
@@ -34,7 +34,8 @@ Eigen::MatrixXd Jacobian(const Constraints& constraints, const std::vector<int>&
     mu[static_cast<std::size_t>(row)] = 1.0;
     constraints.AddTransposed(mu.data(), gradient.data());
     mu[static_cast<std::size_t>(row)] = 0.0;
-    for (std::size_t k = 0; k < columns.size(); ++k) jacobian(row, static_cast<Eigen::Index>(k)) = gradient[static_cast<std::size_t>(columns[k])];
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      jacobian(row, static_cast<Eigen::Index>(k)) = gradient[static_cast<std::size_t>(columns[k])];
   }
   return jacobian;
 }
@@ -48,7 +49,8 @@ base::Status System::Assemble() {
   for (int turn = 0; turn < kAssemblyTurns && violation > kAssembled_m; ++turn) {
     const Eigen::MatrixXd jacobian = Jacobian(constraints_, columns, q_.size());
     const auto values = constraints_.values();
-    const Eigen::VectorXd step = jacobian.completeOrthogonalDecomposition().solve(Eigen::Map<const Eigen::VectorXd>(values.data(), constraints_.count()));
+    const Eigen::VectorXd step =
+        jacobian.completeOrthogonalDecomposition().solve(Eigen::Map<const Eigen::VectorXd>(values.data(), constraints_.count()));
     if (!step.allFinite()) break;
     // Shortened where the whole step would not help.
     const std::vector<double> before = q_;
@@ -75,9 +77,10 @@ base::Status System::Assemble() {
   for (int i = 1; i < constraints_.count(); ++i) {
     if (!(std::fabs(values[static_cast<std::size_t>(i)]) <= std::fabs(values[static_cast<std::size_t>(worst)]))) worst = i;
   }
-  return base::WrongInput(fmt::format("the mechanism cannot be assembled: at the nearest position found, '{}' is still off by {:.3g} (m or rad)",
-                                      constraints_.name(worst), std::fabs(values[static_cast<std::size_t>(worst)])),
-                          constraints_.place(worst));
+  return base::WrongInput(
+      fmt::format("the mechanism cannot be assembled: at the nearest position found, '{}' is still off by {:.3g} (m or rad)",
+                  constraints_.name(worst), std::fabs(values[static_cast<std::size_t>(worst)])),
+      constraints_.place(worst));
 }
 
 int System::degrees_of_freedom() const {
@@ -105,10 +108,12 @@ base::Status System::CheckIndependence() const {
       if (tie_of_fixed) continue;
       for (int twice = 0; twice < 2; ++twice) rest -= basis.leftCols(known) * (basis.leftCols(known).transpose() * rest);
       if (!(rest.norm() > kDependent * size)) {
-        return base::WrongInput(fmt::format("constraint '{}' says nothing that the others do not say already at this position (it is redundant, or the "
-                                            "position is singular); leave it out, move the position, or say 'redundant: true'",
-                                            constraints.name(row)),
-                                constraints.place(row));
+        return base::WrongInput(
+            fmt::format(
+                "constraint '{}' says nothing that the others do not say already at this position (it is redundant, or the "
+                "position is singular); leave it out, move the position, or say 'redundant: true'",
+                constraints.name(row)),
+            constraints.place(row));
       }
       basis.col(known++) = rest.normalized();
     }
@@ -135,7 +140,8 @@ base::Status System::CheckIndependence() const {
   Eigen::Index loose = 0;
   eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&loose);
   const EntityDrawing& entity = drawing_.entities[static_cast<std::size_t>(columns[static_cast<std::size_t>(loose)] / 3)];
-  return base::WrongInput(fmt::format("'{}' can move but has no mass: no body and no constraint gives it any", entity.name), entity.place);
+  return base::WrongInput(fmt::format("'{}' can move but has no mass: no body and no constraint gives it any", entity.name),
+                          entity.place);
 }
 
 base::Status System::FindVelocities() {
@@ -154,7 +160,9 @@ base::Status System::FindVelocities() {
     const auto found = std::find(columns.begin(), columns.end(), 3 * velocity.entity + velocity.component);
     if (found == columns.end()) {
       if (velocity.rate == 0.0) continue;
-      return base::WrongInput(fmt::format("'{}' is given a velocity but cannot move that way", drawing_.entities[static_cast<std::size_t>(velocity.entity)].name), velocity.place);
+      return base::WrongInput(fmt::format("'{}' is given a velocity but cannot move that way",
+                                          drawing_.entities[static_cast<std::size_t>(velocity.entity)].name),
+                              velocity.place);
     }
     system(jacobian.rows() + i, found - columns.begin()) = 1.0;
     right[jacobian.rows() + i] = velocity.rate;
@@ -165,9 +173,11 @@ base::Status System::FindVelocities() {
   if (off.size() > 0 && off.cwiseAbs().maxCoeff(&worst) > 1e-9 * (1.0 + right.cwiseAbs().maxCoeff())) {
     const bool of_given = worst >= jacobian.rows();
     return base::WrongInput("the initial velocities do not fit the constraints",
-                            of_given ? drawing_.velocities[static_cast<std::size_t>(worst - jacobian.rows())].place : constraints_.place(static_cast<int>(worst)));
+                            of_given ? drawing_.velocities[static_cast<std::size_t>(worst - jacobian.rows())].place
+                                     : constraints_.place(static_cast<int>(worst)));
   }
-  for (std::size_t k = 0; k < columns.size(); ++k) qd_[static_cast<std::size_t>(columns[k])] = solution[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    qd_[static_cast<std::size_t>(columns[k])] = solution[static_cast<Eigen::Index>(k)];
   return {};
 }
 
@@ -214,7 +224,8 @@ base::Status System::Start() {
   if (auto status = Assemble(); !status) return status;
   if (auto status = CheckIndependence(); !status) return status;
   if (auto status = FindVelocities(); !status) return status;
-  if (!FindAccelerations()) return base::WrongInput("the mechanism's equations are singular at the initial position", drawing_.place);
+  if (!FindAccelerations())
+    return base::WrongInput("the mechanism's equations are singular at the initial position", drawing_.place);
   return {};
 }
 

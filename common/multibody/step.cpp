@@ -9,9 +9,9 @@
 namespace rodeira::multibody {
 namespace {
 
-constexpr double kRounding = 5e-16;  // far from the world's origin a length is not known better
+constexpr double kRounding = 5e-16;     // far from the world's origin a length is not known better
 constexpr double kSettledShare = 0.01;  // a projection ends when its next turn would be this small against its first
-constexpr double kNearer = 0.3;       // a turn that leaves more than this has got no nearer
+constexpr double kNearer = 0.3;         // a turn that leaves more than this has got no nearer
 
 }  // namespace
 

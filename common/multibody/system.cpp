@@ -69,11 +69,12 @@ base::Status System::Compile() {
     // What an earlier body keeps rigid already (a hinge's two points, shared axes) needs no second row.
     const auto kept = [this, b](const RowDrawing& row) {
       const Form both = Sum(row.v, row.w);
-      return std::any_of(drawing_.bodies.begin(), drawing_.bodies.begin() + static_cast<std::ptrdiff_t>(b), [&both](const BodyParts& other) {
-        return std::all_of(both.terms.begin(), both.terms.end(), [&other](const Term& term) {
-          return std::find(other.entities.begin(), other.entities.end(), term.entity) != other.entities.end();
-        });
-      });
+      return std::any_of(drawing_.bodies.begin(), drawing_.bodies.begin() + static_cast<std::ptrdiff_t>(b),
+                         [&both](const BodyParts& other) {
+                           return std::all_of(both.terms.begin(), both.terms.end(), [&other](const Term& term) {
+                             return std::find(other.entities.begin(), other.entities.end(), term.entity) != other.entities.end();
+                           });
+                         });
     };
     for (const RowDrawing& row : body.rows) {
       if (!kept(row)) rows.push_back(row);
@@ -85,27 +86,32 @@ base::Status System::Compile() {
   std::vector<RowDrawing> different;
   for (const RowDrawing& row : rows) {
     if (Row(row, free_).entities().empty()) continue;
-    const bool known = row.kind == RowKind::kDot && std::any_of(different.begin(), different.end(), [&row](const RowDrawing& other) {
-      const auto same = [](const Form& a, const Form& b) {
-        for (const Term& term : Sum(a, b, -1.0).terms) {
-          if (term.a != 0.0 || term.b != 0.0) return false;
-        }
-        return true;
-      };
-      const auto opposite = [&same](const Form& a, const Form& b) { return same(a, Sum(Form{}, b, -1.0)); };
-      return other.kind == RowKind::kDot && ((same(row.v, other.v) && same(row.w, other.w)) || (same(row.v, other.w) && same(row.w, other.v)) ||
-                                             (opposite(row.v, other.v) && opposite(row.w, other.w)));
-    });
+    const bool known =
+        row.kind == RowKind::kDot && std::any_of(different.begin(), different.end(), [&row](const RowDrawing& other) {
+          const auto same = [](const Form& a, const Form& b) {
+            for (const Term& term : Sum(a, b, -1.0).terms) {
+              if (term.a != 0.0 || term.b != 0.0) return false;
+            }
+            return true;
+          };
+          const auto opposite = [&same](const Form& a, const Form& b) { return same(a, Sum(Form{}, b, -1.0)); };
+          return other.kind == RowKind::kDot &&
+                 ((same(row.v, other.v) && same(row.w, other.w)) || (same(row.v, other.w) && same(row.w, other.v)) ||
+                  (opposite(row.v, other.v) && opposite(row.w, other.w)));
+        });
     if (!known) different.push_back(row);
   }
   std::erase_if(ties, [this](const Tie& tie) {
     return std::none_of(tie.terms.begin(), tie.terms.end(), [this](const Term& term) {
-      return free_[static_cast<std::size_t>(3 * term.entity)] + free_[static_cast<std::size_t>(3 * term.entity + 1)] + free_[static_cast<std::size_t>(3 * term.entity + 2)] > 0.0;
+      return free_[static_cast<std::size_t>(3 * term.entity)] + free_[static_cast<std::size_t>(3 * term.entity + 1)] +
+                 free_[static_cast<std::size_t>(3 * term.entity + 2)] >
+             0.0;
     });
   });
   double shortest_m = 1.0;
   for (const RowDrawing& row : different) {
-    if (row.kind == RowKind::kDot && row.value > 0.0 && row.scale * std::sqrt(row.value) > 0.49 && row.scale * std::sqrt(row.value) < 0.51) {
+    if (row.kind == RowKind::kDot && row.value > 0.0 && row.scale * std::sqrt(row.value) > 0.49 &&
+        row.scale * std::sqrt(row.value) < 0.51) {
       shortest_m = std::min(shortest_m, std::sqrt(row.value));  // a length: scale is half of its inverse
     }
   }
@@ -113,7 +119,8 @@ base::Status System::Compile() {
   constraints_ = Constraints(different, ties, free_);
 
   const std::size_t size = q_.size();
-  for (auto* each : {&qd_, &qdd_, &q0_, &qd0_, &qdd0_, &way_, &forces_, &residual_, &change_, &weight_force_}) each->assign(size, 0.0);
+  for (auto* each : {&qd_, &qdd_, &q0_, &qd0_, &qdd0_, &way_, &forces_, &residual_, &change_, &weight_force_})
+    each->assign(size, 0.0);
   lambda_.assign(static_cast<std::size_t>(constraints_.count()), 0.0);
   mu_.assign(lambda_.size(), 0.0);
   lambda0_.assign(lambda_.size(), 0.0);
@@ -132,7 +139,8 @@ base::Status System::CompileMass() {
     }
   }
   for (std::size_t i = 0; i < drawing_.entities.size(); ++i) {
-    if (drawing_.entities[i].inertia > 0.0) mass_.push_back({static_cast<int>(i), static_cast<int>(i), drawing_.entities[i].inertia, 0.0});
+    if (drawing_.entities[i].inertia > 0.0)
+      mass_.push_back({static_cast<int>(i), static_cast<int>(i), drawing_.entities[i].inertia, 0.0});
   }
   for (const NamedLoad& named : drawing_.loads) {
     const std::vector<int> stiffens = named.load->Stiffens();
@@ -157,8 +165,10 @@ base::Status System::CompileMass() {
     const double* column_free = free_.data() + 3 * term.column;
     const auto add = [&](int r, int c, double value) {
       value *= row_free[r] * column_free[c];
-      if (place.flipped) block.At(c, r) += value;
-      else block.At(r, c) += value;
+      if (place.flipped)
+        block.At(c, r) += value;
+      else
+        block.At(r, c) += value;
     };
     for (int c = 0; c < 3; ++c) add(c, c, term.a);
     add(0, 1, -term.b);
@@ -185,7 +195,8 @@ void System::BindLoads() {
   for (const NamedLoad& named : drawing_.loads) {
     std::vector<int> entities;
     for (const int entity : named.load->Stiffens()) {
-      if (matrix_.IsFree(entity) && std::find(entities.begin(), entities.end(), entity) == entities.end()) entities.push_back(entity);
+      if (matrix_.IsFree(entity) && std::find(entities.begin(), entities.end(), entity) == entities.end())
+        entities.push_back(entity);
     }
     std::vector<Vector3d> free;
     for (const int entity : entities) free.push_back(Eigen::Map<const Vector3d>(free_.data() + 3 * entity));

@@ -16,9 +16,9 @@ struct SystemSettings {
   // Penalty α h²/4 over the largest mass of a coordinate: from 2500 on it converges always; as it is a ratio, α follows
   // from step and mass.
   double penalty = 1e5;
-  double change_mps2 = 1e-3;        // Newton ends when no coordinate is expected to change by more than this · h²/4 …
-  double violation_m = 1e-10;       // … and no constraint is off by more
-  double violation_mps = 1e-9;      // the projections end below these
+  double change_mps2 = 1e-3;    // Newton ends when no coordinate is expected to change by more than this · h²/4 …
+  double violation_m = 1e-10;   // … and no constraint is off by more
+  double violation_mps = 1e-9;  // the projections end below these
   double violation_mps2 = 1e-6;
   // Where an iteration gets no nearer (at singular positions constraints become dependent, and their multipliers converge
   // slowly) this is still accepted; accelerations are accepted as they are.
@@ -35,8 +35,8 @@ double LargestOf(std::span<const double> values);
 
 struct StepReport {
   bool converged = true;
-  int iterations = 0;      // of Newton
-  int projections = 0;     // solutions for velocities and accelerations together
+  int iterations = 0;   // of Newton
+  int projections = 0;  // solutions for velocities and accelerations together
   int factorisations = 0;
 };
 
@@ -72,7 +72,7 @@ class System {
   void Undo();
 
   int entities() const { return static_cast<int>(drawing_.entities.size()); }
-  int variables() const;  // coordinates that can move
+  int variables() const;           // coordinates that can move
   int degrees_of_freedom() const;  // at this position; allocates
   const Drawing& drawing() const { return drawing_; }
   const Constraints& constraints() const { return constraints_; }
@@ -130,7 +130,7 @@ class System {
   std::vector<Block> constant_;  // M, weighted ties, 1 for fixed coordinates
   double weight_ = 0.0;          // α h²/4
   double stale_m_ = 0.0;
-  double moved_m_ = 0.0;         // since the last factorisation
+  double moved_m_ = 0.0;  // since the last factorisation
   std::vector<double> weight_force_;
 
   double time_s_ = 0.0;

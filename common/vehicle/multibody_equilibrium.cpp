@@ -10,7 +10,7 @@
 namespace rodeira::vehicle {
 namespace {
 
-constexpr int kGroundTurns = 40;        // the wheels move a little as the car settles, and with them the ground's answers
+constexpr int kGroundTurns = 40;  // the wheels move a little as the car settles, and with them the ground's answers
 constexpr double kSettled_m = 1e-10;
 constexpr double kResidual_mps2 = 1e-9;
 constexpr double kAnchor_Npm = 1e6;
@@ -82,8 +82,10 @@ base::Status MultibodyModel::Settle(const InitialCondition& initial, terrain::Gr
       const multibody::EntityDrawing& entity = entities[i];
       if (entity.is_scalar() || (entity.fixed[0] && entity.fixed[1] && entity.fixed[2])) continue;
       Eigen::Map<Eigen::Vector3d> at(system_->q().data() + 3 * i);
-      if (entity.kind == multibody::EntityKind::kVector) at = (turned * at).eval();
-      else at = (now.translation() + off + turned * (at - now.translation())).eval();
+      if (entity.kind == multibody::EntityKind::kVector)
+        at = (turned * at).eval();
+      else
+        at = (now.translation() + off + turned * (at - now.translation())).eval();
     }
     for (Eigen::Vector3d& anchor : anchors) anchor = (now.translation() + off + turned * (anchor - now.translation())).eval();
   }
@@ -126,7 +128,8 @@ void MultibodyModel::SetInMotion(const InitialCondition& initial) {
   torques_ = {};
   for (std::size_t i = 0; i < kWheels; ++i) {
     // At rest the brakes hold what the tyres bear about the axles; rolling wheels bear nothing.
-    const Eigen::Vector3d bears = forces_[i].longitudinal_N * contacts[i].along_W + forces_[i].lateral_N * contacts[i].across_W + contacts[i].load_N * wheels_[i].normal_W;
+    const Eigen::Vector3d bears = forces_[i].longitudinal_N * contacts[i].along_W + forces_[i].lateral_N * contacts[i].across_W +
+                                  contacts[i].load_N * wheels_[i].normal_W;
     const Eigen::Vector3d axle = system_->motion().At(settings_.wheels[i].axle);
     torques_.friction_Nm[i] = rests ? -(contacts[i].point_W - Hub_W(i)).cross(bears).dot(axle) : 0.0;
     wheels_[i].load->SetStep(forces_[i].longitudinal_N, forces_[i].lateral_N, torques_.friction_Nm[i], wheels_[i].spin_radps);

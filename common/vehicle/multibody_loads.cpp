@@ -73,7 +73,8 @@ void WheelLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) cons
   };
   if (contact.load_N > 0.0) {
     const double twice = contact.lean * contact.lean;
-    stiffen(normal_W_, contact.deflection_m < settings_.bottom_m ? settings_.vertical_Npm / twice : 0.0, settings_.damping_Nspm / twice);
+    stiffen(normal_W_, contact.deflection_m < settings_.bottom_m ? settings_.vertical_Npm / twice : 0.0,
+            settings_.damping_Nspm / twice);
   }
   if (!anchored_) return;
   stiffen(contact.along_W, anchor_Npm_, 0.0);
@@ -83,7 +84,8 @@ void WheelLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) cons
 void ChassisLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) const {
   const Vector3d v = multibody::Evaluate(drag_point_, motion.qd);
   sink.Push(drag_point_, -half_rho_area_kgpm_ * v.norm() * v);
-  multibody::PushTorque(chassis_, -torque_on_wheels_Nm_ * multibody::Evaluate(chassis_.axes[1], motion.q), motion.q, sink.forces());
+  multibody::PushTorque(chassis_, -torque_on_wheels_Nm_ * multibody::Evaluate(chassis_.axes[1], motion.q), motion.q,
+                        sink.forces());
 }
 
 double ChassisLoad::Force(const multibody::Motion& motion) const {

@@ -78,7 +78,8 @@ class ChassisLoad final : public multibody::Load {
 // The driver's hands turn the column through a spring and a damper.
 class ColumnLoad final : public multibody::Load {
  public:
-  ColumnLoad(int angle, double stiffness_Nmprad, double damping_Nmsprad) : angle_(angle), stiffness_Nmprad_(stiffness_Nmprad), damping_Nmsprad_(damping_Nmsprad) {}
+  ColumnLoad(int angle, double stiffness_Nmprad, double damping_Nmsprad)
+      : angle_(angle), stiffness_Nmprad_(stiffness_Nmprad), damping_Nmsprad_(damping_Nmsprad) {}
   void SetHands(double angle_rad, double rate_radps) {
     hands_rad_ = angle_rad;
     hands_radps_ = rate_radps;

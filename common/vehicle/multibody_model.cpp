@@ -35,8 +35,10 @@ base::Status MultibodyModel::Build() {
     wheels_[i].load = std::make_shared<WheelLoad>(load);
     drawing.loads.push_back({"wheel", wheels_[i].load});
   }
-  chassis_load_ = std::make_shared<ChassisLoad>(chassis, chassis.PointAt(settings_.drag_point_m), 0.5 * settings_.air_density_kgpm3 * settings_.drag_area_m2);
-  column_load_ = std::make_shared<ColumnLoad>(settings_.steering.angle, settings_.steering.column_Nmprad, settings_.steering.column_Nmsprad);
+  chassis_load_ = std::make_shared<ChassisLoad>(chassis, chassis.PointAt(settings_.drag_point_m),
+                                                0.5 * settings_.air_density_kgpm3 * settings_.drag_area_m2);
+  column_load_ =
+      std::make_shared<ColumnLoad>(settings_.steering.angle, settings_.steering.column_Nmprad, settings_.steering.column_Nmsprad);
   drawing.loads.push_back({"chassis", chassis_load_});
   drawing.loads.push_back({"column", column_load_});
   auto system = multibody::System::Make(drawing);
@@ -63,6 +65,10 @@ Eigen::Isometry3d MultibodyModel::X_WB() const {
   return X_WC * X_CB_;
 }
 
+Eigen::Vector3d MultibodyModel::Forward_W() const {
+  return multibody::Evaluate(system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame.axes[0], system_->q().data());
+}
+
 // ½ Σ e × ė.
 Eigen::Vector3d MultibodyModel::Turning_W(const multibody::Frame& frame) const {
   Eigen::Vector3d turning = Eigen::Vector3d::Zero();
@@ -72,7 +78,9 @@ Eigen::Vector3d MultibodyModel::Turning_W(const multibody::Frame& frame) const {
   return turning;
 }
 
-void MultibodyModel::GiveGround(std::size_t wheel) { wheels_[wheel].load->SetPlane(wheels_[wheel].plane_W, wheels_[wheel].normal_W); }
+void MultibodyModel::GiveGround(std::size_t wheel) {
+  wheels_[wheel].load->SetPlane(wheels_[wheel].plane_W, wheels_[wheel].normal_W);
+}
 
 void MultibodyModel::AskGround(terrain::Ground& ground) {
   std::array<terrain::GroundQuery, kWheels> queries;
@@ -136,8 +144,7 @@ MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls
   const std::size_t free = settings_.front_driven ? kRearLeft : kFrontLeft;
   PowertrainInput input;
   input.wheel_inertia_kgm2 = settings_.wheel.inertia_kgm2;
-  const Eigen::Vector3d forward = system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame.Rotation(system_->q().data()).col(0);
-  input.speed_mps = multibody::Evaluate(origin_, system_->qd().data()).dot(forward);
+  input.speed_mps = multibody::Evaluate(origin_, system_->qd().data()).dot(Forward_W());
   input.inertia_torque_Nm = settings_.mass_kg * radius * forward_mps2_;
   for (std::size_t i = 0; i < 2; ++i) {
     input.wheel_radps[i] = wheels_[driven + i].spin_radps;
@@ -151,7 +158,8 @@ MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls
     torques.friction_Nm[driven + i] = motion.friction_torque_Nm[i];
     Wheel& rolling = wheels_[free + i];
     torques.friction_Nm[free + i] = friction[free + i];
-    rolling.spin_radps = StepFreeWheel(rolling.spin_radps, settings_.wheel.inertia_kgm2, road[free + i], torques.friction_Nm[free + i], dt_s);
+    rolling.spin_radps =
+        StepFreeWheel(rolling.spin_radps, settings_.wheel.inertia_kgm2, road[free + i], torques.friction_Nm[free + i], dt_s);
   }
   // The brake's share of the friction that acted: the rest is rolling resistance and gears.
   for (std::size_t i = 0; i < kWheels; ++i) torques.friction_Nm[i] *= friction[i] > 0.0 ? torques.brake_Nm[i] / friction[i] : 0.0;
@@ -176,9 +184,9 @@ void MultibodyModel::Substep(const Controls& controls, double dt_s) {
   const double hands = std::clamp(controls.steering_wheel_rad, -limit, limit);
   column_load_->SetHands(hands, 0.0);
   hands_rad_ = hands;
-  const double speed_before = multibody::Evaluate(origin_, system_->qd().data()).norm();
+  const Eigen::Vector3d before_W = multibody::Evaluate(origin_, system_->qd().data());
   Advance(dt_s, 0);
-  forward_mps2_ = (multibody::Evaluate(origin_, system_->qd().data()).norm() - speed_before) / dt_s;
+  forward_mps2_ = (multibody::Evaluate(origin_, system_->qd().data()) - before_W).dot(Forward_W()) / dt_s;
   const Contacts after = FindContacts();
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = wheels_[i];

@@ -60,6 +60,7 @@ class MultibodyModel final : public VehicleModel {
   using Contacts = std::array<WheelLoad::Contact, kWheels>;
 
   Eigen::Vector3d Hub_W(std::size_t wheel) const;
+  Eigen::Vector3d Forward_W() const;
   Eigen::Vector3d Turning_W(const multibody::Frame& frame) const;  // angular velocity
   void AskGround(terrain::Ground& ground);
   void GiveGround(std::size_t wheel);
@@ -80,7 +81,7 @@ class MultibodyModel final : public VehicleModel {
   std::unique_ptr<multibody::System> system_;
   std::shared_ptr<ChassisLoad> chassis_load_;
   std::shared_ptr<ColumnLoad> column_load_;
-  multibody::Form origin_;              // chassis point drawn at the file's origin
+  multibody::Form origin_;                                  // chassis point drawn at the file's origin
   Eigen::Isometry3d X_CB_ = Eigen::Isometry3d::Identity();  // body frame in the chassis as drawn: what rests level on z = 0
   std::array<Eigen::Vector3d, kWheels> hub_rest_B_;
 

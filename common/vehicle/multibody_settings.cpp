@@ -22,16 +22,19 @@ MultibodyWheelSettings ReadHungWheel(const Map& map, const DrawingReader& reader
   const auto& entities = reader.drawing().entities;
   if (const auto carrier = reader.Body(map, "carrier")) {
     wheel.carrier = *carrier;
-    if (!reader.drawing().bodies[static_cast<std::size_t>(*carrier)].turns) map.Problem("carrier", "a wheel's carrier must be a general body");
+    if (!reader.drawing().bodies[static_cast<std::size_t>(*carrier)].turns)
+      map.Problem("carrier", "a wheel's carrier must be a general body");
   }
   if (const auto centre = reader.Entity(map, "centre", map.Text("centre"), false)) {
     wheel.centre = *centre;
-    if (entities[static_cast<std::size_t>(*centre)].kind != EntityKind::kPoint) map.Problem("centre", "a wheel's centre must be a point");
+    if (entities[static_cast<std::size_t>(*centre)].kind != EntityKind::kPoint)
+      map.Problem("centre", "a wheel's centre must be a point");
   }
   if (const auto axle = reader.Entity(map, "axle", map.Text("axle"), false)) {
     wheel.axle = *axle;
     const auto& entity = entities[static_cast<std::size_t>(*axle)];
-    if (entity.kind != EntityKind::kVector || entity.at.y() < 0.8) map.Problem("axle", "a wheel's axle must be a vector that is drawn to the left");
+    if (entity.kind != EntityKind::kVector || entity.at.y() < 0.8)
+      map.Problem("axle", "a wheel's axle must be a vector that is drawn to the left");
   }
   if (const auto suspension = reader.LoadNamed(map, "suspension")) wheel.suspension = *suspension;
   if (const auto travel = reader.Entity(map, "travel", map.Text("travel"), true)) wheel.travel = *travel;
@@ -50,13 +53,15 @@ MultibodySteeringSettings ReadSteering(const Map& map, const DrawingReader& read
 
 double Mean(const MultibodySettings& car, std::size_t a, std::size_t b, int component) {
   const auto& entities = car.mechanism.entities;
-  return 0.5 * (entities[static_cast<std::size_t>(car.wheels[a].centre)].at[component] + entities[static_cast<std::size_t>(car.wheels[b].centre)].at[component]);
+  return 0.5 * (entities[static_cast<std::size_t>(car.wheels[a].centre)].at[component] +
+                entities[static_cast<std::size_t>(car.wheels[b].centre)].at[component]);
 }
 
 VehicleDimensions ReadDimensions(const Map& map, const MultibodySettings& car) {
   const auto& entities = car.mechanism.entities;
   const auto track = [&](std::size_t left, std::size_t right) {
-    return entities[static_cast<std::size_t>(car.wheels[left].centre)].at.y() - entities[static_cast<std::size_t>(car.wheels[right].centre)].at.y();
+    return entities[static_cast<std::size_t>(car.wheels[left].centre)].at.y() -
+           entities[static_cast<std::size_t>(car.wheels[right].centre)].at.y();
   };
   VehicleDimensions dimensions;
   dimensions.wheelbase_m = Mean(car, kFrontLeft, kFrontRight, 0) - Mean(car, kRearLeft, kRearRight, 0);
@@ -84,7 +89,8 @@ MultibodySettings ReadMultibody(const Map& root) {
   const Map body = root.Child("body");
   if (const auto chassis = reader.Body(body, "chassis")) {
     car.chassis = *chassis;
-    if (!reader.drawing().bodies[static_cast<std::size_t>(*chassis)].turns) body.Problem("chassis", "the chassis must be a general body");
+    if (!reader.drawing().bodies[static_cast<std::size_t>(*chassis)].turns)
+      body.Problem("chassis", "the chassis must be a general body");
   }
   car.drag_area_m2 = body.Number("drag_area_m2", Range::NotNegative());
   car.air_density_kgpm3 = body.Number("air_density_kgpm3", {0.0, 3.0}, car.air_density_kgpm3);

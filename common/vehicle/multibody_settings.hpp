@@ -20,10 +20,10 @@ struct MultibodyWheelSettings {
 };
 
 struct MultibodySteeringSettings {
-  int angle = 0;         // rotor: the column's lower end, in the steering wheel's sense (left positive)
-  double ratio = 16.0;   // for those who drive by the front wheels' angle
+  int angle = 0;        // rotor: the column's lower end, in the steering wheel's sense (left positive)
+  double ratio = 16.0;  // for those who drive by the front wheels' angle
   double limit_rad = 9.0;
-  double column_Nmprad = 1000.0;   // between the driver's hands and the column's lower end
+  double column_Nmprad = 1000.0;  // between the driver's hands and the column's lower end
   double column_Nmsprad = 10.0;
 };
 
@@ -42,7 +42,7 @@ struct MultibodySettings {
   double drag_area_m2 = 0.5;
   double air_density_kgpm3 = 1.2;
   multibody::Vector3d drag_point_m = multibody::Vector3d::Zero();  // on the chassis, as drawn
-  double mass_kg = 0.0;            // of the whole car
+  double mass_kg = 0.0;                                            // of the whole car
   double longest_substep_s = 0.001;
   VehicleDimensions dimensions;
 };

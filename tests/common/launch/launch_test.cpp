@@ -45,6 +45,15 @@ TEST(Launch, TheSameFileGivesTheSameHashAndAnOverrideAnother) {
   EXPECT_NE(hash({}), hash({{"nodes.traffic.period_s", "0.01"}}));
 }
 
+TEST(Launch, ANodeOfNoKindIsNotThere) {
+  std::string without = kDrive;
+  without.resize(without.find("  recorder:"));
+  const Launch launch = Launch::Parse(kDrive, "x.yaml", {{"nodes.recorder.kind", "none"}, {"nodes.recorder.config.file", "a.mcap"}}).value();
+  EXPECT_EQ(launch.roster().hash(), Launch::Parse(without, "x.yaml").value().roster().hash());
+  EXPECT_EQ(launch.nodes().size(), 4u);
+  EXPECT_EQ(Refusal(kDrive, {{"nodes.driver.kind", "none"}}).substr(0, 61), "dir/drive.yaml:7: node 'ego' needs 'controls', but no node pu");
+}
+
 TEST(Launch, RefusesWhatIsWrongWithPlaceAndNearestName) {
   const std::string text = kDrive;
   EXPECT_EQ(Refusal(text + "  x: {kind: vehcile}\n"), "dir/drive.yaml:10: 'nodes.x.kind' is 'vehcile'; did you mean 'vehicle'?");

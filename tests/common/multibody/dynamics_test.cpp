@@ -6,7 +6,6 @@
 namespace rodeira::multibody {
 namespace {
 
-
 Mechanism Parsed(const std::string& text) {
   auto mechanism = ParseMechanism("rodeira: mechanism/1\n" + text, "test.yaml");
   EXPECT_TRUE(mechanism.ok()) << (mechanism.ok() ? "" : mechanism.error().Text());
@@ -236,6 +235,33 @@ TEST(Redundant, BricardsLoopMovesAndKeepsItsEnergy) {
   }
   EXPECT_GT(high - low, 0.5);  // it does move
   EXPECT_LT(drift, 1e-3);
+}
+
+// A05: a spring and damper a thousand times stiffer than the motion is fast, at a step that does not follow them. Nothing
+// turns the shaft, so its angular momentum stays; at rest in the turning frame the forces balance in closed form.
+TEST(Stiff, GovernorKeepsItsAngularMomentumAndSettles) {
+  Mechanism governor = Example("governor");
+  EXPECT_EQ(governor.system->degrees_of_freedom(), 2);
+  const auto momentum = [&governor] {
+    const double x = Value(governor, "ball_x_m");
+    const double turn = Value(governor, "turn_rad");
+    const double radius = x / std::cos(turn);
+    return (0.15 + 2.0 * 5.0 * radius * radius) * Value(governor, "speed_radps");
+  };
+  const double start = momentum();
+  RunTo(governor, 0.9, 0.01);
+  EXPECT_NEAR(momentum(), start, 1e-4 * start);
+  RunTo(governor, 5.03, 0.01);
+  // Virtual work for a way of the collar, depth s, with the balls at radius r and depth z: d(r²)/2 = -z dz.
+  const double s = -Value(governor, "collar_m");
+  const double link2 = 0.25 + std::pow(0.8660254037844386 - 0.5, 2);
+  const double z = (1.0 - link2 + s * s) / (2.0 * s);  // depth of the balls: on both circles
+  const double r2 = 1.0 - z * z;
+  const double dz = (2.0 * s - 2.0 * z) / (2.0 * s);
+  const double w = Value(governor, "speed_radps");
+  const double balance = 2.0 * 5.0 * (9.81 * dz - w * w * z * dz) + 3.0 * 9.81 - Value(governor, "spring_N");
+  EXPECT_NEAR(r2, std::pow(Value(governor, "ball_x_m") / std::cos(Value(governor, "turn_rad")), 2), 1e-6);
+  EXPECT_NEAR(balance, 0.0, 0.02 * std::fabs(Value(governor, "spring_N")));
 }
 
 TEST(Torques, TurnABody) {

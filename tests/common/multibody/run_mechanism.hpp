@@ -43,7 +43,8 @@ inline Worst RunTo(Mechanism& mechanism, double until_s, double step_s) {
   for (long i = 0; i < steps; ++i) {
     const StepReport report = system.Step((until_s - start_s) / static_cast<double>(steps));
     if (!report.converged) {
-      ADD_FAILURE() << "no convergence at " << system.time_s() << " s after " << report.iterations << " iterations, " << report.projections << " projections";
+      ADD_FAILURE() << "no convergence at " << system.time_s() << " s after " << report.iterations << " iterations, "
+                    << report.projections << " projections";
       break;
     }
     worst.iterations = std::max(worst.iterations, report.iterations);

@@ -1,10 +1,13 @@
 // The multibody car (prototype): what it is made of, how it stands, drives, turns, stops and holds, and that it repeats.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
 #include <filesystem>
 #include <memory>
 
+#include "common/base/files.hpp"
 #include "common/vehicle/multibody_model.hpp"
 #include "tests/common/vehicle/test_ground.hpp"
 
@@ -173,7 +176,8 @@ TEST(PrototypeDynamics, LoadTransferOfBraking) {
   EXPECT_NEAR(all, settings.mass_kg * kG, 0.01 * settings.mass_kg * kG);
   // Air drag acts at its own height; the rest at the mass's. The body's lean moves it a little.
   const double deceleration = -s.a_WB_B().x();
-  const double expected = (settings.mass_kg * deceleration * height - s.drag_N * settings.drag_point_m.z()) / settings.dimensions.wheelbase_m;
+  const double expected =
+      (settings.mass_kg * deceleration * height - s.drag_N * settings.drag_point_m.z()) / settings.dimensions.wheelbase_m;
   EXPECT_NEAR(front - front_at_rest, expected, 0.05 * expected);
   EXPECT_NEAR(-along + s.drag_N, settings.mass_kg * deceleration, 0.03 * settings.mass_kg * deceleration);
 }
@@ -194,7 +198,8 @@ TEST(PrototypeDynamics, TurnsTowardsTheWheelAndLeansOut) {
   EXPECT_GT(s.wheels[kFrontRight].load_N, s.wheels[kFrontLeft].load_N);
   const double ay = s.w_WB_B.z() * s.speed_mps();
   double side = 0.0;
-  for (const auto& wheel : s.wheels) side += wheel.lateral_N * std::cos(wheel.steer_rad) + wheel.longitudinal_N * std::sin(wheel.steer_rad);
+  for (const auto& wheel : s.wheels)
+    side += wheel.lateral_N * std::cos(wheel.steer_rad) + wheel.longitudinal_N * std::sin(wheel.steer_rad);
   EXPECT_NEAR(side, settings.mass_kg * ay, 0.05 * side);
   // The steering ratio that the file names is that of rack and steering arms.
   const double steer = 0.5 * (s.wheels[kFrontLeft].steer_rad + s.wheels[kFrontRight].steer_rad);
@@ -240,6 +245,55 @@ TEST(PrototypeDynamics, TenMillisecondsAgreeWithATenthOfOne) {
   }
   EXPECT_LE(std::sqrt(difference / square), 0.01);
   EXPECT_LE(path, 0.02);
+}
+
+// Other suspensions, driven by the front wheels: a matter of the file.
+TEST(ASecondCar, IsMadeByItsFileAlone) {
+  auto loaded = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/double_wishbones.yaml");
+  ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
+  VehicleModel& car = *loaded.value();
+  EXPECT_EQ(Multibody(car).system().degrees_of_freedom(), 11);
+  PlaneGround ground;
+  ASSERT_TRUE(car.Initialise({}, ground).ok());
+  double most = 0.0;
+  for (const double each : Multibody(car).system().qdd()) most = std::max(most, std::fabs(each));
+  EXPECT_LE(most, 1e-6);
+  Controls controls;
+  controls.throttle = 0.6;
+  DriveFor(car, ground, controls, 6.0);
+  EXPECT_GT(car.state().speed_mps(), 10.0);
+  EXPECT_GT(car.state().wheels[kFrontLeft].drive_torque_Nm, 10.0);
+  EXPECT_EQ(car.state().wheels[kRearLeft].drive_torque_Nm, 0.0);
+  controls.steering_wheel_rad = 0.4;
+  DriveFor(car, ground, controls, 2.0);
+  EXPECT_GT(car.state().w_WB_B.z(), 0.05);
+  EXPECT_GT(car.state().roll_rad(), 0.003);
+}
+
+// What is wrong with a car's mechanism is told with its place, as for any mechanism.
+TEST(ASecondCar, WrongFilesAreRefused) {
+  const auto root = std::filesystem::path(RODEIRA_SOURCE_DIR);
+  const std::string good = base::ReadText(root / "configs/vehicles/prototype.yaml").value();
+  const auto path = std::filesystem::temp_directory_path() / ("rodeira-car-" + std::to_string(::getpid()) + ".yaml");
+  const auto refusal = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    EXPECT_TRUE(base::WriteWhole(path, text).ok());
+    const auto car = LoadVehicle(path);
+    EXPECT_FALSE(car.ok()) << from;
+    if (car.ok()) return std::string();
+    EXPECT_EQ(car.error().exit_status(), 2);
+    EXPECT_NE(car.error().Text().find(".yaml:"), std::string::npos) << car.error().Text();
+    return car.error().Text();
+  };
+  EXPECT_NE(refusal("carrier: fl_carrier", "carrier: fl_carier").find("did you mean 'fl_carrier'"), std::string::npos);
+  EXPECT_NE(refusal("axle: rl_axle", "axle: up").find("drawn to the left"), std::string::npos);
+  EXPECT_NE(refusal("mass_kg: 512", "mass_kg: -512").find("-512"), std::string::npos);
+  EXPECT_NE(refusal("  constraints:\n", "  constraints:\n    more: {kind: distance, points: [fl_lower_front, fl_lower_rear]}\n").find("redundant"),
+            std::string::npos);
+  std::filesystem::remove(path);
 }
 
 TEST(PrototypeBits, RestoredItGoesOnWithTheSameBits) {
@@ -291,9 +345,11 @@ TEST(PrototypeBits, AnythingAnywhereStaysFinite) {
       c.gear = draw(4, i, 0.0, 1.0) < 0.2 ? -1 : 1;
       car->Step(c, ground, kStep);
       const VehicleState& s = car->state();
-      ASSERT_TRUE(s.p_WB_W.allFinite() && s.q_WB.coeffs().allFinite() && s.v_WB_W.allFinite() && s.w_WB_B.allFinite()) << seed << " " << i;
+      ASSERT_TRUE(s.p_WB_W.allFinite() && s.q_WB.coeffs().allFinite() && s.v_WB_W.allFinite() && s.w_WB_B.allFinite())
+          << seed << " " << i;
       ASSERT_LT(s.v_WB_W.norm(), 150.0) << seed << " " << i;
-      for (const WheelState& wheel : s.wheels) ASSERT_TRUE(std::isfinite(wheel.load_N) && wheel.load_N >= 0.0) << seed << " " << i;
+      for (const WheelState& wheel : s.wheels)
+        ASSERT_TRUE(std::isfinite(wheel.load_N) && wheel.load_N >= 0.0) << seed << " " << i;
     }
   }
 }
