@@ -378,6 +378,9 @@ int Run(const RunOptions& options) {
     if (!found) return Complain(found.error());
     placement = std::move(found).value();
     if (auto status = ResolveRecording(launch.value(), placement, resolved, overrides); !status) return Complain(status.error());
+    launch = launch::Launch::Load(options.launch_file, overrides);
+  }
+  if (launch.ok() && !resolved.meta.empty()) {
     if (auto status = AddMeta(launch.value(), resolved.meta, overrides); !status) return Complain(status.error());
     launch = launch::Launch::Load(options.launch_file, overrides);
   }

@@ -27,13 +27,9 @@ bool IsName(std::string_view key) {
   });
 }
 
-// The recorder's node: the launch file's, or the one that --record has added.
-std::string RecorderOf(const launch::Launch& launch, const launch::Overrides& overrides) {
+std::string RecorderOf(const launch::Launch& launch) {
   for (const launch::LaunchNode& node : launch.nodes()) {
     if (node.kind->name == "recorder") return node.name;
-  }
-  for (const auto& [key, value] : overrides) {
-    if (key == "nodes.recorder.kind" && value == "recorder") return "recorder";
   }
   return "";
 }
@@ -42,8 +38,8 @@ std::string RecorderOf(const launch::Launch& launch, const launch::Overrides& ov
 
 base::Status AddMeta(const launch::Launch& launch, const std::vector<std::string>& meta, launch::Overrides& overrides) {
   if (meta.empty()) return {};
-  const std::string recorder = RecorderOf(launch, overrides);
-  if (recorder.empty()) return base::WrongInput("the run records nothing; name a file by --record", "--meta");
+  const std::string recorder = RecorderOf(launch);
+  if (recorder.empty()) return base::WrongInput("nothing is recorded, so there is nowhere to write it", "--meta");
   for (const std::string& pair : meta) {
     const auto equals = pair.find('=');
     const std::string key = pair.substr(0, equals);

@@ -121,7 +121,7 @@ TEST_F(Control, WhatAnOperatorDoesChangesNoSampleAndIsRecorded) {
 }
 
 TEST_F(Control, StopEndsARunWellAtTheStepThatItSays) {
-  Started run(Run("stopped", {"--for", "1000", "--pace", "real"}));
+  Started run(Run("stopped", {"--for", "1000", "--no-record", "--pace", "real"}));
   (void)Begun("stopped");
   ASSERT_EQ(Ctl({"pause"}).status, 0);
   const Ended stop = Ctl({"stop"});
@@ -153,7 +153,7 @@ TEST_F(Control, ExternalRecordersAreTriggeredAtStartMarkersAndEnd) {
     if (trigger) heard.push_back(trigger.value());
   });
   ASSERT_TRUE(reader.ok());
-  Started run(Run("eeg", {"--for", "1000", "--pace", "real", "--domain", std::to_string(kDomain)}));
+  Started run(Run("eeg", {"--for", "1000", "--no-record", "--pace", "real", "--domain", std::to_string(kDomain)}));
   (void)Begun("eeg");
   ASSERT_EQ(Ctl({"mark", "stimulus"}).status, 0);
   ASSERT_EQ(Ctl({"stop"}).status, 0);
@@ -188,8 +188,8 @@ TEST_F(Control, WithoutARunWithSeveralAndNonsenseAreSentences) {
   refused({"puase"}, "unknown command 'puase'; did you mean 'pause'?");
   refused({"step", "none"}, "step: 'none' was found");
   refused({}, "COMMAND");
-  Started one(Run("alpha", {"--for", "1000", "--pace", "real"}));
-  Started two(Run("beta", {"--for", "1000", "--pace", "real", "--in-process"}));
+  Started one(Run("alpha", {"--for", "1000", "--no-record", "--pace", "real"}));
+  Started two(Run("beta", {"--for", "1000", "--no-record", "--pace", "real", "--in-process"}));
   (void)Begun("alpha");
   (void)Begun("beta");
   refused({"pause"}, "2 runs are going on: alpha, beta; choose one by --run NAME");
@@ -203,7 +203,7 @@ TEST_F(Control, WithoutARunWithSeveralAndNonsenseAreSentences) {
     EXPECT_EQ(ended.status, 2) << ended.out;
     EXPECT_NE(ended.out.find("--meta: '" + wrong + "' was found; KEY=VALUE was expected"), std::string::npos) << ended.out;
   }
-  EXPECT_NE(RunCommand(Run("meta", {"--meta", "a=b"})).out.find("--meta: the run records nothing; name a file by --record"), std::string::npos);
+  EXPECT_NE(RunCommand(Run("meta", {"--meta", "a=b", "--no-record"})).out.find("--meta: nothing is recorded"), std::string::npos);
 }
 
 }  // namespace
