@@ -11,7 +11,9 @@
 
 #include <chrono>
 #include <filesystem>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "launch/control_folder.hpp"
 #include "tests/launch/temporary_folder.hpp"
@@ -214,7 +216,7 @@ TEST_F(Socket, ALivingRunIsNotReplacedAndADeadOneIs) {
 
 TEST_F(Socket, NamesThatAreNoFileNamesAreHashed) {
   EXPECT_EQ(ControlSocket("/x", "lab-3.b").string(), "/x/lab-3.b.ctl");
-  for (const std::string name : {"../../etc", "", ".hidden", "a b", std::string(200, 'a').c_str()}) {
+  for (const std::string& name : std::vector<std::string>{"../../etc", "", ".hidden", "a b", std::string(200, 'a')}) {
     const auto path = ControlSocket("/x", name);
     EXPECT_EQ(path.parent_path(), "/x");
     EXPECT_EQ(path.stem().string().size(), 16u) << path;
