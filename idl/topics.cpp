@@ -21,6 +21,10 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kGroundReply, "rodeira::msg::GroundReply", "ground", false},
       {topics::kWorldInfo, "rodeira::msg::WorldInfo", "world", false},
       {topics::kLiveKeys, "rodeira::msg::LiveKeys", "live", false},
+      {topics::kRunLog, "rodeira::msg::RunLog", "log", false},
+      {topics::kTrigger, "rodeira::msg::Trigger", "trigger", false},
+      {topics::kWall, "rodeira::msg::WallTime", "log", false},
+      {topics::kRemarks, "rodeira::msg::Remark", "log", false},
   };
   return kTopics;
 }

@@ -23,6 +23,11 @@ inline constexpr std::string_view kGroundRequest = "rodeira/ground_request";
 inline constexpr std::string_view kGroundReply = "rodeira/ground_reply";
 inline constexpr std::string_view kWorldInfo = "rodeira/world_info";
 inline constexpr std::string_view kLiveKeys = "rodeira/live_keys";
+inline constexpr std::string_view kRunLog = "rodeira/run_log";
+inline constexpr std::string_view kTrigger = "rodeira/trigger";
+// Only in recordings: what came by the run's log.
+inline constexpr std::string_view kWall = "rodeira/wall";
+inline constexpr std::string_view kRemarks = "rodeira/remarks";
 }  // namespace topics
 
 struct TopicInfo {

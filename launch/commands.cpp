@@ -7,10 +7,13 @@
 
 #include "common/base/mathematics.hpp"
 #include "common/base/suggest.hpp"
+#include "launch/ctl_command.hpp"
 #include "launch/doctor.hpp"
+#include "launch/export_command.hpp"
 #include "launch/info_command.hpp"
 #include "launch/joysticks_command.hpp"
 #include "launch/mechanism_command.hpp"
+#include "launch/repair_command.hpp"
 #include "launch/replay_command.hpp"
 #include "launch/run_command.hpp"
 #include "launch/world_command.hpp"
@@ -36,20 +39,43 @@ std::pair<std::string, std::string> KeyValue(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+// False, after a sentence, where one of them is none.
+bool TakePairs(const char* option, const std::vector<std::string>& texts, std::vector<std::pair<std::string, std::string>>& out) {
+  for (const std::string& text : texts) {
+    const auto pair = KeyValue(text);
+    if (pair.first.empty()) {
+      std::cerr << "rodeira: " << option << " " << text << ": KEY=VALUE was expected\n";
+      return false;
+    }
+    out.push_back(pair);
+  }
+  return true;
+}
+
 void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) {
   CLI::App* run = app.add_subcommand("run", "drive: start every process of a launch file");
   run->add_option("LAUNCH.yaml", options.launch_file, "launch file")->required();
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
   run->add_option("--pace", options.pace, "max, real or a factor of real time; otherwise the launch file's, or max");
-  run->add_option("--record", options.record, "recording (MCAP)");
+  CLI::Option* record = run->add_option("--record", options.record, "recording (MCAP); otherwise a dated file in the folder of recordings");
+  run->add_flag("--no-record", options.no_record, "no recording")->excludes(record);
   run->add_option("--seed", options.seed, "seed of everything that is drawn");
   run->add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file");
+  run->add_option("--meta", options.meta, "KEY=VALUE: written into the recording (participant=P07)");
   run->add_flag("--in-process", options.in_process, "the same nodes in one process");
   run->add_flag("--headless", options.headless, "no window, even where there is a display");
   run->add_flag("--quiet", options.quiet, "no progress, no table");
-  run->add_option("--host", options.host, "start only what belongs to this host");
+  run->add_option("--lab", options.lab, "laboratory file: the PCs and their network");
+  run->add_option("--host", options.host, "start only what belongs to this host of the laboratory");
   run->add_option("--run", options.run, "name of the run: only processes of the same name meet");
   run->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232));
+}
+
+CLI::App* AddCtl(CLI::App& app, CtlOptions& options) {
+  CLI::App* ctl = app.add_subcommand("ctl", "control a run that is going on: pause | resume | step [N] | pace X | mark TEXT | stop | state");
+  ctl->add_option("COMMAND", options.words, "what to do")->required();
+  ctl->add_option("--run", options.run, "name of the run; the only one otherwise");
+  return ctl;
 }
 
 void AddWorld(CLI::App& app, WorldOptions& options) {
@@ -100,13 +126,36 @@ void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
   joysticks->callback([&options] { options.asked = true; });
 }
 
-CLI::App* AddReplay(CLI::App& app, ReplayOptions& options) {
+CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::string>& changes) {
   CLI::App* replay = app.add_subcommand("replay", "run a recording again");
   replay->add_option("FILE.mcap", options.file, "recording")->required();
   replay->add_flag("--verify", options.verify, "compute everything again and compare every sample and state");
   replay->add_option("--from", options.from_s, "simulated seconds at which to begin")->check(CLI::NonNegativeNumber);
+  replay->add_option("--branch", changes, "KEY=VALUE: go on from --from with another value of the launch file");
+  replay->add_option("--for", options.for_s, "simulated seconds of the branch")->check(Positive);
+  replay->add_option("--record", options.record, "recording of the branch (MCAP)");
   replay->add_flag("--quiet", options.quiet, "no progress");
   return replay;
+}
+
+// What is asked of a recording.
+struct RecordingOptions {
+  std::string info_file;
+  std::string repair_file;
+  std::string repair_out;
+  ExportOptions exported;
+};
+
+void AddRecording(CLI::App& app, RecordingOptions& options) {
+  CLI::App* info = app.add_subcommand("info", "what a recording holds, and whether every sample is there");
+  info->add_option("FILE.mcap", options.info_file, "recording")->required();
+  CLI::App* tables = app.add_subcommand("export", "write a recording as tables");
+  tables->add_option("--csv", options.exported.csv, "new folder, one CSV file a topic")->required();
+  tables->add_option("FILE.mcap", options.exported.recording, "recording")->required();
+  tables->add_flag("--quiet", options.exported.quiet, "no progress, no list");
+  CLI::App* repair = app.add_subcommand("repair", "write what is left of a damaged recording as a whole one");
+  repair->add_option("FILE.mcap", options.repair_file, "recording")->required();
+  repair->add_option("--out", options.repair_out, "the new file")->required();
 }
 
 }  // namespace
@@ -128,11 +177,13 @@ int Main(int argc, char** argv) {
   AddDoctor(app, doctor);
   JoysticksOptions joysticks;
   AddJoysticks(app, joysticks);
-  std::string info_file;
-  CLI::App* info = app.add_subcommand("info", "what a recording holds");
-  info->add_option("FILE.mcap", info_file, "recording")->required();
+  CtlOptions ctl_options;
+  const CLI::App* ctl = AddCtl(app, ctl_options);
+  RecordingOptions recording;
+  AddRecording(app, recording);
   ReplayOptions replay_options;
-  CLI::App* replay = AddReplay(app, replay_options);
+  std::vector<std::string> changes;
+  CLI::App* replay = AddReplay(app, replay_options, changes);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -142,16 +193,12 @@ int Main(int argc, char** argv) {
   if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);
-  if (info->parsed()) return Info(info_file);
+  if (ctl->parsed()) return Ctl(ctl_options);
+  if (app.got_subcommand("info")) return Info(recording.info_file);
+  if (app.got_subcommand("export")) return Export(recording.exported);
+  if (app.got_subcommand("repair")) return RepairRecording(recording.repair_file, recording.repair_out);
+  if (!TakePairs("--set", sets, run.overrides) || !TakePairs("--branch", changes, replay_options.changes)) return 2;
   if (replay->parsed()) return Replay(replay_options);
-  for (const std::string& set : sets) {
-    const auto pair = KeyValue(set);
-    if (pair.first.empty()) {
-      std::cerr << "rodeira: --set " << set << ": KEY=VALUE was expected\n";
-      return 2;
-    }
-    run.overrides.push_back(pair);
-  }
   return Run(run);
 }
 

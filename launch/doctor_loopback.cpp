@@ -150,7 +150,7 @@ base::Result<LoopBack> MeasureLoopBack(const LoopBackSettings& settings) {
   if (!partner) return partner.error();
   {
     End end;
-    base::Status status = end.Open({settings.domain, run, "doctor", settings.transport}, topics::kGroundRequest, topics::kGroundReply);
+    base::Status status = end.Open({settings.domain, run, "doctor", settings.transport, {}, false}, topics::kGroundRequest, topics::kGroundReply);
     if (status.ok()) status = WaitUntilReady(partner.value(), settings);
     measured = status.ok() ? Measure(end, settings) : base::Result<LoopBack>(status.error());
   }
@@ -167,7 +167,7 @@ base::Result<LoopBack> MeasureLoopBack(const LoopBackSettings& settings) {
 int AnswerLoopBack(const std::string& run, std::uint32_t domain, launch::Transport transport) {
   ::signal(SIGTERM, SIG_IGN);  // the end of standard input ends it, with nothing left in shared memory
   End end;
-  if (auto status = end.Open({domain, run, "doctor's second process", transport}, topics::kGroundReply, topics::kGroundRequest); !status) {
+  if (auto status = end.Open({domain, run, "doctor's second process", transport, {}, false}, topics::kGroundReply, topics::kGroundRequest); !status) {
     fmt::print("{}\n", status.error().Text());
     return status.error().exit_status();
   }

@@ -1,12 +1,10 @@
 #include "launch/doctor_network.hpp"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include "common/dds/udp_port.hpp"
 #include "launch/doctor_machine.hpp"
 #include "launch/shared_memory.hpp"
 
@@ -15,19 +13,6 @@ namespace {
 
 constexpr double kMega = 1e6;
 constexpr int kParticipants = 10;
-
-// Whether nobody else has it, on any address of this PC.
-bool CanBind(int port) {
-  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (socket < 0) return false;
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_ANY);
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  const bool bound = ::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-  ::close(socket);
-  return bound;
-}
 
 // The ports that RTPS reserves (DDSI-RTPS 2.2, 9.6.1.1): one each for the multicast of discovery and of samples, then two
 // a participant.
@@ -81,7 +66,7 @@ Finding CheckPorts(std::uint32_t domain) {
   std::vector<int> taken;
   const std::vector<int> ports = PortsOf(domain);
   for (const int port : ports) {
-    if (!CanBind(port)) taken.push_back(port);
+    if (!dds::UdpPortIsFree(port)) taken.push_back(port);
   }
   if (taken.empty()) return Ok("ports", fmt::format("UDP {} to {} (domain {}) are free", ports.front(), ports.back(), domain));
   return Warning("ports", fmt::format("UDP {} (domain {}) {} taken by another program, maybe of the same domain; where that is not wanted, choose another --domain",

@@ -8,9 +8,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/launch/command_text.hpp"
 #include "common/launch/pace.hpp"
 #include "common/lockstep/in_process.hpp"
 #include "launch/local_nodes.hpp"
+#include "launch/operator.hpp"
 #include "launch/run_report.hpp"
 
 namespace rodeira::front {
@@ -27,6 +29,11 @@ RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& 
   report.step = outcome.last_step;
   report.wall_s = wall_s;
   report.slipped_s = static_cast<double>(outcome.slipped_ns) * 1e-9;
+  report.paused_s = static_cast<double>(outcome.paused_ns) * 1e-9;
+  report.paced_steps = outcome.lateness.steps;
+  report.late_steps = outcome.lateness.late;
+  report.late_mean_s = outcome.lateness.mean_ns() * 1e-9;
+  report.late_worst_s = static_cast<double>(outcome.lateness.worst_ns) * 1e-9;
   report.digest = base::Hex(outcome.digest);
   if (!outcome.fault.empty()) report.faults.push_back(outcome.fault);
   for (const lockstep::Report& node : outcome.reports) {
@@ -36,11 +43,28 @@ RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& 
   return report;
 }
 
+// The next command that can be read; who asks for anything else gets an answer at once.
+std::optional<lockstep::Asked> NextCommand(Operator& desk) {
+  while (auto line = desk.Next()) {
+    const auto command = launch::ParseCommand(line->line);
+    if (!command) {
+      line->answer("wrong " + command.error().Text());
+      continue;
+    }
+    return lockstep::Asked{command.value(), [answer = std::move(line->answer)](const base::Result<std::string>& done) {
+                             answer(done ? "ok " + done.value() : "failed " + done.error().Text());
+                           }};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   const auto& roster = launch.roster();
-  auto nodes = LocalNodes::Make(launch);
+  Operator desk(options.run, options.quiet);
+  launch::RunLogBoard log;
+  auto nodes = LocalNodes::Make(launch, {}, &log);
   if (!nodes) {
     fmt::print(stderr, "rodeira: {}\n", nodes.error().Text());
     return nodes.error().exit_status();
@@ -50,8 +74,11 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   if (seconds) settings.last_step = static_cast<lockstep::Step>(std::llround(*seconds * 1e9 / static_cast<double>(roster.base_step_ns())));
   settings.pace = launch::ParsePace(options.pace).value();
   settings.stop_requested = [] { return g_interrupted.load(); };
+  settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
+  settings.next_command = [&desk] { return NextCommand(desk); };
   ::signal(SIGINT, OnInterrupt);
   ::signal(SIGTERM, OnInterrupt);
+  ::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error to report, like a full disk
   const auto start = std::chrono::steady_clock::now();
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

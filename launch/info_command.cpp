@@ -3,10 +3,48 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <set>
 
 #include "common/record/mcap_reader.hpp"
+#include "common/record/repair.hpp"
+#include "launch/recording_audit.hpp"
+#include "launch/recording_text.hpp"
 
 namespace rodeira::front {
+namespace {
+
+void PrintWhatItIs(const record::McapReader& in, const std::string& file) {
+  const auto& statistics = in.statistics();
+  fmt::print("{}  {}, {}\n", file, Size(in.condition().file_bytes), in.condition().whole ? "whole" : "not whole");
+  fmt::print("time    {:.3f} s to {:.3f} s, {} samples in {} chunks\n", static_cast<double>(statistics.first_log_time_ns) * 1e-9,
+             static_cast<double>(statistics.last_log_time_ns) * 1e-9, statistics.messages, statistics.chunks);
+  for (const char* name : {"rodeira", "rodeira.meta", "rodeira.branch", "rodeira.end", record::kRepairMetadata}) {
+    const auto metadata = in.FindMetadata(name);
+    if (!metadata || !metadata.value()) continue;
+    if (name == std::string_view(record::kRepairMetadata)) fmt::print("repaired:\n");
+    for (const auto& [key, value] : metadata.value()->entries) fmt::print("{:<16}  {}\n", key, value);
+  }
+}
+
+void PrintSources(const RecordingAudit& audit) {
+  constexpr const char* kLine = "{:<24}  {:<10}  {:<28}  {:>8}  {:>9}  {:>10}  {}\n";
+  fmt::print(kLine, "topic", "source", "type", "rate", "samples", "size", "audit");
+  for (const RecordedSource& source : audit.sources) {
+    const std::string rate = source.rate_hz ? fmt::format("{:g} Hz", *source.rate_hz) : "";
+    fmt::print(kLine, source.topic, source.source, source.type, rate, source.samples, Size(source.bytes), source.Verdict());
+  }
+}
+
+void PrintWhatIsEmbedded(const record::McapReader& in) {
+  std::set<std::string> schemas;
+  for (const auto& [id, schema] : in.schemas()) schemas.insert(schema.name + " (" + schema.encoding + ")");
+  for (const auto& attachment : in.attachments()) {
+    fmt::print("embedded  {}  {}, {}\n", attachment.name, Size(attachment.data_bytes), attachment.media_type);
+  }
+  for (const std::string& schema : schemas) fmt::print("embedded  {}\n", schema);
+}
+
+}  // namespace
 
 int Info(const std::string& file) {
   const auto reader = record::McapReader::Open(file);
@@ -15,25 +53,23 @@ int Info(const std::string& file) {
     return reader.error().exit_status();
   }
   const auto& in = reader.value();
-  const auto& statistics = in.statistics();
-  fmt::print("{}  {:.1f} kB, {}\n", file, static_cast<double>(in.condition().file_bytes) / 1000.0, in.condition().whole ? "whole" : "not whole");
-  for (const std::string& finding : in.condition().findings) fmt::print("  {}\n", finding);
-  fmt::print("time    {:.3f} s to {:.3f} s, {} samples in {} chunks\n", static_cast<double>(statistics.first_log_time_ns) * 1e-9,
-             static_cast<double>(statistics.last_log_time_ns) * 1e-9, statistics.messages, statistics.chunks);
-  for (const char* name : {"rodeira", "rodeira.end"}) {
-    const auto metadata = in.FindMetadata(name);
-    if (!metadata || !metadata.value()) continue;
-    for (const auto& [key, value] : metadata.value()->entries) fmt::print("{:<14}  {}\n", key, value);
+  const RecordingAudit audit = Audit(in);
+  PrintWhatItIs(in, file);
+  PrintSources(audit);
+  PrintWhatIsEmbedded(in);
+  for (const std::string& damage : audit.damages) fmt::print("damage    {}\n", damage);
+  const bool whole = in.condition().whole && audit.damages.empty();
+  if (!whole) fmt::print("what to do: rodeira repair {} --out REPAIRED.mcap\n", file);
+  if (!audit.lossless()) {
+    fmt::print("not lossless: samples of the run are missing\n");
+  } else if (whole && audit.broken_off) {
+    fmt::print("no gaps; the run was broken off at step {}\n", audit.last_step.value_or(0));
+  } else if (whole && audit.last_step) {
+    fmt::print("lossless: each source's samples are there once, from step 0 to step {}\n", *audit.last_step);
+  } else if (whole) {
+    fmt::print("no gaps; the end of the run is not in it\n");
   }
-  fmt::print("{:<26}  {:<12}  {:<30}  {:>9}\n", "topic", "source", "type", "samples");
-  for (const auto& [id, channel] : in.channels()) {
-    const auto source = channel.metadata.find("source");
-    const auto count = statistics.messages_by_channel.find(id);
-    const auto schema = in.schemas().find(channel.schema);
-    fmt::print("{:<26}  {:<12}  {:<30}  {:>9}\n", channel.topic, source == channel.metadata.end() ? "" : source->second,
-               schema == in.schemas().end() ? "" : schema->second.name, count == statistics.messages_by_channel.end() ? 0 : count->second);
-  }
-  return 0;
+  return whole && audit.lossless() ? 0 : 1;
 }
 
 }  // namespace rodeira::front

@@ -10,8 +10,9 @@ namespace {
 
 class LocalContext final : public launch::NodeContext {
  public:
-  LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world, launch::LiveKeysBoard& keys)
-      : NodeContext(launch, index), world_(std::move(world)), keys_(keys) {
+  LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world, launch::LiveKeysBoard& keys,
+               launch::RunLogBoard* log)
+      : NodeContext(launch, index), world_(std::move(world)), keys_(keys), log_(log) {
     if (world_ != nullptr) ground_ = world_->MakeGround();
   }
   terrain::Ground& Ground() override {
@@ -24,11 +25,13 @@ class LocalContext final : public launch::NodeContext {
   }
   std::unique_ptr<launch::LiveKeysSender> KeysSender() override { return keys_.MakeSender(); }
   std::unique_ptr<launch::LiveKeysReceiver> KeysReceiver() override { return keys_.MakeReceiver(); }
+  std::unique_ptr<launch::RunLogReceiver> RunLog() override { return log_ == nullptr ? nullptr : log_->MakeReceiver(); }
 
  private:
   std::shared_ptr<const road::World> world_;
   std::unique_ptr<terrain::Ground> ground_;
   launch::LiveKeysBoard& keys_;
+  launch::RunLogBoard* log_;
 };
 
 // The world of the run, where a road server would load it.
@@ -46,13 +49,13 @@ base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch&
 LocalNodes::LocalNodes(LocalNodes&&) noexcept = default;
 LocalNodes::~LocalNodes() = default;
 
-base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const StandIn& stand_in) {
+base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const StandIn& stand_in, launch::RunLogBoard* log) {
   const auto& roster = launch.roster();
   auto world = LoadWorld(launch);
   if (!world) return world.error();
   LocalNodes made;
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    made.contexts_.push_back(std::make_unique<LocalContext>(launch, n, world.value(), *made.keys_));
+    made.contexts_.push_back(std::make_unique<LocalContext>(launch, n, world.value(), *made.keys_, log));
     made.nodes_.push_back(nullptr);
     if (roster.node(n).role == lockstep::Role::kService) continue;
     if (auto other = stand_in ? stand_in(n) : nullptr) {

@@ -15,7 +15,8 @@ class LocalNodes {
   using StandIn = std::function<std::unique_ptr<lockstep::Node>(lockstep::NodeIndex)>;
 
   // Wrong input where a configuration, the world or another file is wrong; it names the node. The launch must outlive it.
-  static base::Result<LocalNodes> Make(const launch::Launch& launch, const StandIn& stand_in = {});
+  // `log`: where the clock's log passes, outlives it; null: no node hears of it.
+  static base::Result<LocalNodes> Make(const launch::Launch& launch, const StandIn& stand_in = {}, launch::RunLogBoard* log = nullptr);
   LocalNodes(LocalNodes&&) noexcept;
   ~LocalNodes();
 

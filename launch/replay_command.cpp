@@ -7,11 +7,15 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
+#include "launch/branch.hpp"
 #include "launch/verify.hpp"
 
 namespace rodeira::front {
 namespace {
+
+using lockstep::Step;
 
 int Complain(const base::Error& error) {
   fmt::print(stderr, "rodeira: {}\n", error.Text());
@@ -35,10 +39,45 @@ class Progress {
   lockstep::Step last_;
 };
 
+Step ToStep(double seconds, double base_step_s) { return static_cast<Step>(std::llround(seconds / base_step_s)); }
+
+int MakeBranch(const ReplayOptions& options) {
+  if (!options.from_s) return Complain(base::WrongInput("--from is missing: where does the branch leave its parent?", "rodeira replay --branch"));
+  if (options.record.empty()) return Complain(base::WrongInput("--record is missing: into which file?", "rodeira replay --branch"));
+  BranchWish wish;
+  {
+    const auto parent = replay::RecordedRun::Open(options.file);
+    if (!parent) return Complain(parent.error());
+    const double base_step_s = static_cast<double>(parent.value().roster().base_step_ns()) * 1e-9;
+    wish.at = ToStep(*options.from_s, base_step_s);
+    if (options.for_s) wish.last_step = wish.at + ToStep(*options.for_s, base_step_s);
+  }
+  wish.parent = options.file;
+  for (const auto& [key, value] : options.changes) {
+    std::error_code problem;  // a file is meant as seen from here, not from the recorded launch file
+    const bool file = std::filesystem::is_regular_file(value, problem);
+    wish.changes.emplace_back(key, file ? "\"" + std::filesystem::absolute(value).lexically_normal().string() + "\"" : value);
+  }
+  wish.recording = options.record;
+  const auto outcome = Branch(wish);
+  if (!outcome) return Complain(outcome.error());
+  if (outcome.value().difference) {
+    fmt::print(stderr, "rodeira: {}: the parent could not be repeated up to the branch; {}\n", options.file, outcome.value().difference->Text());
+    return 1;
+  }
+  fmt::print("parent    {} (repeated from step {} to {}, identical)\nbranch    steps {} to {}\n", options.file, outcome.value().recomputed_from, outcome.value().at,
+             outcome.value().at, outcome.value().last_step);
+  for (const auto& [key, value] : options.changes) fmt::print("changed   {} = {}\n", key, value);
+  if (!outcome.value().taken_over.empty()) fmt::print("began from what was published: {}\n", fmt::join(outcome.value().taken_over, ", "));
+  fmt::print("wrote     {}\n", options.record);
+  return 0;
+}
+
 }  // namespace
 
 int Replay(const ReplayOptions& options) {
-  if (!options.verify) return Complain(base::WrongInput("nothing to do was named; --verify was expected", "rodeira replay"));
+  if (!options.changes.empty()) return MakeBranch(options);
+  if (!options.verify) return Complain(base::WrongInput("nothing to do was named; --verify or --branch was expected", "rodeira replay"));
   const auto run = replay::RecordedRun::Open(options.file);
   if (!run) return Complain(run.error());
   const double base_step_s = static_cast<double>(run.value().roster().base_step_ns()) * 1e-9;

@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace rodeira::front {
 
@@ -9,6 +11,9 @@ struct ReplayOptions {
   std::string file;
   bool verify = false;
   std::optional<double> from_s;
+  std::vector<std::pair<std::string, std::string>> changes;  // --branch
+  std::optional<double> for_s;                               // of the branch: simulated seconds behind it
+  std::string record;                                        // of the branch
   bool quiet = false;
 };
 

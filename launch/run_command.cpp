@@ -9,18 +9,24 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <random>
 #include <thread>
 
 #include "common/launch/pace.hpp"
 #include "launch/in_process_command.hpp"
+#include "launch/operator.hpp"
+#include "launch/placement.hpp"
 #include "launch/processes.hpp"
 #include "launch/recording_folder.hpp"
+#include "launch/run_meta.hpp"
 #include "launch/run_report.hpp"
 #include "launch/shared_memory.hpp"
 
@@ -43,19 +49,40 @@ std::string FreshRunName() {
   return fmt::format("{:08x}{:08x}", device(), device());
 }
 
-std::string DatedRecording(const std::string& name) {
+// NAME-DATE-TIME.mcap; with a number behind it where a run of the same second has taken the name.
+std::string DatedRecording(const std::string& launch_name) {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   ::localtime_r(&now, &local);
-  return (RecordingFolder() / fmt::format("{}-{:%Y%m%d-%H%M%S}.mcap", name, local)).string();
+  std::string name = launch_name;
+  std::ranges::replace(name, '/', '_');
+  const std::string stem = fmt::format("{}-{:%Y%m%d-%H%M%S}", name, local);
+  std::error_code problem;
+  for (int number = 1;; ++number) {
+    const auto path = RecordingFolder() / (stem + (number == 1 ? "" : fmt::format("-{}", number)) + ".mcap");
+    if (!std::filesystem::exists(path, problem)) return path.string();
+  }
+}
+
+// The name, or name2, name3 …: what no node of the launch file is called.
+std::string FreeName(const launch::Launch& launch, const std::string& name) {
+  std::string free = name;
+  const auto is_it = [&free](const launch::LaunchNode& node) { return node.name == free; };
+  const auto taken = [&] { return std::ranges::any_of(launch.nodes(), is_it); };
+  for (int number = 2; taken(); ++number) free = fmt::format("{}{}", name, number);
+  return free;
 }
 
 // The processes of a run, their clock's words, and their end.
 class ProcessRun {
  public:
-  ProcessRun(const RunOptions& options, const launch::Launch& launch, launch::Overrides overrides)
-      : options_(options), launch_(launch), overrides_(std::move(overrides)), run_(options.run.empty() ? FreshRunName() : options.run),
-        domain_(options.domain.value_or(static_cast<std::uint32_t>(1 + base::Hash(run_) % 200))), before_(SharedMemoryFiles()) {}
+  ProcessRun(const RunOptions& options, const Placement& placement, const launch::Launch& launch, launch::Overrides overrides)
+      : options_(options), placement_(placement), launch_(launch), overrides_(std::move(overrides)), run_(options.run),
+        domain_(options.domain.value_or(static_cast<std::uint32_t>(1 + base::Hash(run_) % 200))) {
+    RemoveLeftOvers({});  // of dead runs
+    before_ = SharedMemoryFiles();
+    if (placement.has_clock()) desk_.emplace(options.run, options.quiet);
+  }
 
   int Run() {
     struct sigaction action {};
@@ -63,13 +90,16 @@ class ProcessRun {
     ::sigaction(SIGINT, &action, nullptr);
     ::sigaction(SIGTERM, &action, nullptr);
     ::signal(SIGPIPE, SIG_IGN);
-    if (auto status = StartAll(); !status) {
+    base::Status status = StartClock();
+    if (status.ok() && placement_.has_clock()) status = StartNodes();
+    if (!status) {
       EndAll();
       return Complain(status.error());
     }
-    Watch();
+    status = Watch();
     EndAll();
     RemoveLeftOvers(before_);
+    if (!status) return Complain(status.error());
     Close();
     return ExitStatus();
   }
@@ -86,15 +116,24 @@ class ProcessRun {
     return command;
   }
 
-  base::Status StartAll() {
+  // The clock, or on the other PCs of a laboratory who follows it.
+  base::Status StartClock() {
     std::vector<std::string> clock = Command("rodeira-clock");
-    clock.insert(clock.end(), {"--listen", "--pace", options_.pace});
-    if (options_.duration_s) clock.insert(clock.end(), {"--for", fmt::format("{}", *options_.duration_s)});
-    auto child = Child::Start("clock", clock, true);
+    if (placement_.has_clock()) {
+      clock.insert(clock.end(), {"--listen", "--pace", options_.pace});
+      if (options_.duration_s) clock.insert(clock.end(), {"--for", fmt::format("{}", *options_.duration_s)});
+    } else {
+      clock.insert(clock.end(), {"--follow", placement_.host()});
+    }
+    auto child = Child::Start(placement_.has_clock() ? "clock" : "follower of the clock", clock, true);
     if (!child) return child.error();
     children_.push_back(std::move(child).value());
+    return {};
+  }
+  base::Status StartNodes() {
+    nodes_started_ = true;
     for (const launch::LaunchNode& node : launch_.nodes()) {
-      if (!options_.host.empty() && node.host != options_.host) continue;
+      if (!placement_.Has(node)) continue;
       std::vector<std::string> command = Command(std::string(node.kind->program));
       command.insert(command.end(), {"--node", node.name});
       auto started = Child::Start(node.name, command, false);
@@ -105,29 +144,52 @@ class ProcessRun {
   }
 
   // Until the clock has ended, by itself or not.
-  void Watch() {
+  base::Status Watch() {
     while (true) {
       ReadClock(50);
+      // Beside a clock elsewhere nothing begins before it is met: this PC may wait for the others as long as it likes.
+      if (report_.met && !nodes_started_) {
+        if (auto status = StartNodes(); !status) return status;
+      }
       for (Child& child : children_) child.Poll();
       Child& clock = children_.front();
       if (clock.ended()) {
         while (ReadClock(0)) {
         }
-        if (!report_.ended && clock.exit_status() != 2) Fault(fmt::format("the clock {} at about step {}", clock.Fate(), report_.step));
-        return;
+        if (!report_.ended && clock.exit_status() != 2) Fault(fmt::format("the {} {} at about step {}", clock.name(), clock.Fate(), report_.step));
+        return {};
       }
       if (clock.stopped()) {
-        Fault(fmt::format("the clock {} at about step {}", clock.Fate(), report_.step));
-        return;
+        Fault(fmt::format("the {} {} at about step {}", clock.name(), clock.Fate(), report_.step));
+        return {};
       }
       for (const Child& child : children_) {
-        if (&child != &clock && Broken(child)) TellClock(fmt::format("node '{}' {} at about step {}", child.name(), child.Fate(), report_.step));
+        if (&child != &clock && Broken(child)) TellClock(child);
       }
       const int interrupts = g_interrupts;
       if (interrupts > 0 && !interrupted_at_) interrupted_at_ = WallClock::now();
       for (; passed_on_ < interrupts; ++passed_on_) clock.Signal(SIGINT);
+      AskClock();
       ShowProgress();
     }
+  }
+  // What the operator asks for goes to the clock; its answer comes among its other words.
+  void AskClock() {
+    while (auto asked = desk_ ? desk_->Next() : std::nullopt) {
+      // What would end a line or a text is no part of a command.
+      std::replace_if(asked->line.begin(), asked->line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+      children_.front().Send(fmt::format("do {} {}", ++asked_, asked->line));
+      answers_[asked_] = std::move(asked->answer);
+    }
+  }
+  void TakeAnswer(std::string_view line) {
+    std::size_t number = 0;
+    const auto [end, problem] = std::from_chars(line.data(), line.data() + line.size(), number);
+    const auto waiting = answers_.find(number);
+    if (problem != std::errc{} || waiting == answers_.end()) return;
+    line.remove_prefix(std::min(static_cast<std::size_t>(end - line.data()) + 1, line.size()));
+    waiting->second(std::string(line));
+    answers_.erase(waiting);
   }
   // Dead or stopped though the run is not over. A node that left with a sentence has told the clock itself.
   bool Broken(const Child& child) const {
@@ -137,11 +199,12 @@ class ProcessRun {
     const bool by_itself = child.exit_status() && *child.exit_status() <= 2;
     return !by_itself || WallClock::now() - child.ended_at() > 1s;
   }
-  void TellClock(const std::string& fault) {
+  void TellClock(const Child& broken) {
     if (told_) return;
     told_ = true;
+    const std::string fault = fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step);
     Fault(fault);
-    children_.front().Send("fault " + fault);
+    children_.front().Send(placement_.has_clock() ? "fault " + fault : fmt::format("lost {} it {}", broken.name(), broken.Fate()));
   }
   // The first fault is the cause, what follows are its consequences; it is said at once.
   void Fault(const std::string& fault) {
@@ -164,7 +227,12 @@ class ProcessRun {
     }
     pending_.append(buffer, static_cast<std::size_t>(size));
     for (auto end = pending_.find('\n'); end != std::string::npos; end = pending_.find('\n')) {
-      report_.Take(std::string_view(pending_).substr(0, end));
+      const std::string_view line = std::string_view(pending_).substr(0, end);
+      if (line.starts_with("answer ")) {
+        TakeAnswer(line.substr(7));
+      } else {
+        report_.Take(line);
+      }
       pending_.erase(0, end + 1);
       if (!report_.faults.empty()) Fault(report_.faults.front());
     }
@@ -200,11 +268,11 @@ class ProcessRun {
   void ShowProgress() {
     if (options_.quiet || ::isatty(STDERR_FILENO) == 0 || WallClock::now() - start_ < 2s) return;
     if (!report_.ready) {
-      fmt::print(stderr, "\r\033[Kwaiting for {}", report_.waiting_for);
+      fmt::print(stderr, "\r\033[Kwaiting for {}{}", report_.waiting_for, nodes_started_ ? "" : " on " + placement_.ClocksPlace());
     } else {
       const double simulated_s = static_cast<double>(report_.step) * static_cast<double>(launch_.roster().base_step_ns()) * 1e-9;
-      fmt::print(stderr, "\r\033[K{:.1f} s simulated, {:.1f} s passed, {:.2f} × real time", simulated_s, report_.wall_s,
-                 report_.wall_s > 0.0 ? simulated_s / report_.wall_s : 0.0);
+      fmt::print(stderr, "\r\033[K{:.1f} s simulated, {:.1f} s passed, {:.2f} × real time{}{}", simulated_s, report_.wall_s,
+                 report_.wall_s > 0.0 ? simulated_s / report_.wall_s : 0.0, report_.paused ? ", paused" : "", desk_ && desk_->has_keys() ? " (h: keys)" : "");
     }
     shown_ = true;
   }
@@ -226,6 +294,7 @@ class ProcessRun {
   }
 
   const RunOptions& options_;
+  const Placement& placement_;
   const launch::Launch& launch_;
   launch::Overrides overrides_;
   std::string run_;
@@ -235,38 +304,56 @@ class ProcessRun {
   RunReport report_;
   std::string fault_;
   std::string pending_;
+  std::optional<Operator> desk_;  // where the clock is
+  std::size_t asked_ = 0;
+  std::map<std::size_t, std::function<void(const std::string&)>> answers_;
   int passed_on_ = 0;
   std::optional<WallClock::time_point> interrupted_at_;
+  bool nodes_started_ = false;
   bool told_ = false;
   bool shown_ = false;
   WallClock::time_point start_ = WallClock::now();
 };
 
-// Where the recording goes: --record, else the launch file's own, else a dated file in the user's data folder. Adds a
-// recorder where --record asks for one that the launch file does not have.
-base::Status ResolveRecording(const launch::Launch& launch, RunOptions& options, launch::Overrides& overrides) {
+// Where the recording goes: --record, else the launch file's own, else a dated file in the user's data folder. A recorder
+// that the launch file does not have is added; --no-record takes those away that it has. On a PC of a laboratory only its own
+// recorder counts, and none is added: all PCs must agree on who takes part.
+base::Status ResolveRecording(const launch::Launch& launch, const Placement& placement, RunOptions& options, launch::Overrides& overrides) {
   std::string recorder;
-  bool has_file = false;
+  std::string own;  // what the launch file says
   for (const launch::LaunchNode& node : launch.nodes()) {
-    if (node.kind->name != "recorder" || !recorder.empty()) continue;
+    if (node.kind->name != "recorder") continue;
+    if (options.no_record) overrides.emplace_back("nodes." + node.name + ".kind", std::string(launch::kNoKind));
+    if (options.no_record || !recorder.empty()) continue;
+    if (!placement.Has(node)) {
+      if (options.record.empty()) return {};
+      return base::WrongInput(fmt::format("the recorder '{}' runs on another host; say it there", node.name), "--record");
+    }
     recorder = node.name;
-    const config::Map config = node.config->OptionalChild("config");
-    has_file = config.Has("file");
-    if (has_file && options.record.empty()) options.record = config.Path("file").string();
+    own = node.config->OptionalChild("config").Peek({"file"}).value_or("");
+    if (!own.empty()) own = node.config->OptionalChild("config").Path("file").string();
   }
-  if (options.record.empty() && recorder.empty()) return {};
-  if (has_file && options.record == launch.node(launch.roster().Find(recorder)).config->OptionalChild("config").Path("file").string()) return {};
+  if (options.no_record) return {};
+  if (options.record.empty()) options.record = own;
+  if (!own.empty() && options.record == own) return {};
+  if (options.record.empty() && recorder.empty() && !placement.host().empty()) return {};
   std::error_code problem;
   if (options.record.empty()) {
     options.record = DatedRecording(launch.name());
     std::filesystem::create_directories(RecordingFolder(), problem);
-    if (problem) return base::Failed(fmt::format("the folder for recordings cannot be made: {}; name a file by --record", problem.message()), RecordingFolder().string());
+    if (problem) {
+      const std::string what = fmt::format("the folder for recordings cannot be made: {}; name a file by --record, or say --no-record", problem.message());
+      return base::Failed(what, RecordingFolder().string());
+    }
   }
   options.record = std::filesystem::absolute(options.record, problem).string();
   if (std::filesystem::exists(options.record, problem)) return base::WrongInput("the file exists; a recording is never overwritten", options.record);
   if (recorder.empty()) {
-    recorder = "recorder";
-    overrides.emplace_back("nodes.recorder.kind", "recorder");
+    if (!placement.host().empty()) {
+      return base::WrongInput("the launch file has no recorder; with several PCs it must have one, 'recorder: {kind: recorder}'", "--record");
+    }
+    recorder = FreeName(launch, "recorder");
+    overrides.emplace_back("nodes." + recorder + ".kind", "recorder");
   }
   overrides.emplace_back("nodes." + recorder + ".config.file", "\"" + options.record + "\"");
   return {};
@@ -279,6 +366,7 @@ int Run(const RunOptions& options) {
   launch::Overrides overrides = options.overrides;
   if (options.seed) overrides.emplace_back("seed", std::to_string(*options.seed));
   RunOptions resolved = options;
+  Placement placement;
   auto launch = launch::Launch::Load(options.launch_file, overrides);
   if (launch.ok() && options.headless) {
     for (const launch::LaunchNode& node : launch.value().nodes()) {
@@ -286,13 +374,18 @@ int Run(const RunOptions& options) {
     }
   }
   if (launch.ok()) {
-    if (auto status = ResolveRecording(launch.value(), resolved, overrides); !status) return Complain(status.error());
+    auto found = Placement::Find(launch.value(), resolved, overrides);
+    if (!found) return Complain(found.error());
+    placement = std::move(found).value();
+    if (auto status = ResolveRecording(launch.value(), placement, resolved, overrides); !status) return Complain(status.error());
+    if (auto status = AddMeta(launch.value(), resolved.meta, overrides); !status) return Complain(status.error());
     launch = launch::Launch::Load(options.launch_file, overrides);
   }
   if (!launch) return Complain(launch.error());
   if (resolved.pace.empty()) resolved.pace = launch.value().pace().empty() ? "max" : launch.value().pace();
+  if (resolved.run.empty()) resolved.run = FreshRunName();
   if (options.in_process) return RunInProcess(resolved, launch.value());
-  return ProcessRun(resolved, launch.value(), std::move(overrides)).Run();
+  return ProcessRun(resolved, placement, launch.value(), std::move(overrides)).Run();
 }
 
 }  // namespace rodeira::front

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/base/result.hpp"
 #include "common/launch/launch.hpp"
@@ -14,13 +15,16 @@ struct RunOptions {
   std::string launch_file;
   std::optional<double> duration_s;
   std::string pace;  // empty: as the launch file says, otherwise as fast as it can
-  std::string record;       // empty: as the launch file says
+  std::string record;       // empty: as the launch file says, otherwise a dated file in the folder of recordings
+  bool no_record = false;
   std::optional<std::uint64_t> seed;
   launch::Overrides overrides;
+  std::vector<std::string> meta;  // KEY=VALUE, for the recording
   bool in_process = false;
   bool headless = false;
   bool quiet = false;
-  std::string host;         // only the nodes of this host; empty: all
+  std::string lab;          // laboratory file; empty: as the launch file says
+  std::string host;         // only what belongs to this host of the laboratory; empty: all
   std::string run;          // empty: a name of its own
   std::optional<std::uint32_t> domain;
 };

@@ -33,8 +33,11 @@ void RunReport::Take(std::string_view line) {
   if (line.starts_with("progress ")) {
     step = Number<std::int64_t>(line, "step");
     wall_s = Number<double>(line, "wall_s");
+    paused = Number<int>(line, "paused") != 0;
   } else if (line.starts_with("waiting for ")) {
     waiting_for = rest("waiting for ");
+  } else if (line == "met") {
+    met = true;
   } else if (line == "ready") {
     ready = true;
   } else if (line.starts_with("fault ")) {
@@ -53,6 +56,11 @@ void RunReport::Take(std::string_view line) {
     step = Number<std::int64_t>(line, "last_step");
     wall_s = Number<double>(line, "wall_s");
     slipped_s = Number<double>(line, "slipped_s");
+    paused_s = Number<double>(line, "paused_s");
+    paced_steps = Number<std::uint64_t>(line, "paced_steps");
+    late_steps = Number<std::uint64_t>(line, "late_steps");
+    late_mean_s = Number<double>(line, "late_mean_s");
+    late_worst_s = Number<double>(line, "late_worst_s");
     digest = std::string(Word(line, "digest"));
   } else if (!line.starts_with("starting ")) {
     remarks.emplace_back(line);
@@ -62,7 +70,11 @@ void RunReport::Take(std::string_view line) {
 std::string RunReport::Table(double base_step_s, const std::string& recording) const {
   const double simulated_s = static_cast<double>(std::max<std::int64_t>(step, 0)) * base_step_s;
   std::string text = fmt::format("simulated {:.3f} s in {:.2f} s ({:.2f} × real time)", simulated_s, wall_s, wall_s > 0.0 ? simulated_s / wall_s : 0.0);
-  if (slipped_s > 0.0) text += fmt::format(", {:.3f} s late and given up", slipped_s);
+  if (paused_s > 0.0) text += fmt::format(", of it paused {:.2f} s", paused_s);
+  if (paced_steps > 0) {
+    text += fmt::format("\nlate    mean {:.3f} ms, worst {:.3f} ms, {} of {} steps late, {:.3f} s given up", late_mean_s * 1e3, late_worst_s * 1e3, late_steps,
+                        paced_steps, slipped_s);
+  }
   std::size_t width = 4;
   for (const Node& node : nodes) width = std::max(width, node.name.size());
   text += fmt::format("\n{:<{}}  {:>9}  {:>10}  {:>10}  {:>12}\n", "node", width, "steps", "mean µs", "worst µs", "server calls");

@@ -16,12 +16,19 @@ struct RunReport {
     double worst_us = 0.0;
     std::uint64_t server_calls = 0;
   };
+  bool met = false;            // said by who follows a clock on another PC
   bool ready = false;
   bool ended = false;
   bool ok = false;
   std::int64_t step = 0;       // progress; at the end the last step of the run
   double wall_s = 0.0;         // since the first grant
   double slipped_s = 0.0;
+  double paused_s = 0.0;
+  bool paused = false;         // now
+  std::uint64_t paced_steps = 0;  // granted at a pace, and of them those granted a step or more after they were due
+  std::uint64_t late_steps = 0;
+  double late_mean_s = 0.0;
+  double late_worst_s = 0.0;
   std::string digest;
   std::string waiting_for;     // before ready
   std::vector<std::string> faults;

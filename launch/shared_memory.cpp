@@ -1,5 +1,7 @@
 #include "launch/shared_memory.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -24,19 +26,42 @@ std::set<std::string> InUse(const std::filesystem::path& folder) {
   for (const auto& process : std::filesystem::directory_iterator("/proc", problem)) {
     const std::string pid = process.path().filename().string();
     if (pid.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::ifstream maps(process.path() / "maps");
-    for (std::string line; std::getline(maps, line);) {
-      const auto at = line.find(prefix);
-      if (at != std::string::npos) used.insert(line.substr(at + prefix.size()));
-    }
     std::error_code closed;
     for (const auto& descriptor : std::filesystem::directory_iterator(process.path() / "fd", closed)) {
       std::error_code gone;
       const std::string target = std::filesystem::read_symlink(descriptor.path(), gone).string();
       if (!gone && target.starts_with(prefix)) used.insert(target.substr(prefix.size()));
     }
+    // After the descriptors: who has just opened a file maps it, and then closes it.
+    std::ifstream maps(process.path() / "maps");
+    for (std::string line; std::getline(maps, line);) {
+      const auto at = line.find(prefix);
+      if (at != std::string::npos) used.insert(line.substr(at + prefix.size()));
+    }
   }
   return used;
+}
+
+// What belongs to one segment or port: "fastrtps_port7410" of "sem.fastrtps_port7410_mutex" and "fastrtps_port7410_el".
+std::string GroupOf(std::string name) {
+  if (name.starts_with("sem.")) name.erase(0, 4);
+  for (const std::string_view end : {"_mutex", "_el", "_sl"}) {
+    if (name.ends_with(end)) name.erase(name.size() - end.size());
+  }
+  return name;
+}
+
+// Fast DDS locks a file beside each segment and port as long as it lives: this tells of processes too that /proc does not
+// show, in a container with the same /dev/shm.
+bool IsLocked(const std::filesystem::path& folder, const std::string& group) {
+  for (const char* end : {"_el", "_sl"}) {
+    const int file = ::open((folder / (group + end)).c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) continue;
+    const bool locked = ::flock(file, LOCK_EX | LOCK_NB) != 0;
+    ::close(file);
+    if (locked) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -72,6 +97,7 @@ std::set<std::string> DeadFiles(const std::set<std::string>& before, const std::
     return false;
   };
   std::erase_if(dead, in_use);
+  std::erase_if(dead, [&folder](const std::string& name) { return IsLocked(folder, GroupOf(name)); });
   return dead;
 }
 

@@ -9,21 +9,28 @@
 #include "launch/local_nodes.hpp"
 
 namespace rodeira::front {
-namespace {
 
-// Whether a node's samples came from a person's hands.
 bool IsLive(const launch::LaunchNode& node) {
   const auto source = node.config->Peek({"config", "source"});
   return node.kind->name == "input" && source && (*source == "keyboard" || *source == "joystick");
 }
 
-}  // namespace
-
 base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from, const std::function<void(lockstep::Step)>& on_progress) {
+  Recomputation wish;
+  wish.from = from;
+  wish.on_progress = on_progress;
+  auto done = Recompute(run, wish);
+  if (!done) return done.error();
+  return std::move(done.value().verdict);
+}
+
+base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish) {
   const auto& roster = run.roster();
-  const auto at = run.SnapshotAtOrBefore(from);
+  if (auto status = run.CheckMathematics(); !status) return status.error();
+  const auto at = run.SnapshotAtOrBefore(wish.from);
   if (!at) return at.error();
-  Verdict verdict;
+  Recomputed recomputed;
+  Verdict& verdict = recomputed.verdict;
   verdict.first_step = at.value();
   std::vector<bool> trusted(roster.nodes().size(), false);
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
@@ -40,11 +47,19 @@ base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from
 
   lockstep::InProcessSettings settings;
   settings.first_step = at.value();
-  settings.last_step = run.last_step();
+  settings.last_step = wish.last_step.value_or(run.last_step());
+  if (wish.snapshot_at && *wish.snapshot_at > at.value()) {
+    recomputed.snapshots.resize(roster.nodes().size());
+    settings.snapshot_every = *wish.snapshot_at;
+    settings.on_snapshot = [&](const lockstep::Snapshot& snapshot) {
+      if (snapshot.at == *wish.snapshot_at) recomputed.snapshots[snapshot.node] = snapshot;
+    };
+  }
   if (at.value() > 0) {
     auto snapshots = run.Snapshots(at.value());
     if (!snapshots) return snapshots.error();
     settings.resume = std::move(snapshots).value();
+    if (wish.snapshot_at == at.value()) recomputed.snapshots = settings.resume;
     for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
       if (trusted[n]) settings.resume[n].state.clear();  // it was another node's
     }
@@ -56,16 +71,20 @@ base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from
     if (comparison.differs()) stop = true;
   };
   settings.stop_requested = [&] { return stop.load(); };
-  if (on_progress) settings.on_progress = [&](const lockstep::Clock& clock) { on_progress(clock.slowest_progress()); };
+  if (wish.on_progress) settings.on_progress = [&](const lockstep::Clock& clock) { wish.on_progress(clock.slowest_progress()); };
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   comparison.Finish(std::min(outcome.last_step, run.last_step()));
+  for (lockstep::NodeIndex n = 0; n < recomputed.snapshots.size(); ++n) {
+    recomputed.snapshots[n].node = n;
+    recomputed.snapshots[n].at = *wish.snapshot_at;
+  }
   if (comparison.problem()) return *comparison.problem();
   if (!outcome.ok && !comparison.first()) return base::Failed(fmt::format("the run could not be computed again: {}", outcome.fault), run.path().string());
   verdict.last_step = outcome.last_step;
   verdict.samples = comparison.compared();
   verdict.snapshots = comparison.snapshots_compared();
   verdict.difference = comparison.first();
-  return verdict;
+  return recomputed;
 }
 
 }  // namespace rodeira::front

@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "common/replay/comparison.hpp"
 #include "common/replay/recorded_run.hpp"
@@ -17,6 +19,22 @@ struct Verdict {
   std::vector<std::string> substituted;  // live input: their samples were taken from the recording
   std::optional<replay::Difference> difference;
 };
+
+// Whether a node's samples came from a person's hands.
+bool IsLive(const launch::LaunchNode& node);
+
+// What is computed again of a recording.
+struct Recomputation {
+  lockstep::Step from = 0;       // begins at the snapshot at or before
+  std::optional<lockstep::Step> last_step;    // none: the recording's
+  std::optional<lockstep::Step> snapshot_at;  // every node's snapshot before this step is handed back
+  std::function<void(lockstep::Step)> on_progress;
+};
+struct Recomputed {
+  Verdict verdict;
+  std::vector<lockstep::Snapshot> snapshots;  // one for each node where they were asked for
+};
+base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish);
 
 // Runs the recording's nodes again in this process, from its launch file and configurations and from the snapshot at or
 // before `from`, and compares every sample, every state digest and every snapshot. Live input is substituted by its

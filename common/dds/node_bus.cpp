@@ -192,7 +192,7 @@ void NodeBus::Heartbeat() {
     lockstep::Report report = last_;
     const bool silent = clock_id_ != 0 && fault_.empty() && WallClock::now() - clock_heard_ > settings_.clock_silence;
     lock.unlock();
-    if (runner != nullptr && report.phase != lockstep::Phase::kFailed) report = runner->report();
+    if (runner != nullptr && report.phase < lockstep::Phase::kFailed) report = runner->report();
     if (silent && !mailbox_.grant().over) Abort(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
                                                             static_cast<double>(settings_.clock_silence.count()) / 1e3));
     if (g_terminated != 0 && !mailbox_.grant().over) Abort("the process was told to end by SIGTERM");

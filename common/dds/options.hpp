@@ -21,7 +21,8 @@ struct ProcessOptions {
   // For the clock alone.
   double pace = 0.0;                     // 0: as fast as possible
   std::optional<double> duration_s;
-  bool listen = false;                   // take lines "fault TEXT" from standard input: a parent saw a process die
+  bool listen = false;                   // take lines from standard input: a parent saw a process die, an operator asks
+  std::string follow;                    // name of this host: grant nothing, say what the run's clock elsewhere says
 };
 
 // The options, or the status to leave with (0 after --help, 2 after a wrong option); what a person should read has been
@@ -31,6 +32,9 @@ struct ParsedOptions {
   std::optional<int> leave_with;
 };
 ParsedOptions ParseOptions(const std::string& program, bool is_clock, int argc, char** argv);
+
+// In place of the clock where options.follow is set (run_follower.cpp); the exit status comes back.
+int FollowClock(const launch::Launch& launch, const ProcessOptions& options);
 
 DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& launch, const std::string& name);
 

@@ -11,55 +11,24 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fmt/format.h>
 
 #include <map>
 #include <mutex>
 #include <utility>
 
+#include "common/dds/participant_qos.hpp"
 #include "common/dds/raw_type.hpp"
+#include "common/dds/udp_port.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::dds {
 namespace {
 
 namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastdds::rtps;
 using eprosima::fastrtps::Duration_t;
 
 constexpr int kMilli = 1'000'000;  // nanoseconds
-
-// Shared memory: the defaults (512 KiB, 512 messages) are full after a few hundred unread samples, and full means lost
-// until a heartbeat; sized for two windows of all sources.
-constexpr std::uint32_t kSegmentBytes = 8u << 20;
-constexpr std::uint32_t kPortQueue = 4096;
-constexpr std::uint32_t kSocketBufferBytes = 4u << 20;
-
-fdds::DomainParticipantQos ParticipantQos(const DomainSettings& settings) {
-  fdds::DomainParticipantQos qos;
-  qos.name(settings.name.c_str());
-  qos.transport().use_builtin_transports = false;
-  if (settings.transport == launch::Transport::kSharedMemory) {
-    auto shared = std::make_shared<rtps::SharedMemTransportDescriptor>();
-    shared->segment_size(kSegmentBytes);
-    shared->port_queue_capacity(kPortQueue);
-    qos.transport().user_transports.push_back(shared);
-  } else {
-    auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
-    udp->sendBufferSize = kSocketBufferBytes;
-    udp->receiveBufferSize = kSocketBufferBytes;
-    qos.transport().user_transports.push_back(udp);
-  }
-  auto& discovery = qos.wire_protocol().builtin.discovery_config;
-  // The lockstep has its own heartbeat; a lease that runs out under load would only tear matched endpoints apart.
-  discovery.leaseDuration = Duration_t{20, 0};
-  discovery.leaseDuration_announcementperiod = Duration_t{1, 0};
-  discovery.initial_announcements.count = 20;
-  discovery.initial_announcements.period = Duration_t{0, 50u * kMilli};
-  return qos;
-}
 
 class FastWriter final : public Writer {
  public:
@@ -117,7 +86,7 @@ class FastParticipant final : public Participant {
     if (made_topic == nullptr) return Refused(topic);
     fdds::DataWriterQos qos = fdds::DATAWRITER_QOS_DEFAULT;
     Common(qos, delivery);
-    qos.durability().kind = delivery == Delivery::kForLateComers ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
+    qos.durability().kind = IsKept(delivery) ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
     qos.reliability().kind = delivery == Delivery::kSaidAgain ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
     auto& times = qos.reliable_writer_qos().times;
     times.initialHeartbeatDelay = Duration_t{0, 0};
@@ -134,7 +103,7 @@ class FastParticipant final : public Participant {
     if (made_topic == nullptr) return Refused(topic);
     fdds::DataReaderQos qos = fdds::DATAREADER_QOS_DEFAULT;
     Common(qos, delivery);
-    qos.durability().kind = delivery == Delivery::kForLateComers ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
+    qos.durability().kind = IsKept(delivery) ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
     const bool best_effort = delivery == Delivery::kObserve || delivery == Delivery::kSaidAgain;
     qos.reliability().kind = best_effort ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
     qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t{0, 0};
@@ -146,6 +115,7 @@ class FastParticipant final : public Participant {
   }
 
  private:
+  static bool IsKept(Delivery delivery) { return delivery == Delivery::kForLateComers || delivery == Delivery::kHistory; }
   template <class Qos>
   static void Common(Qos& qos, Delivery delivery) {
     qos.history().kind = fdds::KEEP_LAST_HISTORY_QOS;
@@ -183,6 +153,11 @@ class FastParticipant final : public Participant {
 
 base::Result<std::unique_ptr<Participant>> Participant::Open(const DomainSettings& settings) {
   RODEIRA_ASSERT(!settings.run.empty());
+  const launch::Discovery& discovery = settings.discovery;
+  if (settings.serves_discovery && discovery.kind == launch::DiscoveryKind::kServer && !UdpPortIsFree(discovery.port)) {
+    return base::WrongInput(fmt::format("UDP port {} of the discovery server is in use by another program; end that one, or name another 'discovery.port'",
+                                        discovery.port), fmt::format("run '{}'", settings.run));
+  }
   fdds::Log::SetVerbosity(fdds::Log::Kind::Error);
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   auto* participant = factory->create_participant(settings.domain, ParticipantQos(settings));

@@ -16,6 +16,7 @@ namespace rodeira::dds {
 enum class Delivery {
   kSaidAgain,      // best effort: what is repeated where it is missed (samples, grants, reports, questions and answers)
   kForLateComers,  // reliable, transient local, the newest: world information
+  kHistory,      // reliable, transient local, the newest 256: what happens seldom and must reach everybody (triggers)
   kObserve,      // best effort: whoever only looks on, and never slows a run (law L5)
 };
 
@@ -24,6 +25,8 @@ struct DomainSettings {
   std::string run;                // one a run: becomes the partition, never empty
   std::string name;               // of the participant, for people
   launch::Transport transport = launch::Transport::kSharedMemory;
+  launch::Discovery discovery;
+  bool serves_discovery = false;  // the one that DiscoveryKind::kServer asks: the clock
 };
 
 class Writer {
@@ -44,6 +47,7 @@ using OnPayload = std::function<void(base::Bytes&&)>;
 // A DDS participant, one a process. Topics and types are those of idl/topics.hpp.
 class Participant {
  public:
+  // Wrong input where the discovery server's port is in use: the library would silently take another.
   static base::Result<std::unique_ptr<Participant>> Open(const DomainSettings& settings);
   virtual ~Participant() = default;
   virtual base::Result<std::unique_ptr<Writer>> MakeWriter(std::string_view topic, Delivery delivery) = 0;

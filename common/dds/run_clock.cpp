@@ -5,20 +5,25 @@
 #include <cmath>
 #include <condition_variable>
 #include <csignal>
-#include <cstdio>
 #include <deque>
 #include <mutex>
 #include <random>
+#include <string>
 #include <thread>
 
 #include "common/base/mathematics.hpp"
 #include "common/base/suggest.hpp"
 #include "common/dds/options.hpp"
+#include "common/dds/parents_word.hpp"
 #include "common/dds/participant.hpp"
+#include "common/dds/remote_log.hpp"
 #include "common/dds/run.hpp"
+#include "common/dds/statements.hpp"
+#include "common/dds/triggers.hpp"
 #include "common/dds/wire.hpp"
+#include "common/launch/command_text.hpp"
 #include "common/lockstep/clock.hpp"
-#include "common/lockstep/pacer.hpp"
+#include "common/lockstep/conductor.hpp"
 #include "common/lockstep/watchdog.hpp"
 #include "idl/topics.hpp"
 
@@ -32,41 +37,27 @@ namespace topics = idl::topics;
 std::atomic<int> g_signals = 0;
 void OnSignal(int) { ++g_signals; }
 
-// One line a statement on standard output: `rodeira run` reads them, people may too.
-template <class... Args>
-void Say(fmt::format_string<Args...> format, Args&&... args) {
-  fmt::print(format, std::forward<Args>(args)...);
-  std::fputc('\n', stdout);
-  std::fflush(stdout);
-}
-
-// Newlines would end a statement.
-std::string OneLine(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 class ClockProcess {
  public:
   ClockProcess(const launch::Launch& launch, const ProcessOptions& options)
-      : launch_(launch), roster_(launch.roster()), options_(options), clock_(roster_, LastStep()), pacer_(roster_.base_step_ns(), options.pace),
+      : launch_(launch), roster_(launch.roster()), options_(options), clock_(roster_, LastStep()),
+        conductor_(clock_, lockstep::Pacer(roster_.base_step_ns(), options.pace)),
         watchdog_(roster_, launch.watchdog()), own_(OwnHello(roster_.hash())) {
     std::random_device device;
     while (clock_id_ == 0) clock_id_ = (static_cast<std::uint64_t>(device()) << 32) | device();
   }
 
   int Run() {
-    auto participant = Participant::Open(DomainOf(options_, launch_, "clock"));
+    DomainSettings settings = DomainOf(options_, launch_, "clock");
+    settings.serves_discovery = true;
+    auto participant = Participant::Open(settings);
     if (!participant) return Complain(participant.error());
     participant_ = std::move(participant).value();
     if (auto status = Connect(*participant_); !status) return Complain(status.error());
     Say("starting {} nodes", roster_.nodes().size());
-    if (options_.listen) std::thread([this] { Listen(); }).detach();  // ends with the process
+    if (options_.listen) parents_.Listen([this] { woken_.notify_one(); });
     start_ = WallClock::now();
-    if (const int status = Loop(); status != 0) return status;
-    Say("end ok last_step={} wall_s={:.6f} digest={} slipped_s={:.6f}", clock_.grant().through, RunSeconds(), base::Hex(clock_.RunDigest()),
-        static_cast<double>(pacer_.slipped_ns()) * 1e-9);
-    return 0;
+    return Loop();
   }
 
  private:
@@ -80,7 +71,10 @@ class ClockProcess {
     return error.exit_status();
   }
   std::int64_t NowNs() const { return std::chrono::nanoseconds(WallClock::now() - start_).count(); }
-  double RunSeconds() const { return first_grant_ns_ == 0 ? 0.0 : static_cast<double>(NowNs() - first_grant_ns_) * 1e-9; }
+  lockstep::Wall Now() const {
+    return {NowNs(), std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()};
+  }
+  double RunSeconds() const { return static_cast<double>(conductor_.RunNs(Now())) * 1e-9; }
 
   base::Status Connect(Participant& participant) {
     // Before anything is said: another clock's word in this run means that this one is too many.
@@ -102,6 +96,12 @@ class ClockProcess {
     auto grants = participant.MakeWriter(topics::kGrant, Delivery::kSaidAgain);
     if (!grants) return grants.error();
     grants_ = std::move(grants).value();
+    auto log = OpenLogSpeaker(participant, roster_.hash(), clock_id_, roster_.base_step_ns());
+    if (!log) return log.error();
+    log_ = std::move(log).value();
+    auto triggers = Triggers::Open(participant, options_.run, roster_.base_step_ns());
+    if (!triggers) return triggers.error();
+    triggers_.emplace(std::move(triggers).value());
     return {};
   }
   base::Status SecondClock() const {
@@ -109,21 +109,29 @@ class ClockProcess {
                                         base::Hex(other_clock_)));
   }
 
-  // What `rodeira run` sees sooner than any heartbeat: a process of its own that died or was stopped.
-  void Listen() {
-    char line[4096];
-    while (std::fgets(line, sizeof(line), stdin) != nullptr) {
-      std::string text(line);
-      while (!text.empty() && text.back() == '\n') text.pop_back();
-      if (!text.starts_with("fault ")) continue;
-      const std::lock_guard lock(mutex_);
-      if (told_.empty()) told_ = text.substr(6);
-      woken_.notify_one();
+  // What `rodeira run` has told us, if anything.
+  std::string Told() const {
+    const std::string word = parents_.word();
+    return word.starts_with("fault ") ? word.substr(6) : "";
+  }
+
+  // "answer NUMBER ok|wrong|failed SENTENCE".
+  void DoCommands() {
+    for (const std::string& line : parents_.TakeAsked()) {
+      const auto space = std::min(line.find(' '), line.size());
+      const std::string number = line.substr(0, space);
+      const auto command = launch::ParseCommand(std::string_view(line).substr(space));
+      const auto done = command ? conductor_.Do(command.value(), Now()) : base::Result<std::string>(command.error());
+      const std::string_view how = done ? "ok" : done.error().code == base::ErrorCode::kWrongInput ? "wrong" : "failed";
+      Say("answer {} {} {}", number, how, OneLine(done ? done.value() : done.error().Text()));
     }
   }
-  std::string Told() {
-    const std::lock_guard lock(mutex_);
-    return told_;
+
+  void FlushLog() {
+    const auto batch = conductor_.log().Take(NowNs());
+    if (!batch) return;
+    log_->Say(*batch);
+    for (const lockstep::Remark& remark : batch->remarks) triggers_->Say(remark);
   }
 
   // Two clocks that began at the same moment: the one with the larger number is the one too many.
@@ -141,42 +149,61 @@ class ClockProcess {
       const auto now = WallClock::now();
       if (now - checked >= 20ms) {
         checked = now;
-        if (auto fault = watchdog_.Check(NowNs() / 1'000'000)) return Abort(fault->reason, 1);
+        if (auto fault = watchdog_.Check(NowNs() / 1'000'000)) return Abort(fault->reason, fault->status);
         if (const int signals = g_signals; signals > 0) {
           if (signals > 2 || clock_.grant().through < 0) return Abort("stopped by a signal", 1);
-          clock_.Stop();
+          conductor_.Stop(Now());
         }
       }
       if (!told_ready && clock_.all_ready()) {
         told_ready = true;
-        first_grant_ns_ = std::max<std::int64_t>(NowNs(), 1);
         Say("ready");
       }
       const lockstep::Grant before = clock_.grant();
-      const lockstep::Step limit = told_ready ? pacer_.Limit(NowNs(), clock_.window_limit()) : -1;
-      const lockstep::Grant grant = clock_.Update(limit);
+      DoCommands();
+      if (clock_.grant().abort) return Abort(clock_.grant().reason, 1);
+      const lockstep::Grant grant = conductor_.Move(Now());
       if (grant.through != before.through || grant.final != before.final || now - said >= 10ms) {
         said = now;
         SayGrant(grant);
         ShowProgress(now);
       }
+      if (grant.final && clock_.all_sources_finished()) conductor_.CloseLog(Now());
+      FlushLog();
       Wait();
     }
+    triggers_->SayEnd(clock_.grant().through, Now().utc_ns, "ok");
+    Close(NodeLines() + EndLine("ok", clock_.grant().through, clock_.RunDigest(), 0));
+    return 0;
+  }
+
+  // The closing words, here and to who follows on other PCs. Said again until everybody must have heard them; who has gone
+  // already does not matter.
+  void Close(const std::string& words) {
     lockstep::Grant last = clock_.grant();
-    SayNodes();
     last.over = true;
-    for (int i = 0; i < 10; ++i) {  // until everybody has heard it; who has gone already does not matter
+    last.reason = words;
+    for (int i = 0; i < 10; ++i) {
       SayGrant(last);
       std::this_thread::sleep_for(5ms);
     }
-    return 0;
+    SayLine(words);
+  }
+  std::string EndLine(const char* how, lockstep::Step last_step, base::Digest digest, int status) const {
+    const lockstep::Pacer& pacer = conductor_.pacer();
+    const lockstep::Lateness& late = pacer.lateness();
+    const auto seconds = [](auto ns) { return static_cast<double>(ns) * 1e-9; };
+    return fmt::format("end {} last_step={} wall_s={:.6f} digest={} slipped_s={:.6f} paused_s={:.6f} paced_steps={} late_steps={} "
+                       "late_mean_s={:.9f} late_worst_s={:.9f} status={}",
+                       how, last_step, RunSeconds(), base::Hex(digest), seconds(pacer.slipped_ns()), seconds(pacer.PausedNs(NowNs())),
+                       late.steps, late.late, seconds(late.mean_ns()), seconds(late.worst_ns), status);
   }
 
   void Wait() {
     std::unique_lock lock(mutex_);
-    const auto due = std::chrono::nanoseconds(clock_.all_ready() && !clock_.grant().final ? pacer_.NextDueIn(NowNs()) : 0);
+    const auto due = std::chrono::nanoseconds(conductor_.NextDueIn(Now()));
     const std::chrono::nanoseconds limit = due > 0ns ? std::min<std::chrono::nanoseconds>(due, 10ms) : 10ms;
-    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || !told_.empty(); });
+    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || parents_.is_waiting(); });
   }
 
   void TakeReports() {
@@ -207,9 +234,21 @@ class ClockProcess {
       refusal_ = fmt::format("node '{}' (process {} on host {}) was refused: {}", named.node, named.hello.pid, named.hello.host, status.error().Text());
       return;
     }
+    if (named.report.phase < lockstep::Phase::kFailed && IsTwice(node, named)) return;
     named.report.node = node;
     watchdog_.Heard(named.report, NowNs() / 1'000'000);
     if (auto status = clock_.Take(named.report); !status) Say("refused {}", OneLine(status.error().Text()));
+  }
+
+  // Two processes as one node, of one life: somebody has started the same host twice.
+  bool IsTwice(lockstep::NodeIndex node, const NamedReport& named) {
+    const Who now{named.report.incarnation, named.hello.host, named.hello.pid};
+    Who& known = who_[node];
+    if (known.pid == 0 || known.incarnation < now.incarnation) known = now;
+    if (known.incarnation != now.incarnation || (known.pid == now.pid && known.host == now.host)) return false;
+    refusal_ = fmt::format("node '{}' takes part twice, as process {} on host {} and as process {} on host {}; end one of them", named.node, known.pid, known.host,
+                           now.pid, now.host);
+    return true;
   }
 
   void SayGrant(const lockstep::Grant& grant) { (void)grants_->Write(EncodeGrant({clock_id_, ++serial_, grant})); }
@@ -217,34 +256,39 @@ class ClockProcess {
   void ShowProgress(WallClock::time_point now) {
     if (now - shown_ < 200ms) return;
     shown_ = now;
-    if (first_grant_ns_ == 0) {
+    if (!conductor_.begun()) {
       Say("waiting for {}", fmt::join(clock_.Missing(lockstep::Phase::kReady), ", "));
     } else {
-      Say("progress step={} wall_s={:.3f}", clock_.slowest_progress(), RunSeconds());
+      Say("progress step={} wall_s={:.3f} pace={:g} paused={}", clock_.slowest_progress(), RunSeconds(), conductor_.pacer().pace(),
+          conductor_.pacer().paused() ? 1 : 0);
     }
   }
 
-  void SayNodes() const {
+  // A line each, with its line break.
+  std::string NodeLines() const {
+    std::string lines;
     for (lockstep::NodeIndex n = 0; n < roster_.nodes().size(); ++n) {
       const lockstep::Report& report = clock_.report(n);
       const double mean_us = report.steps == 0 ? 0.0 : static_cast<double>(report.busy_ns) * 1e-3 / static_cast<double>(report.steps);
-      Say("node {} steps={} mean_us={:.2f} worst_us={:.1f} server_calls={} digest={}", roster_.node(n).name, report.steps, mean_us,
-          static_cast<double>(report.worst_ns) * 1e-3, report.server_calls, base::Hex(report.digest));
+      lines += fmt::format("node {} steps={} mean_us={:.2f} worst_us={:.1f} server_calls={} digest={}\n", roster_.node(n).name, report.steps, mean_us,
+                           static_cast<double>(report.worst_ns) * 1e-3, report.server_calls, base::Hex(report.digest));
     }
+    return lines;
   }
 
   // Time stops everywhere; sinks get a moment to close their files.
   int Abort(const std::string& reason, int status) {
-    clock_.Abort(reason);
+    conductor_.Abort(reason, Now());
+    FlushLog();
+    triggers_->SayEnd(clock_.slowest_progress() - 1, Now().utc_ns, clock_.grant().reason);
     Say("fault {}", OneLine(reason));
-    for (int i = 0; i < 100 && !AllButTheDeadHaveFinished(); ++i) {
+    // At least some times: no process of another PC is told of it by anybody else.
+    for (int i = 0; i < 10 || (i < 100 && !AllButTheDeadHaveFinished()); ++i) {
       SayGrant(clock_.grant());
       std::this_thread::sleep_for(10ms);
       TakeReports();
     }
-    SayNodes();
-    Say("end aborted last_step={} wall_s={:.6f} digest={} slipped_s={:.6f}", clock_.slowest_progress() - 1, RunSeconds(), base::Hex(0),
-        static_cast<double>(pacer_.slipped_ns()) * 1e-9);
+    Close(fmt::format("fault {}\n", OneLine(reason)) + NodeLines() + EndLine("aborted", clock_.slowest_progress() - 1, 0, status));
     return status;
   }
   bool AllButTheDeadHaveFinished() const {
@@ -258,22 +302,29 @@ class ClockProcess {
   const lockstep::Roster& roster_;
   const ProcessOptions& options_;
   lockstep::Clock clock_;
-  lockstep::Pacer pacer_;
+  lockstep::Conductor conductor_;
   lockstep::Watchdog watchdog_;
   Hello own_;
+  struct Who {
+    std::uint32_t incarnation = 0;
+    std::string host;
+    std::uint32_t pid = 0;
+  };
+  std::vector<Who> who_ = std::vector<Who>(roster_.nodes().size());
   std::uint64_t clock_id_ = 0;
   std::uint32_t serial_ = 0;
   std::atomic<std::uint64_t> other_clock_ = 0;
   WallClock::time_point start_ = WallClock::now();
   WallClock::time_point shown_{};
-  std::int64_t first_grant_ns_ = 0;
   std::string refusal_;
   std::mutex mutex_;
   std::condition_variable woken_;
   std::deque<base::Bytes> inbox_;
-  std::string told_;
+  ParentsWord parents_;
   std::unique_ptr<Participant> participant_;  // outlives its endpoints
   std::unique_ptr<Writer> grants_;
+  std::unique_ptr<LogSpeaker> log_;
+  std::optional<Triggers> triggers_;
   std::unique_ptr<Reader> others_;
   std::unique_ptr<Reader> reports_;
 };
@@ -289,6 +340,7 @@ int RunClock(int argc, char** argv) {
     fmt::print(stderr, "rodeira-clock: {}\n", launch.error().Text());
     return launch.error().exit_status();
   }
+  if (!parsed.options.follow.empty()) return FollowClock(launch.value(), parsed.options);
   std::signal(SIGINT, OnSignal);
   std::signal(SIGTERM, OnSignal);
   return ClockProcess(launch.value(), parsed.options).Run();

@@ -10,6 +10,7 @@
 #include "common/dds/options.hpp"
 #include "common/dds/remote_ground.hpp"
 #include "common/dds/remote_keys.hpp"
+#include "common/dds/remote_log.hpp"
 #include "common/dds/run.hpp"
 #include "common/lockstep/pump.hpp"
 #include "common/lockstep/runner.hpp"
@@ -65,6 +66,11 @@ class ProcessContext final : public launch::NodeContext {
     RODEIRA_ASSERT(receiver.ok());
     return std::move(receiver).value();
   }
+  std::unique_ptr<launch::RunLogReceiver> RunLog() override {
+    auto receiver = OpenLogReceiver(participant_, roster().hash());
+    RODEIRA_ASSERT(receiver.ok());
+    return std::move(receiver).value();
+  }
   void Follow(lockstep::Runner* runner) {
     if (ground_ != nullptr) ground_->Follow(runner);
   }
@@ -87,7 +93,7 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
     lockstep::Report report;
     report.node = context.index();
     report.incarnation = options.incarnation;
-    report.phase = lockstep::Phase::kFailed;
+    report.phase = error.exit_status() == 2 ? lockstep::Phase::kRefused : lockstep::Phase::kFailed;
     report.message = error.Text();
     bus.Linger(report, 1000ms);
     return error.exit_status();

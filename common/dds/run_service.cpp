@@ -66,7 +66,7 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   auto finish = launch.value().file().Finish();
   if (!service || !finish) {
     const base::Error& error = service ? finish.error() : service.error();
-    report.phase = lockstep::Phase::kFailed;
+    report.phase = error.exit_status() == 2 ? lockstep::Phase::kRefused : lockstep::Phase::kFailed;
     report.message = error.Text();
     bus.value()->Linger(report, 1000ms);
     return error.exit_status();

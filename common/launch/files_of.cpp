@@ -12,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::uintmax_t kMostBytes = 64u << 20;
+const std::string kAbsolute = "absolute";
 constexpr std::size_t kMostUp = 8;  // how often a name may go up from the launch file's folder
 
 class Collector {
@@ -24,44 +25,50 @@ class Collector {
   }
 
   base::Status Add(const fs::path& path, const config::File& file) {
-    if (auto status = Take(path); !status) return status;
-    return Follow(path, file);
+    if (auto status = Take(path, false); !status) return status;
+    return Follow(path, file, false);
   }
   std::vector<NamedFile> files() && { return std::move(files_); }
 
  private:
-  base::Status Take(const fs::path& path) {
-    seen_.insert(path);
+  // `absolute`: the file was named by its whole path, or by another that was.
+  base::Status Take(const fs::path& path, bool absolute) {
+    std::string name = absolute ? kAbsolute + path.generic_string() : path.lexically_relative(home_).generic_string();
+    if (!seen_.insert(name).second) return {};
     auto bytes = base::ReadBytes(path);
     if (!bytes) return bytes.error();
-    files_.push_back({path.lexically_relative(home_).generic_string(), std::move(bytes).value()});
+    files_.push_back({std::move(name), std::move(bytes).value()});
     return {};
   }
-  base::Status Follow(const fs::path& path, const config::File& file) {
+  bool Seen(const fs::path& path, bool absolute) const {
+    return seen_.contains(absolute ? kAbsolute + path.generic_string() : path.lexically_relative(home_).generic_string());
+  }
+  base::Status Follow(const fs::path& path, const config::File& file, bool from_absolute) {
     for (const std::string& scalar : file.Scalars()) {
-      if (scalar.empty() || scalar.size() > 1000 || fs::path(scalar).is_absolute()) continue;
+      if (scalar.empty() || scalar.size() > 1000) continue;
+      const bool absolute = from_absolute || fs::path(scalar).is_absolute();
       const fs::path named = fs::absolute(path.parent_path() / scalar).lexically_normal();
       std::error_code problem;
-      if (seen_.contains(named) || outputs_.contains(named) || !fs::is_regular_file(named, problem) || fs::file_size(named, problem) > kMostBytes) continue;
-      if (auto status = Take(named); !status) return status;
+      if (Seen(named, absolute) || outputs_.contains(named) || !fs::is_regular_file(named, problem) || fs::file_size(named, problem) > kMostBytes) continue;
+      if (auto status = Take(named, absolute); !status) return status;
       if (named.extension() != ".yaml" && named.extension() != ".yml") {
         // A raster's projection stands beside it.
         const fs::path beside = fs::path(named).replace_extension(".prj");
-        if (!seen_.contains(beside) && fs::is_regular_file(beside, problem)) {
-          if (auto status = Take(beside); !status) return status;
+        if (fs::is_regular_file(beside, problem)) {
+          if (auto status = Take(beside, absolute); !status) return status;
         }
         continue;
       }
       const auto inner = config::File::Load(named);
       if (!inner) continue;  // whoever reads it says what is wrong
-      if (auto status = Follow(named, inner.value()); !status) return status;
+      if (auto status = Follow(named, inner.value(), absolute); !status) return status;
     }
     return {};
   }
 
   fs::path home_;
   std::set<fs::path> outputs_;
-  std::set<fs::path> seen_;
+  std::set<std::string> seen_;  // names
   std::vector<NamedFile> files_;
 };
 
@@ -91,6 +98,15 @@ base::Result<fs::path> LayOut(const std::vector<NamedFile>& files, const fs::pat
     if (auto status = base::WriteWhole(target, file.bytes); !status) return status.error();
   }
   return (home / files.front().name).lexically_normal();
+}
+
+std::string LaidOut(const std::string& value, const fs::path& launch_file) {
+  const bool quoted = value.size() > 2 && value.front() == '"' && value.back() == '"';
+  const fs::path path(quoted ? value.substr(1, value.size() - 2) : value);
+  if (!path.is_absolute()) return value;
+  const fs::path copy = launch_file.parent_path() / (kAbsolute + path.generic_string());
+  std::error_code problem;
+  return fs::is_regular_file(copy, problem) ? "\"" + copy.string() + "\"" : value;
 }
 
 }  // namespace rodeira::launch

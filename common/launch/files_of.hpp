@@ -17,12 +17,15 @@ struct NamedFile {
 };
 
 // Everything that a launch file says: itself first, then each file that it names, and what those name if they are YAML.
-// A value names a file where one exists at that place, relative to the file in which the value stands; absolute paths are the PC's own and not followed. What a recorder
+// A value names a file where one exists at that place, relative to the file in which the value stands; one named by its whole path is "absolute/…". What a recorder
 // writes to, and files of more than 64 MiB, are left out.
 base::Result<std::vector<NamedFile>> FilesOf(const Launch& launch);
 
 // Lays the files out below `folder` as they lay around the launch file, which is the first; returns its path. Wrong input
 // where a name would lead out of the folder.
 base::Result<std::filesystem::path> LayOut(const std::vector<NamedFile>& files, const std::filesystem::path& folder);
+
+// The value of an override, in a launch file that was laid out: where it names a file by its whole path, the laid out copy.
+std::string LaidOut(const std::string& value, const std::filesystem::path& launch_file);
 
 }  // namespace rodeira::launch

@@ -26,6 +26,9 @@ struct NodeKind {
   std::string_view program;  // the executable beside `rodeira`
 };
 
+// A node of this kind is not there: `--set nodes.view.kind=none` leaves it out.
+inline constexpr std::string_view kNoKind = "none";
+
 const std::vector<NodeKind>& NodeKinds();
 // Null where there is no such kind.
 const NodeKind* FindKind(std::string_view name);

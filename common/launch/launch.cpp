@@ -122,9 +122,14 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   (void)root.Choice("rodeira", {"launch/1"});
   launch.name_ = root.Text("name", launch.file_->path().stem().string());
   if (const auto world = root.OptionalPath("world")) launch.world_ = *world;
+  if (const auto lab = root.OptionalPath("lab")) launch.lab_ = *lab;
   launch.seed_ = static_cast<std::uint64_t>(root.Integer("seed", 0, INT64_MAX, 1));
   if (root.Has("duration_s")) launch.duration_s_ = root.Number("duration_s", config::Range::Positive());
   launch.transport_ = root.Choice("transport", {"shared_memory", "udp"}, "shared_memory") == "udp" ? Transport::kUdp : Transport::kSharedMemory;
+  launch.discovery_ = ReadDiscovery(root.OptionalChild("discovery"));
+  if (launch.discovery_.kind != DiscoveryKind::kMulticast && launch.transport_ != Transport::kUdp) {
+    root.Problem("discovery", fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(launch.discovery_.kind)));
+  }
   launch.pace_ = root.Text("pace", "");
   if (root.Has("pace") && !ParsePace(launch.pace_).ok()) {
     root.Problem("pace", fmt::format("'pace' is '{}'; max, real or a positive number was expected", launch.pace_));
@@ -141,6 +146,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   std::vector<NodeWish> wishes;
   std::vector<config::Map> maps;
   for (const std::string& name : nodes.Keys()) {
+    if (nodes.Peek({name, "kind"}) == kNoKind) continue;  // as if it were not there, with all that stands under it
     const config::Map map = nodes.OptionalChild(name);
     const std::string kind_name = map.Choice("kind", KindNames());
     const NodeKind* kind = FindKind(kind_name);

@@ -10,6 +10,7 @@
 
 #include "common/base/result.hpp"
 #include "common/config/config.hpp"
+#include "common/launch/discovery.hpp"
 #include "common/launch/kinds.hpp"
 #include "common/lockstep/roster.hpp"
 #include "common/lockstep/watchdog.hpp"
@@ -21,7 +22,7 @@ enum class Transport { kSharedMemory, kUdp };
 struct LaunchNode {
   std::string name;
   const NodeKind* kind = nullptr;
-  std::string host;                        // empty: the PC that `rodeira run` is started on
+  std::string host;                        // of a laboratory; empty: the clock's
   std::shared_ptr<const config::Map> config;  // what the node itself reads; may be empty
 };
 
@@ -41,10 +42,12 @@ class Launch {
   const config::File& file() const { return *file_; }
   const Overrides& overrides() const { return overrides_; }
   const std::string& name() const { return name_; }
+  const std::filesystem::path& lab() const { return lab_; }  // laboratory file; empty: none is named
   const std::filesystem::path& world() const { return world_; }  // empty: the run has none
   std::uint64_t seed() const { return seed_; }
   std::optional<double> duration_s() const { return duration_s_; }
   Transport transport() const { return transport_; }
+  const Discovery& discovery() const { return discovery_; }
   const std::string& pace() const { return pace_; }  // as --pace takes it; empty: not said
   const lockstep::Watchdog::Settings& watchdog() const { return watchdog_; }
   const lockstep::Roster& roster() const { return *roster_; }
@@ -57,10 +60,12 @@ class Launch {
   std::shared_ptr<config::File> file_;
   Overrides overrides_;
   std::string name_;
+  std::filesystem::path lab_;
   std::filesystem::path world_;
   std::uint64_t seed_ = 0;
   std::optional<double> duration_s_;
   Transport transport_ = Transport::kSharedMemory;
+  Discovery discovery_;
   std::string pace_;
   lockstep::Watchdog::Settings watchdog_;
   std::shared_ptr<const lockstep::Roster> roster_;

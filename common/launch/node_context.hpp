@@ -6,6 +6,7 @@
 #include "common/base/result.hpp"
 #include "common/launch/launch.hpp"
 #include "common/launch/live_keys.hpp"
+#include "common/launch/run_log_border.hpp"
 #include "common/lockstep/node.hpp"
 #include "common/terrain/ground.hpp"
 
@@ -42,6 +43,9 @@ class NodeContext {
   // border.
   virtual std::unique_ptr<LiveKeysSender> KeysSender() { return nullptr; }
   virtual std::unique_ptr<LiveKeysReceiver> KeysReceiver() { return nullptr; }
+  // What the clock, the operator and faults did on the wall's clock, for who writes it down. Null where the host tells it
+  // to nobody.
+  virtual std::unique_ptr<RunLogReceiver> RunLog() { return nullptr; }
   // A node that has loaded the world says so; all who did must agree.
   void set_world_hash(base::Digest hash) { world_hash_ = hash; }
   base::Digest world_hash() const { return world_hash_; }

@@ -44,13 +44,21 @@ base::Status Clock::Take(const Report& report) {
 std::vector<std::string> Clock::Missing(Phase phase) const {
   std::vector<std::string> names;
   for (NodeIndex n = 0; n < reports_.size(); ++n) {
-    if (!heard_[n] || reports_[n].phase < phase || reports_[n].phase == Phase::kFailed) names.push_back(roster_.node(n).name);
+    if (!heard_[n] || reports_[n].phase < phase || reports_[n].phase >= Phase::kFailed) names.push_back(roster_.node(n).name);
   }
   return names;
 }
 
 bool Clock::all_ready() const { return Missing(Phase::kReady).empty(); }
 bool Clock::all_finished() const { return Missing(Phase::kFinished).empty(); }
+
+bool Clock::all_sources_finished() const {
+  for (NodeIndex n = 0; n < reports_.size(); ++n) {
+    if (roster_.node(n).is_sink()) continue;
+    if (!heard_[n] || reports_[n].phase != Phase::kFinished) return false;
+  }
+  return true;
+}
 
 Step Clock::slowest_progress() const {
   Step slowest = std::numeric_limits<Step>::max();

@@ -25,6 +25,8 @@ class Clock {
   // Everybody is ready: the first grant may go out.
   bool all_ready() const;
   bool all_finished() const;
+  // Everybody but the sinks has: no sample will come any more.
+  bool all_sources_finished() const;
   // Who has not come as far as `phase`; who failed never will.
   std::vector<std::string> Missing(Phase phase) const;
   // The smallest next activation of all stepped nodes.

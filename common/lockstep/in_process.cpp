@@ -12,7 +12,6 @@
 #include "common/base/random.hpp"
 #include "common/lockstep/kept_samples.hpp"
 #include "common/lockstep/mailbox.hpp"
-#include "common/lockstep/pacer.hpp"
 #include "common/lockstep/pump.hpp"
 #include "common/lockstep/runner.hpp"
 
@@ -30,6 +29,11 @@ void ReportServices(const Roster& roster, Clock& clock) {
     report.phase = Phase::kFinished;
     RODEIRA_ASSERT(clock.Take(report).ok());
   }
+}
+
+Wall ReadWall() {
+  return {std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count(),
+          std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()};
 }
 
 std::vector<std::vector<NodeIndex>> ConsumersOf(const Roster& roster) {
@@ -65,7 +69,7 @@ class ThreadedRun {
  public:
   ThreadedRun(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings)
       : roster_(roster), nodes_(nodes), settings_(settings), clock_(roster, settings.last_step, settings.first_step),
-        pacer_(roster.base_step_ns(), settings.pace), consumers_(ConsumersOf(roster)) {
+        conductor_(clock_, Pacer(roster.base_step_ns(), settings.pace, settings.first_step)), consumers_(ConsumersOf(roster)) {
     ReportServices(roster, clock_);
     for (NodeIndex n = 0; n < nodes.size(); ++n) {
       mailboxes_.push_back(std::make_unique<Mailbox>(roster, n));
@@ -90,28 +94,27 @@ class ThreadedRun {
       });
     }
     std::unique_lock lock(mutex_);
-    const auto start = std::chrono::steady_clock::now();
     while (!Over()) {
-      const std::int64_t now_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
-      const Step before = clock_.grant().through;
-      const bool was_final = clock_.grant().final;
-      const Step limit = clock_.all_ready() ? pacer_.Limit(now_ns, clock_.window_limit()) : -1;
-      const Grant grant = clock_.Update(limit);
+      const Wall now = ReadWall();
+      DoCommands(now);
+      if (settings_.stop_requested && settings_.stop_requested()) conductor_.Stop(now);
+      (void)conductor_.Move(now);
       news_ = false;
-      if (grant.through != before || grant.final != was_final) SendGrant(lock, grant);
+      SendNews(lock);
+      if (clock_.grant().final && clock_.all_sources_finished()) conductor_.CloseLog(now);
+      FlushLog(now);
       if (settings_.on_progress) settings_.on_progress(clock_);
-      const auto due = std::chrono::nanoseconds(pacer_.NextDueIn(now_ns));
+      const auto due = std::chrono::nanoseconds(conductor_.NextDueIn(now));
       woken_.wait_for(lock, due > 0ns ? std::min<std::chrono::nanoseconds>(due, 20ms) : 20ms, [&] { return news_; });
-      if (settings_.stop_requested && settings_.stop_requested() && !clock_.grant().final) {
-        clock_.Stop();
-        SendGrant(lock, clock_.grant());
-      }
     }
     SendGrant(lock, clock_.grant());
+    FlushLog(ReadWall());
     lock.unlock();
     for (std::thread& thread : threads) thread.join();
     RunOutcome outcome = Outcome(clock_, fault_);
-    outcome.slipped_ns = pacer_.slipped_ns();
+    outcome.slipped_ns = conductor_.pacer().slipped_ns();
+    outcome.paused_ns = conductor_.pacer().PausedNs(ReadWall().monotonic_ns);
+    outcome.lateness = conductor_.pacer().lateness();
     return outcome;
   }
 
@@ -142,14 +145,31 @@ class ThreadedRun {
     const std::lock_guard lock(mutex_);
     if (report.phase == Phase::kFailed && fault_.empty()) {
       fault_ = fmt::format("node '{}' failed at step {}: {}", roster_.node(report.node).name, report.progress, report.message);
-      clock_.Abort(fault_);
+      conductor_.Abort(fault_, ReadWall());
     }
     if (auto status = clock_.Take(report); !status && fault_.empty()) {
       fault_ = status.error().Text();
-      clock_.Abort(fault_);
+      conductor_.Abort(fault_, ReadWall());
     }
     news_ = true;
     woken_.notify_all();
+  }
+  void DoCommands(const Wall& now) {
+    while (settings_.next_command) {
+      const auto asked = settings_.next_command();
+      if (!asked) return;
+      asked->answer(conductor_.Do(asked->command, now));
+    }
+  }
+  void FlushLog(const Wall& now) {
+    if (!settings_.on_log) return;
+    if (const auto batch = conductor_.log().Take(now.monotonic_ns)) settings_.on_log(*batch);
+  }
+  void SendNews(std::unique_lock<std::mutex>& lock) {
+    const Grant& grant = clock_.grant();
+    if (grant.through == sent_.through && grant.final == sent_.final) return;
+    sent_ = grant;
+    SendGrant(lock, sent_);
   }
   bool Over() const { return clock_.grant().abort || clock_.all_finished(); }
   void SendGrant(std::unique_lock<std::mutex>& lock, const Grant& grant) {
@@ -163,7 +183,7 @@ class ThreadedRun {
   const std::vector<Node*>& nodes_;
   const InProcessSettings& settings_;
   Clock clock_;
-  Pacer pacer_;
+  Conductor conductor_;
   std::vector<std::vector<NodeIndex>> consumers_;
   std::vector<std::unique_ptr<Mailbox>> mailboxes_;
   std::vector<std::unique_ptr<ThreadBus>> buses_;
@@ -172,6 +192,7 @@ class ThreadedRun {
   std::mutex trace_mutex_;
   std::condition_variable woken_;
   bool news_ = false;
+  Grant sent_;
   std::string fault_;
 };
 

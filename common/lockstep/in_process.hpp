@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/lockstep/clock.hpp"
+#include "common/lockstep/conductor.hpp"
 #include "common/lockstep/node.hpp"
 #include "common/lockstep/report.hpp"
 #include "common/lockstep/roster.hpp"
@@ -14,6 +15,12 @@
 
 // The same runner, mailbox and clock as between processes, with nodes in one process: for batches and tests.
 namespace rodeira::lockstep {
+
+// A command of the operator, and whom its answer is for.
+struct Asked {
+  Command command;
+  std::function<void(const base::Result<std::string>&)> answer;
+};
 
 struct InProcessSettings {
   std::optional<Step> last_step;
@@ -26,6 +33,8 @@ struct InProcessSettings {
   double loss = 0.0;                     // RunShuffled: the share of samples and questions that never arrive
   std::function<bool()> stop_requested;  // asked about every 20 ms
   std::function<void(const Clock&)> on_progress;     // called now and then on the caller's thread
+  std::function<std::optional<Asked>()> next_command;  // RunThreaded: asked about every 20 ms until it has none
+  std::function<void(const LogBatch&)> on_log;         // RunThreaded: on the caller's thread
 };
 
 struct RunOutcome {
@@ -35,6 +44,8 @@ struct RunOutcome {
   base::Digest digest = 0;       // of all samples of all nodes
   std::vector<Report> reports;   // one for each node
   std::int64_t slipped_ns = 0;   // real time given up
+  std::int64_t paused_ns = 0;    // wall time
+  Lateness lateness;
 };
 
 // One thread a node. `nodes` has one entry for each of the roster's, null for services (they take no part).

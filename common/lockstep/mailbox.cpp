@@ -106,12 +106,16 @@ std::optional<Step> Mailbox::GapFor(const Track& track, Step step) const {
   return FirstGap(track, track.events ? std::max<Step>(step - spec_.period + 1, 0) : newest, newest);
 }
 
+std::optional<Step> Mailbox::InputGap(const Track& track, Step step) const {
+  const Step newest = FloorTo(step, track.period);
+  return FirstGap(track, track.events ? std::max<Step>(CeilTo(step, spec_.period) - spec_.period + 1, 0) : newest, newest);
+}
+
 bool Mailbox::Satisfied(const Want& want) const {
   switch (want.what) {
     case Want::What::kNothing: return true;
     case Want::What::kInputs:
-      return std::all_of(tracks_.begin(), tracks_.end(),
-                         [&](const Track& track) { return track.Find(FloorTo(want.step, track.period)) != nullptr; });
+      return std::none_of(tracks_.begin(), tracks_.end(), [&](const Track& track) { return InputGap(track, want.step).has_value(); });
     case Want::What::kActivation: return grant_.through >= want.step && std::none_of(tracks_.begin(), tracks_.end(), [&](const Track& track) { return GapFor(track, want.step).has_value(); });
     case Want::What::kEvents:
       return std::all_of(tracks_.begin(), tracks_.end(),
@@ -148,6 +152,14 @@ bool Mailbox::IsGranted(Step step) const {
 Grant Mailbox::grant() const {
   const std::lock_guard lock(mutex_);
   return grant_;
+}
+std::vector<Gap> Mailbox::MissingInputs(Step step) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Gap> gaps;
+  for (const Track& track : tracks_) {
+    if (const auto from = InputGap(track, step)) gaps.push_back({track.source, *from});
+  }
+  return gaps;
 }
 std::vector<Gap> Mailbox::Missing(Step step) const {
   const std::lock_guard lock(mutex_);
@@ -224,7 +236,7 @@ void Mailbox::StartAt(Step at) {
   const std::lock_guard lock(mutex_);
   const Step after = CeilTo(at, spec_.period) - spec_.period;
   for (Track& track : tracks_) {
-    const Step oldest = track.events ? std::min(CeilTo(std::max<Step>(after + 1, 0), track.period), FloorTo(at, track.period)) : FloorTo(at, track.period);
+    const Step oldest = track.events ? CeilTo(std::max<Step>(after + 1, 0), track.period) : FloorTo(at, track.period);
     DropBefore(track, oldest);
   }
 }

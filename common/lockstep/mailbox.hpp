@@ -35,7 +35,8 @@ class Mailbox {
   void DeliverGrant(const Grant& grant);
 
   enum class Woken { kReady, kTimeout, kFinal, kAborted };
-  // Waits until every source has delivered its sample that is the newest at `step` (the start: 0, or a snapshot's).
+  // The start, at 0 or at a snapshot: waits until every source has delivered its sample that is the newest at `step`, and of
+  // events those through `step` that the first activation will see.
   Woken WaitForInputs(Step step, std::chrono::milliseconds limit);
   // Waits until activation `step` is granted and everything it must see has arrived. kFinal: `step` lies behind the
   // last step of the run. kTimeout after `limit`, so that the caller can say again what may have been lost.
@@ -49,6 +50,8 @@ class Mailbox {
 
   bool IsGranted(Step step) const;
   Grant grant() const;
+  // What WaitForInputs(step) still lacks.
+  std::vector<Gap> MissingInputs(Step step) const;
   // What activation `step` still lacks: each source with the oldest sample of it that is not there.
   std::vector<Gap> Missing(Step step) const;
   // The same for WaitForEventsThrough(last).
@@ -90,6 +93,7 @@ class Mailbox {
   // The oldest multiple of the period in [from, through] that is not there.
   static std::optional<Step> FirstGap(const Track& track, Step from, Step through);
   std::optional<Step> GapFor(const Track& track, Step step) const;  // of activation `step`
+  std::optional<Step> InputGap(const Track& track, Step step) const;  // of the start at `step`
   bool Satisfied(const Want& want) const;
   Woken Wait(const Want& want, std::chrono::milliseconds limit);
 

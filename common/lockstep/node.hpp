@@ -26,6 +26,12 @@ class Node {
   virtual void Save(base::StateWriter& out) const = 0;
   virtual void Restore(base::StateReader& in) = 0;
 
+  // A branch (X4): begins where another model of this node stood, from its own newest published samples. Called instead of
+  // Initialise where the other's state does not fit. Refused unless a node knows how.
+  virtual base::Status TakeOver(const std::vector<Sample>& /*published*/) {
+    return base::WrongInput("this node cannot begin from what another model of it has published");
+  }
+
   // For sinks: the events after the last activation, through the last step of the run (or, where the run was aborted,
   // through the last step of which everything arrived; `complete` is false then). Close files here.
   virtual base::Status Finish(const Inbox& /*rest*/, lockstep::Step /*last_step*/, bool /*complete*/) { return {}; }

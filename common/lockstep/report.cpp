@@ -9,6 +9,7 @@ std::string_view PhaseName(Phase phase) {
     case Phase::kRunning: return "running";
     case Phase::kFinished: return "finished";
     case Phase::kFailed: return "failed";
+    case Phase::kRefused: return "refused";
   }
   return "unknown";
 }

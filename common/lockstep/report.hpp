@@ -9,13 +9,14 @@
 
 namespace rodeira::lockstep {
 
-// Where a node stands in its life; it only ever goes forward, but for kFailed, which ends any phase.
+// Where a node stands in its life; it only ever goes forward, but for the last two, which end any phase.
 enum class Phase : std::uint32_t {
   kStarting = 0,  // alive, its model is being made
   kReady = 1,     // published its first samples and has everybody else's
   kRunning = 2,
   kFinished = 3,  // ran to the final step, everything is closed
   kFailed = 4,    // message says why
+  kRefused = 5,   // the same, and what a person gave is wrong: exit status 2
 };
 
 enum class Waiting : std::uint32_t { kNothing = 0, kGrant = 1, kInputs = 2, kServer = 3 };
@@ -44,7 +45,7 @@ struct Grant {
   bool abort = false;     // stop at once; reason says why
   bool over = false;      // everybody has finished, whoever lingers may go
   base::Digest roster = 0;
-  std::string reason;
+  std::string reason;     // why it was aborted; where it is over, the clock's closing words, a line each
 };
 
 std::string_view PhaseName(Phase phase);

@@ -198,7 +198,7 @@ base::Status Runner::PublishAll(std::vector<Sample> samples) {
 void Runner::AskAgain() {
   std::vector<Gap> gaps;
   switch (stage_) {
-    case Stage::kInputs: gaps = mailbox_.Missing(begun_at_); break;
+    case Stage::kInputs: gaps = mailbox_.MissingInputs(begun_at_); break;
     case Stage::kStepping:
       if (mailbox_.IsGranted(next_)) gaps = mailbox_.Missing(next_);  // before that nobody owes us anything
       break;

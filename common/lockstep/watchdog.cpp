@@ -25,8 +25,9 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
   }
   for (NodeIndex n = 0; n < lives_.size(); ++n) {
     const Life& life = lives_[n];
-    if (life.heard && life.report.phase == Phase::kFailed) {
-      return Fault{n, fmt::format("node '{}' failed at step {}: {}", roster_.node(n).name, life.report.progress, life.report.message)};
+    if (life.heard && life.report.phase >= Phase::kFailed) {
+      return Fault{n, fmt::format("node '{}' failed at step {}: {}", roster_.node(n).name, life.report.progress, life.report.message),
+                   life.report.phase == Phase::kRefused ? 2 : 1};
     }
   }
   std::string missing;

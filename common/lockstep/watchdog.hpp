@@ -22,6 +22,7 @@ class Watchdog {
   struct Fault {
     NodeIndex node = 0;
     std::string reason;  // a sentence that names the node
+    int status = 1;      // exit status of the run: 2 where a person gave something wrong
   };
 
   Watchdog(const Roster& roster, const Settings& settings);

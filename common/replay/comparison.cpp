@@ -5,6 +5,9 @@
 #include <algorithm>
 
 #include "common/base/state_fields.hpp"
+#include "common/decode/difference.hpp"
+#include "common/decode/idl_reader.hpp"
+#include "idl/topics.hpp"
 
 namespace rodeira::replay {
 
@@ -69,14 +72,28 @@ void Comparison::Compare(const Sample& recorded, const Sample& computed) {
     }
     return Note(computed, "(snapshot)", base::Hex(lockstep::PayloadDigest(*recorded.payload)), base::Hex(lockstep::PayloadDigest(*computed.payload)));
   }
+  // The digest of the state comes in the header and differs with every value: the value says more.
   constexpr std::size_t kContent = SampleHeader::kEncapsulation + SampleHeader::kSize;
   const auto& a = *recorded.payload;
   const auto& b = *computed.payload;
   if (std::equal(a.begin() + kContent, a.end(), b.begin() + kContent, b.end())) {
     return Note(computed, "header.state_digest", base::Hex(recorded.header.state_digest), base::Hex(computed.header.state_digest));
   }
-  const auto at = std::mismatch(a.begin() + kContent, a.end(), b.begin() + kContent, b.end()).first - a.begin();
-  Note(computed, fmt::format("(byte {})", at), base::Hex(lockstep::PayloadDigest(a)), base::Hex(lockstep::PayloadDigest(b)));
+  base::Bytes alike = a;
+  std::copy(b.begin(), b.begin() + kContent, alike.begin());
+  const auto* type = TypeOf(computed.source());
+  const auto field = type == nullptr ? std::nullopt : decode::FirstDifference(*type, alike, b);
+  if (field) return Note(computed, field->path, field->a, field->b);
+  Note(computed, "(sample)", base::Hex(lockstep::PayloadDigest(a)), base::Hex(lockstep::PayloadDigest(b)));
+}
+
+const decode::Type* Comparison::TypeOf(lockstep::SourceIndex source) {
+  const std::string& topic = run_.roster().source(source).topic;
+  const auto known = types_.find(topic);
+  if (known != types_.end()) return known->second.get();
+  const idl::TopicInfo* info = idl::FindTopic(topic);
+  const auto type = info == nullptr ? base::Result<decode::TypePtr>(base::WrongInput("")) : decode::ReadType(idl::IdlTextOf(info->subject), std::string(info->type));
+  return (types_[topic] = type.ok() ? type.value() : nullptr).get();
 }
 
 void Comparison::Note(const Sample& sample, std::string field, std::string recorded, std::string computed) {

@@ -7,8 +7,10 @@
 #include <limits>
 #include <system_error>
 
+#include "common/base/mathematics.hpp"
 #include "common/launch/files_of.hpp"
 #include "common/record/compress.hpp"
+#include "common/replay/splice.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::replay {
@@ -113,6 +115,7 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
     return base::WrongInput(fmt::format("the recording's protocol hash is {}, this program's is {}: it was written by another version ({}); read it with that one",
                                         protocol, base::Hex(idl::ProtocolHash()), Entry(about, "version")));
   }
+  mathematics_ = Entry(about, "mathematics_hash");
   const auto files = Files(about);
   if (!files) return files.error();
   const auto launch_file = launch::LayOut(files.value(), folder_.path());
@@ -125,7 +128,7 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
     const std::string line(reinterpret_cast<const char*>(attachment.value().data.data()), attachment.value().data.size());
     const auto equals = line.find('=');
     if (equals == std::string::npos) return base::WrongInput(fmt::format("the recorded override '{}' is no KEY=VALUE", line.substr(0, 100)));
-    overrides.emplace_back(line.substr(0, equals), line.substr(equals + 1));
+    overrides.emplace_back(line.substr(0, equals), launch::LaidOut(line.substr(equals + 1), launch_file.value()));
   }
   // The run as it was: its roster must be the recorded one, whatever is changed afterwards.
   auto recorded = launch::Launch::Load(launch_file.value(), overrides);
@@ -149,6 +152,13 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
     }
     sources_[id] = static_cast<lockstep::SourceIndex>(*number);
   }
+  const auto branch = reader_.FindMetadata(kBranchMetadata);
+  if (!branch) return branch.error();
+  if (branch.value()) {
+    const auto at = Whole(Entry(branch.value()->entries, "step"));
+    if (!at || *at < 0) return base::WrongInput("the recording does not say at which step it left its parent");
+    branched_at_ = *at;
+  }
   const auto end = reader_.FindMetadata("rodeira.end");
   if (!end) return end.error();
   const auto last = end.value() ? Whole(Entry(end.value()->entries, "last_step")) : std::nullopt;
@@ -156,6 +166,12 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   last_step_ = *last;
   complete_ = Entry(end.value()->entries, "complete") == "true";
   return {};
+}
+
+base::Status RecordedRun::CheckMathematics() const {
+  const std::string own = base::Hex(base::MathematicsDigest());
+  if (mathematics_ == own) return {};
+  return base::WrongInput(fmt::format("the recording's mathematics hash is {}, this program's is {}: its mathematics library computes other bits", mathematics_, own), path_.string());
 }
 
 SampleStream RecordedRun::Samples(Step from) const {
@@ -166,7 +182,11 @@ SampleStream RecordedRun::Samples(Step from) const {
 
 base::Result<Step> RecordedRun::SnapshotAtOrBefore(Step step) const {
   for (const lockstep::NodeSpec& node : roster().nodes()) {
-    if (node.snapshots) return lockstep::FloorTo(std::min(step, last_step_), roster().source(*node.snapshots).period);
+    if (!node.snapshots) continue;
+    const Step period = roster().source(*node.snapshots).period;
+    const Step own = lockstep::CeilTo(branched_at_, period);
+    if (own > last_step_) return base::WrongInput("the branch is shorter than the distance of two snapshots; it holds none of its own", path_.string());
+    return std::max(own, lockstep::FloorTo(std::min(step, last_step_), period));
   }
   return Step{0};
 }

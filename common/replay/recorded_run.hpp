@@ -56,10 +56,16 @@ class RecordedRun {
   const lockstep::Roster& roster() const { return launch_->roster(); }
   lockstep::Step last_step() const { return last_step_; }
   bool complete() const { return complete_; }  // false: the run was aborted
+  // Wrong input where this process would compute other bits than the one that recorded (law L7).
+  base::Status CheckMathematics() const;
+  // Where this run left its parent; 0 where it has none. What lies before was computed by the parent's nodes.
+  lockstep::Step branched_at() const { return branched_at_; }
 
   // From the samples valid at or after `from` on. The run must outlive the stream.
   SampleStream Samples(lockstep::Step from = 0) const;
-  // The newest step at or before `step` at which every node's snapshot was taken; 0 where there is only the beginning.
+  const record::McapReader& reader() const { return reader_; }
+  // The newest step at or before `step` at which every node's snapshot was taken (of a branch: the first of its own, at
+  // least); 0 where there is only the beginning. Wrong input where a branch has none.
   base::Result<lockstep::Step> SnapshotAtOrBefore(lockstep::Step step) const;
   // Of every node of the roster, in its order, at such a step; sinks' and services' are without a state.
   base::Result<std::vector<lockstep::Snapshot>> Snapshots(lockstep::Step at) const;
@@ -75,6 +81,8 @@ class RecordedRun {
   std::shared_ptr<launch::Launch> launch_;
   std::map<record::ChannelId, lockstep::SourceIndex> sources_;
   lockstep::Step last_step_ = 0;
+  lockstep::Step branched_at_ = 0;
+  std::string mathematics_;
   bool complete_ = false;
 };
 

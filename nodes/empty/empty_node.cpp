@@ -1,7 +1,11 @@
 #include "nodes/empty/empty_node.hpp"
 
 #include <chrono>
+#include <memory>
+#include <string>
 #include <thread>
+#include <unordered_map>
+#include <vector>
 
 #include "common/base/random.hpp"
 #include "idl/codec.hpp"
@@ -15,8 +19,8 @@ namespace topics = idl::topics;
 
 class EmptyNode final : public lockstep::Node {
  public:
-  EmptyNode(std::uint64_t seed, lockstep::NodeIndex index, std::int64_t fail_at, std::int64_t hang_at)
-      : value_(base::RandomBits({seed, index})), fail_at_(fail_at), hang_at_(hang_at) {}
+  EmptyNode(std::uint64_t seed, lockstep::NodeIndex index, std::int64_t fail_at, std::int64_t hang_at, const std::string& broken)
+      : value_(base::RandomBits({seed, index})), fail_at_(fail_at), hang_at_(hang_at), broken_(broken) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     Publish(outbox);
@@ -31,6 +35,8 @@ class EmptyNode final : public lockstep::Node {
       if (!pulse) return pulse.error();
       value_ = base::RandomBits({value_, sample.source(), static_cast<std::uint64_t>(sample.valid()), pulse.value().value()});
     }
+    if (broken_ == "clock") value_ += static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+    if (broken_ == "order") value_ = base::RandomBits({value_, OrderOfAddresses()});
     Publish(outbox);
     return {};
   }
@@ -40,6 +46,18 @@ class EmptyNode final : public lockstep::Node {
   void Restore(base::StateReader& in) override { in.Get("value", value_); }
 
  private:
+  // The order of a hash table over addresses: another one in each process.
+  static std::uint64_t OrderOfAddresses() {
+    std::vector<std::unique_ptr<std::uint64_t>> numbers;
+    std::unordered_map<const void*, std::uint64_t> by_address;
+    for (std::uint64_t i = 0; i < 100; ++i) {
+      numbers.push_back(std::make_unique<std::uint64_t>(i));
+      by_address[numbers.back().get()] = i;
+    }
+    std::uint64_t order = 0;
+    for (const auto& [address, number] : by_address) order = order * 31 + number;
+    return order;
+  }
   void Publish(lockstep::Outbox& outbox) const {
     msg::Pulse pulse;
     pulse.value(value_);
@@ -48,6 +66,7 @@ class EmptyNode final : public lockstep::Node {
   std::uint64_t value_;
   std::int64_t fail_at_;
   std::int64_t hang_at_;
+  std::string broken_;
 };
 
 }  // namespace
@@ -56,7 +75,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeEmptyNode(launch::NodeContext&
   const config::Map config = context.config();
   const std::int64_t fail_at = config.Integer("fail_at_step", -1, INT64_MAX, -1);
   const std::int64_t hang_at = config.Integer("hang_at_step", -1, INT64_MAX, -1);
-  return std::unique_ptr<lockstep::Node>(std::make_unique<EmptyNode>(context.seed(), context.index(), fail_at, hang_at));
+  const std::string broken = config.Choice("broken", {"no", "clock", "order"}, "no");
+  return std::unique_ptr<lockstep::Node>(std::make_unique<EmptyNode>(context.seed(), context.index(), fail_at, hang_at, broken));
 }
 
 }  // namespace rodeira::nodes

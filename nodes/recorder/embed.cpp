@@ -13,8 +13,9 @@ namespace {
 constexpr std::size_t kCompressFrom = 4096;  // bytes
 constexpr int kLevel = 9;
 
-// Where the recording itself goes is no part of the run.
-bool IsOfARecorder(const launch::Launch& launch, const std::string& key) {
+// Where the recording itself goes and how the processes meet, which differs from PC to PC, is no part of the run.
+bool IsNoPartOfTheRun(const launch::Launch& launch, const std::string& key) {
+  if (key == "transport" || key == "discovery" || key.starts_with("discovery.") || key.starts_with("limits.")) return true;
   for (const launch::LaunchNode& node : launch.nodes()) {
     if (node.kind->name == "recorder" && key == fmt::format("nodes.{}.config.file", node.name)) return true;
   }
@@ -27,7 +28,7 @@ base::Status EmbedFiles(const launch::Launch& launch, record::McapWriter& writer
   const auto text = std::as_bytes(std::span(launch.text()));
   if (auto status = writer.AddAttachment("launch.yaml", "application/yaml", text, 0, 0); !status) return status;
   for (const auto& [key, value] : launch.overrides()) {
-    if (IsOfARecorder(launch, key)) continue;
+    if (IsNoPartOfTheRun(launch, key)) continue;
     const std::string line = key + "=" + value;
     if (auto status = writer.AddAttachment("override", "text/plain", std::as_bytes(std::span(line)), 0, 0); !status) return status;
   }

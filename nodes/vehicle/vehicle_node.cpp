@@ -32,6 +32,13 @@ class VehicleNode final : public lockstep::Node {
     return {};
   }
 
+  base::Status TakeOver(const std::vector<lockstep::Sample>& published) override {
+    if (published.empty()) return base::WrongInput("no published state of the car was found");
+    const auto state = idl::Decode<msg::VehicleState>(*published.back().payload);
+    if (!state) return state.error();
+    return model_->Initialise(vehicle::FromState(FromWire(state.value())), ground_);
+  }
+
   void Save(base::StateWriter& out) const override { out.Put("model", *model_); }
   void Restore(base::StateReader& in) override { in.Get("model", *model_); }
 

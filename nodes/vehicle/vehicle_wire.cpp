@@ -50,6 +50,19 @@ vehicle::Controls FromWire(const msg::Controls& in) {
   return vehicle::Cut(out);
 }
 
+vehicle::VehicleState FromWire(const msg::VehicleState& in) {
+  vehicle::VehicleState out;
+  out.p_WB_W = {in.position_w_m().x(), in.position_w_m().y(), in.position_w_m().z()};
+  out.q_WB = {in.attitude_wb().w(), in.attitude_wb().x(), in.attitude_wb().y(), in.attitude_wb().z()};
+  out.v_WB_W = {in.velocity_w_mps().x(), in.velocity_w_mps().y(), in.velocity_w_mps().z()};
+  out.w_WB_B = {in.angular_velocity_b_radps().x(), in.angular_velocity_b_radps().y(), in.angular_velocity_b_radps().z()};
+  out.steering_wheel_rad = in.steering_wheel_rad();
+  out.engine_speed_radps = in.engine_speed_radps();
+  out.gear = in.gear();
+  out.fuel_kg = in.fuel_kg();
+  return out;
+}
+
 msg::VehicleState ToWire(const vehicle::VehicleState& state, const vehicle::VehicleDimensions& dimensions) {
   msg::VehicleState out;
   out.position_w_m(Vector(state.p_WB_W));

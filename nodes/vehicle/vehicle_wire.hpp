@@ -8,6 +8,8 @@
 namespace rodeira::nodes {
 
 vehicle::Controls FromWire(const msg::Controls& in);
+// Pose, speeds, gear and engine of a published state: what a model needs to go on from it.
+vehicle::VehicleState FromWire(const msg::VehicleState& in);
 msg::VehicleState ToWire(const vehicle::VehicleState& state, const vehicle::VehicleDimensions& dimensions);
 
 }  // namespace rodeira::nodes

@@ -18,6 +18,7 @@
 #include "common/driver/autopilot.hpp"
 #include "common/hands/keyboard_driver.hpp"
 #include "common/hands/wheel_driver.hpp"
+#include "common/launch/lab.hpp"
 #include "common/launch/launch.hpp"
 #include "common/multibody/mechanism.hpp"
 #include "common/road/world.hpp"
@@ -155,6 +156,22 @@ TEST(TextFiles, LaunchFiles) {
          for (const auto& node : roster.nodes()) EXPECT_EQ(node.delay % node.period, 0);
          return std::nullopt;
        });
+}
+
+TEST(TextFiles, Laboratories) {
+  const launch::Launch launch = launch::Launch::Parse("rodeira: launch/1\nnodes: {a: {kind: empty}}\n", "empty.yaml").value();
+  Fuzz("laboratory", {GoodFile("configs/labs/two_pcs.yaml"), GoodFile("configs/labs/three_pcs.yaml")}, [&launch](const std::string& text) -> std::optional<base::Error> {
+    const auto lab = launch::Lab::Parse(text, "fuzz.yaml");
+    if (!lab) return lab.error();
+    EXPECT_FALSE(lab.value().hosts().empty());
+    EXPECT_TRUE(lab.value().Host(lab.value().clock()).ok());
+    // What it says to the processes of a host must be a launch file's language, whatever stands in it.
+    for (const launch::LabHost& host : lab.value().hosts()) {
+      const auto told = launch::Launch::Parse(launch.text(), "empty.yaml", lab.value().For(host));
+      EXPECT_TRUE(told.ok()) << (told.ok() ? "" : told.error().Text());
+    }
+    return std::nullopt;
+  });
 }
 
 TEST(TextFiles, Worlds) {

@@ -17,7 +17,26 @@ using WallClock = std::chrono::steady_clock;
 std::string Bin(const std::string& program) { return std::string(RODEIRA_BINARY_DIR) + "/bin/" + program; }
 std::string LaunchFile(const std::string& name) { return std::string(RODEIRA_SOURCE_DIR) + "/launch/" + name; }
 
+namespace {
+
+// Where runs of this test program record that say nothing about it: gone with the program.
+class DataFolder {
+ public:
+  DataFolder() { path_ = std::filesystem::temp_directory_path() / ("rodeira-data-" + std::to_string(::getpid())); }
+  ~DataFolder() {
+    std::error_code problem;
+    std::filesystem::remove_all(path_, problem);
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace
+
 Started::Started(const std::vector<std::string>& command) {
+  static const DataFolder data;
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return;
   pid_ = ::fork();
@@ -25,6 +44,7 @@ Started::Started(const std::vector<std::string>& command) {
     ::setpgid(0, 0);
     ::dup2(ends[1], STDOUT_FILENO);
     ::dup2(ends[1], STDERR_FILENO);
+    ::setenv("XDG_DATA_HOME", data.path().c_str(), 0);
     std::size_t first = 0;
     for (; first < command.size() && command[first].find('=') != std::string::npos && command[first][0] != '/'; ++first) {
       ::putenv(const_cast<char*>(command[first].c_str()));

@@ -53,7 +53,7 @@ TEST_P(DemoFault, IsNamedWithinASecondAndTheRecordingIsReadable) {
   EXPECT_TRUE(ProcessesWith("--run " + run_name).empty());
 
   const Ended info = RunCommand({Bin("rodeira"), "info", recording});
-  EXPECT_EQ(info.status, 0) << info.out;
+  EXPECT_EQ(info.status, node == "recorder" ? 1 : 0) << info.out;
   const auto reader = record::McapReader::Open(recording);
   ASSERT_TRUE(reader.ok()) << reader.error().Text();
   EXPECT_GT(reader.value().statistics().messages, 500u) << "a second of driving, or as much as a chunk takes";

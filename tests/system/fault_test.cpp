@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 // Runs at real pace, sends `signal` to one process once the run drives, and expects its name within a second.
 void ExpectNamed(const std::string& node, int signal, const std::string& expected) {
   const std::string run_name = "fault-" + node + std::to_string(signal);
-  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "1000", "--pace", "real", "--run", run_name});
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real", "--run", run_name});
   std::this_thread::sleep_for(1500ms);
   const auto victims = ProcessesWith("--run " + run_name, node == "clock" ? "/rodeira-clock" : "--node " + node);
   ASSERT_EQ(victims.size(), 1u);
@@ -33,13 +33,13 @@ TEST(Fault, AKilledClockIsNamedWithinASecond) { ExpectNamed("clock", SIGKILL, "t
 TEST(Fault, AStoppedClockIsNamedWithinASecond) { ExpectNamed("clock", SIGSTOP, "the clock was stopped by signal 19"); }
 
 TEST(Fault, AHangingNodeIsNamedByItsDeadline) {
-  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--set", "nodes.b.config.hang_at_step=200"});
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--set", "nodes.b.config.hang_at_step=200"});
   EXPECT_GE(run.WaitFor("node 'b' has been computing step 200 for", 10s), 0ms);
   EXPECT_EQ(run.Wait(10s).status, 1);
 }
 
 TEST(Fault, AFailingNodeIsNamedWithItsReason) {
-  const Ended ended = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--set", "nodes.d.config.fail_at_step=300"});
+  const Ended ended = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--set", "nodes.d.config.fail_at_step=300"});
   EXPECT_EQ(ended.status, 1);
   EXPECT_NE(ended.out.find("node 'd' failed at step 300: told to fail here"), std::string::npos) << ended.out;
 }
@@ -61,7 +61,7 @@ TEST(Fault, TheClockItselfNotesASilentNode) {
 }
 
 TEST(Fault, ASecondClockIsRefused) {
-  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "1000", "--pace", "real", "--run", "two-clocks", "--domain", "7"});
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real", "--run", "two-clocks", "--domain", "7"});
   std::this_thread::sleep_for(1000ms);
   const Ended second = RunCommand({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "two-clocks", "--domain", "7"});
   EXPECT_EQ(second.status, 2) << second.out;
@@ -86,6 +86,23 @@ void ExpectRefused(const std::string& environment, const std::vector<std::string
 TEST(Fault, AnotherProtocolIsRefused) { ExpectRefused("RODEIRA_PRETEND_PROTOCOL=9", {}, "protocol hash"); }
 TEST(Fault, OtherMathematicsAreRefused) { ExpectRefused("RODEIRA_PRETEND_MATHEMATICS=9", {}, "mathematics hash"); }
 TEST(Fault, AnotherRosterIsRefused) { ExpectRefused("", {"--set", "nodes.b.period_s=0.002"}, "roster hash"); }
+
+// Two PCs with other world files: the road server and the traffic each load their own.
+TEST(Fault, AnotherWorldIsRefused) {
+  const std::string launch = std::string(RODEIRA_SOURCE_DIR) + "/tests/data/n222_traffic.yaml";
+  const auto command = [&](const std::string& program, std::vector<std::string> more) {
+    std::vector<std::string> words{Bin(program), "--launch", launch, "--run", "worlds"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  Started clock(command("rodeira-clock", {}));
+  Started road(command("rodeira-road", {"--node", "road"}));
+  Started traffic(command("rodeira-traffic", {"--node", "traffic", "--set", "world=straight.yaml"}));
+  const Ended ended = clock.Wait(30s);
+  EXPECT_EQ(ended.status, 2) << ended.out;
+  EXPECT_NE(ended.out.find("was refused: its world hash is "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("both need the same world files"), std::string::npos) << ended.out;
+}
 
 TEST(Fault, WhoIsMissingIsSaid) {
   Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "lonely", "--set", "limits.start_s=1"});

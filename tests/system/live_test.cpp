@@ -60,7 +60,7 @@ std::vector<Message> Recorded(const std::string& file, std::string_view topic) {
 TEST_F(Live, KeysOfAWindowInAnotherProcessBecomeRecordedControls) {
   Started run({Bin("rodeira"), "run", Path("live.yaml"), "--for", "7", "--pace", "real", "--record", Path("live.mcap"), "--run",
                "live-keys", "--domain", std::to_string(kDomain)});
-  auto participant = dds::Participant::Open({kDomain, "live-keys", "a window", launch::Transport::kSharedMemory});
+  auto participant = dds::Participant::Open({kDomain, "live-keys", "a window", launch::Transport::kSharedMemory, {}});
   ASSERT_TRUE(participant.ok()) << participant.error().Text();
   auto window = dds::OpenKeysSender(*participant.value());
   ASSERT_TRUE(window.ok()) << window.error().Text();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/lockstep/sample.hpp"
+#include "idl/topics.hpp"
 
 namespace rodeira::system_test {
 
@@ -17,10 +18,14 @@ std::vector<Recorded> SamplesOf(const std::string& recording) {
     const auto message = cursor.Next();
     if (!message) return {};
     if (!message.value()) return samples;
+    const std::string& name = reader.value().channels().at(message.value()->channel).topic;
+    const idl::TopicInfo* topic = idl::FindTopic(name);
+    if (topic == nullptr) return {};
+    if (!topic->lockstep) continue;
     const auto& bytes = message.value()->data;
     if (!lockstep::SampleHeader::HasHeader(bytes)) return {};
     const auto header = lockstep::SampleHeader::Read(bytes);
-    samples.push_back({reader.value().channels().at(message.value()->channel).topic, header.source, header.step, base::Hash(bytes), header.state_digest});
+    samples.push_back({name, header.source, header.step, base::Hash(bytes), header.state_digest});
   }
 }
 

@@ -23,7 +23,8 @@ struct Recorded {
   bool operator==(const Recorded&) const = default;
 };
 
-// Every sample in the file's order; none where the file cannot be read whole.
+// Every sample of the lockstep in the file's order, which is what makes two recordings identical: wall times and remarks
+// are passed over. None where the file cannot be read whole.
 std::vector<Recorded> SamplesOf(const std::string& recording);
 // Where two runs part: node, step, topic and both digests. Empty where they never do.
 std::string FirstDifference(const std::vector<Recorded>& a, const std::vector<Recorded>& b);

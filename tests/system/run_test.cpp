@@ -21,7 +21,7 @@ std::set<std::string> SharedMemory() {
 }
 
 TEST(Run, TheSameDigestAtEveryRunUnderLoadOverUdpAndInOneProcess) {
-  const auto first = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml")});
+  const auto first = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record"});
   ASSERT_EQ(first.status, 0) << first.out;
   const std::string digest = DigestIn(first.out);
   ASSERT_EQ(digest.size(), 16u) << first.out;
@@ -32,24 +32,24 @@ TEST(Run, TheSameDigestAtEveryRunUnderLoadOverUdpAndInOneProcess) {
     while (busy) {
     }
   });
-  EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml")}).out), digest);
+  EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record"}).out), digest);
   busy = false;
   load.join();
-  EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--in-process"}).out), digest);
-  EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--set", "transport=udp"}).out), digest);
-  EXPECT_NE(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--seed", "2"}).out), digest);
+  EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--in-process"}).out), digest);
+  EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--set", "transport=udp"}).out), digest);
+  EXPECT_NE(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--seed", "2"}).out), digest);
 }
 
 TEST(Run, RealPaceTakesRealTime) {
   // Not a measurement: a bound from below, which load can only raise.
   const auto begin = std::chrono::steady_clock::now();
-  const auto run = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "0.5", "--pace", "real"});
+  const auto run = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "0.5", "--pace", "real"});
   EXPECT_EQ(run.status, 0) << run.out;
   EXPECT_GE(std::chrono::steady_clock::now() - begin, 500ms);
 }
 
 TEST(Run, CtrlCStopsEverybodyAtTheSameStepAndIsNoFault) {
-  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "1000", "--pace", "real", "--run", "ctrlc"});
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real", "--run", "ctrlc"});
   std::this_thread::sleep_for(1500ms);
   ::kill(run.pid(), SIGINT);
   const Ended ended = run.Wait(10s);
@@ -60,13 +60,13 @@ TEST(Run, CtrlCStopsEverybodyAtTheSameStepAndIsNoFault) {
 
 TEST(Run, LeavesNothingInSharedMemoryAndNoProcess) {
   const auto before = SharedMemory();
-  ASSERT_EQ(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "0.1", "--run", "tidy"}).status, 0);
+  ASSERT_EQ(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "0.1", "--run", "tidy"}).status, 0);
   EXPECT_EQ(SharedMemory(), before);
   EXPECT_TRUE(ProcessesWith("--run tidy").empty());
 }
 
 TEST(Run, WhereRodeiraItselfIsKilledNobodyIsLeftAfterTwoSeconds) {
-  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "1000", "--pace", "real", "--run", "orphans"});
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real", "--run", "orphans"});
   std::this_thread::sleep_for(1500ms);
   ASSERT_EQ(ProcessesWith("--run orphans", "/rodeira-").size(), 5u);
   ::kill(run.pid(), SIGKILL);
@@ -76,7 +76,7 @@ TEST(Run, WhereRodeiraItselfIsKilledNobodyIsLeftAfterTwoSeconds) {
 
 TEST(Run, WrongInputIsOneSentenceAndStatusTwo) {
   const auto refuses = [](const std::vector<std::string>& arguments, const std::string& text) {
-    std::vector<std::string> command{Bin("rodeira"), "run"};
+    std::vector<std::string> command{Bin("rodeira"), "run", "--no-record"};
     command.insert(command.end(), arguments.begin(), arguments.end());
     const Ended ended = RunCommand(command);
     EXPECT_EQ(ended.status, 2) << ended.out;

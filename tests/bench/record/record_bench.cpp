@@ -2,9 +2,12 @@
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "common/base/files.hpp"
 #include "common/base/random.hpp"
@@ -82,6 +85,65 @@ void Read(benchmark::State& state) {
   std::filesystem::remove(BenchFile());
 }
 BENCHMARK(Read)->ArgName("zstd")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+// A real recording written again: RODEIRA_RECORDING=FILE record_bench --benchmark_filter=Again
+struct Recorded {
+  struct Item {
+    ChannelId channel = 0;
+    std::uint64_t log_time_ns = 0;
+    base::Bytes data;
+  };
+  std::vector<Channel> channels;
+  std::vector<Item> messages;
+  double simulated_s = 0.0;
+};
+
+const Recorded& TheRecording() {
+  static const Recorded kRecorded = [] {
+    Recorded recorded;
+    const char* file = std::getenv("RODEIRA_RECORDING");
+    if (file == nullptr) return recorded;
+    const auto reader = McapReader::Open(file);
+    if (!reader) return recorded;
+    for (const auto& [id, channel] : reader.value().channels()) recorded.channels.push_back(channel);
+    Query query;
+    query.order = Query::Order::kFile;
+    auto cursor = reader.value().Messages(query);
+    while (true) {
+      const auto message = cursor.Next();
+      if (!message || !message.value()) break;
+      const Message& m = *message.value();
+      recorded.messages.push_back({m.channel, m.log_time_ns, base::Bytes(m.data.begin(), m.data.end())});
+    }
+    recorded.simulated_s = static_cast<double>(reader.value().statistics().last_log_time_ns) * 1e-9;
+    return recorded;
+  }();
+  return kRecorded;
+}
+
+void Again(benchmark::State& state) {
+  const Recorded& recorded = TheRecording();
+  if (recorded.messages.empty()) return state.SkipWithError("RODEIRA_RECORDING names no recording");
+  WriterSettings settings;
+  settings.zstd_level = static_cast<int>(state.range(0));
+  settings.chunk_bytes = static_cast<std::uint64_t>(state.range(1)) << 20;
+  std::uint64_t bytes = 0;
+  for (auto _ : state) {
+    base::Bytes file;
+    auto writer = McapWriter::Open(std::make_unique<MemorySink>(&file), settings).value();
+    std::map<ChannelId, ChannelId> ids;
+    for (const Channel& channel : recorded.channels) ids[channel.id] = writer.AddChannel(channel.topic, 0, "cdr", channel.metadata).value();
+    for (const auto& m : recorded.messages) {
+      if (!writer.Write(ids.at(m.channel), 0, m.log_time_ns, m.log_time_ns, m.data)) std::abort();
+    }
+    if (!writer.Close()) std::abort();
+    bytes = file.size();
+  }
+  state.counters["MB_per_simulated_s"] = static_cast<double>(bytes) * 1e-6 / recorded.simulated_s;
+  state.counters["GB_per_hour"] = static_cast<double>(bytes) * 3.6e-6 / recorded.simulated_s;
+  state.counters["simulated_s"] = recorded.simulated_s;
+}
+BENCHMARK(Again)->ArgNames({"level", "chunk_MiB"})->ArgsProduct({{1, 3, 9, 13, 16}, {1, 4}})->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace rodeira::record

@@ -34,7 +34,7 @@ TEST(Launch, WiresEverybodyByTopic) {
   const auto& traffic = roster.node(roster.Find("traffic"));
   EXPECT_EQ(traffic.period, 20);
   EXPECT_EQ(traffic.delay, 40);
-  EXPECT_EQ(roster.node(roster.Find("recorder")).inputs.size(), 3u);
+  EXPECT_EQ(roster.node(roster.Find("recorder")).inputs.size(), 4u) << "three streams of samples, and the snapshots";
   EXPECT_EQ(roster.node(roster.Find("road")).role, lockstep::Role::kService);
   EXPECT_EQ(launch.node(1).config->OptionalChild("config").Text("source"), "script");
 }
@@ -43,6 +43,15 @@ TEST(Launch, TheSameFileGivesTheSameHashAndAnOverrideAnother) {
   const auto hash = [](const Overrides& overrides) { return Launch::Parse(kDrive, "x.yaml", overrides).value().roster().hash(); };
   EXPECT_EQ(hash({}), hash({}));
   EXPECT_NE(hash({}), hash({{"nodes.traffic.period_s", "0.01"}}));
+}
+
+TEST(Launch, ANodeOfNoKindIsNotThere) {
+  std::string without = kDrive;
+  without.resize(without.find("  recorder:"));
+  const Launch launch = Launch::Parse(kDrive, "x.yaml", {{"nodes.recorder.kind", "none"}, {"nodes.recorder.config.file", "a.mcap"}}).value();
+  EXPECT_EQ(launch.roster().hash(), Launch::Parse(without, "x.yaml").value().roster().hash());
+  EXPECT_EQ(launch.nodes().size(), 4u);
+  EXPECT_EQ(Refusal(kDrive, {{"nodes.driver.kind", "none"}}).substr(0, 61), "dir/drive.yaml:7: node 'ego' needs 'controls', but no node pu");
 }
 
 TEST(Launch, RefusesWhatIsWrongWithPlaceAndNearestName) {

@@ -1,0 +1,235 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <cstdlib>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <sstream>
+
+#include "common/dds/options.hpp"
+#include "common/dds/parents_word.hpp"
+#include "common/dds/participant.hpp"
+#include "common/dds/run.hpp"
+#include "common/dds/statements.hpp"
+#include "common/dds/wire.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::dds {
+namespace {
+
+using namespace std::chrono_literals;
+using WallClock = std::chrono::steady_clock;
+namespace topics = idl::topics;
+using lockstep::NodeIndex;
+using lockstep::Phase;
+
+constexpr auto kClockSilence = 3s;   // as the nodes' own (NodeBus::Settings)
+constexpr auto kClosingTime = 3s;    // from an abort to the closing words
+
+std::atomic<int> g_signals = 0;
+void OnSignal(int) { ++g_signals; }
+
+// On a PC where the clock does not run: an observer of grants and reports that says what the clock says there, so that
+// `rodeira run` shows the same and ends with the same status. Its own word goes to the clock only as the failure of a
+// node of its host.
+class Follower {
+ public:
+  Follower(const launch::Launch& launch, const ProcessOptions& options)
+      : launch_(launch), roster_(launch.roster()), options_(options), reports_(roster_.nodes().size()) {}
+
+  int Run() {
+    auto participant = Participant::Open(DomainOf(options_, launch_, "follower on " + options_.follow));
+    if (!participant) return Complain(participant.error());
+    participant_ = std::move(participant).value();
+    if (auto status = Connect(); !status) return Complain(status.error());
+    parents_.Listen([this] { woken_.notify_one(); });
+    return Loop();
+  }
+
+ private:
+  static int Complain(const base::Error& error) {
+    Say("fault {}", OneLine(error.Text()));
+    return error.exit_status();
+  }
+
+  base::Status Connect() {
+    auto grants = participant_->MakeReader(topics::kGrant, Delivery::kObserve, [this](base::Bytes&& bytes) { OnGrant(bytes); });
+    if (!grants) return grants.error();
+    grants_ = std::move(grants).value();
+    auto reports = participant_->MakeReader(topics::kReport, Delivery::kObserve, [this](base::Bytes&& bytes) { OnReport(bytes); });
+    if (!reports) return reports.error();
+    reports_in_ = std::move(reports).value();
+    auto out = participant_->MakeWriter(topics::kReport, Delivery::kSaidAgain);
+    if (!out) return out.error();
+    reports_out_ = std::move(out).value();
+    return {};
+  }
+
+  void OnGrant(const base::Bytes& bytes) {
+    auto said = DecodeGrant(bytes);
+    if (!said) return;
+    const lockstep::Grant& grant = said.value().grant;
+    const std::lock_guard lock(mutex_);
+    // A clock that is met for the first time and ends is that of the run before.
+    if (clock_id_ == 0 && (grant.abort || grant.over)) return;
+    if (clock_id_ == 0) clock_id_ = said.value().clock_id;
+    if (clock_id_ != said.value().clock_id || grant_.over) return;
+    heard_at_ = WallClock::now();
+    grant_ = grant;
+    woken_.notify_one();
+  }
+
+  void OnReport(const base::Bytes& bytes) {
+    const auto report = DecodeReport(bytes);
+    if (!report) return;
+    const NodeIndex node = roster_.Find(report.value().node);
+    const std::lock_guard lock(mutex_);
+    if (node < reports_.size() && report.value().clock_id == clock_id_) reports_[node] = report.value().report;
+  }
+
+  struct Now {
+    std::uint64_t clock_id = 0;
+    lockstep::Grant grant;
+    WallClock::time_point heard_at;
+    std::vector<std::optional<lockstep::Report>> reports;
+  };
+  Now Look() {
+    std::unique_lock lock(mutex_);
+    woken_.wait_for(lock, 10ms);
+    return {clock_id_, grant_, heard_at_, reports_};
+  }
+
+  int Loop() {
+    std::optional<WallClock::time_point> aborted_at;
+    for (;;) {
+      const Now now = Look();
+      if (now.clock_id == 0) {
+        if (g_signals > 0) return Complain(base::Failed("stopped by a signal"));
+        Show([&] { Say("waiting for the clock of run '{}' in domain {}", OneLine(options_.run), options_.domain); });
+        continue;
+      }
+      if (!met_) {
+        if (now.grant.through >= 0) {
+          return Complain(base::WrongInput(fmt::format("it is under way already, at step {}, without the processes of this command; wait for its end or choose another --run",
+                                                       now.grant.through), fmt::format("run '{}' in domain {}", options_.run, options_.domain)));
+        }
+        met_ = true;
+        Say("met");
+      }
+      if (now.grant.over) return End(now.grant.reason);
+      if (now.grant.abort && !aborted_at) {
+        aborted_at = WallClock::now();
+        Say("fault {}", OneLine(now.grant.reason));
+      }
+      if (aborted_at && WallClock::now() - *aborted_at > kClosingTime) return 1;
+      if (!aborted_at && WallClock::now() - now.heard_at > kClockSilence) {
+        return Complain(base::Failed(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off", std::chrono::duration<double>(kClockSilence).count())));
+      }
+      TellFaults(now);
+      ShowProgress(now);
+    }
+  }
+
+  // What the clock says at the very end is said here too, word for word.
+  static int End(const std::string& words) {
+    int status = 1;
+    std::istringstream lines(words);
+    for (std::string line; std::getline(lines, line);) {
+      SayLine(line);
+      const auto at = line.find(" status=");
+      if (line.starts_with("end ") && at != std::string::npos) status = std::atoi(line.c_str() + at + 8);
+    }
+    return status;
+  }
+
+  // Said again until the clock has stopped time.
+  void TellFaults(const Now& now) {
+    if (now.grant.abort) return;
+    std::string word = parents_.word();
+    if (word.empty() && g_signals > 0) word = fmt::format("lost {} it was stopped by a signal", AnyOwnNode());
+    if (!word.starts_with("lost ")) return;
+    const auto space = word.find(' ', 5);
+    NamedReport failed;
+    failed.node = word.substr(5, space == std::string::npos ? space : space - 5);
+    const NodeIndex node = roster_.Find(failed.node);
+    if (node == roster_.nodes().size()) return;
+    failed.clock_id = now.clock_id;
+    failed.hello = OwnHello(roster_.hash());
+    if (now.reports[node]) failed.report = *now.reports[node];
+    failed.report.phase = Phase::kFailed;
+    failed.report.message = fmt::format("{} (host '{}')", space == std::string::npos ? "" : word.substr(space + 1), options_.follow);
+    (void)reports_out_->Write(EncodeReport(failed));
+  }
+  std::string AnyOwnNode() const {
+    for (const launch::LaunchNode& node : launch_.nodes()) {
+      if (node.host == options_.follow) return node.name;
+    }
+    return "";
+  }
+
+  template <class What>
+  void Show(What what) {
+    if (WallClock::now() - shown_ < 200ms) return;
+    shown_ = WallClock::now();
+    what();
+  }
+  void ShowProgress(const Now& now) {
+    if (now.grant.abort) return;
+    if (now.grant.through < 0) {
+      Show([&] { Say("waiting for {}", fmt::join(NotReady(now), ", ")); });
+      return;
+    }
+    if (!began_) {
+      began_ = WallClock::now();
+      Say("ready");
+    }
+    Show([&] { Say("progress step={} wall_s={:.3f}", SlowestProgress(now), std::chrono::duration<double>(WallClock::now() - *began_).count()); });
+  }
+  std::vector<std::string> NotReady(const Now& now) const {
+    std::vector<std::string> names;
+    for (NodeIndex n = 0; n < now.reports.size(); ++n) {
+      if (!now.reports[n] || now.reports[n]->phase < Phase::kReady) names.push_back(roster_.node(n).name);
+    }
+    return names;
+  }
+  lockstep::Step SlowestProgress(const Now& now) const {
+    lockstep::Step slowest = std::numeric_limits<lockstep::Step>::max();
+    for (NodeIndex n = 0; n < now.reports.size(); ++n) {
+      if (roster_.node(n).role == lockstep::Role::kStepped) slowest = std::min(slowest, now.reports[n] ? now.reports[n]->progress : 0);
+    }
+    return slowest == std::numeric_limits<lockstep::Step>::max() ? 0 : slowest;
+  }
+
+  const launch::Launch& launch_;
+  const lockstep::Roster& roster_;
+  const ProcessOptions& options_;
+  ParentsWord parents_;
+  bool met_ = false;
+  std::optional<WallClock::time_point> began_;
+  WallClock::time_point shown_{};
+  std::mutex mutex_;
+  std::condition_variable woken_;
+  std::uint64_t clock_id_ = 0;  // 0: not heard yet
+  lockstep::Grant grant_;
+  WallClock::time_point heard_at_{};
+  std::vector<std::optional<lockstep::Report>> reports_;
+  std::unique_ptr<Participant> participant_;  // outlives its endpoints
+  std::unique_ptr<Writer> reports_out_;
+  std::unique_ptr<Reader> grants_;
+  std::unique_ptr<Reader> reports_in_;
+};
+
+}  // namespace
+
+int FollowClock(const launch::Launch& launch, const ProcessOptions& options) {
+  std::signal(SIGINT, OnSignal);
+  std::signal(SIGTERM, OnSignal);
+  return Follower(launch, options).Run();
+}
+
+}  // namespace rodeira::dds

@@ -1,0 +1,32 @@
+#include "common/dds/udp_port.hpp"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace rodeira::dds {
+namespace {
+
+bool CanBind(in_addr_t address, int port) {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (socket < 0) return false;
+  sockaddr_in where{};
+  where.sin_family = AF_INET;
+  where.sin_addr.s_addr = address;
+  where.sin_port = htons(static_cast<std::uint16_t>(port));
+  const bool bound = ::bind(socket, reinterpret_cast<const sockaddr*>(&where), sizeof(where)) == 0;
+  ::close(socket);
+  return bound;
+}
+
+}  // namespace
+
+bool UdpPortIsFree(int port) { return CanBind(htonl(INADDR_ANY), port); }
+
+bool IsOwnAddress(const std::string& address) {
+  in_addr parsed{};
+  return ::inet_pton(AF_INET, address.c_str(), &parsed) == 1 && CanBind(parsed.s_addr, 0);
+}
+
+}  // namespace rodeira::dds

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace rodeira::dds {
+
+// Whether nobody has this UDP port, on any address of this PC. Fast DDS itself says nothing of a taken port.
+bool UdpPortIsFree(int port);
+// Whether this PC has the IPv4 address.
+bool IsOwnAddress(const std::string& address);
+
+}  // namespace rodeira::dds

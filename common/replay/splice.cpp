@@ -1,0 +1,122 @@
+#include "common/replay/splice.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <system_error>
+
+#include "common/record/mcap_reader.hpp"
+#include "common/record/mcap_writer.hpp"
+
+namespace rodeira::replay {
+namespace {
+
+namespace fs = std::filesystem;
+using lockstep::SampleHeader;
+
+class Splicer {
+ public:
+  Splicer(const RecordedRun& parent, const record::McapReader& branch, lockstep::Step at, record::McapWriter& writer)
+      : parent_(parent), branch_(branch), at_(at), writer_(writer) {}
+
+  base::Status Write(const record::TextMap& about) {
+    for (const auto& info : branch_.metadata()) {
+      if (info.name == "rodeira.end") continue;
+      const auto metadata = branch_.ReadMetadata(info);
+      if (!metadata) return metadata.error();
+      if (auto status = writer_.AddMetadata(info.name, metadata.value().entries); !status) return status;
+    }
+    if (auto status = writer_.AddMetadata(kBranchMetadata, about); !status) return status;
+    for (const auto& info : branch_.attachments()) {
+      const auto attachment = branch_.ReadAttachment(info);
+      if (!attachment) return attachment.error();
+      if (auto status = writer_.AddAttachment(info.name, info.media_type, attachment.value().data, 0, 0); !status) return status;
+    }
+    if (auto status = AddChannels(); !status) return status;
+    if (auto status = CopyParent(); !status) return status;
+    if (auto status = CopyBranch(); !status) return status;
+    const auto end = branch_.FindMetadata("rodeira.end");
+    if (!end) return end.error();
+    if (end.value()) {
+      if (auto status = writer_.AddMetadata("rodeira.end", end.value()->entries); !status) return status;
+    }
+    return writer_.Close();
+  }
+
+ private:
+  base::Status AddChannels() {
+    for (const auto& [id, channel] : branch_.channels()) {
+      const record::Schema& schema = branch_.schemas().at(channel.schema);
+      const auto new_schema = writer_.AddSchema(schema.name, schema.encoding, schema.text);
+      if (!new_schema) return new_schema.error();
+      const auto made = writer_.AddChannel(channel.topic, new_schema.value(), channel.message_encoding, channel.metadata);
+      if (!made) return made.error();
+      of_branch_[id] = made.value();
+      const auto number = channel.metadata.find("source_number");
+      if (number != channel.metadata.end()) of_source_[number->second] = made.value();
+    }
+    return {};
+  }
+  base::Status CopyParent() {
+    SampleStream samples = parent_.Samples();
+    for (;;) {
+      const auto sample = samples.Next();
+      if (!sample) return sample.error();
+      if (!sample.value() || sample.value()->valid() > at_) return {};
+      const auto& source = parent_.roster().source(sample.value()->source());
+      if (source.topic == lockstep::kSnapshotTopic && sample.value()->valid() == at_) continue;
+      const auto channel = of_source_.find(std::to_string(sample.value()->source()));
+      if (channel == of_source_.end()) continue;
+      const auto time_ns = static_cast<std::uint64_t>(sample.value()->header.time_ns);
+      const auto sequence = static_cast<std::uint32_t>(sample.value()->valid() / source.period);
+      if (auto status = writer_.Write(channel->second, sequence, time_ns, time_ns, *sample.value()->payload); !status) return status;
+    }
+  }
+  base::Status CopyBranch() {
+    auto cursor = branch_.Messages();
+    for (;;) {
+      const auto message = cursor.Next();
+      if (!message) return message.error();
+      if (!message.value()) return {};
+      const record::Message& in = *message.value();
+      const record::Channel& channel = branch_.channels().at(in.channel);
+      if (channel.metadata.contains("source_number") && SampleHeader::HasHeader(in.data)) {
+        const lockstep::Step valid = SampleHeader::Read(in.data).step;
+        if (valid < at_ || (valid == at_ && channel.topic != lockstep::kSnapshotTopic)) continue;
+      }
+      if (auto status = writer_.Write(of_branch_.at(in.channel), in.sequence, in.log_time_ns, in.publish_time_ns, in.data); !status) return status;
+    }
+  }
+
+  const RecordedRun& parent_;
+  const record::McapReader& branch_;
+  lockstep::Step at_;
+  record::McapWriter& writer_;
+  std::map<record::ChannelId, record::ChannelId> of_branch_;
+  std::map<std::string, record::ChannelId> of_source_;
+};
+
+}  // namespace
+
+base::Status Splice(const RecordedRun& parent, const fs::path& branch, lockstep::Step at, const record::TextMap& about, const fs::path& target) {
+  std::error_code problem;
+  if (fs::exists(target, problem)) return base::WrongInput("the file exists; a recording is never overwritten", target.string());
+  const auto reader = record::McapReader::Open(branch);
+  if (!reader) return reader.error();
+  const fs::path part = target.string() + ".part";
+  fs::remove(part, problem);
+  record::WriterSettings settings;
+  settings.profile = reader.value().header().profile;
+  auto writer = record::McapWriter::Open(part, settings);
+  if (!writer) return writer.error();
+  auto status = Splicer(parent, reader.value(), at, writer.value()).Write(about);
+  if (status.ok()) {
+    fs::rename(part, target, problem);
+    if (!problem) return {};
+    status = base::Failed(fmt::format("the file cannot be given its name: {}", problem.message()), target.string());
+  }
+  fs::remove(part, problem);
+  return status;
+}
+
+}  // namespace rodeira::replay

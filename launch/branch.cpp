@@ -1,0 +1,135 @@
+#include "launch/branch.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <numeric>
+
+#include "common/replay/recorded_node.hpp"
+#include "common/replay/splice.hpp"
+#include "launch/local_nodes.hpp"
+#include "launch/verify.hpp"
+
+namespace rodeira::front {
+namespace {
+
+using lockstep::NodeIndex;
+using lockstep::Snapshot;
+using lockstep::Step;
+
+// The parent's nodes at `at`: computed again from the snapshot before, each sample compared.
+base::Result<std::vector<Snapshot>> StatesAt(const replay::RecordedRun& parent, Step at, BranchOutcome& outcome) {
+  Recomputation again;
+  again.from = at;
+  again.last_step = at;
+  again.snapshot_at = at;
+  auto done = Recompute(parent, again);
+  if (!done) return done.error();
+  outcome.recomputed_from = done.value().verdict.first_step;
+  outcome.difference = done.value().verdict.difference;
+  return std::move(done.value().snapshots);
+}
+
+base::Status CheckStep(const replay::RecordedRun& parent, Step at) {
+  const auto& roster = parent.roster();
+  const double dt_s = static_cast<double>(roster.base_step_ns()) * 1e-9;
+  if (at < 0 || at > parent.last_step()) {
+    return base::WrongInput(fmt::format("--from {:.3f} s was found, but the run ends at {:.3f} s", static_cast<double>(at) * dt_s, static_cast<double>(parent.last_step()) * dt_s),
+                            parent.path().string());
+  }
+  Step common = 1;
+  for (const auto& node : roster.nodes()) {
+    if (node.role == lockstep::Role::kStepped && !node.is_sink()) common = std::lcm(common, node.period);
+  }
+  if (at % common != 0) {
+    return base::WrongInput(fmt::format("--from {:.3f} s was found; a branch begins where all nodes are activated, the nearest such time is {:.3f} s",
+                                        static_cast<double>(at) * dt_s, static_cast<double>(lockstep::FloorTo(at + common / 2, common)) * dt_s),
+                            parent.path().string());
+  }
+  return {};
+}
+
+// Each node's state for its new model; the names of those that had to take over.
+base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, const std::vector<lockstep::Node*>& nodes, std::vector<Snapshot>& snapshots) {
+  std::vector<std::string> taken_over;
+  for (NodeIndex n = 0; n < nodes.size(); ++n) {
+    if (nodes[n] == nullptr || roster.node(n).is_sink()) {
+      snapshots[n].state.clear();
+      continue;
+    }
+    base::StateReader in(snapshots[n].state);
+    nodes[n]->Restore(in);
+    if (in.Finish().ok()) continue;
+    if (auto status = nodes[n]->TakeOver(snapshots[n].samples); !status) {
+      return base::Error{status.error().code, status.error().Text(), fmt::format("node '{}'", roster.node(n).name)};
+    }
+    base::StateWriter out;
+    nodes[n]->Save(out);
+    snapshots[n].state = out.bytes();
+    taken_over.push_back(roster.node(n).name);
+  }
+  return taken_over;
+}
+
+std::string RecorderOf(const launch::Launch& launch) {
+  for (const launch::LaunchNode& node : launch.nodes()) {
+    if (node.kind->name == "recorder") return node.name;
+  }
+  return {};
+}
+
+}  // namespace
+
+base::Result<BranchOutcome> Branch(const BranchWish& wish) {
+  BranchOutcome outcome;
+  outcome.at = wish.at;
+  auto parent = replay::RecordedRun::Open(wish.parent);
+  if (!parent) return parent.error();
+  const auto& roster = parent.value().roster();
+  if (auto status = CheckStep(parent.value(), wish.at); !status) return status.error();
+  auto folder = replay::TemporaryFolder::Make();
+  if (!folder) return folder.error();
+  const std::filesystem::path own = folder.value().path() / "branch.mcap";
+  launch::Overrides changes = wish.changes;
+  changes.emplace_back("nodes." + RecorderOf(parent.value().launch()) + ".config.file", "\"" + own.string() + "\"");
+  // What is wrong with the changes is said before anything is computed.
+  auto changed = replay::RecordedRun::Open(wish.parent, changes);
+  if (!changed) return changed.error();
+  if (changed.value().roster().hash() != roster.hash()) {
+    return base::WrongInput("the changes give another roster (other nodes, periods or wires); a branch has its parent's", wish.parent);
+  }
+  const launch::Launch& launch = changed.value().launch();
+  auto nodes = LocalNodes::Make(launch, [&](NodeIndex n) -> std::unique_ptr<lockstep::Node> {
+    if (IsLive(launch.node(n))) return replay::MakeRecordedNode(parent.value(), n, wish.at);
+    if (roster.node(n).is_sink() && launch.node(n).kind->name != "recorder") return replay::MakeNullSink();
+    return nullptr;
+  });
+  if (!nodes) return nodes.error();
+
+  auto snapshots = StatesAt(parent.value(), wish.at, outcome);
+  if (!snapshots) return snapshots.error();
+  if (outcome.difference) return outcome;
+  for (NodeIndex n = 0; n < roster.nodes().size(); ++n) {
+    if (IsLive(launch.node(n))) snapshots.value()[n].state.clear();
+  }
+  auto taken_over = Adapt(roster, nodes.value().nodes(), snapshots.value());
+  if (!taken_over) return taken_over.error();
+  outcome.taken_over = std::move(taken_over).value();
+
+  lockstep::InProcessSettings settings;
+  settings.first_step = wish.at;
+  settings.last_step = wish.last_step.value_or(parent.value().last_step());
+  settings.resume = std::move(snapshots).value();
+  const lockstep::RunOutcome ran = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
+  if (!ran.ok) return base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault), wish.parent);
+  outcome.last_step = ran.last_step;
+
+  record::TextMap about{{"parent", std::filesystem::path(wish.parent).filename().string()},
+                        {"step", std::to_string(wish.at)},
+                        {"time_s", fmt::format("{}", static_cast<double>(wish.at) * static_cast<double>(roster.base_step_ns()) * 1e-9)}};
+  for (const auto& [key, value] : wish.changes) about["change " + key] = value;
+  if (auto status = replay::Splice(parent.value(), own, wish.at, about, wish.recording); !status) return status.error();
+  return outcome;
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+namespace rodeira::front {
+
+// `rodeira export --csv DIR FILE.mcap`
+struct ExportOptions {
+  std::string recording;
+  std::string csv;  // the folder
+  bool quiet = false;
+};
+
+// Writes the tables and says what they are. Status 1 where the recording is not whole: the tables are there then, with what
+// could be read.
+int Export(const ExportOptions& options);
+
+}  // namespace rodeira::front

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "launch/control_server.hpp"
+#include "launch/terminal_keys.hpp"
+
+namespace rodeira::front {
+
+// What a key of the terminal asks for: space "toggle", Enter "step", + "faster", - "slower", m "mark key m", q "stop".
+// Empty: nothing.
+std::string CommandOfKey(char key);
+// What h shows.
+std::string_view KeyHelp();
+
+// Who runs the run: the terminal's keys and whoever comes by the control socket.
+class Operator {
+ public:
+  // Where no socket can be made the run goes without, and says so. `quiet`: keys answer nothing.
+  Operator(const std::string& run, bool quiet);
+
+  // The next thing asked for; nothing where there is none. Never waits; looks at most every 10 ms.
+  std::optional<AskedLine> Next();
+  bool has_keys() const { return keys_ != nullptr; }
+
+ private:
+  void Show(const std::string& text) const;
+
+  bool quiet_;
+  std::unique_ptr<TerminalKeys> keys_;
+  std::unique_ptr<ControlServer> server_;
+  std::int64_t looked_ms_ = 0;
+};
+
+}  // namespace rodeira::front

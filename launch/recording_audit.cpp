@@ -1,0 +1,104 @@
+#include "launch/recording_audit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "common/lockstep/sample.hpp"
+
+namespace rodeira::front {
+namespace {
+
+std::optional<std::int64_t> Number(const record::TextMap& map, const char* key) {
+  const auto found = map.find(key);
+  if (found == map.end()) return std::nullopt;
+  std::int64_t number = 0;
+  const char* end = found->second.data() + found->second.size();
+  const auto [at, problem] = std::from_chars(found->second.data(), end, number);
+  if (problem != std::errc() || at != end) return std::nullopt;
+  return number;
+}
+
+// The entries of a metadata record; none where it is not there.
+record::TextMap EntriesOf(const record::McapReader& reader, const char* name) {
+  const auto metadata = reader.FindMetadata(name);
+  return metadata && metadata.value() ? metadata.value()->entries : record::TextMap();
+}
+
+}  // namespace
+
+std::string RecordedSource::Verdict() const {
+  if (!audit) return "";
+  if (audit->count == 0) return "no sample";
+  if (lossless()) return "lossless";
+  std::string text;
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (audit->first_step != 0) add(fmt::format("begins at step {}", audit->first_step));
+  if (!audit->gaps.empty()) {
+    add(fmt::format("{} missing, the first behind step {}", audit->missing, audit->gaps.front().after_step));
+  }
+  if (audit->repeated > 0) add(fmt::format("{} said twice", audit->repeated));
+  if (audit->backward > 0) add(fmt::format("{} out of order", audit->backward));
+  if (ends_early) add(fmt::format("ends at step {}", audit->last_step));
+  return text;
+}
+
+bool RecordingAudit::lossless() const {
+  return damages.empty() && std::ranges::all_of(sources, [](const RecordedSource& source) { return source.lossless(); });
+}
+
+RecordingAudit Audit(const record::McapReader& reader) {
+  RecordingAudit result;
+  result.damages = reader.condition().findings;
+  const record::TextMap end = EntriesOf(reader, "rodeira.end");
+  result.last_step = Number(end, "last_step");
+  const auto complete = end.find("complete");
+  result.broken_off = complete != end.end() && complete->second != "true";
+  const auto base_step_ns = Number(EntriesOf(reader, "rodeira"), "base_step_ns");
+  record::StepAudit steps;
+  std::map<record::ChannelId, RecordedSource> sources;
+  std::map<record::ChannelId, std::uint64_t> periods;
+  for (const auto& [id, channel] : reader.channels()) {
+    RecordedSource& source = sources[id];
+    source.topic = channel.topic;
+    const auto name = channel.metadata.find("source");
+    if (name != channel.metadata.end()) source.source = name->second;
+    const auto schema = reader.schemas().find(channel.schema);
+    if (schema != reader.schemas().end()) source.type = schema->second.name;
+    const auto period = Number(channel.metadata, "period_steps");
+    if (!period || *period <= 0) continue;
+    periods[id] = static_cast<std::uint64_t>(*period);
+    steps.Declare(channel.topic, id, periods[id]);
+    if (!base_step_ns || *base_step_ns <= 0) continue;
+    source.rate_hz = 1e9 / (static_cast<double>(*period) * static_cast<double>(*base_step_ns));
+  }
+  record::Query query;
+  query.order = record::Query::Order::kFile;
+  auto cursor = reader.Messages(query);
+  for (;;) {
+    const auto message = cursor.Next();
+    if (!message) {
+      result.damages.push_back(message.error().Text());
+      continue;
+    }
+    if (!message.value()) break;
+    RecordedSource& source = sources[message.value()->channel];
+    ++source.samples;
+    source.bytes += message.value()->data.size();
+    if (!periods.contains(message.value()->channel) || !lockstep::SampleHeader::HasHeader(message.value()->data)) continue;
+    const auto step = lockstep::SampleHeader::Read(message.value()->data).step;
+    if (step >= 0) steps.Add(source.topic, message.value()->channel, static_cast<std::uint64_t>(step));
+  }
+  for (const auto& [key, audit] : steps.Finish()) {
+    RecordedSource& source = sources[static_cast<record::ChannelId>(key.second)];
+    source.audit = audit;
+    const auto period = static_cast<std::int64_t>(periods[static_cast<record::ChannelId>(key.second)]);
+    const bool ended = result.last_step && !result.broken_off;
+    source.ends_early = ended && static_cast<std::int64_t>(audit.last_step) < *result.last_step / period * period;
+  }
+  for (auto& [id, source] : sources) result.sources.push_back(std::move(source));
+  return result;
+}
+
+}  // namespace rodeira::front

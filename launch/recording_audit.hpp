@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/record/audit.hpp"
+#include "common/record/mcap_reader.hpp"
+
+namespace rodeira::front {
+
+// What a recording holds of one source on one topic.
+struct RecordedSource {
+  std::string topic;
+  std::string source;  // the node
+  std::string type;
+  std::uint64_t samples = 0;
+  std::uint64_t bytes = 0;                       // of the payloads
+  std::optional<double> rate_hz;                 // of simulated time; where the period and the base step are known
+  std::optional<record::SourceAudit> audit;      // of samples of the lockstep
+  bool ends_early = false;                       // its last sample lies more than a period before the run's end
+  // "lossless", or what is missing; empty where nothing can be said.
+  std::string Verdict() const;
+  bool lossless() const { return !audit || (audit->whole() && audit->first_step == 0 && !ends_early); }
+};
+
+struct RecordingAudit {
+  std::vector<RecordedSource> sources;  // by channel
+  std::vector<std::string> damages;     // sentences
+  std::optional<std::int64_t> last_step;  // of the run, as the recorder wrote it at its end
+  bool broken_off = false;                // the run came to its end by a fault: what was due last need not be there
+  bool lossless() const;
+};
+
+// Reads every message once. Messages whose channel says a period are samples of the lockstep: one a period was expected,
+// from step 0 to the run's end where that was reached.
+RecordingAudit Audit(const record::McapReader& reader);
+
+}  // namespace rodeira::front

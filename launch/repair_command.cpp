@@ -1,0 +1,25 @@
+#include "launch/repair_command.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <cstdio>
+
+#include "common/record/repair.hpp"
+#include "launch/recording_text.hpp"
+
+namespace rodeira::front {
+
+int RepairRecording(const std::string& recording, const std::string& out) {
+  ::signal(SIGXFSZ, SIG_IGN);
+  const auto report = record::Repair(recording, out);
+  if (!report) {
+    fmt::print(stderr, "rodeira: {}\n", report.error().Text());
+    return report.error().exit_status();
+  }
+  const auto& done = report.value();
+  fmt::print("{}{}  {} of {}\n", done.Text(), out, Size(done.target_bytes), Size(done.source_bytes));
+  return 0;
+}
+
+}  // namespace rodeira::front

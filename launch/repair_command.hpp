@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace rodeira::front {
+
+// `rodeira repair FILE.mcap --out FILE`: writes what is left of a recording as a whole one and says what is lost.
+int RepairRecording(const std::string& recording, const std::string& out);
+
+}  // namespace rodeira::front

@@ -1,0 +1,82 @@
+#include "nodes/recorder/log_channels.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::nodes {
+namespace {
+
+using namespace std::chrono_literals;
+
+base::Result<record::ChannelId> AddChannel(record::McapWriter& writer, std::string_view topic) {
+  const idl::TopicInfo* info = idl::FindTopic(topic);
+  RODEIRA_ASSERT(info != nullptr);
+  const auto schema = writer.AddSchema(info->type, "omgidl", idl::IdlTextOf(info->subject));
+  if (!schema) return schema.error();
+  return writer.AddChannel(topic, schema.value(), "cdr");
+}
+
+msg::WallTime ToWire(const lockstep::WallTime& wall) {
+  msg::WallTime out;
+  out.through_step(wall.through);
+  out.utc_ns(wall.utc_ns);
+  out.monotonic_ns(wall.monotonic_ns);
+  out.late_ns(wall.late_ns);
+  out.pace(wall.pace);
+  out.paused(wall.paused ? 1 : 0);
+  return out;
+}
+
+}  // namespace
+
+LogChannels::LogChannels(std::unique_ptr<launch::RunLogReceiver> log, std::int64_t base_step_ns)
+    : log_(std::move(log)), base_step_ns_(base_step_ns) {}
+
+base::Status LogChannels::Begin(record::McapWriter& writer) {
+  if (log_ == nullptr) return {};
+  const auto wall = AddChannel(writer, idl::topics::kWall);
+  if (!wall) return wall.error();
+  wall_ = wall.value();
+  const auto remarks = AddChannel(writer, idl::topics::kRemarks);
+  if (!remarks) return remarks.error();
+  remarks_ = remarks.value();
+  return {};
+}
+
+std::uint64_t LogChannels::TimeOf(lockstep::Step step) const {
+  return static_cast<std::uint64_t>(std::max<lockstep::Step>(step, 0) * base_step_ns_);
+}
+
+base::Status LogChannels::Write(record::McapWriter& writer) {
+  if (log_ == nullptr) return {};
+  for (const lockstep::LogBatch& batch : log_->Take()) {
+    for (const lockstep::WallTime& wall : batch.walls) {
+      const std::uint64_t time_ns = TimeOf(wall.through);
+      if (auto status = writer.Write(wall_, walls_written_++, time_ns, time_ns, idl::Encode(ToWire(wall))); !status) return status;
+    }
+    for (const lockstep::Remark& remark : batch.remarks) {
+      msg::Remark out;
+      out.step(remark.step);
+      out.time_ns(remark.step * base_step_ns_);
+      out.utc_ns(remark.utc_ns);
+      out.monotonic_ns(remark.monotonic_ns);
+      out.pace(remark.pace);
+      out.kind(std::string(lockstep::RemarkName(remark.kind)));
+      out.text(remark.text);
+      out.number(remark.number);
+      const std::uint64_t time_ns = TimeOf(remark.step);
+      if (auto status = writer.Write(remarks_, remark.number, time_ns, time_ns, idl::Encode(out)); !status) return status;
+    }
+  }
+  return {};
+}
+
+bool LogChannels::AwaitEnd(bool complete) { return log_ == nullptr || log_->AwaitEnd(complete ? 2000ms : 300ms); }
+
+}  // namespace rodeira::nodes

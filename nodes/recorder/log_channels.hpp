@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+
+#include "common/base/result.hpp"
+#include "common/launch/run_log_border.hpp"
+#include "common/record/mcap_writer.hpp"
+
+namespace rodeira::nodes {
+
+// The clock's log in a recording: one message of rodeira/wall a grant, one of rodeira/remarks a remark. Their log time is
+// the simulated time of their step, so that they stand beside the samples; the wall's times are in the messages. A run
+// without a log gets no such channels.
+class LogChannels {
+ public:
+  LogChannels(std::unique_ptr<launch::RunLogReceiver> log, std::int64_t base_step_ns);
+  base::Status Begin(record::McapWriter& writer);
+  // What has come so far.
+  base::Status Write(record::McapWriter& writer);
+  // Waits for the rest, longer where the run went well; false where not all of it has come. The run does not fail by that.
+  bool AwaitEnd(bool complete);
+
+ private:
+  std::uint64_t TimeOf(lockstep::Step step) const;
+
+  std::unique_ptr<launch::RunLogReceiver> log_;
+  std::int64_t base_step_ns_;
+  record::ChannelId wall_ = 0;
+  record::ChannelId remarks_ = 0;
+  std::uint32_t walls_written_ = 0;
+};
+
+}  // namespace rodeira::nodes

@@ -1,0 +1,279 @@
+// A run across several PCs, each a network namespace of its own on one hub: the digests of one host, however they find
+// each other and whatever the network does; and on every PC the same end. Skipped where no namespaces can be made.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <thread>
+
+#include "tests/launch/temporary_folder.hpp"
+#include "tests/system/command.hpp"
+#include "tests/system/rig.hpp"
+
+namespace rodeira::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr const char* kNames[] = {"left", "right", "third"};
+// Four empty nodes, all to all; 2000 steps.
+constexpr const char* kFour = "rodeira: launch/1\nduration_s: 2\nnodes: {a: {kind: empty, host: left}, b: {kind: empty, host: right}, "
+                              "c: {kind: empty, host: right}, d: {kind: empty}}\n";
+constexpr const char* kFourOnThree = "rodeira: launch/1\nduration_s: 2\nnodes: {a: {kind: empty, host: left}, b: {kind: empty, host: right}, "
+                                     "c: {kind: empty, host: third}, d: {kind: empty}}\n";
+const Weather kNoMulticast{0.0, 0us, false};
+const Weather kBad{0.05, 2000us, false};
+
+class Hosts : public ::testing::Test {
+ protected:
+  void Make(int hosts, const Weather& weather, const std::string& discovery, const std::string& launch) {
+    rig_ = std::make_unique<Rig>(hosts, weather);
+    if (!rig_->problem().empty()) GTEST_SKIP() << rig_->problem();
+    std::string lab = "rodeira: lab/1\ndomain: 9\nrun: rig\ndiscovery: " + discovery + "\nhosts:\n";
+    for (int host = 0; host < hosts; ++host) lab += std::string("  ") + kNames[host] + ": {address: " + Rig::Address(host) + "}\n";
+    lab_ = folder_.Write("lab.yaml", lab).string();
+    launch_ = folder_.Write("launch.yaml", launch).string();
+  }
+  std::vector<std::string> Command(int host, std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {Bin("rodeira"), "run", launch_, "--lab", lab_, "--host", kNames[host]});
+    return rig_->On(host, more);
+  }
+  std::unique_ptr<Started> Start(int host, const std::vector<std::string>& more = {}) const { return std::make_unique<Started>(Command(host, more)); }
+  std::string DigestOfOneHost() const {
+    const Ended ended = RunCommand({Bin("rodeira"), "run", launch_, "--in-process"});
+    EXPECT_EQ(ended.status, 0) << ended.out;
+    EXPECT_EQ(DigestIn(ended.out).size(), 16u) << ended.out;
+    return DigestIn(ended.out);
+  }
+  // Starts every PC, in the order of their names or against it, and expects the digest of one host on each.
+  void ExpectTheSameDigests(int hosts, bool clock_last = false) {
+    if (rig_ == nullptr || !rig_->problem().empty()) return;
+    const std::string digest = DigestOfOneHost();
+    std::vector<std::unique_ptr<Started>> pcs(hosts);
+    for (int i = 0; i < hosts; ++i) {
+      const int host = clock_last ? hosts - 1 - i : i;
+      pcs[host] = Start(host);
+    }
+    for (int host = 0; host < hosts; ++host) {
+      const Ended ended = pcs[host]->Wait(120s);
+      EXPECT_EQ(ended.status, 0) << kNames[host] << ":\n" << ended.out;
+      EXPECT_EQ(DigestIn(ended.out), digest) << kNames[host] << ":\n" << ended.out;
+      EXPECT_NE(ended.out.find("faults  none"), std::string::npos) << kNames[host] << ":\n" << ended.out;
+    }
+    EXPECT_GT(rig_->hub().passed(), 2000u) << "it went over the network";
+  }
+  // Until all processes are there and drive.
+  static bool WaitUntilItDrives() {
+    const auto until = std::chrono::steady_clock::now() + 30s;
+    while (ProcessesWith("--run rig", "bin/rodeira-empty").size() < 4 && std::chrono::steady_clock::now() < until) ::usleep(5000);
+    std::this_thread::sleep_for(1s);
+    return ProcessesWith("--run rig", "bin/rodeira-empty").size() == 4;
+  }
+  void ExpectNobodyLeft() const { EXPECT_TRUE(ProcessesWith("--run rig", "bin/rodeira").empty()); }
+
+  const front::TemporaryFolder folder_;
+  std::unique_ptr<Rig> rig_;
+  std::string lab_, launch_;
+};
+
+TEST_F(Hosts, TwoByMulticast) {
+  Make(2, Weather{}, "{kind: multicast}", kFour);
+  ExpectTheSameDigests(2);
+}
+
+TEST_F(Hosts, TwoByPeersWithoutMulticast) {
+  Make(2, kNoMulticast, "{kind: peers}", kFour);
+  ExpectTheSameDigests(2);
+}
+
+TEST_F(Hosts, TwoByAServerWithoutMulticast) {
+  Make(2, kNoMulticast, "{kind: server}", kFour);
+  ExpectTheSameDigests(2, true);
+}
+
+TEST_F(Hosts, TwoByPeersInBadWeather) {
+  Make(2, kBad, "{kind: peers}", kFour);
+  ExpectTheSameDigests(2);
+}
+
+TEST_F(Hosts, ThreeByPeersInBadWeather) {
+  Make(3, kBad, "{kind: peers}", kFourOnThree);
+  ExpectTheSameDigests(3, true);
+}
+
+TEST_F(Hosts, ThreeByAServerInBadWeather) {
+  Make(3, kBad, "{kind: server, port: 12000}", kFourOnThree);
+  ExpectTheSameDigests(3);
+  if (rig_->problem().empty()) EXPECT_GT(rig_->hub().lost(), 100u) << "the weather was bad";
+}
+
+// The car here, its ground and its recorder there: SUELO's questions cross the network at every step.
+TEST_F(Hosts, ADriveInBadWeatherIsRecordedTheSameByteForByte) {
+  const std::string root = RODEIRA_SOURCE_DIR;
+  Make(2, kBad, "{kind: server}",
+       "rodeira: launch/1\nname: drive\nworld: " + root + "/configs/worlds/plane.yaml\nduration_s: 2\nnodes:\n  road: {kind: road}\n"
+       "  driver: {kind: input, config: {source: script, script: " + root + "/configs/scenarios/first_drive.csv}}\n"
+       "  ego: {kind: vehicle, host: right, config: {vehicle: " + root + "/configs/vehicles/default.yaml}}\n  recorder: {kind: recorder}\n");
+  if (!rig_->problem().empty()) return;
+  const std::string one = (folder_.path() / "one.mcap").string(), two = (folder_.path() / "two.mcap").string();
+  const Ended alone = RunCommand({Bin("rodeira"), "run", launch_, "--in-process", "--record", one});
+  ASSERT_EQ(alone.status, 0) << alone.out;
+  const auto left = Start(0, {"--record", two});
+  const auto right = Start(1);
+  const Ended on_left = left->Wait(120s), on_right = right->Wait(10s);
+  EXPECT_EQ(on_left.status, 0) << on_left.out;
+  EXPECT_EQ(on_right.status, 0) << on_right.out;
+  EXPECT_EQ(DigestIn(on_left.out), DigestIn(alone.out));
+  EXPECT_EQ(DigestIn(on_right.out), DigestIn(alone.out));
+  const auto bytes = [](const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  EXPECT_GT(bytes(one).size(), 20'000u);
+  EXPECT_TRUE(bytes(one) == bytes(two));
+  EXPECT_EQ(on_right.out.find("wrote "), std::string::npos) << "the other PC wrote it";
+}
+
+// --- the end, on both PCs ---
+
+TEST_F(Hosts, TheSecondPcWaitsForTheClockAsLongAsItLikes) {
+  Make(2, kNoMulticast, "{kind: peers}", kFour);
+  if (!rig_->problem().empty()) return;
+  const auto right = Start(1);
+  std::this_thread::sleep_for(4s);
+  EXPECT_TRUE(ProcessesWith("--run rig", "bin/rodeira-empty").empty()) << "nothing begins before the clock is there";
+  const Ended left = Start(0)->Wait(60s);
+  const Ended ended = right->Wait(10s);
+  EXPECT_EQ(left.status, 0) << left.out;
+  EXPECT_EQ(ended.status, 0) << ended.out;
+  EXPECT_EQ(ended.out, left.out) << "one table";
+}
+
+TEST_F(Hosts, CtrlCAtTheClockEndsBothInOrder) {
+  Make(2, kNoMulticast, "{kind: server}", kFour);
+  if (!rig_->problem().empty()) return;
+  const auto right = Start(1), left = Start(0, {"--for", "1000", "--pace", "real"});
+  ASSERT_TRUE(WaitUntilItDrives());
+  ::kill(left->pid(), SIGINT);
+  const Ended here = left->Wait(10s), there = right->Wait(10s);
+  EXPECT_EQ(here.status, 0) << here.out;
+  EXPECT_EQ(there.status, 0) << there.out;
+  EXPECT_EQ(here.out, there.out);
+  ExpectNobodyLeft();
+}
+
+TEST_F(Hosts, CtrlCAtTheSecondPcIsNamedOnBoth) {
+  Make(2, kNoMulticast, "{kind: peers}", kFour);
+  if (!rig_->problem().empty()) return;
+  const auto right = Start(1), left = Start(0, {"--for", "1000", "--pace", "real"});
+  ASSERT_TRUE(WaitUntilItDrives());
+  ::kill(right->pid(), SIGINT);
+  for (const Ended& ended : {left->Wait(10s), right->Wait(10s)}) {
+    EXPECT_EQ(ended.status, 1) << ended.out;
+    EXPECT_NE(ended.out.find("it was stopped by a signal (host 'right')"), std::string::npos) << ended.out;
+  }
+  ExpectNobodyLeft();
+}
+
+TEST_F(Hosts, ANodeKilledOnTheSecondPcIsNamedOnBothWithinASecond) {
+  Make(2, kNoMulticast, "{kind: peers}", kFour);
+  if (!rig_->problem().empty()) return;
+  const auto right = Start(1), left = Start(0, {"--for", "1000", "--pace", "real"});
+  ASSERT_TRUE(WaitUntilItDrives());
+  const auto victims = ProcessesWith("--run rig", "--node c");
+  ASSERT_EQ(victims.size(), 1u);
+  ::kill(victims[0], SIGKILL);
+  const auto took = left->WaitFor("it was killed by signal 9 (Killed) (host 'right')", 5s);
+  EXPECT_GE(took, 0ms);
+  EXPECT_LE(took, 1000ms);
+  EXPECT_GE(right->WaitFor("node 'c' was killed by signal 9", 1s), 0ms);
+  EXPECT_EQ(left->Wait(10s).status, 1);
+  EXPECT_EQ(right->Wait(10s).status, 1);
+  ExpectNobodyLeft();
+}
+
+TEST_F(Hosts, APulledCableEndsBoth) {
+  Make(2, kNoMulticast, "{kind: server}", kFour);
+  if (!rig_->problem().empty()) return;
+  const auto right = Start(1), left = Start(0, {"--for", "1000", "--pace", "real"});
+  ASSERT_TRUE(WaitUntilItDrives());
+  rig_->Unplug(1);
+  EXPECT_GE(left->WaitFor("has said nothing for", 2s), 0ms);
+  const Ended here = left->Wait(15s), there = right->Wait(15s);
+  EXPECT_EQ(here.status, 1) << here.out;
+  EXPECT_EQ(there.status, 1) << there.out;
+  EXPECT_NE(there.out.find("the clock has said nothing for 3.0 s: it was killed, stopped or cut off"), std::string::npos) << there.out;
+  ExpectNobodyLeft();
+}
+
+TEST_F(Hosts, WrongInputOfANodeOnTheSecondPcIsStatusTwoOnBoth) {
+  Make(2, kNoMulticast, "{kind: peers}", kFour);
+  if (!rig_->problem().empty()) return;
+  const std::vector<std::string> wrong{"--set", "nodes.b.config.fail_at_stp=3"};
+  const auto left = Start(0, wrong), right = Start(1, wrong);
+  for (const Ended& ended : {left->Wait(60s), right->Wait(60s)}) {
+    EXPECT_EQ(ended.status, 2) << ended.out;
+    EXPECT_NE(ended.out.find("unknown key 'nodes.b.config.fail_at_stp'; did you mean 'fail_at_step'?"), std::string::npos) << ended.out;
+  }
+  ExpectNobodyLeft();
+}
+
+TEST_F(Hosts, ThePcThatComesTwiceIsRefused) {
+  Make(2, kNoMulticast, "{kind: peers}", kFour);
+  if (!rig_->problem().empty()) return;
+  const auto right = Start(1), left = Start(0, {"--for", "1000", "--pace", "real"});
+  ASSERT_TRUE(WaitUntilItDrives());
+  const Ended again = Start(1)->Wait(20s);
+  EXPECT_EQ(again.status, 2) << again.out;
+  EXPECT_NE(again.out.find("run 'rig' in domain 9: it is under way already"), std::string::npos) << again.out;
+  ::kill(left->pid(), SIGINT);
+  EXPECT_EQ(left->Wait(10s).status, 0) << "and the run did not mind";
+  EXPECT_EQ(right->Wait(10s).status, 0);
+}
+
+TEST_F(Hosts, APcStartedTwiceBeforeTheClockIsRefusedToo) {
+  Make(2, kNoMulticast, "{kind: peers}", kFour);
+  if (!rig_->problem().empty()) return;
+  const auto right = Start(1), again = Start(1);
+  std::this_thread::sleep_for(2s);
+  const Ended left = Start(0)->Wait(60s);
+  EXPECT_EQ(left.status, 2) << left.out;
+  EXPECT_NE(left.out.find("takes part twice, as process "), std::string::npos) << left.out;
+  EXPECT_EQ(right->Wait(10s).status, 2);
+  EXPECT_EQ(again->Wait(10s).status, 2);
+  ExpectNobodyLeft();
+}
+
+// --- observers (law L5) ---
+
+TEST_F(Hosts, ObserversThatJoinLateDieOrAreSlowChangeNoStep) {
+  Make(3, kNoMulticast, "{kind: server}", kFour);
+  if (!rig_->problem().empty()) return;
+  const std::string digest = DigestOfOneHost();
+  const auto observer = [&](int host, std::vector<std::string> words) {
+    std::vector<std::string> more{Bin("rodeira-test-observer"), "--launch", launch_, "--run", "rig", "--domain", "9", "--node", "observer", "--set", "transport=udp", "--set",
+                                  "discovery={kind: server, address: " + Rig::Address(0) + ", interface: " + Rig::Address(host) + "}"};
+    more = rig_->On(host, more);
+    words.insert(words.end(), more.begin(), more.end());
+    return std::make_unique<Started>(words);
+  };
+  const auto right = Start(1), left = Start(0, {"--pace", "0.4"});  // five seconds
+  const auto slow = observer(2, {"SLOW_MS=20"});
+  const auto mortal = observer(1, {});
+  ASSERT_TRUE(WaitUntilItDrives());
+  EXPECT_GE(mortal->WaitFor("heard much", 5s), 0ms);
+  ::kill(mortal->pid(), SIGKILL);
+  const auto late = observer(2, {});
+  EXPECT_GE(late->WaitFor("heard much", 5s), 0ms);
+  EXPECT_GE(slow->WaitFor("heard much", 5s), 0ms);
+  for (const Ended& ended : {left->Wait(30s), right->Wait(30s)}) {
+    EXPECT_EQ(ended.status, 0) << ended.out;
+    EXPECT_EQ(DigestIn(ended.out), digest) << ended.out;
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::system_test

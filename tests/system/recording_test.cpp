@@ -1,0 +1,234 @@
+// What becomes of a run: recorded unless told otherwise, asked by `info`, written as tables by `export`, mended by `repair`.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "common/base/files.hpp"
+#include "common/record/mcap_writer.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+#include "tests/launch/temporary_folder.hpp"
+#include "tests/system/command.hpp"
+#include "tests/system/recording.hpp"
+
+namespace rodeira::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class Recordings : public ::testing::Test {
+ protected:
+  std::string Path(const std::string& name) const { return (folder_.path() / name).string(); }
+  // A run whose folder of recordings is this test's.
+  Ended Run(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"XDG_DATA_HOME=" + Path("data"), Bin("rodeira"), "run"});
+    return RunCommand(more);
+  }
+  std::vector<fs::path> Recorded() const {
+    std::vector<fs::path> files;
+    std::error_code problem;
+    for (const auto& entry : fs::directory_iterator(folder_.path() / "data/rodeira", problem)) files.push_back(entry.path());
+    return files;
+  }
+  Ended Ask(std::vector<std::string> words) const {
+    words.insert(words.begin(), Bin("rodeira"));
+    return RunCommand(words);
+  }
+  base::Bytes Bytes(const std::string& name) const { return base::ReadBytes(Path(name)).value(); }
+  const front::TemporaryFolder folder_;
+};
+
+TEST_F(Recordings, ARunWithoutARecorderIsRecordedInTheUsersDataFolder) {
+  const Ended run = Run({LaunchFile("empty.yaml"), "--for", "0.2"});
+  ASSERT_EQ(run.status, 0) << run.out;
+  ASSERT_EQ(Recorded().size(), 1u) << run.out;
+  const std::string file = Recorded()[0].string();
+  EXPECT_TRUE(fs::path(file).filename().string().starts_with("empty-")) << file;
+  EXPECT_THAT(run.out, HasSubstr(file));
+  const Ended info = Ask({"info", file});
+  EXPECT_EQ(info.status, 0) << info.out;
+  EXPECT_THAT(info.out, HasSubstr("lossless: each source's samples are there once, from step 0 to step 200"));
+  EXPECT_THAT(info.out, HasSubstr("1000 Hz"));
+  EXPECT_THAT(info.out, HasSubstr("embedded  launch.yaml"));
+}
+
+TEST_F(Recordings, InOneProcessTooAndTwoRunsOfOneSecondDoNotMeet) {
+  for (int i = 0; i < 2; ++i) ASSERT_EQ(Run({LaunchFile("empty.yaml"), "--for", "0.05", "--in-process"}).status, 0);
+  EXPECT_EQ(Recorded().size(), 2u);
+}
+
+TEST_F(Recordings, NoRecordLeavesNothing) {
+  for (const char* launch : {"empty.yaml", "first_drive.yaml"}) {
+    const Ended run = Run({LaunchFile(launch), "--for", "0.1", "--no-record"});
+    EXPECT_EQ(run.status, 0) << run.out;
+    EXPECT_EQ(run.out.find(".mcap"), std::string::npos) << run.out;
+  }
+  EXPECT_EQ(Run({LaunchFile("first_drive.yaml"), "--for", "0.1", "--no-record", "--in-process"}).status, 0);
+  EXPECT_FALSE(fs::exists(Path("data")));
+  const Ended both = Run({LaunchFile("empty.yaml"), "--no-record", "--record", Path("a.mcap")});
+  EXPECT_EQ(both.status, 2) << both.out;
+}
+
+TEST_F(Recordings, OfARefusedRunNoneIsLeft) {
+  EXPECT_EQ(Run({LaunchFile("empty.yaml"), "--set", "nodes.a.config.fail_at_stp=3"}).status, 2);
+  EXPECT_EQ(Run({LaunchFile("first_drive.yaml"), "--set", "world=/no/world.yaml"}).status, 2);
+  EXPECT_EQ(Run({LaunchFile("first_drive.yaml"), "--set", "world=/no/world.yaml", "--in-process"}).status, 2);
+  EXPECT_EQ(Recorded(), std::vector<fs::path>{});
+}
+
+TEST_F(Recordings, TablesHoldEverySampleOfTheDrive) {
+  ASSERT_EQ(Run({LaunchFile("first_drive.yaml"), "--for", "3", "--record", Path("a.mcap")}).status, 0);
+  const Ended done = Ask({"export", "--csv", Path("tables"), Path("a.mcap")});
+  ASSERT_EQ(done.status, 0) << done.out;
+  EXPECT_THAT(done.out, HasSubstr("vehicle_state.csv"));
+  std::ifstream table(Path("tables/vehicle_state.csv"));
+  std::string header;
+  std::getline(table, header);
+  EXPECT_TRUE(header.starts_with("time_s,step,source,position_w_m.x,position_w_m.y,")) << header;
+  const auto states = MessagesOf<msg::VehicleState>(Path("a.mcap"), idl::topics::kVehicleState);
+  ASSERT_EQ(states.size(), 3001u);
+  std::size_t rows = 0;
+  for (std::string line; std::getline(table, line); ++rows) {
+    ASSERT_LT(rows, states.size());
+    ASSERT_EQ(std::ranges::count(line, ','), std::ranges::count(header, ','));
+    std::vector<std::string> cells;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+    ASSERT_EQ(cells[1], std::to_string(rows));
+    ASSERT_EQ(cells[2], "ego");
+    ASSERT_EQ(std::strtod(cells[3].c_str(), nullptr), states[rows].position_w_m().x());
+    ASSERT_EQ(std::strtod(cells[4].c_str(), nullptr), states[rows].position_w_m().y());
+  }
+  EXPECT_EQ(rows, states.size());
+  const Ended again = Ask({"export", "--csv", Path("tables"), Path("a.mcap")});
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.out, HasSubstr("the folder for the tables is there already"));
+}
+
+TEST_F(Recordings, AnExportOntoAFullDiskIsOneSentenceAndLeavesNothing) {
+  ASSERT_EQ(Run({LaunchFile("first_drive.yaml"), "--for", "1", "--record", Path("a.mcap")}).status, 0);
+  const std::string command = "ulimit -f 64; exec " + Bin("rodeira") + " export --csv " + Path("tables") + " " + Path("a.mcap");
+  const Ended done = RunCommand({"/bin/bash", "-c", command});
+  EXPECT_EQ(done.status, 1) << done.out;
+  EXPECT_THAT(done.out, HasSubstr("vehicle_state.csv: the table cannot be written: File too large"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1) << "the recording alone";
+}
+
+TEST_F(Recordings, ACutFileIsNamedExportedAndMended) {
+  ASSERT_EQ(Run({LaunchFile("first_drive.yaml"), "--for", "4", "--record", Path("a.mcap")}).status, 0);
+  fs::copy_file(Path("a.mcap"), Path("cut.mcap"));
+  fs::resize_file(Path("cut.mcap"), fs::file_size(Path("a.mcap")) / 2);
+  const Ended info = Ask({"info", Path("cut.mcap")});
+  EXPECT_EQ(info.status, 1) << info.out;
+  EXPECT_THAT(info.out, HasSubstr("not whole"));
+  EXPECT_THAT(info.out, HasSubstr("what to do: rodeira repair " + Path("cut.mcap") + " --out "));
+  const Ended tables = Ask({"export", "--csv", Path("tables"), Path("cut.mcap")});
+  EXPECT_EQ(tables.status, 1) << tables.out;
+  EXPECT_THAT(tables.out, HasSubstr("is not whole: the tables in "));
+  EXPECT_TRUE(fs::exists(Path("tables/vehicle_state.csv")));
+
+  const Ended repair = Ask({"repair", Path("cut.mcap"), "--out", Path("good.mcap")});
+  EXPECT_EQ(repair.status, 0) << repair.out;
+  EXPECT_THAT(repair.out, HasSubstr("kept: "));
+  const Ended good = Ask({"info", Path("good.mcap")});
+  EXPECT_EQ(good.status, 0) << good.out;
+  EXPECT_THAT(good.out, HasSubstr("repaired:"));
+  EXPECT_THAT(good.out, HasSubstr("no gaps; the end of the run is not in it"));
+  EXPECT_EQ(Ask({"repair", Path("cut.mcap"), "--out", Path("good.mcap")}).status, 2) << "never overwritten";
+  EXPECT_EQ(Ask({"repair", Path("none.mcap"), "--out", Path("new.mcap")}).status, 2);
+  EXPECT_FALSE(fs::exists(Path("new.mcap")));
+}
+
+TEST_F(Recordings, AMissingSampleIsNamed) {
+  ASSERT_EQ(Run({LaunchFile("first_drive.yaml"), "--for", "1", "--record", Path("a.mcap")}).status, 0);
+  // The same recording without the car's sample of step 417.
+  const auto reader = record::McapReader::Open(Path("a.mcap"));
+  const auto ego = reader.value().ChannelsOf(idl::topics::kVehicleState)[0];
+  auto writer = record::McapWriter::Open(Path("gap.mcap"));
+  ASSERT_TRUE(writer.ok());
+  std::map<record::ChannelId, record::ChannelId> ids;
+  for (const auto& [id, channel] : reader.value().channels()) {
+    const auto& schema = reader.value().schemas().at(channel.schema);
+    const auto schema_id = writer.value().AddSchema(schema.name, schema.encoding, schema.text);
+    ids[id] = writer.value().AddChannel(channel.topic, schema_id.value(), channel.message_encoding, channel.metadata).value();
+  }
+  auto cursor = reader.value().Messages();
+  for (;;) {
+    const auto message = cursor.Next();
+    ASSERT_TRUE(message.ok());
+    if (!message.value()) break;
+    const auto& m = *message.value();
+    if (m.channel == ego && m.log_time_ns == 417'000'000) continue;
+    ASSERT_TRUE(writer.value().Write(ids.at(m.channel), m.sequence, m.log_time_ns, m.publish_time_ns, m.data).ok());
+  }
+  ASSERT_TRUE(writer.value().Close().ok());
+  const Ended info = Ask({"info", Path("gap.mcap")});
+  EXPECT_EQ(info.status, 1) << info.out;
+  EXPECT_THAT(info.out, HasSubstr("1 missing, the first behind step 416"));
+  EXPECT_THAT(info.out, HasSubstr("not lossless"));
+}
+
+TEST_F(Recordings, WhatIsNoRecordingIsRefused) {
+  const std::string text = folder_.Write("text.mcap", "this is a text").string();
+  EXPECT_EQ(Ask({"info", text}).status, 2);
+  EXPECT_EQ(Ask({"export", "--csv", Path("tables"), text}).status, 2);
+  EXPECT_EQ(Ask({"export", text}).status, 2) << "--csv is required";
+  EXPECT_EQ(Ask({"repair", text}).status, 2) << "--out is required";
+  EXPECT_EQ(Ask({"repair", text, "--out", Path("new.mcap")}).status, 2);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
+}
+
+TEST_F(Recordings, ADiskThatIsFullStopsTheRunAndTheFileIsReadable) {
+  const std::string words = " run " + LaunchFile("first_drive.yaml") + " --for 20 --in-process --record " + Path("a.mcap");
+  const std::string command = "ulimit -f 400; exec " + Bin("rodeira") + words;
+  const Ended run = RunCommand({"/bin/bash", "-c", command});
+  EXPECT_EQ(run.status, 1) << run.out;
+  EXPECT_THAT(run.out, HasSubstr("a.mcap: the recording cannot be written: File too large"));
+  EXPECT_EQ(Ask({"info", Path("a.mcap")}).status, 1);
+  EXPECT_EQ(Ask({"repair", Path("a.mcap"), "--out", Path("b.mcap")}).status, 0);
+  EXPECT_GT(SamplesOf(Path("b.mcap")).size(), 100u);
+}
+
+// A disk that takes 1 MiB a second, by a pipe: the run waits for it, no sample is lost, and the bytes are those of a fast one.
+TEST_F(Recordings, ASlowDiskSlowsTime) {
+  const std::vector<std::string> drive = {LaunchFile("first_drive.yaml"), "--for", "4", "--set", "limits.step_s=30", "--set", "limits.silence_s=30"};
+  const auto with = [&drive](const std::vector<std::string>& more) {
+    auto words = drive;
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  ASSERT_EQ(Run(with({"--record", Path("fast.mcap")})).status, 0);
+  ASSERT_EQ(::mkfifo(Path("slow").c_str(), 0600), 0);
+  base::Bytes slow;
+  std::chrono::steady_clock::duration took{};
+  std::thread disk([&] {
+    std::ifstream in(Path("slow"), std::ios::binary);
+    const auto begin = std::chrono::steady_clock::now();
+    std::vector<char> piece(16384);
+    while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0) {
+      const auto bytes = std::as_bytes(std::span(piece).first(static_cast<std::size_t>(in.gcount())));
+      slow.insert(slow.end(), bytes.begin(), bytes.end());
+      std::this_thread::sleep_for(16ms);
+    }
+    took = std::chrono::steady_clock::now() - begin;
+  });
+  const Ended run = Run(with({"--set", "nodes.recorder.config.file=" + Path("slow")}));
+  const int end = ::open(Path("slow").c_str(), O_WRONLY | O_NONBLOCK);  // lets the reader go where no recorder came
+  if (end >= 0) ::close(end);
+  disk.join();
+  EXPECT_EQ(run.status, 0) << run.out;
+  EXPECT_GT(took, 16ms * static_cast<int>(slow.size() / 16384));
+  EXPECT_TRUE(slow == Bytes("fast.mcap")) << slow.size() << " bytes";
+}
+
+}  // namespace
+}  // namespace rodeira::system_test

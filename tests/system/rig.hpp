@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/system/hub.hpp"
+
+namespace rodeira::system_test {
+
+// Several PCs on one: a network namespace each, with one interface eth0 that hangs on a hub. They share /dev/shm, so what
+// is to go over the network must be told so (transport: udp). Made and removed by the test itself.
+class Rig {
+ public:
+  Rig(int hosts, const Weather& weather);
+  ~Rig();
+  Rig(const Rig&) = delete;
+  Rig& operator=(const Rig&) = delete;
+
+  // Why there is no rig here (no permission, no iproute2); empty where there is one.
+  const std::string& problem() const { return problem_; }
+  const Hub& hub() const { return *hub_; }
+  static std::string Address(int host) { return "10.77.0." + std::to_string(host + 1); }
+  // The command, in the network of this host.
+  std::vector<std::string> On(int host, std::vector<std::string> command) const;
+  // Pulls the host's cable.
+  void Unplug(int host);
+
+ private:
+  std::string Space(const std::string& name) const;
+  bool Ip(std::vector<std::string> words);
+
+  std::string ip_;  // the program
+  std::string problem_;
+  std::vector<std::string> spaces_;
+  std::unique_ptr<Hub> hub_;
+};
+
+}  // namespace rodeira::system_test
