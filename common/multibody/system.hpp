@@ -18,8 +18,8 @@ struct SystemSettings {
   double penalty = 1e5;
   double change_mps2 = 1e-3;    // Newton ends when no coordinate is expected to change by more than this · h²/4 …
   double violation_m = 1e-10;   // … and no constraint is off by more
-  double violation_mps = 1e-9;  // the projections end below these
-  double violation_mps2 = 1e-6;
+  double violation_mps = 1e-7;  // the projections end below these
+  double violation_mps2 = 1e-4;
   // Where an iteration gets no nearer (at singular positions constraints become dependent, and their multipliers converge
   // slowly) this is still accepted; accelerations are accepted as they are.
   double accepted_m = 1e-8;

@@ -145,7 +145,7 @@ TEST_F(Control, ExternalRecordersAreTriggeredAtStartMarkersAndEnd) {
   constexpr std::uint32_t kDomain = 218;
   std::mutex mutex;
   std::vector<msg::Trigger> heard;
-  auto participant = dds::Participant::Open({kDomain, "eeg", "an EEG", launch::Transport::kSharedMemory});
+  auto participant = dds::Participant::Open({kDomain, "eeg", "an EEG", launch::Transport::kSharedMemory, {}});
   ASSERT_TRUE(participant.ok()) << participant.error().Text();
   auto reader = participant.value()->MakeReader(idl::topics::kTrigger, dds::Delivery::kHistory, [&](base::Bytes&& bytes) {
     const auto trigger = idl::Decode<msg::Trigger>(bytes);

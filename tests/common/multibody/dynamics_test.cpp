@@ -250,7 +250,7 @@ TEST(Stiff, GovernorKeepsItsAngularMomentumAndSettles) {
   };
   const double start = momentum();
   RunTo(governor, 0.9, 0.01);
-  EXPECT_NEAR(momentum(), start, 1e-4 * start);
+  EXPECT_NEAR(momentum(), start, 1e-3 * start);  // (turning speed · h)² / 4
   RunTo(governor, 5.03, 0.01);
   // Virtual work for a way of the collar, depth s, with the balls at radius r and depth z: d(r²)/2 = -z dz.
   const double s = -Value(governor, "collar_m");
