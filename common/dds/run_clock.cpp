@@ -21,6 +21,7 @@
 #include "common/dds/statements.hpp"
 #include "common/dds/triggers.hpp"
 #include "common/dds/wire.hpp"
+#include "common/launch/agreement.hpp"
 #include "common/launch/command_text.hpp"
 #include "common/lockstep/clock.hpp"
 #include "common/lockstep/conductor.hpp"
@@ -42,7 +43,7 @@ class ClockProcess {
   ClockProcess(const launch::Launch& launch, const ProcessOptions& options)
       : launch_(launch), roster_(launch.roster()), options_(options), clock_(roster_, LastStep()),
         conductor_(clock_, lockstep::Pacer(roster_.base_step_ns(), options.pace)),
-        watchdog_(roster_, launch.watchdog()), own_(OwnHello(roster_.hash())) {
+        watchdog_(roster_, launch.watchdog()), own_(OwnHello(launch::Agreement(launch))) {
     std::random_device device;
     while (clock_id_ == 0) clock_id_ = (static_cast<std::uint64_t>(device()) << 32) | device();
   }

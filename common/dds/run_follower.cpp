@@ -17,6 +17,7 @@
 #include "common/dds/run.hpp"
 #include "common/dds/statements.hpp"
 #include "common/dds/wire.hpp"
+#include "common/launch/agreement.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::dds {
@@ -115,8 +116,9 @@ class Follower {
       }
       if (!met_) {
         if (now.grant.through >= 0) {
-          return Complain(base::WrongInput(fmt::format("it is under way already, at step {}, without the processes of this command; wait for its end or choose another --run",
-                                                       now.grant.through), fmt::format("run '{}' in domain {}", options_.run, options_.domain)));
+          return Complain(base::WrongInput(fmt::format("it is under way already, at step {}, without the processes of this command; "
+                                                       "wait for its end or choose another --run", now.grant.through),
+                                           fmt::format("run '{}' in domain {}", options_.run, options_.domain)));
         }
         met_ = true;
         Say("met");
@@ -128,7 +130,8 @@ class Follower {
       }
       if (aborted_at && WallClock::now() - *aborted_at > kClosingTime) return 1;
       if (!aborted_at && WallClock::now() - now.heard_at > kClockSilence) {
-        return Complain(base::Failed(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off", std::chrono::duration<double>(kClockSilence).count())));
+        return Complain(base::Failed(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
+                                                 std::chrono::duration<double>(kClockSilence).count())));
       }
       TellFaults(now);
       ShowProgress(now);
@@ -159,7 +162,7 @@ class Follower {
     const NodeIndex node = roster_.Find(failed.node);
     if (node == roster_.nodes().size()) return;
     failed.clock_id = now.clock_id;
-    failed.hello = OwnHello(roster_.hash());
+    failed.hello = OwnHello(launch::Agreement(launch_));
     if (now.reports[node]) failed.report = *now.reports[node];
     failed.report.phase = Phase::kFailed;
     failed.report.message = fmt::format("{} (host '{}')", space == std::string::npos ? "" : word.substr(space + 1), options_.follow);
@@ -188,7 +191,8 @@ class Follower {
       began_ = WallClock::now();
       Say("ready");
     }
-    Show([&] { Say("progress step={} wall_s={:.3f}", SlowestProgress(now), std::chrono::duration<double>(WallClock::now() - *began_).count()); });
+    const double wall_s = std::chrono::duration<double>(WallClock::now() - *began_).count();
+    Show([&] { Say("progress step={} wall_s={:.3f}", SlowestProgress(now), wall_s); });
   }
   std::vector<std::string> NotReady(const Now& now) const {
     std::vector<std::string> names;

@@ -12,6 +12,7 @@
 #include "common/dds/remote_keys.hpp"
 #include "common/dds/remote_log.hpp"
 #include "common/dds/run.hpp"
+#include "common/launch/agreement.hpp"
 #include "common/lockstep/pump.hpp"
 #include "common/lockstep/runner.hpp"
 #include "idl/codec.hpp"
@@ -136,7 +137,7 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   NodeBus::Settings settings;
   settings.node = index;
   settings.incarnation = options.incarnation;
-  settings.hello = OwnHello(roster.hash());
+  settings.hello = OwnHello(launch::Agreement(launch.value()));
   auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
   if (!bus) return Complain(program, bus.error());
   ProcessContext context(launch.value(), index, *participant.value(), mailbox, options.incarnation);

@@ -8,6 +8,7 @@
 #include "common/dds/node_bus.hpp"
 #include "common/dds/options.hpp"
 #include "common/dds/run.hpp"
+#include "common/launch/agreement.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::dds {
@@ -54,7 +55,7 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   NodeBus::Settings settings;
   settings.node = index;
   settings.incarnation = options.incarnation;
-  settings.hello = OwnHello(roster.hash());
+  settings.hello = OwnHello(launch::Agreement(launch.value()));
   auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
   if (!bus) return Complain(bus.error());
 

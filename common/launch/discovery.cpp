@@ -48,9 +48,12 @@ Discovery ReadDiscovery(const config::Map& map) {
     const config::List addresses = map.Items("addresses");
     for (std::size_t i = 0; i < addresses.size(); ++i) {
       discovery.addresses.push_back(addresses.Text(i));
-      if (!IsAddress(discovery.addresses.back())) addresses.Problem(i, fmt::format("address '{}' was found; {}", discovery.addresses.back(), kExpected));
+      const std::string& address = discovery.addresses.back();
+      if (!IsAddress(address)) addresses.Problem(i, fmt::format("address '{}' was found; {}", address, kExpected));
     }
-    if (discovery.addresses.empty() && map.Has("addresses")) map.Problem("addresses", "'addresses' is empty; the address of each PC of the run was expected");
+    if (discovery.addresses.empty() && map.Has("addresses")) {
+      map.Problem("addresses", "'addresses' is empty; the address of each PC of the run was expected");
+    }
     discovery.participants = ReadParticipants(map);
   }
   if (discovery.kind == DiscoveryKind::kServer) {

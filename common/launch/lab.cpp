@@ -33,14 +33,21 @@ base::Result<Lab> Lab::Read(const config::File& file) {
   for (const std::string& name : hosts.Keys()) {
     const LabHost host{name, ReadAddress(hosts.Child(name), "address")};
     const auto same = std::ranges::find(lab.hosts_, host.address, &LabHost::address);
-    if (same != lab.hosts_.end()) hosts.Problem(name, fmt::format("hosts '{}' and '{}' have the same address {}", same->name, name, host.address));
+    if (same != lab.hosts_.end()) {
+      hosts.Problem(name, fmt::format("hosts '{}' and '{}' have the same address {}", same->name, name, host.address));
+    }
     lab.hosts_.push_back(host);
   }
-  if (lab.hosts_.empty() && root.Has("hosts")) root.Problem("hosts", "'hosts' is empty; at least one PC with its address was expected");
+  if (lab.hosts_.empty() && root.Has("hosts")) {
+    root.Problem("hosts", "'hosts' is empty; at least one PC with its address was expected");
+  }
   if (!lab.hosts_.empty()) lab.clock_ = root.Choice("clock", lab.Names(), lab.hosts_.front().name);
 
-  lab.transport_ = root.Choice("transport", {"udp", "shared_memory"}, "udp") == "udp" ? Transport::kUdp : Transport::kSharedMemory;
-  if (lab.transport_ != Transport::kUdp && lab.hosts_.size() > 1) root.Problem("transport", "'transport' is 'shared_memory', which ends at a PC; 'udp' was expected");
+  const std::string transport = root.Choice("transport", {"udp", "shared_memory"}, "udp");
+  lab.transport_ = transport == "udp" ? Transport::kUdp : Transport::kSharedMemory;
+  if (lab.transport_ != Transport::kUdp && lab.hosts_.size() > 1) {
+    root.Problem("transport", "'transport' is 'shared_memory', which ends at a PC; 'udp' was expected");
+  }
   const config::Map discovery = root.OptionalChild("discovery");
   lab.discovery_ = ReadDiscoveryKind(discovery);
   if (lab.discovery_ != DiscoveryKind::kMulticast && lab.transport_ != Transport::kUdp) {
@@ -60,15 +67,17 @@ std::vector<std::string> Lab::Names() const {
 
 base::Result<LabHost> Lab::Host(const std::string& name) const {
   const auto found = std::ranges::find(hosts_, name, &LabHost::name);
-  if (found == hosts_.end()) return base::WrongInput(fmt::format("there is no host '{}'{}", name, base::DidYouMean(name, Names())), path_.string());
+  if (found == hosts_.end()) {
+    return base::WrongInput(fmt::format("there is no host '{}'{}", name, base::DidYouMean(name, Names())), path_.string());
+  }
   return *found;
 }
 
 base::Status Lab::Fits(const Launch& launch) const {
   for (const LaunchNode& node : launch.nodes()) {
     if (node.host.empty() || Host(node.host).ok()) continue;
-    return base::WrongInput(fmt::format("node '{}' belongs to host '{}', which is not in {}{}", node.name, node.host, path_.string(), base::DidYouMean(node.host, Names())),
-                            node.config->Place("host"));
+    return base::WrongInput(fmt::format("node '{}' belongs to host '{}', which is not in {}{}", node.name, node.host, path_.string(),
+                                        base::DidYouMean(node.host, Names())), node.config->Place("host"));
   }
   return {};
 }

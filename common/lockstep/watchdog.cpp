@@ -12,6 +12,8 @@ void Watchdog::Heard(const Report& report, std::int64_t now_ms) {
   if (report.node >= lives_.size()) return;
   Life& life = lives_[report.node];
   if (life.heard && report.incarnation < life.report.incarnation) return;
+  // Who failed stays so, whatever overtakes the news.
+  if (life.heard && report.incarnation == life.report.incarnation && life.report.phase >= Phase::kFailed) return;
   life = {true, now_ms, report};
 }
 

@@ -1,9 +1,8 @@
 #include "nodes/recorder/embed.hpp"
 
-#include <fmt/format.h>
-
 #include <span>
 
+#include "common/launch/agreement.hpp"
 #include "common/launch/files_of.hpp"
 #include "common/record/compress.hpp"
 
@@ -13,22 +12,13 @@ namespace {
 constexpr std::size_t kCompressFrom = 4096;  // bytes
 constexpr int kLevel = 9;
 
-// Where the recording itself goes and how the processes meet, which differs from PC to PC, is no part of the run.
-bool IsNoPartOfTheRun(const launch::Launch& launch, const std::string& key) {
-  if (key == "transport" || key == "discovery" || key.starts_with("discovery.") || key.starts_with("limits.")) return true;
-  for (const launch::LaunchNode& node : launch.nodes()) {
-    if (node.kind->name == "recorder" && key == fmt::format("nodes.{}.config.file", node.name)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 base::Status EmbedFiles(const launch::Launch& launch, record::McapWriter& writer) {
   const auto text = std::as_bytes(std::span(launch.text()));
   if (auto status = writer.AddAttachment("launch.yaml", "application/yaml", text, 0, 0); !status) return status;
   for (const auto& [key, value] : launch.overrides()) {
-    if (IsNoPartOfTheRun(launch, key)) continue;
+    if (!launch::IsOfTheRun(launch, key)) continue;
     const std::string line = key + "=" + value;
     if (auto status = writer.AddAttachment("override", "text/plain", std::as_bytes(std::span(line)), 0, 0); !status) return status;
   }

@@ -234,6 +234,17 @@ TEST_F(Hosts, ThePcThatComesTwiceIsRefused) {
   EXPECT_EQ(right->Wait(10s).status, 0);
 }
 
+TEST_F(Hosts, PcsThatDoNotMeanTheSameRunAreRefused) {
+  Make(2, kNoMulticast, "{kind: server}", kFour);
+  if (!rig_->problem().empty()) return;
+  const auto right = Start(1), left = Start(0, {"--seed", "2"});
+  for (const Ended& ended : {left->Wait(60s), right->Wait(20s)}) {
+    EXPECT_EQ(ended.status, 2) << ended.out;
+    EXPECT_NE(ended.out.find("was refused: its roster hash is "), std::string::npos) << ended.out;
+  }
+  ExpectNobodyLeft();
+}
+
 TEST_F(Hosts, APcStartedTwiceBeforeTheClockIsRefusedToo) {
   Make(2, kNoMulticast, "{kind: peers}", kFour);
   if (!rig_->problem().empty()) return;

@@ -3,7 +3,6 @@
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <linux/if_packet.h>
-#include <linux/virtio_net.h>
 #include <net/ethernet.h>
 #include <net/if.h>
 #include <poll.h>
@@ -21,6 +20,13 @@ namespace rodeira::system_test {
 namespace {
 
 using WallClock = std::chrono::steady_clock;
+
+// struct virtio_net_hdr of the kernel, whose own header is no C++.
+struct FrameHeader {
+  std::uint8_t flags, gso_type;
+  std::uint16_t header_length, gso_size, checksum_start, checksum_offset;
+};
+static_assert(sizeof(FrameHeader) == 10);
 
 struct Frame {
   WallClock::time_point due;
@@ -85,7 +91,7 @@ void Hub::Repeat(const Weather& weather) {
   std::uniform_real_distribution<double> share(0.0, 1.0);
   std::priority_queue<Frame> waiting;
   std::uint64_t number = 0;
-  char buffer[sizeof(virtio_net_hdr) + 70000];
+  char buffer[sizeof(FrameHeader) + 70000];
   while (!stop_) {
     std::vector<pollfd> polled;
     for (const int socket : sockets_) polled.push_back({socket, POLLIN, 0});
@@ -95,8 +101,8 @@ void Hub::Repeat(const Weather& weather) {
     ::ppoll(polled.data(), polled.size(), &patience, nullptr);
     for (const int from : sockets_) {
       for (ssize_t size = ::recv(from, buffer, sizeof(buffer), 0); size > 0; size = ::recv(from, buffer, sizeof(buffer), 0)) {
-        if (size < static_cast<ssize_t>(sizeof(virtio_net_hdr) + ETH_HLEN)) continue;
-        if (!weather.multicast && IsMulticast(buffer + sizeof(virtio_net_hdr))) {
+        if (size < static_cast<ssize_t>(sizeof(FrameHeader) + ETH_HLEN)) continue;
+        if (!weather.multicast && IsMulticast(buffer + sizeof(FrameHeader))) {
           ++multicast_refused_;
           continue;
         }

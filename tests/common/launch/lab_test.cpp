@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/launch/agreement.hpp"
+
 namespace rodeira::launch {
 namespace {
 
@@ -79,6 +81,17 @@ TEST(Lab, RefusesWhatIsWrongWithPlaceAndNearestName) {
   EXPECT_EQ(lab.Host("lefft").error().Text(), "dir/rig.yaml: there is no host 'lefft'; did you mean 'left'?");
   const Launch launch = Launch::Parse(kLaunch, "dir/empty.yaml", {{"nodes.b.host", "lft"}}).value();
   EXPECT_EQ(lab.Fits(launch).error().Text(), "dir/empty.yaml: node 'b' belongs to host 'lft', which is not in dir/rig.yaml; did you mean 'left'?");
+}
+
+TEST(Agreement, IsOfWhatTheRunIsAndNotOfThePc) {
+  const auto of = [](const std::string& text, const Overrides& overrides) { return Agreement(Launch::Parse(text, "x.yaml", overrides).value()); };
+  const base::Digest digest = of(kLaunch, {});
+  const Lab lab = Lab::Parse(kLab, "rig.yaml").value();
+  for (const LabHost& host : lab.hosts()) EXPECT_EQ(of(kLaunch, lab.For(host)), digest);
+  EXPECT_EQ(of(kLaunch, {{"limits.start_s", "9"}, {"nodes.a.config.window", "never"}}), digest);
+  EXPECT_NE(of(kLaunch, {{"seed", "2"}}), digest);
+  EXPECT_NE(of(kLaunch, {{"nodes.a.config.fail_at_step", "2"}}), digest) << "the roster is the same";
+  EXPECT_NE(of(kLaunch + "seed: 2\n", {}), digest);
 }
 
 TEST(Discovery, OfALaunchFile) {

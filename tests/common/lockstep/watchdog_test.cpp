@@ -54,6 +54,16 @@ TEST_F(WatchdogTest, ANodesOwnWordComesFirst) {
   EXPECT_EQ(dog_.Check(0)->reason, "node 'view' failed at step 7: no such file");
 }
 
+TEST_F(WatchdogTest, WhoFailedStaysSoAndWhoRefusedItsInputIsStatusTwo) {
+  Hear(0, 0, Phase::kRunning);
+  Hear(1, 0, Phase::kFailed);
+  Hear(1, 0, Phase::kRunning);
+  ASSERT_TRUE(dog_.Check(0)) << "a report overtaken on its way is no recovery";
+  EXPECT_EQ(dog_.Check(0)->status, 1);
+  Hear(0, 0, Phase::kRefused);
+  EXPECT_EQ(dog_.Check(0)->status, 2);
+}
+
 TEST_F(WatchdogTest, ForgivesTheClocksOwnAbsence) {
   Hear(0, 0);
   Hear(1, 0);
