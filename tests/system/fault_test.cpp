@@ -1,9 +1,13 @@
 // A node that dies, hangs, is stopped or does not belong: time stops, the node is named, the status says so.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <thread>
 
+#include "common/base/files.hpp"
 #include "tests/system/command.hpp"
 
 namespace rodeira::system_test {
@@ -87,18 +91,32 @@ TEST(Fault, AnotherProtocolIsRefused) { ExpectRefused("RODEIRA_PRETEND_PROTOCOL=
 TEST(Fault, OtherMathematicsAreRefused) { ExpectRefused("RODEIRA_PRETEND_MATHEMATICS=9", {}, "mathematics hash"); }
 TEST(Fault, AnotherRosterIsRefused) { ExpectRefused("", {"--set", "nodes.b.period_s=0.002"}, "roster hash"); }
 
-// Two PCs with other world files: the road server and the traffic each load their own.
+// Two PCs with the same launch file and other world files: the road server and the traffic each load their own.
 TEST(Fault, AnotherWorldIsRefused) {
-  const std::string launch = std::string(RODEIRA_SOURCE_DIR) + "/tests/data/n222_traffic.yaml";
-  const auto command = [&](const std::string& program, std::vector<std::string> more) {
-    std::vector<std::string> words{Bin(program), "--launch", launch, "--run", "worlds"};
+  const std::string source(RODEIRA_SOURCE_DIR);
+  const auto folder = std::filesystem::temp_directory_path() / fmt::format("rodeira-worlds-{}", ::getpid());
+  std::string world = base::ReadText(source + "/tests/data/straight.yaml").value();
+  const std::string vehicle = source + "/configs/vehicles/default.yaml";
+  const std::string launch = "rodeira: launch/1\nworld: world.yaml\nnodes:\n  road: {kind: road}\n  driver: {kind: input, config: {source: script, script: " +
+                             source + "/tests/data/standing.csv}}\n  ego: {kind: vehicle, config: {vehicle: " + vehicle +
+                             "}}\n  traffic: {kind: traffic, config: {vehicles: 2}}\n";
+  for (const char* pc : {"one", "two"}) {
+    std::filesystem::create_directories(folder / pc);
+    ASSERT_TRUE(base::WriteWhole(folder / pc / "launch.yaml", std::string_view(launch)).ok());
+    ASSERT_TRUE(base::WriteWhole(folder / pc / "world.yaml", std::string_view(world)).ok());
+    const auto fall = world.find("fall: 0.025");
+    if (fall != std::string::npos) world.replace(fall, 11, "fall: 0.026");
+  }
+  const auto command = [&](const std::string& program, const std::string& pc, std::vector<std::string> more) {
+    std::vector<std::string> words{Bin(program), "--launch", (folder / pc / "launch.yaml").string(), "--run", "worlds"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
   };
-  Started clock(command("rodeira-clock", {}));
-  Started road(command("rodeira-road", {"--node", "road"}));
-  Started traffic(command("rodeira-traffic", {"--node", "traffic", "--set", "world=straight.yaml"}));
+  Started clock(command("rodeira-clock", "one", {}));
+  Started road(command("rodeira-road", "one", {"--node", "road"}));
+  Started traffic(command("rodeira-traffic", "two", {"--node", "traffic"}));
   const Ended ended = clock.Wait(30s);
+  std::filesystem::remove_all(folder);
   EXPECT_EQ(ended.status, 2) << ended.out;
   EXPECT_NE(ended.out.find("was refused: its world hash is "), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("both need the same world files"), std::string::npos) << ended.out;
