@@ -154,7 +154,7 @@ TEST_F(DeadRun, IsClearedAwayByTheNextStartAndALivingRunIsNot) {
   for (const std::string& file : dead) EXPECT_FALSE(now.contains(file)) << file << " of the dead run is still there";
   for (const std::string& file : alive) EXPECT_TRUE(now.contains(file)) << file << " of the living run is gone";
   EXPECT_TRUE(std::filesystem::exists(stranger));
-  if (foreign) EXPECT_TRUE(std::filesystem::exists(others)) << "it is another user's";
+  EXPECT_EQ(std::filesystem::exists(others), foreign) << "it is another user's";
   std::filesystem::remove(stranger);
   std::filesystem::remove(others);
   ::kill(living.pid(), SIGINT);

@@ -107,7 +107,8 @@ TEST_F(Hosts, ThreeByPeersInBadWeather) {
 TEST_F(Hosts, ThreeByAServerInBadWeather) {
   Make(3, kBad, "{kind: server, port: 12000}", kFourOnThree);
   ExpectTheSameDigests(3);
-  if (rig_->problem().empty()) EXPECT_GT(rig_->hub().lost(), 100u) << "the weather was bad";
+  if (!rig_->problem().empty()) return;
+  EXPECT_GT(rig_->hub().lost(), 100u) << "the weather was bad";
 }
 
 // The car here, its ground and its recorder there: SUELO's questions cross the network at every step.
