@@ -1,6 +1,8 @@
 #include "common/dds/udp_port.hpp"
 
 #include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -25,8 +27,16 @@ bool CanBind(in_addr_t address, int port) {
 bool UdpPortIsFree(int port) { return CanBind(htonl(INADDR_ANY), port); }
 
 bool IsOwnAddress(const std::string& address) {
-  in_addr parsed{};
-  return ::inet_pton(AF_INET, address.c_str(), &parsed) == 1 && CanBind(parsed.s_addr, 0);
+  in_addr wanted{};
+  ifaddrs* all = nullptr;
+  if (::inet_pton(AF_INET, address.c_str(), &wanted) != 1 || ::getifaddrs(&all) != 0) return false;
+  bool found = false;
+  for (const ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
+    if (one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET || (one->ifa_flags & IFF_RUNNING) == 0) continue;
+    found = found || reinterpret_cast<const sockaddr_in*>(one->ifa_addr)->sin_addr.s_addr == wanted.s_addr;
+  }
+  ::freeifaddrs(all);
+  return found;
 }
 
 }  // namespace rodeira::dds

@@ -52,6 +52,10 @@ Rig::Rig(int hosts, const Weather& weather) : ip_(FindIp()) {
     if (!Ip({"-n", space, "address", "add", Address(host) + "/24", "dev", "eth0"})) return;
     if (!Ip({"-n", space, "link", "set", "lo", "up"}) || !Ip({"-n", space, "link", "set", "eth0", "up"})) return;
   }
+  for (int host = 0; host < hosts; ++host) {  // an interface runs a moment after it was switched on
+    const std::vector<std::string> show{ip_, "-n", Space(std::to_string(host)), "link", "show", "eth0"};
+    for (int i = 0; i < 300 && RunCommand(show).out.find("state UP") == std::string::npos; ++i) ::usleep(10'000);
+  }
   hub_ = std::make_unique<Hub>(hub, ports, weather);
   problem_ = hub_->problem();
 }
