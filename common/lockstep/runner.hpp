@@ -22,7 +22,7 @@ class Runner {
     Step snapshot_every = 0;             // 0: none; otherwise one at each multiple, the node's state handed to Bus::Keep
     std::optional<Snapshot> resume;      // begin here instead of at step 0
     std::chrono::milliseconds patience{2};       // how long a sample may be missing before it is asked for again …
-    std::chrono::milliseconds most_patience{50};  // … doubled after each question up to this
+    std::chrono::milliseconds most_patience{8};  // … doubled after each question up to this
   };
   enum class Outcome { kWorking, kBlocked, kFinished, kAborted, kFailed };
 

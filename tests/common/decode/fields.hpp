@@ -72,6 +72,25 @@ void Fields(V& v, msg::LiveKeys& m) {
   v("window", m.window()), v("number", m.number()), v("keys", m.keys()), v("end", m.end());
 }
 template <class V>
+void Fields(V& v, msg::WallTime& m) {
+  v("through_step", m.through_step()), v("utc_ns", m.utc_ns()), v("monotonic_ns", m.monotonic_ns()), v("late_ns", m.late_ns());
+  v("pace", m.pace()), v("paused", m.paused()), v("end", m.end());
+}
+template <class V>
+void Fields(V& v, msg::Remark& m) {
+  v("step", m.step()), v("time_ns", m.time_ns()), v("utc_ns", m.utc_ns()), v("monotonic_ns", m.monotonic_ns()), v("pace", m.pace());
+  v("kind", m.kind()), v("text", m.text()), v("number", m.number()), v("end", m.end());
+}
+template <class V>
+void Fields(V& v, msg::RunLog& m) {
+  v("clock_id", m.clock_id()), v("number", m.number()), v("walls", m.walls()), v("remarks", m.remarks()), v("last", m.last()), v("end", m.end());
+}
+template <class V>
+void Fields(V& v, msg::Trigger& m) {
+  v("number", m.number()), v("step", m.step()), v("time_ns", m.time_ns()), v("utc_ns", m.utc_ns()), v("code", m.code());
+  v("run", m.run()), v("text", m.text()), v("end", m.end());
+}
+template <class V>
 void Fields(V& v, msg::Pulse& m) {
   v("header", m.header()), v("value", m.value());
 }
@@ -257,6 +276,10 @@ void ForEveryTopicType(const Use& use) {
   use(TypeTag<msg::GroundReply>(), "rodeira::msg::GroundReply");
   use(TypeTag<msg::WorldInfo>(), "rodeira::msg::WorldInfo");
   use(TypeTag<msg::LiveKeys>(), "rodeira::msg::LiveKeys");
+  use(TypeTag<msg::RunLog>(), "rodeira::msg::RunLog");
+  use(TypeTag<msg::WallTime>(), "rodeira::msg::WallTime");
+  use(TypeTag<msg::Remark>(), "rodeira::msg::Remark");
+  use(TypeTag<msg::Trigger>(), "rodeira::msg::Trigger");
 }
 
 }  // namespace rodeira::decode

@@ -53,8 +53,8 @@ TEST_F(ConductorTest, PauseStepAndResumeMoveTheGrantAndNothingElse) {
   EXPECT_EQ(Move(101), 6);
   EXPECT_EQ(Move(200), 6);
   EXPECT_EQ(Said(Kind::kStep, 200, 20), "20 steps from step 6 (0.006 s)");
-  EXPECT_EQ(Move(201), 14) << "window 8 from the next activation";
-  EXPECT_EQ(Move(202), 23);
+  EXPECT_EQ(Move(201), 15) << "window 8 from the next activation, 7";
+  EXPECT_EQ(Move(202), 24);
   EXPECT_EQ(Move(203), 26);
   EXPECT_EQ(Move(300), 26);
   EXPECT_EQ(Said(Kind::kResume, 300), "runs in real time at step 26 (0.026 s)");

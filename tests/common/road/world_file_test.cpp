@@ -91,7 +91,7 @@ TEST(WorldFile, EveryKindOfMistakeGetsItsSentence) {
   const Mistake mistakes[] = {
       {"rodeira: world/1", "rodeira: world/9", "sample.yaml:1: 'rodeira' is 'world/9'; a world file of this program says 'world/1'"},
       {"name: sample\n", "", "key 'name' is missing"},
-      {"seed: 7", "sead: 7", "sample.yaml:8: key 'terrain.generate.seed' is missing"},
+      {"seed: 7", "sead: 7", "sample.yaml:8: unknown key 'terrain.generate.sead'; did you mean 'seed'?"},
       {"blend_m: 8", "blent_m: 8", "sample.yaml:47: unknown key 'roads[0].section.blent_m'; did you mean 'blend_m'?"},
       {"below_m: 0.4", "below_km: 0.4", "sample.yaml:14: unknown key 'terrain.generate.below_km'; the unit is part of the name: 'below_m'"},
       {"spacing_m: 8.5", "spacing_m: wide", "sample.yaml:11: 'terrain.generate.spacing_m' is 'wide'; a number was expected"},
@@ -114,7 +114,7 @@ TEST(WorldFile, EveryKindOfMistakeGetsItsSentence) {
       {"{id: 1, width_m: 3,", "{id: 0, width_m: 3,", "a lane's 'id' is 0"},
       {"{id: 1, width_m: 3,", "{id: -1, width_m: 3,", "sample.yaml:40: lane -1 stands twice"},
       {"{id: 1, width_m: 3,", "{id: 3, width_m: 3,", "there is a lane 3 but no lane 2 between it and the axis"},
-      {"speed_limit_kmh: 60", "speed_limit_mph: 60", "key 'roads[0].section.lanes[1].speed_limit_kmh' is missing"},
+      {"speed_limit_kmh: 60", "speed_limit_mph: 60", "unknown key 'roads[0].section.lanes[1].speed_limit_mph'; the unit is part of the name: 'speed_limit_kmh'"},
       {"surface: gravel", "surface: gravle", "sample.yaml:45: 'roads[0].section.shoulders.right.surface' is 'gravle'; did you mean 'gravel'?"},
       {"kind: crown", "kind: crow", "did you mean 'crown'?"},
       {"kind: dashed, stroke_m: 3,", "kind: dashed,", "key 'roads[0].marks[1].stroke_m' is missing"},
@@ -140,8 +140,8 @@ TEST(WorldFile, AllProblemsAreToldInTheOrderOfLines) {
   text.replace(text.find("kind: crown"), 11, "kind: crow");
   ASSERT_TRUE(base::WriteWhole(folder / "two.yaml", text).ok());
   const auto problems = WorldProblems(folder / "two.yaml");
-  ASSERT_EQ(problems.size(), 3u);  // the missing seed, the unknown sead, the crow
-  EXPECT_THAT(problems[2].Text(), HasSubstr("two.yaml:42:"));
+  ASSERT_EQ(problems.size(), 2u);  // the sead that should be a seed, the crow
+  EXPECT_THAT(problems[1].Text(), HasSubstr("two.yaml:42:"));
   EXPECT_THAT(WorldProblems(folder / "none.yaml").at(0).Text(), HasSubstr("none.yaml"));
   ASSERT_TRUE(base::WriteWhole(folder / "fine.yaml", kSample).ok());
   EXPECT_TRUE(WorldProblems(folder / "fine.yaml").empty());
