@@ -49,19 +49,14 @@ std::string FreshRunName() {
   return fmt::format("{:08x}{:08x}", device(), device());
 }
 
-// NAME-DATE-TIME.mcap; with a number behind it where a run of the same second has taken the name.
+// NAME-DATE-TIME-PROCESS.mcap: runs that start in the same second have names of their own.
 std::string DatedRecording(const std::string& launch_name) {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   ::localtime_r(&now, &local);
   std::string name = launch_name;
   std::ranges::replace(name, '/', '_');
-  const std::string stem = fmt::format("{}-{:%Y%m%d-%H%M%S}", name, local);
-  std::error_code problem;
-  for (int number = 1;; ++number) {
-    const auto path = RecordingFolder() / (stem + (number == 1 ? "" : fmt::format("-{}", number)) + ".mcap");
-    if (!std::filesystem::exists(path, problem)) return path.string();
-  }
+  return (RecordingFolder() / fmt::format("{}-{:%Y%m%d-%H%M%S}-{}.mcap", name, local, ::getpid())).string();
 }
 
 // The name, or name2, name3 …: what no node of the launch file is called.

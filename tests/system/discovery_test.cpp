@@ -76,7 +76,7 @@ TEST(Discovery, AServersPortInUseIsOneSentence) {
   EXPECT_EQ(ended.out, "rodeira: run 'taken': UDP port " + port.number() + " of the discovery server is in use by another program; end that one, or name another 'discovery.port'\n");
   EXPECT_TRUE(ProcessesWith("--run taken").empty());
   EXPECT_FALSE(std::filesystem::exists(recording));
-  EXPECT_EQ(front::SharedMemoryFiles(), before);
+  for (const std::string& file : front::SharedMemoryFiles()) EXPECT_TRUE(before.contains(file)) << file << " was left";
 }
 
 class LabRefusal : public ::testing::Test {
