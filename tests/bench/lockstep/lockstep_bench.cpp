@@ -90,7 +90,7 @@ double RawRate(std::int64_t steps) {
 
 // Steps a wall second between the first grant and the end, from the closing table.
 double RodeiraRate(std::int64_t steps, const std::string& transport) {
-  const std::string command = fmt::format("{}/bin/rodeira run {}/launch/empty.yaml --for {} --set transport={}", RODEIRA_BINARY_DIR, RODEIRA_SOURCE_DIR,
+  const std::string command = fmt::format("{}/bin/rodeira run {}/launch/empty.yaml --no-record --for {} --set transport={}", RODEIRA_BINARY_DIR, RODEIRA_SOURCE_DIR,
                                           static_cast<double>(steps) * 1e-3, transport);
   FILE* pipe = ::popen(command.c_str(), "r");
   std::array<char, 512> line{};
