@@ -80,6 +80,7 @@ void TerminalKeys::Guard() {
     ::_exit(0);
   }
   ::close(pipe[0]);
+  if (guardian_ > 0) ::setpgid(guardian_, guardian_);  // here too: a Ctrl-C may come before the child has got so far
   if (guardian_ < 0) {
     ::close(pipe[1]);
     return;

@@ -45,7 +45,7 @@ class Collector {
   }
   base::Status Follow(const fs::path& path, const config::File& file, bool from_absolute) {
     for (const std::string& scalar : file.Scalars()) {
-      if (scalar.empty() || scalar.size() > 1000) continue;
+      if (scalar.size() > 1000 || !fs::path(scalar).has_extension()) continue;  // a plain word is a name, even where a file is called so
       const bool absolute = from_absolute || fs::path(scalar).is_absolute();
       const fs::path named = fs::absolute(path.parent_path() / scalar).lexically_normal();
       std::error_code problem;

@@ -17,8 +17,8 @@ struct NamedFile {
 };
 
 // Everything that a launch file says: itself first, then each file that it names, and what those name if they are YAML.
-// A value names a file where one exists at that place, relative to the file in which the value stands; one named by its whole path is "absolute/…". What a recorder
-// writes to, and files of more than 64 MiB, are left out.
+// A value with an extension names a file where one exists at that place, relative to the file in which the value stands; one
+// named by its whole path is "absolute/…". What a recorder writes to, and files of more than 64 MiB, are left out.
 base::Result<std::vector<NamedFile>> FilesOf(const Launch& launch);
 
 // Lays the files out below `folder` as they lay around the launch file, which is the first; returns its path. Wrong input
