@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/dds/wire.hpp"
+#include "common/launch/run_log_wire.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -118,30 +119,8 @@ base::Bytes EncodeLog(std::uint64_t clock_id, std::int64_t base_step_ns, const l
   out.clock_id(clock_id);
   out.number(batch.number);
   out.last(batch.last ? 1 : 0);
-  out.walls().resize(batch.walls.size());
-  for (std::size_t i = 0; i < batch.walls.size(); ++i) {
-    const lockstep::WallTime& from = batch.walls[i];
-    msg::WallTime& to = out.walls()[i];
-    to.through_step(from.through);
-    to.utc_ns(from.utc_ns);
-    to.monotonic_ns(from.monotonic_ns);
-    to.late_ns(from.late_ns);
-    to.pace(from.pace);
-    to.paused(from.paused ? 1 : 0);
-  }
-  out.remarks().resize(batch.remarks.size());
-  for (std::size_t i = 0; i < batch.remarks.size(); ++i) {
-    const lockstep::Remark& from = batch.remarks[i];
-    msg::Remark& to = out.remarks()[i];
-    to.step(from.step);
-    to.time_ns(from.step * base_step_ns);
-    to.utc_ns(from.utc_ns);
-    to.monotonic_ns(from.monotonic_ns);
-    to.pace(from.pace);
-    to.kind(std::string(lockstep::RemarkName(from.kind)));
-    to.text(from.text);
-    to.number(from.number);
-  }
+  for (const lockstep::WallTime& wall : batch.walls) out.walls().push_back(launch::ToWire(wall));
+  for (const lockstep::Remark& remark : batch.remarks) out.remarks().push_back(launch::ToWire(remark, base_step_ns));
   return idl::Encode(out);
 }
 

@@ -51,22 +51,13 @@ Eigen::Vector3d BicycleModel::v_WB_W() const { return body_.VelocityAt(p_WB_W())
 Eigen::Vector3d BicycleModel::HubAtRest_W(std::size_t wheel) const { return body_.p_WG_W + body_.q_WG * (HubAtRest_B(wheel) - p_BG_B_); }
 
 void BicycleModel::AskGround(terrain::Ground& ground) {
-  std::array<terrain::GroundQuery, kWheels> queries;
-  std::array<terrain::GroundPoint, kWheels> points;
+  std::array<Eigen::Vector3d, kWheels> hubs_W;
+  std::array<WheelGround*, kWheels> wheels{};
   for (std::size_t i = 0; i < kWheels; ++i) {
-    const Eigen::Vector3d hub = HubAtRest_W(i);
-    queries[i] = {hub.x(), hub.y(), hub.z()};
+    hubs_W[i] = HubAtRest_W(i);
+    wheels[i] = &wheels_[i];
   }
-  ground.Query(queries, points);
-  for (std::size_t i = 0; i < kWheels; ++i) {
-    Wheel& wheel = wheels_[i];
-    wheel.inside = points[i].inside;
-    wheel.surface = points[i].surface;
-    if (!wheel.inside) continue;  // goes on upon the plane that it knows
-    wheel.plane_W = {queries[i].x_m, queries[i].y_m, points[i].z_m};
-    wheel.normal_W = points[i].normal_W;
-    wheel.friction = points[i].friction;
-  }
+  vehicle::AskGround(ground, hubs_W, wheels);
 }
 
 CornerInput BicycleModel::CornerInputOf(std::size_t wheel) const {

@@ -8,6 +8,7 @@
 #include "common/vehicle/suspension.hpp"
 #include "common/vehicle/tyre.hpp"
 #include "common/vehicle/vehicle_model.hpp"
+#include "common/vehicle/wheel_ground.hpp"
 
 namespace rodeira::vehicle {
 
@@ -33,13 +34,7 @@ class BicycleModel final : public VehicleModel {
  private:
   friend class BicycleEquilibrium;
 
-  // One wheel. Its plane is the ground's last answer.
-  struct Wheel {
-    Eigen::Vector3d plane_W = Eigen::Vector3d::Zero();
-    Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
-    double friction = 0.0;
-    terrain::Surface surface = terrain::Surface::kOutside;
-    bool inside = false;
+  struct Wheel : WheelGround {
     Corner corner;
     Tyre tyre;
     double spin_rad = 0.0;

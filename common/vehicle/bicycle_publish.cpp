@@ -4,6 +4,7 @@
 #include <span>
 
 #include "common/vehicle/bicycle_model.hpp"
+#include "common/vehicle/powertrain_publish.hpp"
 
 namespace rodeira::vehicle {
 
@@ -56,30 +57,15 @@ void BicycleModel::Publish(const Controls& controls, double dt_s) {
     w.surface = wheel.surface;
     s.inside_world = s.inside_world && wheel.inside;
   }
-  const Engine& engine = powertrain_.engine();
-  s.engine_speed_radps = engine.speed_radps();
-  s.engine_torque_Nm = engine.net_torque_Nm();
-  s.engine_running = engine.running();
-  s.clutch = powertrain_.clutch();
-  s.clutch_torque_Nm = powertrain_.motion().clutch_torque_Nm;
-  s.clutch_slip_radps = powertrain_.motion().clutch_slip_radps;
-  s.clutch_heat_W = powertrain_.motion().clutch_heat_W;
-  s.gear = powertrain_.gear();
-  s.throttle = engine.throttle();
+  PublishPowertrain(powertrain_, s);
   s.brake = controls.brake;
   s.steering_wheel_rad = SteerAngle(kFrontLeft, controls.steering_wheel_rad) * settings_.steering.ratio;
   s.steering_torque_Nm = SteeringTorque();
-  s.fuel_rate_kgps = engine.fuel_rate_kgps();
-  s.fuel_kg = engine.fuel_kg();
   s.drag_N = drag_N_;
 }
 
 void BicycleModel::Wheel::Save(base::StateWriter& writer) const {
-  writer.Put("plane_W", std::span<const double>(plane_W.data(), 3));
-  writer.Put("normal_W", std::span<const double>(normal_W.data(), 3));
-  writer.Put("friction", friction);
-  writer.Put("surface", surface);
-  writer.Put("inside", inside);
+  WheelGround::Save(writer);
   writer.Put("corner", corner);
   writer.Put("tyre", tyre);
   writer.Put("spin_rad", spin_rad);
@@ -87,11 +73,7 @@ void BicycleModel::Wheel::Save(base::StateWriter& writer) const {
 }
 
 void BicycleModel::Wheel::Restore(base::StateReader& reader) {
-  reader.Get("plane_W", std::span<double>(plane_W.data(), 3));
-  reader.Get("normal_W", std::span<double>(normal_W.data(), 3));
-  reader.Get("friction", friction);
-  reader.Get("surface", surface);
-  reader.Get("inside", inside);
+  WheelGround::Restore(reader);
   reader.Get("corner", corner);
   reader.Get("tyre", tyre);
   reader.Get("spin_rad", spin_rad);

@@ -6,6 +6,7 @@
 #include "common/multibody/system.hpp"
 #include "common/vehicle/multibody_loads.hpp"
 #include "common/vehicle/multibody_settings.hpp"
+#include "common/vehicle/wheel_ground.hpp"
 
 namespace rodeira::vehicle {
 
@@ -37,13 +38,7 @@ class MultibodyModel final : public VehicleModel {
   Eigen::Isometry3d X_WB() const;
 
  private:
-  // Its plane is the ground's last answer.
-  struct Wheel {
-    Eigen::Vector3d plane_W = Eigen::Vector3d::Zero();
-    Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
-    double friction = 0.0;
-    terrain::Surface surface = terrain::Surface::kOutside;
-    bool inside = false;
+  struct Wheel : WheelGround {
     Tyre tyre;
     double spin_rad = 0.0;
     double spin_radps = 0.0;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "common/vehicle/multibody_model.hpp"
+#include "common/vehicle/powertrain_publish.hpp"
 
 namespace rodeira::vehicle {
 
@@ -50,41 +51,22 @@ void MultibodyModel::Publish(const Controls& controls, double dt_s) {
     w.surface = wheel.surface;
     s.inside_world = s.inside_world && wheel.inside;
   }
-  const Engine& engine = powertrain_.engine();
-  s.engine_speed_radps = engine.speed_radps();
-  s.engine_torque_Nm = engine.net_torque_Nm();
-  s.engine_running = engine.running();
-  s.clutch = powertrain_.clutch();
-  s.clutch_torque_Nm = powertrain_.motion().clutch_torque_Nm;
-  s.clutch_slip_radps = powertrain_.motion().clutch_slip_radps;
-  s.clutch_heat_W = powertrain_.motion().clutch_heat_W;
-  s.gear = powertrain_.gear();
-  s.throttle = engine.throttle();
+  PublishPowertrain(powertrain_, s);
   s.brake = controls.brake;
   s.steering_wheel_rad = hands_rad_;
   s.steering_torque_Nm = -column_load_->Force(motion);
-  s.fuel_rate_kgps = engine.fuel_rate_kgps();
-  s.fuel_kg = engine.fuel_kg();
   s.drag_N = chassis_load_->Force(motion);
 }
 
 void MultibodyModel::Wheel::Save(base::StateWriter& writer) const {
-  writer.Put("plane_W", std::span<const double>(plane_W.data(), 3));
-  writer.Put("normal_W", std::span<const double>(normal_W.data(), 3));
-  writer.Put("friction", friction);
-  writer.Put("surface", surface);
-  writer.Put("inside", inside);
+  WheelGround::Save(writer);
   writer.Put("tyre", tyre);
   writer.Put("spin_rad", spin_rad);
   writer.Put("spin_radps", spin_radps);
 }
 
 void MultibodyModel::Wheel::Restore(base::StateReader& reader) {
-  reader.Get("plane_W", std::span<double>(plane_W.data(), 3));
-  reader.Get("normal_W", std::span<double>(normal_W.data(), 3));
-  reader.Get("friction", friction);
-  reader.Get("surface", surface);
-  reader.Get("inside", inside);
+  WheelGround::Restore(reader);
   reader.Get("tyre", tyre);
   reader.Get("spin_rad", spin_rad);
   reader.Get("spin_radps", spin_radps);

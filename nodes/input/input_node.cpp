@@ -44,6 +44,7 @@ class InputNode final : public lockstep::Node {
     outbox.Put(topics::kControls, idl::Encode(ToWire(controls.value())));
     return {};
   }
+  bool is_brief() const override { return source_->is_brief(); }
   void Save(base::StateWriter& out) const override { out.Put("source", *source_); }
   void Restore(base::StateReader& in) override { in.Get("source", *source_); }
 

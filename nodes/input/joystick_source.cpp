@@ -38,6 +38,7 @@ class JoystickSource final : public Source {
     return driver_.Step(readings_, car.value().gear);
   }
 
+  bool is_brief() const override { return false; }  // SDL wants one thread
   void Save(base::StateWriter& out) const override { out.Put("wheel", driver_); }
   void Restore(base::StateReader& in) override { in.Get("wheel", driver_); }
 

@@ -16,6 +16,8 @@ class Source {
   virtual vehicle::Controls First() = 0;
   // The controls for the time `valid_ns` at which they will be valid, from what is seen now.
   virtual base::Result<vehicle::Controls> Step(const lockstep::StepInfo& step, std::int64_t valid_ns, const lockstep::Inbox& inbox) = 0;
+  // May be asked on any thread, one at a time, and soon has its answer.
+  virtual bool is_brief() const { return true; }
   virtual void Save(base::StateWriter& out) const = 0;
   virtual void Restore(base::StateReader& in) = 0;
 };

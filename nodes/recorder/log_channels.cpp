@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "common/launch/run_log_wire.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -20,17 +21,6 @@ base::Result<record::ChannelId> AddChannel(record::McapWriter& writer, std::stri
   const auto schema = writer.AddSchema(info->type, "omgidl", idl::IdlTextOf(info->subject));
   if (!schema) return schema.error();
   return writer.AddChannel(topic, schema.value(), "cdr");
-}
-
-msg::WallTime ToWire(const lockstep::WallTime& wall) {
-  msg::WallTime out;
-  out.through_step(wall.through);
-  out.utc_ns(wall.utc_ns);
-  out.monotonic_ns(wall.monotonic_ns);
-  out.late_ns(wall.late_ns);
-  out.pace(wall.pace);
-  out.paused(wall.paused ? 1 : 0);
-  return out;
 }
 
 }  // namespace
@@ -58,20 +48,11 @@ base::Status LogChannels::Write(record::McapWriter& writer) {
   for (const lockstep::LogBatch& batch : log_->Take()) {
     for (const lockstep::WallTime& wall : batch.walls) {
       const std::uint64_t time_ns = TimeOf(wall.through);
-      if (auto status = writer.Write(wall_, walls_written_++, time_ns, time_ns, idl::Encode(ToWire(wall))); !status) return status;
+      if (auto status = writer.Write(wall_, walls_written_++, time_ns, time_ns, idl::Encode(launch::ToWire(wall))); !status) return status;
     }
     for (const lockstep::Remark& remark : batch.remarks) {
-      msg::Remark out;
-      out.step(remark.step);
-      out.time_ns(remark.step * base_step_ns_);
-      out.utc_ns(remark.utc_ns);
-      out.monotonic_ns(remark.monotonic_ns);
-      out.pace(remark.pace);
-      out.kind(std::string(lockstep::RemarkName(remark.kind)));
-      out.text(remark.text);
-      out.number(remark.number);
       const std::uint64_t time_ns = TimeOf(remark.step);
-      if (auto status = writer.Write(remarks_, remark.number, time_ns, time_ns, idl::Encode(out)); !status) return status;
+      if (auto status = writer.Write(remarks_, remark.number, time_ns, time_ns, idl::Encode(launch::ToWire(remark, base_step_ns_))); !status) return status;
     }
   }
   return {};

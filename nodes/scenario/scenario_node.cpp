@@ -81,6 +81,7 @@ class ScenarioNode final : public lockstep::Node {
     return {};
   }
 
+  bool is_brief() const override { return true; }
   void Save(base::StateWriter& out) const override {
     for (const Gate& gate : gates_) out.Put("gate", gate);
   }

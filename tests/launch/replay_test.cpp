@@ -94,13 +94,14 @@ TEST_F(ReplayTest, ATurnedBitIsFound) {
 
 TEST_F(ReplayTest, ATurnedBitOfAStateIsFoundAndTheFieldNamed) {
   const std::string file = Drive();
-  // The last byte but those of the end of a field's value: any field will do, the name must come.
+  // Behind the snapshot's head (some 100 bytes): in the node's state.
   const std::string turned = WithABitTurned(file, "rodeira/snapshot", 3, 150);
   const auto verdict = VerifyFile(turned);
   ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
   ASSERT_TRUE(verdict.value().difference.has_value());
   EXPECT_EQ(verdict.value().difference->step, 1000);
   EXPECT_EQ(verdict.value().difference->topic, "rodeira/snapshot");
+  EXPECT_THAT(verdict.value().difference->field, ::testing::StartsWith("state."));
 }
 
 TEST_F(ReplayTest, AChangedConstantIsFound) {

@@ -1,0 +1,39 @@
+#include "common/vehicle/wheel_ground.hpp"
+
+#include <span>
+
+namespace rodeira::vehicle {
+
+void WheelGround::Save(base::StateWriter& writer) const {
+  writer.Put("plane_W", std::span<const double>(plane_W.data(), 3));
+  writer.Put("normal_W", std::span<const double>(normal_W.data(), 3));
+  writer.Put("friction", friction);
+  writer.Put("surface", surface);
+  writer.Put("inside", inside);
+}
+
+void WheelGround::Restore(base::StateReader& reader) {
+  reader.Get("plane_W", std::span<double>(plane_W.data(), 3));
+  reader.Get("normal_W", std::span<double>(normal_W.data(), 3));
+  reader.Get("friction", friction);
+  reader.Get("surface", surface);
+  reader.Get("inside", inside);
+}
+
+void AskGround(terrain::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W, const std::array<WheelGround*, kWheels>& wheels) {
+  std::array<terrain::GroundQuery, kWheels> queries;
+  std::array<terrain::GroundPoint, kWheels> points;
+  for (std::size_t i = 0; i < kWheels; ++i) queries[i] = {hubs_W[i].x(), hubs_W[i].y(), hubs_W[i].z()};
+  ground.Query(queries, points);
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    WheelGround& wheel = *wheels[i];
+    wheel.inside = points[i].inside;
+    wheel.surface = points[i].surface;
+    if (!wheel.inside) continue;
+    wheel.plane_W = {queries[i].x_m, queries[i].y_m, points[i].z_m};
+    wheel.normal_W = points[i].normal_W;
+    wheel.friction = points[i].friction;
+  }
+}
+
+}  // namespace rodeira::vehicle

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "common/base/state.hpp"
+#include "common/terrain/ground.hpp"
+#include "common/vehicle/vehicle_state.hpp"
+
+namespace rodeira::vehicle {
+
+// The ground under a wheel, as SUELO last told it: a plane through plane_W (m) with the unit normal normal_W.
+struct WheelGround {
+  Eigen::Vector3d plane_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
+  double friction = 0.0;
+  terrain::Surface surface = terrain::Surface::kOutside;
+  bool inside = false;
+
+  void Save(base::StateWriter& writer) const;
+  void Restore(base::StateReader& reader);
+};
+
+// Asks for the ground under the four hubs (m, in W), one batch (law L4). Outside of the world a wheel goes on upon the plane
+// that it knows.
+void AskGround(terrain::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W, const std::array<WheelGround*, kWheels>& wheels);
+
+}  // namespace rodeira::vehicle
