@@ -39,17 +39,22 @@ base::Status TakeSize(const std::string& text, view::ViewSettings& settings) {
   const char* end = text.data() + text.size();
   const auto [cross, first] = std::from_chars(text.data(), end, settings.width_px);
   const bool crossed = first == std::errc{} && cross != end && *cross == 'x';
-  const auto [rest, second] = crossed ? std::from_chars(cross + 1, end, settings.height_px) : std::from_chars_result{cross, std::errc::invalid_argument};
-  const bool good = second == std::errc{} && rest == end && settings.width_px >= 64 && settings.width_px <= 7680 && settings.height_px >= 64 && settings.height_px <= 4320;
+  const auto [rest, second] =
+      crossed ? std::from_chars(cross + 1, end, settings.height_px) : std::from_chars_result{cross, std::errc::invalid_argument};
+  const bool good = second == std::errc{} && rest == end && settings.width_px >= 64 && settings.width_px <= 7680 &&
+                    settings.height_px >= 64 && settings.height_px <= 4320;
   if (good) return {};
-  return base::WrongInput(fmt::format("'{}' was found; WIDTHxHEIGHT in pixels was expected, from 64x64 to 7680x4320", text), "--size");
+  return base::WrongInput(fmt::format("'{}' was found; WIDTHxHEIGHT in pixels was expected, from 64x64 to 7680x4320", text),
+                          "--size");
 }
 
 base::Status TakeWishes(const lockstep::Roster& roster, const WatchOptions& options, Seen& seen) {
   if (options.camera) {
     const std::vector<std::string> cameras = {"chase", "driver"};
     if (*options.camera != cameras[0] && *options.camera != cameras[1]) {
-      return base::WrongInput(fmt::format("'{}' was found; chase or driver was expected{}", *options.camera, base::DidYouMean(*options.camera, cameras)), "--camera");
+      return base::WrongInput(fmt::format("'{}' was found; chase or driver was expected{}", *options.camera,
+                                          base::DidYouMean(*options.camera, cameras)),
+                              "--camera");
     }
     seen.settings.camera = *options.camera == "driver" ? scene::CameraKind::kDriver : scene::CameraKind::kChase;
   }
@@ -86,7 +91,8 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
     seen.period = std::max<Step>(1, std::llround(kViewPeriod_s * 1e9 / static_cast<double>(roster.base_step_ns())));
     for (lockstep::SourceIndex source = 0; source < roster.sources().size(); ++source) AddSource(roster, source, seen);
   }
-  if (seen.sources.empty()) return base::WrongInput("the recording has neither a car nor traffic: there is nothing to see", run.path().string());
+  if (seen.sources.empty())
+    return base::WrongInput("the recording has neither a car nor traffic: there is nothing to see", run.path().string());
   if (auto status = TakeWishes(roster, options, seen); !status) return status.error();
   return seen;
 }
@@ -105,7 +111,8 @@ base::Result<std::vector<view::ReplayMark>> MarksOf(const replay::RecordedRun& r
     const auto remark = idl::Decode<msg::Remark>(message.value()->data);
     if (!remark) return base::WrongInput(remark.error().Text(), run.path().string());
     if (remark.value().kind() != "mark" && remark.value().kind() != "fault") continue;
-    marks.push_back({std::max<std::int64_t>(remark.value().time_ns(), 0), Shortened(remark.value().text().empty() ? remark.value().kind() : remark.value().text())});
+    marks.push_back({std::max<std::int64_t>(remark.value().time_ns(), 0),
+                     Shortened(remark.value().text().empty() ? remark.value().kind() : remark.value().text())});
   }
   std::ranges::stable_sort(marks, {}, &view::ReplayMark::time_ns);
   return marks;

@@ -14,7 +14,7 @@ struct Seen {
   view::ViewSettings settings;
   std::vector<lockstep::SourceIndex> cars;
   std::vector<lockstep::SourceIndex> sources;  // cars and traffic
-  lockstep::Step period = 1;  // of the view
+  lockstep::Step period = 1;                   // of the view
 };
 
 // As the recorded launch file's first view; all cars and traffic at 50 Hz where it has none. Wrong input where there is

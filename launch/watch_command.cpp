@@ -29,12 +29,15 @@ int Complain(const base::Error& error) {
 base::Status CheckTime(const replay::RecordedRun& run, const char* option, double time_s) {
   const double last_s = static_cast<double>(run.last_step()) * static_cast<double>(run.roster().base_step_ns()) * 1e-9;
   if (time_s >= 0.0 && time_s <= last_s + 1e-9) return {};
-  return base::WrongInput(fmt::format("{} {} s was found, but the run goes from 0 to {:.3f} s", option, time_s, last_s), run.path().string());
+  return base::WrongInput(fmt::format("{} {} s was found, but the run goes from 0 to {:.3f} s", option, time_s, last_s),
+                          run.path().string());
 }
 
 base::Status Watch(const WatchOptions& options) {
   if (!(options.speed >= scene::Player::kSlowest && options.speed <= scene::Player::kFastest)) {
-    return base::WrongInput(fmt::format("{} was found; {} to {} times real time was expected", options.speed, scene::Player::kSlowest, scene::Player::kFastest), "--speed");
+    return base::WrongInput(fmt::format("{} was found; {} to {} times real time was expected", options.speed,
+                                        scene::Player::kSlowest, scene::Player::kFastest),
+                            "--speed");
   }
   const auto run = replay::RecordedRun::Open(options.file);
   if (!run) return run.error();
@@ -44,7 +47,9 @@ base::Status Watch(const WatchOptions& options) {
   const auto marks = MarksOf(run.value());
   if (!marks) return marks.error();
   if (!view::HasDisplay()) {
-    return base::WrongInput("a window is wanted, but no display answers; set DISPLAY, or let --frames FOLDER --at S write pictures without one", "--view");
+    return base::WrongInput(
+        "a window is wanted, but no display answers; set DISPLAY, or let --frames FOLDER --at S write pictures without one",
+        "--view");
   }
   const auto world = view::WorldOf(run.value().launch());
   if (!world) return world.error();
@@ -56,10 +61,12 @@ base::Status Watch(const WatchOptions& options) {
   player.Seek(std::llround(options.from_s * 1e9));
   if (options.paused) player.Pause();
   RecordedMoments moments(run.value(), seen.value().sources, seen.value().period);
-  return window.value()->Watch(player, marks.value(), [&](std::int64_t time_ns) { return moments.At(time_ns); }, [] { return g_interrupted.load(); });
+  return window.value()->Watch(
+      player, marks.value(), [&](std::int64_t time_ns) { return moments.At(time_ns); }, [] { return g_interrupted.load(); });
 }
 
-base::Result<std::vector<Step>> FrameSteps(const replay::RecordedRun& run, const std::vector<lockstep::SourceIndex>& cars, const std::vector<double>& at_s) {
+base::Result<std::vector<Step>> FrameSteps(const replay::RecordedRun& run, const std::vector<lockstep::SourceIndex>& cars,
+                                           const std::vector<double>& at_s) {
   std::vector<Step> steps;
   for (const double time_s : at_s) {
     if (auto status = CheckTime(run, "--at", time_s); !status) return status.error();
@@ -93,7 +100,8 @@ base::Status WriteFrames(const WatchOptions& options) {
     if (g_interrupted) break;
     auto moment = moments.Exactly(step);
     if (!moment) return moment.error();
-    if (auto status = stage.value()->Order(view::PictureOf(settings, std::move(moment).value()), settings.folder / view::FrameName(step)); !status) return status;
+    const auto file = settings.folder / view::FrameName(step);
+    if (auto status = stage.value()->Order(view::PictureOf(settings, std::move(moment).value()), file); !status) return status;
   }
   return stage.value()->Drain();
 }

@@ -8,11 +8,11 @@ namespace rodeira::front {
 
 struct WatchOptions {
   std::string file;
-  double from_s = 0.0;   // of the window
+  double from_s = 0.0;  // of the window
   double speed = 1.0;
   bool paused = false;
-  std::string frames;        // folder of PNG files
-  std::vector<double> at_s;  // their times
+  std::string frames;                 // folder of PNG files
+  std::vector<double> at_s;           // their times
   std::optional<std::string> camera;  // instead of the recorded view's: chase, driver
   std::optional<std::string> follow;  // name of a vehicle node
   std::optional<std::string> size;    // "1280x720"

@@ -169,6 +169,9 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   if (!end) return end.error();
   const auto last = end.value() ? Whole(Entry(end.value()->entries, "last_step")) : std::nullopt;
   if (!last || *last < 0) return base::WrongInput("the recording does not say at which step the run ended; `rodeira repair` makes one that does");
+  if (*last > std::numeric_limits<std::int64_t>::max() / 4 / roster().base_step_ns()) {
+    return base::WrongInput(fmt::format("the recording says that the run ended at step {}, which cannot be", *last));
+  }
   last_step_ = *last;
   complete_ = Entry(end.value()->entries, "complete") == "true";
   return {};

@@ -21,7 +21,10 @@ base::Result<std::vector<std::optional<Sample>>> Tape::At(lockstep::Step step) {
   std::vector<std::optional<Sample>> samples;
   for (const lockstep::SourceIndex source : sources_) {
     auto sample = Newest(source, std::min(step, run_.last_step()));
-    if (!sample) return base::Error{sample.error().code, sample.error().Text(), sample.error().context.empty() ? run_.path().string() : ""};
+    if (!sample) {
+      const base::Error& error = sample.error();
+      return base::Error{error.code, error.Text(), error.context.empty() ? run_.path().string() : ""};
+    }
     samples.push_back(std::move(sample).value());
   }
   return samples;

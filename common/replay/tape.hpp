@@ -42,9 +42,9 @@ class Tape {
 
   const RecordedRun& run_;
   std::vector<lockstep::SourceIndex> sources_;
-  std::vector<const record::ChunkInfo*> by_time_;   // by their first times
-  std::vector<std::uint64_t> latest_ns_;            // the last time of any chunk up to here in by_time_
-  std::vector<Loaded> loaded_;                      // the one used last at the end
+  std::vector<const record::ChunkInfo*> by_time_;  // by their first times
+  std::vector<std::uint64_t> latest_ns_;           // the last time of any chunk up to here in by_time_
+  std::vector<Loaded> loaded_;                     // the one used last at the end
   std::uint64_t chunks_read_ = 0;
 };
 

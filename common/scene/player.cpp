@@ -13,7 +13,9 @@ constexpr std::array kLadder = {Player::kSlowest, 0.2, 0.5, 1.0, 2.0, 5.0, Playe
 
 }  // namespace
 
-Player::Player(std::int64_t end_ns, std::int64_t picture_ns) : end_ns_(end_ns), picture_ns_(picture_ns) { RODEIRA_ASSERT(end_ns >= 0 && picture_ns > 0); }
+Player::Player(std::int64_t end_ns, std::int64_t picture_ns) : end_ns_(end_ns), picture_ns_(picture_ns) {
+  RODEIRA_ASSERT(end_ns >= 0 && picture_ns > 0);
+}
 
 void Player::Advance(double wall_s) {
   if (paused_) return;
@@ -39,8 +41,12 @@ void Player::PlayOrPause() {
 
 void Player::set_speed(double speed) { speed_ = std::clamp(speed, kSlowest, kFastest); }
 
-void Player::Faster() { set_speed(*std::find_if(kLadder.begin(), kLadder.end() - 1, [this](double rung) { return rung > speed_; })); }
+void Player::Faster() {
+  set_speed(*std::find_if(kLadder.begin(), kLadder.end() - 1, [this](double rung) { return rung > speed_; }));
+}
 
-void Player::Slower() { set_speed(*std::find_if(kLadder.rbegin(), kLadder.rend() - 1, [this](double rung) { return rung < speed_; })); }
+void Player::Slower() {
+  set_speed(*std::find_if(kLadder.rbegin(), kLadder.rend() - 1, [this](double rung) { return rung < speed_; }));
+}
 
 }  // namespace rodeira::scene

@@ -21,7 +21,7 @@ Instruments::Instruments(osg::Group& overlay) : panel_(overlay, {0.04F, 0.05F, 0
   gear_ = AddText(overlay, 38.0F, osgText::TextBase::RIGHT_BASE_LINE);
   time_ = AddText(overlay, 20.0F, osgText::TextBase::RIGHT_BASE_LINE);
   lines_ = AddText(overlay, 20.0F, osgText::TextBase::LEFT_TOP);
-  lines_->setBackdropType(osgText::Text::DROP_SHADOW_BOTTOM_RIGHT);  // it has no panel behind it
+  lines_->setBackdropType(osgText::Text::DROP_SHADOW_BOTTOM_RIGHT);  // it has no box behind it
   lines_->setBackdropOffset(0.05F);
   lines_->setBackdropColor({0.0F, 0.0F, 0.0F, 0.8F});
 }

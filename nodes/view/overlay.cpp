@@ -64,7 +64,8 @@ void Boxes::Set(const std::vector<Box>& boxes) {
   if (boxes.empty()) return;
   corners_->clear();
   for (const Box& box : boxes) {
-    const osg::Vec3 corners[] = {{box.left, box.low, 0.0F}, {box.right, box.low, 0.0F}, {box.right, box.high, 0.0F}, {box.left, box.high, 0.0F}};
+    const osg::Vec3 corners[] = {
+        {box.left, box.low, 0.0F}, {box.right, box.low, 0.0F}, {box.right, box.high, 0.0F}, {box.left, box.high, 0.0F}};
     for (const int corner : {0, 1, 2, 0, 2, 3}) corners_->push_back(corners[corner]);
   }
   corners_->dirty();

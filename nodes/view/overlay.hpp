@@ -15,7 +15,6 @@ osg::ref_ptr<osg::Camera> MakeOverlay();
 void FitOverlay(osg::Camera& overlay, int width_px, int height_px);
 // White, to be placed and filled later; over the boxes.
 osg::ref_ptr<osgText::Text> AddText(osg::Group& overlay, float size_px, osgText::TextBase::AlignmentType alignment);
-
 // Upright boxes of one colour.
 class Boxes {
  public:

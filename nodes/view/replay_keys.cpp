@@ -77,6 +77,6 @@ std::string ReplayHelp() {
   return text + "\nescape  end";
 }
 
-std::string ReplayKeysInShort() { return "space  left right  + -  r   h: all keys"; }
+std::string ReplayKeysInShort() { return "space  left right  + -  r  h: keys"; }
 
 }  // namespace rodeira::view

@@ -20,7 +20,7 @@ constexpr std::int64_t kNear_ns = 1'000'000'000;
 
 // "1:02:03.45" of hours, minutes, seconds; without hours where there are none.
 std::string TimeText(std::int64_t time_ns) {
-  const std::int64_t hundredths = time_ns / 10'000'000;
+  const std::int64_t hundredths = (time_ns + 5'000'000) / 10'000'000;  // rounded, as the instruments do
   const std::int64_t seconds = hundredths / 100, minutes = seconds / 60, hours = minutes / 60;
   const std::string rest = fmt::format("{:02}.{:02}", seconds % 60, hundredths % 100);
   return hours > 0 ? fmt::format("{}:{:02}:{}", hours, minutes % 60, rest) : fmt::format("{}:{}", minutes, rest);
@@ -34,8 +34,8 @@ Timeline TimelineOf(const scene::Player& player, const std::vector<ReplayMark>& 
   };
   Timeline timeline;
   timeline.share = share(player.now_ns());
-  timeline.where = fmt::format("{} / {}   x {:g}{}{}", TimeText(player.now_ns()), TimeText(player.end_ns()), player.speed(), player.backward() ? "  backward" : "",
-                               player.paused() ? "  paused" : "");
+  timeline.where = fmt::format("{} / {}   x {:g}{}", TimeText(player.now_ns()), TimeText(player.end_ns()),
+                               player.backward() ? -player.speed() : player.speed(), player.paused() ? "  paused" : "");
   timeline.keys = ReplayKeysInShort();
   std::int64_t nearest_ns = kNear_ns + 1;
   for (const ReplayMark& mark : marks) {
@@ -48,13 +48,15 @@ Timeline TimelineOf(const scene::Player& player, const std::vector<ReplayMark>& 
   return timeline;
 }
 
-base::Result<std::unique_ptr<ReplayWindow>> ReplayWindow::Open(const ViewSettings& settings, const road::World& world, SurfaceKind kind) {
+base::Result<std::unique_ptr<ReplayWindow>> ReplayWindow::Open(const ViewSettings& settings, const road::World& world,
+                                                               SurfaceKind kind) {
   auto screen = Screen::Open(kind, settings, world, true, ReplayHelp());
   if (!screen) return screen.error();
   return std::unique_ptr<ReplayWindow>(new ReplayWindow(std::move(screen).value()));
 }
 
-base::Status ReplayWindow::Watch(scene::Player& player, const std::vector<ReplayMark>& marks, const MomentAt& moment_at, const std::function<bool()>& stop) {
+base::Status ReplayWindow::Watch(scene::Player& player, const std::vector<ReplayMark>& marks, const MomentAt& moment_at,
+                                 const std::function<bool()>& stop) {
   std::vector<std::int64_t> marks_ns;
   for (const ReplayMark& mark : marks) marks_ns.push_back(mark.time_ns);
   double looked_s = launch::WallSeconds();
@@ -102,7 +104,8 @@ void ReplayWindow::Take(const SDL_Event& event, scene::Player& player, const std
       }
       break;
     case SDL_MOUSEBUTTONDOWN:
-      drags_ = event.button.button == SDL_BUTTON_LEFT && TimelinePlace::Holds(screen_->surface().height_px() - 1 - event.button.y);
+      drags_ = event.button.button == SDL_BUTTON_LEFT;
+      drags_ = drags_ && TimelinePlace::Holds(screen_->surface().height_px() - 1 - event.button.y);
       if (drags_) Drag(event.button.x, player);
       break;
     case SDL_MOUSEMOTION:

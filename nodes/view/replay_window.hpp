@@ -25,11 +25,13 @@ class ReplayWindow {
   using MomentAt = std::function<base::Result<scene::Moment>(std::int64_t time_ns)>;
 
   // The world must outlive it. Wrong input where a display or OpenGL is missing. `kind`: off-screen for tests.
-  static base::Result<std::unique_ptr<ReplayWindow>> Open(const ViewSettings& settings, const road::World& world, SurfaceKind kind = SurfaceKind::kWindow);
+  static base::Result<std::unique_ptr<ReplayWindow>> Open(const ViewSettings& settings, const road::World& world,
+                                                          SurfaceKind kind = SurfaceKind::kWindow);
 
   // Until the person closes the window, or `stop` (asked between two pictures) says so. The first error of `moment_at` is
   // its answer. `marks` ascend.
-  base::Status Watch(scene::Player& player, const std::vector<ReplayMark>& marks, const MomentAt& moment_at, const std::function<bool()>& stop);
+  base::Status Watch(scene::Player& player, const std::vector<ReplayMark>& marks, const MomentAt& moment_at,
+                     const std::function<bool()>& stop);
 
  private:
   explicit ReplayWindow(std::unique_ptr<Screen> screen) : screen_(std::move(screen)) {}
@@ -42,7 +44,7 @@ class ReplayWindow {
   bool drags_ = false;  // the mouse holds the bar
 };
 
-// What the bar shows of a player: "0:05.42 / 1:30.00  x 2  backward", and the mark within a second.
+// What the bar shows of a player: "0:05.42 / 1:30.00   x -2  paused" (backward), and the mark within a second.
 Timeline TimelineOf(const scene::Player& player, const std::vector<ReplayMark>& marks);
 
 }  // namespace rodeira::view

@@ -34,7 +34,8 @@ std::string WindowHelp() {
   return text;
 }
 
-base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world, bool resizable, std::string help) {
+base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
+                                                   bool resizable, std::string help) {
   const std::string title = world.name().empty() ? "Rodeira" : fmt::format("Rodeira: {}", world.name());
   auto surface = Surface::Open(kind, settings.width_px, settings.height_px, title, resizable);
   if (!surface) return surface.error();
@@ -53,7 +54,9 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
 
 bool Screen::TakeKey(int symbol, bool driven) {
   switch (symbol) {
-    case SDLK_k: live_.camera = live_.camera == scene::CameraKind::kChase ? scene::CameraKind::kDriver : scene::CameraKind::kChase; return true;
+    case SDLK_k:
+      live_.camera = live_.camera == scene::CameraKind::kChase ? scene::CameraKind::kDriver : scene::CameraKind::kChase;
+      return true;
     case SDLK_TAB: ++live_.followed; return true;
     case SDLK_h: help_ = !help_; return true;
     case SDLK_F3: statistics_ = !statistics_; return true;
@@ -73,7 +76,8 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
   if (live_.followed >= live_.moment.cars.size()) live_.followed = 0;
   live_.text = help_ ? help_text_ : "";
   if (statistics_) {
-    live_.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", help_ ? "\n\n" : "", 1.0 / interval_s_, frame_s_ * 1e3, rate, surface_->renderer());
+    live_.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", help_ ? "\n\n" : "", 1.0 / interval_s_,
+                              frame_s_ * 1e3, rate, surface_->renderer());
   }
   painter_->Draw(live_);
   surface_->Swap();

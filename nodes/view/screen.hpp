@@ -15,7 +15,8 @@ class Screen {
  public:
   // Everything is loaded and drawn once. `resizable`: of a window; frames are never read from one that is.
   // `help`: what h shows. The world must outlive it. Wrong input as Surface::Open.
-  static base::Result<std::unique_ptr<Screen>> Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world, bool resizable, std::string help);
+  static base::Result<std::unique_ptr<Screen>> Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
+                                                    bool resizable, std::string help);
 
   Surface& surface() { return *surface_; }
   Painter& painter() { return *painter_; }

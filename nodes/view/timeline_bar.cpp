@@ -5,9 +5,10 @@
 namespace rodeira::view {
 namespace {
 
-constexpr float kText_px = 19.0F;
+constexpr float kText_px = 17.0F;
 constexpr float kTextLow_px = 34.0F;
-constexpr float kKeysFrom_px = 760.0F;  // narrower pictures have no room for them
+constexpr float kNoteHeight_px = 32.0F;  // of the box over the bar
+constexpr float kKeysFrom_px = 860.0F;   // narrower pictures have no room for them
 
 }  // namespace
 
@@ -23,7 +24,7 @@ TimelineBar::TimelineBar(osg::Group& overlay)
       marks_(overlay, {0.98F, 0.80F, 0.22F, 1.0F}, 4),
       knob_(overlay, {0.98F, 0.98F, 0.98F, 1.0F}, 5) {
   where_ = AddText(overlay, kText_px, osgText::TextBase::LEFT_BASE_LINE);
-  note_ = AddText(overlay, kText_px, osgText::TextBase::CENTER_BASE_LINE);
+  note_ = AddText(overlay, 20.0F, osgText::TextBase::LEFT_BASE_LINE);
   note_->setColor({0.98F, 0.80F, 0.22F, 1.0F});
   keys_ = AddText(overlay, kText_px, osgText::TextBase::RIGHT_BASE_LINE);
   keys_->setColor({0.75F, 0.78F, 0.82F, 1.0F});
@@ -37,18 +38,24 @@ void TimelineBar::Show(const std::optional<Timeline>& timeline, int width_px) {
   }
   const TimelinePlace place(width_px);
   const float low = TimelinePlace::kTrackLow_px, high = TimelinePlace::kTrackHigh_px, now = place.XOf(timeline->share);
-  ground_.Set({{0.0F, 0.0F, place.width, TimelinePlace::kHeight_px}});
   track_.Set({{place.XOf(0.0), low, place.XOf(1.0), high}});
   done_.Set({{place.XOf(0.0), low, now, high}});
   std::vector<Boxes::Box> marks;
-  for (const double share : timeline->marks) marks.push_back({place.XOf(share) - 1.5F, low - 4.0F, place.XOf(share) + 1.5F, high + 4.0F});
+  for (const double share : timeline->marks)
+    marks.push_back({place.XOf(share) - 1.5F, low - 4.0F, place.XOf(share) + 1.5F, high + 4.0F});
   marks_.Set(marks);
   knob_.Set({{now - 4.0F, low - 5.0F, now + 4.0F, high + 5.0F}});
   where_->setText(timeline->where);
   where_->setPosition({place.XOf(0.0), kTextLow_px, 0.0F});
   note_->setText(timeline->note, osgText::String::ENCODING_UTF8);
-  note_->setPosition({place.XOf(0.5), kTextLow_px, 0.0F});
-  keys_->setText(timeline->note.empty() && place.width >= kKeysFrom_px ? timeline->keys : "");
+  note_->setPosition({place.XOf(0.0), TimelinePlace::kHeight_px + 9.0F, 0.0F});
+  std::vector<Boxes::Box> ground = {{0.0F, 0.0F, place.width, TimelinePlace::kHeight_px}};
+  if (!timeline->note.empty()) {
+    ground.push_back({0.0F, TimelinePlace::kHeight_px, note_->getBoundingBox().xMax() + TimelinePlace::kMargin_px,
+                      TimelinePlace::kHeight_px + kNoteHeight_px});
+  }
+  ground_.Set(ground);
+  keys_->setText(place.width >= kKeysFrom_px ? timeline->keys : "");
   keys_->setPosition({place.XOf(1.0), kTextLow_px, 0.0F});
 }
 
