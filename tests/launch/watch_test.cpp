@@ -221,12 +221,13 @@ TEST_F(WatchTest, OnlyWhatSomebodyMarkedIsOnTheBar) {
 TEST_F(WatchTest, TheDemosFramesComeOutOfItsRecordingPixelByPixel) {
   if (!view::Surface::Open(view::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
   const auto run = RunCommand({"DISPLAY=", "WAYLAND_DISPLAY=", Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--in-process",
-                               "--record", Path("demo.mcap"), "--set", "nodes.view.config.frames.folder=" + Path("live")});
+                               "--record", Path("demo.mcap"), "--set", "nodes.view.config.frames.folder=" + Path("live"), "--set",
+                               "nodes.view.config.frames.times_s=[5, 12, 12.013, 20, 30]"});  // and one between two activations
   ASSERT_EQ(run.status, 0) << run.out;
-  const auto replay = Replay({Path("demo.mcap"), "--frames", Path("again"), "--at", "30", "5", "12", "20"});
+  const auto replay = Replay({Path("demo.mcap"), "--frames", Path("again"), "--at", "30", "5", "12.013", "12", "20"});
   ASSERT_EQ(replay.status, 0) << replay.out;
   EXPECT_EQ(replay.out, "");
-  for (const Step step : {5'000, 12'000, 20'000, 30'000}) {
+  for (const Step step : {5'000, 12'000, 12'013, 20'000, 30'000}) {
     const auto live = base::ReadBytes(folder_.path() / "live" / view::FrameName(step)),
                again = base::ReadBytes(folder_.path() / "again" / view::FrameName(step));
     ASSERT_TRUE(live.ok() && again.ok()) << step;
