@@ -22,8 +22,9 @@ base::Result<std::vector<std::optional<Sample>>> Tape::At(lockstep::Step step) {
   for (const lockstep::SourceIndex source : sources_) {
     auto sample = Newest(source, std::min(step, run_.last_step()));
     if (!sample) {
-      const base::Error& error = sample.error();
-      return base::Error{error.code, error.Text(), error.context.empty() ? run_.path().string() : ""};
+      base::Error error = sample.error();
+      if (error.context.empty()) error.context = run_.path().string();
+      return error;
     }
     samples.push_back(std::move(sample).value());
   }

@@ -59,6 +59,7 @@ base::Status ReplayWindow::Watch(scene::Player& player, const std::vector<Replay
                                  const std::function<bool()>& stop) {
   std::vector<std::int64_t> marks_ns;
   for (const ReplayMark& mark : marks) marks_ns.push_back(mark.time_ns);
+  base::Status problem;
   double looked_s = launch::WallSeconds();
   bool changed = true;
   while (!stop()) {
@@ -76,12 +77,19 @@ base::Status ReplayWindow::Watch(scene::Player& player, const std::vector<Replay
     }
     changed = false;
     auto moment = moment_at(player.now_ns());
-    if (!moment) return moment.error();
-    screen_->Show(std::move(moment).value(), player.speed(), TimelineOf(player, marks));
+    if (!moment) player.Pause();
+    Timeline timeline = TimelineOf(player, marks);
+    if (moment) {
+      shown_ = std::move(moment).value();
+    } else {
+      timeline.note = moment.error().message;
+      if (problem.ok()) problem = moment.error();
+    }
+    screen_->Show(shown_, player.speed(), std::move(timeline));
     const double rest_s = 1.0 / kLongestRate_Hz - (launch::WallSeconds() - now_s);
     if (rest_s > 0.0) SDL_Delay(static_cast<Uint32>(rest_s * 1e3));  // where the display does not hold us back
   }
-  return {};
+  return problem;
 }
 
 // Whether anything came.

@@ -28,8 +28,9 @@ class ReplayWindow {
   static base::Result<std::unique_ptr<ReplayWindow>> Open(const ViewSettings& settings, const road::World& world,
                                                           SurfaceKind kind = SurfaceKind::kWindow);
 
-  // Until the person closes the window, or `stop` (asked between two pictures) says so. The first error of `moment_at` is
-  // its answer. `marks` ascend.
+  // Until the person closes the window, or `stop` (asked between two pictures) says so. Where `moment_at` has an error the
+  // player stands still, the picture stays and the bar says why; one can go elsewhere. The first such error is the answer.
+  // `marks` ascend.
   base::Status Watch(scene::Player& player, const std::vector<ReplayMark>& marks, const MomentAt& moment_at,
                      const std::function<bool()>& stop);
 
@@ -40,6 +41,7 @@ class ReplayWindow {
   void Drag(int x_px, scene::Player& player);
 
   std::unique_ptr<Screen> screen_;
+  scene::Moment shown_;
   bool open_ = true;
   bool drags_ = false;  // the mouse holds the bar
 };

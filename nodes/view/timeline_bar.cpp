@@ -7,8 +7,9 @@ namespace {
 
 constexpr float kText_px = 17.0F;
 constexpr float kTextLow_px = 34.0F;
-constexpr float kNoteHeight_px = 32.0F;  // of the box over the bar
-constexpr float kKeysFrom_px = 860.0F;   // narrower pictures have no room for them
+constexpr float kNoteGap_px = 7.0F;        // around the text over the bar
+constexpr float kInstruments_px = 260.0F;  // to the right of it
+constexpr float kKeysFrom_px = 860.0F;     // narrower pictures have no room for them
 
 }  // namespace
 
@@ -24,7 +25,7 @@ TimelineBar::TimelineBar(osg::Group& overlay)
       marks_(overlay, {0.98F, 0.80F, 0.22F, 1.0F}, 4),
       knob_(overlay, {0.98F, 0.98F, 0.98F, 1.0F}, 5) {
   where_ = AddText(overlay, kText_px, osgText::TextBase::LEFT_BASE_LINE);
-  note_ = AddText(overlay, 20.0F, osgText::TextBase::LEFT_BASE_LINE);
+  note_ = AddText(overlay, 20.0F, osgText::TextBase::LEFT_BOTTOM);
   note_->setColor({0.98F, 0.80F, 0.22F, 1.0F});
   keys_ = AddText(overlay, kText_px, osgText::TextBase::RIGHT_BASE_LINE);
   keys_->setColor({0.75F, 0.78F, 0.82F, 1.0F});
@@ -48,11 +49,12 @@ void TimelineBar::Show(const std::optional<Timeline>& timeline, int width_px) {
   where_->setText(timeline->where);
   where_->setPosition({place.XOf(0.0), kTextLow_px, 0.0F});
   note_->setText(timeline->note, osgText::String::ENCODING_UTF8);
-  note_->setPosition({place.XOf(0.0), TimelinePlace::kHeight_px + 9.0F, 0.0F});
+  note_->setMaximumWidth(std::max(200.0F, place.width - 2.0F * TimelinePlace::kMargin_px - kInstruments_px));
+  note_->setPosition({place.XOf(0.0), TimelinePlace::kHeight_px + kNoteGap_px, 0.0F});
   std::vector<Boxes::Box> ground = {{0.0F, 0.0F, place.width, TimelinePlace::kHeight_px}};
   if (!timeline->note.empty()) {
-    ground.push_back({0.0F, TimelinePlace::kHeight_px, note_->getBoundingBox().xMax() + TimelinePlace::kMargin_px,
-                      TimelinePlace::kHeight_px + kNoteHeight_px});
+    const osg::BoundingBox note = note_->getBoundingBox();
+    ground.push_back({0.0F, TimelinePlace::kHeight_px, note.xMax() + TimelinePlace::kMargin_px, note.yMax() + kNoteGap_px});
   }
   ground_.Set(ground);
   keys_->setText(place.width >= kKeysFrom_px ? timeline->keys : "");

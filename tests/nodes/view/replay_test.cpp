@@ -173,16 +173,37 @@ TEST(ReplayWindow, AnswersWhileItStands) {
   EXPECT_EQ(shown_ns, 10 * kS);
 }
 
-TEST(ReplayWindow, AnErrorOfTheFileEndsIt) {
+// A damaged place holds the player; who goes past it sees the rest, and the error is told at the end.
+TEST(ReplayWindow, StandsStillWhereTheFileIsDamaged) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml");
   auto window = ReplayWindow::Open({}, *world.value(), SurfaceKind::kOffscreen);
   ASSERT_TRUE(window.ok()) << window.error().Text();
-  scene::Player player(kS, 20 * kMs);
-  const auto status = window.value()->Watch(
-      player, {}, [](std::int64_t) { return base::Result<scene::Moment>(base::WrongInput("damaged")); }, [] { return false; });
+  scene::Player player(10 * kS, 20 * kMs);
+  player.Seek(5 * kS);
+  std::vector<std::int64_t> shown;
+  const auto moment_at = [&](std::int64_t time_ns) -> base::Result<scene::Moment> {
+    if (time_ns >= 5 * kS && time_ns < 6 * kS) return base::WrongInput("5 s to 6 s are damaged");
+    shown.push_back(time_ns);
+    scene::Moment moment;
+    moment.time_ns = time_ns;
+    return moment;
+  };
+  int asked = 0;
+  bool held = false;
+  const auto stop = [&] {
+    if (asked == 1) held = player.paused();  // it was told to play
+    SDL_Event event{};
+    event.type = SDL_KEYDOWN;
+    event.key.keysym.sym = asked == 1 ? SDLK_9 : SDLK_ESCAPE;
+    if (asked > 0) SDL_PushEvent(&event);
+    return ++asked > 10;
+  };
+  const auto status = window.value()->Watch(player, {}, moment_at, stop);
+  EXPECT_TRUE(held);
+  EXPECT_EQ(shown, std::vector<std::int64_t>{9 * kS});
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().Text(), "damaged");
+  EXPECT_EQ(status.error().Text(), "5 s to 6 s are damaged");
 }
 
 }  // namespace
