@@ -20,11 +20,14 @@
 #include "common/hands/wheel_driver.hpp"
 #include "common/launch/lab.hpp"
 #include "common/launch/launch.hpp"
+#include "common/map/lane_map.hpp"
+#include "common/map/map_plot.hpp"
 #include "common/multibody/mechanism.hpp"
 #include "common/road/world.hpp"
 #include "common/scenario/scenario_file.hpp"
 #include "common/vehicle/vehicle_model.hpp"
 #include "nodes/input/script_source.hpp"
+#include "tests/common/map/sample_map.hpp"
 #include "tests/common/road/sample_world.hpp"
 #include "tests/common/vehicle/test_ground.hpp"
 #include "tests/property/mutate.hpp"
@@ -291,6 +294,41 @@ TEST(TextFiles, Scenarios) {
       EXPECT_NE(scenario::FindEventKind(event.event.name), nullptr) << event.event.name;
       before = event.step;
     }
+    return std::nullopt;
+  });
+}
+
+// What is read comes back to the byte; what the check finds no error in can be driven along and drawn.
+TEST(TextFiles, Maps) {
+  Fuzz("motors", {map::Figure18(), map::AppendixA15(), map::GoodMap(), map::GoodMap(), GoodFile("configs/maps/roundabout.motors")}, [](const std::string& text) -> std::optional<base::Error> {
+    const auto file = map::ParseMap(text, "fuzz.motors");
+    if (!file) return file.error();
+    EXPECT_EQ(map::WriteMap(file.value()), text);
+    bool errors = false;
+    for (const map::Finding& finding : map::CheckMap(file.value(), {})) {
+      errors = errors || finding.severity == map::Severity::kError;
+      EXPECT_FALSE(finding.Text().empty());
+      EXPECT_TRUE(finding.element == map::Element::kMap || finding.line > 0) << finding.Text();
+    }
+    const auto made = map::MakeLaneMap(file.value(), {}, "fuzz.motors");
+    EXPECT_EQ(made.ok(), !errors);
+    if (!made) return std::nullopt;
+    for (const map::MapLane& lane : made.value().lanes) {
+      for (const double share : {0.0, 0.3, 1.0}) {
+        const map::LanePoint at = lane.shape.At(share * lane.shape.length_m());
+        EXPECT_TRUE(at.p_W.allFinite() && std::isfinite(at.width_m()) && std::isfinite(at.curvature_1pm));
+      }
+    }
+    EXPECT_FALSE(map::PlotMap(made.value()).empty());
+    return std::nullopt;
+  });
+}
+
+TEST(TextFiles, MapHeights) {
+  Fuzz("heights", {GoodFile("configs/maps/overpass.motors.yaml"), "rodeira: motors/1\nheights_m: {1: [0, 1, 2, 3], -4: [0, 0, 0, 1]}\n"}, [](const std::string& text) -> std::optional<base::Error> {
+    const auto heights = map::ParseHeights(text, "fuzz.motors.yaml");
+    if (!heights) return heights.error();
+    for (const auto& one : heights.value().curves) EXPECT_EQ(heights.value().Of(one.curve), one.z_m);
     return std::nullopt;
   });
 }

@@ -1,0 +1,38 @@
+#include "common/map/check.hpp"
+
+#include <fmt/format.h>
+
+#include "common/map/check_rules.hpp"
+
+namespace rodeira::map {
+namespace {
+
+std::string NameOf(const Finding& finding) {
+  switch (finding.element) {
+    case Element::kCurve: return fmt::format("curve {}", finding.number);
+    case Element::kLane: return fmt::format("lane {}", finding.number);
+    case Element::kConnection: return fmt::format("connection {} to {}", finding.number, finding.to);
+    case Element::kHeights: return fmt::format("heights of curve {}", finding.number);
+    case Element::kMap: break;
+  }
+  return "map";
+}
+
+}  // namespace
+
+std::string Finding::Text() const { return NameOf(*this) + ": " + sentence; }
+
+std::string Finding::Place(const std::string& file) const {
+  const std::string name = element == Element::kHeights ? file + ".yaml" : file;
+  return line == 0 ? name : fmt::format("{}:{}", name, line);
+}
+
+std::vector<Finding> CheckMap(const MapFile& map, const Heights& heights) {
+  Findings findings;
+  CheckNumbers(map, heights, findings);
+  CheckWays(map, findings);
+  CheckShapes(map, heights, findings);
+  return findings.all();
+}
+
+}  // namespace rodeira::map

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/result.hpp"
+
+namespace rodeira::map {
+
+// Elevation of a curve: z at its four control points, m; between them z(t) is the cubic with the plan's own parameter.
+struct CurveHeights {
+  std::int32_t curve = 0;
+  std::array<double, 4> z_m{};
+  std::size_t line = 0;  // of the file
+};
+
+// What a `.motors` file has no place for: the companion FILE.motors.yaml beside it. Curves that it does not name lie at 0.
+struct Heights {
+  std::vector<CurveHeights> curves;  // by ascending number, each once
+
+  std::array<double, 4> Of(std::int32_t curve) const;
+};
+
+base::Result<Heights> ParseHeights(std::string_view text, const std::filesystem::path& name);
+// The companion of a map; none of it where there is no such file.
+base::Result<Heights> LoadHeightsOf(const std::filesystem::path& map_file);
+
+}  // namespace rodeira::map

@@ -1,0 +1,55 @@
+#include "common/map/picture.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace rodeira::map {
+namespace {
+
+// Big-endian; the caller has seen that the bytes are there.
+std::uint32_t Number(std::string_view bytes, std::size_t at, std::size_t size) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < size; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
+std::optional<PictureInfo> Sized(std::string_view kind, std::uint32_t width, std::uint32_t height) {
+  constexpr std::uint32_t kMost = 0x7FFFFFFF;
+  if (width == 0 || height == 0 || width > kMost || height > kMost) return std::nullopt;
+  return PictureInfo{kind, static_cast<int>(width), static_cast<int>(height)};
+}
+
+// Segments one after the other up to the frame header SOF0 to SOF15; C4, C8 and CC among those codes are other segments.
+std::optional<PictureInfo> ReadJpeg(std::string_view bytes) {
+  for (std::size_t at = 2; at + 4 <= bytes.size();) {
+    if (Number(bytes, at, 1) != 0xFF) return std::nullopt;
+    const std::uint32_t code = Number(bytes, at + 1, 1);
+    if (code == 0xFF) {  // fill
+      ++at;
+      continue;
+    }
+    if (code >= 0xC0 && code <= 0xCF && code != 0xC4 && code != 0xC8 && code != 0xCC) {
+      if (at + 9 > bytes.size()) return std::nullopt;
+      return Sized("JPEG", Number(bytes, at + 7, 2), Number(bytes, at + 5, 2));
+    }
+    if (code == 0xD9 || code == 0xDA) return std::nullopt;
+    const std::uint32_t length = Number(bytes, at + 2, 2);
+    if (length < 2) return std::nullopt;
+    at += 2 + length;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<PictureInfo> ReadPictureInfo(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  if (bytes.starts_with("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR"sv)) {
+    if (bytes.size() < 24) return std::nullopt;
+    return Sized("PNG", Number(bytes, 16, 4), Number(bytes, 20, 4));
+  }
+  if (bytes.starts_with("\xff\xd8\xff"sv)) return ReadJpeg(bytes);
+  return std::nullopt;
+}
+
+}  // namespace rodeira::map
