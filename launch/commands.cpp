@@ -12,6 +12,7 @@
 #include "launch/export_command.hpp"
 #include "launch/info_command.hpp"
 #include "launch/joysticks_command.hpp"
+#include "launch/map_command.hpp"
 #include "launch/mechanism_command.hpp"
 #include "launch/repair_command.hpp"
 #include "launch/replay_command.hpp"
@@ -92,6 +93,18 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
     }
     if (std::string(name) == "build") command->add_option("--out", options.out, "folder")->required();
     if (std::string(name) == "info") command->add_option("--svg", options.svg, "draw the plan into this file");
+    command->callback([&options, name] { options.command = name; });
+  }
+}
+
+void AddMap(CLI::App& app, MapOptions& options) {
+  CLI::App* map = app.add_subcommand("map", "traffic maps (.motors): check and convert them");
+  map->require_subcommand(1);
+  for (const auto& [name, text] : {std::pair("check", "name everything that is wrong, and what the map holds"),
+                                   std::pair("convert", "draw it (.svg) or write it as OpenDRIVE (.xodr)")}) {
+    CLI::App* command = map->add_subcommand(name, text);
+    command->add_option("FILE.motors", options.file, "map")->required();
+    if (std::string(name) == "convert") command->add_option("-o,--out", options.out, "file to write: OUT.svg or OUT.xodr")->required();
     command->callback([&options, name] { options.command = name; });
   }
 }
@@ -180,6 +193,8 @@ int Main(int argc, char** argv) {
   AddRun(app, run, sets);
   WorldOptions world;
   AddWorld(app, world);
+  MapOptions map;
+  AddMap(app, map);
   MechanismOptions mechanism;
   AddMechanism(app, mechanism);
   DoctorOptions doctor;
@@ -199,6 +214,7 @@ int Main(int argc, char** argv) {
     return app.exit(problem) == 0 ? 0 : 2;
   }
   if (!world.command.empty()) return World(world);
+  if (!map.command.empty()) return MapCommand(map);
   if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);

@@ -37,7 +37,11 @@ std::string With(const std::string& what, const std::string& instead) {
 }
 std::string And(const std::string& lines) { return kGoodLines + lines + "s,10\ni\n"; }
 
-TEST(Check, NothingIsWrong) { EXPECT_THAT(Found(GoodMap()), IsEmpty()); }
+TEST(Check, NothingIsWrong) {
+  EXPECT_THAT(Found(GoodMap()), IsEmpty());
+  EXPECT_THAT(Found(Figure18()), IsEmpty());
+  EXPECT_THAT(Found(AppendixA15()), IsEmpty());
+}
 
 TEST(Check, NumbersTwice) {
   EXPECT_THAT(Found(And("p,3,0,0,0,1,0,0,2,0,0,3,0,0\n")), ElementsAre("E x.motors:12 curve 3: its number is taken already, in line 3"));
@@ -106,7 +110,7 @@ TEST(Check, Joints) {
 
 TEST(Check, Picture) {
   EXPECT_THAT(Found(GoodMap() + kPng2x1), IsEmpty());
-  EXPECT_THAT(Found(GoodMap() + std::string("\xff\xd8\xff\xe0\0\x04xy\xff\xc0\0\x0b\x08\0\x10\0\x20\x01", 19)), IsEmpty());
+  EXPECT_THAT(Found(GoodMap() + "\xff\xd8\xff\xe0\0\x04xy\xff\xc0\0\x0b\x08\0\x10\0\x20\x01"s), IsEmpty());
   EXPECT_THAT(Found(GoodMap() + "GIF89a"), ElementsAre("W x.motors map: the 6 bytes behind the line 'i' are no PNG or JPEG picture"));
   EXPECT_THAT(Found(GoodMap() + kPng2x1.substr(0, 20)), ElementsAre("W x.motors map: the 20 bytes behind the line 'i' are no PNG or JPEG picture"));
   std::string huge = GoodMap() + kPng2x1;

@@ -40,28 +40,28 @@ std::string PictureAsA17(const std::string& bytes) { return bytes.substr(bytes.f
 
 TEST(MapFile, Figure18IsReadAsPrinted) {
   const MapFile map = Read(Figure18());
-  ASSERT_EQ(map.curves.size(), 8u);
+  ASSERT_EQ(map.curves.size(), 12u);
   EXPECT_EQ(map.curves[0].value.id, 1);
   EXPECT_EQ(map.curves[0].value.points[0], (ControlPoint{63.5616f, 14.70026f, 2.129805f}));
-  EXPECT_EQ(map.curves[5].value.id, 15);
-  EXPECT_EQ(map.curves[5].value.points[0], (ControlPoint{10.66854f, 14.70026f, -18.65211f}));
-  EXPECT_EQ(map.curves[5].value.points[3], (ControlPoint{10.66854f, 14.70026f, -80.125f}));
-  ASSERT_EQ(map.lanes.size(), 4u);
+  EXPECT_EQ(map.curves[11].value.id, 15);
+  EXPECT_EQ(map.curves[11].value.points[0], (ControlPoint{10.66854f, 14.70026f, -18.65211f}));
+  EXPECT_EQ(map.curves[11].value.points[3], (ControlPoint{10.66854f, 14.70026f, -80.125f}));
+  ASSERT_EQ(map.lanes.size(), 6u);
   EXPECT_EQ(map.lanes[0].value, (Lane{1, {1, false, BorderType::kBoundary}, {2, false, BorderType::kDashedSame}, LaneMode::kStart}));
-  EXPECT_EQ(map.lanes[2].value, (Lane{4, {16, true, BorderType::kNone}, {17, true, BorderType::kNone}, LaneMode::kNone}));
-  EXPECT_EQ(map.lanes[3].value, (Lane{8, {15, false, BorderType::kBoundary}, {14, false, BorderType::kBoundary}, LaneMode::kEnd}));
-  ASSERT_EQ(map.connections.size(), 3u);
+  EXPECT_EQ(map.lanes[3].value, (Lane{4, {5, true, BorderType::kNone}, {6, true, BorderType::kNone}, LaneMode::kNone}));
+  EXPECT_EQ(map.lanes[5].value, (Lane{8, {15, false, BorderType::kBoundary}, {14, false, BorderType::kBoundary}, LaneMode::kEnd}));
+  ASSERT_EQ(map.connections.size(), 4u);
   EXPECT_EQ(map.connections[0].value, (Connection{1, 4, false, {0.0f, 0.0f, 0.0f}}));
-  EXPECT_EQ(map.connections[2].value, (Connection{6, 3, false, {0.0f, 0.0f, 0.0f}}));
+  EXPECT_EQ(map.connections[3].value, (Connection{6, 3, false, {0.0f, 0.0f, 0.0f}}));
   EXPECT_EQ(map.scale.value.value, 10.0f);
   EXPECT_EQ(map.picture, kPng2x1);
-  EXPECT_EQ(map.lanes[3].number, 12u);
+  EXPECT_EQ(map.lanes[5].number, 18u);
 }
 
 TEST(MapFile, AppendixA15HasFourFieldsAConnection) {
   const MapFile map = Read(AppendixA15());
-  ASSERT_EQ(map.connections.size(), 2u);
-  EXPECT_EQ(map.connections[1].value, (Connection{1, 4, true, {}}));
+  ASSERT_EQ(map.connections.size(), 4u);
+  EXPECT_EQ(map.connections[1].value, (Connection{2, 4, true, {}}));
 }
 
 TEST(MapFile, UneditedComesBackToTheByte) {
@@ -76,11 +76,11 @@ TEST(MapFile, OnlyEditedLinesChange) {
   MapFile map = Read(bytes);
   map.curves[1].value.points[2].x_m = 0.1f;
   map.connections[0].value.stop = true;
-  EXPECT_EQ(WriteMap(map), With(With(bytes, "30.25,14.70026,-1.5", "0.1,14.70026,-1.5"), "c,1,4,False,0,0,0", "c,1,4,True,0,0,0"));
+  EXPECT_EQ(WriteMap(map), With(With(bytes, "34.5,14.70026,5.7", "0.1,14.70026,5.7"), "c,1,4,False,0,0,0", "c,1,4,True,0,0,0"));
   map = Read(AppendixA15());
   map.connections[0].value.to = 8;  // written anew: as figure 18 has it
   map.scale.value.value = 12.5f;
-  EXPECT_EQ(WriteMap(map), With(With(AppendixA15(), "c,1,3,False\n", "c,1,8,False,0,0,0\n"), "s,10\n", "s,12.5\n"));
+  EXPECT_EQ(WriteMap(map), With(With(AppendixA15(), "c,1,4,False\n", "c,1,8,False,0,0,0\n"), "s,10\n", "s,12.5\n"));
 }
 
 TEST(MapFile, NewLinesStandBehindTheirKind) {

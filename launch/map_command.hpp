@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+namespace rodeira::front {
+
+// `rodeira map check FILE.motors`, `rodeira map convert FILE.motors -o OUT.svg|OUT.xodr`
+struct MapOptions {
+  std::string command;  // empty: another command was given
+  std::string file;
+  std::string out;
+};
+
+// Status 2 where the map has errors; warnings alone are told and hinder nothing.
+int MapCommand(const MapOptions& options);
+
+}  // namespace rodeira::front
