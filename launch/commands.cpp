@@ -16,6 +16,7 @@
 #include "launch/repair_command.hpp"
 #include "launch/replay_command.hpp"
 #include "launch/run_command.hpp"
+#include "launch/surface_command.hpp"
 #include "launch/world_command.hpp"
 
 namespace rodeira::front {
@@ -96,6 +97,15 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
   }
 }
 
+void AddSurface(CLI::App& app, SurfaceOptions& options) {
+  CLI::App* surface = app.add_subcommand("surface", "measured road surfaces, alone");
+  surface->require_subcommand(1);
+  CLI::App* check = surface->add_subcommand("check", "what an OpenCRG file holds, or what is wrong with it");
+  check->add_option("FILE.crg", options.file, "OpenCRG file")->required();
+  check->add_option("--svg", options.svg, "draw plan, heights and tracks into this file");
+  check->callback([&options] { options.command = "check"; });
+}
+
 void AddDoctor(CLI::App& app, DoctorOptions& options) {
   CLI::App* doctor = app.add_subcommand("doctor", "is this PC ready: packages, GL, DDS, ports, shared memory");
   doctor->add_option("--transport", options.transport, "of the DDS loop-back")->check(CLI::IsMember({"shared_memory", "udp"}))->capture_default_str();
@@ -171,6 +181,8 @@ int Main(int argc, char** argv) {
   AddRun(app, run, sets);
   WorldOptions world;
   AddWorld(app, world);
+  SurfaceOptions surface;
+  AddSurface(app, surface);
   MechanismOptions mechanism;
   AddMechanism(app, mechanism);
   DoctorOptions doctor;
@@ -190,6 +202,7 @@ int Main(int argc, char** argv) {
     return app.exit(problem) == 0 ? 0 : 2;
   }
   if (!world.command.empty()) return World(world);
+  if (!surface.command.empty()) return Surface(surface);
   if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);

@@ -23,9 +23,11 @@
 #include "common/multibody/mechanism.hpp"
 #include "common/road/world.hpp"
 #include "common/scenario/scenario_file.hpp"
+#include "common/surface/crg_report.hpp"
 #include "common/vehicle/vehicle_model.hpp"
 #include "nodes/input/script_source.hpp"
 #include "tests/common/road/sample_world.hpp"
+#include "tests/common/surface/made_crg.hpp"
 #include "tests/common/vehicle/test_ground.hpp"
 #include "tests/property/mutate.hpp"
 
@@ -291,6 +293,40 @@ TEST(TextFiles, Scenarios) {
       EXPECT_NE(scenario::FindEventKind(event.event.name), nullptr) << event.event.name;
       before = event.step;
     }
+    return std::nullopt;
+  });
+}
+
+TEST(TextFiles, OpenCrg) {
+  std::vector<std::string> good;
+  for (const char* format : {"LRFI", "LDFI", "KRBI", "KDBI"}) {
+    surface::MadeCrg made;
+    made.format = format;
+    made.rows = 6;
+    made.v = {-1.0, 0.0, 0.5};
+    made.heading = [](double u) { return 0.1 * u; };
+    made.banking = [](double u) { return 0.01 * u; };
+    made.z = [](double u, double v) { return u > 1.0 && v > 0.2 ? std::nan("") : 0.01 * u * v; };
+    made.road_keys = "REFERENCE_LINE_START_X = 3\nREFERENCE_LINE_START_Y = 4\nREFERENCE_LINE_START_S = 0.01\n";
+    made.sections =
+        "$ROAD_CRG_OPTS\nBORDER_MODE_U = 3\nBORDER_MODE_V = 4\nBORDER_SMOOTH_UBEG = 1\nREFLINE_CONTINUATION = 1\n$\n"
+        "$ROAD_CRG_MODS\nSCALE_LENGTH = 2\nSCALE_CURVATURE = 0.5\nGRID_NAN_MODE = 2\nREFPOINT_U_FRACTION = 0.5\nREFPOINT_X = 7\n$\n";
+    good.push_back(made.Text());
+    made.sections.clear();
+    made.counted = true;
+    made.road_keys = "LONG_SECTION_V_RIGHT = -1\nLONG_SECTION_V_INCREMENT = 1\n";
+    good.push_back(made.Text());
+  }
+  Fuzz("OpenCRG", good, [](const std::string& text) -> std::optional<base::Error> {
+    const auto file = surface::ParseCrg(std::as_bytes(std::span(text)), "fuzz.crg");
+    if (!file) return file.error();
+    const surface::CrgSurface& grid = *file.value().surface;
+    for (const double x : {0.0, 3.5, -7.25, 1e4, -1e300}) {
+      const auto ground = grid.Ground(x, 0.3 * x);
+      EXPECT_TRUE(!ground.inside || std::isfinite(ground.z_m + ground.slope_x + ground.slope_y)) << x;
+    }
+    EXPECT_FALSE(surface::DescribeCrg(file.value()).empty());
+    if (text.size() % 16 == 0) EXPECT_EQ(surface::PlotCrg(grid).find("nan"), std::string::npos);  // costs more than all else
     return std::nullopt;
   });
 }
