@@ -64,8 +64,7 @@ base::Status Check(const BtHeader& header) {
     return base::WrongInput("the .bt grid is in degrees; metres or feet were expected (gdalwarp brings it into a projection)");
   }
   if (header.metres_a_unit < 0.0) return base::WrongInput("the .bt header's horizontal unit is none of 0 to 3");
-  const bool finite = std::isfinite(header.left) && std::isfinite(header.right) && std::isfinite(header.bottom) && std::isfinite(header.top);
-  if (!finite || !(header.left < header.right) || !(header.bottom < header.top)) {
+  if (!ExtentsHold(header.left, header.bottom, header.right, header.top, header.columns, header.rows)) {
     return base::WrongInput(fmt::format("the .bt header's extents enclose nothing: left {}, right {}, bottom {}, top {}", header.left,
                                         header.right, header.bottom, header.top));
   }
@@ -76,6 +75,14 @@ base::Status Check(const BtHeader& header) {
 }
 
 }  // namespace
+
+bool ExtentsHold(double west, double south, double east, double north, int columns, int rows) {
+  constexpr double kFarthest = 1e10, kNarrowest = 1e-6;
+  for (const double edge : {west, south, east, north}) {
+    if (!(std::fabs(edge) <= kFarthest)) return false;
+  }
+  return east - west >= kNarrowest * columns && north - south >= kNarrowest * rows;
+}
 
 bool LooksLikeBt(std::span<const std::byte> bytes) { return bytes.size() >= 7 && std::memcmp(bytes.data(), "binterr", 7) == 0; }
 
