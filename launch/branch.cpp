@@ -100,7 +100,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   }
   const launch::Launch& launch = changed.value().launch();
   auto nodes = LocalNodes::Make(launch, [&](NodeIndex n) -> std::unique_ptr<lockstep::Node> {
-    if (IsLive(launch.node(n))) return replay::MakeRecordedNode(parent.value(), n, wish.at);
+    if (launch.node(n).is_live()) return replay::MakeRecordedNode(parent.value(), n, wish.at);
     if (roster.node(n).is_sink() && launch.node(n).kind->name != "recorder") return replay::MakeNullSink();
     return nullptr;
   });
@@ -110,7 +110,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   if (!snapshots) return snapshots.error();
   if (outcome.difference) return outcome;
   for (NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    if (IsLive(launch.node(n))) snapshots.value()[n].state.clear();
+    if (launch.node(n).is_live()) snapshots.value()[n].state.clear();
   }
   auto taken_over = Adapt(roster, nodes.value().nodes(), snapshots.value());
   if (!taken_over) return taken_over.error();

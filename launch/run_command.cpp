@@ -18,7 +18,9 @@
 #include <map>
 #include <optional>
 #include <random>
+#include <set>
 #include <thread>
+#include <utility>
 
 #include "common/launch/pace.hpp"
 #include "launch/in_process_command.hpp"
@@ -125,6 +127,49 @@ class ProcessRun {
     children_.push_back(std::move(child).value());
     return {};
   }
+  // Another life of the clock, which learns from the nodes where the run stands.
+  base::Status RestartClock(const std::string& reason) {
+    if (auto status = MakeSureItIsDead(children_.front()); !status) return status;
+    while (ReadClock(0)) {
+    }
+    pending_.clear();
+    for (const auto& [number, answer] : answers_) answer("failed the clock was lost; ask again");
+    answers_.clear();
+    std::vector<std::string> clock = Command("rodeira-clock");
+    const std::string pace = report_.begun_ns < 0 ? options_.pace : report_.pace > 0.0 ? fmt::format("{}", report_.pace) : "max";
+    clock.insert(clock.end(), {"--listen", "--pace", pace, "--incarnation", std::to_string(++clocks_life_), "--clock-id", std::to_string(report_.clock_id),
+                               "--begun-ns", std::to_string(report_.begun_ns)});
+    if (report_.paused) clock.emplace_back("--paused");
+    if (options_.duration_s) clock.insert(clock.end(), {"--for", fmt::format("{}", *options_.duration_s)});
+    auto child = Child::Start("clock", clock, true);
+    if (!child) return child.error();
+    children_.front() = std::move(child).value();
+    report_.recovered.push_back(reason + "; started again");
+    Tell(report_.recovered.back());
+    return {};
+  }
+  base::Status RestartNode(const RunReport::Restart& wish) {
+    const auto child = std::find_if(children_.begin() + 1, children_.end(), [&](const Child& one) { return one.name() == wish.node; });
+    if (child == children_.end()) return {};  // another host's
+    if (auto status = MakeSureItIsDead(*child); !status) return status;
+    const auto node = std::find_if(launch_.nodes().begin(), launch_.nodes().end(), [&](const launch::LaunchNode& one) { return one.name == wish.node; });
+    std::vector<std::string> command = Command(std::string(node->kind->program));
+    command.insert(command.end(), {"--node", wish.node, "--incarnation", std::to_string(wish.life)});
+    auto started = Child::Start(wish.node, command, false);
+    if (!started) return started.error();
+    *child = std::move(started).value();
+    told_.erase(wish.node);
+    Tell(wish.reason + "; it is started again");
+    return {};
+  }
+  static base::Status MakeSureItIsDead(Child& child) {
+    child.Signal(SIGKILL);
+    for (int i = 0; i < 2000 && !child.ended(); ++i) {
+      child.Poll();
+      if (!child.ended()) ::usleep(1000);
+    }
+    return child.ended() ? base::Status() : base::Failed(fmt::format("process {} of '{}' cannot be ended", child.pid(), child.name()));
+  }
   base::Status StartNodes() {
     nodes_started_ = true;
     for (const launch::LaunchNode& node : launch_.nodes()) {
@@ -146,8 +191,18 @@ class ProcessRun {
       if (report_.met && !nodes_started_) {
         if (auto status = StartNodes(); !status) return status;
       }
+      for (const RunReport::Restart& wish : std::exchange(report_.wanted, {})) {
+        if (auto status = RestartNode(wish); !status) return status;
+      }
+      for (const std::string& reason : std::exchange(report_.paused_by, {})) {
+        Tell(reason + "; the run waits: it goes on when the node does; `rodeira ctl restart NODE` or `rodeira ctl stop` decide otherwise");
+      }
       for (Child& child : children_) child.Poll();
       Child& clock = children_.front();
+      if ((clock.ended() || clock.stopped()) && MayRestartClock()) {
+        if (auto status = RestartClock(fmt::format("the clock {} at about step {}", clock.Fate(), report_.step)); !status) return status;
+        continue;
+      }
       if (clock.ended()) {
         while (ReadClock(0)) {
         }
@@ -195,17 +250,31 @@ class ProcessRun {
     return !by_itself || WallClock::now() - child.ended_at() > 1s;
   }
   void TellClock(const Child& broken) {
-    if (told_) return;
-    told_ = true;
-    const std::string fault = fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step);
-    Fault(fault);
-    children_.front().Send(placement_.has_clock() ? "fault " + fault : fmt::format("lost {} it {}", broken.name(), broken.Fate()));
+    if (!told_.insert(broken.name()).second) return;
+    const auto node = std::find_if(launch_.nodes().begin(), launch_.nodes().end(), [&](const launch::LaunchNode& one) { return one.name == broken.name(); });
+    if (node->recovery == lockstep::Policy::kStop) Fault(fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step));
+    children_.front().Send(fmt::format("lost {} {}", broken.name(), broken.Fate()));
+  }
+  // A clock that is lost again and again without the run getting on has a reason for it.
+  bool MayRestartClock() {
+    while (ReadClock(0)) {
+    }
+    const Child& clock = children_.front();
+    const bool by_itself = clock.ended() && clock.exit_status() && *clock.exit_status() <= 2;
+    if (by_itself || report_.ended || !fault_.empty() || g_interrupts > 0) return false;
+    if (!placement_.has_clock() || launch_.recovery() != lockstep::Policy::kRestart || report_.clock_id == 0) return false;
+    clocks_losses_ = report_.step > clocks_last_step_ ? 1 : clocks_losses_ + 1;
+    clocks_last_step_ = report_.step;
+    return clocks_losses_ < 4;
   }
   // The first fault is the cause, what follows are its consequences; it is said at once.
   void Fault(const std::string& fault) {
     if (!fault_.empty()) return;
     fault_ = fault;
-    fmt::print(stderr, "{}rodeira: {}\n", shown_ ? "\r\033[K" : "", fault);
+    Tell(fault);
+  }
+  void Tell(const std::string& sentence) {
+    fmt::print(stderr, "{}rodeira: {}\n", shown_ ? "\r\033[K" : "", sentence);
     std::fflush(stderr);
   }
 
@@ -305,7 +374,10 @@ class ProcessRun {
   int passed_on_ = 0;
   std::optional<WallClock::time_point> interrupted_at_;
   bool nodes_started_ = false;
-  bool told_ = false;
+  std::set<std::string> told_;  // nodes of which the clock was told that they are lost
+  std::uint32_t clocks_life_ = 0;
+  std::int64_t clocks_last_step_ = -1;  // where it was lost …
+  int clocks_losses_ = 0;               // … so often
   bool shown_ = false;
   WallClock::time_point start_ = WallClock::now();
 };

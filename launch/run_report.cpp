@@ -26,6 +26,18 @@ T Number(std::string_view line, std::string_view key) {
   return value;
 }
 
+// The first `count` words and the rest of a line, `count` + 1 texts.
+std::vector<std::string> Words(std::string_view line, std::size_t count) {
+  std::vector<std::string> words;
+  while (words.size() < count) {
+    const auto end = std::min(line.find(' '), line.size());
+    words.emplace_back(line.substr(0, end));
+    line.remove_prefix(std::min(end + 1, line.size()));
+  }
+  words.emplace_back(line);
+  return words;
+}
+
 }  // namespace
 
 void RunReport::Take(std::string_view line) {
@@ -34,8 +46,20 @@ void RunReport::Take(std::string_view line) {
     step = Number<std::int64_t>(line, "step");
     wall_s = Number<double>(line, "wall_s");
     paused = Number<int>(line, "paused") != 0;
+    pace = Number<double>(line, "pace");
+    if (const auto begun = Number<std::int64_t>(line, "begun_ns"); begun > 0) begun_ns = begun;
   } else if (line.starts_with("waiting for ")) {
     waiting_for = rest("waiting for ");
+  } else if (line.starts_with("clock ")) {
+    clock_id = Number<std::uint64_t>(line, "id");
+  } else if (line.starts_with("restart ")) {
+    const auto words = Words(line.substr(8), 2);
+    Restart restart{words[0], 0, words[2]};
+    std::from_chars(words[1].data(), words[1].data() + words[1].size(), restart.life);
+    recovered.push_back(restart.reason + "; started again");
+    wanted.push_back(std::move(restart));
+  } else if (line.starts_with("paused ")) {
+    paused_by.push_back(Words(line.substr(7), 1)[1]);
   } else if (line == "met") {
     met = true;
   } else if (line == "ready") {
@@ -81,7 +105,8 @@ std::string RunReport::Table(double base_step_s, const std::string& recording) c
   for (const Node& node : nodes) {
     text += fmt::format("{:<{}}  {:>9}  {:>9.2f}  {:>9.1f}  {:>12}\n", node.name, width, node.steps, node.mean_us, node.worst_us, node.server_calls);
   }
-  if (faults.empty()) text += "faults  none\n";
+  if (faults.empty() && recovered.empty()) text += "faults  none\n";
+  for (const std::string& again : recovered) text += fmt::format("again   {}\n", again);
   for (const std::string& fault : faults) text += fmt::format("fault   {}\n", fault);
   if (ok) text += fmt::format("digest  {}\n", digest);
   std::error_code problem;

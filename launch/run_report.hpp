@@ -25,6 +25,9 @@ struct RunReport {
   double slipped_s = 0.0;
   double paused_s = 0.0;
   bool paused = false;         // now
+  double pace = 0.0;           // now; 0: as fast as it can
+  std::int64_t begun_ns = -1;  // when the first grant was given, on the monotonic clock; -1: not yet
+  std::uint64_t clock_id = 0;
   std::uint64_t paced_steps = 0;  // granted at a pace, and of them those granted a step or more after they were due
   std::uint64_t late_steps = 0;
   double late_mean_s = 0.0;
@@ -33,6 +36,15 @@ struct RunReport {
   std::string waiting_for;     // before ready
   std::vector<std::string> faults;
   std::vector<std::string> remarks;  // refused reports and strangers
+  // What became of lost nodes: the newest that the clock asked for, and all that happened, for people.
+  struct Restart {
+    std::string node;
+    std::uint32_t life = 0;
+    std::string reason;
+  };
+  std::vector<Restart> wanted;       // taken by who starts processes
+  std::vector<std::string> recovered;
+  std::vector<std::string> paused_by;  // sentences
   std::vector<Node> nodes;
 
   // Takes one line; what it does not know it keeps as a remark.

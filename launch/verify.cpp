@@ -10,11 +10,6 @@
 
 namespace rodeira::front {
 
-bool IsLive(const launch::LaunchNode& node) {
-  const auto source = node.config->Peek({"config", "source"});
-  return node.kind->name == "input" && source && (*source == "keyboard" || *source == "joystick");
-}
-
 base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from, const std::function<void(lockstep::Step)>& on_progress) {
   Recomputation wish;
   wish.from = from;
@@ -34,7 +29,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   verdict.first_step = at.value();
   std::vector<bool> trusted(roster.nodes().size(), false);
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    trusted[n] = IsLive(run.launch().node(n));
+    trusted[n] = run.launch().node(n).is_live();
     if (trusted[n]) verdict.substituted.push_back(roster.node(n).name);
     if (!trusted[n] && !roster.node(n).is_sink() && roster.node(n).role == lockstep::Role::kStepped) ++verdict.nodes;
   }

@@ -20,9 +20,6 @@ struct Verdict {
   std::optional<replay::Difference> difference;
 };
 
-// Whether a node's samples came from a person's hands.
-bool IsLive(const launch::LaunchNode& node);
-
 // What is computed again of a recording.
 struct Recomputation {
   lockstep::Step from = 0;       // begins at the snapshot at or before

@@ -33,9 +33,10 @@ namespace topics = idl::topics;
 using WallClock = std::chrono::steady_clock;
 
 NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings)
-    : roster_(roster), mailbox_(mailbox), settings_(settings), kept_(roster, settings.node) {
+    : roster_(roster), mailbox_(mailbox), settings_(settings), listens_(settings.incarnation == 0), kept_(roster, settings.node) {
   last_.node = settings.node;
   last_.incarnation = settings.incarnation;
+  if (settings.keeps_all) archive_.emplace(roster);
 }
 
 base::Result<std::unique_ptr<NodeBus>> NodeBus::Open(Participant& participant, const lockstep::Roster& roster, lockstep::Mailbox& mailbox,
@@ -74,7 +75,14 @@ base::Status NodeBus::Connect(Participant& participant) {
     const std::string_view topic = port.topic;
     if (auto status = add_reader(topic, Delivery::kSaidAgain, [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); }); !status) return status;
   }
-  if (!writers_.empty()) {
+  if (archive_) {
+    for (const lockstep::Port& port : roster_.node(settings_.node).inputs) {
+      auto relay = participant.MakeWriter(port.topic, Delivery::kSaidAgain);
+      if (!relay) return relay.error();
+      relays_.emplace(port.topic, std::move(relay).value());
+    }
+  }
+  if (!writers_.empty() || archive_) {
     if (auto status = add_reader(topics::kAsk, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); }); !status) return status;
   }
   auto questions = participant.MakeWriter(topics::kAsk, Delivery::kSaidAgain);
@@ -113,18 +121,79 @@ void NodeBus::OnAsk(const base::Bytes& payload) {
     again = kept_.From(*gap);
   }
   for (const lockstep::Sample& sample : again) (void)Say(sample);
+  if (archive_) AnswerForOthers(*gap);
+}
+
+void NodeBus::AnswerForOthers(const lockstep::Gap& gap) {
+  std::vector<lockstep::Sample> again;
+  {
+    const std::lock_guard lock(kept_mutex_);
+    again = archive_->From(gap);
+  }
+  for (const lockstep::Sample& sample : again) (void)relays_.find(roster_.source(sample.source()).topic)->second->Write(*sample.payload);
+}
+
+base::Status NodeBus::Remember(const lockstep::Sample& sample) {
+  if (!archive_) return {};
+  const std::lock_guard lock(kept_mutex_);
+  return archive_->Add(sample);
+}
+
+std::optional<lockstep::Grant> NodeBus::AwaitGrant(std::chrono::milliseconds limit) {
+  const auto until = WallClock::now() + limit;
+  std::unique_lock lock(mutex_);
+  while (!heard_ && WallClock::now() < until) woken_.wait_for(lock, std::chrono::milliseconds(10));
+  return heard_ && !heard_->abort ? heard_ : std::nullopt;
+}
+
+std::optional<lockstep::Snapshot> NodeBus::FetchSnapshot(Participant& participant, lockstep::Step step, std::chrono::milliseconds limit) {
+  const lockstep::SourceIndex source = *roster_.node(settings_.node).snapshots;
+  std::mutex mutex;
+  std::condition_variable arrived;
+  std::optional<lockstep::Snapshot> found;
+  auto reader = participant.MakeReader(lockstep::kSnapshotTopic, Delivery::kSaidAgain, [&](base::Bytes&& payload) {
+    if (!lockstep::SampleHeader::HasHeader(payload)) return;
+    const auto header = lockstep::SampleHeader::Read(payload);
+    if (header.source != source || header.step != step) return;
+    auto snapshot = lockstep::Snapshot::FromSample(payload);
+    if (!snapshot || snapshot.value().node != settings_.node) return;
+    const std::lock_guard lock(mutex);
+    found = std::move(snapshot).value();
+    arrived.notify_all();
+  });
+  if (!reader) return std::nullopt;
+  const auto until = WallClock::now() + limit;
+  std::unique_lock lock(mutex);
+  while (!found && WallClock::now() < until && !mailbox_.grant().abort) {
+    lock.unlock();
+    Ask({source, step});
+    lock.lock();
+    arrived.wait_for(lock, std::chrono::milliseconds(10), [&] { return found.has_value(); });
+  }
+  lock.unlock();
+  reader.value().reset();  // its callback uses what lies on this stack
+  return found;
+}
+
+void NodeBus::SetSafe(lockstep::Step safe) {
+  const std::lock_guard lock(mutex_);
+  safe_ = safe;
 }
 
 void NodeBus::Tell(const lockstep::Report& report) {
   NamedReport named;
+  const lockstep::Grant grant = mailbox_.grant();
   {
     const std::lock_guard lock(mutex_);
     last_ = report;
+    last_.safe = safe_;
+    last_.granted = grant.through;
+    last_.granted_final = grant.final;
     named.clock_id = clock_id_;
     named.hello = settings_.hello;
+    named.report = last_;
   }
   named.node = roster_.node(settings_.node).name;
-  named.report = report;
   (void)reports_->Write(EncodeReport(named));  // a lost report is said again by the heartbeat
 }
 
@@ -144,12 +213,15 @@ std::string NodeBus::fault() const {
 }
 
 void NodeBus::OnSample(std::string_view topic, base::Bytes&& payload) {
+  if (!listens_) return;
   if (!lockstep::SampleHeader::HasHeader(payload)) return Abort(fmt::format("topic {}: a sample of {} bytes has no header", topic, payload.size()));
   const auto header = lockstep::SampleHeader::Read(payload);
   if (header.source >= roster_.sources().size() || roster_.source(header.source).topic != topic) {
     return Abort(fmt::format("topic {}: a sample of source number {} was found, which does not publish it", topic, header.source));
   }
-  auto status = mailbox_.Deliver({header, std::make_shared<const base::Bytes>(std::move(payload))});
+  lockstep::Sample sample{header, std::make_shared<const base::Bytes>(std::move(payload))};
+  if (auto status = Remember(sample); !status) return Abort(status.error().Text());
+  auto status = mailbox_.Deliver(std::move(sample));
   if (!status) Abort(status.error().Text());
 }
 
@@ -160,13 +232,17 @@ void NodeBus::OnGrant(base::Bytes&& payload) {
     const std::lock_guard lock(mutex_);
     if (clock_id_ == 0) clock_id_ = grant.value().clock_id;
     if (clock_id_ != grant.value().clock_id) return;  // one clock a run: the first
+    heard_ = grant.value().grant;
     clock_heard_ = WallClock::now();
     if (grant.value().grant.abort && fault_.empty()) fault_ = grant.value().grant.reason;
   }
+  const std::vector<std::uint32_t>& lives = grant.value().grant.lives;
+  if (settings_.node < lives.size() && lives[settings_.node] > settings_.incarnation) return Abort("another process has taken its place");
   mailbox_.DeliverGrant(grant.value().grant);
   {
     const std::lock_guard lock(kept_mutex_);
-    kept_.Granted(grant.value().grant.through);
+    kept_.Granted(grant.value().grant);
+    if (archive_) archive_->Forget(grant.value().grant.resume);
   }
   if (grant.value().grant.over || grant.value().grant.abort) woken_.notify_all();
 }

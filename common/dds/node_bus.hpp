@@ -4,14 +4,17 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "common/dds/participant.hpp"
 #include "common/dds/wire.hpp"
+#include "common/lockstep/archive.hpp"
 #include "common/lockstep/bus.hpp"
 #include "common/lockstep/kept_samples.hpp"
 #include "common/lockstep/mailbox.hpp"
@@ -27,6 +30,7 @@ class NodeBus final : public lockstep::Bus {
     lockstep::NodeIndex node = 0;
     std::uint32_t incarnation = 0;
     Hello hello;
+    bool keeps_all = false;  // a recorder, in a run of which a part may be started again: answers for everybody's samples
     std::chrono::milliseconds heartbeat{25};
     std::chrono::milliseconds clock_silence{3000};  // the clock repeats its grant all the time; silent this long it is gone
   };
@@ -40,6 +44,16 @@ class NodeBus final : public lockstep::Bus {
   // From then on heartbeats carry the runner's report; before, "starting". Null before the runner goes.
   void Follow(const lockstep::Runner* runner);
   void SetWorldHash(base::Digest hash);
+  // Of a recorder: samples valid through it lie in its file. Any thread.
+  void SetSafe(lockstep::Step safe);
+  // The newest grant, waited for; none where the run was aborted or nothing came.
+  std::optional<lockstep::Grant> AwaitGrant(std::chrono::milliseconds limit);
+  // Another life than the first takes samples only from then on: its mailbox must know before where it begins.
+  void Listen() { listens_ = true; }
+  // This node's snapshot at `step`, from whoever keeps it: asked for until it comes; none after `limit` or an abort.
+  std::optional<lockstep::Snapshot> FetchSnapshot(Participant& participant, lockstep::Step step, std::chrono::milliseconds limit);
+  // What a recorder that is started again has in its file already.
+  base::Status Remember(const lockstep::Sample& sample);
   // The node's last word, repeated until the clock says that all is over, at most for `limit`.
   void Linger(const lockstep::Report& last, std::chrono::milliseconds limit);
   // Ctrl-C is left to the clock, which stops everybody at the same step. SIGTERM (the parent has died) aborts this node,
@@ -55,6 +69,7 @@ class NodeBus final : public lockstep::Bus {
   void OnSample(std::string_view topic, base::Bytes&& payload);
   void OnGrant(base::Bytes&& payload);
   void OnAsk(const base::Bytes& payload);
+  void AnswerForOthers(const lockstep::Gap& gap);
   void Abort(std::string reason);
   void Heartbeat();
   std::uint64_t clock_id() const;  // 0 before the clock was heard
@@ -62,14 +77,18 @@ class NodeBus final : public lockstep::Bus {
   const lockstep::Roster& roster_;
   lockstep::Mailbox& mailbox_;
   Settings settings_;
+  std::atomic<bool> listens_;
   std::vector<lockstep::SourceIndex> outputs_;    // with the snapshots
   std::vector<std::unique_ptr<Writer>> writers_;  // one for each of them
   std::unique_ptr<Writer> questions_;
   std::unique_ptr<Writer> reports_;
   std::vector<std::unique_ptr<Reader>> readers_;
 
+  std::map<std::string, std::unique_ptr<Writer>, std::less<>> relays_;  // by topic: where others' samples are said again
+
   std::mutex kept_mutex_;
   lockstep::KeptSamples kept_;
+  std::optional<lockstep::Archive> archive_;
 
   mutable std::mutex mutex_;
   std::condition_variable woken_;
@@ -78,6 +97,8 @@ class NodeBus final : public lockstep::Bus {
   std::uint64_t clock_id_ = 0;
   std::chrono::steady_clock::time_point clock_heard_;
   std::string fault_;
+  std::optional<lockstep::Grant> heard_;
+  lockstep::Step safe_ = -1;
   bool stop_ = false;
   std::thread heartbeat_;
 };

@@ -10,8 +10,8 @@
 
 namespace rodeira::dds {
 
-// The first line "fault TEXT" or "lost NODE TEXT" that the parent writes to standard input: what it sees sooner than any
-// heartbeat, a process of its own that died or was stopped. And all lines "do NUMBER COMMAND": what the operator asks for.
+// What the parent writes to standard input: "lost NODE TEXT", what it sees sooner than any heartbeat, a process of its own that
+// died or was stopped; and "do NUMBER COMMAND", what the operator asks for.
 class ParentsWord {
  public:
   // Once. The thread ends with the process; `this` must live as long.
@@ -22,35 +22,35 @@ class ParentsWord {
         std::string text(line);
         while (!text.empty() && text.back() == '\n') text.pop_back();
         const bool asks = text.starts_with("do ");
-        if (!asks && !text.starts_with("fault ") && !text.starts_with("lost ")) continue;
+        if (!asks && !text.starts_with("lost ")) continue;
         {
           const std::lock_guard lock(mutex_);
           if (asks) asked_.push_back(text.substr(3));
-          if (!asks && word_.empty()) word_ = text;
+          if (!asks) lost_.push_back(text.substr(5));
         }
         on_word();
       }
     }).detach();
   }
-  // Empty as long as there is none.
-  std::string word() const {
+  // "NODE TEXT", each once.
+  std::vector<std::string> TakeLost() {
     const std::lock_guard lock(mutex_);
-    return word_;
+    return std::exchange(lost_, {});
   }
   // "NUMBER COMMAND", each once.
   std::vector<std::string> TakeAsked() {
     const std::lock_guard lock(mutex_);
     return std::exchange(asked_, {});
   }
-  // There is a word, or something asked that was not taken.
+  // There is something that was not taken.
   bool is_waiting() const {
     const std::lock_guard lock(mutex_);
-    return !word_.empty() || !asked_.empty();
+    return !lost_.empty() || !asked_.empty();
   }
 
  private:
   mutable std::mutex mutex_;
-  std::string word_;
+  std::vector<std::string> lost_;
   std::vector<std::string> asked_;
 };
 

@@ -85,6 +85,7 @@ class Receiver final : public launch::RunLogReceiver {
     if (const auto gap = inbox_.Gap()) Ask(*gap);
     return inbox_.Take();
   }
+  void BeginAt(std::uint64_t number) override { inbox_.BeginAt(number); }
   bool AwaitEnd(std::chrono::milliseconds limit) override {
     const auto until = std::chrono::steady_clock::now() + limit;
     while (!inbox_.AwaitEnd(10ms)) {

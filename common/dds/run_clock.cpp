@@ -10,6 +10,8 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "common/base/mathematics.hpp"
 #include "common/base/suggest.hpp"
@@ -25,6 +27,7 @@
 #include "common/launch/command_text.hpp"
 #include "common/lockstep/clock.hpp"
 #include "common/lockstep/conductor.hpp"
+#include "common/lockstep/wait_chain.hpp"
 #include "common/lockstep/watchdog.hpp"
 #include "idl/topics.hpp"
 
@@ -41,9 +44,9 @@ void OnSignal(int) { ++g_signals; }
 class ClockProcess {
  public:
   ClockProcess(const launch::Launch& launch, const ProcessOptions& options)
-      : launch_(launch), roster_(launch.roster()), options_(options), clock_(roster_, LastStep()),
-        conductor_(clock_, lockstep::Pacer(roster_.base_step_ns(), options.pace)),
-        watchdog_(roster_, launch.watchdog()), own_(OwnHello(launch::Agreement(launch))) {
+      : launch_(launch), roster_(launch.roster()), options_(options), clock_(roster_, LastStep(), 0, launch.policies()),
+        conductor_(clock_, lockstep::Pacer(roster_.base_step_ns(), options.pace), options.incarnation),
+        watchdog_(roster_, launch.watchdog()), own_(OwnHello(launch::Agreement(launch))), clock_id_(options.clock_id) {
     std::random_device device;
     while (clock_id_ == 0) clock_id_ = (static_cast<std::uint64_t>(device()) << 32) | device();
   }
@@ -55,9 +58,11 @@ class ClockProcess {
     if (!participant) return Complain(participant.error());
     participant_ = std::move(participant).value();
     if (auto status = Connect(*participant_); !status) return Complain(status.error());
+    Say("clock id={} life={}", clock_id_, options_.incarnation);
     Say("starting {} nodes", roster_.nodes().size());
     if (options_.listen) parents_.Listen([this] { woken_.notify_one(); });
     start_ = WallClock::now();
+    if (options_.incarnation > 0) GoOn();
     return Loop();
   }
 
@@ -85,7 +90,7 @@ class ClockProcess {
     });
     if (!other) return other.error();
     others_ = std::move(other).value();
-    std::this_thread::sleep_for(300ms);
+    if (options_.incarnation == 0) std::this_thread::sleep_for(300ms);
     if (other_clock_ != 0) return SecondClock();
     auto reports = participant.MakeReader(topics::kReport, Delivery::kSaidAgain, [this](base::Bytes&& bytes) {
       const std::lock_guard lock(mutex_);
@@ -110,10 +115,13 @@ class ClockProcess {
                                         base::Hex(other_clock_)));
   }
 
-  // What `rodeira run` has told us, if anything.
-  std::string Told() const {
-    const std::string word = parents_.word();
-    return word.starts_with("fault ") ? word.substr(6) : "";
+  // This life of the clock takes the place of one that has died: the nodes' reports say where the run stands.
+  void GoOn() {
+    clock_.Rebuild();
+    serial_ = options_.incarnation << 24;
+    if (options_.begun_ns < 0) return;
+    conductor_.GoOn(options_.begun_ns - std::chrono::nanoseconds(start_.time_since_epoch()).count(), options_.paused, Now());
+    conductor_.NoteFault(fmt::format("the clock was lost; this is its life {}", options_.incarnation + 1), Now());
   }
 
   // "answer NUMBER ok|wrong|failed SENTENCE".
@@ -122,10 +130,64 @@ class ClockProcess {
       const auto space = std::min(line.find(' '), line.size());
       const std::string number = line.substr(0, space);
       const auto command = launch::ParseCommand(std::string_view(line).substr(space));
-      const auto done = command ? conductor_.Do(command.value(), Now()) : base::Result<std::string>(command.error());
+      const auto done = command ? Do(command.value()) : base::Result<std::string>(command.error());
       const std::string_view how = done ? "ok" : done.error().code == base::ErrorCode::kWrongInput ? "wrong" : "failed";
       Say("answer {} {} {}", number, how, OneLine(done ? done.value() : done.error().Text()));
     }
+  }
+  base::Result<std::string> Do(const lockstep::Command& command) {
+    using Kind = lockstep::Command::Kind;
+    if (command.kind == Kind::kRestart) return RestartByHand(command.text);
+    auto done = conductor_.Do(command, Now());
+    if (!done || command.kind != Kind::kState) return done;
+    const std::string chain = lockstep::WaitChain(roster_, clock_.reports());
+    return chain.empty() ? done : done.value() + "; " + chain;
+  }
+  base::Result<std::string> RestartByHand(const std::string& name) {
+    const lockstep::NodeIndex node = roster_.Find(name);
+    if (node == roster_.nodes().size()) return base::WrongInput(fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, roster_.Names())), "restart");
+    if (!clock_.recovery().restarts()) {
+      return base::Failed("in this run nobody keeps what a node needs that is started again; a recorder and 'recovery: pause' or 'restart' in its launch file do");
+    }
+    if (launch_.node(node).is_live()) return base::Failed(fmt::format("node '{}' is driven by a person, whose input cannot be computed again", name));
+    Restart(node, "asked for by the operator");
+    return fmt::format("'{}' is started again", name);
+  }
+
+  // Names the fault and does what the node's policy says; a status where that is the end of the run.
+  std::optional<int> Lose(lockstep::NodeIndex node, const std::string& reason, int status) {
+    if (clock_.grant().abort || clock_.report(node).phase == lockstep::Phase::kFinished) return std::nullopt;
+    const auto decision = clock_.Lose(node);
+    switch (decision.policy) {
+      case lockstep::Policy::kStop: return Abort(decision.why.empty() ? reason : reason + "; " + decision.why, status);
+      case lockstep::Policy::kPause:
+        watchdog_.Excuse(node);
+        Say("paused {} {}", roster_.node(node).name, OneLine(reason));
+        conductor_.NoteFault(reason + "; the run waits for it", Now());
+        return std::nullopt;
+      case lockstep::Policy::kRestart: Announce(node, reason); return std::nullopt;
+    }
+    return std::nullopt;
+  }
+  void Restart(lockstep::NodeIndex node, const std::string& reason) {
+    clock_.ExpectNextLife(node);
+    Announce(node, reason);
+  }
+  // To `rodeira run`, here by this line and on other PCs by the lives in the grant, which end the old process and start another.
+  void Announce(lockstep::NodeIndex node, const std::string& reason) {
+    watchdog_.ExpectNextLife(node, NowNs() / 1'000'000);
+    Say("restart {} {} {}", roster_.node(node).name, clock_.life(node), OneLine(reason));
+    conductor_.NoteFault(reason + "; it is started again", Now());
+    SayGrant(clock_.grant());
+  }
+
+  // "NODE TEXT" of a process that died or was stopped, as `rodeira run` saw it.
+  std::optional<int> TakeLost(const std::string& lost) {
+    const auto space = std::min(lost.find(' '), lost.size());
+    const lockstep::NodeIndex node = roster_.Find(lost.substr(0, space));
+    if (node == roster_.nodes().size()) return std::nullopt;
+    const std::string what = space < lost.size() ? lost.substr(space + 1) : "was lost";
+    return Lose(node, fmt::format("node '{}' {} at about step {}", roster_.node(node).name, what, clock_.report(node).progress), 1);
   }
 
   void FlushLog() {
@@ -146,11 +208,16 @@ class ClockProcess {
       if (MustYield()) return Complain(SecondClock().error());
       TakeReports();
       if (!refusal_.empty()) return Abort(refusal_, 2);
-      if (const std::string told = Told(); !told.empty()) return Abort(told, 1);
+      for (std::string& lost : parents_.TakeLost()) lost_.push_back(std::move(lost));
+      for (const std::string& lost : std::exchange(lost_, {})) {
+        if (const auto status = TakeLost(lost)) return *status;
+      }
       const auto now = WallClock::now();
       if (now - checked >= 20ms) {
         checked = now;
-        if (auto fault = watchdog_.Check(NowNs() / 1'000'000)) return Abort(fault->reason, fault->status);
+        if (auto fault = watchdog_.Check(NowNs() / 1'000'000)) {
+          if (const auto status = TakeFault(*fault)) return *status;
+        }
         if (const int signals = g_signals; signals > 0) {
           if (signals > 2 || clock_.grant().through < 0) return Abort("stopped by a signal", 1);
           conductor_.Stop(Now());
@@ -176,6 +243,15 @@ class ClockProcess {
     triggers_->SayEnd(clock_.grant().through, Now().utc_ns, "ok");
     Close(NodeLines() + EndLine("ok", clock_.grant().through, clock_.RunDigest(), 0));
     return 0;
+  }
+
+  // Who failed by its own word would fail again; who has not been ready in time would not be the next time either.
+  std::optional<int> TakeFault(const lockstep::Watchdog::Fault& fault) {
+    using Phase = lockstep::Phase;
+    const lockstep::Report& report = clock_.report(fault.node);
+    const bool by_its_own_word = report.phase == Phase::kFailed || report.phase == Phase::kRefused;
+    if (by_its_own_word || report.phase < Phase::kReady) return Abort(fault.reason, fault.status);
+    return Lose(fault.node, fault.reason, fault.status);
   }
 
   // The closing words, here and to who follows on other PCs. Said again until everybody must have heard them; who has gone
@@ -230,6 +306,11 @@ class ClockProcess {
       return;
     }
     if (named.clock_id != 0 && named.clock_id != clock_id_) return;  // meant for another clock
+    if (named.report.incarnation < clock_.life(node)) return;        // of a life that is over
+    if (named.report.phase == lockstep::Phase::kLost) {
+      lost_.push_back(named.node + " " + named.report.message);
+      return;
+    }
     if (own_.world == 0) own_.world = named.hello.world;
     if (auto status = CheckHello(own_, named.hello); !status) {
       refusal_ = fmt::format("node '{}' (process {} on host {}) was refused: {}", named.node, named.hello.pid, named.hello.host, status.error().Text());
@@ -260,8 +341,8 @@ class ClockProcess {
     if (!conductor_.begun()) {
       Say("waiting for {}", fmt::join(clock_.Missing(lockstep::Phase::kReady), ", "));
     } else {
-      Say("progress step={} wall_s={:.3f} pace={:g} paused={}", clock_.slowest_progress(), RunSeconds(), conductor_.pacer().pace(),
-          conductor_.pacer().paused() ? 1 : 0);
+      Say("progress step={} wall_s={:.3f} pace={:g} paused={} begun_ns={}", clock_.slowest_progress(), RunSeconds(), conductor_.pacer().pace(),
+          conductor_.pacer().paused() ? 1 : 0, std::chrono::nanoseconds(start_.time_since_epoch()).count() + NowNs() - conductor_.RunNs(Now()));
     }
   }
 
@@ -318,6 +399,7 @@ class ClockProcess {
   WallClock::time_point start_ = WallClock::now();
   WallClock::time_point shown_{};
   std::string refusal_;
+  std::vector<std::string> lost_;  // "NODE TEXT"
   std::mutex mutex_;
   std::condition_variable woken_;
   std::deque<base::Bytes> inbox_;

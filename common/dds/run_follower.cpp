@@ -134,6 +134,7 @@ class Follower {
                                                  std::chrono::duration<double>(kClockSilence).count())));
       }
       TellFaults(now);
+      TellLives(now);
       ShowProgress(now);
     }
   }
@@ -150,29 +151,51 @@ class Follower {
     return status;
   }
 
-  // Said again until the clock has stopped time.
+  // Said again until the clock has stopped time or has called for another life of the node.
   void TellFaults(const Now& now) {
     if (now.grant.abort) return;
-    std::string word = parents_.word();
-    if (word.empty() && g_signals > 0) word = fmt::format("lost {} it was stopped by a signal", AnyOwnNode());
-    if (!word.starts_with("lost ")) return;
-    const auto space = word.find(' ', 5);
-    NamedReport failed;
-    failed.node = word.substr(5, space == std::string::npos ? space : space - 5);
-    const NodeIndex node = roster_.Find(failed.node);
-    if (node == roster_.nodes().size()) return;
-    failed.clock_id = now.clock_id;
-    failed.hello = OwnHello(launch::Agreement(launch_));
-    if (now.reports[node]) failed.report = *now.reports[node];
-    failed.report.phase = Phase::kFailed;
-    failed.report.message = fmt::format("{} (host '{}')", space == std::string::npos ? "" : word.substr(space + 1), options_.follow);
-    (void)reports_out_->Write(EncodeReport(failed));
-  }
-  std::string AnyOwnNode() const {
-    for (const launch::LaunchNode& node : launch_.nodes()) {
-      if (node.host == options_.follow) return node.name;
+    for (const std::string& word : parents_.TakeLost()) {
+      const auto space = std::min(word.find(' '), word.size());
+      const NodeIndex node = roster_.Find(word.substr(0, space));
+      if (node == roster_.nodes().size()) continue;
+      lost_.push_back({node, LifeOf(now, node), fmt::format("{} (host '{}')", space < word.size() ? word.substr(space + 1) : "was lost", options_.follow)});
     }
-    return "";
+    std::erase_if(lost_, [&](const Lost& lost) { return LifeOf(now, lost.node) > lost.life; });
+    for (const Lost& lost : lost_) TellFault(now, lost, Phase::kLost);
+    if (g_signals > 0) TellFault(now, {AnyOwnNode(), 0, fmt::format("it was stopped by a signal (host '{}')", options_.follow)}, Phase::kFailed);
+  }
+  struct Lost {
+    NodeIndex node = 0;
+    std::uint32_t life = 0;
+    std::string text;
+  };
+  void TellFault(const Now& now, const Lost& lost, Phase phase) {
+    NamedReport report;
+    report.node = roster_.node(lost.node).name;
+    report.clock_id = now.clock_id;
+    report.hello = OwnHello(launch::Agreement(launch_));
+    if (now.reports[lost.node]) report.report = *now.reports[lost.node];
+    report.report.incarnation = LifeOf(now, lost.node);
+    report.report.phase = phase;
+    report.report.message = lost.text;
+    (void)reports_out_->Write(EncodeReport(report));
+  }
+  static std::uint32_t LifeOf(const Now& now, NodeIndex node) { return node < now.grant.lives.size() ? now.grant.lives[node] : 0; }
+
+  // The clock calls for another life of a node by its grant; who starts processes on this host is told.
+  void TellLives(const Now& now) {
+    lives_.resize(roster_.nodes().size(), 0);
+    for (NodeIndex n = 0; n < lives_.size(); ++n) {
+      if (LifeOf(now, n) <= lives_[n]) continue;
+      lives_[n] = LifeOf(now, n);
+      if (launch_.node(n).host == options_.follow) Say("restart {} {} asked for by the clock", launch_.node(n).name, lives_[n]);
+    }
+  }
+  NodeIndex AnyOwnNode() const {
+    for (NodeIndex n = 0; n < launch_.nodes().size(); ++n) {
+      if (launch_.node(n).host == options_.follow) return n;
+    }
+    return 0;
   }
 
   template <class What>
@@ -222,6 +245,8 @@ class Follower {
   lockstep::Grant grant_;
   WallClock::time_point heard_at_{};
   std::vector<std::optional<lockstep::Report>> reports_;
+  std::vector<Lost> lost_;
+  std::vector<std::uint32_t> lives_;
   std::unique_ptr<Participant> participant_;  // outlives its endpoints
   std::unique_ptr<Writer> reports_out_;
   std::unique_ptr<Reader> grants_;

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstdio>
+#include <functional>
 #include <mutex>
 #include <optional>
 
@@ -26,8 +28,9 @@ using namespace std::chrono_literals;
 
 class ProcessContext final : public launch::NodeContext {
  public:
-  ProcessContext(const launch::Launch& launch, lockstep::NodeIndex index, Participant& participant, lockstep::Mailbox& mailbox, std::uint32_t incarnation)
-      : NodeContext(launch, index), participant_(participant), mailbox_(mailbox), incarnation_(incarnation) {}
+  ProcessContext(const launch::Launch& launch, lockstep::NodeIndex index, Participant& participant, lockstep::Mailbox& mailbox, NodeBus& bus,
+                 std::uint32_t incarnation)
+      : NodeContext(launch, index), participant_(participant), mailbox_(mailbox), bus_(bus), incarnation_(incarnation) {}
 
   terrain::Ground& Ground() override {
     if (ground_ == nullptr) {
@@ -72,6 +75,11 @@ class ProcessContext final : public launch::NodeContext {
     RODEIRA_ASSERT(receiver.ok());
     return std::move(receiver).value();
   }
+  bool is_another_life() const override { return incarnation_ > 0; }
+  std::function<void(lockstep::Step)> SafeTeller() override {
+    return [&bus = bus_](lockstep::Step through) { bus.SetSafe(through); };
+  }
+  base::Status Remember(const lockstep::Sample& sample) override { return bus_.Remember(sample); }
   void Follow(lockstep::Runner* runner) {
     if (ground_ != nullptr) ground_->Follow(runner);
   }
@@ -79,9 +87,30 @@ class ProcessContext final : public launch::NodeContext {
  private:
   Participant& participant_;
   lockstep::Mailbox& mailbox_;
+  NodeBus& bus_;
   std::uint32_t incarnation_;
   std::unique_ptr<RemoteGround> ground_;
 };
+
+// Where another life than the first begins: a recorder behind what its file holds, another sink where nobody can be behind, all
+// others at the snapshot that the clock has named. A run that has not begun begins for everybody alike.
+base::Status FindBeginning(ProcessContext& context, Participant& participant, NodeBus& bus, lockstep::Mailbox& mailbox, lockstep::Runner::Settings& settings) {
+  const auto limit = std::chrono::milliseconds(context.launch().watchdog().start_ms);
+  const auto grant = bus.AwaitGrant(limit);
+  if (!grant) return base::Failed("the clock says nothing to a node that is started again");
+  const lockstep::NodeSpec& spec = context.spec();
+  if (grant->through >= 0 && spec.keeps_snapshots()) {
+    settings.sink_from = lockstep::CeilTo(context.has_through() + 1, spec.period);
+  } else if (grant->through >= 0 && spec.is_sink()) {
+    settings.sink_from = lockstep::FloorTo(std::max<lockstep::Step>(grant->through - context.roster().window(), 0), spec.period);
+  } else if (grant->through >= 0 && grant->resume > 0) {
+    settings.resume = bus.FetchSnapshot(participant, grant->resume, limit);
+    if (!settings.resume) return base::Failed(fmt::format("nobody has its snapshot at step {}", grant->resume));
+  }
+  mailbox.StartAt(settings.resume ? settings.resume->at : settings.sink_from);
+  bus.Listen();
+  return {};
+}
 
 int Complain(const std::string& who, const base::Error& error) {
   fmt::print(stderr, "{}: {}\n", who, error.Text());
@@ -89,7 +118,7 @@ int Complain(const std::string& who, const base::Error& error) {
 }
 
 // The node is made and runs; what goes wrong is told to the clock, which ends the run.
-int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& bus, lockstep::Mailbox& mailbox, const ProcessOptions& options) {
+int Drive(const launch::NodeFactory& factory, ProcessContext& context, Participant& participant, NodeBus& bus, lockstep::Mailbox& mailbox, const ProcessOptions& options) {
   const auto fail = [&](const base::Error& error) {
     lockstep::Report report;
     report.node = context.index();
@@ -105,6 +134,9 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
   bus.SetWorldHash(context.world_hash());
   lockstep::Runner::Settings settings;
   settings.incarnation = options.incarnation;
+  if (options.incarnation > 0) {
+    if (auto status = FindBeginning(context, participant, bus, mailbox, settings); !status) return fail(status.error());
+  }
   lockstep::Runner runner(context.roster(), context.index(), *node.value(), bus, mailbox, settings);
   context.Follow(&runner);
   bus.Follow(&runner);
@@ -138,10 +170,11 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   settings.node = index;
   settings.incarnation = options.incarnation;
   settings.hello = OwnHello(launch::Agreement(launch.value()));
+  settings.keeps_all = launch.value().keeps_for_restarts() && roster.node(index).keeps_snapshots();
   auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
   if (!bus) return Complain(program, bus.error());
-  ProcessContext context(launch.value(), index, *participant.value(), mailbox, options.incarnation);
-  return Drive(factory, context, *bus.value(), mailbox, options);
+  ProcessContext context(launch.value(), index, *participant.value(), mailbox, *bus.value(), options.incarnation);
+  return Drive(factory, context, *participant.value(), *bus.value(), mailbox, options);
 }
 
 }  // namespace rodeira::dds

@@ -68,6 +68,9 @@ base::Bytes EncodeReport(const NamedReport& in) {
   out.busy_ns(report.busy_ns);
   out.worst_ns(report.worst_ns);
   out.server_calls(report.server_calls);
+  out.safe_step(report.safe);
+  out.granted_step(report.granted);
+  out.granted_final(report.granted_final);
   out.message(report.message);
   return idl::Encode(out);
 }
@@ -76,7 +79,7 @@ base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
   auto decoded = idl::Decode<msg::Report>(payload);
   if (!decoded) return decoded.error();
   msg::Report& in = decoded.value();
-  if (in.phase() > static_cast<std::uint32_t>(lockstep::Phase::kRefused) || in.waiting() > static_cast<std::uint32_t>(lockstep::Waiting::kServer)) {
+  if (in.phase() > static_cast<std::uint32_t>(lockstep::Phase::kLost) || in.waiting() > static_cast<std::uint32_t>(lockstep::Waiting::kServer)) {
     return base::WrongInput(fmt::format("a report of phase {} and waiting {} was found", in.phase(), in.waiting()));
   }
   NamedReport out;
@@ -94,6 +97,9 @@ base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
   out.report.busy_ns = in.busy_ns();
   out.report.worst_ns = in.worst_ns();
   out.report.server_calls = in.server_calls();
+  out.report.safe = in.safe_step();
+  out.report.granted = in.granted_step();
+  out.report.granted_final = in.granted_final();
   out.report.message = in.message();
   return out;
 }
@@ -107,6 +113,9 @@ base::Bytes EncodeGrant(const NumberedGrant& in) {
   out.final_step(in.grant.final);
   out.abort(in.grant.abort);
   out.over(in.grant.over);
+  out.safe_step(in.grant.safe);
+  out.resume_step(in.grant.resume);
+  out.lives(in.grant.lives);
   out.reason(in.grant.reason);
   return idl::Encode(out);
 }
@@ -123,6 +132,9 @@ base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload) {
   out.grant.final = in.final_step();
   out.grant.abort = in.abort();
   out.grant.over = in.over();
+  out.grant.safe = in.safe_step();
+  out.grant.resume = in.resume_step();
+  out.grant.lives = in.lives();
   out.grant.reason = in.reason();
   return out;
 }

@@ -51,7 +51,7 @@ base::Result<Command> ParseMark(std::string_view rest) {
 }  // namespace
 
 const std::vector<std::string>& CommandNames() {
-  static const std::vector<std::string> kNames{"pause", "resume", "step", "pace", "mark", "stop", "state", "toggle", "faster", "slower"};
+  static const std::vector<std::string> kNames{"pause", "resume", "step", "pace", "mark", "stop", "state", "toggle", "faster", "slower", "restart"};
   return kNames;
 }
 
@@ -65,6 +65,12 @@ base::Result<Command> ParseCommand(std::string_view line) {
   }
   if (name == "step") return ParseStep(rest);
   if (name == "mark") return ParseMark(rest);
+  if (name == "restart") {
+    Command command = Of(Kind::kRestart);
+    if (rest.empty()) return base::WrongInput("the name of a node was expected", "restart");
+    command.text = rest;
+    return command;
+  }
   if (name == "pace") {
     const auto pace = ParsePace(std::string(rest), "pace");
     if (!pace) return pace.error();

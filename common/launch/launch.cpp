@@ -97,7 +97,43 @@ void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeWi
   }
 }
 
+lockstep::Policy ReadPolicy(const config::Map& map, std::string_view fallback) {
+  const std::string word = map.Choice("recovery", {"stop", "pause", "restart"}, std::string(fallback));
+  return word == "restart" ? lockstep::Policy::kRestart : word == "pause" ? lockstep::Policy::kPause : lockstep::Policy::kStop;
+}
+
+// A node that is started again begins at its snapshot and needs what others had said: both are with a recorder.
+void CheckRecovery(const config::Map& root, const std::vector<config::Map>& maps, std::vector<LaunchNode>& nodes, bool has_recorder) {
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (nodes[n].recovery != lockstep::Policy::kRestart) continue;
+    const config::Map& where = maps[n].Has("recovery") ? maps[n] : root;
+    if (nodes[n].is_live()) {
+      if (maps[n].Has("recovery")) {
+        maps[n].Problem("recovery", fmt::format("node '{}' is driven by a person, whose input cannot be computed again; stop or pause was expected", nodes[n].name));
+      }
+      nodes[n].recovery = lockstep::Policy::kStop;
+    } else if (!has_recorder && !nodes[n].kind->outputs.empty()) {
+      where.Problem("recovery", fmt::format("node '{}' can be started again only where there is a recorder, but there is none (with --no-record: --set recovery=stop)",
+                                            nodes[n].name));
+      return;
+    }
+  }
+}
+
 }  // namespace
+
+bool LaunchNode::is_live() const {
+  const auto source = config->Peek({"config", "source"});
+  return kind->name == "input" && source && (*source == "keyboard" || *source == "joystick");
+}
+
+std::vector<lockstep::Policy> Launch::policies() const {
+  std::vector<lockstep::Policy> policies;
+  for (const LaunchNode& node : nodes_) policies.push_back(node.recovery);
+  return policies;
+}
+
+bool Launch::keeps_for_restarts() const { return lockstep::Recovery(*roster_, policies()).restarts(); }
 
 base::Result<Launch> Launch::Load(const std::filesystem::path& path, const Overrides& overrides) {
   auto file = config::File::Load(path);
@@ -142,6 +178,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   launch.watchdog_.deadline_ms = static_cast<std::int64_t>(limits.Number("step_s", {0.01, 86400.0}, 0.6) * 1e3);
   launch.watchdog_.start_ms = static_cast<std::int64_t>(limits.Number("start_s", {0.1, 86400.0}, 60.0) * 1e3);
 
+  launch.recovery_ = ReadPolicy(root, "stop");
   const config::Map nodes = root.Child("nodes");
   std::vector<NodeWish> wishes;
   std::vector<config::Map> maps;
@@ -150,13 +187,16 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
     const config::Map map = nodes.OptionalChild(name);
     const std::string kind_name = map.Choice("kind", KindNames());
     const NodeKind* kind = FindKind(kind_name);
-    LaunchNode node{name, kind, map.Text("host", ""), std::make_shared<const config::Map>(map)};
+    LaunchNode node{name, kind, map.Text("host", ""), std::make_shared<const config::Map>(map), launch.recovery_};
+    if (map.Has("recovery")) node.recovery = ReadPolicy(map, "stop");
     map.LeaveToOthers("config");
     wishes.push_back(ReadNode(map, name, *kind, base_step_ns));
     launch.nodes_.push_back(std::move(node));
     maps.push_back(map);
   }
   SetSnapshots(root, base_step_ns, wishes);
+  const bool has_recorder = std::any_of(wishes.begin(), wishes.end(), [](const NodeWish& wish) { return wish.kind == "recorder"; });
+  CheckRecovery(root, maps, launch.nodes_, has_recorder);
   for (std::size_t n = 0; n < wishes.size(); ++n) Wire(maps[n], *launch.nodes_[n].kind, wishes, wishes[n]);
   if (auto status = launch.file_->Finish(); !status) return status.error();
   if (wishes.empty()) return base::WrongInput("'nodes' is empty; at least one node was expected", nodes.Place());

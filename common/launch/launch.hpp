@@ -12,6 +12,7 @@
 #include "common/config/config.hpp"
 #include "common/launch/discovery.hpp"
 #include "common/launch/kinds.hpp"
+#include "common/lockstep/recovery.hpp"
 #include "common/lockstep/roster.hpp"
 #include "common/lockstep/watchdog.hpp"
 
@@ -24,6 +25,10 @@ struct LaunchNode {
   const NodeKind* kind = nullptr;
   std::string host;                        // of a laboratory; empty: the clock's
   std::shared_ptr<const config::Map> config;  // what the node itself reads; may be empty
+  lockstep::Policy recovery = lockstep::Policy::kStop;  // what becomes of the run where the node is lost
+
+  // Driven by a person: what it publishes cannot be computed again.
+  bool is_live() const;
 };
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;
@@ -50,6 +55,10 @@ class Launch {
   const Discovery& discovery() const { return discovery_; }
   const std::string& pace() const { return pace_; }  // as --pace takes it; empty: not said
   const lockstep::Watchdog::Settings& watchdog() const { return watchdog_; }
+  // Of the clock, and of nodes that say nothing of their own.
+  lockstep::Policy recovery() const { return recovery_; }
+  std::vector<lockstep::Policy> policies() const;  // one for each node
+  bool keeps_for_restarts() const;                 // somebody may be started again: recorders answer for everybody
   const lockstep::Roster& roster() const { return *roster_; }
   const std::vector<LaunchNode>& nodes() const { return nodes_; }  // in the roster's order
   const LaunchNode& node(lockstep::NodeIndex index) const { return nodes_[index]; }
@@ -68,6 +77,7 @@ class Launch {
   Discovery discovery_;
   std::string pace_;
   lockstep::Watchdog::Settings watchdog_;
+  lockstep::Policy recovery_ = lockstep::Policy::kStop;
   std::shared_ptr<const lockstep::Roster> roster_;
   std::vector<LaunchNode> nodes_;
 };

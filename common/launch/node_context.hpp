@@ -46,6 +46,16 @@ class NodeContext {
   // What the clock, the operator and faults did on the wall's clock, for who writes it down. Null where the host tells it
   // to nobody.
   virtual std::unique_ptr<RunLogReceiver> RunLog() { return nullptr; }
+  // Recovery, as it concerns a recorder. An earlier life of this node has begun the work: its file is gone on with.
+  virtual bool is_another_life() const { return false; }
+  // To be told: samples valid through the step lie in the file, nobody needs to keep them for another life of this recorder.
+  // Null where the host has no use for it. It outlives this.
+  virtual std::function<void(lockstep::Step)> SafeTeller() { return nullptr; }
+  // What the file holds already, for other nodes that are lost meanwhile. Wrong input where it contradicts what is known.
+  virtual base::Status Remember(const lockstep::Sample& /*sample*/) { return {}; }
+  // A sink of another life says behind which step it has everything; its first activation is the next one.
+  void BeginBehind(lockstep::Step step) { has_through_ = step; }
+  lockstep::Step has_through() const { return has_through_; }
   // A node that has loaded the world says so; all who did must agree.
   void set_world_hash(base::Digest hash) { world_hash_ = hash; }
   base::Digest world_hash() const { return world_hash_; }
@@ -54,6 +64,7 @@ class NodeContext {
   const Launch& launch_;
   lockstep::NodeIndex index_;
   base::Digest world_hash_ = 0;
+  lockstep::Step has_through_ = -1;
 };
 
 using NodeFactory = std::function<base::Result<std::unique_ptr<lockstep::Node>>(NodeContext&)>;

@@ -8,6 +8,7 @@ class RunLogBoard::Receiver final : public RunLogReceiver {
  public:
   explicit Receiver(std::shared_ptr<lockstep::LogInbox> inbox) : inbox_(std::move(inbox)) {}
   std::vector<lockstep::LogBatch> Take() override { return inbox_->Take(); }
+  void BeginAt(std::uint64_t number) override { inbox_->BeginAt(number); }
   bool AwaitEnd(std::chrono::milliseconds limit) override { return inbox_->AwaitEnd(limit); }
 
  private:

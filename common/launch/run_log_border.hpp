@@ -15,6 +15,8 @@ class RunLogReceiver {
   virtual ~RunLogReceiver() = default;
   // What has come since the last call, whole and in order. Never waits.
   virtual std::vector<lockstep::LogBatch> Take() = 0;
+  // Batches before this one are not needed.
+  virtual void BeginAt(std::uint64_t number) = 0;
   // Waits for the end of the log; false where it has not come after `limit`. What came by then is Take()'s.
   virtual bool AwaitEnd(std::chrono::milliseconds limit) = 0;
 };

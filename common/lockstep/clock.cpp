@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace rodeira::lockstep {
 
-Clock::Clock(const Roster& roster, std::optional<Step> last_step, Step first_step)
-    : roster_(roster), last_step_(last_step), first_step_(first_step), reports_(roster.nodes().size()), heard_(roster.nodes().size(), false) {
+Clock::Clock(const Roster& roster, std::optional<Step> last_step, Step first_step, std::vector<Policy> policies)
+    : roster_(roster), last_step_(last_step), first_step_(first_step), recovery_(roster, std::move(policies)), reports_(roster.nodes().size()),
+      heard_(roster.nodes().size(), false) {
   grant_.roster = roster.hash();
+  grant_.safe = recovery_.safe();
   for (NodeIndex n = 0; n < reports_.size(); ++n) reports_[n].node = n;
 }
 
@@ -20,25 +23,52 @@ base::Status Clock::Take(const Report& report) {
   const NodeSpec& spec = roster_.node(report.node);
   Report& known = reports_[report.node];
   const auto refuse = [&](std::string why) { return base::WrongInput(std::move(why), fmt::format("report of node '{}'", spec.name)); };
-  if (heard_[report.node]) {
-    if (report.incarnation < known.incarnation) {
-      return refuse(fmt::format("incarnation {} was found, {} is the living one", report.incarnation, known.incarnation));
-    }
-    if (report.incarnation == known.incarnation) {
-      if (report.progress < known.progress) return {};  // overtaken on its way, nothing new
-      if (report.phase < known.phase) return {};
-    }
+  if (report.incarnation < life(report.node)) {
+    return refuse(fmt::format("incarnation {} was found, {} is the living one", report.incarnation, life(report.node)));
+  }
+  if (heard_[report.node] && report.incarnation == known.incarnation) {
+    if (report.progress < known.progress) return {};  // overtaken on its way, nothing new
+    if (report.phase < known.phase) return {};
   }
   if (report.progress < 0 || report.progress % spec.period != 0) {
     return refuse(fmt::format("progress {} was found, a multiple of the period {} was expected", report.progress, spec.period));
   }
+  if (rebuilding_ && report.granted > grant_.through) grant_.through = report.granted;
+  if (rebuilding_ && report.granted_final && report.granted == grant_.through) grant_.final = true;
   // Nobody can have run an activation that was not granted: its next one is at most a period behind the grant.
   if (spec.role == Role::kStepped && report.progress > std::max(grant_.through, first_step_) + spec.period) {
     return refuse(fmt::format("progress {} was found, but only step {} is granted", report.progress, grant_.through));
   }
   known = report;
   heard_[report.node] = true;
+  SetLife(report.node, report.incarnation);
+  recovery_.Heard(report);
+  grant_.safe = recovery_.safe();
+  grant_.resume = recovery_.resume();
+  if (rebuilding_ && all_ready()) rebuilding_ = false;
   return {};
+}
+
+void Clock::SetLife(NodeIndex node, std::uint32_t incarnation) {
+  if (incarnation == life(node)) return;
+  grant_.lives.resize(reports_.size(), 0);
+  grant_.lives[node] = incarnation;
+}
+
+Recovery::Decision Clock::Lose(NodeIndex node) {
+  auto decision = recovery_.Lost(node, reports_[node].progress);
+  if (decision.policy == Policy::kRestart) ExpectNextLife(node);
+  grant_.resume = recovery_.resume();
+  return decision;
+}
+
+void Clock::ExpectNextLife(NodeIndex node) {
+  SetLife(node, life(node) + 1);
+  Report unheard;
+  unheard.node = node;
+  unheard.incarnation = life(node);
+  reports_[node] = unheard;
+  heard_[node] = false;
 }
 
 std::vector<std::string> Clock::Missing(Phase phase) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/base/result.hpp"
+#include "common/lockstep/recovery.hpp"
 #include "common/lockstep/report.hpp"
 #include "common/lockstep/roster.hpp"
 
@@ -15,8 +16,11 @@ namespace rodeira::lockstep {
 class Clock {
  public:
   // last_step: the run ends there, inclusive; none: it runs until Stop(). first_step: where the nodes begin (a
-  // snapshot's step), 0 for a run from its start.
-  Clock(const Roster& roster, std::optional<Step> last_step, Step first_step = 0);
+  // snapshot's step), 0 for a run from its start. policies: as Recovery.
+  Clock(const Roster& roster, std::optional<Step> last_step, Step first_step = 0, std::vector<Policy> policies = {});
+  // This clock takes the place of one that has died: what was granted it learns from the nodes' reports, and grants nothing
+  // new before it has heard them all.
+  void Rebuild() { rebuilding_ = true; }
 
   // A report that does not match (unknown node, old incarnation, progress that is no activation or goes back, a phase
   // that goes back) changes nothing and is refused with a sentence.
@@ -41,17 +45,29 @@ class Clock {
   void Stop();
   void Abort(std::string reason);
 
+  // A node is lost: what its policy says. Where that is kRestart, its next life is expected already.
+  Recovery::Decision Lose(NodeIndex node);
+  // Another life of the node takes its place; nobody is granted anything new before it is ready.
+  void ExpectNextLife(NodeIndex node);
+  std::uint32_t life(NodeIndex node) const { return node < grant_.lives.size() ? grant_.lives[node] : 0; }
+
+  const Recovery& recovery() const { return recovery_; }
   const Report& report(NodeIndex node) const { return reports_[node]; }
+  const std::vector<Report>& reports() const { return reports_; }
   const Roster& roster() const { return roster_; }
   // Of all nodes' chains, in the roster's order; meaningful once all are finished.
   base::Digest RunDigest() const;
 
  private:
+  void SetLife(NodeIndex node, std::uint32_t incarnation);
+
   const Roster& roster_;
   std::optional<Step> last_step_;
   Step first_step_;
+  Recovery recovery_;
   std::vector<Report> reports_;
   std::vector<bool> heard_;
+  bool rebuilding_ = false;
   Grant grant_;
 };
 

@@ -39,6 +39,10 @@ Grant Conductor::Move(const Wall& now) {
     begin_ns_ = now.monotonic_ns;
     Note(RemarkKind::kStart, "", now);
   }
+  if (goes_on_) {  // time begins where it stood
+    goes_on_ = false;
+    pacer_.GoOn(now.monotonic_ns, clock_.grant().through);
+  }
   const Step before = clock_.grant().through;
   const Grant grant = clock_.Update(pacer_.Limit(now.monotonic_ns, clock_.window_limit()));
   if (grant.through > before) {
@@ -46,6 +50,13 @@ Grant Conductor::Move(const Wall& now) {
     log_.Add(WallTime{grant.through, now.utc_ns, RunNs(now), pacer_.late_ns(), pacer_.pace(), pacer_.paused()});
   }
   return grant;
+}
+
+void Conductor::GoOn(std::int64_t begin_ns, bool paused, const Wall& now) {
+  begun_ = true;
+  goes_on_ = true;
+  begin_ns_ = begin_ns;
+  if (paused) pacer_.Pause(now.monotonic_ns);
 }
 
 base::Result<std::string> Conductor::Do(const Command& command, const Wall& now) {
@@ -80,6 +91,7 @@ base::Result<std::string> Conductor::Do(const Command& command, const Wall& now)
       const std::uint32_t number = Note(RemarkKind::kMark, command.text, now);
       return fmt::format("marked {} as remark {}", Here(), number);
     }
+    case Kind::kRestart: return base::Failed("nothing can be started again here");
     case Kind::kState:
     case Kind::kStop: break;
   }

@@ -21,7 +21,10 @@ struct Wall {
 class Conductor {
  public:
   // The clock outlives it.
-  Conductor(Clock& clock, const Pacer& pacer) : clock_(clock), pacer_(pacer) {}
+  Conductor(Clock& clock, const Pacer& pacer, std::uint32_t life = 0) : clock_(clock), pacer_(pacer), log_(life) {}
+
+  // Another life of a clock goes on with a run that began at `begin_ns` of the monotonic wall.
+  void GoOn(std::int64_t begin_ns, bool paused, const Wall& now);
 
   // The grant that holds now. The run begins at the first call with everybody ready.
   Grant Move(const Wall& now);
@@ -30,6 +33,8 @@ class Conductor {
   // As the command kStop does, for a signal; before the first step nothing is left but to abort.
   void Stop(const Wall& now);
   void Abort(const std::string& reason, const Wall& now);
+  // What went wrong and does not end the run.
+  void NoteFault(const std::string& what, const Wall& now) { Note(RemarkKind::kFault, what, now); }
   // All that computes has come to the last step: the log is complete.
   void CloseLog(const Wall& now);
 
@@ -53,6 +58,7 @@ class Conductor {
   Pacer pacer_;
   RunLog log_;
   bool begun_ = false;
+  bool goes_on_ = false;
   std::int64_t begin_ns_ = 0;
 };
 

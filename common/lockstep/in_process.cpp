@@ -277,7 +277,7 @@ class ShuffledRun {
         break;
       case Message::Kind::kGrant:
         mailboxes_[message.to]->DeliverGrant(message.grant);
-        buses_[message.to]->kept.Granted(message.grant.through);
+        buses_[message.to]->kept.Granted(message.grant);
         break;
       case Message::Kind::kAsk:
         for (const Sample& sample : buses_[message.to]->kept.From(message.gap)) buses_[message.to]->Say(sample);

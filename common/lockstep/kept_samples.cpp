@@ -18,8 +18,8 @@ void KeptSamples::Add(const Sample& sample) {
   if (kept.empty() || kept.back().valid() < sample.valid()) kept.push_back(sample);
 }
 
-void KeptSamples::Granted(Step through) {
-  const Step slowest = through - roster_.window();
+void KeptSamples::Granted(const Grant& grant) {
+  const Step slowest = std::min(grant.through - roster_.window(), grant.safe == kNever ? kNever : grant.safe + 1);
   if (slowest <= 0) return;
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     const Step oldest = roster_.OldestNeeded(outputs_[i], slowest);
@@ -32,7 +32,7 @@ std::vector<Sample> KeptSamples::From(const Gap& gap) const {
   if (output == outputs_.end()) return {};
   const auto& kept = samples_[static_cast<std::size_t>(output - outputs_.begin())];
   const auto first = std::lower_bound(kept.begin(), kept.end(), gap.from, [](const Sample& sample, Step step) { return sample.valid() < step; });
-  return {first, kept.end()};
+  return {first, first + std::min<std::ptrdiff_t>(kAtATime, kept.end() - first)};
 }
 
 std::size_t KeptSamples::size() const {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/lockstep/mailbox.hpp"
+#include "common/lockstep/report.hpp"
 #include "common/lockstep/roster.hpp"
 #include "common/lockstep/sample.hpp"
 
@@ -17,9 +18,11 @@ class KeptSamples {
   KeptSamples(const Roster& roster, NodeIndex node);
 
   void Add(const Sample& sample);
-  // Drops what no consumer can ask for once `through` is granted.
-  void Granted(Step through);
-  // The samples of gap.source valid at or after gap.from, oldest first; none where the source is another node's.
+  // Drops what no consumer can ask for once `grant` is said, not even a recorder that is started again.
+  void Granted(const Grant& grant);
+  // The samples of gap.source valid at or after gap.from, oldest first, at most kAtATime: who lacks more asks again. None
+  // where the source is another node's.
+  static constexpr std::size_t kAtATime = 64;
   std::vector<Sample> From(const Gap& gap) const;
   std::size_t size() const;
 

@@ -53,6 +53,13 @@ void Pacer::Granted(std::int64_t now_ns, Step through) {
   granted_ = through;
 }
 
+void Pacer::GoOn(std::int64_t now_ns, Step through) {
+  started_ = true;
+  granted_ = from_step_ = through;
+  from_ns_ = now_ns;
+  if (paused_) hold_ = granted_;
+}
+
 void Pacer::Pause(std::int64_t now_ns) {
   hold_ = granted_;
   if (paused_) return;

@@ -27,6 +27,9 @@ class Pacer {
   // What was granted then. A pause, a step and a new pace begin there.
   void Granted(std::int64_t now_ns, Step through);
 
+  // A run that was granted through `through` by somebody else goes on now.
+  void GoOn(std::int64_t now_ns, Step through);
+
   void Pause(std::int64_t now_ns);  // also ends single steps that are not yet granted
   void Resume(std::int64_t now_ns);
   void AllowSteps(Step steps);  // of a paused run: so many more

@@ -10,6 +10,7 @@ std::string_view PhaseName(Phase phase) {
     case Phase::kFinished: return "finished";
     case Phase::kFailed: return "failed";
     case Phase::kRefused: return "refused";
+    case Phase::kLost: return "lost";
   }
   return "unknown";
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "common/base/hash.hpp"
 #include "common/lockstep/roster.hpp"
@@ -9,7 +11,7 @@
 
 namespace rodeira::lockstep {
 
-// Where a node stands in its life; it only ever goes forward, but for the last two, which end any phase.
+// Where a node stands in its life; it only ever goes forward, but for the last three, which end any phase.
 enum class Phase : std::uint32_t {
   kStarting = 0,  // alive, its model is being made
   kReady = 1,     // published its first samples and has everybody else's
@@ -17,6 +19,7 @@ enum class Phase : std::uint32_t {
   kFinished = 3,  // ran to the final step, everything is closed
   kFailed = 4,    // message says why
   kRefused = 5,   // the same, and what a person gave is wrong: exit status 2
+  kLost = 6,      // its process died or was stopped, says who watched it
 };
 
 enum class Waiting : std::uint32_t { kNothing = 0, kGrant = 1, kInputs = 2, kServer = 3 };
@@ -35,8 +38,14 @@ struct Report {
   std::int64_t busy_ns = 0;               // wall time inside Step, all activations together
   std::int64_t worst_ns = 0;              // the longest of them
   std::uint64_t server_calls = 0;         // round trips to a server (SUELO)
+  Step safe = -1;                         // of who keeps snapshots (a recorder): samples valid through it are in its file
+  Step granted = -1;                      // the newest grant that the node knows …
+  bool granted_final = false;             // … and whether that is the last of the run
   std::string message;                    // why it failed; what it refused
 };
+
+// A step that no run comes to.
+inline constexpr Step kNever = std::numeric_limits<Step>::max();
 
 // The clock's word (law L2). Everything in it is a state, so it can be said again at any time.
 struct Grant {
@@ -45,6 +54,10 @@ struct Grant {
   bool abort = false;     // stop at once; reason says why
   bool over = false;      // everybody has finished, whoever lingers may go
   base::Digest roster = 0;
+  // Recovery (law L3, recovery.hpp).
+  Step safe = kNever;                     // samples valid through it need not be kept for a recorder that is started again
+  Step resume = 0;                        // who is lost goes on from its snapshot there
+  std::vector<std::uint32_t> lives;       // by node: the incarnation that takes part; empty: all 0
   std::string reason;     // why it was aborted; where it is over, the clock's closing words, a line each
 };
 

@@ -104,6 +104,10 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
   return roster;
 }
 
+bool NodeSpec::keeps_snapshots() const {
+  return is_sink() && std::any_of(inputs.begin(), inputs.end(), [](const Port& port) { return port.topic == kSnapshotTopic; });
+}
+
 NodeIndex Roster::Find(std::string_view name) const {
   const auto found = std::find_if(nodes_.begin(), nodes_.end(), [&](const NodeSpec& node) { return node.name == name; });
   return static_cast<NodeIndex>(found - nodes_.begin());

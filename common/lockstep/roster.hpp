@@ -77,6 +77,8 @@ struct NodeSpec {
   std::optional<SourceIndex> snapshots;
 
   bool is_sink() const { return role == Role::kStepped && outputs.empty(); }
+  // A sink that is wired to snapshots (a recorder): with what it keeps a lost node goes on.
+  bool keeps_snapshots() const;
 };
 
 // Who takes part and who is wired to whom; fixed for the run (law L1).

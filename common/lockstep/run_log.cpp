@@ -52,6 +52,10 @@ std::vector<LogBatch> KeptLog::From(std::uint64_t number) const {
 void LogInbox::Deliver(LogBatch batch) {
   const std::lock_guard lock(mutex_);
   if (batch.number < next_) return;
+  if (const std::uint64_t life = batch.number / RunLog::kBatchesOfALife; life > next_ / RunLog::kBatchesOfALife) {
+    next_ = life * RunLog::kBatchesOfALife;
+    early_.erase(early_.begin(), early_.lower_bound(next_));
+  }
   early_.try_emplace(batch.number, std::move(batch));
   while (!early_.empty() && early_.begin()->first == next_) {
     over_ = over_ || early_.begin()->second.last;
@@ -60,6 +64,12 @@ void LogInbox::Deliver(LogBatch batch) {
     ++next_;
   }
   woken_.notify_all();
+}
+
+void LogInbox::BeginAt(std::uint64_t number) {
+  const std::lock_guard lock(mutex_);
+  next_ = std::max(next_, number);
+  early_.erase(early_.begin(), early_.lower_bound(next_));
 }
 
 std::vector<LogBatch> LogInbox::Take() {

@@ -57,6 +57,11 @@ struct LogBatch {
 // The clock's side: gathers entries into batches.
 class RunLog {
  public:
+  // Another life of a clock counts in numbers of its own, so that nobody takes its batches for earlier ones.
+  static constexpr std::uint64_t kBatchesOfALife = std::uint64_t{1} << 24;
+  static constexpr std::uint32_t kRemarksOfALife = 100'000;
+  explicit RunLog(std::uint32_t life = 0) : remarks_(life * kRemarksOfALife) { next_.number = life * kBatchesOfALife; }
+
   static constexpr std::int64_t kBatch_ns = 50'000'000;  // wall times wait for company, remarks do not
   static constexpr std::size_t kBatchEntries = 256;
 
@@ -88,10 +93,13 @@ class KeptLog {
   std::deque<LogBatch> batches_;
 };
 
-// The recorder's side: puts batches back into their order, whatever was lost, doubled or overtaken. Any thread may call.
+// The recorder's side: puts batches back into their order, whatever was lost, doubled or overtaken; what an earlier life of the
+// clock had not said is lost with it. Any thread may call.
 class LogInbox {
  public:
   void Deliver(LogBatch batch);
+  // Earlier ones are there already, in a file.
+  void BeginAt(std::uint64_t number);
   // Whole and in order; never waits.
   std::vector<LogBatch> Take();
   // The number of the oldest batch that is missing although a later one is here.

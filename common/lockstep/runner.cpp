@@ -60,6 +60,12 @@ Runner::Outcome Runner::Begin() {
     report_.steps = snapshot.steps;
     report_.digest = snapshot.digest;
     mailbox_.StartAt(snapshot.at);
+  } else if (settings_.sink_from > 0) {
+    RODEIRA_ASSERT(spec_.is_sink());
+    if (auto status = node_.Initialise(outbox_); !status) return Fail(status.error());
+    next_ = CeilTo(settings_.sink_from, spec_.period);
+    report_.steps = static_cast<std::uint64_t>(next_ / spec_.period);
+    mailbox_.StartAt(next_);
   } else {
     if (auto status = node_.Initialise(outbox_); !status) return Fail(status.error());
     const base::Digest state = StateDigest();
@@ -79,7 +85,7 @@ Runner::Outcome Runner::Begin() {
   }
   if (auto status = PublishAll(std::move(first)); !status) return Fail(status.error());
   // The first snapshot is, like every first sample, there before anybody is ready.
-  begun_at_ = settings_.resume ? settings_.resume->at : 0;
+  begun_at_ = settings_.resume ? settings_.resume->at : next_;
   if (spec_.snapshots && begun_at_ % roster_.source(*spec_.snapshots).period == 0) {
     base::StateWriter out;
     node_.Save(out);

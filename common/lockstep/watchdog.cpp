@@ -11,11 +11,23 @@ Watchdog::Watchdog(const Roster& roster, const Settings& settings) : roster_(ros
 void Watchdog::Heard(const Report& report, std::int64_t now_ms) {
   if (report.node >= lives_.size()) return;
   Life& life = lives_[report.node];
-  if (life.heard && report.incarnation < life.report.incarnation) return;
+  if (report.incarnation < life.report.incarnation) return;
   // Who failed stays so, whatever overtakes the news.
   if (life.heard && report.incarnation == life.report.incarnation && life.report.phase >= Phase::kFailed) return;
-  life = {true, now_ms, report};
+  const bool computes_still = life.excused && report.incarnation == life.report.incarnation && report.progress == life.report.progress &&
+                              report.phase == Phase::kRunning && report.waiting == Waiting::kNothing;
+  life = {true, now_ms, report, computes_still};
 }
+
+void Watchdog::ExpectNextLife(NodeIndex node, std::int64_t now_ms) {
+  const std::uint32_t incarnation = lives_[node].report.incarnation + 1;
+  lives_[node] = {};
+  lives_[node].report.incarnation = incarnation;
+  first_ms_ = now_ms;
+  everybody_ready_ = false;
+}
+
+void Watchdog::Excuse(NodeIndex node) { lives_[node].excused = true; }
 
 std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
   if (!first_ms_) first_ms_ = checked_ms_ = now_ms;
@@ -27,7 +39,7 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
   }
   for (NodeIndex n = 0; n < lives_.size(); ++n) {
     const Life& life = lives_[n];
-    if (life.heard && life.report.phase >= Phase::kFailed) {
+    if (life.heard && !life.excused && life.report.phase >= Phase::kFailed) {
       return Fault{n, fmt::format("node '{}' failed at step {}: {}", roster_.node(n).name, life.report.progress, life.report.message),
                    life.report.phase == Phase::kRefused ? 2 : 1};
     }
@@ -37,7 +49,7 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
     const Life& life = lives_[n];
     const NodeSpec& spec = roster_.node(n);
     if (!life.heard || life.report.phase < Phase::kReady) missing += (missing.empty() ? "'" : ", '") + spec.name + "'";
-    if (!life.heard || life.report.phase == Phase::kFinished) continue;
+    if (!life.heard || life.excused || life.report.phase == Phase::kFinished) continue;
     const std::int64_t silence_ms = now_ms - life.last_ms;
     if (silence_ms > settings_.silence_ms) {
       return Fault{n, fmt::format("node '{}' has said nothing for {:.2f} s at step {}: it was killed, stopped or cut off", spec.name,

@@ -30,12 +30,17 @@ class Watchdog {
   // The first fault in the roster's order; a node that failed by its own word comes first. A gap in the caller's own
   // calls (the clock itself was stopped) is nobody's silence and is forgiven.
   std::optional<Fault> Check(std::int64_t now_ms);
+  // The node is started again and has as long as at the start.
+  void ExpectNextLife(NodeIndex node, std::int64_t now_ms);
+  // Its fault is known and a person looks after it: it is named no more until it goes on.
+  void Excuse(NodeIndex node);
 
  private:
   struct Life {
     bool heard = false;
     std::int64_t last_ms = 0;
     Report report;
+    bool excused = false;
   };
   const Roster& roster_;
   Settings settings_;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -38,6 +39,14 @@ class McapWriter {
   // Creates the file and writes its header.
   static base::Result<McapWriter> Open(const std::filesystem::path& path, const WriterSettings& settings = {});
   static base::Result<McapWriter> Open(std::unique_ptr<Sink> sink, const WriterSettings& settings = {});
+  // Goes on with a recording whose writer has died: behind its last whole chunk, which is handed in with those before it as far
+  // as tail.span_ns of log time reach. Wrong input where the file is no recording, has no whole chunk,
+  // was closed in good order or was written by another program: it is left as it is then.
+  struct Tail {
+    std::uint64_t span_ns = 0;
+    std::function<base::Status(const Channel&, const Message&)> on_message;  // in file order
+  };
+  static base::Result<McapWriter> GoOn(const std::filesystem::path& path, const WriterSettings& settings, const Tail& tail);
   McapWriter(McapWriter&&) noexcept;
   McapWriter& operator=(McapWriter&&) noexcept;
   // Closes the file where Close() was not called; an error is lost then.

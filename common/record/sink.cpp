@@ -90,6 +90,15 @@ base::Result<std::unique_ptr<Sink>> OpenFileSink(const std::filesystem::path& pa
   return std::unique_ptr<Sink>(std::move(sink));
 }
 
+base::Result<std::unique_ptr<Sink>> OpenFileSinkBehind(const std::filesystem::path& path, std::uint64_t size) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) return CannotOpen(path, errno);
+  auto sink = std::make_unique<FileSink>(file, path.string());
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0) return CannotOpen(path, errno);
+  if (::ftruncate(file, static_cast<off_t>(size)) != 0 || ::lseek(file, 0, SEEK_END) < 0) return CannotOpen(path, errno);
+  return std::unique_ptr<Sink>(std::move(sink));
+}
+
 base::Status MemorySink::Append(std::span<const std::byte> bytes) {
   const std::uint64_t room = capacity_ > into_->size() ? capacity_ - into_->size() : 0;
   const auto fits = bytes.first(static_cast<std::size_t>(std::min<std::uint64_t>(room, bytes.size())));

@@ -31,6 +31,8 @@ class Sink {
 // refused unless `overwrite`. A program that wants an Error and not a signal from a limit on the size of files ignores
 // SIGXFSZ.
 base::Result<std::unique_ptr<Sink>> OpenFileSink(const std::filesystem::path& path, bool overwrite);
+// An existing file, to go on behind its first `size` bytes; the rest is dropped. Locked too.
+base::Result<std::unique_ptr<Sink>> OpenFileSinkBehind(const std::filesystem::path& path, std::uint64_t size);
 
 // Memory that can be made to fail: Append fails, after writing what fits, beyond `capacity` bytes.
 class MemorySink final : public Sink {

@@ -30,6 +30,17 @@ Status McapWriter::Work::Begin() {
   return Emit();
 }
 
+void McapWriter::Work::GoOn(Contents contents, std::uint64_t bytes, std::uint32_t crc) {
+  offset_ = bytes;
+  crc_ = crc;
+  statistics_ = std::move(contents.statistics);
+  for (auto& [id, schema] : contents.definitions.schemas) schemas_.push_back(std::move(schema));
+  for (auto& [id, channel] : contents.definitions.channels) channels_.push_back(std::move(channel));
+  chunks_ = std::move(contents.chunks);
+  attachments_ = std::move(contents.attachments);
+  metadata_ = std::move(contents.metadata);
+}
+
 // Hands out_ to the sink: all of it, or the file ends where it ended before.
 Status McapWriter::Work::Emit() {
   if (failure_) return *failure_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/record/chunk_builder.hpp"
+#include "common/record/mcap_contents.hpp"
 #include "common/record/mcap_format.hpp"
 #include "common/record/mcap_writer.hpp"
 
@@ -20,6 +21,8 @@ class McapWriter::Work {
       : sink_(std::move(sink)), settings_(settings), chunk_(settings.compression, settings.zstd_level) {}
 
   base::Status Begin();
+  // Instead of Begin(): the sink holds `bytes` bytes with this checksum, and this is what they say.
+  void GoOn(Contents contents, std::uint64_t bytes, std::uint32_t crc);
   base::Result<SchemaId> AddSchema(std::string_view name, std::string_view encoding, std::string_view text);
   base::Result<ChannelId> AddChannel(std::string_view topic, SchemaId schema, std::string_view message_encoding,
                                      const TextMap& metadata);

@@ -44,7 +44,8 @@ class AutopilotSource final : public Source {
       const auto traffic = idl::Decode<msg::TrafficState>(*sample.payload);
       if (!traffic) return traffic.error();
       for (const msg::TrafficAgent& agent : traffic.value().agents()) {
-        others_.push_back({agent.id(), agent.position_x_m(), agent.position_y_m(), agent.heading_rad(), agent.speed_mps(), agent.length_m(), agent.width_m()});
+        others_.push_back({agent.id(), agent.position_x_m(), agent.position_y_m(), static_cast<double>(agent.heading_rad()),
+                           agent.speed_mps(), static_cast<double>(agent.length_m()), static_cast<double>(agent.width_m())});
       }
     }
     const vehicle::VehicleState state = FromWire(own.value());

@@ -39,6 +39,16 @@ base::Status LogChannels::Begin(record::McapWriter& writer) {
   return {};
 }
 
+void LogChannels::Remember(const record::Channel& channel, const record::Message& message) {
+  if (log_ == nullptr) return;
+  if (channel.topic == idl::topics::kRemarks) last_remark_ = std::max(last_remark_, message.sequence);
+  if (channel.topic != idl::topics::kWall) return;
+  const auto wall = idl::Decode<msg::WallTime>(message.data);
+  if (!wall) return;
+  last_wall_ = std::max<lockstep::Step>(last_wall_, wall.value().through_step());
+  log_->BeginAt(message.sequence);
+}
+
 std::uint64_t LogChannels::TimeOf(lockstep::Step step) const {
   return static_cast<std::uint64_t>(std::max<lockstep::Step>(step, 0) * base_step_ns_);
 }
@@ -47,10 +57,14 @@ base::Status LogChannels::Write(record::McapWriter& writer) {
   if (log_ == nullptr) return {};
   for (const lockstep::LogBatch& batch : log_->Take()) {
     for (const lockstep::WallTime& wall : batch.walls) {
+      if (wall.through <= last_wall_) continue;
+      last_wall_ = wall.through;
       const std::uint64_t time_ns = TimeOf(wall.through);
-      if (auto status = writer.Write(wall_, walls_written_++, time_ns, time_ns, idl::Encode(launch::ToWire(wall))); !status) return status;
+      if (auto status = writer.Write(wall_, static_cast<std::uint32_t>(batch.number), time_ns, time_ns, idl::Encode(launch::ToWire(wall))); !status) return status;
     }
     for (const lockstep::Remark& remark : batch.remarks) {
+      if (remark.number <= last_remark_) continue;
+      last_remark_ = remark.number;
       const std::uint64_t time_ns = TimeOf(remark.step);
       if (auto status = writer.Write(remarks_, remark.number, time_ns, time_ns, idl::Encode(launch::ToWire(remark, base_step_ns_))); !status) return status;
     }

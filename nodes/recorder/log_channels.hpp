@@ -9,12 +9,14 @@
 namespace rodeira::nodes {
 
 // The clock's log in a recording: one message of rodeira/wall a grant, one of rodeira/remarks a remark. Their log time is
-// the simulated time of their step, so that they stand beside the samples; the wall's times are in the messages. A run
-// without a log gets no such channels.
+// the simulated time of their step, so that they stand beside the samples; the wall's times are in the messages, and the
+// sequence number of a wall's message is that of its batch. A run without a log gets no such channels.
 class LogChannels {
  public:
   LogChannels(std::unique_ptr<launch::RunLogReceiver> log, std::int64_t base_step_ns);
   base::Status Begin(record::McapWriter& writer);
+  // A message of these channels that an earlier life of the recorder has written: it is not written again.
+  void Remember(const record::Channel& channel, const record::Message& message);
   // What has come so far.
   base::Status Write(record::McapWriter& writer);
   // Waits for the rest, longer where the run went well; false where not all of it has come. The run does not fail by that.
@@ -27,7 +29,8 @@ class LogChannels {
   std::int64_t base_step_ns_;
   record::ChannelId wall_ = 0;
   record::ChannelId remarks_ = 0;
-  std::uint32_t walls_written_ = 0;
+  lockstep::Step last_wall_ = -1;      // through_step of the newest that is written
+  std::uint32_t last_remark_ = 0;      // its number
 };
 
 }  // namespace rodeira::nodes

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -21,15 +23,64 @@ constexpr const char* kProfile = "rodeira/1";
 
 class RecorderNode final : public lockstep::Node {
  public:
-  RecorderNode(record::McapWriter writer, std::filesystem::path file, const lockstep::Roster& roster, std::unique_ptr<launch::RunLogReceiver> log)
-      : writer_(std::move(writer)), file_(std::move(file)), roster_(roster), log_(std::move(log), roster.base_step_ns()) {}
-  // Of a run that never began no recording is left. What is no plain file (a device, a pipe) was not made here.
+  RecorderNode(std::filesystem::path file, const lockstep::Roster& roster, launch::NodeContext& context)
+      : file_(std::move(file)), roster_(roster), log_(context.RunLog(), roster.base_step_ns()) {}
+  // Of a run that never began no recording is left: only what this recorder has made is removed. What is no plain file (a device, a pipe) was not made here.
   ~RecorderNode() override {
     std::error_code problem;
-    if (!complete_ && !has_samples_ && std::filesystem::is_regular_file(file_, problem)) std::filesystem::remove(file_, problem);
+    if (writer_ && !complete_ && !has_samples_ && std::filesystem::is_regular_file(file_, problem)) std::filesystem::remove(file_, problem);
   }
 
-  base::Status Begin(const launch::Launch& launch, lockstep::NodeIndex self, const record::TextMap& meta) {
+  // A file of its own, or that of an earlier life.
+  base::Status Open(launch::NodeContext& context, const record::TextMap& meta) {
+    record::WriterSettings settings;
+    settings.profile = kProfile;
+    tell_safe_ = context.SafeTeller();
+    if (context.is_another_life() && std::filesystem::exists(file_)) {
+      if (GoOn(context, settings).ok()) {
+        complete_ = false;
+        has_samples_ = true;
+        if (auto status = AddChannels(context.index()); !status) return status;
+        context.BeginBehind(last_step_ - 1);
+        if (tell_safe_) tell_safe_(last_step_ - 1);
+        return {};
+      }
+      settings.overwrite = true;  // nothing of it was said to be safe
+    }
+    auto writer = record::McapWriter::Open(file_, settings);
+    if (!writer) return writer.error();
+    writer_.emplace(std::move(writer).value());
+    if (auto status = Begin(context.launch(), meta); !status) return status;
+    return AddChannels(context.index());
+  }
+
+  // Called while the writer is being opened: the samples of the file's end, which others may ask for.
+  base::Status GoOn(launch::NodeContext& context, const record::WriterSettings& settings) {
+    const auto take = [&](const record::Channel& channel, const record::Message& message) -> base::Status {
+      const auto number = channel.metadata.find("source_number");
+      if (number == channel.metadata.end()) {
+        log_.Remember(channel, message);
+        return {};
+      }
+      if (!lockstep::SampleHeader::HasHeader(message.data)) return base::WrongInput("a sample without a header was found", file_.string());
+      const lockstep::Sample sample{lockstep::SampleHeader::Read(message.data), std::make_shared<const base::Bytes>(message.data.begin(), message.data.end())};
+      last_step_ = sample.valid();
+      last_source_ = sample.source();
+      return context.Remember(sample);
+    };
+    auto writer = record::McapWriter::GoOn(file_, settings, {TailNs(), take});
+    if (!writer) return writer.error();
+    writer_.emplace(std::move(writer).value());
+    return {};
+  }
+  // What a lost node goes on from is at most two snapshots old.
+  std::uint64_t TailNs() const {
+    lockstep::Step steps = 0;
+    for (const lockstep::Source& source : roster_.sources()) steps = std::max(steps, 2 * source.period + source.delay);
+    return static_cast<std::uint64_t>(steps * roster_.base_step_ns()) + 1'000'000'000;
+  }
+
+  base::Status Begin(const launch::Launch& launch, const record::TextMap& meta) {
     const record::TextMap about{
         {"launch", launch.name()},
         {"launch_file", launch.path().filename().string()},
@@ -40,16 +91,19 @@ class RecorderNode final : public lockstep::Node {
         {"seed", std::to_string(launch.seed())},
         {"version", "0.1.0"},
     };
-    if (auto status = writer_.AddMetadata("rodeira", about); !status) return status;
+    if (auto status = writer_->AddMetadata("rodeira", about); !status) return status;
     if (!meta.empty()) {
-      if (auto status = writer_.AddMetadata("rodeira.meta", meta); !status) return status;
+      if (auto status = writer_->AddMetadata("rodeira.meta", meta); !status) return status;
     }
-    if (auto status = EmbedFiles(launch, writer_); !status) return status;
+    return EmbedFiles(launch, *writer_);
+  }
+
+  base::Status AddChannels(lockstep::NodeIndex self) {
     channels_.assign(roster_.sources().size(), 0);
     for (const lockstep::Port& port : roster_.node(self).inputs) {
       const idl::TopicInfo* topic = idl::FindTopic(port.topic);
       RODEIRA_ASSERT(topic != nullptr);
-      const auto schema = writer_.AddSchema(topic->type, "omgidl", idl::IdlTextOf(topic->subject));
+      const auto schema = writer_->AddSchema(topic->type, "omgidl", idl::IdlTextOf(topic->subject));
       if (!schema) return schema.error();
       for (const lockstep::SourceIndex source : port.sources) {
         const auto& from = roster_.source(source);
@@ -57,29 +111,29 @@ class RecorderNode final : public lockstep::Node {
                                        {"source_number", std::to_string(source)},
                                        {"period_steps", std::to_string(from.period)},
                                        {"delay_steps", std::to_string(from.delay)}};
-        const auto channel = writer_.AddChannel(port.topic, schema.value(), "cdr", metadata);
+        const auto channel = writer_->AddChannel(port.topic, schema.value(), "cdr", metadata);
         if (!channel) return channel.error();
         channels_[source] = channel.value();
       }
     }
-    return log_.Begin(writer_);
+    return log_.Begin(*writer_);
   }
 
   base::Status Initialise(lockstep::Outbox&) override { return {}; }
   base::Status Step(const lockstep::StepInfo&, const lockstep::Inbox& inbox, lockstep::Outbox&) override {
     if (auto status = WriteAll(inbox); !status) return status;
-    return log_.Write(writer_);
+    return log_.Write(*writer_);
   }
   base::Status Finish(const lockstep::Inbox& rest, lockstep::Step last_step, bool complete) override {
     complete_ = complete;
     if (auto status = WriteAll(rest); !status) return status;
     const bool log_complete = log_.AwaitEnd(complete);
-    if (auto status = log_.Write(writer_); !status) return status;
+    if (auto status = log_.Write(*writer_); !status) return status;
     const record::TextMap end{{"last_step", std::to_string(last_step)},
                               {"complete", complete ? "true" : "false"},
                               {"log_complete", log_complete ? "true" : "false"}};
-    if (auto status = writer_.AddMetadata("rodeira.end", end); !status) return status;
-    return writer_.Close();
+    if (auto status = writer_->AddMetadata("rodeira.end", end); !status) return status;
+    return writer_->Close();
   }
   void Save(base::StateWriter&) const override {}
   void Restore(base::StateReader&) override {}
@@ -95,20 +149,29 @@ class RecorderNode final : public lockstep::Node {
       return a->valid() != b->valid() ? a->valid() < b->valid() : a->source() < b->source();
     });
     for (const lockstep::Sample* sample : samples) {
+      if (IsWritten(*sample)) continue;
       if (auto status = Write(*sample); !status) return status;
     }
     return {};
   }
   base::Status Write(const lockstep::Sample& sample) {
     has_samples_ = true;
+    const std::uint64_t written_bytes = writer_->written_bytes();
     payload_ = *sample.payload;
     std::memset(payload_.data() + lockstep::SampleHeader::kIncarnationAt, 0, 4);  // which life it was is no part of the run
     const auto time_ns = static_cast<std::uint64_t>(sample.header.time_ns);
     const auto sequence = static_cast<std::uint32_t>(sample.valid() / roster_.source(sample.source()).period);
-    return writer_.Write(channels_[sample.source()], sequence, time_ns, time_ns, payload_);
+    if (auto status = writer_->Write(channels_[sample.source()], sequence, time_ns, time_ns, payload_); !status) return status;
+    // Whatever went out before this sample was put into a chunk of its own is beyond harm.
+    if (tell_safe_ && writer_->written_bytes() != written_bytes) tell_safe_(sample.valid() - 1);
+    return {};
+  }
+  // By an earlier life: the file is in the order of (step, source).
+  bool IsWritten(const lockstep::Sample& sample) const {
+    return sample.valid() < last_step_ || (sample.valid() == last_step_ && sample.source() <= last_source_);
   }
 
-  record::McapWriter writer_;
+  std::optional<record::McapWriter> writer_;
   std::filesystem::path file_;
   bool complete_ = false;
   bool has_samples_ = false;
@@ -116,6 +179,9 @@ class RecorderNode final : public lockstep::Node {
   LogChannels log_;
   std::vector<record::ChannelId> channels_;  // by source
   base::Bytes payload_;
+  std::function<void(lockstep::Step)> tell_safe_;
+  lockstep::Step last_step_ = -1;           // of an earlier life's last sample
+  lockstep::SourceIndex last_source_ = 0;
 };
 
 }  // namespace
@@ -126,12 +192,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeRecorderNode(launch::NodeConte
   record::TextMap meta;
   for (const std::string& key : about.Keys()) meta[key] = about.Text(key);
   if (auto status = context.launch().file().Finish(); !status) return status.error();
-  record::WriterSettings settings;
-  settings.profile = kProfile;
-  auto writer = record::McapWriter::Open(file, settings);
-  if (!writer) return writer.error();
-  auto node = std::make_unique<RecorderNode>(std::move(writer).value(), file, context.roster(), context.RunLog());
-  if (auto status = node->Begin(context.launch(), context.index(), meta); !status) return status.error();
+  auto node = std::make_unique<RecorderNode>(file, context.roster(), context);
+  if (auto status = node->Open(context, meta); !status) return status.error();
   return std::unique_ptr<lockstep::Node>(std::move(node));
 }
 

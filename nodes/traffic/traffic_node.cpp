@@ -17,6 +17,8 @@ namespace {
 
 namespace topics = idl::topics;
 
+float Single(double value) { return static_cast<float>(value); }
+
 msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTraits& traits) {
   const Eigen::Matrix3d rotation = pose.q_WB.toRotationMatrix();
   msg::TrafficAgent out;
@@ -25,18 +27,18 @@ msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTra
   out.position_x_m(pose.p_WB_W.x());
   out.position_y_m(pose.p_WB_W.y());
   out.position_z_m(pose.p_WB_W.z());
-  out.heading_rad(std::atan2(rotation(1, 0), rotation(0, 0)));
-  out.pitch_rad(std::asin(std::clamp(-rotation(2, 0), -1.0, 1.0)));
-  out.roll_rad(std::atan2(rotation(2, 1), rotation(2, 2)));
+  out.heading_rad(Single(std::atan2(rotation(1, 0), rotation(0, 0))));
+  out.pitch_rad(Single(std::asin(std::clamp(-rotation(2, 0), -1.0, 1.0))));
+  out.roll_rad(Single(std::atan2(rotation(2, 1), rotation(2, 2))));
   out.speed_mps(pose.speed_mps);
-  out.acceleration_mps2(pose.acceleration_mps2);
-  out.length_m(traits.length_m);
-  out.width_m(traits.width_m);
-  out.height_m(traits.height_m);
-  out.wheelbase_m(traits.wheelbase_m);
-  out.wheel_radius_m(traits.wheel_radius_m);
-  out.steer_rad(pose.steer_rad);
-  out.wheel_spin_rad(pose.wheel_spin_rad);
+  out.acceleration_mps2(Single(pose.acceleration_mps2));
+  out.length_m(Single(traits.length_m));
+  out.width_m(Single(traits.width_m));
+  out.height_m(Single(traits.height_m));
+  out.wheelbase_m(Single(traits.wheelbase_m));
+  out.wheel_radius_m(Single(traits.wheel_radius_m));
+  out.steer_rad(Single(pose.steer_rad));
+  out.wheel_spin_rad(Single(pose.wheel_spin_rad));
   out.colour_rgb(traits.colour_rgb);
   out.brake_lights(pose.braking ? 1 : 0);
   return out;
@@ -46,9 +48,11 @@ msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTra
 driver::Footprint FootprintOf(const msg::VehicleState& in, std::uint32_t id) {
   const auto& q = in.attitude_wb();
   const double heading = std::atan2(2.0 * (q.w() * q.z() + q.x() * q.y()), 1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()));
-  const double middle = in.front_m() - 0.5 * in.length_m();
+  const auto length_m = static_cast<double>(in.length_m());
+  const double middle = static_cast<double>(in.front_m()) - 0.5 * length_m;
   const double along = std::cos(heading) * in.velocity_w_mps().x() + std::sin(heading) * in.velocity_w_mps().y();
-  return {id, in.position_w_m().x() + middle * std::cos(heading), in.position_w_m().y() + middle * std::sin(heading), heading, along, in.length_m(), in.width_m()};
+  return {id, in.position_w_m().x() + middle * std::cos(heading), in.position_w_m().y() + middle * std::sin(heading), heading, along, length_m,
+          static_cast<double>(in.width_m())};
 }
 
 class TrafficNode final : public lockstep::Node {

@@ -11,25 +11,35 @@ msg::Vector3 Vector(const Eigen::Vector3d& v) {
   return out;
 }
 
-msg::WheelState Wheel(const vehicle::WheelState& in) {
+float Single(double value) { return static_cast<float>(value); }
+
+msg::Vector3f Single(const Eigen::Vector3d& v) {
+  msg::Vector3f out;
+  out.x(Single(v.x()));
+  out.y(Single(v.y()));
+  out.z(Single(v.z()));
+  return out;
+}
+
+msg::WheelState Wheel(const vehicle::WheelState& in, const vehicle::VehicleState& car) {
   msg::WheelState out;
-  out.hub_b_m(Vector(in.hub_B));
-  out.steer_rad(in.steer_rad);
-  out.spin_rad(in.spin_rad);
-  out.spin_radps(in.spin_radps);
-  out.longitudinal_n(in.longitudinal_N);
-  out.lateral_n(in.lateral_N);
-  out.load_n(in.load_N);
-  out.slip(in.slip);
-  out.slip_angle_tan(in.slip_angle_tan);
-  out.brake_torque_nm(in.brake_torque_Nm);
-  out.drive_torque_nm(in.drive_torque_Nm);
-  out.suspension_n(in.suspension_N);
-  out.damper_n(in.damper_N);
-  out.travel_m(in.travel_m);
-  out.contact_w_m(Vector(in.contact_W));
-  out.contact_normal_w(Vector(in.contact_normal_W));
-  out.friction(in.friction);
+  out.hub_b_m(Single(in.hub_B));
+  out.steer_rad(Single(in.steer_rad));
+  out.spin_rad(Single(in.spin_rad));
+  out.spin_radps(Single(in.spin_radps));
+  out.longitudinal_n(Single(in.longitudinal_N));
+  out.lateral_n(Single(in.lateral_N));
+  out.load_n(Single(in.load_N));
+  out.slip(Single(in.slip));
+  out.slip_angle_tan(Single(in.slip_angle_tan));
+  out.brake_torque_nm(Single(in.brake_torque_Nm));
+  out.drive_torque_nm(Single(in.drive_torque_Nm));
+  out.suspension_n(Single(in.suspension_N));
+  out.damper_n(Single(in.damper_N));
+  out.travel_m(Single(in.travel_m));
+  out.contact_b_m(Single(car.q_WB.conjugate() * (in.contact_W - car.p_WB_W)));
+  out.contact_normal_w(Single(in.contact_normal_W));
+  out.friction(Single(in.friction));
   out.surface(static_cast<std::uint32_t>(in.surface));
   out.in_contact(in.load_N > 0.0 ? 1 : 0);
   return out;
@@ -72,24 +82,24 @@ msg::VehicleState ToWire(const vehicle::VehicleState& state, const vehicle::Vehi
   out.attitude_wb().z(state.q_WB.z());
   out.velocity_w_mps(Vector(state.v_WB_W));
   out.angular_velocity_b_radps(Vector(state.w_WB_B));
-  out.acceleration_w_mps2(Vector(state.a_WB_W));
-  out.angular_acceleration_b_radps2(Vector(state.alpha_WB_B));
-  for (std::size_t i = 0; i < vehicle::kWheels; ++i) out.wheels()[i] = Wheel(state.wheels[i]);
+  out.acceleration_w_mps2(Single(state.a_WB_W));
+  out.angular_acceleration_b_radps2(Single(state.alpha_WB_B));
+  for (std::size_t i = 0; i < vehicle::kWheels; ++i) out.wheels()[i] = Wheel(state.wheels[i], state);
   out.engine_speed_radps(state.engine_speed_radps);
-  out.engine_torque_nm(state.engine_torque_Nm);
-  out.clutch(state.clutch);
-  out.clutch_torque_nm(state.clutch_torque_Nm);
-  out.throttle(state.throttle);
-  out.brake(state.brake);
+  out.engine_torque_nm(Single(state.engine_torque_Nm));
+  out.clutch(Single(state.clutch));
+  out.clutch_torque_nm(Single(state.clutch_torque_Nm));
+  out.throttle(Single(state.throttle));
+  out.brake(Single(state.brake));
   out.steering_wheel_rad(state.steering_wheel_rad);
-  out.steering_torque_nm(state.steering_torque_Nm);
-  out.fuel_rate_kgps(state.fuel_rate_kgps);
+  out.steering_torque_nm(Single(state.steering_torque_Nm));
+  out.fuel_rate_kgps(Single(state.fuel_rate_kgps));
   out.fuel_kg(state.fuel_kg);
   out.odometer_m(state.odometer_m);
-  out.drag_n(state.drag_N);
-  out.length_m(dimensions.front_m + dimensions.rear_m);
-  out.front_m(dimensions.front_m);
-  out.width_m(dimensions.width_m);
+  out.drag_n(Single(state.drag_N));
+  out.length_m(Single(dimensions.front_m + dimensions.rear_m));
+  out.front_m(Single(dimensions.front_m));
+  out.width_m(Single(dimensions.width_m));
   out.gear(state.gear);
   out.engine_running(state.engine_running ? 1 : 0);
   out.inside_world(state.inside_world ? 1 : 0);

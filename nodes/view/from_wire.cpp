@@ -8,7 +8,9 @@ namespace {
 
 constexpr std::array<scene::Colour, 4> kPaints = {scene::Colour::Of(0xb01e26), scene::Colour::Of(0x1e4fa0), scene::Colour::Of(0xd9b11e), scene::Colour::Of(0x2b7a3d)};
 
+double Double(float value) { return static_cast<double>(value); }
 Eigen::Vector3d ToVector(const msg::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+Eigen::Vector3d ToVector(const msg::Vector3f& v) { return {Double(v.x()), Double(v.y()), Double(v.z())}; }
 
 }  // namespace
 
@@ -21,15 +23,15 @@ scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, 
   car.q_WB = Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized();
   for (std::size_t i = 0; i < car.wheels.size(); ++i) {
     const msg::WheelState& wheel = message.wheels()[i];
-    car.wheels[i] = {ToVector(wheel.hub_b_m()), wheel.steer_rad(), wheel.spin_rad(), wheel.spin_radps()};
+    car.wheels[i] = {ToVector(wheel.hub_b_m()), Double(wheel.steer_rad()), Double(wheel.spin_rad()), Double(wheel.spin_radps())};
   }
   car.speed_mps = (car.q_WB.conjugate() * ToVector(message.velocity_w_mps())).x();
-  car.brake = message.brake();
+  car.brake = Double(message.brake());
   car.gear = message.gear();
-  if (message.length_m() > 0.0 && message.width_m() > 0.0) {
-    car.length_m = message.length_m();
-    car.front_m = message.front_m();
-    car.width_m = message.width_m();
+  if (message.length_m() > 0.0F && message.width_m() > 0.0F) {
+    car.length_m = Double(message.length_m());
+    car.front_m = Double(message.front_m());
+    car.width_m = Double(message.width_m());
   }
   return car;
 }
@@ -41,16 +43,16 @@ void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::v
     agent.id = (static_cast<std::uint64_t>(source) << 48) | (static_cast<std::uint64_t>(from.id() & 0xffffffU) << 24) | (from.trip() & 0xffffffU);
     agent.colour = scene::Colour::Of(from.colour_rgb());
     agent.p_WB_W = {from.position_x_m(), from.position_y_m(), from.position_z_m()};
-    agent.q_WB = scene::Attitude(from.heading_rad(), from.pitch_rad(), from.roll_rad());
+    agent.q_WB = scene::Attitude(Double(from.heading_rad()), Double(from.pitch_rad()), Double(from.roll_rad()));
     agent.speed_mps = from.speed_mps();
-    agent.steer_rad = from.steer_rad();
-    agent.wheel_spin_rad = from.wheel_spin_rad();
+    agent.steer_rad = Double(from.steer_rad());
+    agent.wheel_spin_rad = Double(from.wheel_spin_rad());
     agent.braking = from.brake_lights() != 0;
-    if (from.length_m() > 0.0) agent.length_m = from.length_m();
-    if (from.width_m() > 0.0) agent.width_m = from.width_m();
-    if (from.height_m() > 0.0) agent.height_m = from.height_m();
-    if (from.wheelbase_m() > 0.0) agent.wheelbase_m = from.wheelbase_m();
-    if (from.wheel_radius_m() > 0.0) agent.wheel_radius_m = from.wheel_radius_m();
+    if (from.length_m() > 0.0F) agent.length_m = Double(from.length_m());
+    if (from.width_m() > 0.0F) agent.width_m = Double(from.width_m());
+    if (from.height_m() > 0.0F) agent.height_m = Double(from.height_m());
+    if (from.wheelbase_m() > 0.0F) agent.wheelbase_m = Double(from.wheelbase_m());
+    if (from.wheel_radius_m() > 0.0F) agent.wheel_radius_m = Double(from.wheel_radius_m());
     agents.push_back(agent);
   }
   std::sort(agents.begin() + first, agents.end(), [](const scene::AgentPose& a, const scene::AgentPose& b) { return a.id < b.id; });

@@ -1,7 +1,7 @@
 // SUELO as a user asks for it: `rodeira world query`, and the ground under the wheels of a run.
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -109,17 +109,27 @@ class Ground : public ::testing::Test {
 };
 
 // The server's answers over DDS, as the wheels of a car that stands in its lane felt them.
+// Where a wheel touches the ground, in the world.
+Eigen::Vector3d ContactOf(const msg::VehicleState& car, std::size_t wheel) {
+  const auto& q = car.attitude_wb();
+  const auto& p = car.position_w_m();
+  const auto& c = car.wheels()[wheel].contact_b_m();
+  return Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()) * Eigen::Vector3f(c.x(), c.y(), c.z()).cast<double>() + Eigen::Vector3d(p.x(), p.y(), p.z());
+}
+
 TEST_F(Ground, TheWheelsStandOnTheCrossfallOfTheRoad) {
   const auto states = Drive((kRoot / "tests/data/n222_traffic.yaml").string(), "0.1", {"--set", "nodes.traffic.config.vehicles=0"});
   ASSERT_EQ(states.size(), 101u);
   const double heading = 20.0 * std::numbers::pi / 180.0;
-  for (const auto& wheel : states.front().wheels()) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& wheel = states.front().wheels()[i];
     EXPECT_EQ(wheel.in_contact(), 1u);
-    const auto& n = wheel.contact_normal_w();
+    const auto& normal = wheel.contact_normal_w();
+    const Eigen::Vector3d n = Eigen::Vector3f(normal.x(), normal.y(), normal.z()).cast<double>();
     // Lane -1 lies to the right of the axis and falls to the right: the normal leans to the right.
     EXPECT_NEAR((-std::sin(heading) * n.x() + std::cos(heading) * n.y()) / n.z(), -0.025, 1e-6);
     EXPECT_NEAR(-(std::cos(heading) * n.x() + std::sin(heading) * n.y()) / n.z(), 5.7 / 210.0, 1e-6);
-    const auto& c = wheel.contact_w_m();
+    const Eigen::Vector3d c = ContactOf(states.front(), i);
     EXPECT_NEAR(PointOf(Query(kN222, c.x(), c.y())).z_m, c.z(), 1e-6);
   }
   EXPECT_EQ(states.front().inside_world(), 1u);
@@ -135,7 +145,7 @@ TEST_F(Ground, BeyondTheTerrainsEdgeTheFlagIsClear) {
   bool left = false;
   for (const auto& state : states) {
     double foremost = -1e9;
-    for (const auto& wheel : state.wheels()) foremost = std::max(foremost, wheel.contact_w_m().x());
+    for (std::size_t i = 0; i < 4; ++i) foremost = std::max(foremost, ContactOf(state, i).x());
     if (foremost < 99.9) {
       EXPECT_EQ(state.inside_world(), left ? 0u : 1u) << state.header().step();
     } else if (foremost > 100.1) {

@@ -23,14 +23,17 @@ struct Box {
   bool in_lane() const { return right_m < 0.0 && left_m < 0.5 && left_m > -3.2; }  // lane -1: y from -3.2 to 0
 };
 
+double Double(float value) { return static_cast<double>(value); }
+
 Box BoxOf(const msg::VehicleState& car) {
   const double x = car.position_w_m().x(), y = car.position_w_m().y();
-  const double front = x + car.front_m();
-  return {front - car.length_m(), front, y - 0.5 * car.width_m(), y + 0.5 * car.width_m(), car.velocity_w_mps().x()};
+  const double front = x + Double(car.front_m());
+  return {front - Double(car.length_m()), front, y - 0.5 * Double(car.width_m()), y + 0.5 * Double(car.width_m()), car.velocity_w_mps().x()};
 }
 Box BoxOf(const msg::TrafficAgent& agent) {
   const double x = agent.position_x_m(), y = agent.position_y_m();
-  return {x - 0.5 * agent.length_m(), x + 0.5 * agent.length_m(), y - 0.5 * agent.width_m(), y + 0.5 * agent.width_m(), agent.speed_mps() * std::cos(agent.heading_rad())};
+  return {x - 0.5 * Double(agent.length_m()), x + 0.5 * Double(agent.length_m()), y - 0.5 * Double(agent.width_m()), y + 0.5 * Double(agent.width_m()),
+          agent.speed_mps() * std::cos(Double(agent.heading_rad()))};
 }
 bool Touch(const Box& a, const Box& b) { return a.rear_m < b.front_m && b.rear_m < a.front_m && a.right_m < b.left_m && b.right_m < a.left_m; }
 
@@ -59,9 +62,9 @@ TEST(Stopping, ABlockedLaneStopsTrafficAndAutopilotWithoutATouch) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) ASSERT_FALSE(Touch(all[i], all[j])) << i << " and " << j << " at step " << 10 * k;
     }
-    ASSERT_NEAR(all[0].front_m, 700.0 + wreck[0].front_m(), 0.1) << "the wreck stands";
+    ASSERT_NEAR(all[0].front_m, 700.0 + Double(wreck[0].front_m()), 0.1) << "the wreck stands";
     fastest = std::max(fastest, all[1].speed_mps);
-    hardest = std::max(hardest, -ego[10 * k].acceleration_w_mps2().x());
+    hardest = std::max(hardest, -Double(ego[10 * k].acceleration_w_mps2().x()));
   }
   EXPECT_GT(fastest, 15.0) << "the autopilot has driven";
   EXPECT_LT(hardest, 5.0) << "and saw what was coming";
@@ -69,7 +72,7 @@ TEST(Stopping, ABlockedLaneStopsTrafficAndAutopilotWithoutATouch) {
   // At the end: the wreck, behind it the queue, all at rest, each behind the one before it.
   std::vector<Box> queue;
   for (const Box& box : Everybody(wreck.back(), ego.back(), traffic.back())) {
-    if (box.in_lane() && box.front_m <= 700.0 + wreck[0].front_m() + 0.1) queue.push_back(box);
+    if (box.in_lane() && box.front_m <= 700.0 + Double(wreck[0].front_m()) + 0.1) queue.push_back(box);
   }
   std::ranges::sort(queue, std::greater<>(), &Box::front_m);
   const Box autopilot = BoxOf(ego.back());

@@ -131,10 +131,12 @@ TEST_F(ExportTest, VehicleStatesReadBackToTheBit) {
   Recording recording;
   const auto ego = recording.Channel(idl::topics::kVehicleState, "ego");
   const std::vector<double> values = {0.1, 1e-300, -123456.789012345678, 5e-324, 1.7976931348623157e308, 0.30000000000000004};
+  const std::vector<float> singles = {0.1F, 1e-38F, -123456.789F, 1e-45F, 3.4028235e38F, 0.30000001F};
   for (std::size_t i = 0; i < values.size(); ++i) {
     msg::VehicleState state;
     state.position_w_m().y(values[i]);
-    state.wheels()[2].contact_normal_w().z(-values[i]);
+    state.velocity_w_mps().z(-values[i]);
+    state.wheels()[2].contact_normal_w().z(singles[i]);
     recording.Put(ego, state, static_cast<std::int64_t>(i));
   }
   const auto reader = recording.Reader();
@@ -148,7 +150,8 @@ TEST_F(ExportTest, VehicleStatesReadBackToTheBit) {
   };
   for (std::size_t i = 0; i < values.size(); ++i) {
     EXPECT_EQ(std::strtod(rows[i + 1][column("position_w_m.y")].c_str(), nullptr), values[i]);
-    EXPECT_EQ(std::strtod(rows[i + 1][column("wheels[2].contact_normal_w.z")].c_str(), nullptr), -values[i]);
+    EXPECT_EQ(std::strtod(rows[i + 1][column("velocity_w_mps.z")].c_str(), nullptr), -values[i]);
+    EXPECT_EQ(std::strtof(rows[i + 1][column("wheels[2].contact_normal_w.z")].c_str(), nullptr), singles[i]);
   }
 }
 

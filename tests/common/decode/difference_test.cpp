@@ -22,10 +22,14 @@ std::string Between(const char* subject, const char* type, const Message& a, con
 TEST(FirstDifference, NamesMemberAndBothValuesInFullPrecision) {
   msg::VehicleState a;
   msg::VehicleState b;
-  a.wheels()[2].load_n(0.1);
-  b.wheels()[2].load_n(std::nextafter(0.1, 1.0));
-  b.wheels()[3].load_n(5.0);
-  EXPECT_EQ(Between("vehicle", "rodeira::msg::VehicleState", a, b), "wheels[2].load_n: 0.1 | 0.10000000000000002");
+  a.wheels()[2].load_n(0.1F);
+  b.wheels()[2].load_n(std::nextafter(0.1F, 1.0F));
+  b.wheels()[3].load_n(5.0F);
+  EXPECT_EQ(Between("vehicle", "rodeira::msg::VehicleState", a, b), "wheels[2].load_n: 0.1 | 0.10000001");
+  b = a;
+  a.odometer_m(0.1);
+  b.odometer_m(std::nextafter(0.1, 1.0));
+  EXPECT_EQ(Between("vehicle", "rodeira::msg::VehicleState", a, b), "odometer_m: 0.1 | 0.10000000000000002");
   EXPECT_EQ(Between("vehicle", "rodeira::msg::VehicleState", a, a), "");
   b = a;
   b.fuel_kg(-0.0);

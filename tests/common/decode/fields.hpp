@@ -21,7 +21,8 @@ void Fields(V& v, msg::Header& m) {
 template <class V>
 void Fields(V& v, msg::Grant& m) {
   v("clock_id", m.clock_id()), v("roster_hash", m.roster_hash()), v("through_step", m.through_step()), v("serial", m.serial());
-  v("final_step", m.final_step()), v("abort", m.abort()), v("over", m.over()), v("reason", m.reason()), v("end", m.end());
+  v("final_step", m.final_step()), v("abort", m.abort()), v("over", m.over()), v("safe_step", m.safe_step());
+  v("resume_step", m.resume_step()), v("lives", m.lives()), v("reason", m.reason()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Ask& m) {
@@ -37,7 +38,8 @@ void Fields(V& v, msg::Report& m) {
   v("clock_id", m.clock_id()), v("node", m.node()), v("hello", m.hello()), v("incarnation", m.incarnation()), v("phase", m.phase());
   v("progress_step", m.progress_step()), v("waiting", m.waiting()), v("waiting_source", m.waiting_source());
   v("since_ms", m.since_ms()), v("digest", m.digest()), v("steps", m.steps()), v("busy_ns", m.busy_ns()), v("worst_ns", m.worst_ns());
-  v("server_calls", m.server_calls()), v("message", m.message()), v("end", m.end());
+  v("server_calls", m.server_calls()), v("safe_step", m.safe_step()), v("granted_step", m.granted_step());
+  v("granted_final", m.granted_final()), v("message", m.message()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Controls& m) {
@@ -109,8 +111,8 @@ void Fields(V& v, msg::Snapshot& m) {
 template <class V>
 void Fields(V& v, msg::TrafficAgent& m) {
   v("id", m.id()), v("trip", m.trip()), v("position_x_m", m.position_x_m()), v("position_y_m", m.position_y_m());
-  v("position_z_m", m.position_z_m()), v("heading_rad", m.heading_rad()), v("pitch_rad", m.pitch_rad()), v("roll_rad", m.roll_rad());
-  v("speed_mps", m.speed_mps()), v("acceleration_mps2", m.acceleration_mps2()), v("length_m", m.length_m());
+  v("position_z_m", m.position_z_m()), v("speed_mps", m.speed_mps()), v("acceleration_mps2", m.acceleration_mps2());
+  v("heading_rad", m.heading_rad()), v("pitch_rad", m.pitch_rad()), v("roll_rad", m.roll_rad()), v("length_m", m.length_m());
   v("width_m", m.width_m()), v("height_m", m.height_m()), v("wheelbase_m", m.wheelbase_m()), v("wheel_radius_m", m.wheel_radius_m());
   v("steer_rad", m.steer_rad()), v("wheel_spin_rad", m.wheel_spin_rad()), v("colour_rgb", m.colour_rgb());
   v("brake_lights", m.brake_lights());
@@ -124,26 +126,30 @@ void Fields(V& v, msg::Vector3& m) {
   v("x", m.x()), v("y", m.y()), v("z", m.z());
 }
 template <class V>
+void Fields(V& v, msg::Vector3f& m) {
+  v("x", m.x()), v("y", m.y()), v("z", m.z());
+}
+template <class V>
 void Fields(V& v, msg::Quaternion& m) {
   v("w", m.w()), v("x", m.x()), v("y", m.y()), v("z", m.z());
 }
 template <class V>
 void Fields(V& v, msg::WheelState& m) {
-  v("hub_b_m", m.hub_b_m()), v("steer_rad", m.steer_rad()), v("spin_rad", m.spin_rad()), v("spin_radps", m.spin_radps());
-  v("longitudinal_n", m.longitudinal_n()), v("lateral_n", m.lateral_n()), v("load_n", m.load_n()), v("slip", m.slip());
-  v("slip_angle_tan", m.slip_angle_tan()), v("brake_torque_nm", m.brake_torque_nm()), v("drive_torque_nm", m.drive_torque_nm());
-  v("suspension_n", m.suspension_n()), v("damper_n", m.damper_n()), v("travel_m", m.travel_m()), v("contact_w_m", m.contact_w_m());
-  v("contact_normal_w", m.contact_normal_w()), v("friction", m.friction()), v("surface", m.surface()), v("in_contact", m.in_contact());
+  v("contact_b_m", m.contact_b_m()), v("contact_normal_w", m.contact_normal_w()), v("hub_b_m", m.hub_b_m()), v("steer_rad", m.steer_rad());
+  v("spin_rad", m.spin_rad()), v("spin_radps", m.spin_radps()), v("longitudinal_n", m.longitudinal_n()), v("lateral_n", m.lateral_n());
+  v("load_n", m.load_n()), v("slip", m.slip()), v("slip_angle_tan", m.slip_angle_tan()), v("brake_torque_nm", m.brake_torque_nm());
+  v("drive_torque_nm", m.drive_torque_nm()), v("suspension_n", m.suspension_n()), v("damper_n", m.damper_n()), v("travel_m", m.travel_m());
+  v("friction", m.friction()), v("surface", m.surface()), v("in_contact", m.in_contact());
 }
 template <class V>
 void Fields(V& v, msg::VehicleState& m) {
   v("header", m.header()), v("position_w_m", m.position_w_m()), v("attitude_wb", m.attitude_wb());
   v("velocity_w_mps", m.velocity_w_mps()), v("angular_velocity_b_radps", m.angular_velocity_b_radps());
-  v("acceleration_w_mps2", m.acceleration_w_mps2()), v("angular_acceleration_b_radps2", m.angular_acceleration_b_radps2());
-  v("wheels", m.wheels()), v("engine_speed_radps", m.engine_speed_radps()), v("engine_torque_nm", m.engine_torque_nm());
+  v("steering_wheel_rad", m.steering_wheel_rad()), v("engine_speed_radps", m.engine_speed_radps()), v("fuel_kg", m.fuel_kg());
+  v("odometer_m", m.odometer_m()), v("wheels", m.wheels()), v("acceleration_w_mps2", m.acceleration_w_mps2());
+  v("angular_acceleration_b_radps2", m.angular_acceleration_b_radps2()), v("engine_torque_nm", m.engine_torque_nm());
   v("clutch", m.clutch()), v("clutch_torque_nm", m.clutch_torque_nm()), v("throttle", m.throttle()), v("brake", m.brake());
-  v("steering_wheel_rad", m.steering_wheel_rad()), v("steering_torque_nm", m.steering_torque_nm());
-  v("fuel_rate_kgps", m.fuel_rate_kgps()), v("fuel_kg", m.fuel_kg()), v("odometer_m", m.odometer_m()), v("drag_n", m.drag_n());
+  v("steering_torque_nm", m.steering_torque_nm()), v("fuel_rate_kgps", m.fuel_rate_kgps()), v("drag_n", m.drag_n());
   v("length_m", m.length_m()), v("front_m", m.front_m()), v("width_m", m.width_m()), v("gear", m.gear());
   v("engine_running", m.engine_running()), v("inside_world", m.inside_world()), v("end", m.end());
 }

@@ -15,6 +15,12 @@ class KeptSamplesTest : public ::testing::Test {
     header.Write(payload);
     return {header, std::make_shared<const base::Bytes>(std::move(payload))};
   }
+  static Grant Through(Step step, Step safe = kNever) {
+    Grant grant;
+    grant.through = step;
+    grant.safe = safe;
+    return grant;
+  }
   static std::vector<Step> Steps(const std::vector<Sample>& samples) {
     std::vector<Step> steps;
     for (const Sample& sample : samples) steps.push_back(sample.valid());
@@ -38,12 +44,23 @@ TEST_F(KeptSamplesTest, GivesWhatIsAskedForInOrder) {
 
 TEST_F(KeptSamplesTest, KeepsWhatTheSlowestConsumerMayStillNeed) {
   for (Step v = 0; v <= 60; v += 2) kept_.Add(Make(0, v));
-  kept_.Granted(20);
+  kept_.Granted(Through(20));
   EXPECT_EQ(Steps(kept_.From({0, 0})).front(), 0);
   // Granted 43: somebody may stand at 23, whose next activation is at 25 and sees the events in (20, 25].
-  kept_.Granted(43);
+  kept_.Granted(Through(43));
   EXPECT_EQ(Steps(kept_.From({0, 0})).front(), 22);
   EXPECT_EQ(kept_.size(), 20u);
+}
+
+TEST_F(KeptSamplesTest, KeepsWhatARecorderCouldLose) {
+  for (Step v = 0; v <= 1000; v += 2) kept_.Add(Make(0, v));
+  kept_.Granted(Through(1000, -1));
+  EXPECT_EQ(Steps(kept_.From({0, 0})).front(), 0);
+  // Through 21 everything is safe: a recorder's other life begins at 25 and sees the events in (20, 25].
+  kept_.Granted(Through(1000, 21));
+  EXPECT_EQ(Steps(kept_.From({0, 0})).front(), 22);
+  EXPECT_EQ(Steps(kept_.From({0, 0})).back(), 22 + 2 * 63);
+  EXPECT_EQ(Steps(kept_.From({0, 900})).back(), 1000);
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ class Scenario : public testing::Test {
   // An agent that drives far from anything that could disturb it, at `step` of an undisturbed run.
   static std::uint32_t SomeAgent(const Driven& run, Step step) {
     for (const msg::TrafficAgent& agent : run.traffic.at(step).agents()) {
-      if (agent.speed_mps() > 12.0 && std::fabs(agent.acceleration_mps2()) < 1.0) return agent.id();
+      if (agent.speed_mps() > 12.0 && std::fabs(agent.acceleration_mps2()) < 1.0F) return agent.id();
     }
     ADD_FAILURE() << "nobody drives";
     return 0;

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/lockstep/report.hpp"
+#include "common/lockstep/roster.hpp"
+
+namespace rodeira::lockstep {
+
+// What becomes of a run of which a part has died or hangs.
+enum class Policy {
+  kStop,     // the run ends, its recording is closed
+  kPause,    // time stands until the part goes on or a person decides, without any limit
+  kRestart,  // the part is started again and computes again what it had computed: the same bits
+};
+
+// Says how a run goes on after the loss of a node, and from where. Pure logic for the clock.
+//
+// A node goes on from its snapshot at resume(): the newest step of which the recorder says that everything valid up to then,
+// and all that a node publishes ahead of it, lies in its file (`safe`). So two losses at once lose nothing: what lies behind
+// is still with those who made it, or they compute it again.
+class Recovery {
+ public:
+  // policies: one for each node, or empty (all kStop).
+  Recovery(const Roster& roster, std::vector<Policy> policies);
+
+  Policy policy(NodeIndex node) const { return policies_[node]; }
+  // Somebody may be started again, by policy or by a person, and there is a recorder: nodes keep what it could lose.
+  bool restarts() const { return restarts_; }
+
+  void Heard(const Report& report);
+  // For the grant: kNever where nobody is started again.
+  Step safe() const { return restarts_ ? safe_ : kNever; }
+  Step resume() const;
+
+  struct Decision {
+    Policy policy = Policy::kStop;
+    std::string why;  // of a stop that the policy did not ask for
+  };
+  // The node was lost before its activation at `progress`. Who is lost four times without having got further than before will
+  // be lost there every time.
+  Decision Lost(NodeIndex node, Step progress);
+
+ private:
+  struct Life {
+    Step farthest = -1;           // where it was lost
+    int times = 0;                // lost at or before that step
+    bool back = true;             // it has come that far again
+    Step resume = 0;              // where it was sent to
+  };
+  Step Newest() const;
+
+  const Roster& roster_;
+  std::vector<Policy> policies_;
+  bool restarts_ = false;
+  Step every_ = 0;   // steps between snapshots; 0: there are none
+  Step ahead_ = 0;   // the longest delay
+  Step safe_ = -1;
+  std::vector<Step> safe_of_;  // by node, of those who keep snapshots
+  std::vector<Life> lives_;
+};
+
+}  // namespace rodeira::lockstep

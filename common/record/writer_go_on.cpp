@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "common/record/checksum.hpp"
+#include "common/record/mcap_contents.hpp"
+#include "common/record/writer_work.hpp"
+
+namespace rodeira::record {
+namespace {
+
+constexpr std::uint64_t kBlockBytes = 4u << 20;
+
+base::Result<std::uint32_t> ChecksumOf(const Source& source, std::uint64_t size) {
+  std::uint32_t crc = 0;
+  for (std::uint64_t at = 0; at < size; at += kBlockBytes) {
+    const auto block = source.Read(at, std::min(kBlockBytes, size - at));
+    if (!block) return block.error();
+    crc = Crc32(block.value(), crc);
+  }
+  return crc;
+}
+
+// The writer numbers schemas and channels from 1 without a gap; so must the file that it goes on with.
+template <class Numbered>
+bool CountsFromOne(const Numbered& numbered) {
+  std::size_t expected = 1;
+  return std::ranges::all_of(numbered, [&](const auto& entry) { return entry.first == expected++; });
+}
+
+// The first byte behind the last whole chunk: that chunk counts only with all of its indexes.
+std::uint64_t EndOfWhole(const Scan& scan) {
+  const auto& chunks = scan.contents.chunks;
+  const bool cut = !chunks.empty() && chunks.back().index_offsets.size() != chunks.back().channels->size();
+  return cut ? chunks.back().offset : scan.good_bytes;
+}
+
+base::Status HandInTail(const Source& source, const Contents& contents, const McapWriter::Tail& tail) {
+  const std::uint64_t end_ns = contents.statistics.last_log_time_ns;
+  const std::uint64_t from_ns = end_ns > tail.span_ns ? end_ns - tail.span_ns : 0;
+  for (const ChunkInfo& info : contents.chunks) {
+    if (info.last_log_time_ns < from_ns) continue;
+    const auto chunk = LoadChunk(source, info, contents.definitions);
+    if (!chunk) return chunk.error();
+    for (const Chunk::Entry& entry : chunk.value().entries) {
+      const auto record = RecordAt(chunk.value().records, entry.offset);
+      const auto message = record ? ParseMessage(record->content) : std::nullopt;
+      RODEIRA_ASSERT(message.has_value());  // LoadChunk found all of them whole
+      if (auto status = tail.on_message(contents.definitions.channels.at(message->channel), *message); !status) return status;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+base::Result<McapWriter> McapWriter::GoOn(const std::filesystem::path& path, const WriterSettings& settings, const Tail& tail) {
+  std::unique_ptr<Sink> sink;
+  std::unique_ptr<Source> source;
+  Scan scan;
+  do {  // a second time only where a chunk without all of its indexes was dropped
+    auto opened = OpenFileSource(path);
+    if (!opened) return opened.error();
+    source = std::move(opened).value();
+    auto scanned = ScanFile(*source);
+    if (!scanned) return scanned.error();
+    scan = std::move(scanned).value();
+    if (scan.ended) return base::WrongInput("the recording was closed in good order; nothing can be added to it", path.string());
+    if (scan.contents.chunks.empty()) return base::WrongInput("the recording holds no whole chunk yet", path.string());
+    sink.reset();  // its lock
+    auto writable = OpenFileSinkBehind(path, EndOfWhole(scan));
+    if (!writable) return writable.error();
+    sink = std::move(writable).value();
+  } while (EndOfWhole(scan) != scan.good_bytes);
+  Contents& contents = scan.contents;
+  if (!CountsFromOne(contents.definitions.schemas) || !CountsFromOne(contents.definitions.channels)) {
+    return base::WrongInput("the recording was written by another program; nothing can be added to it", path.string());
+  }
+  const auto crc = ChecksumOf(*source, scan.good_bytes);
+  if (!crc) return crc.error();
+  if (auto status = HandInTail(*source, contents, tail); !status) return status.error();
+  auto work = std::make_unique<Work>(std::move(sink), settings);
+  work->GoOn(std::move(contents), scan.good_bytes, crc.value());
+  return McapWriter(std::move(work));
+}
+
+}  // namespace rodeira::record
