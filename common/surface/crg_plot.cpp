@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "common/surface/crg_report.hpp"
+#include "common/surface/value_range.hpp"
 
 namespace rodeira::surface {
 namespace {
@@ -19,15 +19,8 @@ constexpr int kColumns = 225;
 constexpr int kRows = 45;
 constexpr int kTrackPoints = 900;
 
-struct Extent {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void Add(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  double size() const { return std::max(high - low, 1e-9); }
-};
+// At least this much, so that what is level can be drawn.
+double Size(const ValueRange& range) { return std::max(range.size(), 1e-9); }
 
 std::string Frame(double top, double height, std::string_view title) {
   return fmt::format("<text x='{}' y='{}' font-size='13'>{}</text>\n<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#999'/>\n", kLeft, top - 6, title, kLeft,
@@ -48,7 +41,7 @@ std::string Plan(const CrgSurface& surface, double top) {
   const CrgShape& shape = surface.shape();
   const std::size_t every = std::max<std::size_t>(1, surface.rows() / 600);
   std::array<std::vector<Eigen::Vector2d>, 3> lines;
-  Extent x, y;
+  ValueRange x, y;
   for (std::size_t row = 0; row < surface.rows(); row = row + 1 == surface.rows() ? row + 1 : std::min(row + every, surface.rows() - 1)) {
     const double u = shape.line.begin_u_m() + static_cast<double>(row) * shape.line.step_m();
     const std::array<double, 3> v = {shape.v_m.front(), 0.0, shape.v_m.back()};
@@ -58,7 +51,7 @@ std::string Plan(const CrgSurface& surface, double top) {
       x.Add(p.x()), y.Add(p.y());
     }
   }
-  const double scale = std::min((kWidth - 20.0) / x.size(), (kPlanHeight - 20.0) / y.size());
+  const double scale = std::min((kWidth - 20.0) / Size(x), (kPlanHeight - 20.0) / Size(y));
   const double mx = 0.5 * (x.low + x.high), my = 0.5 * (y.low + y.high);
   std::string svg = Frame(top, kPlanHeight, fmt::format("from above: x {:.2f} to {:.2f} m, y {:.2f} to {:.2f} m; the dot is the beginning", x.low, x.high, y.low, y.high));
   const auto at = [&](const Eigen::Vector2d& p) {
@@ -88,7 +81,7 @@ std::string Raster(const CrgSurface& surface, double top) {
   const CrgShape& shape = surface.shape();
   const double u0 = shape.line.begin_u_m(), v0 = shape.v_m.front(), width = shape.v_m.back() - v0;
   std::array<std::array<CrgPoint, kColumns>, kRows> points;
-  Extent z;
+  ValueRange z;
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
       CrgPoint& point = points[row][column];
@@ -102,7 +95,7 @@ std::string Raster(const CrgSurface& surface, double top) {
   svg += "<g shape-rendering='crispEdges'>\n";
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns;) {
-      const auto colour = [&](int c) { return points[row][c].inside ? Colour((points[row][c].z_m - z.low) / z.size()) : std::string("#ffffff"); };
+      const auto colour = [&](int c) { return points[row][c].inside ? Colour((points[row][c].z_m - z.low) / Size(z)) : std::string("#ffffff"); };
       const std::string now = colour(column);
       int end = column + 1;
       while (end < kColumns && colour(end) == now) ++end;
@@ -118,7 +111,7 @@ std::string Tracks(const CrgSurface& surface, double top) {
   const CrgShape& shape = surface.shape();
   const double u0 = shape.line.begin_u_m(), v0 = shape.v_m.front(), width = shape.v_m.back() - v0;
   const std::array<std::pair<double, const char*>, 3> tracks = {{{v0 + 0.25 * width, "#1f5f8b"}, {v0 + 0.5 * width, "#c02020"}, {v0 + 0.75 * width, "#2a8b3f"}}};
-  Extent z;
+  ValueRange z;
   std::array<std::vector<CrgPoint>, 3> points;
   for (std::size_t k = 0; k < 3; ++k) {
     for (int i = 0; i <= kTrackPoints; ++i) {
@@ -136,7 +129,7 @@ std::string Tracks(const CrgSurface& surface, double top) {
     for (int i = 0; i <= kTrackPoints; ++i) {
       const CrgPoint& point = points[k][static_cast<std::size_t>(i)];
       if (point.inside) {
-        path += fmt::format("{}{:.1f} {:.1f}", drawing ? "L" : "M", kLeft + kWidth * i / kTrackPoints, top + kTrackHeight * (0.95 - 0.9 * (point.z_m - z.low) / z.size()));
+        path += fmt::format("{}{:.1f} {:.1f}", drawing ? "L" : "M", kLeft + kWidth * i / kTrackPoints, top + kTrackHeight * (0.95 - 0.9 * (point.z_m - z.low) / Size(z)));
       }
       drawing = point.inside;
     }

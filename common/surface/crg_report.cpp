@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/geometry/angle.hpp"
+#include "common/surface/value_range.hpp"
 
 namespace rodeira::surface {
 namespace {
@@ -33,15 +33,6 @@ std::string_view BorderName(CrgBorder border) {
   return "";
 }
 
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void Add(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-};
-
 std::string DescribeLine(const CrgShape& shape) {
   const std::vector<Eigen::Vector2d>& points = shape.line.points_W();
   double sharpest = 0.0;
@@ -54,7 +45,7 @@ std::string DescribeLine(const CrgShape& shape) {
                                  points.front().y(), degrees(points[1] - points[0]), points.back().x(), points.back().y(),
                                  degrees(points.back() - points[points.size() - 2]));
   text += sharpest > 1e-9 ? fmt::format("radius at least {:.3g} m\n", 1.0 / sharpest) : "straight\n";
-  Range z, banking;
+  ValueRange z, banking;
   for (const double value : shape.line_z_m) z.Add(value);
   for (const double value : shape.banking) banking.Add(value);
   return text + fmt::format("line's height    {:.4g} m to {:.4g} m, banking {:.4g} to {:.4g}\n", z.low, z.high, banking.low, banking.high);
@@ -68,7 +59,7 @@ std::string DescribeCrg(const CrgFile& file) {
   text += fmt::format("rows             {}, u from {} m to {} m every {} m\n", file.surface->rows(), shape.line.begin_u_m(), shape.line.end_u_m(), shape.line.step_m());
   text += fmt::format("sections         {}, v from {} m to {} m\n", shape.v_m.size(), shape.v_m.front(), shape.v_m.back());
   text += DescribeLine(shape);
-  Range z;
+  ValueRange z;
   double sum = 0.0, squares = 0.0;
   std::size_t there = 0;
   for (const double height : shape.heights) {
