@@ -22,7 +22,9 @@ int Surface(const SurfaceOptions& options) {
   if (!file) return Complain(file.error());
   fmt::print("file             {}\n{}", options.file, surface::DescribeCrg(file.value()));
   if (options.svg.empty()) return 0;
-  if (const auto written = base::WriteWhole(options.svg, surface::PlotCrg(*file.value().surface)); !written) return Complain(written.error());
+  if (const auto written = base::WriteWhole(options.svg, surface::PlotCrg(*file.value().surface)); !written) {
+    return Complain(written.error());
+  }
   fmt::print("wrote            {}\n", options.svg);
   return 0;
 }

@@ -52,7 +52,9 @@ std::vector<OffsetFault> Folds(const Polyline& line, const Polyline& offset) {
     }
   }
   const std::vector<Eigen::Vector2d> directions = Directions(line);
-  const auto sharp = [&](std::size_t before, std::size_t after) { return directions[before].dot(directions[after]) < std::cos(kSharpest_rad); };
+  const auto sharp = [&](std::size_t before, std::size_t after) {
+    return directions[before].dot(directions[after]) < std::cos(kSharpest_rad);
+  };
   for (std::size_t i = 1; i < directions.size(); ++i) {
     if (sharp(i - 1, i)) faults.push_back({OffsetFault::Kind::kSharp, stations[i], stations[i]});
   }
@@ -96,12 +98,15 @@ std::string FaultText(const OffsetFault& fault, double left_m) {
   const std::string by = fmt::format("the offset by {:.6g} m to the {}", std::fabs(left_m), left_m > 0.0 ? "left" : "right");
   switch (fault.kind) {
     case OffsetFault::Kind::kCusp:
-      return fmt::format("{} folds between stations {:.3f} m and {:.3f} m, where the line bends more sharply than it is offset", by, fault.from_m, fault.to_m);
+      return fmt::format("{} folds between stations {:.3f} m and {:.3f} m, where the line bends more sharply than it is offset",
+                         by, fault.from_m, fault.to_m);
     case OffsetFault::Kind::kCrossing:
-      return fmt::format("{} crosses itself: stations {:.3f} m and {:.3f} m come to lie at one place", by, fault.from_m, fault.to_m);
+      return fmt::format("{} crosses itself: stations {:.3f} m and {:.3f} m come to lie at one place", by, fault.from_m,
+                         fault.to_m);
     case OffsetFault::Kind::kSharp: break;
   }
-  return fmt::format("the line turns back by more than 160 degrees at station {:.3f} m; no mitre keeps its width there", fault.from_m);
+  return fmt::format("the line turns back by more than 160 degrees at station {:.3f} m; no mitre keeps its width there",
+                     fault.from_m);
 }
 
 }  // namespace rodeira::geometry

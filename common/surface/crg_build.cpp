@@ -4,35 +4,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 #include "common/geometry/angle.hpp"
+#include "common/surface/crg_columns.hpp"
 
 namespace rodeira::surface {
 namespace {
 
-constexpr double kNarrowest_m = 1e-6;  // of two sections
 constexpr double kSharpest_rad = 0.5 * geometry::kPi;
 constexpr double kGapRefused = 1e-2;   // of the length
 constexpr double kGapTold = 1e-4;
 constexpr double kUneven = 1e-3;       // of the increment: points given by x and y
 
-// Which column of the numbers holds what.
-struct Columns {
-  int heading = -1, x = -1, y = -1, slope = -1, banking = -1;
-  std::vector<std::size_t> heights;  // from right to left
-  std::vector<double> v_m;           // of them
-};
-
 class Builder {
  public:
-  Builder(const CrgHeader& header, const CrgTable& table, const CrgModifiers& modifiers, std::string_view name, std::vector<std::string>& warnings)
+  Builder(const CrgHeader& header, const CrgTable& table, const CrgModifiers& modifiers, std::string_view name,
+          std::vector<std::string>& warnings)
       : header_(header), road_(header.road), table_(table), modifiers_(modifiers), name_(name), warnings_(warnings) {}
 
   base::Result<CrgShape> Build(const CrgOptions& options) {
     if (!road_.increment_m) return Wrong("key 'REFERENCE_LINE_INCREMENT' is missing; the distance of two rows was expected");
     step_m_ = *road_.increment_m;
-    if (const auto found = FindColumns(); !found) return found.error();
+    auto columns = FindCrgColumns(header_, name_, warnings_);
+    if (!columns) return columns.error();
+    columns_ = std::move(columns).value();
     auto points = Line();
     if (!points) return points.error();
     auto line_z = LineHeights();
@@ -49,72 +45,6 @@ class Builder {
  private:
   base::Error Wrong(std::string_view message) const { return base::WrongInput(message, name_); }
 
-  base::Status FindColumns() {
-    std::vector<std::pair<double, std::size_t>> placed, counted;
-    for (std::size_t i = 0; i < header_.channels.size(); ++i) {
-      const CrgChannel& channel = header_.channels[i];
-      int* place = nullptr;
-      switch (channel.column) {
-        case CrgColumn::kHeading: place = &columns_.heading; break;
-        case CrgColumn::kX: place = &columns_.x; break;
-        case CrgColumn::kY: place = &columns_.y; break;
-        case CrgColumn::kSlope: place = &columns_.slope; break;
-        case CrgColumn::kBanking: place = &columns_.banking; break;
-        case CrgColumn::kUnused: break;
-        case CrgColumn::kHeight:
-          if (channel.v_m) placed.emplace_back(*channel.v_m, i);
-          else counted.emplace_back(channel.number, i);
-      }
-      if (place == nullptr) continue;
-      if (*place >= 0) return Wrong(fmt::format("columns {} and {} hold the same; each but the long sections may be there once", *place + 1, i + 1));
-      *place = static_cast<int>(i);
-    }
-    if ((columns_.x >= 0) != (columns_.y >= 0)) return Wrong("of the reference line's x and y only one is there; both or none were expected");
-    if (!placed.empty() && !counted.empty()) return Wrong("some long sections say 'at v =' and others are counted; one way for all was expected");
-    if (placed.size() + counted.size() < 2) return Wrong(fmt::format("{} long sections were found; at least 2 were expected", placed.size() + counted.size()));
-    std::sort(placed.begin(), placed.end());
-    std::sort(counted.begin(), counted.end());
-    for (const auto& [v, column] : placed.empty() ? counted : placed) columns_.heights.push_back(column), columns_.v_m.push_back(v);
-    return placed.empty() ? CountedSections() : PlacedSections();
-  }
-
-  base::Status PlacedSections() {
-    const std::vector<double>& v = columns_.v_m;
-    for (std::size_t i = 1; i < v.size(); ++i) {
-      if (v[i] - v[i - 1] < kNarrowest_m) return Wrong(fmt::format("two long sections lie at v = {} and {}", v[i - 1], v[i]));
-    }
-    const auto differs = [](const std::optional<double>& said, double is) { return said && std::fabs(*said - is) > 1e-4; };
-    if (differs(road_.v_right_m, v.front()) || differs(road_.v_left_m, v.back())) {
-      warnings_.push_back(fmt::format("the sections lie from v = {} to {}, which is not what LONG_SECTION_V_RIGHT and V_LEFT say", v.front(), v.back()));
-    }
-    return {};
-  }
-
-  base::Status CountedSections() {
-    std::vector<double>& v = columns_.v_m;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      if (v[i] != static_cast<double>(i + 1)) return Wrong(fmt::format("long section {} was found where {} was expected; they are counted from 1 at the right", v[i], i + 1));
-    }
-    const double cells = static_cast<double>(v.size() - 1);
-    double right = 0.0, step = 0.0;
-    if (road_.v_right_m && road_.v_left_m) {
-      right = *road_.v_right_m;
-      step = (*road_.v_left_m - right) / cells;
-      if (road_.v_increment_m && std::fabs(step - *road_.v_increment_m) > kUneven * step) {
-        return Wrong(fmt::format("{} long sections from v = {} to {} lie {:.6g} m apart; LONG_SECTION_V_INCREMENT says {}", v.size(), right,
-                                 *road_.v_left_m, step, *road_.v_increment_m));
-      }
-    } else if (road_.v_increment_m) {
-      step = *road_.v_increment_m;
-      right = road_.v_right_m ? *road_.v_right_m : (road_.v_left_m ? *road_.v_left_m - cells * step : -0.5 * cells * step);
-    } else {
-      return Wrong("nothing says where the long sections lie: 'at v =', LONG_SECTION_V_RIGHT and V_LEFT, or V_INCREMENT was expected");
-    }
-    if (step < kNarrowest_m) return Wrong(fmt::format("the long sections lie {} m apart, from right to left", step));
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] = right + static_cast<double>(i) * step;
-    return {};
-  }
-
   // A column, or the same number everywhere; times the scale.
   std::vector<double> RowValues(int column, double otherwise, double scale) const {
     std::vector<double> values(table_.rows, otherwise * scale);
@@ -126,7 +56,9 @@ class Builder {
   // A value a row; the first row's may be missing where it is not used.
   base::Status Finite(const std::vector<double>& values, std::string_view what, std::size_t from = 0) const {
     for (std::size_t row = from; row < values.size(); ++row) {
-      if (!(std::fabs(values[row]) <= 1e9)) return Wrong(fmt::format("the reference line's {} in row {} is {}; a number was expected", what, row + 1, values[row]));
+      if (!(std::fabs(values[row]) <= 1e9)) {
+        return Wrong(fmt::format("the reference line's {} in row {} is {}; a number was expected", what, row + 1, values[row]));
+      }
     }
     return {};
   }
@@ -135,10 +67,16 @@ class Builder {
   base::Status Gap(double gap_m, std::string_view what) {
     const double length = step_m_ * static_cast<double>(table_.rows - 1);
     if (gap_m > kGapRefused * length) {
-      return Wrong(fmt::format("the reference line's {} ends {:.4g} m beside the end that the header names; at most {:.4g} m (1 % of the length) were expected", what, gap_m,
-                               kGapRefused * length));
+      return Wrong(
+          fmt::format("the reference line's {} ends {:.4g} m beside the end that the header names; at most {:.4g} m (1 % of the "
+                      "length) were expected",
+                      what, gap_m, kGapRefused * length));
     }
-    if (gap_m > kGapTold * length) warnings_.push_back(fmt::format("the reference line's {} ends {:.4g} m beside the end that the header names; the gap is shared among the rows", what, gap_m));
+    if (gap_m > kGapTold * length) {
+      warnings_.push_back(fmt::format(
+          "the reference line's {} ends {:.4g} m beside the end that the header names; the gap is shared among the rows", what,
+          gap_m));
+    }
     return {};
   }
 
@@ -153,7 +91,8 @@ class Builder {
       for (std::size_t row = 1; row < table_.rows; ++row) {
         const Eigen::Vector2d step = Point(row) - Point(row - 1);
         if (!(std::fabs(step.norm() - step_m_) <= kUneven * step_m_)) {
-          return Wrong(fmt::format("the reference line goes {:.6g} m from row {} to the next; REFERENCE_LINE_INCREMENT says {}", step.norm(), row, step_m_));
+          return Wrong(fmt::format("the reference line goes {:.6g} m from row {} to the next; REFERENCE_LINE_INCREMENT says {}",
+                                   step.norm(), row, step_m_));
         }
         heading[row] = std::atan2(step.y(), step.x());
       }
@@ -162,7 +101,10 @@ class Builder {
     }
     for (std::size_t row = 2; row < table_.rows; ++row) {
       const double turn = geometry::WrapAngle(heading[row] - heading[row - 1]);
-      if (std::fabs(turn) >= kSharpest_rad) return Wrong(fmt::format("the reference line turns by {:.3g} rad in row {}; less than 90 degrees were expected", turn, row));
+      if (std::fabs(turn) >= kSharpest_rad) {
+        return Wrong(
+            fmt::format("the reference line turns by {:.3g} rad in row {}; less than 90 degrees were expected", turn, row));
+      }
     }
     if (modifiers_.scale_curvature != 1.0) {
       double before = heading[1];
@@ -170,7 +112,9 @@ class Builder {
         const double turn = geometry::WrapAngle(heading[row] - before);
         before = heading[row];
         heading[row] = heading[row - 1] + modifiers_.scale_curvature * turn;
-        if (std::fabs(modifiers_.scale_curvature * turn) >= kSharpest_rad) return Wrong(fmt::format("SCALE_CURVATURE bends the reference line by more than 90 degrees in row {}", row));
+        if (std::fabs(modifiers_.scale_curvature * turn) >= kSharpest_rad) {
+          return Wrong(fmt::format("SCALE_CURVATURE bends the reference line by more than 90 degrees in row {}", row));
+        }
       }
     }
     return heading;
@@ -195,7 +139,9 @@ class Builder {
     if (!end || modifiers_.scale_curvature != 1.0) return points;
     const Eigen::Vector2d gap = begin + modifiers_.scale_length * (*end - begin) - points.back();
     if (const auto fine = Gap(gap.norm() / modifiers_.scale_length, "plan"); !fine) return fine.error();
-    for (std::size_t row = 1; row < table_.rows; ++row) points[row] += (static_cast<double>(row) / static_cast<double>(table_.rows - 1)) * gap;
+    for (std::size_t row = 1; row < table_.rows; ++row) {
+      points[row] += (static_cast<double>(row) / static_cast<double>(table_.rows - 1)) * gap;
+    }
     return points;
   }
 
@@ -209,7 +155,9 @@ class Builder {
     const double scale = modifiers_.scale_slope * modifiers_.scale_length;
     const double gap = begin + scale * (*road_.end_z_m - begin) - z.back();
     if (const auto fine = Gap(std::fabs(gap) / std::max(std::fabs(scale), 1.0), "profile"); !fine) return fine.error();
-    for (std::size_t row = 1; row < table_.rows; ++row) z[row] += static_cast<double>(row) / static_cast<double>(table_.rows - 1) * gap;
+    for (std::size_t row = 1; row < table_.rows; ++row) {
+      z[row] += static_cast<double>(row) / static_cast<double>(table_.rows - 1) * gap;
+    }
     return z;
   }
 
@@ -225,7 +173,8 @@ class Builder {
       double* last = of_row + sections - 1;
       while (std::isnan(*last)) --last;
       const bool zero = modifiers_.missing == 1;
-      const double right = (zero ? 0.0 : *first) + modifiers_.missing_offset_m, left = (zero ? 0.0 : *last) + modifiers_.missing_offset_m;
+      const double right = (zero ? 0.0 : *first) + modifiers_.missing_offset_m,
+                   left = (zero ? 0.0 : *last) + modifiers_.missing_offset_m;
       std::fill(of_row, first, right);
       std::fill(last + 1, of_row + sections, left);
     }
@@ -239,13 +188,13 @@ class Builder {
   std::string_view name_;
   std::vector<std::string>& warnings_;
   double step_m_ = 0.0;
-  Columns columns_;
+  CrgColumns columns_;
 };
 
 }  // namespace
 
-base::Result<CrgShape> BuildCrgShape(const CrgHeader& header, const CrgTable& table, const CrgModifiers& modifiers, const CrgOptions& options,
-                                     std::string_view name, std::vector<std::string>& warnings) {
+base::Result<CrgShape> BuildCrgShape(const CrgHeader& header, const CrgTable& table, const CrgModifiers& modifiers,
+                                     const CrgOptions& options, std::string_view name, std::vector<std::string>& warnings) {
   return Builder(header, table, modifiers, name, warnings).Build(options);
 }
 

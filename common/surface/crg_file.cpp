@@ -21,7 +21,8 @@ base::Result<CrgFile> Finish(CrgHeader header, std::span<const std::byte> bytes,
   if (!shape) return shape.error();
   auto surface = std::make_shared<const CrgSurface>(PlaceCrgShape(std::move(shape).value(), modifiers));
   if (surface->shape().options.close_track && !surface->closed()) {
-    file.warnings.push_back("REFLINE_CONTINUATION asks for a closed track, but the ends do not meet within 60 degrees: the line goes on straight");
+    file.warnings.push_back(
+        "REFLINE_CONTINUATION asks for a closed track, but the ends do not meet within 60 degrees: the line goes on straight");
   }
   file.surface = std::move(surface);
   file.header = std::move(header);
@@ -33,7 +34,9 @@ base::Result<CrgFile> Finish(CrgHeader header, std::span<const std::byte> bytes,
 base::Result<CrgFile> ParseCrg(std::span<const std::byte> bytes, const std::string& name) {
   auto header = ReadCrgHeader(bytes, name);
   if (!header) return header.error();
-  if (header.value().data_offset == 0) return base::WrongInput("the file holds no numbers of its own, only the name of another file", name);
+  if (header.value().data_offset == 0) {
+    return base::WrongInput("the file holds no numbers of its own, only the name of another file", name);
+  }
   return Finish(std::move(header).value(), bytes, name);
 }
 
@@ -46,10 +49,15 @@ base::Result<CrgFile> LoadCrg(const std::filesystem::path& path) {
 
   const std::filesystem::path other = path.parent_path() / header.value().other_file;
   const auto numbers = base::ReadBytes(other);
-  if (!numbers) return base::WrongInput(fmt::format("$ROAD_CRG_FILE names '{}': {}", header.value().other_file, numbers.error().message), path.string());
+  if (!numbers) {
+    return base::WrongInput(fmt::format("$ROAD_CRG_FILE names '{}': {}", header.value().other_file, numbers.error().message),
+                            path.string());
+  }
   auto with_numbers = ReadCrgHeader(numbers.value(), other.string());
   if (!with_numbers) return with_numbers.error();
-  if (with_numbers.value().data_offset == 0) return base::WrongInput("the file is named by another .crg and names a third one; one step is followed", other.string());
+  if (with_numbers.value().data_offset == 0) {
+    return base::WrongInput("the file is named by another .crg and names a third one; one step is followed", other.string());
+  }
   if (header.value().options) with_numbers.value().options = header.value().options;
   if (header.value().modifiers) with_numbers.value().modifiers = header.value().modifiers;
   return Finish(std::move(with_numbers).value(), numbers.value(), other.string());

@@ -60,7 +60,8 @@ class HeaderReader {
       if (const auto status = Line(line); !status) return status.error();
     }
     if (header_.data_offset == 0 && header_.other_file.empty()) {
-      return Wrong("this is no OpenCRG file: neither numbers after a line that begins with '$$$$' nor a $ROAD_CRG_FILE were found");
+      return Wrong(
+          "this is no OpenCRG file: neither numbers after a line that begins with '$$$$' nor a $ROAD_CRG_FILE were found");
     }
     return std::move(header_);
   }
@@ -71,7 +72,9 @@ class HeaderReader {
   base::Error Wrong(std::string_view message) const { return base::WrongInput(message, fmt::format("{}:{}", name_, line_)); }
 
   void Warn(std::string_view what) {
-    if (header_.warnings.size() < kMostWarnings) header_.warnings.push_back(fmt::format("line {}: {}", line_, base::Printable(what)));
+    if (header_.warnings.size() < kMostWarnings) {
+      header_.warnings.push_back(fmt::format("line {}: {}", line_, base::Printable(what)));
+    }
   }
 
   base::Status Line(std::string_view line) {
@@ -116,7 +119,9 @@ class HeaderReader {
 
   base::Status Key(std::string_view line, std::span<const CrgKey> table) {
     const std::size_t equals = line.find('=');
-    if (equals == std::string_view::npos) return Wrong(fmt::format("'{}' was found; KEY = NUMBER was expected", line.substr(0, 60)));
+    if (equals == std::string_view::npos) {
+      return Wrong(fmt::format("'{}' was found; KEY = NUMBER was expected", line.substr(0, 60)));
+    }
     const std::string name = Lower(Trim(line.substr(0, equals)));
     const auto key = std::find_if(table.begin(), table.end(), [&](const CrgKey& known) { return known.name == name; });
     if (key == table.end()) {
@@ -130,7 +135,8 @@ class HeaderReader {
     const auto value = Number(text);
     if (!value) return Wrong(fmt::format("'{}' is '{}'; a number was expected", name, text.substr(0, 40)));
     if (*value < key->low || *value > key->high || (key->whole && *value != std::floor(*value))) {
-      return Wrong(fmt::format("'{}' is {}; a {} from {} to {} was expected", name, *value, key->whole ? "whole number" : "number", key->low, key->high));
+      return Wrong(fmt::format("'{}' is {}; a {} from {} to {} was expected", name, *value,
+                               key->whole ? "whole number" : "number", key->low, key->high));
     }
     key->put(header_, *value);
     return {};
@@ -138,8 +144,9 @@ class HeaderReader {
 
   base::Status FileName(std::string_view line) {
     if (header_.other_file.empty() && line.starts_with('$')) {
-      return Wrong(fmt::format("the file name '{}' begins with an environment variable; a path was expected, so that a world is the same everywhere",
-                               line.substr(0, 60)));
+      return Wrong(fmt::format(
+          "the file name '{}' begins with an environment variable; a path was expected, so that a world is the same everywhere",
+          line.substr(0, 60)));
     }
     header_.other_file += line;  // a long name goes on in the next line
     return {};
@@ -171,9 +178,13 @@ class HeaderReader {
     } else if (name == "reference line y") {
       channel.column = CrgColumn::kY;
     } else if (name != "reference line u") {
-      return Wrong(fmt::format("column '{}' is unknown; 'reference line phi', 'slope', 'banking', 'x', 'y' or 'long section …' was expected", name.substr(0, 60)));
+      return Wrong(fmt::format(
+          "column '{}' is unknown; 'reference line phi', 'slope', 'banking', 'x', 'y' or 'long section …' was expected",
+          name.substr(0, 60)));
     }
-    if (unit != expected) return Wrong(fmt::format("column '{}' is in '{}'; '{}' was expected", name.substr(0, 60), unit.substr(0, 20), expected));
+    if (unit != expected) {
+      return Wrong(fmt::format("column '{}' is in '{}'; '{}' was expected", name.substr(0, 60), unit.substr(0, 20), expected));
+    }
     if (header_.channels.size() >= kMostChannels) return Wrong(fmt::format("the file has more than {} columns", kMostChannels));
     header_.channels.push_back(channel);
     return {};
@@ -186,7 +197,10 @@ class HeaderReader {
     const bool at = text.starts_with("at v") && equals != std::string_view::npos;
     const auto value = Number(at ? text.substr(equals + 1) : text);
     const bool fine = value && (at ? std::fabs(*value) <= 1e6 : *value >= 1.0 && *value <= 1e6 && *value == std::floor(*value));
-    if (!fine) return Wrong(fmt::format("'long section {}' was found; 'long section at v = METRES' or 'long section NUMBER' was expected", text.substr(0, 40)));
+    if (!fine) {
+      return Wrong(fmt::format("'long section {}' was found; 'long section at v = METRES' or 'long section NUMBER' was expected",
+                               text.substr(0, 40)));
+    }
     if (at) channel.v_m = value;
     else channel.number = static_cast<int>(*value);
     return {};
@@ -210,6 +224,8 @@ class HeaderReader {
 
 }  // namespace
 
-base::Result<CrgHeader> ReadCrgHeader(std::span<const std::byte> bytes, std::string_view name) { return HeaderReader(bytes, name).Read(); }
+base::Result<CrgHeader> ReadCrgHeader(std::span<const std::byte> bytes, std::string_view name) {
+  return HeaderReader(bytes, name).Read();
+}
 
 }  // namespace rodeira::surface

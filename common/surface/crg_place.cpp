@@ -17,8 +17,8 @@ void Move(CrgShape& shape, const Eigen::Vector2d& centre, double turn_rad, const
   for (double& z : shape.line_z_m) z += rise_m;
 }
 
-double PointOn(double low, double high, double otherwise, const std::optional<double>& given, const std::optional<double>& fraction,
-               const std::optional<double>& offset) {
+double PointOn(double low, double high, double otherwise, const std::optional<double>& given,
+               const std::optional<double>& fraction, const std::optional<double>& offset) {
   const double at = given ? *given : (fraction ? low + *fraction * (high - low) : otherwise);
   return at + offset.value_or(0.0);
 }
@@ -26,11 +26,12 @@ double PointOn(double low, double high, double otherwise, const std::optional<do
 }  // namespace
 
 CrgShape PlaceCrgShape(CrgShape shape, const CrgModifiers& m) {
-  const bool by_point = m.point_u_m || m.point_u_fraction || m.point_u_offset_m || m.point_v_m || m.point_v_fraction || m.point_v_offset_m ||
-                        m.point_x_m || m.point_y_m || m.point_z_m || m.point_heading_rad;
+  const bool by_point = m.point_u_m || m.point_u_fraction || m.point_u_offset_m || m.point_v_m || m.point_v_fraction ||
+                        m.point_v_offset_m || m.point_x_m || m.point_y_m || m.point_z_m || m.point_heading_rad;
   if (by_point) {
     const CrgReferenceLine& line = shape.line;
-    const double u = PointOn(line.begin_u_m(), line.end_u_m(), line.begin_u_m(), m.point_u_m, m.point_u_fraction, m.point_u_offset_m);
+    const double u =
+        PointOn(line.begin_u_m(), line.end_u_m(), line.begin_u_m(), m.point_u_m, m.point_u_fraction, m.point_u_offset_m);
     const double v = PointOn(shape.v_m.front(), shape.v_m.back(), 0.0, m.point_v_m, m.point_v_fraction, m.point_v_offset_m);
     const Eigen::Vector2d from = line.Position(u, v), direction = line.DirectionAt(u);
     const double turn = m.point_heading_rad.value_or(0.0) - std::atan2(direction.y(), direction.x());
@@ -42,7 +43,8 @@ CrgShape PlaceCrgShape(CrgShape shape, const CrgModifiers& m) {
   } else if (m.turn_rad || m.shift_x_m || m.shift_y_m || m.shift_z_m) {
     const Eigen::Vector2d begin = shape.line.points_W().front();
     const Eigen::Vector2d centre(m.centre_x_m.value_or(begin.x()), m.centre_y_m.value_or(begin.y()));
-    Move(shape, centre, m.turn_rad.value_or(0.0), {m.shift_x_m.value_or(0.0), m.shift_y_m.value_or(0.0)}, m.shift_z_m.value_or(0.0));
+    Move(shape, centre, m.turn_rad.value_or(0.0), {m.shift_x_m.value_or(0.0), m.shift_y_m.value_or(0.0)},
+         m.shift_z_m.value_or(0.0));
   }
   return shape;
 }

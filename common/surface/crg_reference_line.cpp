@@ -48,7 +48,8 @@ double CrgReferenceLine::Box::SquaredDistance(const Eigen::Vector2d& p) const {
   return (p - p.cwiseMax(low).cwiseMin(high)).squaredNorm();
 }
 
-void CrgReferenceLine::Search(const Eigen::Vector2d& p, std::size_t node, std::size_t begin, std::size_t end, Nearest& best) const {
+void CrgReferenceLine::Search(const Eigen::Vector2d& p, std::size_t node, std::size_t begin, std::size_t end,
+                              Nearest& best) const {
   if (end - begin <= kLeaf) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector2d along = Along(i);

@@ -116,10 +116,14 @@ CrgPoint CrgSurface::At(double u_m, double v_m) const {
   CrgPoint point;
   if (!std::isfinite(u_m) || !std::isfinite(v_m)) return point;
   double u = u_m;
-  if (closed_ && (u < close_low_u_m_ || u > close_high_u_m_)) u = close_low_u_m_ + Modulo(u - close_low_u_m_, close_high_u_m_ - close_low_u_m_);
+  if (closed_ && (u < close_low_u_m_ || u > close_high_u_m_)) {
+    u = close_low_u_m_ + Modulo(u - close_low_u_m_, close_high_u_m_ - close_low_u_m_);
+  }
   const CrgOptions& options = shape_.options;
   const Cell along = AlongU(u), across = AcrossV(v_m);
-  if ((along.outside && options.border_u == CrgBorder::kNone) || (across.outside && options.border_v == CrgBorder::kNone)) return point;
+  if ((along.outside && options.border_u == CrgBorder::kNone) || (across.outside && options.border_v == CrgBorder::kNone)) {
+    return point;
+  }
 
   const double* corner = shape_.heights.data() + along.index * shape_.v_m.size() + across.index;
   double z00 = corner[0], z01 = corner[1], z10 = corner[shape_.v_m.size()], z11 = corner[shape_.v_m.size() + 1];
@@ -137,7 +141,8 @@ CrgPoint CrgSurface::At(double u_m, double v_m) const {
   const double onward = (1.0 - q) * (z10 - z00) + q * (z11 - z01);  // over one step of u
   const double leftward = (1.0 - p) * (z01 - z00) + p * (z11 - z10);  // over the cell's width
   point.inside = true;
-  point.z_m = (1.0 - q) * ((1.0 - p) * z00 + p * z10) + q * ((1.0 - p) * z01 + p * z11) + line_z + p * line_step + (bank + p * bank_step) * v;
+  point.z_m = (1.0 - q) * ((1.0 - p) * z00 + p * z10) + q * ((1.0 - p) * z01 + p * z11) + line_z + p * line_step +
+              (bank + p * bank_step) * v;
   point.dz_du = along.outside ? 0.0 : along.sign * (onward + line_step + bank_step * v) / along.size_m;
   point.dz_dv = across.outside ? 0.0 : across.sign * (leftward / across.size_m + bank + p * bank_step);
 

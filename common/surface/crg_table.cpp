@@ -41,7 +41,10 @@ class TextNumbers {
           return Wrong(fmt::format("the file ends within a row: {} of {} numbers are there", column, columns));
         }
         const std::size_t at = column % (kRecordBytes / width_) * width_;
-        if (at >= now_.size()) return Wrong(fmt::format("number {} of the row is missing; {} were expected, each {} characters wide", column + 1, columns, width_));
+        if (at >= now_.size()) {
+          return Wrong(fmt::format("number {} of the row is missing; {} were expected, each {} characters wide", column + 1,
+                                   columns, width_));
+        }
         std::string_view word = now_.substr(at, width_);
         while (word.starts_with(' ')) word.remove_prefix(1);
         while (word.ends_with(' ')) word.remove_suffix(1);
@@ -53,7 +56,10 @@ class TextNumbers {
         double value = 0.0;
         const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
         if (problem != std::errc() || end != word.data() + word.size() || !(std::fabs(value) <= kLargest)) {
-          return Wrong(fmt::format("'{}' was found in columns {} to {}; a number up to 1e9, or one that begins with '*' where it is missing, was expected", word, at + 1, at + width_));
+          return Wrong(
+              fmt::format("'{}' was found in columns {} to {}; a number up to 1e9, or one that begins with '*' where it is "
+                          "missing, was expected",
+                          word, at + 1, at + width_));
         }
         table.values.push_back(value);
       }
@@ -97,7 +103,9 @@ base::Result<CrgTable> ReadBinary(const CrgHeader& header, std::span<const std::
   const std::size_t there = data.size() / size / columns;
   const auto asked = RowsAsked(header.road);
   if (asked && *asked > static_cast<double>(there)) {
-    return base::WrongInput(fmt::format("the file is cut short: {} rows of {} numbers are there, and the header asks for {}", there, columns, *asked), name);
+    return base::WrongInput(
+        fmt::format("the file is cut short: {} rows of {} numbers are there, and the header asks for {}", there, columns, *asked),
+        name);
   }
   CrgTable table{asked ? static_cast<std::size_t>(*asked) : there, columns, {}};
   table.values.resize(table.rows * columns);
@@ -105,7 +113,9 @@ base::Result<CrgTable> ReadBinary(const CrgHeader& header, std::span<const std::
     const std::byte* at = data.data() + i * size;
     table.values[i] = size == 4 ? BigEndian<float, std::uint32_t>(at) : BigEndian<double, std::uint64_t>(at);
     if (std::fabs(table.values[i]) > kLargest) {
-      return base::WrongInput(fmt::format("the number in row {}, column {} is {}; at most 1e9 was expected", i / columns + 1, i % columns + 1, table.values[i]), name);
+      return base::WrongInput(fmt::format("the number in row {}, column {} is {}; at most 1e9 was expected", i / columns + 1,
+                                          i % columns + 1, table.values[i]),
+                              name);
     }
   }
   // Where the header does not say where the rows end, the last record's filling may look like rows.
@@ -123,11 +133,15 @@ base::Result<CrgTable> ReadBinary(const CrgHeader& header, std::span<const std::
 }  // namespace
 
 base::Result<CrgTable> ReadCrgTable(const CrgHeader& header, std::span<const std::byte> bytes, std::string_view name) {
-  if (header.channels.empty()) return base::WrongInput("the header describes no column of numbers ($KD_DEFINITION, 'D:long section …,m')", name);
-  if (header.format == CrgFormat::kNone) return base::WrongInput("the header does not say how the numbers are written ('#:KRBI', KDBI, LRFI or LDFI)", name);
+  if (header.channels.empty()) {
+    return base::WrongInput("the header describes no column of numbers ($KD_DEFINITION, 'D:long section …,m')", name);
+  }
+  if (header.format == CrgFormat::kNone) {
+    return base::WrongInput("the header does not say how the numbers are written ('#:KRBI', KDBI, LRFI or LDFI)", name);
+  }
   if (const auto asked = RowsAsked(header.road); asked && *asked < 2.0) {
-    return base::WrongInput(fmt::format("the header goes from u = {} to {} every {} m; at least 2 rows were expected", header.road.start_u_m.value_or(0.0),
-                                        *header.road.end_u_m, *header.road.increment_m),
+    return base::WrongInput(fmt::format("the header goes from u = {} to {} every {} m; at least 2 rows were expected",
+                                        header.road.start_u_m.value_or(0.0), *header.road.end_u_m, *header.road.increment_m),
                             name);
   }
   const bool text = header.format == CrgFormat::kText10 || header.format == CrgFormat::kText20;
@@ -135,11 +149,14 @@ base::Result<CrgTable> ReadCrgTable(const CrgHeader& header, std::span<const std
   if (!table) return table;
   const auto asked = RowsAsked(header.road);
   if (asked && *asked != static_cast<double>(table.value().rows)) {
-    return base::WrongInput(fmt::format("{} rows of numbers were found; from u = {} to {} every {} m are {}", table.value().rows,
-                                        header.road.start_u_m.value_or(0.0), *header.road.end_u_m, *header.road.increment_m, *asked),
-                            name);
+    return base::WrongInput(
+        fmt::format("{} rows of numbers were found; from u = {} to {} every {} m are {}", table.value().rows,
+                    header.road.start_u_m.value_or(0.0), *header.road.end_u_m, *header.road.increment_m, *asked),
+        name);
   }
-  if (table.value().rows < 2) return base::WrongInput(fmt::format("{} rows of numbers were found; at least 2 were expected", table.value().rows), name);
+  if (table.value().rows < 2) {
+    return base::WrongInput(fmt::format("{} rows of numbers were found; at least 2 were expected", table.value().rows), name);
+  }
   return table;
 }
 

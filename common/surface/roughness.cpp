@@ -41,7 +41,8 @@ Four CosOfTurns(const Four& x) {
 
 base::Result<double> RoughnessOfClass(char letter) {
   if (letter < 'A' || letter > 'H') {
-    return base::WrongInput(fmt::format("'{}' is no class of roughness; 'A' (very good) to 'H' (very poor) were expected", letter));
+    return base::WrongInput(
+        fmt::format("'{}' is no class of roughness; 'A' (very good) to 'H' (very poor) were expected", letter));
   }
   double density = kClassA_m3;
   for (char c = 'A'; c < letter; ++c) density *= 4.0;
@@ -59,7 +60,8 @@ Roughness::Roughness(const RoughnessSpec& spec) : spec_(spec) {
   waves_.resize(kOctaves * kWavesAnOctave / 4);
   double low = kLowest_1pm;
   for (std::uint64_t i = 0; i < kOctaves * kWavesAnOctave; ++i) {
-    const double high = (i + 1) % kWavesAnOctave == 0 ? kLowest_1pm * static_cast<double>(1u << ((i + 1) / kWavesAnOctave)) : low * kTwelfth;
+    const double high =
+        (i + 1) % kWavesAnOctave == 0 ? kLowest_1pm * static_cast<double>(1u << ((i + 1) / kWavesAnOctave)) : low * kTwelfth;
     const double along = base::RandomUniform({spec_.seed, kFrequency, i}, low, high);
     // As steep as the shortest wave allows: n / cos a <= 1 / shortest.
     const double cosine = along * kShortest_m;

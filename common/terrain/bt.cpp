@@ -57,19 +57,21 @@ base::Status Check(const BtHeader& header) {
                                         header.columns, header.rows, kMostPosts));
   }
   if (!(header.bytes_a_post == 4 || (header.bytes_a_post == 2 && !header.floating))) {
-    return base::WrongInput(fmt::format("the .bt header says {} heights of {} bytes; integers of 2 or 4 bytes or floats of 4 were expected",
-                                        header.floating ? "float" : "integer", header.bytes_a_post));
+    return base::WrongInput(
+        fmt::format("the .bt header says {} heights of {} bytes; integers of 2 or 4 bytes or floats of 4 were expected",
+                    header.floating ? "float" : "integer", header.bytes_a_post));
   }
   if (header.metres_a_unit == 0.0) {
     return base::WrongInput("the .bt grid is in degrees; metres or feet were expected (gdalwarp brings it into a projection)");
   }
   if (header.metres_a_unit < 0.0) return base::WrongInput("the .bt header's horizontal unit is none of 0 to 3");
   if (!ExtentsHold(header.left, header.bottom, header.right, header.top, header.columns, header.rows)) {
-    return base::WrongInput(fmt::format("the .bt header's extents enclose nothing: left {}, right {}, bottom {}, top {}", header.left,
-                                        header.right, header.bottom, header.top));
+    return base::WrongInput(fmt::format("the .bt header's extents enclose nothing: left {}, right {}, bottom {}, top {}",
+                                        header.left, header.right, header.bottom, header.top));
   }
   if (!std::isfinite(header.vertical_scale) || header.vertical_scale < 0.0) {
-    return base::WrongInput(fmt::format("the .bt header's vertical scale is {}; a number greater than 0 was expected", header.vertical_scale));
+    return base::WrongInput(
+        fmt::format("the .bt header's vertical scale is {}; a number greater than 0 was expected", header.vertical_scale));
   }
   return {};
 }
@@ -88,7 +90,8 @@ bool LooksLikeBt(std::span<const std::byte> bytes) { return bytes.size() >= 7 &&
 
 base::Result<BtHeader> ParseBtHeader(std::span<const std::byte> bytes) {
   if (bytes.size() < kBtHeaderBytes) {
-    return base::WrongInput(fmt::format("the file is cut short: {} bytes, and a .bt header alone is {}", bytes.size(), kBtHeaderBytes));
+    return base::WrongInput(
+        fmt::format("the file is cut short: {} bytes, and a .bt header alone is {}", bytes.size(), kBtHeaderBytes));
   }
   std::string magic(10, '\0');
   std::memcpy(magic.data(), bytes.data(), magic.size());

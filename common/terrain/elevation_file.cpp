@@ -24,8 +24,10 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostPosts = 400'000'000;  // 1.6 GB of heights
 
 // GDAL's drivers for files that lie on the disk and hold heights: none of those that call a server or a program.
-constexpr const char* kOtherDrivers[] = {"GTiff", "AAIGrid", "GRASSASCIIGrid", "EHdr", "ENVI", "HFA", "SAGA", "GSAG", "GSBG", "GS7BG", "RST", "ILWIS", "RRASTER",
-                                         "USGSDEM", "SDTS", "DTED", "SRTMHGT", "XYZ", "PNG", "netCDF", "KRO", "PAux", "GenBin", "FIT", nullptr};
+constexpr const char* kOtherDrivers[] = {
+    "GTiff", "AAIGrid", "GRASSASCIIGrid", "EHdr",    "ENVI", "HFA",  "SAGA",    "GSAG", "GSBG", "GS7BG",
+    "RST",   "ILWIS",   "RRASTER",        "USGSDEM", "SDTS", "DTED", "SRTMHGT", "XYZ",  "PNG",  "netCDF",
+    "KRO",   "PAux",    "GenBin",         "FIT",     nullptr};
 
 struct FileStart {
   std::string gdal_name;
@@ -48,8 +50,9 @@ base::Result<FileStart> ReadStart(const fs::path& path) {
   };
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
-    return base::WrongInput(fs::exists(path, problem) ? "this is no plain file; an elevation file was expected" : "there is no such elevation file",
-                            path.string());
+    return base::WrongInput(
+        fs::exists(path, problem) ? "this is no plain file; an elevation file was expected" : "there is no such elevation file",
+        path.string());
   }
   auto head = read(path.string(), 2);
   if (!head) return base::WrongInput("the elevation file cannot be opened", path.string());
@@ -96,19 +99,21 @@ ElevationGrid::Frame FrameWithin(int columns, int rows, double west, double sout
   return {columns, rows, west + half_x, south + half_y, east - half_x, north - half_y};
 }
 
-base::Result<ElevationGrid::Frame> FrameOfBt(const BtHeader& header, GDALDataset& dataset, Registration registration, const fs::path& path) {
+base::Result<ElevationGrid::Frame> FrameOfBt(const BtHeader& header, GDALDataset& dataset, Registration registration,
+                                             const fs::path& path) {
   if (dataset.GetRasterXSize() != header.columns || dataset.GetRasterYSize() != header.rows) {
     return base::WrongInput("GDAL finds another number of heights than the .bt header says", path.string());
   }
   // The header's extents are the outermost posts, unless told otherwise. GDAL always takes them for the edges of cells, so
   // its frame is not used.
   const double unit = header.metres_a_unit;
-  return FrameWithin(header.columns, header.rows, header.left * unit, header.bottom * unit, header.right * unit, header.top * unit,
-                     registration != Registration::kCells);
+  return FrameWithin(header.columns, header.rows, header.left * unit, header.bottom * unit, header.right * unit,
+                     header.top * unit, registration != Registration::kCells);
 }
 
 // Other formats: a height stands for the middle of its pixel, unless told otherwise.
-base::Result<ElevationGrid::Frame> FrameOfRaster(GDALDataset& dataset, Registration registration, double unit, const fs::path& path) {
+base::Result<ElevationGrid::Frame> FrameOfRaster(GDALDataset& dataset, Registration registration, double unit,
+                                                 const fs::path& path) {
   std::array<double, 6> g{};
   if (dataset.GetGeoTransform(g.data()) != CE_None) {
     return base::WrongInput("the raster does not say where it lies (no georeference)", path.string());
@@ -119,9 +124,11 @@ base::Result<ElevationGrid::Frame> FrameOfRaster(GDALDataset& dataset, Registrat
     return base::WrongInput("the raster is turned or mirrored; north up was expected (gdalwarp turns it)", path.string());
   }
   if (columns < 2 || rows < 2) return base::WrongInput("the raster has fewer than 2 columns or rows", path.string());
-  const double west = g[0] * unit, north = g[3] * unit, east = (g[0] + columns * g[1]) * unit, south = (g[3] + rows * g[5]) * unit;
+  const double west = g[0] * unit, north = g[3] * unit, east = (g[0] + columns * g[1]) * unit,
+               south = (g[3] + rows * g[5]) * unit;
   if (!ExtentsHold(west, south, east, north, columns, rows)) {
-    return base::WrongInput(fmt::format("the raster's edges enclose nothing: x {} to {}, y {} to {}", west, east, south, north), path.string());
+    return base::WrongInput(fmt::format("the raster's edges enclose nothing: x {} to {}, y {} to {}", west, east, south, north),
+                            path.string());
   }
   return FrameWithin(columns, rows, west, south, east, north, registration == Registration::kPosts);
 }
@@ -155,18 +162,21 @@ base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path&
   }
   const std::string& name = upgraded.name().empty() ? start.value().gdal_name : upgraded.name();
   const std::array<const char*, 2> bt = {"BT", nullptr};
-  const GDALDatasetUniquePtr dataset(
-      GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, header ? bt.data() : kOtherDrivers));
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                                       header ? bt.data() : kOtherDrivers));
   if (!dataset) {
-    return base::WrongInput(fmt::format("this is no elevation file that can be read (.bt, GeoTIFF, Arc/Info ASCII, …); {}", QuietGdal::Words()),
-                            path.string());
+    return base::WrongInput(
+        fmt::format("this is no elevation file that can be read (.bt, GeoTIFF, Arc/Info ASCII, …); {}", QuietGdal::Words()),
+        path.string());
   }
-  if (static_cast<std::uint64_t>(dataset->GetRasterXSize()) * static_cast<std::uint64_t>(dataset->GetRasterYSize()) > kMostPosts) {
+  if (static_cast<std::uint64_t>(dataset->GetRasterXSize()) * static_cast<std::uint64_t>(dataset->GetRasterYSize()) >
+      kMostPosts) {
     return base::WrongInput(fmt::format("the grid has more than {} heights", kMostPosts), path.string());
   }
   auto projection = ReadProjection(path, start.value().gzipped, *dataset);
   if (!projection) return projection.error();
-  const auto frame = header ? FrameOfBt(*header, *dataset, registration, path) : FrameOfRaster(*dataset, registration, projection.value().metres_a_unit, path);
+  const auto frame = header ? FrameOfBt(*header, *dataset, registration, path)
+                            : FrameOfRaster(*dataset, registration, projection.value().metres_a_unit, path);
   if (!frame) return frame.error();
   auto heights = ReadHeights(*dataset, header, path);
   if (!heights) return heights.error();

@@ -29,11 +29,15 @@ base::Result<Projection> FromDefinition(std::string_view definition) {
 }  // namespace
 
 base::Result<Projection> MetricProjection(const OGRSpatialReference& reference) {
-  if (reference.IsGeographic() != 0) return base::WrongInput("the coordinate system is in degrees; a projection in metres was expected (gdalwarp brings it into one)");
+  if (reference.IsGeographic() != 0) {
+    return base::WrongInput(
+        "the coordinate system is in degrees; a projection in metres was expected (gdalwarp brings it into one)");
+  }
   Projection projection;
   projection.metres_a_unit = reference.GetLinearUnits();
   if (!(projection.metres_a_unit > 1e-6 && projection.metres_a_unit < 1e6)) {
-    return base::WrongInput(fmt::format("the coordinate system's unit is {} m; metres or feet were expected", projection.metres_a_unit));
+    return base::WrongInput(
+        fmt::format("the coordinate system's unit is {} m; metres or feet were expected", projection.metres_a_unit));
   }
   const std::unique_ptr<OGRSpatialReference> metric(reference.Clone());
   if (projection.metres_a_unit != 1.0) metric->SetLinearUnitsAndUpdateParameters(SRS_UL_METER, 1.0);

@@ -32,7 +32,9 @@ GroundPoint Ground::At(double x_m, double y_m, double z_hint_m) {
 }
 
 GroundQuery PatchPoint(const GroundPatch& patch, int row, int column) {
-  const auto place = [](double size_m, int index, int count) { return count > 1 ? size_m * (static_cast<double>(index) / (count - 1) - 0.5) : 0.0; };
+  const auto place = [](double size_m, int index, int count) {
+    return count > 1 ? size_m * (static_cast<double>(index) / (count - 1) - 0.5) : 0.0;
+  };
   const double forward = place(patch.length_m, row, patch.along), left = place(patch.width_m, column, patch.across);
   const double cosine = std::cos(patch.heading_rad), sine = std::sin(patch.heading_rad);
   return {patch.x_m + cosine * forward - sine * left, patch.y_m + sine * forward + cosine * left, patch.z_hint_m};

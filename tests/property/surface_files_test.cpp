@@ -25,7 +25,8 @@ TEST(SurfaceFiles, OpenCrg) {
     made.road_keys = "REFERENCE_LINE_START_X = 3\nREFERENCE_LINE_START_Y = 4\nREFERENCE_LINE_START_S = 0.01\n";
     made.sections =
         "$ROAD_CRG_OPTS\nBORDER_MODE_U = 3\nBORDER_MODE_V = 4\nBORDER_SMOOTH_UBEG = 1\nREFLINE_CONTINUATION = 1\n$\n"
-        "$ROAD_CRG_MODS\nSCALE_LENGTH = 2\nSCALE_CURVATURE = 0.5\nGRID_NAN_MODE = 2\nREFPOINT_U_FRACTION = 0.5\nREFPOINT_X = 7\n$\n";
+        "$ROAD_CRG_MODS\nSCALE_LENGTH = 2\nSCALE_CURVATURE = 0.5\nGRID_NAN_MODE = 2\nREFPOINT_U_FRACTION = 0.5\nREFPOINT_X = "
+        "7\n$\n";
     good.push_back(made.Text());
     made.sections.clear();
     made.counted = true;

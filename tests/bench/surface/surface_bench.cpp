@@ -33,7 +33,9 @@ const CrgSurface& Grid(bool bend) {
 void CrgOverUAndV(benchmark::State& state) {
   const CrgSurface& grid = Grid(false);
   std::vector<std::pair<double, double>> places;
-  for (std::uint64_t i = 0; i < kPoints; ++i) places.emplace_back(base::RandomUniform({i, 1}, 0.0, 100.0), base::RandomUniform({i, 2}, -2.0, 2.0));
+  for (std::uint64_t i = 0; i < kPoints; ++i) {
+    places.emplace_back(base::RandomUniform({i, 1}, 0.0, 100.0), base::RandomUniform({i, 2}, -2.0, 2.0));
+  }
   std::size_t i = 0;
   for (auto _ : state) {
     const auto& [u, v] = places[i++ & (kPoints - 1)];
@@ -45,7 +47,9 @@ BENCHMARK(CrgOverUAndV);
 void CrgOverXAndY(benchmark::State& state) {
   const CrgSurface& grid = Grid(state.range(0) != 0);
   std::vector<Eigen::Vector2d> places;
-  for (std::uint64_t i = 0; i < kPoints; ++i) places.push_back(grid.line().Position(base::RandomUniform({i, 1}, 0.0, 100.0), base::RandomUniform({i, 2}, -2.0, 2.0)));
+  for (std::uint64_t i = 0; i < kPoints; ++i) {
+    places.push_back(grid.line().Position(base::RandomUniform({i, 1}, 0.0, 100.0), base::RandomUniform({i, 2}, -2.0, 2.0)));
+  }
   std::size_t i = 0;
   for (auto _ : state) {
     const Eigen::Vector2d& p = places[i++ & (kPoints - 1)];

@@ -50,7 +50,8 @@ TEST(Polyline, MovesAreWhatTheySay) {
 
 RC_GTEST_PROP(Polyline, EveryMoveHasItsWayBack, (std::uint64_t seed)) {
   const Polyline line = Wavy(seed);
-  const Eigen::Vector3d by(base::RandomUniform({seed, 3}, -1e3, 1e3), base::RandomUniform({seed, 4}, -1e3, 1e3), base::RandomUniform({seed, 5}, -1e3, 1e3));
+  const Eigen::Vector3d by(base::RandomUniform({seed, 3}, -1e3, 1e3), base::RandomUniform({seed, 4}, -1e3, 1e3),
+                           base::RandomUniform({seed, 5}, -1e3, 1e3));
   const double angle = base::RandomUniform({seed, 6}, -3.0, 3.0), factor = base::RandomUniform({seed, 7}, 0.1, 10.0);
   RC_ASSERT(Distance(Translated(Translated(line, by), -by), line) < 1e-11);
   RC_ASSERT(Distance(Rotated(Rotated(line, angle, by.head<2>()), -angle, by.head<2>()), line) < 1e-10);
@@ -62,13 +63,18 @@ RC_GTEST_PROP(Polyline, EveryMoveHasItsWayBack, (std::uint64_t seed)) {
 TEST(Polyline, IsJoinedEndToBeginning) {
   const Polyline a = Line({{0, 0, 0}, {10, 0, 1}}), b = Line({{10.01, 0, 1}, {20, 0, 2}}), far = Line({{25, 0, 2}, {30, 0, 2}});
   const std::vector<std::string> names = {"a.csv", "b.csv", "c.csv"};
-  const auto join = [&names](std::vector<Polyline> lines, const JoinRules& rules) { return Joined(lines, std::span(names).first(lines.size()), rules); };
+  const auto join = [&names](std::vector<Polyline> lines, const JoinRules& rules) {
+    return Joined(lines, std::span(names).first(lines.size()), rules);
+  };
   EXPECT_EQ(Distance(join({a, b}, {}).value(), Line({{0, 0, 0}, {10, 0, 1}, {20, 0, 2}})), 0.0);
-  EXPECT_EQ(join({a, b}, {0.001, false, false}).error().message, "'b.csv' begins 0.01 m from where 'a.csv' ends; at most 0.001 m were expected");
+  EXPECT_EQ(join({a, b}, {0.001, false, false}).error().message,
+            "'b.csv' begins 0.01 m from where 'a.csv' ends; at most 0.001 m were expected");
   EXPECT_THAT(join({a, Reversed(b)}, {}).error().message, HasSubstr("(its end lies there: --turn turns it round)"));
   EXPECT_EQ(Distance(join({a, Reversed(b)}, {0.05, false, true}).value(), join({a, b}, {}).value()), 0.0);
   EXPECT_THAT(join({a, b, far}, {}).error().message, HasSubstr("'c.csv' begins 5 m from where 'b.csv' ends"));
-  EXPECT_EQ(Distance(join({a, b, far}, {0.05, true, false}).value(), Line({{0, 0, 0}, {10, 0, 1}, {20, 0, 2}, {25, 0, 2}, {30, 0, 2}})), 0.0);
+  EXPECT_EQ(
+      Distance(join({a, b, far}, {0.05, true, false}).value(), Line({{0, 0, 0}, {10, 0, 1}, {20, 0, 2}, {25, 0, 2}, {30, 0, 2}})),
+      0.0);
   Polyline flat = b;
   flat.has_z = false;
   EXPECT_THAT(join({a, flat}, {}).error().message, HasSubstr("do not both have heights"));
@@ -108,13 +114,15 @@ TEST(PolylineCsv, WhatIsWrongIsSaidWithItsLine) {
 TEST(Mitre, FollowsTheRuleOfTheSeed) {
   // East, then north: at the corner the vectors to both neighbours are (-1, 0) and (0, 1); their sum lies on the mitre.
   const Polyline corner = Line({{0, 0, 0}, {10, 0, 0}, {10, 10, 0}});
-  const std::vector<Eigen::Vector2d> wide = MitreVectors(corner, Mitre::kKeepWidth), plain = MitreVectors(corner, Mitre::kKeepLength);
+  const std::vector<Eigen::Vector2d> wide = MitreVectors(corner, Mitre::kKeepWidth),
+                                     plain = MitreVectors(corner, Mitre::kKeepLength);
   EXPECT_EQ(wide[0], Eigen::Vector2d(0, 1));   // the ends: the perpendicular
   EXPECT_EQ(wide[2], Eigen::Vector2d(-1, 0));
   EXPECT_NEAR((wide[1] - Eigen::Vector2d(-1, 1)).norm(), 0.0, 1e-15);
   EXPECT_NEAR((plain[1] - Eigen::Vector2d(-1, 1) / std::sqrt(2.0)).norm(), 0.0, 1e-15);
   // East, then south: the sum points to the right and is turned.
-  EXPECT_NEAR((MitreVectors(Line({{0, 0, 0}, {10, 0, 0}, {10, -10, 0}}), Mitre::kKeepWidth)[1] - Eigen::Vector2d(1, 1)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((MitreVectors(Line({{0, 0, 0}, {10, 0, 0}, {10, -10, 0}}), Mitre::kKeepWidth)[1] - Eigen::Vector2d(1, 1)).norm(),
+              0.0, 1e-15);
   // Collinear: the sum is zero, the perpendicular is used.
   EXPECT_EQ(MitreVectors(Line({{0, 0, 0}, {10, 0, 0}, {30, 0, 0}}), Mitre::kKeepWidth)[1], Eigen::Vector2d(0, 1));
 }
@@ -122,7 +130,9 @@ TEST(Mitre, FollowsTheRuleOfTheSeed) {
 TEST(Offset, OfARegularPolygonIsARegularPolygon) {
   constexpr int corners = 36;
   Polyline ring;
-  for (int i = 0; i <= corners; ++i) ring.points_W.emplace_back(50.0 * std::cos(2.0 * kPi * i / corners), 50.0 * std::sin(2.0 * kPi * i / corners), 3.0);
+  for (int i = 0; i <= corners; ++i) {
+    ring.points_W.emplace_back(50.0 * std::cos(2.0 * kPi * i / corners), 50.0 * std::sin(2.0 * kPi * i / corners), 3.0);
+  }
   ASSERT_TRUE(ring.closed());
   for (const double left : {5.0, -20.0, 49.0}) {  // counter-clockwise: left is inward
     const OffsetLine offset = Offset(ring, left);
@@ -131,7 +141,9 @@ TEST(Offset, OfARegularPolygonIsARegularPolygon) {
       EXPECT_NEAR(p.head<2>().norm(), 50.0 - left / std::cos(kPi / corners), 1e-12);
       EXPECT_EQ(p.z(), 3.0);
     }
-    for (const Eigen::Vector3d& p : Offset(ring, left, Mitre::kKeepLength).line.points_W) EXPECT_NEAR(p.head<2>().norm(), 50.0 - left, 1e-12);
+    for (const Eigen::Vector3d& p : Offset(ring, left, Mitre::kKeepLength).line.points_W) {
+      EXPECT_NEAR(p.head<2>().norm(), 50.0 - left, 1e-12);
+    }
   }
   const OffsetLine folded = Offset(ring, 51.0);
   ASSERT_FALSE(folded.faults.empty());
@@ -221,13 +233,17 @@ TEST(Offset, ALineThatTurnsBackHasNoMitre) {
 TEST(Crossings, AreThoseOfAllPairs) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     Polyline line;
-    for (std::uint64_t i = 0; i < 40; ++i) line.points_W.emplace_back(base::RandomUniform({seed, i, 1}, 0.0, 10.0), base::RandomUniform({seed, i, 2}, 0.0, 10.0 * (seed % 3)), 0.0);
+    for (std::uint64_t i = 0; i < 40; ++i) {
+      line.points_W.emplace_back(base::RandomUniform({seed, i, 1}, 0.0, 10.0),
+                                 base::RandomUniform({seed, i, 2}, 0.0, 10.0 * (seed % 3)), 0.0);
+    }
     const std::vector<double> stations = StationsOf(line);
     std::size_t expected = 0;
     for (std::size_t i = 0; i + 1 < 40; ++i) {
       for (std::size_t k = i + 2; k + 1 < 40; ++k) {
         const auto side = [&](std::size_t a, std::size_t b, std::size_t p) {
-          const Eigen::Vector2d along = (line.points_W[b] - line.points_W[a]).head<2>(), to = (line.points_W[p] - line.points_W[a]).head<2>();
+          const Eigen::Vector2d along = (line.points_W[b] - line.points_W[a]).head<2>(),
+                                to = (line.points_W[p] - line.points_W[a]).head<2>();
           return along.x() * to.y() - along.y() * to.x() > 0.0;
         };
         expected += side(i, i + 1, k) != side(i, i + 1, k + 1) && side(k, k + 1, i) != side(k, k + 1, i + 1);

@@ -68,8 +68,11 @@ TEST(CrgFile, TheHandMadeArcIsTheLibrarys) {
 
 TEST(CrgFile, TheHandMadeSlopeIsTheLibrarys) {
   ExpectValues("handmade_sloped_opts.crg",
-               {{1.5, -1.4, 1.5, -1.4, 0.0055}, {10.25, 0.77, 10.25, 0.77, 0.538305540041}, {15.1, 1.2, 15.1, 1.2, 0.966711129653},
-                {21.0, -0.3, 21.0, -0.3, 1.217777770143}, {25.0, 0.1, 25.0, 0.1, 1.21}},
+               {{1.5, -1.4, 1.5, -1.4, 0.0055},
+                {10.25, 0.77, 10.25, 0.77, 0.538305540041},
+                {15.1, 1.2, 15.1, 1.2, 0.966711129653},
+                {21.0, -0.3, 21.0, -0.3, 1.217777770143},
+                {25.0, 0.1, 25.0, 0.1, 1.21}},
                2e-9, 1e-11);
 }
 
@@ -89,7 +92,10 @@ TEST(CrgFile, AFileMayNameAnotherRelativeToItself) {
     const auto file = LoadCrg(kFolder / "testOptionBorderMode.crg");
     ASSERT_FALSE(file.ok());
     EXPECT_EQ(file.error().exit_status(), 2);
-    EXPECT_THAT(file.error().Text(), HasSubstr("testOptionBorderMode.crg: $ROAD_CRG_FILE names '../../../crg-txt/handmade_sloped_opt.crg': there is no such file"));
+    EXPECT_THAT(
+        file.error().Text(),
+        HasSubstr(
+            "testOptionBorderMode.crg: $ROAD_CRG_FILE names '../../../crg-txt/handmade_sloped_opt.crg': there is no such file"));
   }
   std::string pattern = (fs::temp_directory_path() / "rodeira-crg-XXXXXX").string();
   ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
@@ -99,8 +105,9 @@ TEST(CrgFile, AFileMayNameAnotherRelativeToItself) {
   made.z = [](double, double) { return 1.0; };
   made.sections = "$ROAD_CRG_MODS\nSCALE_Z_GRID = 7\n$\n$ROAD_CRG_OPTS\nBORDER_OFFSET_U = 1\n$\n";
   ASSERT_TRUE(base::WriteWhole(folder / "numbers/made.crg", made.Text()).ok());
-  ASSERT_TRUE(base::WriteWhole(folder / "master.crg", std::string_view("$CT\n$\n$ROAD_CRG_FILE\n* a long name\n  numbers/\n  made.crg ! goes on\n$\n"
-                                                                       "$ROAD_CRG_MODS\nSCALE_Z_GRID = 3\n$\n"))
+  ASSERT_TRUE(base::WriteWhole(folder / "master.crg",
+                               std::string_view("$CT\n$\n$ROAD_CRG_FILE\n* a long name\n  numbers/\n  made.crg ! goes on\n$\n"
+                                                "$ROAD_CRG_MODS\nSCALE_Z_GRID = 3\n$\n"))
                   .ok());
   const auto file = LoadCrg(folder / "master.crg");
   ASSERT_TRUE(file.ok()) << file.error().Text();
@@ -109,7 +116,8 @@ TEST(CrgFile, AFileMayNameAnotherRelativeToItself) {
   ASSERT_TRUE(base::WriteWhole(folder / "third.crg", std::string_view("$ROAD_CRG_FILE\nmaster.crg\n$\n")).ok());
   EXPECT_THAT(LoadCrg(folder / "third.crg").error().Text(), HasSubstr("names a third one"));
   ASSERT_TRUE(base::WriteWhole(folder / "environment.crg", std::string_view("$ROAD_CRG_FILE\n $HOME/made.crg\n$\n")).ok());
-  EXPECT_THAT(LoadCrg(folder / "environment.crg").error().Text(), HasSubstr("environment.crg:2: the file name '$HOME/made.crg' begins with an environment variable"));
+  EXPECT_THAT(LoadCrg(folder / "environment.crg").error().Text(),
+              HasSubstr("environment.crg:2: the file name '$HOME/made.crg' begins with an environment variable"));
   fs::remove_all(folder);
 }
 
@@ -133,19 +141,26 @@ TEST(CrgFile, WhatIsWrongIsSaidWithItsLine) {
   const auto refusal = [&good](std::string_view what, std::string_view by) { return Refusal(Replaced(good, what, by)); };
   EXPECT_THAT(Refusal(""), HasSubstr("this is no OpenCRG file"));
   EXPECT_THAT(Refusal("$ROAD_CRG\nREFERENCE_LINE_INCREMENT = 1\n$\n"), HasSubstr("this is no OpenCRG file"));
-  EXPECT_THAT(refusal("INCREMENT = 0.5", "INCREMENT = 0,5"), HasSubstr("made.crg:5: 'reference_line_increment' is '0,5'; a number was expected"));
+  EXPECT_THAT(refusal("INCREMENT = 0.5", "INCREMENT = 0,5"),
+              HasSubstr("made.crg:5: 'reference_line_increment' is '0,5'; a number was expected"));
   EXPECT_THAT(refusal("INCREMENT = 0.5", "INCREMENT = -1"), HasSubstr("'reference_line_increment' is -1; a number from"));
   EXPECT_THAT(refusal("REFERENCE_LINE_INCREMENT = 0.5", ""), HasSubstr("key 'REFERENCE_LINE_INCREMENT' is missing"));
-  EXPECT_THAT(refusal("#:LDFI", "#:LRBI"), HasSubstr("made.crg:10: the numbers' format is 'lrbi'; LRFI, LDFI, KRBI or KDBI was expected"));
+  EXPECT_THAT(refusal("#:LDFI", "#:LRBI"),
+              HasSubstr("made.crg:10: the numbers' format is 'lrbi'; LRFI, LDFI, KRBI or KDBI was expected"));
   EXPECT_THAT(refusal("#:LDFI", ""), HasSubstr("does not say how the numbers are written"));
-  EXPECT_THAT(refusal("D:long section at v = -1,m", "D:long section at v = -2,m"), HasSubstr("two long sections lie at v = -2 and -2"));
+  EXPECT_THAT(refusal("D:long section at v = -1,m", "D:long section at v = -2,m"),
+              HasSubstr("two long sections lie at v = -2 and -2"));
   EXPECT_THAT(refusal("D:long section at v = -1,m", "D:long section 2,m"), HasSubstr("one way for all was expected"));
-  EXPECT_THAT(refusal("v = -1,m", "v = -1,mm"), HasSubstr("made.crg:13: column 'long section at v = -1' is in 'mm'; 'm' was expected"));
+  EXPECT_THAT(refusal("v = -1,m", "v = -1,mm"),
+              HasSubstr("made.crg:13: column 'long section at v = -1' is in 'mm'; 'm' was expected"));
   EXPECT_THAT(refusal("v = -1,m", "v = one,m"), HasSubstr("'long section at v = METRES'"));
-  EXPECT_THAT(refusal("D:long section at v = -1,m", "D:reference line heading,rad"), HasSubstr("column 'reference line heading' is unknown"));
-  EXPECT_THAT(refusal("end_u = 10", "end_u = 11"), HasSubstr("21 rows of numbers were found; from u = 0 to 11 every 0.5 m are 23"));
+  EXPECT_THAT(refusal("D:long section at v = -1,m", "D:reference line heading,rad"),
+              HasSubstr("column 'reference line heading' is unknown"));
+  EXPECT_THAT(refusal("end_u = 10", "end_u = 11"),
+              HasSubstr("21 rows of numbers were found; from u = 0 to 11 every 0.5 m are 23"));
   EXPECT_THAT(refusal("end_u = 10", "end_u = -10"), HasSubstr("at least 2 rows were expected"));
-  EXPECT_THAT(refusal("0.000000000000e+00", "0.00000000x000e+00"), HasSubstr("made.crg:19: '0.00000000x000e+00' was found in columns 1 to 20"));
+  EXPECT_THAT(refusal("0.000000000000e+00", "0.00000000x000e+00"),
+              HasSubstr("made.crg:19: '0.00000000x000e+00' was found in columns 1 to 20"));
   EXPECT_THAT(Refusal(good.substr(0, good.size() - 21)), HasSubstr("the file ends within a row: 4 of 5 numbers are there"));
   made.sections = "$ROAD_CRG_OPTS\nBORDER_MODE_U = 2.5\n$\n";
   EXPECT_THAT(Refusal(made.Text()), HasSubstr("'border_mode_u' is 2.5; a whole number from 0 to 4 was expected"));
@@ -155,7 +170,8 @@ TEST(CrgFile, BinaryNumbersThatAreCutShortOrInfiniteAreRefused) {
   MadeCrg made;
   made.format = "KRBI";
   std::string text = made.Text();
-  EXPECT_THAT(Refusal(text.substr(0, text.size() - 100)), HasSubstr("the file is cut short: 19 rows of 5 numbers are there, and the header asks for 21"));
+  EXPECT_THAT(Refusal(text.substr(0, text.size() - 100)),
+              HasSubstr("the file is cut short: 19 rows of 5 numbers are there, and the header asks for 21"));
   made.z = [](double, double) { return std::numeric_limits<double>::infinity(); };
   EXPECT_THAT(Refusal(made.Text()), HasSubstr("the number in row 1, column 1 is inf; at most 1e9 was expected"));
 }
@@ -173,9 +189,12 @@ TEST(CrgFile, PartsThatDoNotFitAreRefused) {
                 made.road_keys = "LONG_SECTION_V_RIGHT = -2\nLONG_SECTION_V_LEFT = 2\nLONG_SECTION_V_INCREMENT = 0.9\n";
               }),
               HasSubstr("5 long sections from v = -2 to 2 lie 1 m apart; LONG_SECTION_V_INCREMENT says 0.9"));
-  EXPECT_THAT(refusal([](MadeCrg& made) { made.heading = [](double u) { return u < 5.0 ? 0.0 : 2.0; }; }), HasSubstr("turns by 2 rad in row 11"));
-  EXPECT_THAT(refusal([](MadeCrg& made) { made.heading = [](double u) { return u < 5.0 ? 0.0 : std::nan(""); }; }), HasSubstr("heading in row 12 is nan"));
-  EXPECT_THAT(refusal([](MadeCrg& made) { made.road_keys = "REFERENCE_LINE_END_X = 11\nREFERENCE_LINE_END_Y = 0\n"; }), HasSubstr("the reference line's plan ends 1 m beside the end"));
+  EXPECT_THAT(refusal([](MadeCrg& made) { made.heading = [](double u) { return u < 5.0 ? 0.0 : 2.0; }; }),
+              HasSubstr("turns by 2 rad in row 11"));
+  EXPECT_THAT(refusal([](MadeCrg& made) { made.heading = [](double u) { return u < 5.0 ? 0.0 : std::nan(""); }; }),
+              HasSubstr("heading in row 12 is nan"));
+  EXPECT_THAT(refusal([](MadeCrg& made) { made.road_keys = "REFERENCE_LINE_END_X = 11\nREFERENCE_LINE_END_Y = 0\n"; }),
+              HasSubstr("the reference line's plan ends 1 m beside the end"));
   EXPECT_THAT(refusal([](MadeCrg& made) { made.rows = 1; }), HasSubstr("at least 2 rows were expected"));
 }
 
@@ -185,8 +204,11 @@ TEST(CrgFile, WhatIsUnknownIsPassedOverWithAWarning) {
   made.sections = "$ROAD_CRG_MPRO\nanything\n$\n$SOMETHING\nelse\n$\n$ROAD_CRG_OPTS\nLOG_EVAL = 20\n$\n";
   const auto file = made.Parse();
   ASSERT_TRUE(file.ok()) << file.error().Text();
-  EXPECT_THAT(file.value().warnings, ElementsAre(HasSubstr("line 8: key 'reference_line_strat_x' is unknown and passed over; did you mean 'reference_line_start_x'?"),
-                                                 HasSubstr("section '$something' is unknown")));
+  EXPECT_THAT(
+      file.value().warnings,
+      ElementsAre(
+          HasSubstr("line 8: key 'reference_line_strat_x' is unknown and passed over; did you mean 'reference_line_start_x'?"),
+          HasSubstr("section '$something' is unknown")));
 }
 
 TEST(CrgReport, SaysWhatTheFileHolds) {

@@ -24,7 +24,8 @@ CrgSurface Made(const MadeCrg& made) {
 std::string Options(const std::string& keys) { return "$ROAD_CRG_OPTS\n" + keys + "$\n"; }
 
 TEST(CrgSurface, ABilinearFunctionComesOutOfEveryFormat) {
-  for (const auto& [format, tolerance] : {std::pair("LRFI", 1e-7), std::pair("LDFI", 1e-12), std::pair("KRBI", 3e-7), std::pair("KDBI", 1e-14)}) {
+  for (const auto& [format, tolerance] :
+       {std::pair("LRFI", 1e-7), std::pair("LDFI", 1e-12), std::pair("KRBI", 3e-7), std::pair("KDBI", 1e-14)}) {
     MadeCrg made;
     made.format = format;
     made.z = Bilinear;
@@ -46,8 +47,9 @@ TEST(CrgSurface, SectionsMayBeCountedFromTheRight) {
   MadeCrg made;
   made.z = Bilinear;
   made.counted = true;
-  for (const char* keys : {"LONG_SECTION_V_RIGHT = -2\nLONG_SECTION_V_LEFT = 2\n", "LONG_SECTION_V_INCREMENT = 1\n", "LONG_SECTION_V_RIGHT = -2\nLONG_SECTION_V_INCREMENT = 1\n",
-                           "LONG_SECTION_V_LEFT = 2\nLONG_SECTION_V_INCREMENT = 1\n"}) {
+  for (const char* keys :
+       {"LONG_SECTION_V_RIGHT = -2\nLONG_SECTION_V_LEFT = 2\n", "LONG_SECTION_V_INCREMENT = 1\n",
+        "LONG_SECTION_V_RIGHT = -2\nLONG_SECTION_V_INCREMENT = 1\n", "LONG_SECTION_V_LEFT = 2\nLONG_SECTION_V_INCREMENT = 1\n"}) {
     made.road_keys = keys;
     const CrgSurface surface = Made(made);
     EXPECT_EQ(surface.shape().v_m, made.v) << keys;
@@ -88,7 +90,9 @@ TEST(CrgSurface, SlopeAndBankingAddUp) {
   const CrgSurface surface = Made(made);
   for (int row = 0; row < 41; ++row) {
     const double u = 0.5 * row;
-    for (const double v : {-2.0, 0.3, 1.9}) EXPECT_NEAR(surface.At(u, v).z_m, 7.0 + 0.005 * u * u + 0.02 * std::sin(u) * v, 1e-11) << u << " " << v;
+    for (const double v : {-2.0, 0.3, 1.9}) {
+      EXPECT_NEAR(surface.At(u, v).z_m, 7.0 + 0.005 * u * u + 0.02 * std::sin(u) * v, 1e-11) << u << " " << v;
+    }
   }
 }
 
@@ -139,7 +143,8 @@ TEST(CrgSurface, SlopesInTheWorldAreThoseOfNeighbouringPoints) {
   constexpr double h = 1e-6;
   int compared = 0;
   for (std::uint64_t i = 0; i < 3000; ++i) {
-    const Eigen::Vector2d p = surface.line().Position(base::RandomUniform({i, 5}, -3.0, 33.0), base::RandomUniform({i, 6}, -2.5, 2.5));
+    const Eigen::Vector2d p =
+        surface.line().Position(base::RandomUniform({i, 5}, -3.0, 33.0), base::RandomUniform({i, 6}, -2.5, 2.5));
     const CrgGround here = surface.Ground(p.x(), p.y());
     ASSERT_TRUE(here.inside);
     const auto cell = [](const CrgGround& at) { return std::pair(std::floor(at.u_m / 0.5), std::floor(at.v_m)); };
@@ -156,7 +161,8 @@ TEST(CrgSurface, SlopesInTheWorldAreThoseOfNeighbouringPoints) {
 TEST(CrgSurface, NoCrackBetweenCellsNorAtTheCornersOfTheLine) {
   const CrgSurface surface = Made(Circle(-0.05));
   for (std::uint64_t i = 0; i < 4000; ++i) {
-    const double u = i % 2 == 0 ? 0.5 * std::floor(base::RandomUniform({i, 7}, 0.0, 60.0)) : base::RandomUniform({i, 7}, 0.0, 30.0);
+    const double u =
+        i % 2 == 0 ? 0.5 * std::floor(base::RandomUniform({i, 7}, 0.0, 60.0)) : base::RandomUniform({i, 7}, 0.0, 30.0);
     const double v = i % 3 == 0 ? std::floor(base::RandomUniform({i, 8}, -2.0, 2.0)) : base::RandomUniform({i, 8}, -2.0, 2.0);
     const Eigen::Vector2d p = surface.line().Position(u, v);
     const double angle = base::RandomUniform({i, 9}, 0.0, 6.28);
@@ -265,7 +271,9 @@ TEST(CrgSurface, ModifiersScale) {
   made.slope = [](double) { return 0.01; };
   made.banking = [](double) { return 0.02; };
   const CrgSurface plain = Made(made);
-  made.sections = "$ROAD_CRG_MODS\nSCALE_Z_GRID = 2\nSCALE_SLOPE = 3\nSCALE_BANKING = 4\nSCALE_LENGTH = 5\nSCALE_WIDTH = 0.5\nSCALE_CURVATURE = 0.5\n$\n";
+  made.sections =
+      "$ROAD_CRG_MODS\nSCALE_Z_GRID = 2\nSCALE_SLOPE = 3\nSCALE_BANKING = 4\nSCALE_LENGTH = 5\nSCALE_WIDTH = "
+      "0.5\nSCALE_CURVATURE = 0.5\n$\n";
   const CrgSurface scaled = Made(made);
   EXPECT_NEAR(scaled.length_m(), 150.0, 1e-9);
   EXPECT_EQ(scaled.shape().v_m.back(), 1.0);
@@ -280,7 +288,9 @@ TEST(CrgSurface, ModifiersScale) {
 
 TEST(CrgSurface, ModifiersMoveTheReferencePointToItsPlace) {
   MadeCrg made = Circle(0.02);
-  made.sections = "$ROAD_CRG_MODS\nREFPOINT_U_FRACTION = 0.5\nREFPOINT_U_OFFSET = 0.2\nREFPOINT_V = 1.5\nREFPOINT_X = 100\nREFPOINT_Y = -40\nREFPOINT_Z = 12\nREFPOINT_PHI = 1\n$\n";
+  made.sections =
+      "$ROAD_CRG_MODS\nREFPOINT_U_FRACTION = 0.5\nREFPOINT_U_OFFSET = 0.2\nREFPOINT_V = 1.5\nREFPOINT_X = 100\nREFPOINT_Y = "
+      "-40\nREFPOINT_Z = 12\nREFPOINT_PHI = 1\n$\n";
   const CrgSurface surface = Made(made);
   const Eigen::Vector2d p = surface.line().Position(15.2, 1.5);
   EXPECT_NEAR((p - Eigen::Vector2d(100.0, -40.0)).norm(), 0.0, 1e-10);
@@ -289,11 +299,14 @@ TEST(CrgSurface, ModifiersMoveTheReferencePointToItsPlace) {
   EXPECT_NEAR(std::atan2(direction.y(), direction.x()), 1.0, 1e-12);
 
   const CrgSurface plain = Made(Circle(0.02));
-  made.sections = "$ROAD_CRG_MODS\nREFLINE_ROTCENTER_X = 3\nREFLINE_ROTCENTER_Y = 4\nREFLINE_OFFSET_PHI = 0.5\nREFLINE_OFFSET_X = 10\nREFLINE_OFFSET_Y = 20\nREFLINE_OFFSET_Z = 30\n$\n";
+  made.sections =
+      "$ROAD_CRG_MODS\nREFLINE_ROTCENTER_X = 3\nREFLINE_ROTCENTER_Y = 4\nREFLINE_OFFSET_PHI = 0.5\nREFLINE_OFFSET_X = "
+      "10\nREFLINE_OFFSET_Y = 20\nREFLINE_OFFSET_Z = 30\n$\n";
   const CrgSurface turned = Made(made);
   for (const double u : {0.0, 11.3, 30.0}) {
     const Eigen::Vector2d from = plain.line().Position(u, 0.7) - Eigen::Vector2d(3.0, 4.0);
-    const Eigen::Vector2d expected(13.0 + std::cos(0.5) * from.x() - std::sin(0.5) * from.y(), 24.0 + std::sin(0.5) * from.x() + std::cos(0.5) * from.y());
+    const Eigen::Vector2d expected(13.0 + std::cos(0.5) * from.x() - std::sin(0.5) * from.y(),
+                                   24.0 + std::sin(0.5) * from.x() + std::cos(0.5) * from.y());
     EXPECT_NEAR((turned.line().Position(u, 0.7) - expected).norm(), 0.0, 1e-10);
     EXPECT_NEAR(turned.At(u, 0.7).z_m, plain.At(u, 0.7).z_m + 30.0, 1e-10);
   }
@@ -304,7 +317,8 @@ TEST(CrgSurface, AGapToTheEndThatTheHeaderNamesIsShared) {
   made.heading = [](double) { return 0.0; };
   made.slope = [](double) { return 0.0; };
   made.road_keys =
-      "REFERENCE_LINE_START_X = 0\nREFERENCE_LINE_START_Y = 0\nREFERENCE_LINE_END_X = 10\nREFERENCE_LINE_END_Y = 0.05\nREFERENCE_LINE_START_Z = 1\nREFERENCE_LINE_END_Z = 1.02\n";
+      "REFERENCE_LINE_START_X = 0\nREFERENCE_LINE_START_Y = 0\nREFERENCE_LINE_END_X = 10\nREFERENCE_LINE_END_Y = "
+      "0.05\nREFERENCE_LINE_START_Z = 1\nREFERENCE_LINE_END_Z = 1.02\n";
   const auto file = made.Parse();
   ASSERT_TRUE(file.ok()) << file.error().Text();
   EXPECT_EQ(file.value().warnings.size(), 2u);
@@ -315,7 +329,9 @@ TEST(CrgSurface, AGapToTheEndThatTheHeaderNamesIsShared) {
 RC_GTEST_PROP(CrgSurface, TheOrderOfQuestionsNeverChangesABit, (std::uint64_t seed)) {
   static const CrgSurface surface = Made(Circle(-0.05));
   std::vector<Eigen::Vector2d> places;
-  for (std::uint64_t i = 0; i < 50; ++i) places.emplace_back(base::RandomUniform({seed, i, 1}, -10.0, 25.0), base::RandomUniform({seed, i, 2}, -25.0, 10.0));
+  for (std::uint64_t i = 0; i < 50; ++i) {
+    places.emplace_back(base::RandomUniform({seed, i, 1}, -10.0, 25.0), base::RandomUniform({seed, i, 2}, -25.0, 10.0));
+  }
   std::vector<CrgGround> forward, backward;
   for (const auto& p : places) forward.push_back(surface.Ground(p.x(), p.y()));
   for (auto p = places.rbegin(); p != places.rend(); ++p) backward.push_back(surface.Ground(p->x(), p->y()));

@@ -69,14 +69,17 @@ struct MadeCrg {
   template <class Bits>
   static std::string BigEndian(Bits bits) {
     std::string bytes;
-    for (int shift = 8 * (static_cast<int>(sizeof(Bits)) - 1); shift >= 0; shift -= 8) bytes += static_cast<char>(bits >> shift & 0xff);
+    for (int shift = 8 * (static_cast<int>(sizeof(Bits)) - 1); shift >= 0; shift -= 8) {
+      bytes += static_cast<char>(bits >> shift & 0xff);
+    }
     return bytes;
   }
   std::string Number(double value, std::size_t i, std::size_t count) const {
     if (format == "KRBI") return BigEndian(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
     if (format == "KDBI") return BigEndian(std::bit_cast<std::uint64_t>(value));
     const std::size_t width = format == "LRFI" ? 10 : 20, a_line = 80 / width;
-    std::string word = std::isnan(value) ? "*missing*" : (width == 10 ? fmt::format("{:.7f}", value) : fmt::format("{:.12e}", value));
+    std::string word =
+        std::isnan(value) ? "*missing*" : (width == 10 ? fmt::format("{:.7f}", value) : fmt::format("{:.12e}", value));
     word = fmt::format("{:>{}}", word, width);
     return word + (i + 1 == count || i % a_line + 1 == a_line ? "\n" : "");
   }

@@ -139,7 +139,9 @@ TEST(Roughness, AlongAndAcrossItHasTheStructureOfItsSpectrum) {
   // tracks is x K1(x), that of 2 G(n) (1 - x K1(x)); K1 is the library's. (20 000 draws of a square: a standard error of 1 %.)
   for (const double d : {0.2, 1.0, 3.0}) {
     EXPECT_NEAR(Structure(d, 0.0, 20'000) / Integral(d, [](double x) { return 2.0 * (1.0 - std::cos(x)); }), 1.0, 0.04) << d;
-    EXPECT_NEAR(Structure(0.0, d, 20'000) / Integral(d, [](double x) { return 2.0 * (1.0 - x * std::cyl_bessel_k(1.0, x)); }), 1.0, 0.04) << d;
+    EXPECT_NEAR(Structure(0.0, d, 20'000) / Integral(d, [](double x) { return 2.0 * (1.0 - x * std::cyl_bessel_k(1.0, x)); }),
+                1.0, 0.04)
+        << d;
   }
 }
 

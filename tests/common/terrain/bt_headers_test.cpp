@@ -57,12 +57,23 @@ void Put(base::Bytes& bytes, std::size_t at, T value) {
 // One to three fields, bits or bytes of the header get another value, often one at an edge; sometimes the file is cut.
 base::Bytes Broken(Draw& draw) {
   base::Bytes bytes = Good();
-  const std::int32_t integers[] = {0, 1, 2, 3, 4, 5, -1, 8, 100, 32767, -32768, 65536, 100'000, 100'001, 2147483647, -2147483647 - 1};
-  const double numbers[] = {0.0, -0.0, 1e-310, 1.0, 140.0, -1e300, 1e308, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), std::nan("")};
+  const std::int32_t integers[] = {0,   1,     2,      3,     4,       5,       -1,         8,
+                                   100, 32767, -32768, 65536, 100'000, 100'001, 2147483647, -2147483647 - 1};
+  const double numbers[] = {0.0,
+                            -0.0,
+                            1e-310,
+                            1.0,
+                            140.0,
+                            -1e300,
+                            1e308,
+                            std::numeric_limits<double>::infinity(),
+                            -std::numeric_limits<double>::infinity(),
+                            std::nan("")};
   for (std::size_t changes = 1 + draw.Below(3); changes > 0; --changes) {
     const std::int32_t integer = integers[draw.Below(std::size(integers))];
     const double number = numbers[draw.Below(std::size(numbers))];
-    constexpr std::size_t longs[] = {10, 14}, shorts[] = {18, 20, 22, 24, 26, 42, 60}, doubles[] = {28, 36, 44, 52}, floats[] = {26, 30, 34, 38, 62};
+    constexpr std::size_t longs[] = {10, 14}, shorts[] = {18, 20, 22, 24, 26, 42, 60}, doubles[] = {28, 36, 44, 52},
+                          floats[] = {26, 30, 34, 38, 62};
     switch (draw.Below(8)) {
       case 0: bytes[9] = static_cast<std::byte>('0' + draw.Below(6)); break;
       case 1: Put(bytes, longs[draw.Below(2)], integer); break;
@@ -102,13 +113,16 @@ TEST(BtHeaders, AMutatedHeaderIsReadAsSomethingThatCanBeOrRefused) {
     ++accepted;
     const BtHeader& h = header.value();
     ASSERT_TRUE(h.version_tenths >= 10 && h.version_tenths <= 13 && h.columns >= 2 && h.rows >= 2) << number;
-    ASSERT_TRUE(std::isfinite(h.right - h.left) && h.left < h.right && std::isfinite(h.top - h.bottom) && h.bottom < h.top) << number;
+    ASSERT_TRUE(std::isfinite(h.right - h.left) && h.left < h.right && std::isfinite(h.top - h.bottom) && h.bottom < h.top)
+        << number;
     ASSERT_TRUE(h.vertical_scale > 0.0 && std::isfinite(h.vertical_scale) && h.metres_a_unit > 0.0) << number;
     ASSERT_GE(h.file_bytes(), kBtHeaderBytes + 8u) << number;
     if (h.version_tenths == 10) continue;  // keeps its extents in single precision, and elsewhere
     const auto again = ParseBtHeader(BtHeaderBytes(h));
     ASSERT_TRUE(again.ok()) << number << ": " << again.error().Text();
-    ASSERT_TRUE(again.value().columns == h.columns && again.value().left == h.left && again.value().top == h.top && again.value().metres_a_unit == h.metres_a_unit) << number;
+    ASSERT_TRUE(again.value().columns == h.columns && again.value().left == h.left && again.value().top == h.top &&
+                again.value().metres_a_unit == h.metres_a_unit)
+        << number;
   }
   if (count < 1000) return;
   EXPECT_GT(accepted, count / 20);
@@ -135,7 +149,8 @@ TEST(BtHeaders, AFileWithAMutatedHeaderIsAGridThatCanBeAskedOrASentence) {
     const ElevationGrid& grid = *loaded.value();
     const auto& frame = grid.frame();
     for (const double share : {0.0, 0.3, 0.999, 1.0, 1.5}) {
-      const GridSample at = grid.At(frame.west_m + share * (frame.east_m - frame.west_m), frame.south_m + share * (frame.north_m - frame.south_m));
+      const GridSample at =
+          grid.At(frame.west_m + share * (frame.east_m - frame.west_m), frame.south_m + share * (frame.north_m - frame.south_m));
       ASSERT_TRUE(!at.inside || std::isfinite(at.z_m)) << number;
     }
   }

@@ -24,7 +24,9 @@ constexpr double kWest = 500'000.0, kNorth = 4'700'000.0, kCell = 10.0;
 
 // Whole centimetres, so that formats of text say them exactly.
 float Height(int column, int row_from_north) {
-  return static_cast<float>(std::round(base::RandomUniform({std::uint64_t(column), std::uint64_t(row_from_north)}, 0.0, 90'000.0))) / 100.0F;
+  return static_cast<float>(
+             std::round(base::RandomUniform({std::uint64_t(column), std::uint64_t(row_from_north)}, 0.0, 90'000.0))) /
+         100.0F;
 }
 
 class Rasters : public ::testing::Test {
@@ -42,7 +44,8 @@ class Rasters : public ::testing::Test {
   }
 
   // A raster in memory, written by a driver; false where the driver cannot.
-  bool Write(const char* driver_name, const fs::path& path, const std::function<void(GDALDataset&)>& change = {}, int bands = 1) const {
+  bool Write(const char* driver_name, const fs::path& path, const std::function<void(GDALDataset&)>& change = {},
+             int bands = 1) const {
     GDALDriver* memory = GetGDALDriverManager()->GetDriverByName("MEM");
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_name);
     if (driver == nullptr) return false;
@@ -59,7 +62,9 @@ class Rasters : public ::testing::Test {
       for (int column = 0; column < kColumns; ++column) heights.push_back(Height(column, row));
     }
     for (int band = 1; band <= bands; ++band) {
-      if (made->GetRasterBand(band)->RasterIO(GF_Write, 0, 0, kColumns, kRows, heights.data(), kColumns, kRows, GDT_Float32, 0, 0, nullptr) != CE_None) return false;
+      if (made->GetRasterBand(band)->RasterIO(GF_Write, 0, 0, kColumns, kRows, heights.data(), kColumns, kRows, GDT_Float32, 0, 0,
+                                              nullptr) != CE_None)
+        return false;
     }
     if (change) change(*made);
     const GDALDatasetUniquePtr copy(driver->CreateCopy(path.c_str(), made.get(), FALSE, nullptr, nullptr, nullptr));
@@ -75,8 +80,9 @@ class Rasters : public ::testing::Test {
 };
 
 TEST_F(Rasters, EveryFormatGivesTheSameHeightsAtTheSamePlaces) {
-  const std::pair<const char*, const char*> formats[] = {{"GTiff", "tif"}, {"AAIGrid", "asc"}, {"EHdr", "flt"}, {"ENVI", "img"}, {"HFA", "img"}, {"SAGA", "sdat"}, {"GSAG", "grd"},
-                                                         {"GSBG", "grd"}, {"GS7BG", "grd"}, {"RST", "rst"}, {"RRASTER", "grd"}, {"XYZ", "xyz"}};
+  const std::pair<const char*, const char*> formats[] = {
+      {"GTiff", "tif"}, {"AAIGrid", "asc"}, {"EHdr", "flt"},  {"ENVI", "img"}, {"HFA", "img"},     {"SAGA", "sdat"},
+      {"GSAG", "grd"},  {"GSBG", "grd"},    {"GS7BG", "grd"}, {"RST", "rst"},  {"RRASTER", "grd"}, {"XYZ", "xyz"}};
   int read = 0;
   for (const auto& [driver, extension] : formats) {
     const fs::path path = folder_ / driver / (std::string("heights.") + extension);
