@@ -1,5 +1,5 @@
 // .bt files whose headers are broken in every way that there is: a grid that can be asked, or a sentence. The reader of
-// headers sees RODEIRA_FUZZ_HEADERS of them (200 000), files are loaded from RODEIRA_FUZZ_FILES of them (2 000), both
+// headers sees RODEIRA_FUZZ_HEADERS of them (a million), files are loaded from RODEIRA_FUZZ_FILES of them (2 000), both
 // from the number RODEIRA_FUZZ_FIRST on.
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -100,7 +100,7 @@ void ExpectSentence(const base::Error& error, std::size_t number) {
 }
 
 TEST(BtHeaders, AMutatedHeaderIsReadAsSomethingThatCanBeOrRefused) {
-  const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0), count = Setting("RODEIRA_FUZZ_HEADERS", 200'000);
+  const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0), count = Setting("RODEIRA_FUZZ_HEADERS", 1'000'000);
   std::size_t accepted = 0;
   for (std::size_t number = first; number < first + count; ++number) {
     Draw draw(number);
