@@ -93,7 +93,10 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
       command->add_option("Z", options.z_hint_m, "near which height, where surfaces lie over one another");
     }
     if (std::string(name) == "build") command->add_option("--out", options.out, "folder")->required();
-    if (std::string(name) == "info") command->add_option("--svg", options.svg, "draw the plan into this file");
+    if (std::string(name) == "info") {
+      command->add_option("--svg", options.svg, "draw the plan into this file");
+      command->add_option("--profile", options.profile, "draw heights, grades, curvatures and slopes across into this file");
+    }
     command->callback([&options, name] { options.command = name; });
   }
 }
