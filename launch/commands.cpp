@@ -172,8 +172,17 @@ void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
 }
 
 CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::string>& changes) {
-  CLI::App* replay = app.add_subcommand("replay", "run a recording again");
+  CLI::App* replay = app.add_subcommand("replay", "watch a recording, or run it again");
   replay->add_option("FILE.mcap", options.file, "recording")->required();
+  CLI::Option* view = replay->add_flag("--view", options.view, "watch it in a window");
+  replay->add_option("--speed", options.watch.speed, "times real time, 0.1 to 10")->needs(view)->capture_default_str();
+  replay->add_flag("--paused", options.watch.paused, "begin standing still")->needs(view);
+  CLI::Option* frames = replay->add_option("--frames", options.watch.frames, "folder: write pictures (PNG) as the run's view would have");
+  CLI::Option* at = replay->add_option("--at", options.watch.at_s, "simulated seconds of the pictures")->needs(frames);
+  frames->needs(at);
+  replay->add_option("--camera", options.watch.camera, "chase or driver; otherwise as the run's view");
+  replay->add_option("--follow", options.watch.follow, "name of a vehicle node; otherwise as the run's view");
+  replay->add_option("--size", options.watch.size, "WIDTHxHEIGHT in pixels; otherwise as the run's view");
   replay->add_flag("--verify", options.verify, "compute everything again and compare every sample and state");
   replay->add_option("--from", options.from_s, "simulated seconds at which to begin")->check(CLI::NonNegativeNumber);
   replay->add_option("--branch", changes, "KEY=VALUE: go on from --from with another value of the launch file");

@@ -73,11 +73,22 @@ int MakeBranch(const ReplayOptions& options) {
   return 0;
 }
 
+int Watch(const ReplayOptions& options) {
+  WatchOptions watch = options.watch;
+  watch.file = options.file;
+  watch.from_s = options.from_s.value_or(0.0);
+  return options.view ? WatchRecording(watch) : WriteRecordedFrames(watch);
+}
+
 }  // namespace
 
 int Replay(const ReplayOptions& options) {
+  const int wishes = (options.verify ? 1 : 0) + (options.view ? 1 : 0) + (options.watch.frames.empty() ? 0 : 1) + (options.changes.empty() ? 0 : 1);
+  if (wishes != 1) {
+    return Complain(base::WrongInput(fmt::format("{} to do was named; --view, --frames, --verify or --branch was expected", wishes == 0 ? "nothing" : "more than one thing"), "rodeira replay"));
+  }
   if (!options.changes.empty()) return MakeBranch(options);
-  if (!options.verify) return Complain(base::WrongInput("nothing to do was named; --verify or --branch was expected", "rodeira replay"));
+  if (!options.verify) return Watch(options);
   const auto run = replay::RecordedRun::Open(options.file);
   if (!run) return Complain(run.error());
   const double base_step_s = static_cast<double>(run.value().roster().base_step_ns()) * 1e-9;

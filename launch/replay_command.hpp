@@ -5,11 +5,15 @@
 #include <utility>
 #include <vector>
 
+#include "launch/watch_command.hpp"
+
 namespace rodeira::front {
 
 struct ReplayOptions {
   std::string file;
   bool verify = false;
+  bool view = false;
+  WatchOptions watch;  // --view, --frames: what is theirs alone
   std::optional<double> from_s;
   std::vector<std::pair<std::string, std::string>> changes;  // --branch
   std::optional<double> for_s;                               // of the branch: simulated seconds behind it

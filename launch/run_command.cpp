@@ -214,7 +214,12 @@ class ProcessRun {
         return {};
       }
       for (const Child& child : children_) {
-        if (&child != &clock && Broken(child)) TellClock(child);
+        if (&child == &clock) continue;
+        if (Broken(child)) {
+          TellClock(child);
+        } else if (!child.ended()) {
+          told_.erase(child.name());  // it goes on
+        }
       }
       const int interrupts = g_interrupts;
       if (interrupts > 0 && !interrupted_at_) interrupted_at_ = WallClock::now();
@@ -452,6 +457,7 @@ int Run(const RunOptions& options) {
     launch = launch::Launch::Load(options.launch_file, overrides);
   }
   if (!launch) return Complain(launch.error());
+  if (auto status = launch.value().CheckRecovery(); !status && !options.in_process) return Complain(status.error());
   if (resolved.pace.empty()) resolved.pace = launch.value().pace().empty() ? "max" : launch.value().pace();
   if (resolved.run.empty()) resolved.run = FreshRunName();
   if (options.in_process) return RunInProcess(resolved, launch.value());

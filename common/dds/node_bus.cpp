@@ -263,7 +263,11 @@ void NodeBus::Abort(std::string reason) {
 
 void NodeBus::Heartbeat() {
   std::unique_lock lock(mutex_);
+  auto looked = WallClock::now();
   while (!stop_) {
+    const auto gap = WallClock::now() - looked;
+    looked += gap;
+    if (gap > settings_.clock_silence / 10) clock_heard_ += gap;  // this process itself was stopped, as by a debugger
     const lockstep::Runner* runner = runner_;
     lockstep::Report report = last_;
     const bool silent = clock_id_ != 0 && fault_.empty() && WallClock::now() - clock_heard_ > settings_.clock_silence;

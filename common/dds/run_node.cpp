@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <condition_variable>
 #include <cstdio>
 #include <functional>
@@ -16,6 +15,7 @@
 #include "common/dds/run.hpp"
 #include "common/launch/agreement.hpp"
 #include "common/lockstep/pump.hpp"
+#include "common/lockstep/recovery.hpp"
 #include "common/lockstep/runner.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -92,20 +92,16 @@ class ProcessContext final : public launch::NodeContext {
   std::unique_ptr<RemoteGround> ground_;
 };
 
-// Where another life than the first begins: a recorder behind what its file holds, another sink where nobody can be behind, all
-// others at the snapshot that the clock has named. A run that has not begun begins for everybody alike.
+// For another life than the first.
 base::Status FindBeginning(ProcessContext& context, Participant& participant, NodeBus& bus, lockstep::Mailbox& mailbox, lockstep::Runner::Settings& settings) {
   const auto limit = std::chrono::milliseconds(context.launch().watchdog().start_ms);
   const auto grant = bus.AwaitGrant(limit);
   if (!grant) return base::Failed("the clock says nothing to a node that is started again");
-  const lockstep::NodeSpec& spec = context.spec();
-  if (grant->through >= 0 && spec.keeps_snapshots()) {
-    settings.sink_from = lockstep::CeilTo(context.has_through() + 1, spec.period);
-  } else if (grant->through >= 0 && spec.is_sink()) {
-    settings.sink_from = lockstep::FloorTo(std::max<lockstep::Step>(grant->through - context.roster().window(), 0), spec.period);
-  } else if (grant->through >= 0 && grant->resume > 0) {
-    settings.resume = bus.FetchSnapshot(participant, grant->resume, limit);
-    if (!settings.resume) return base::Failed(fmt::format("nobody has its snapshot at step {}", grant->resume));
+  const lockstep::Beginning beginning = lockstep::BeginningOf(context.roster(), context.index(), *grant, context.has_through());
+  settings.sink_from = beginning.sink_from;
+  if (beginning.snapshot > 0) {
+    settings.resume = bus.FetchSnapshot(participant, beginning.snapshot, limit);
+    if (!settings.resume) return base::Failed(fmt::format("nobody has its snapshot at step {}", beginning.snapshot));
   }
   mailbox.StartAt(settings.resume ? settings.resume->at : settings.sink_from);
   bus.Listen();

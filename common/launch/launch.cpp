@@ -102,21 +102,13 @@ lockstep::Policy ReadPolicy(const config::Map& map, std::string_view fallback) {
   return word == "restart" ? lockstep::Policy::kRestart : word == "pause" ? lockstep::Policy::kPause : lockstep::Policy::kStop;
 }
 
-// A node that is started again begins at its snapshot and needs what others had said: both are with a recorder.
-void CheckRecovery(const config::Map& root, const std::vector<config::Map>& maps, std::vector<LaunchNode>& nodes, bool has_recorder) {
+// A person's input cannot be computed again.
+void ExceptLiveInput(const std::vector<config::Map>& maps, std::vector<LaunchNode>& nodes) {
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    if (nodes[n].recovery != lockstep::Policy::kRestart) continue;
-    const config::Map& where = maps[n].Has("recovery") ? maps[n] : root;
-    if (nodes[n].is_live()) {
-      if (maps[n].Has("recovery")) {
-        maps[n].Problem("recovery", fmt::format("node '{}' is driven by a person, whose input cannot be computed again; stop or pause was expected", nodes[n].name));
-      }
-      nodes[n].recovery = lockstep::Policy::kStop;
-    } else if (!has_recorder && !nodes[n].kind->outputs.empty()) {
-      where.Problem("recovery", fmt::format("node '{}' can be started again only where there is a recorder, but there is none (with --no-record: --set recovery=stop)",
-                                            nodes[n].name));
-      return;
-    }
+    if (nodes[n].recovery != lockstep::Policy::kRestart || !nodes[n].is_live()) continue;
+    nodes[n].recovery = lockstep::Policy::kStop;
+    if (!maps[n].Has("recovery")) continue;
+    maps[n].Problem("recovery", fmt::format("node '{}' is driven by a person, whose input cannot be computed again; stop or pause was expected", nodes[n].name));
   }
 }
 
@@ -131,6 +123,17 @@ std::vector<lockstep::Policy> Launch::policies() const {
   std::vector<lockstep::Policy> policies;
   for (const LaunchNode& node : nodes_) policies.push_back(node.recovery);
   return policies;
+}
+
+base::Status Launch::CheckRecovery() const {
+  const auto& nodes = roster_->nodes();
+  if (std::any_of(nodes.begin(), nodes.end(), [](const lockstep::NodeSpec& node) { return node.keeps_snapshots(); })) return {};
+  for (const LaunchNode& node : nodes_) {
+    if (node.recovery != lockstep::Policy::kRestart || node.kind->outputs.empty()) continue;
+    return base::WrongInput(fmt::format("node '{}' can be started again only where there is a recorder, but there is none (with --no-record: --set recovery=stop)",
+                                        node.name), path().string());
+  }
+  return {};
 }
 
 bool Launch::keeps_for_restarts() const { return lockstep::Recovery(*roster_, policies()).restarts(); }
@@ -195,8 +198,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
     maps.push_back(map);
   }
   SetSnapshots(root, base_step_ns, wishes);
-  const bool has_recorder = std::any_of(wishes.begin(), wishes.end(), [](const NodeWish& wish) { return wish.kind == "recorder"; });
-  CheckRecovery(root, maps, launch.nodes_, has_recorder);
+  ExceptLiveInput(maps, launch.nodes_);
   for (std::size_t n = 0; n < wishes.size(); ++n) Wire(maps[n], *launch.nodes_[n].kind, wishes, wishes[n]);
   if (auto status = launch.file_->Finish(); !status) return status.error();
   if (wishes.empty()) return base::WrongInput("'nodes' is empty; at least one node was expected", nodes.Place());

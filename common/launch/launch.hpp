@@ -58,6 +58,9 @@ class Launch {
   // Of the clock, and of nodes that say nothing of their own.
   lockstep::Policy recovery() const { return recovery_; }
   std::vector<lockstep::Policy> policies() const;  // one for each node
+  // A node that is started again begins at its snapshot and needs what others had said: both are with a recorder. Wrong input
+  // where one is to be and there is none.
+  base::Status CheckRecovery() const;
   bool keeps_for_restarts() const;                 // somebody may be started again: recorders answer for everybody
   const lockstep::Roster& roster() const { return *roster_; }
   const std::vector<LaunchNode>& nodes() const { return nodes_; }  // in the roster's order

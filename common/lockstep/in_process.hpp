@@ -9,6 +9,7 @@
 #include "common/lockstep/clock.hpp"
 #include "common/lockstep/conductor.hpp"
 #include "common/lockstep/node.hpp"
+#include "common/lockstep/recovery.hpp"
 #include "common/lockstep/report.hpp"
 #include "common/lockstep/roster.hpp"
 #include "common/lockstep/snapshot.hpp"
@@ -31,6 +32,21 @@ struct InProcessSettings {
   std::function<void(const Sample&)> on_sample;      // every sample published; one call at a time
   std::function<void(const Snapshot&)> on_snapshot;  // one call at a time
   double loss = 0.0;                     // RunShuffled: the share of samples and questions that never arrive
+  // RunShuffled: nodes die, with everything that they kept, and are made again (recovery.hpp).
+  struct Deaths {
+    double share = 0.0;                  // of the turns at which somebody dies
+    std::vector<Policy> policies;        // as Recovery
+    // A node of another life; for a recorder also what its file holds: all samples through `has_through`, of which the archive
+    // is told those in `tail`.
+    struct Remade {
+      Node* node = nullptr;
+      Step has_through = -1;
+      std::vector<Sample> tail;
+    };
+    std::function<Remade(NodeIndex)> remake;
+    std::function<Step(NodeIndex)> safe;  // of a recorder: samples valid through it are in its file
+  };
+  Deaths deaths;
   std::function<bool()> stop_requested;  // asked about every 20 ms
   std::function<void(const Clock&)> on_progress;     // called now and then on the caller's thread
   std::function<std::optional<Asked>()> next_command;  // RunThreaded: asked about every 20 ms until it has none
@@ -43,6 +59,7 @@ struct RunOutcome {
   Step last_step = -1;           // the last step of the run
   base::Digest digest = 0;       // of all samples of all nodes
   std::vector<Report> reports;   // one for each node
+  int deaths = 0;                // RunShuffled
   std::int64_t slipped_ns = 0;   // real time given up
   std::int64_t paused_ns = 0;    // wall time
   Lateness lateness;

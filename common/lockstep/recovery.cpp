@@ -12,6 +12,14 @@ constexpr int kMostTimes = 4;
 
 }  // namespace
 
+Beginning BeginningOf(const Roster& roster, NodeIndex node, const Grant& grant, Step has_through) {
+  if (grant.through < 0) return {};
+  const NodeSpec& spec = roster.node(node);
+  if (spec.keeps_snapshots()) return {0, CeilTo(has_through + 1, spec.period)};
+  if (spec.is_sink()) return {0, FloorTo(std::max<Step>(grant.through - roster.window(), 0), spec.period)};
+  return {grant.resume, 0};
+}
+
 Recovery::Recovery(const Roster& roster, std::vector<Policy> policies)
     : roster_(roster), policies_(std::move(policies)), safe_of_(roster.nodes().size(), -1), lives_(roster.nodes().size()) {
   policies_.resize(roster.nodes().size(), Policy::kStop);

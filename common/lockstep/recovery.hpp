@@ -17,6 +17,15 @@ enum class Policy {
   kRestart,  // the part is started again and computes again what it had computed: the same bits
 };
 
+// Where another life than the first begins, by the grant that it hears: a node at its snapshot at `snapshot` (0: from its start,
+// with everybody's samples from there on), a recorder behind what its file holds (`has_through`), another sink where nobody can
+// be behind. A run that has not begun begins for everybody alike.
+struct Beginning {
+  Step snapshot = 0;
+  Step sink_from = 0;
+};
+Beginning BeginningOf(const Roster& roster, NodeIndex node, const Grant& grant, Step has_through);
+
 // Says how a run goes on after the loss of a node, and from where. Pure logic for the clock.
 //
 // A node goes on from its snapshot at resume(): the newest step of which the recorder says that everything valid up to then,

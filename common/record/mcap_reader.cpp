@@ -86,6 +86,18 @@ std::vector<ChannelId> McapReader::ChannelsOf(std::string_view topic) const {
   return ids;
 }
 
+base::Result<ChunkMessages> McapReader::ReadChunk(const ChunkInfo& info) const {
+  auto chunk = LoadChunk(*shared_->source, info, shared_->contents.definitions);
+  if (!chunk) return chunk.error();
+  ChunkMessages out;
+  out.records = std::move(chunk.value().records);
+  out.messages.reserve(chunk.value().entries.size());
+  for (const Chunk::Entry& entry : chunk.value().entries) {
+    out.messages.push_back(*ParseMessage(RecordAt(out.records, entry.offset)->content));
+  }
+  return out;
+}
+
 base::Result<Metadata> McapReader::ReadMetadata(const MetadataInfo& info) const {
   auto record = ReadListed(*shared_->source, info.offset, info.record_bytes, Opcode::kMetadata);
   if (!record) return record.error();

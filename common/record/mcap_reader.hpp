@@ -68,6 +68,12 @@ struct Query {
   enum class Order { kLogTime, kFile } order = Order::kLogTime;  // equal log times come in file order
 };
 
+// What one chunk holds, in file order.
+struct ChunkMessages {
+  base::Bytes records;
+  std::vector<Message> messages;  // their bytes lie in `records`; moving keeps them there, copying does not
+};
+
 class McapReader;
 
 // Walks over messages. It shares the file with the reader and may outlive it.
@@ -121,6 +127,8 @@ class McapReader {
   base::Result<std::optional<Attachment>> FindAttachment(std::string_view name) const;  // the last of that name
 
   MessageCursor Messages(Query query = {}) const;
+  // One of chunks(), alone: nothing else of the file is read. Wrong input where it is damaged (it says which times are lost).
+  base::Result<ChunkMessages> ReadChunk(const ChunkInfo& info) const;
 
   // Reads everything and compares: each checksum, each index with what it points to, the statistics with the messages.
   // One sentence a finding, at most a hundred; none where the file is whole.

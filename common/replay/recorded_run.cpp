@@ -54,6 +54,13 @@ TemporaryFolder::~TemporaryFolder() {
   fs::remove_all(path_, problem);
 }
 
+base::Result<lockstep::SampleHeader> HeaderOf(std::span<const std::byte> payload, lockstep::SourceIndex source) {
+  if (!lockstep::SampleHeader::HasHeader(payload)) return base::WrongInput(fmt::format("a sample of {} bytes was found, which has no header", payload.size()));
+  const auto header = lockstep::SampleHeader::Read(payload);
+  if (header.source != source) return base::WrongInput(fmt::format("a sample of source {} was found on the channel of source {}", header.source, source));
+  return header;
+}
+
 base::Result<std::optional<lockstep::Sample>> SampleStream::Next() {
   for (;;) {
     auto message = cursor_.Next();
@@ -62,11 +69,10 @@ base::Result<std::optional<lockstep::Sample>> SampleStream::Next() {
     const auto source = sources_.find(message.value()->channel);
     if (source == sources_.end()) continue;  // a channel of its own: wall times, remarks
     const auto data = message.value()->data;
-    if (!lockstep::SampleHeader::HasHeader(data)) return base::WrongInput(fmt::format("a sample of {} bytes was found, which has no header", data.size()));
-    const auto header = lockstep::SampleHeader::Read(data);
-    if (header.source != source->second) return base::WrongInput(fmt::format("a sample of source {} was found on the channel of source {}", header.source, source->second));
-    if (header.step > last_) continue;
-    return std::optional(lockstep::Sample{header, std::make_shared<const base::Bytes>(data.begin(), data.end())});
+    const auto header = HeaderOf(data, source->second);
+    if (!header) return header.error();
+    if (header.value().step > last_) continue;
+    return std::optional(lockstep::Sample{header.value(), std::make_shared<const base::Bytes>(data.begin(), data.end())});
   }
 }
 
@@ -163,6 +169,9 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   if (!end) return end.error();
   const auto last = end.value() ? Whole(Entry(end.value()->entries, "last_step")) : std::nullopt;
   if (!last || *last < 0) return base::WrongInput("the recording does not say at which step the run ended; `rodeira repair` makes one that does");
+  if (*last > std::numeric_limits<std::int64_t>::max() / 4 / roster().base_step_ns()) {
+    return base::WrongInput(fmt::format("the recording says that the run ended at step {}, which cannot be", *last));
+  }
   last_step_ = *last;
   complete_ = Entry(end.value()->entries, "complete") == "true";
   return {};
@@ -172,6 +181,13 @@ base::Status RecordedRun::CheckMathematics() const {
   const std::string own = base::Hex(base::MathematicsDigest());
   if (mathematics_ == own) return {};
   return base::WrongInput(fmt::format("the recording's mathematics hash is {}, this program's is {}: its mathematics library computes other bits", mathematics_, own), path_.string());
+}
+
+std::optional<record::ChannelId> RecordedRun::ChannelOf(lockstep::SourceIndex source) const {
+  for (const auto& [channel, recorded] : sources_) {
+    if (recorded == source) return channel;
+  }
+  return std::nullopt;
 }
 
 SampleStream RecordedRun::Samples(Step from) const {

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ class TemporaryFolder {
   explicit TemporaryFolder(std::filesystem::path path) : path_(std::move(path)) {}
   std::filesystem::path path_;
 };
+
+// The header of a recorded payload that must be a sample of `source`; wrong input where it is none.
+base::Result<lockstep::SampleHeader> HeaderOf(std::span<const std::byte> payload, lockstep::SourceIndex source);
 
 // The samples of a recording in the order of (step, source), as the law's consumers see them.
 class SampleStream {
@@ -64,6 +68,8 @@ class RecordedRun {
   // From the samples valid at or after `from` on. The run must outlive the stream.
   SampleStream Samples(lockstep::Step from = 0) const;
   const record::McapReader& reader() const { return reader_; }
+  // Where a source's samples are recorded; nothing where they are not.
+  std::optional<record::ChannelId> ChannelOf(lockstep::SourceIndex source) const;
   // The newest step at or before `step` at which every node's snapshot was taken (of a branch: the first of its own, at
   // least); 0 where there is only the beginning. Wrong input where a branch has none.
   base::Result<lockstep::Step> SnapshotAtOrBefore(lockstep::Step step) const;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "idl/codec.hpp"
+#include "idl/topics.hpp"
+
 namespace rodeira::view {
 namespace {
 
@@ -56,6 +59,23 @@ void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::v
     agents.push_back(agent);
   }
   std::sort(agents.begin() + first, agents.end(), [](const scene::AgentPose& a, const scene::AgentPose& b) { return a.id < b.id; });
+}
+
+base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep::Step step, const NewestSamples& newest) {
+  scene::Moment moment;
+  moment.time_ns = step * roster.base_step_ns();
+  for (const auto& [source, payload] : newest) {
+    if (roster.source(source).topic == idl::topics::kVehicleState) {
+      const auto message = idl::Decode<msg::VehicleState>(*payload);
+      if (!message) return message.error();
+      moment.cars.push_back(FromWire(message.value(), source, moment.cars.size()));
+    } else {
+      const auto message = idl::Decode<msg::TrafficState>(*payload);
+      if (!message) return message.error();
+      AppendAgents(message.value(), source, moment.agents);
+    }
+  }
+  return moment;
 }
 
 }  // namespace rodeira::view

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <map>
+#include <memory>
+
+#include "common/base/bytes.hpp"
+#include "common/base/result.hpp"
+#include "common/lockstep/roster.hpp"
 #include "common/scene/moment.hpp"
 #include "idl/messages.hpp"
 
@@ -9,5 +15,10 @@ namespace rodeira::view {
 scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, std::size_t order);
 // Adds the agents of one source's message, in ascending ids.
 void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::vector<scene::AgentPose>& agents);
+
+// The newest sample of each source that a view looks at: cars and traffic.
+using NewestSamples = std::map<lockstep::SourceIndex, std::shared_ptr<const base::Bytes>>;
+// Everything as they tell it, at a step. Wrong input where one of them cannot be read.
+base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep::Step step, const NewestSamples& newest);
 
 }  // namespace rodeira::view

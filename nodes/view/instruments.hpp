@@ -1,26 +1,22 @@
 #pragma once
 
-#include <osg/Camera>
-#include <osg/ref_ptr>
+#include <osg/Group>
 #include <osgText/Text>
 
+#include "nodes/view/overlay.hpp"
 #include "nodes/view/picture.hpp"
 
 namespace rodeira::view {
 
-// Speed, gear and time over the picture, and lines of text. The typeface is OpenSceneGraph's own: no file is needed.
+// Speed, gear and time in the lower right corner of an overlay, and lines of text in its upper left one.
 class Instruments {
  public:
-  Instruments();
-  osg::Node* node() { return camera_; }
-  void Show(const Picture& picture, int width_px, int height_px);
+  explicit Instruments(osg::Group& overlay);
+  // `low_px`: how much at the bottom is taken by something else.
+  void Show(const Picture& picture, int width_px, int height_px, float low_px);
 
  private:
-  osg::ref_ptr<osgText::Text> AddText(float size_px, osgText::TextBase::AlignmentType alignment);
-
-  osg::ref_ptr<osg::Camera> camera_;
-  osg::ref_ptr<osg::Vec3Array> panel_;
-  osg::ref_ptr<osg::Geometry> panel_geometry_;
+  Boxes panel_;
   osg::ref_ptr<osgText::Text> speed_, unit_, gear_, time_, lines_;
 };
 

@@ -11,6 +11,8 @@
 #include "nodes/view/car_node.hpp"
 #include "nodes/view/instruments.hpp"
 #include "nodes/view/look.hpp"
+#include "nodes/view/overlay.hpp"
+#include "nodes/view/timeline_bar.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -60,7 +62,9 @@ void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group) {
 struct Painter::Parts {
   Look look{kSun_W};
   Fleet fleet{look};
-  Instruments instruments;
+  osg::ref_ptr<osg::Camera> overlay = MakeOverlay();
+  Instruments instruments{*overlay};
+  TimelineBar timeline{*overlay};
   osg::ref_ptr<osg::Group> root = new osg::Group;
   osg::ref_ptr<osg::Uniform> sun_eye = new osg::Uniform("sun_eye", osg::Vec3f(0.0F, 0.0F, 1.0F));
   osg::ref_ptr<osg::Uniform> up_eye = new osg::Uniform("up_eye", osg::Vec3f(0.0F, 0.0F, 1.0F));
@@ -81,7 +85,7 @@ Painter::Painter(Surface& surface, const road::World& world, const scene::WorldS
   }
   root.addChild(parts_->fleet.node());
   root.addChild(look.MakeSky());
-  root.addChild(parts_->instruments.node());
+  root.addChild(parts_->overlay);
   osg::StateSet* state = root.getOrCreateStateSet();
   state->addUniform(parts_->sun_eye);
   state->addUniform(parts_->up_eye);
@@ -122,7 +126,9 @@ void Painter::Draw(const Picture& picture) {
   parts_->sun_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(kSun_W), view)));
   parts_->up_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, 1.0), view)));
   parts_->fleet.Show(picture.moment, follows && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt);
-  parts_->instruments.Show(picture, width, height);
+  FitOverlay(*parts_->overlay, width, height);
+  parts_->instruments.Show(picture, width, height, picture.timeline ? TimelinePlace::kHeight_px : 0.0F);
+  parts_->timeline.Show(picture.timeline, width);
   parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);
 }
 

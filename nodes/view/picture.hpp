@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,15 @@
 
 namespace rodeira::view {
 
+// The bar of a recording's time at the bottom of a picture. Places are shares of the run, from 0 to 1.
+struct Timeline {
+  double share = 0.0;         // now
+  std::vector<double> marks;  // of the operator
+  std::string where;          // time, speed, direction
+  std::string note;           // the mark that is near
+  std::string keys;           // the most important ones
+};
+
 // What one picture shows.
 struct Picture {
   scene::Moment moment;
@@ -16,6 +26,7 @@ struct Picture {
   std::size_t followed = 0;         // which of the moment's cars the camera goes with
   bool show_instruments = true;     // speed, gear, time
   std::string text;                 // more lines for a person: help, statistics
+  std::optional<Timeline> timeline;  // of a recording that is watched
 };
 
 // Rows from the top, three bytes a pixel: red, green, blue.

@@ -52,7 +52,6 @@ class Stage {
   void ServeOrder(Hand& hand, std::unique_lock<std::mutex>& lock);
   void ShowWindow(Hand& hand, std::unique_lock<std::mutex>& lock);
   bool ReadKeys(Hand& hand);
-  bool TakeOwnKey(Hand& hand, int symbol);
 
   const ViewSettings settings_;
   const std::shared_ptr<const road::World> world_;

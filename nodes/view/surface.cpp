@@ -21,7 +21,13 @@ bool StartVideo(const char* driver) {
 bool IsDisplay(const char* driver) { return driver != nullptr && std::strcmp(driver, "offscreen") != 0 && std::strcmp(driver, "dummy") != 0; }
 
 // Without a name there is nobody to ask, and libraries that try complain aloud.
-bool NamesDisplay() { return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr; }
+bool NamesDisplay() {
+  const auto says_one = [](const char* variable) {
+    const char* name = std::getenv(variable);
+    return name != nullptr && *name != '\0';
+  };
+  return says_one("DISPLAY") || says_one("WAYLAND_DISPLAY");
+}
 
 void AskForContext(int samples) {
   SDL_GL_ResetAttributes();

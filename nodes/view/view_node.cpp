@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 
-#include "idl/codec.hpp"
 #include "idl/topics.hpp"
 #include "nodes/view/from_wire.hpp"
 #include "nodes/view/stage.hpp"
@@ -30,7 +28,7 @@ class ViewNode final : public lockstep::Node {
   base::Status Step(const lockstep::StepInfo& info, const lockstep::Inbox& inbox, lockstep::Outbox&) override {
     if (auto status = Take(inbox, info.step - info.period, info.step); !status) return status;
     if (stage_ == nullptr || !stage_->has_window()) return {};
-    auto moment = MomentAt(info.step);
+    auto moment = view::MakeMoment(roster_, info.step, newest_);
     if (!moment) return moment.error();
     stage_->Show(std::move(moment).value());
     return {};
@@ -97,57 +95,26 @@ class ViewNode final : public lockstep::Node {
     return {};
   }
 
-  // Everything as the newest samples tell it.
-  base::Result<scene::Moment> MomentAt(lockstep::Step step) const {
-    scene::Moment moment;
-    moment.time_ns = step * roster_.base_step_ns();
-    for (const auto& [source, payload] : newest_) {
-      if (roster_.source(source).topic == topics::kVehicleState) {
-        const auto message = idl::Decode<msg::VehicleState>(*payload);
-        if (!message) return message.error();
-        moment.cars.push_back(view::FromWire(message.value(), source, moment.cars.size()));
-      } else {
-        const auto message = idl::Decode<msg::TrafficState>(*payload);
-        if (!message) return message.error();
-        view::AppendAgents(message.value(), source, moment.agents);
-      }
-    }
-    return moment;
-  }
-
   base::Status WriteFrame(lockstep::Step step) {
-    auto moment = MomentAt(step);
+    auto moment = view::MakeMoment(roster_, step, newest_);
     if (!moment) return moment.error();
-    view::Picture picture;
-    picture.moment = std::move(moment).value();
-    picture.camera = settings_.camera;
-    picture.followed = settings_.followed;
-    picture.show_instruments = settings_.instruments;
-    return stage_->Order(std::move(picture), settings_.folder / view::FrameName(step));
+    return stage_->Order(view::PictureOf(settings_, std::move(moment).value()), settings_.folder / view::FrameName(step));
   }
 
   const lockstep::Roster& roster_;
   std::string name_;
   view::ViewSettings settings_;
   std::unique_ptr<view::Stage> stage_;  // null: nothing is drawn
-  std::map<SourceIndex, std::shared_ptr<const base::Bytes>> newest_;
+  view::NewestSamples newest_;
   lockstep::Step taken_through_ = -1;
 };
-
-base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch& launch) {
-  if (!launch.world().empty()) return road::World::Load(launch.world());
-  road::WorldSpec level;  // a run without a world stands on a level plane
-  level.plane = road::PlaneSpec{};
-  level.terrain_surface = terrain::Surface::kAsphalt;
-  return road::World::Make(std::move(level));
-}
 
 }  // namespace
 
 base::Result<std::unique_ptr<lockstep::Node>> MakeViewNode(launch::NodeContext& context) {
   auto settings = view::ReadViewSettings(context);
   if (!settings) return settings.error();
-  auto world = LoadWorld(context.launch());
+  auto world = view::WorldOf(context.launch());
   if (!world) return world.error();
   if (!context.launch().world().empty()) context.set_world_hash(world.value()->content_hash());
   auto stage = view::Stage::Open(settings.value(), world.value(), settings.value().drives ? context.KeysSender() : nullptr);

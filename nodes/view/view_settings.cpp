@@ -14,41 +14,25 @@ namespace rodeira::view {
 namespace {
 
 // The cars' streams, as the view's port is wired.
-std::vector<lockstep::SourceIndex> CarSources(const launch::NodeContext& context) {
-  for (const lockstep::Port& port : context.spec().inputs) {
+std::vector<lockstep::SourceIndex> CarSources(const lockstep::NodeSpec& view) {
+  for (const lockstep::Port& port : view.inputs) {
     if (port.topic == idl::topics::kVehicleState) return port.sources;
   }
   return {};
 }
 
-void ReadFollowed(const launch::NodeContext& context, const config::Map& map, ViewSettings& settings) {
+void ReadFollowed(const lockstep::Roster& roster, const lockstep::NodeSpec& view, const config::Map& map, ViewSettings& settings) {
   if (!map.Has("follow")) return;
-  const std::string wanted = map.Text("follow");
-  std::vector<std::string> names;
-  for (const lockstep::SourceIndex source : CarSources(context)) names.push_back(context.roster().node(context.roster().source(source).node).name);
-  const auto found = std::find(names.begin(), names.end(), wanted);
-  if (found != names.end()) settings.followed = static_cast<std::size_t>(found - names.begin());
-  else map.Problem("follow", fmt::format("'{}' is no vehicle that this view is wired to{}", wanted, base::DidYouMean(wanted, names)));
+  const auto followed = FindFollowed(roster, CarSources(view), map.Text("follow"));
+  if (followed) settings.followed = followed.value();
+  else map.Problem("follow", followed.error().message);
 }
 
 void ReadTimes(const launch::NodeContext& context, const config::Map& frames, ViewSettings& settings) {
-  const double base_step_s = static_cast<double>(context.roster().base_step_ns()) * 1e-9;
   for (const double time_s : frames.Numbers("times_s", {0.0, 1e9})) {
-    const double steps = time_s / base_step_s;
-    const auto step = static_cast<lockstep::Step>(std::llround(steps));
-    if (std::fabs(steps - static_cast<double>(step)) > 1e-6 * std::max(1.0, steps)) {
-      frames.Problem("times_s", fmt::format("{} s is no multiple of the base step of {} s", time_s, base_step_s));
-      continue;
-    }
-    for (const lockstep::SourceIndex source : CarSources(context)) {
-      const lockstep::Step period = context.roster().source(source).period;
-      if (step % period != 0) {
-        frames.Problem("times_s", fmt::format("at {} s {} has no sample; a multiple of its period of {} s was expected", time_s,
-                                              context.roster().SourceName(source), static_cast<double>(period) * base_step_s));
-        break;
-      }
-    }
-    settings.frame_steps.push_back(step);
+    const auto step = FrameStep(context.roster(), CarSources(context.spec()), time_s);
+    if (step) settings.frame_steps.push_back(step.value());
+    else frames.Problem("times_s", step.error().message);
   }
   std::sort(settings.frame_steps.begin(), settings.frame_steps.end());
   settings.frame_steps.erase(std::unique(settings.frame_steps.begin(), settings.frame_steps.end()), settings.frame_steps.end());
@@ -67,28 +51,8 @@ void ReadDriving(const launch::Launch& launch, ViewSettings& settings) {
   }
 }
 
-// Makes the folder where it is missing, and tries to write there before time is spent.
-void PrepareFolder(const config::Map& frames, const std::filesystem::path& folder) {
-  std::error_code problem;
-  std::filesystem::create_directories(folder, problem);
-  if (!std::filesystem::is_directory(folder)) {
-    frames.Problem("folder", fmt::format("'{}' is no folder, and none can be made ({})", folder.string(), problem ? problem.message() : "something else lies there"));
-    return;
-  }
-  std::string attempt = (folder / ".rodeira-XXXXXX").string();
-  const int file = ::mkstemp(attempt.data());
-  if (file < 0) {
-    frames.Problem("folder", fmt::format("'{}' cannot be written to ({})", folder.string(), std::error_code(errno, std::generic_category()).message()));
-    return;
-  }
-  ::close(file);
-  std::filesystem::remove(attempt, problem);
-}
-
-}  // namespace
-
-base::Result<ViewSettings> ReadViewSettings(const launch::NodeContext& context) {
-  const config::Map map = context.config();
+// All but the frames.
+ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& view, const config::Map& map) {
   ViewSettings settings;
   settings.width_px = static_cast<int>(map.Integer("width_px", 64, 7680, 1280));
   settings.height_px = static_cast<int>(map.Integer("height_px", 64, 4320, 720));
@@ -96,17 +60,88 @@ base::Result<ViewSettings> ReadViewSettings(const launch::NodeContext& context) 
   const std::string window = map.Choice("window", {"auto", "always", "never"}, "auto");
   settings.window = window == "always" ? WindowWish::kAlways : window == "never" ? WindowWish::kNever : WindowWish::kAuto;
   settings.instruments = map.Flag("instruments", true);
-  ReadFollowed(context, map, settings);
-  ReadDriving(context.launch(), settings);
+  ReadFollowed(launch.roster(), view, map, settings);
+  ReadDriving(launch, settings);
+  return settings;
+}
+
+}  // namespace
+
+base::Result<ViewSettings> ReadViewSettings(const launch::NodeContext& context) {
+  const config::Map map = context.config();
+  ViewSettings settings = ReadWindow(context.launch(), context.spec(), map);
   if (map.Has("frames")) {
     const config::Map frames = map.Child("frames");
     ReadTimes(context, frames, settings);
     settings.folder = frames.Path("folder");
     if (auto status = context.launch().file().Finish(); !status) return status.error();
-    PrepareFolder(frames, settings.folder);
+    if (auto status = PrepareFolder(settings.folder); !status) frames.Problem("folder", status.error().message);
   }
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   return settings;
+}
+
+base::Result<ViewSettings> ReadWindowSettings(const launch::Launch& launch, lockstep::NodeIndex view) {
+  const config::Map map = launch.node(view).config->OptionalChild("config");
+  ViewSettings settings = ReadWindow(launch, launch.roster().node(view), map);
+  map.LeaveToOthers("frames");
+  if (auto status = launch.file().Finish(); !status) return status.error();
+  return settings;
+}
+
+base::Result<std::size_t> FindFollowed(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars, const std::string& name) {
+  std::vector<std::string> names;
+  for (const lockstep::SourceIndex source : cars) names.push_back(roster.node(roster.source(source).node).name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  return base::WrongInput(fmt::format("'{}' is no vehicle that this view is wired to{}", name, base::DidYouMean(name, names)));
+}
+
+base::Result<lockstep::Step> FrameStep(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars, double time_s) {
+  const double base_step_s = static_cast<double>(roster.base_step_ns()) * 1e-9;
+  const double steps = time_s / base_step_s;
+  const auto step = static_cast<lockstep::Step>(std::llround(steps));
+  if (std::fabs(steps - static_cast<double>(step)) > 1e-6 * std::max(1.0, steps)) {
+    return base::WrongInput(fmt::format("{} s is no multiple of the base step of {} s", time_s, base_step_s));
+  }
+  for (const lockstep::SourceIndex source : cars) {
+    const lockstep::Step period = roster.source(source).period;
+    if (step % period == 0) continue;
+    return base::WrongInput(fmt::format("at {} s {} has no sample; a multiple of its period of {} s was expected", time_s, roster.SourceName(source),
+                                        static_cast<double>(period) * base_step_s));
+  }
+  return step;
+}
+
+base::Status PrepareFolder(const std::filesystem::path& folder) {
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  if (!std::filesystem::is_directory(folder)) {
+    return base::WrongInput(fmt::format("'{}' is no folder, and none can be made ({})", folder.string(), problem ? problem.message() : "something else lies there"));
+  }
+  std::string attempt = (folder / ".rodeira-XXXXXX").string();
+  const int file = ::mkstemp(attempt.data());
+  if (file < 0) return base::WrongInput(fmt::format("'{}' cannot be written to ({})", folder.string(), std::error_code(errno, std::generic_category()).message()));
+  ::close(file);
+  std::filesystem::remove(attempt, problem);
+  return {};
+}
+
+Picture PictureOf(const ViewSettings& settings, scene::Moment moment) {
+  Picture picture;
+  picture.moment = std::move(moment);
+  picture.camera = settings.camera;
+  picture.followed = settings.followed;
+  picture.show_instruments = settings.instruments;
+  return picture;
+}
+
+base::Result<std::shared_ptr<const road::World>> WorldOf(const launch::Launch& launch) {
+  if (!launch.world().empty()) return road::World::Load(launch.world());
+  road::WorldSpec level;  // a run without a world stands on a level plane
+  level.plane = road::PlaneSpec{};
+  level.terrain_surface = terrain::Surface::kAsphalt;
+  return road::World::Make(std::move(level));
 }
 
 std::string FrameName(lockstep::Step step) { return fmt::format("step_{:09}.png", step); }

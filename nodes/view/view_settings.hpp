@@ -1,11 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "common/launch/node_context.hpp"
+#include "common/road/world.hpp"
 #include "common/scene/camera.hpp"
+#include "nodes/view/picture.hpp"
 
 namespace rodeira::view {
 
@@ -28,6 +31,24 @@ struct ViewSettings {
 // Reads the settings. Wrong input where a frame's time is not one at which every car wired to the view has a sample, where
 // the folder cannot be made or written to, or where the car to follow is none of the view's.
 base::Result<ViewSettings> ReadViewSettings(const launch::NodeContext& context);
+
+// The same, without its frames: those are left alone. `view`: a node of kind view.
+base::Result<ViewSettings> ReadWindowSettings(const launch::Launch& launch, lockstep::NodeIndex view);
+
+// Which of the cars (their sources, as the view is wired) a node's name means. Wrong input with the nearest name where none.
+base::Result<std::size_t> FindFollowed(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars, const std::string& name);
+
+// The step of a frame's time. Wrong input where it is no multiple of the base step, or a car has no sample then.
+base::Result<lockstep::Step> FrameStep(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars, double time_s);
+
+// Makes a folder for frames where it is missing, and tries to write there before time is spent.
+base::Status PrepareFolder(const std::filesystem::path& folder);
+
+// The picture of a frame.
+Picture PictureOf(const ViewSettings& settings, scene::Moment moment);
+
+// The world of the run; a run without one stands on a level plane of asphalt.
+base::Result<std::shared_ptr<const road::World>> WorldOf(const launch::Launch& launch);
 
 // "step_000012340.png": the frame of a step.
 std::string FrameName(lockstep::Step step);

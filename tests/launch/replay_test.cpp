@@ -186,7 +186,7 @@ TEST_F(ReplayTest, WhatCannotBeReplayedIsRefusedInOneSentence) {
     EXPECT_EQ(std::count(ended.out.begin(), ended.out.end(), '\n'), 1) << ended.out;
     return ended.out;
   };
-  EXPECT_THAT(complaint({file}), HasSubstr("--verify or --branch was expected"));
+  EXPECT_THAT(complaint({file}), HasSubstr("nothing to do was named; --view, --frames, --verify or --branch was expected"));
   EXPECT_THAT(complaint({file, "--verify", "--from", "7"}), HasSubstr("the run ends at 1.000 s"));
   EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "7", "--record", "x.mcap"}), HasSubstr("the run ends at 1.000 s"));
   EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.503", "--record", "x.mcap"}), HasSubstr("the nearest such time is 0.500 s"));

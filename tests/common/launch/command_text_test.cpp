@@ -15,10 +15,11 @@ TEST(CommandText, ReadsWhatAnOperatorSays) {
   EXPECT_EQ(ParseCommand("pace 0.25").value().pace, 0.25);
   EXPECT_EQ(ParseCommand("pace real").value().pace, 1.0);
   EXPECT_EQ(ParseCommand("pace max").value().pace, 0.0);
+  EXPECT_EQ(ParseCommand("restart ego").value().text, "ego");
   EXPECT_EQ(ParseCommand("mark  second lap, 3 km ").value().text, "second lap, 3 km");
   EXPECT_EQ(ParseCommand("mark a\x1b[2J").value().text, "a\\x1b[2J") << "nothing that moves a cursor";
   for (const std::string& name : CommandNames()) {
-    if (name != "pace" && name != "mark") {
+    if (name != "pace" && name != "mark" && name != "restart") {
       EXPECT_TRUE(ParseCommand(name).ok()) << name;
     }
   }
@@ -33,6 +34,7 @@ TEST(CommandText, RefusesNonsenseWithASentence) {
   };
   EXPECT_EQ(refused("puase"), "unknown command 'puase'; did you mean 'pause'?");
   EXPECT_NE(refused("").find("unknown command ''; known are pause, resume"), std::string::npos) << refused("");
+  EXPECT_EQ(refused("restart"), "restart: the name of a node was expected");
   EXPECT_EQ(refused("pace 0"), "pace: '0' was found; max, real or a positive number was expected");
   EXPECT_EQ(refused("pace -1"), "pace: '-1' was found; max, real or a positive number was expected");
   EXPECT_EQ(refused("pace nan"), "pace: 'nan' was found; max, real or a positive number was expected");

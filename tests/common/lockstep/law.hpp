@@ -90,7 +90,7 @@ inline std::map<std::pair<SourceIndex, Step>, std::uint64_t> Reference(const Ros
   for (Step k = 0; k <= last; ++k) {
     for (NodeIndex n = 0; n < roster.nodes().size(); ++n) {
       const NodeSpec& node = roster.node(n);
-      if (k % node.period != 0) continue;
+      if (k % node.period != 0 || node.is_sink()) continue;
       std::uint64_t h = base::RandomBits({memory[n], static_cast<std::uint64_t>(k)});
       for (std::size_t p = 0; p < node.inputs.size(); ++p) {
         const Port& port = node.inputs[p];
@@ -128,7 +128,11 @@ inline Made MakeNodes(const Roster& roster) {
 }
 
 // A roster drawn from a seed: two to six nodes, any periods and delays, any wiring, state and event ports, a sink.
-inline Roster RandomRoster(std::uint64_t seed) {
+struct Wishes {
+  std::vector<NodeWish> nodes;
+  Step window = 1;
+};
+inline Wishes RandomWishes(std::uint64_t seed) {
   std::uint64_t draws = 0;
   const auto draw = [&](std::uint64_t below) { return base::RandomBits({seed, draws++}) % below; };
   const std::size_t count = 2 + draw(5);
@@ -153,7 +157,12 @@ inline Roster RandomRoster(std::uint64_t seed) {
       if (!port.sources.empty()) wishes[n].inputs.push_back(port);
     }
   }
-  return Roster::Create(1'000'000, 1 + static_cast<Step>(draw(30)), wishes).value();
+  return {std::move(wishes), 1 + static_cast<Step>(draw(30))};
+}
+
+inline Roster RandomRoster(std::uint64_t seed) {
+  const Wishes wishes = RandomWishes(seed);
+  return Roster::Create(1'000'000, wishes.window, wishes.nodes).value();
 }
 
 }  // namespace rodeira::lockstep::law

@@ -115,6 +115,12 @@ std::size_t UseAll(const base::Bytes& bytes, bool scan, const std::set<Copied>* 
   query.channels = std::set<ChannelId>{1, 3};
   query.through_ns = 1000;
   EXPECT_LE(ReadAll(reader, query).messages.size(), read.messages.size());
+  std::size_t chunk_by_chunk = 0;
+  for (const ChunkInfo& info : reader.chunks()) {
+    const auto chunk = reader.ReadChunk(info);
+    if (chunk) chunk_by_chunk += chunk.value().messages.size();
+  }
+  EXPECT_EQ(chunk_by_chunk, read.messages.size());
   for (const MetadataInfo& info : reader.metadata()) static_cast<void>(reader.ReadMetadata(info).ok());
   for (const AttachmentInfo& info : reader.attachments()) static_cast<void>(reader.ReadAttachment(info).ok());
   return read.messages.size();

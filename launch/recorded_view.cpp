@@ -1,0 +1,121 @@
+#include "launch/recorded_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "common/base/suggest.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::front {
+namespace {
+
+namespace topics = idl::topics;
+using lockstep::Step;
+
+constexpr std::size_t kLongestNote = 60;  // bytes of a mark's text on the bar
+constexpr double kViewPeriod_s = 0.02;    // of a run that had no view
+
+std::optional<lockstep::NodeIndex> ViewOf(const lockstep::Roster& roster) {
+  for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
+    if (roster.node(n).kind == "view") return n;
+  }
+  return std::nullopt;
+}
+
+void AddSource(const lockstep::Roster& roster, lockstep::SourceIndex source, Seen& seen) {
+  const std::string& topic = roster.source(source).topic;
+  if (topic == topics::kVehicleState) seen.cars.push_back(source);
+  if (topic == topics::kVehicleState || topic == topics::kTrafficState) seen.sources.push_back(source);
+}
+
+// "1280x720"
+base::Status TakeSize(const std::string& text, view::ViewSettings& settings) {
+  const char* end = text.data() + text.size();
+  const auto [cross, first] = std::from_chars(text.data(), end, settings.width_px);
+  const bool crossed = first == std::errc{} && cross != end && *cross == 'x';
+  const auto [rest, second] =
+      crossed ? std::from_chars(cross + 1, end, settings.height_px) : std::from_chars_result{cross, std::errc::invalid_argument};
+  const bool good = second == std::errc{} && rest == end && settings.width_px >= 64 && settings.width_px <= 7680 &&
+                    settings.height_px >= 64 && settings.height_px <= 4320;
+  if (good) return {};
+  return base::WrongInput(fmt::format("'{}' was found; WIDTHxHEIGHT in pixels was expected, from 64x64 to 7680x4320", text),
+                          "--size");
+}
+
+base::Status TakeWishes(const lockstep::Roster& roster, const WatchOptions& options, Seen& seen) {
+  if (options.camera) {
+    const std::vector<std::string> cameras = {"chase", "driver"};
+    if (*options.camera != cameras[0] && *options.camera != cameras[1]) {
+      return base::WrongInput(fmt::format("'{}' was found; chase or driver was expected{}", *options.camera,
+                                          base::DidYouMean(*options.camera, cameras)),
+                              "--camera");
+    }
+    seen.settings.camera = *options.camera == "driver" ? scene::CameraKind::kDriver : scene::CameraKind::kChase;
+  }
+  if (options.follow) {
+    const auto followed = view::FindFollowed(roster, seen.cars, *options.follow);
+    if (!followed) return base::WrongInput(followed.error().message, "--follow");
+    seen.settings.followed = followed.value();
+  }
+  return options.size ? TakeSize(*options.size, seen.settings) : base::Status();
+}
+
+std::string Shortened(std::string text) {
+  text = base::Printable(text);
+  if (text.size() <= kLongestNote) return text;
+  std::size_t cut = kLongestNote;
+  while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0U) == 0x80U) --cut;  // not within a character
+  return text.substr(0, cut) + "...";
+}
+
+}  // namespace
+
+base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& options) {
+  const auto& roster = run.roster();
+  Seen seen;
+  if (const auto view = ViewOf(roster)) {
+    auto settings = view::ReadWindowSettings(run.launch(), *view);
+    if (!settings) return settings.error();
+    seen.settings = std::move(settings).value();
+    seen.period = roster.node(*view).period;
+    for (const lockstep::Port& port : roster.node(*view).inputs) {
+      for (const lockstep::SourceIndex source : port.sources) AddSource(roster, source, seen);
+    }
+  } else {
+    seen.period = std::max<Step>(1, std::llround(kViewPeriod_s * 1e9 / static_cast<double>(roster.base_step_ns())));
+    for (lockstep::SourceIndex source = 0; source < roster.sources().size(); ++source) AddSource(roster, source, seen);
+  }
+  if (seen.sources.empty())
+    return base::WrongInput("the recording has neither a car nor traffic: there is nothing to see", run.path().string());
+  if (auto status = TakeWishes(roster, options, seen); !status) return status.error();
+  return seen;
+}
+
+base::Result<std::vector<view::ReplayMark>> MarksOf(const replay::RecordedRun& run) {
+  std::vector<view::ReplayMark> marks;
+  const auto channels = run.reader().ChannelsOf(topics::kRemarks);
+  if (channels.empty()) return marks;
+  record::Query query;
+  query.channels.emplace(channels.begin(), channels.end());
+  auto cursor = run.reader().Messages(query);
+  for (;;) {
+    const auto message = cursor.Next();
+    if (!message) return message.error();
+    if (!message.value()) break;
+    const auto remark = idl::Decode<msg::Remark>(message.value()->data);
+    if (!remark) return base::WrongInput(remark.error().Text(), run.path().string());
+    if (remark.value().kind() != "mark" && remark.value().kind() != "fault") continue;
+    marks.push_back({std::max<std::int64_t>(remark.value().time_ns(), 0),
+                     Shortened(remark.value().text().empty() ? remark.value().kind() : remark.value().text())});
+  }
+  std::ranges::stable_sort(marks, {}, &view::ReplayMark::time_ns);
+  return marks;
+}
+
+}  // namespace rodeira::front

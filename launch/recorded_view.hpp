@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "common/replay/recorded_run.hpp"
+#include "launch/watch_command.hpp"
+#include "nodes/view/replay_window.hpp"
+#include "nodes/view/view_settings.hpp"
+
+namespace rodeira::front {
+
+// What a view of the run looks at, and how.
+struct Seen {
+  view::ViewSettings settings;
+  std::vector<lockstep::SourceIndex> cars;
+  std::vector<lockstep::SourceIndex> sources;  // cars and traffic
+  lockstep::Step period = 1;                   // of the view
+};
+
+// As the recorded launch file's first view; all cars and traffic at 50 Hz where it has none. Wrong input where there is
+// nothing to see, or where a wish of the options is wrong.
+base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& options);
+
+// The operator's marks, and what failed. Only the chunks are read in which somebody remarked something.
+base::Result<std::vector<view::ReplayMark>> MarksOf(const replay::RecordedRun& run);
+
+}  // namespace rodeira::front

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rodeira::front {
+
+struct WatchOptions {
+  std::string file;
+  double from_s = 0.0;  // of the window
+  double speed = 1.0;
+  bool paused = false;
+  std::string frames;                 // folder of PNG files
+  std::vector<double> at_s;           // their times
+  std::optional<std::string> camera;  // instead of the recorded view's: chase, driver
+  std::optional<std::string> follow;  // name of a vehicle node
+  std::optional<std::string> size;    // "1280x720"
+};
+
+// `rodeira replay --view`: the recorded view's window, fed from the file. No node runs. Exit status 0 where the person
+// closed it, 2 for wrong input.
+int WatchRecording(const WatchOptions& options);
+// `rodeira replay --frames FOLDER --at S…`: the frames that the recorded view would have written at these times.
+int WriteRecordedFrames(const WatchOptions& options);
+
+}  // namespace rodeira::front

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/scene/player.hpp"
+#include "nodes/view/screen.hpp"
+
+union SDL_Event;
+
+namespace rodeira::view {
+
+// Something to be found again on the bar.
+struct ReplayMark {
+  std::int64_t time_ns = 0;
+  std::string text;
+};
+
+// A window in which a person goes through a recording. It knows no files: where the moments come from it is told.
+// Made and used on one thread.
+class ReplayWindow {
+ public:
+  using MomentAt = std::function<base::Result<scene::Moment>(std::int64_t time_ns)>;
+
+  // The world must outlive it. Wrong input where a display or OpenGL is missing. `kind`: off-screen for tests.
+  static base::Result<std::unique_ptr<ReplayWindow>> Open(const ViewSettings& settings, const road::World& world,
+                                                          SurfaceKind kind = SurfaceKind::kWindow);
+
+  // Until the person closes the window, or `stop` (asked between two pictures) says so. Where `moment_at` has an error the
+  // player stands still, the picture stays and the bar says why; one can go elsewhere. The first such error is the answer.
+  // `marks` ascend.
+  base::Status Watch(scene::Player& player, const std::vector<ReplayMark>& marks, const MomentAt& moment_at,
+                     const std::function<bool()>& stop);
+
+ private:
+  explicit ReplayWindow(std::unique_ptr<Screen> screen) : screen_(std::move(screen)) {}
+  bool ReadEvents(scene::Player& player, const std::vector<std::int64_t>& marks_ns);
+  void Take(const SDL_Event& event, scene::Player& player, const std::vector<std::int64_t>& marks_ns);
+  void Drag(int x_px, scene::Player& player);
+
+  std::unique_ptr<Screen> screen_;
+  scene::Moment shown_;
+  bool open_ = true;
+  bool drags_ = false;  // the mouse holds the bar
+};
+
+// What the bar shows of a player: "0:05.42 / 1:30.00   x -2  paused" (backward), and the mark within a second.
+Timeline TimelineOf(const scene::Player& player, const std::vector<ReplayMark>& marks);
+
+}  // namespace rodeira::view

@@ -1,0 +1,90 @@
+#include "nodes/view/screen.hpp"
+
+#include <SDL.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/hands/key_names.hpp"
+#include "common/launch/live_keys.hpp"
+#include "common/scene/world_scene.hpp"
+
+namespace rodeira::view {
+namespace {
+
+// A car where the world's start is: what the first picture is drawn with, so that everything is loaded before it counts.
+Picture FirstPicture(const road::World& world) {
+  Picture picture;
+  scene::CarPose car;
+  const road::StartPose& start = world.start();
+  car.p_WB_W = {start.x_m, start.y_m, world.At(start.x_m, start.y_m).z_m};
+  car.q_WB = scene::Attitude(start.heading_rad, 0.0, 0.0);
+  for (std::size_t i = 0; i < 4; ++i) car.wheels[i].hub_B = {i < 2 ? 1.2 : -1.2, i % 2 == 0 ? 0.7 : -0.7, 0.29};
+  picture.moment.cars.push_back(car);
+  return picture;
+}
+
+}  // namespace
+
+std::string WindowHelp() {
+  std::string text;
+  for (const hands::WindowKey& key : hands::WindowKeys()) {
+    if (!key.does.empty()) text += fmt::format("{}{}  {}", text.empty() ? "" : "\n", key.name, key.does);
+  }
+  return text;
+}
+
+base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
+                                                   bool resizable, std::string help) {
+  const std::string title = world.name().empty() ? "Rodeira" : fmt::format("Rodeira: {}", world.name());
+  auto surface = Surface::Open(kind, settings.width_px, settings.height_px, title, resizable);
+  if (!surface) return surface.error();
+  std::unique_ptr<Screen> screen(new Screen());
+  screen->surface_ = std::move(surface).value();
+  {
+    const scene::WorldScene standing = scene::BuildWorldScene(world);  // the painter has its own copy
+    screen->painter_ = std::make_unique<Painter>(*screen->surface_, world, standing);
+  }
+  screen->painter_->Draw(FirstPicture(world));
+  (void)screen->painter_->Read();
+  screen->help_text_ = std::move(help);
+  screen->live_ = PictureOf(settings, {});
+  return screen;
+}
+
+bool Screen::TakeKey(int symbol, bool driven) {
+  switch (symbol) {
+    case SDLK_k:
+      live_.camera = live_.camera == scene::CameraKind::kChase ? scene::CameraKind::kDriver : scene::CameraKind::kChase;
+      return true;
+    case SDLK_TAB: ++live_.followed; return true;
+    case SDLK_h: help_ = !help_; return true;
+    case SDLK_F3: statistics_ = !statistics_; return true;
+    case SDLK_s:
+      if (driven) return false;
+      statistics_ = !statistics_;
+      return true;
+    case SDLK_f: surface_->ToggleFullScreen(); return true;
+    default: return false;
+  }
+}
+
+void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> timeline) {
+  const double begin_s = launch::WallSeconds();
+  live_.moment = std::move(moment);
+  live_.timeline = std::move(timeline);
+  if (live_.followed >= live_.moment.cars.size()) live_.followed = 0;
+  live_.text = help_ ? help_text_ : "";
+  if (statistics_) {
+    live_.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", help_ ? "\n\n" : "", 1.0 / interval_s_,
+                              frame_s_ * 1e3, rate, surface_->renderer());
+  }
+  painter_->Draw(live_);
+  surface_->Swap();
+  const double end_s = launch::WallSeconds();
+  frame_s_ += 0.1 * (end_s - begin_s - frame_s_);
+  interval_s_ += 0.1 * (std::min(end_s - shown_wall_s_, 1.0) - interval_s_);
+  shown_wall_s_ = end_s;
+}
+
+}  // namespace rodeira::view

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "common/base/result.hpp"
+#include "nodes/view/painter.hpp"
+#include "nodes/view/surface.hpp"
+#include "nodes/view/view_settings.hpp"
+
+namespace rodeira::view {
+
+// A surface with a world on it, and what the person before it chose to see. For one thread, as its surface.
+class Screen {
+ public:
+  // Everything is loaded and drawn once. `resizable`: of a window; frames are never read from one that is.
+  // `help`: what h shows. The world must outlive it. Wrong input as Surface::Open.
+  static base::Result<std::unique_ptr<Screen>> Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
+                                                    bool resizable, std::string help);
+
+  Surface& surface() { return *surface_; }
+  Painter& painter() { return *painter_; }
+  // The picture changes without the world's time going on: camera, car, texts. False where the key is not the window's own.
+  // `driven`: somebody drives by this window, and s is the brake.
+  bool TakeKey(int symbol, bool driven);
+  // Draws the moment as the person wishes to see it, and shows it. `rate`: simulated seconds a second, for the statistics.
+  void Show(scene::Moment moment, double rate, std::optional<Timeline> timeline = std::nullopt);
+
+ private:
+  Screen() = default;
+
+  std::unique_ptr<Surface> surface_;
+  std::unique_ptr<Painter> painter_;  // before its surface in dying
+  std::string help_text_;
+  Picture live_;  // camera, followed car as the person chose
+  bool help_ = false;
+  bool statistics_ = false;
+  double frame_s_ = 0.0;      // smoothed time of drawing
+  double interval_s_ = 0.02;  // smoothed time from picture to picture
+  double shown_wall_s_ = 0.0;
+};
+
+// The window's own keys, a line each.
+std::string WindowHelp();
+
+}  // namespace rodeira::view

@@ -1,0 +1,188 @@
+// Parts of a run are killed and stopped at random instants; the finished recording is that of an undisturbed run.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+#include <thread>
+
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+#include "tests/launch/temporary_folder.hpp"
+#include "tests/system/command.hpp"
+#include "tests/system/recording.hpp"
+
+namespace rodeira::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::string kLaunch = std::string(RODEIRA_SOURCE_DIR) + "/tests/data/n222_traffic.yaml";
+const std::vector<std::string> kParts{"clock", "road", "driver", "ego", "traffic", "recorder"};
+
+std::vector<pid_t> ProcessesOf(const std::string& run, const std::string& part) {
+  return ProcessesWith("--run " + run, part == "clock" ? "/rodeira-clock" : "--node " + part);
+}
+
+// The process, once it lives and is let alone for a moment: a signal between fork and exec would hit nothing of interest.
+pid_t Find(const std::string& run, const std::string& part) {
+  for (int i = 0; i < 1000; ++i) {
+    const auto found = ProcessesOf(run, part);
+    if (found.size() == 1) return found.front();
+    ::usleep(5000);
+  }
+  return -1;
+}
+
+class Recovery : public ::testing::Test {
+ protected:
+  std::string File(const std::string& name) const { return (folder_.path() / name).string(); }
+  std::vector<std::string> Command(const std::string& run, const std::string& recording, const std::string& seconds, const std::string& policy) const {
+    return {Bin("rodeira"), "run", kLaunch, "--run", run, "--for", seconds, "--record", recording, "--set", "recovery=" + policy};
+  }
+  void Undisturbed(const std::string& seconds) {
+    const Ended calm = RunCommand({Bin("rodeira"), "run", kLaunch, "--in-process", "--for", seconds, "--record", File("calm.mcap")});
+    ASSERT_EQ(calm.status, 0) << calm.out;
+    digest_ = DigestIn(calm.out);
+    samples_ = SamplesOf(File("calm.mcap"));
+    ASSERT_GT(samples_.size(), 1000u);
+  }
+  void ExpectUndisturbed(const Ended& ended, const std::string& recording) const {
+    ASSERT_EQ(ended.status, 0) << ended.out;
+    EXPECT_EQ(DigestIn(ended.out), digest_) << ended.out;
+    EXPECT_EQ(FirstDifference(samples_, SamplesOf(recording)), "") << ended.out;
+    const Ended info = RunCommand({Bin("rodeira"), "info", recording});
+    EXPECT_EQ(info.status, 0) << info.out;
+  }
+  const front::TemporaryFolder folder_;
+  std::string digest_;
+  std::vector<Recorded> samples_;
+};
+
+// RODEIRA_KILLS says how often, one part after the other; RODEIRA_KILLS_SEED repeats a sequence of instants.
+TEST_F(Recovery, KilledAndStoppedAtAnyInstantNothingIsLost) {
+  const char* count = std::getenv("RODEIRA_KILLS");
+  const char* seed_text = std::getenv("RODEIRA_KILLS_SEED");
+  const int kills = count == nullptr ? 12 : std::atoi(count);
+  const unsigned seed = seed_text == nullptr ? std::random_device()() : static_cast<unsigned>(std::strtoul(seed_text, nullptr, 10));
+  SCOPED_TRACE("RODEIRA_KILLS_SEED=" + std::to_string(seed));
+  std::mt19937 lot(seed);
+  const std::string seconds = "60";
+  Undisturbed(seconds);
+  int done = 0;
+  for (int round = 0; done < kills && round < 3 + kills; ++round) {
+    const std::string run_name = "recovery-" + std::to_string(::getpid()) + "-" + std::to_string(round);
+    const std::string recording = File(run_name + ".mcap");
+    Started run(Command(run_name, recording, seconds, "restart"));
+    std::string story;
+    // The first instants may fall into the start.
+    while (done < kills) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200 + lot() % 1500));
+      const std::string& part = kParts[static_cast<std::size_t>(done) % kParts.size()];
+      const pid_t victim = ProcessesOf(run_name, "recorder").empty() && ProcessesOf(run_name, "ego").empty() ? -1 : Find(run_name, part);
+      if (victim < 0) break;  // the run is over
+      const int signal = lot() % 3 == 0 ? SIGSTOP : SIGKILL;
+      ::kill(victim, signal);
+      story += part + (signal == SIGSTOP ? " stopped, " : " killed, ");
+      ++done;
+    }
+    const Ended ended = run.Wait(120s);
+    SCOPED_TRACE(story);
+    ExpectUndisturbed(ended, recording);
+    if (HasFailure()) return;
+    std::filesystem::remove(recording);
+  }
+  EXPECT_EQ(done, kills);
+}
+
+TEST_F(Recovery, AKilledNodeIsBackInStepWithinTwoSecondsOfBeingNamed) {
+  const std::string run_name = "recovery-time-" + std::to_string(::getpid());
+  Started run(Command(run_name, File("time.mcap"), "30", "restart"));
+  std::this_thread::sleep_for(2s);
+  const pid_t ego = Find(run_name, "ego");
+  ASSERT_GT(ego, 0);
+  ::kill(ego, SIGKILL);
+  const auto named = run.WaitFor("node 'ego' was killed by signal 9", 5s);
+  EXPECT_GE(named, 0ms);
+  EXPECT_LE(named, 1000ms);
+  const Ended ended = run.Wait(60s);
+  ASSERT_EQ(ended.status, 0) << ended.out;
+  EXPECT_NE(ended.out.find("again   node 'ego' was killed by signal 9"), std::string::npos) << ended.out;
+  std::int64_t before_ns = 0, longest_ns = 0;
+  for (const auto& wall : MessagesOf<msg::WallTime>(File("time.mcap"), idl::topics::kWall)) {
+    longest_ns = std::max<std::int64_t>(longest_ns, wall.monotonic_ns() - before_ns);
+    before_ns = wall.monotonic_ns();
+  }
+  EXPECT_GT(longest_ns, 0);
+  EXPECT_LT(longest_ns, 3'000'000'000) << "a second until it is named, two until it is back";
+  bool remarked = false;
+  for (const auto& remark : MessagesOf<msg::Remark>(File("time.mcap"), idl::topics::kRemarks)) {
+    remarked = remarked || (remark.kind() == "fault" && remark.text().find("'ego' was killed") != std::string::npos);
+  }
+  EXPECT_TRUE(remarked);
+}
+
+TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
+  Undisturbed("20");
+  const std::string run_name = "recovery-pause-" + std::to_string(::getpid());
+  Started run(Command(run_name, File("pause.mcap"), "20", "pause"));
+  std::this_thread::sleep_for(1500ms);
+  // As a debugger stops it: it goes on when it is let go on.
+  const pid_t ego = Find(run_name, "ego");
+  ASSERT_GT(ego, 0);
+  ::kill(ego, SIGSTOP);
+  ASSERT_GE(run.WaitFor("node 'ego' was stopped by signal 19", 5s), 0ms);
+  std::this_thread::sleep_for(2s);  // longer than any limit of silence
+  const Ended state = RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "state"});
+  EXPECT_EQ(state.status, 0) << state.out;
+  EXPECT_NE(state.out.find("'ego'"), std::string::npos) << "the end of the chain of waiting is named: " << state.out;
+  ::kill(ego, SIGCONT);
+  std::this_thread::sleep_for(500ms);
+  // Dead, it needs a person's word.
+  const pid_t traffic = Find(run_name, "traffic");
+  ASSERT_GT(traffic, 0);
+  ::kill(traffic, SIGKILL);
+  ASSERT_GE(run.WaitFor("node 'traffic' was killed by signal 9", 5s), 0ms);
+  const Ended restart = RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "restart", "traffic"});
+  EXPECT_EQ(restart.status, 0) << restart.out;
+  EXPECT_NE(restart.out.find("'traffic' is started again"), std::string::npos) << restart.out;
+  ExpectUndisturbed(run.Wait(60s), File("pause.mcap"));
+}
+
+TEST_F(Recovery, WhoDiesAgainAndAgainWithoutGettingOnEndsTheRun) {
+  const std::string run_name = "recovery-loop-" + std::to_string(::getpid());
+  Started run(Command(run_name, File("loop.mcap"), "1000", "restart"));
+  std::this_thread::sleep_for(1500ms);
+  for (int life = 0; life < 4; ++life) {
+    const pid_t ego = Find(run_name, "ego");
+    ASSERT_GT(ego, 0) << life;
+    ::kill(ego, SIGKILL);
+    for (int i = 0; i < 400 && ::kill(ego, 0) == 0; ++i) ::usleep(5000);
+  }
+  const Ended ended = run.Wait(20s);
+  EXPECT_EQ(ended.status, 1) << ended.out;
+  EXPECT_NE(ended.out.find("it was lost 4 times without getting beyond step"), std::string::npos) << ended.out;
+  EXPECT_TRUE(ProcessesWith("--run " + run_name).empty());
+}
+
+TEST_F(Recovery, WhatCannotBeIsRefused) {
+  const auto refused = [&](std::vector<std::string> more) {
+    std::vector<std::string> command{Bin("rodeira"), "run", kLaunch, "--for", "1"};
+    command.insert(command.end(), more.begin(), more.end());
+    const Ended ended = RunCommand(command);
+    EXPECT_EQ(ended.status, 2) << ended.out;
+    return ended.out;
+  };
+  const std::string without = refused({"--no-record", "--set", "recovery=restart"});
+  EXPECT_NE(without.find("can be started again only where there is a recorder, but there is none"), std::string::npos) << without;
+  const std::string unknown = refused({"--set", "recovery=restrat"});
+  EXPECT_NE(unknown.find("restart"), std::string::npos) << unknown;
+  const std::string live = refused({"--set", "nodes.driver.config.source=keyboard", "--set", "nodes.driver.recovery=restart"});
+  EXPECT_NE(live.find("driven by a person"), std::string::npos) << live;
+}
+
+}  // namespace
+}  // namespace rodeira::system_test
