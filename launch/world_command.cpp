@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <utility>
 
 #include "common/base/files.hpp"
 #include "common/road/world_plot.hpp"
+#include "common/road/world_profile.hpp"
 #include "common/road/world_report.hpp"
 
 namespace rodeira::front {
@@ -41,9 +43,13 @@ int World(const WorldOptions& options) {
     return 0;
   }
   fmt::print("{}", road::DescribeWorld(*world.value()));
-  if (options.svg.empty()) return 0;
-  if (auto status = base::WriteWhole(options.svg, road::PlotWorld(*world.value())); !status) return Complain(status.error());
-  fmt::print("wrote {}\n", options.svg);
+  for (const auto& [file, drawn] : {std::pair(options.svg, &road::PlotWorld), std::pair(options.profile, &road::PlotProfiles)}) {
+    if (file.empty()) continue;
+    const std::string svg = drawn(*world.value());
+    if (svg.empty()) return Complain(base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
+    if (auto status = base::WriteWhole(file, svg); !status) return Complain(status.error());
+    fmt::print("wrote {}\n", file);
+  }
   return 0;
 }
 

@@ -14,6 +14,7 @@ struct WorldOptions {
   std::optional<double> z_hint_m;
   std::string out;
   std::string svg;
+  std::string profile;
 };
 
 int World(const WorldOptions& options);

@@ -2,12 +2,9 @@
 // itself, which then can be used, or one sentence (law L6); never a crash, never a hang. RODEIRA_FUZZ_FILES sets how many
 // texts a format is tried with, RODEIRA_FUZZ_FIRST with which number they begin.
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <fstream>
@@ -27,70 +24,19 @@
 #include "nodes/input/script_source.hpp"
 #include "tests/common/road/sample_world.hpp"
 #include "tests/common/vehicle/test_ground.hpp"
-#include "tests/property/mutate.hpp"
+#include "tests/property/fuzz.hpp"
 
 namespace rodeira::property {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr unsigned kHangSeconds = 60;
 const fs::path kRoot = RODEIRA_SOURCE_DIR;
-
-std::size_t Setting(const char* name, std::size_t otherwise) {
-  const char* set = std::getenv(name);
-  return set == nullptr ? otherwise : static_cast<std::size_t>(std::strtoull(set, nullptr, 10));
-}
-
-// Which text is being read, said where that ends the process.
-char g_now[128] = "";
-void SayAndDie(int number) {
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, g_now, std::char_traits<char>::length(g_now));
-  ::signal(number, SIG_DFL);
-  ::raise(number);
-}
 
 std::string GoodFile(const char* path) {
   const auto text = base::ReadText(kRoot / path);
   EXPECT_TRUE(text.ok()) << path;
   return text.ok() ? text.value() : "";
-}
-
-// One sentence for a terminal: with a place, without line breaks or other control characters.
-void ExpectSentence(const base::Error& error) {
-  EXPECT_FALSE(error.message.empty());
-  EXPECT_FALSE(error.context.empty()) << error.message;
-  EXPECT_EQ(error.exit_status(), 2) << error.Text();
-  for (const char c : error.Text()) EXPECT_FALSE((c >= 0 && c < 0x20) || c == 0x7F) << "a control character in: " << error.Text();
-}
-
-using Read = std::function<std::optional<base::Error>(const std::string& text)>;
-
-void Fuzz(const char* format, const std::vector<std::string>& good, const Read& read) {
-  for (const int number : {SIGALRM, SIGABRT, SIGFPE, SIGSEGV}) ::signal(number, SayAndDie);
-  for (const std::string& text : good) {
-    const auto error = read(text);
-    ASSERT_FALSE(error) << error->Text();
-  }
-  const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
-  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 2000);
-  std::size_t accepted = 0;
-  for (std::size_t number = first; number < first + count; ++number) {
-    Draw draw(number);
-    std::string text = good[draw.Below(good.size())];
-    for (std::size_t mutations = 1 + draw.Below(3); mutations > 0; --mutations) Mutate(text, draw);
-    std::snprintf(g_now, sizeof(g_now), "%s, text %zu (RODEIRA_FUZZ_FIRST=%zu RODEIRA_FUZZ_FILES=1)\n", format, number, number);
-    if (Setting("RODEIRA_FUZZ_SHOW", 0) != 0) std::fprintf(stderr, "%s%s\n", g_now, text.c_str());
-    ::alarm(kHangSeconds);
-    const auto error = read(text);
-    ::alarm(0);
-    if (error) ExpectSentence(*error);
-    else ++accepted;
-    if (testing::Test::HasFailure()) FAIL() << g_now << text;
-  }
-  if (count < 1000) return;
-  EXPECT_GT(accepted, count / 50) << "the mutations are so wild that all is refused at the door";
-  EXPECT_LT(accepted, count - count / 5) << "the mutations are so mild that nearly all is accepted";
 }
 
 // For readers that take a path.
