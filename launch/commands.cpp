@@ -74,7 +74,7 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
 }
 
 CLI::App* AddCtl(CLI::App& app, CtlOptions& options) {
-  CLI::App* ctl = app.add_subcommand("ctl", "control a run that is going on: pause | resume | step [N] | pace X | mark TEXT | stop | state");
+  CLI::App* ctl = app.add_subcommand("ctl", "control a run that is going on: pause | resume | step [N] | pace X | mark TEXT | stop | restart NODE | state");
   ctl->add_option("COMMAND", options.words, "what to do")->required();
   ctl->add_option("--run", options.run, "name of the run; the only one otherwise");
   return ctl;
@@ -84,15 +84,18 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
   CLI::App* world = app.add_subcommand("world", "check, describe and ask a world");
   world->require_subcommand(1);
   for (const auto& [name, text] : {std::pair("check", "name every problem of a world file"), std::pair("info", "what the world is"),
-                                   std::pair("query", "SUELO: the ground at X Y"), std::pair("build", "write the generated terrain as .bt and .prj")}) {
+                                   std::pair("map", "draw the plan as SVG"), std::pair("export", "write the roads as OpenDRIVE 1.7"), std::pair("query", "SUELO: the ground at X Y"), std::pair("build", "write the generated terrain as .bt and .prj")}) {
     CLI::App* command = world->add_subcommand(name, text);
-    command->add_option("WORLD.yaml", options.world_file, "world file")->required();
+    command->add_option("WORLD", options.world_file, "world file (.yaml), or OpenDRIVE (.xodr)")->required();
     if (std::string(name) == "query") {
       command->add_option("X", options.x_m, "metres east")->required();
       command->add_option("Y", options.y_m, "metres north")->required();
       command->add_option("Z", options.z_hint_m, "near which height, where surfaces lie over one another");
     }
     if (std::string(name) == "build") command->add_option("--out", options.out, "folder")->required();
+    if (std::string(name) == "map") command->add_option("-o,--out", options.out, "file to draw into")->required();
+    if (std::string(name) == "export") command->add_option("-o,--out,--opendrive", options.out, "file to write")->required();
+    if (std::string(name) == "check") command->add_flag("--strict", options.strict, "OpenDRIVE: ASAM's own tolerances");
     if (std::string(name) == "info") {
       command->add_option("--svg", options.svg, "draw the plan into this file");
       command->add_option("--profile", options.profile, "draw heights, grades, curvatures and slopes across into this file");
