@@ -44,7 +44,8 @@ int Write(const MapOptions& options, std::string_view text, std::string_view rem
 int Convert(const MapOptions& options) {
   const std::string kind = std::filesystem::path(options.out).extension();
   if (kind != ".svg" && kind != ".xodr") {
-    return Complain(base::WrongInput(fmt::format("the file's name ends with '{}'; .svg or .xodr was expected", kind), options.out));
+    return Complain(
+        base::WrongInput(fmt::format("the file's name ends with '{}'; .svg or .xodr was expected", kind), options.out));
   }
   const auto made = map::LoadLaneMap(options.file);
   if (!made) return Complain(made.error());
@@ -52,8 +53,12 @@ int Convert(const MapOptions& options) {
   const auto written = map::ToOpenDrive(made.value(), std::filesystem::path(options.file).stem());
   if (!written) return Complain(base::WrongInput(written.error().message, options.file));
   const map::OpenDrive& drive = written.value();
-  return Write(options, drive.xml, fmt::format(": {} roads in {} pieces, {} junctions; off by at most {:.2f} mm (middle), {:.2f} mm (borders), {:.2f} mm (height)",
-                                               drive.roads, drive.pieces, drive.junctions, 1e3 * drive.middle_error_m, 1e3 * drive.border_error_m, 1e3 * drive.height_error_m));
+  return Write(
+      options, drive.xml,
+      fmt::format(
+          ": {} roads in {} pieces, {} junctions; off by at most {:.2f} mm (middle), {:.2f} mm (borders), {:.2f} mm (height)",
+          drive.roads, drive.pieces, drive.junctions, 1e3 * drive.middle_error_m, 1e3 * drive.border_error_m,
+          1e3 * drive.height_error_m));
 }
 
 }  // namespace

@@ -88,7 +88,8 @@ class Map:
         companion = folder / f"{self.name}.motors.yaml"
         if self.heights:
             rows = [f"  {n}: [{', '.join(text(v) for v in z)}]" for n, z in self.heights.items()]
-            companion.write_text("\n".join(["rodeira: motors/1", "heights_m:  # of a curve: z at its four control points"] + rows + [""]))
+            head = ["rodeira: motors/1", "heights_m:  # of a curve: z at its four control points"]
+            companion.write_text("\n".join(head + rows + [""]))
 
 
 def meadow(width, height):

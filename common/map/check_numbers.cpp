@@ -13,7 +13,8 @@ void CheckTwice(const std::vector<Line<Value>>& lines, Findings& findings) {
   const NumberIndex first(lines);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t found = *first.Find(lines[i].value.id);
-    if (found != i) findings.Add(Severity::kError, lines[i], fmt::format("its number is taken already, in line {}", lines[found].number));
+    if (found != i)
+      findings.Add(Severity::kError, lines[i], fmt::format("its number is taken already, in line {}", lines[found].number));
   }
 }
 
@@ -28,7 +29,8 @@ void CheckConnectionsTwice(const MapFile& map, Findings& findings) {
     if (key(order[i]) != key(order[i - 1])) continue;
     const auto& [first, again] = std::pair(lines[order[i - 1]], lines[order[i]]);
     const bool differ = first.value.stop != again.value.stop;
-    findings.Add(Severity::kError, again, fmt::format("it is there already, in line {}{}", first.number, differ ? ", and with another STOP flag" : ""));
+    findings.Add(Severity::kError, again,
+                 fmt::format("it is there already, in line {}{}", first.number, differ ? ", and with another STOP flag" : ""));
   }
 }
 
@@ -39,7 +41,8 @@ void CheckSides(const MapFile& map, std::vector<bool>& used, Findings& findings)
       const std::int32_t number = is_left ? line.value.left.curve : line.value.right.curve;
       const auto found = curves.Find(number);
       if (found) used[*found] = true;
-      else findings.Add(Severity::kError, line, fmt::format("its {} curve {} does not exist", is_left ? "left" : "right", number));
+      else
+        findings.Add(Severity::kError, line, fmt::format("its {} curve {} does not exist", is_left ? "left" : "right", number));
     }
     if (line.value.left.curve == line.value.right.curve) {
       findings.Add(Severity::kError, line, fmt::format("curve {} is on both of its sides", line.value.left.curve));
@@ -50,7 +53,8 @@ void CheckSides(const MapFile& map, std::vector<bool>& used, Findings& findings)
 void CheckConnections(const MapFile& map, Findings& findings) {
   const NumberIndex lanes(map.lanes);
   for (const auto& line : map.connections) {
-    if (!lanes.Find(line.value.from)) findings.Add(Severity::kError, line, fmt::format("lane {} does not exist", line.value.from));
+    if (!lanes.Find(line.value.from))
+      findings.Add(Severity::kError, line, fmt::format("lane {} does not exist", line.value.from));
     if (!lanes.Find(line.value.to)) findings.Add(Severity::kError, line, fmt::format("lane {} does not exist", line.value.to));
     if (line.value.from == line.value.to) findings.Add(Severity::kError, line, "it leads back into the lane that it comes from");
   }

@@ -18,12 +18,15 @@ class Findings {
     all_.push_back({severity, Element::kLane, lane.value.id, 0, lane.number, std::move(sentence)});
   }
   void Add(Severity severity, const Line<Connection>& connection, std::string sentence) {
-    all_.push_back({severity, Element::kConnection, connection.value.from, connection.value.to, connection.number, std::move(sentence)});
+    all_.push_back(
+        {severity, Element::kConnection, connection.value.from, connection.value.to, connection.number, std::move(sentence)});
   }
   void Add(Severity severity, const CurveHeights& heights, std::string sentence) {
     all_.push_back({severity, Element::kHeights, heights.curve, 0, heights.line, std::move(sentence)});
   }
-  void AddToMap(Severity severity, std::string sentence) { all_.push_back({severity, Element::kMap, 0, 0, 0, std::move(sentence)}); }
+  void AddToMap(Severity severity, std::string sentence) {
+    all_.push_back({severity, Element::kMap, 0, 0, 0, std::move(sentence)});
+  }
 
   const std::vector<Finding>& all() const { return all_; }
 

@@ -11,14 +11,14 @@
 namespace rodeira::map {
 namespace {
 
-constexpr double kShortest_m = 0.01;      // of a curve
-constexpr double kNarrowest_m = 1.5;      // of a lane: the narrowest car
+constexpr double kShortest_m = 0.01;  // of a curve
+constexpr double kNarrowest_m = 1.5;  // of a lane: the narrowest car
 constexpr double kWidest_m = 12.0;
-constexpr double kWidestGap_m = 0.1;      // between the middles of lanes that are connected
+constexpr double kWidestGap_m = 0.1;  // between the middles of lanes that are connected
 constexpr double kSharpestKink_rad = 0.1;
 constexpr double kHighestStep_m = 0.02;
 constexpr double kSteepest = 0.2;
-constexpr int kSamples = 32;              // along a lane
+constexpr int kSamples = 32;  // along a lane
 constexpr double kDegree = 180.0 / 3.14159265358979323846;
 
 std::vector<std::optional<LaneShape>> ShapesOf(const MapFile& map, const Heights& heights) {
@@ -28,7 +28,8 @@ std::vector<std::optional<LaneShape>> ShapesOf(const MapFile& map, const Heights
     const Lane& lane = map.lanes[i].value;
     const auto left = curves.Find(lane.left.curve), right = curves.Find(lane.right.curve);
     if (!left || !right || left == right) continue;
-    const LaneShape shape(BorderOf(lane.left, map.curves[*left].value, heights), BorderOf(lane.right, map.curves[*right].value, heights));
+    const LaneShape shape(BorderOf(lane.left, map.curves[*left].value, heights),
+                          BorderOf(lane.right, map.curves[*right].value, heights));
     if (shape.left().plan.PolygonLength() < kShortest_m || shape.right().plan.PolygonLength() < kShortest_m) continue;
     shapes[i] = shape;
   }
@@ -40,7 +41,7 @@ struct Worst {
   double narrowest_m = 1e300, widest_m = -1e300;
   double sharpest = 0.0;  // curvature times the half width on the inner side; from 1 on the inner border turns back
   double sharpest_radius_m = 0.0, steepest = 0.0;
-  bool crossed = false;   // the left border lies to the right of the right one somewhere
+  bool crossed = false;  // the left border lies to the right of the right one somewhere
 };
 
 Worst Sample(const LaneShape& shape) {
@@ -69,7 +70,8 @@ bool CheckLane(const Line<Lane>& line, const LaneShape& shape, Findings& finding
   const auto head = [](const Border& border) { return border.plan.Tangent(0.0); };
   // Borders of a hairpin may have runs of little meaning, but their beginnings point the same way.
   if (run(shape.left()).dot(run(shape.right())) < 0.0 && head(shape.left()).dot(head(shape.right())) < 0.0) {
-    return refuse(fmt::format("its curves {} and {} run against each other; one must be inverted", line.value.left.curve, line.value.right.curve));
+    return refuse(fmt::format("its curves {} and {} run against each other; one must be inverted", line.value.left.curve,
+                              line.value.right.curve));
   }
   if (shape.length_m() < kShortest_m) return refuse("it has no length");
   const Worst worst = Sample(shape);
@@ -78,12 +80,16 @@ bool CheckLane(const Line<Lane>& line, const LaneShape& shape, Findings& finding
                               line.value.left.curve, line.value.right.curve));
   }
   if (worst.crossed) return refuse("its borders cross");
-  if (worst.narrowest_m < kNarrowest_m) findings.Add(Severity::kWarning, line, fmt::format("only {:.2f} m wide where it is narrowest", worst.narrowest_m));
-  if (worst.widest_m > kWidest_m) findings.Add(Severity::kWarning, line, fmt::format("{:.1f} m wide where it is widest", worst.widest_m));
+  if (worst.narrowest_m < kNarrowest_m)
+    findings.Add(Severity::kWarning, line, fmt::format("only {:.2f} m wide where it is narrowest", worst.narrowest_m));
+  if (worst.widest_m > kWidest_m)
+    findings.Add(Severity::kWarning, line, fmt::format("{:.1f} m wide where it is widest", worst.widest_m));
   if (worst.sharpest >= 1.0) {
-    findings.Add(Severity::kWarning, line, fmt::format("it bends with a radius of {:.2f} m, within its own half width", worst.sharpest_radius_m));
+    findings.Add(Severity::kWarning, line,
+                 fmt::format("it bends with a radius of {:.2f} m, within its own half width", worst.sharpest_radius_m));
   }
-  if (worst.steepest > kSteepest) findings.Add(Severity::kWarning, line, fmt::format("its grade reaches {:.0f} %", 100.0 * worst.steepest));
+  if (worst.steepest > kSteepest)
+    findings.Add(Severity::kWarning, line, fmt::format("its grade reaches {:.0f} %", 100.0 * worst.steepest));
   return true;
 }
 
@@ -92,8 +98,11 @@ void CheckJoint(const Line<Connection>& line, const LaneShape& from, const LaneS
   const double gap = (begin.p_W - end.p_W).norm();
   const double kink = std::acos(std::clamp(end.tangent_W.dot(begin.tangent_W), -1.0, 1.0));
   const double step = begin.z_m - end.z_m;
-  if (gap > kWidestGap_m) findings.Add(Severity::kWarning, line, fmt::format("{:.2f} m lie between the end of the one and the beginning of the other", gap));
-  if (kink > kSharpestKink_rad) findings.Add(Severity::kWarning, line, fmt::format("the direction jumps by {:.1f} degrees", kink * kDegree));
+  if (gap > kWidestGap_m)
+    findings.Add(Severity::kWarning, line,
+                 fmt::format("{:.2f} m lie between the end of the one and the beginning of the other", gap));
+  if (kink > kSharpestKink_rad)
+    findings.Add(Severity::kWarning, line, fmt::format("the direction jumps by {:.1f} degrees", kink * kDegree));
   if (std::abs(step) > kHighestStep_m) findings.Add(Severity::kWarning, line, fmt::format("the height jumps by {:.3f} m", step));
 }
 
@@ -101,9 +110,11 @@ void CheckPicture(const MapFile& map, Findings& findings) {
   if (map.picture.empty()) return;
   const auto picture = ReadPictureInfo(map.picture);
   if (!picture) {
-    findings.AddToMap(Severity::kWarning, fmt::format("the {} bytes behind the line 'i' are no PNG or JPEG picture", map.picture.size()));
+    findings.AddToMap(Severity::kWarning,
+                      fmt::format("the {} bytes behind the line 'i' are no PNG or JPEG picture", map.picture.size()));
   } else if (picture->width_px > 16384 || picture->height_px > 16384) {
-    findings.AddToMap(Severity::kWarning, fmt::format("the picture has {} by {} pixels; up to 16384 each way can be shown", picture->width_px, picture->height_px));
+    findings.AddToMap(Severity::kWarning, fmt::format("the picture has {} by {} pixels; up to 16384 each way can be shown",
+                                                      picture->width_px, picture->height_px));
   }
 }
 

@@ -58,7 +58,8 @@ void CheckWays(const MapFile& map, Findings& findings) {
     } else if (mode == LaneMode::kEnd && leaves[i]) {
       findings.Add(Severity::kWarning, line, "a connection goes on, but vehicles end here");
     }
-    if (!starts.empty() && !reached[i] && (leaves[i] || arrives[i])) findings.Add(Severity::kWarning, line, "no start lane leads to it");
+    if (!starts.empty() && !reached[i] && (leaves[i] || arrives[i]))
+      findings.Add(Severity::kWarning, line, "no start lane leads to it");
     if (!ends.empty() && !finishes[i] && leaves[i]) {
       const Severity severity = mode == LaneMode::kStart ? Severity::kError : Severity::kWarning;
       findings.Add(severity, line, "no end lane can be reached from it");

@@ -8,7 +8,8 @@ namespace {
 
 // Nodes and weights of the eight-point Gauss-Legendre rule on [-1, 1] (Abramowitz and Stegun, table 25.4).
 constexpr std::array<double, 4> kNodes = {0.183434642495649805, 0.525532409916328986, 0.796666477413626740, 0.960289856497536232};
-constexpr std::array<double, 4> kWeights = {0.362683783378361983, 0.313706645877887287, 0.222381034453374471, 0.101228536290376259};
+constexpr std::array<double, 4> kWeights = {0.362683783378361983, 0.313706645877887287, 0.222381034453374471,
+                                            0.101228536290376259};
 constexpr int kDeepest = 24;  // halvings; only a cusp goes so deep, and only on one side
 
 double Panel(const Cubic& curve, double t0, double t1) {
@@ -75,7 +76,8 @@ double ArcLength(const Cubic& curve, double t0, double t1) {
 
 ArcTable::ArcTable(const Cubic& curve) : curve_(curve), begin_m_(1, 0.0) {
   for (int i = 0; i < kPanels; ++i) {
-    begin_m_.push_back(begin_m_.back() + ArcLength(curve_, static_cast<double>(i) / kPanels, static_cast<double>(i + 1) / kPanels));
+    begin_m_.push_back(begin_m_.back() +
+                       ArcLength(curve_, static_cast<double>(i) / kPanels, static_cast<double>(i + 1) / kPanels));
   }
 }
 

@@ -8,7 +8,8 @@ namespace rodeira::map {
 
 // A cubic Bézier curve in plan, B(t) = (1−t)³p0 + 3(1−t)²t p1 + 3(1−t)t² p2 + t³p3, 0 ≤ t ≤ 1; metres.
 struct Cubic {
-  std::array<Eigen::Vector2d, 4> p_W{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  std::array<Eigen::Vector2d, 4> p_W{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
+                                     Eigen::Vector2d::Zero()};
 
   Eigen::Vector2d At(double t) const;
   Eigen::Vector2d Slope(double t) const;  // dB/dt, m

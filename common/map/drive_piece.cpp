@@ -87,7 +87,8 @@ base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double tole
     const DrivePiece piece = Fit(lane, s, ends.back());
     const DriveError off = Compare(lane, piece);
     if (!(off.Most() <= tolerance_m)) {
-      if (piece.length_m < kShortest_m) return base::WrongInput(fmt::format("it turns too sharply at {:.2f} m to be written as cubics of the distance", s));
+      if (piece.length_m < kShortest_m)
+        return base::WrongInput(fmt::format("it turns too sharply at {:.2f} m to be written as cubics of the distance", s));
       ends.push_back(0.5 * (s + ends.back()));
       continue;
     }

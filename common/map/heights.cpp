@@ -30,7 +30,8 @@ base::Result<Heights> Read(config::File& file) {
   for (const std::string& key : all.Keys()) {
     CurveHeights one;
     const auto [end, problem] = std::from_chars(key.data(), key.data() + key.size(), one.curve);
-    if (problem != std::errc() || end != key.data() + key.size()) all.Problem(key, fmt::format("'{}' is not a curve's number", key));
+    if (problem != std::errc() || end != key.data() + key.size())
+      all.Problem(key, fmt::format("'{}' is not a curve's number", key));
     const std::vector<double> z = all.Numbers(key, {-kMostHeight_m, kMostHeight_m});
     if (z.size() == one.z_m.size()) {
       std::copy(z.begin(), z.end(), one.z_m.begin());
@@ -39,7 +40,8 @@ base::Result<Heights> Read(config::File& file) {
     }
     one.line = LineOf(all.Place(key));
     const auto at = std::lower_bound(heights.curves.begin(), heights.curves.end(), one.curve, Below);
-    if (at != heights.curves.end() && at->curve == one.curve) all.Problem(key, fmt::format("curve {} has heights already", one.curve));
+    if (at != heights.curves.end() && at->curve == one.curve)
+      all.Problem(key, fmt::format("curve {} has heights already", one.curve));
     heights.curves.insert(at, one);
   }
   if (const base::Status status = file.Finish(); !status) return status.error();

@@ -20,7 +20,7 @@ struct LanePoint {
   Eigen::Vector2d tangent_W = Eigen::Vector2d::UnitX();
   double curvature_1pm = 0.0;  // positive to the left
   double z_m = 0.0;
-  double grade = 0.0;          // dz/ds in plan, positive uphill
+  double grade = 0.0;  // dz/ds in plan, positive uphill
   // Where the borders cross the perpendicular, positive to the left of the middle: left_m is about half the width,
   // right_m about minus that. A border that ends before the perpendicular is prolonged straight on.
   double left_m = 0.0;

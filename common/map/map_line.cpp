@@ -13,7 +13,7 @@ namespace {
 class Fields {
  public:
   explicit Fields(std::string_view line) {
-    for (std::size_t at = 0;; ) {
+    for (std::size_t at = 0;;) {
       const std::size_t comma = line.find(',', at);
       fields_.push_back(line.substr(at, comma - at));
       if (comma == std::string_view::npos) return;
@@ -56,7 +56,8 @@ class Fields {
  private:
   void Refuse(std::string_view what, std::string_view found, const std::string& expected) {
     constexpr std::size_t kShown = 40;
-    Refuse(fmt::format("{} is '{}{}'; {} was expected", what, found.substr(0, kShown), found.size() > kShown ? "…" : "", expected));
+    Refuse(
+        fmt::format("{} is '{}{}'; {} was expected", what, found.substr(0, kShown), found.size() > kShown ? "…" : "", expected));
   }
 
   std::vector<std::string_view> fields_;
@@ -96,7 +97,8 @@ std::string SideText(const LaneSide& side) {
 template <>
 base::Result<Curve> ReadLine(std::string_view line) {
   Fields fields(line);
-  if (fields.count() == 26) return base::WrongInput("a line 'p' with 26 fields instead of 14: are the numbers written with a decimal comma?");
+  if (fields.count() == 26)
+    return base::WrongInput("a line 'p' with 26 fields instead of 14: are the numbers written with a decimal comma?");
   if (fields.count() != 14) return WrongCount('p', fields.count(), "14: p, the curve's number, x, height, z of four points");
   Curve curve;
   curve.id = fields.Id("the curve's number");
@@ -112,7 +114,8 @@ template <>
 base::Result<Lane> ReadLine(std::string_view line) {
   Fields fields(line);
   if (fields.count() != 9) {
-    return WrongCount('l', fields.count(), "9: l, the lane's number, left curve, inverted, type, right curve, inverted, type, mode");
+    return WrongCount('l', fields.count(),
+                      "9: l, the lane's number, left curve, inverted, type, right curve, inverted, type, mode");
   }
   Lane lane;
   lane.id = fields.Id("the lane's number");
@@ -126,7 +129,8 @@ template <>
 base::Result<Connection> ReadLine(std::string_view line) {
   Fields fields(line);
   if (fields.count() != 4 && fields.count() != 7) {
-    return WrongCount('c', fields.count(), "4 or 7: c, from lane, to lane, STOP (True or False), and three numbers that older files lack");
+    return WrongCount('c', fields.count(),
+                      "4 or 7: c, from lane, to lane, STOP (True or False), and three numbers that older files lack");
   }
   Connection connection;
   connection.from = fields.Id("the lane that is connected from");

@@ -31,9 +31,12 @@ base::Status TakeLine(std::string_view text, std::size_t number, MapFile& map) {
     if (map.scale.number != 0) return base::WrongInput(fmt::format("a second line 's'; the first is line {}", map.scale.number));
     return Take(text, number, map.scale);
   }
-  if (letter == "i") return base::WrongInput("a line that begins with 'i' and goes on; 'i' alone was expected, then LF and the picture");
-  return base::WrongInput(fmt::format("the line begins with '{}'; expected are p (curve), l (lane), c (connection), s (scale) "
-                                      "or i (picture), in small letters", letter.substr(0, 40)));
+  if (letter == "i")
+    return base::WrongInput("a line that begins with 'i' and goes on; 'i' alone was expected, then LF and the picture");
+  return base::WrongInput(
+      fmt::format("the line begins with '{}'; expected are p (curve), l (lane), c (connection), s (scale) "
+                  "or i (picture), in small letters",
+                  letter.substr(0, 40)));
 }
 
 }  // namespace
@@ -42,11 +45,14 @@ base::Result<MapFile> ParseMap(std::string_view bytes, const std::string& name) 
   MapFile map;
   std::size_t at = 0;
   for (std::size_t number = 1;; ++number) {
-    if (number > kMostLines) return base::WrongInput(fmt::format("more than {} lines stand before the picture", kMostLines), name);
+    if (number > kMostLines)
+      return base::WrongInput(fmt::format("more than {} lines stand before the picture", kMostLines), name);
     const std::size_t length = bytes.substr(at, kLongestLine + 1).find('\n');
     if (length == std::string_view::npos) {
-      if (bytes.size() - at > kLongestLine) return base::WrongInput(fmt::format("the line has more than {} bytes", kLongestLine), At(name, number));
-      return base::WrongInput(fmt::format("the file ends at byte {} without a line 'i', behind which the picture stands", bytes.size()), name);
+      if (bytes.size() - at > kLongestLine)
+        return base::WrongInput(fmt::format("the line has more than {} bytes", kLongestLine), At(name, number));
+      return base::WrongInput(
+          fmt::format("the file ends at byte {} without a line 'i', behind which the picture stands", bytes.size()), name);
     }
     const std::string_view text = bytes.substr(at, length + 1);
     at += text.size();

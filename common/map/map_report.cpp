@@ -32,8 +32,11 @@ std::string DescribeMap(const MapFile& map, const Heights& heights, const std::v
   const auto start = Count(map.lanes, [](const Lane& lane) { return lane.mode == LaneMode::kStart; });
   const auto end = Count(map.lanes, [](const Lane& lane) { return lane.mode == LaneMode::kEnd; });
   const auto stops = Count(map.connections, [](const Connection& connection) { return connection.stop; });
-  const auto errors = std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; });
-  std::string table = Row("curves", fmt::format("{}{}", map.curves.size(), heights.curves.empty() ? "" : fmt::format(", {} with heights", heights.curves.size())));
+  const auto errors =
+      std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; });
+  std::string table =
+      Row("curves", fmt::format("{}{}", map.curves.size(),
+                                heights.curves.empty() ? "" : fmt::format(", {} with heights", heights.curves.size())));
   table += Row("lanes", fmt::format("{}: {} start, {} end", map.lanes.size(), start, end));
   if (const auto made = MakeLaneMap(map, heights, ""); made.ok()) {
     double length_m = 0.0;
@@ -42,7 +45,8 @@ std::string DescribeMap(const MapFile& map, const Heights& heights, const std::v
   }
   table += Row("connections", fmt::format("{}, {} with STOP", map.connections.size(), stops));
   table += Row("picture", DescribePicture(map));
-  return table + Row("found", fmt::format("{} errors, {} warnings", errors, static_cast<std::ptrdiff_t>(findings.size()) - errors));
+  return table +
+         Row("found", fmt::format("{} errors, {} warnings", errors, static_cast<std::ptrdiff_t>(findings.size()) - errors));
 }
 
 }  // namespace rodeira::map

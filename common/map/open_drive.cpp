@@ -15,7 +15,9 @@ constexpr double kTolerance_m = 0.005;
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 void Set(pugi::xml_node node, const char* name, double value) { node.append_attribute(name) = fmt::format("{}", value).c_str(); }
-void Set(pugi::xml_node node, const char* name, std::string_view value) { node.append_attribute(name) = std::string(value).c_str(); }
+void Set(pugi::xml_node node, const char* name, std::string_view value) {
+  node.append_attribute(name) = std::string(value).c_str();
+}
 
 void SetCubic(pugi::xml_node node, const Cubic1& c, const char* suffix = "") {
   for (std::size_t i = 0; i < c.size(); ++i) Set(node, (std::string(1, static_cast<char>('a' + i)) + suffix).c_str(), c[i]);
@@ -128,7 +130,8 @@ class Writer {
   }
 
   static void WriteMark(pugi::xml_node lane, BorderType type) {
-    constexpr std::array<const char*, kBorderTypes> kTypes = {"none", "solid", "solid", "broken", "broken", "broken", "broken", "broken broken"};
+    constexpr std::array<const char*, kBorderTypes> kTypes = {"none",   "solid",  "solid",  "broken",
+                                                              "broken", "broken", "broken", "broken broken"};
     pugi::xml_node mark = lane.append_child("roadMark");
     Set(mark, "sOffset", 0.0);
     Set(mark, "type", kTypes[static_cast<std::size_t>(type)]);
@@ -136,7 +139,8 @@ class Writer {
     Set(mark, "color", "standard");
   }
 
-  static void WriteLanes(pugi::xml_node lanes, const MapLane& lane, const std::vector<DrivePiece>& pieces, bool from_road, bool to_road) {
+  static void WriteLanes(pugi::xml_node lanes, const MapLane& lane, const std::vector<DrivePiece>& pieces, bool from_road,
+                         bool to_road) {
     for (const DrivePiece& piece : pieces) {
       pugi::xml_node offset = lanes.append_child("laneOffset");
       Set(offset, "s", piece.s_m);

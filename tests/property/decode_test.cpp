@@ -10,17 +10,14 @@
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
 #include "tests/common/decode/fields.hpp"
+#include "tests/property/fuzz.hpp"
 #include "tests/property/mutate.hpp"
 
 namespace rodeira::decode {
 namespace {
 
 using property::Draw;
-
-std::size_t Setting(const char* name, std::size_t otherwise) {
-  const char* set = std::getenv(name);
-  return set == nullptr ? otherwise : static_cast<std::size_t>(std::strtoull(set, nullptr, 10));
-}
+using property::Setting;
 
 // A change that a broken disk, a wrong length or somebody's malice makes.
 void Break(base::Bytes& bytes, Draw& draw) {

@@ -1,8 +1,9 @@
 // The integrity check: a map without anything wrong, and each thing that can be, alone.
+#include "common/map/check.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/map/check.hpp"
 #include "common/map/lane_map.hpp"
 #include "tests/common/map/sample_map.hpp"
 
@@ -44,21 +45,27 @@ TEST(Check, NothingIsWrong) {
 }
 
 TEST(Check, NumbersTwice) {
-  EXPECT_THAT(Found(And("p,3,0,0,0,1,0,0,2,0,0,3,0,0\n")), ElementsAre("E x.motors:12 curve 3: its number is taken already, in line 3"));
-  EXPECT_THAT(Found(And("l,2,3,True,3,4,False,1,2\n")), ElementsAre("E x.motors:12 lane 2: its number is taken already, in line 8"));
+  EXPECT_THAT(Found(And("p,3,0,0,0,1,0,0,2,0,0,3,0,0\n")),
+              ElementsAre("E x.motors:12 curve 3: its number is taken already, in line 3"));
+  EXPECT_THAT(Found(And("l,2,3,True,3,4,False,1,2\n")),
+              ElementsAre("E x.motors:12 lane 2: its number is taken already, in line 8"));
   EXPECT_THAT(Found(And("c,1,2,False\n")), ElementsAre("E x.motors:12 connection 1 to 2: it is there already, in line 10"));
-  EXPECT_THAT(Found(And("c,1,2,True\n")), ElementsAre("E x.motors:12 connection 1 to 2: it is there already, in line 10, and with another STOP flag"));
+  EXPECT_THAT(Found(And("c,1,2,True\n")),
+              ElementsAre("E x.motors:12 connection 1 to 2: it is there already, in line 10, and with another STOP flag"));
 }
 
 TEST(Check, WhatIsNotThere) {
-  EXPECT_THAT(Found(With("l,2,3,True", "l,2,33,True")), ElementsAre("E x.motors:8 lane 2: its left curve 33 does not exist", "W x.motors:3 curve 3: no lane uses it"));
-  EXPECT_THAT(Found(With("3,4,False", "3,44,False")), ElementsAre("E x.motors:8 lane 2: its right curve 44 does not exist", "W x.motors:4 curve 4: no lane uses it"));
+  EXPECT_THAT(Found(With("l,2,3,True", "l,2,33,True")),
+              ElementsAre("E x.motors:8 lane 2: its left curve 33 does not exist", "W x.motors:3 curve 3: no lane uses it"));
+  EXPECT_THAT(Found(With("3,4,False", "3,44,False")),
+              ElementsAre("E x.motors:8 lane 2: its right curve 44 does not exist", "W x.motors:4 curve 4: no lane uses it"));
   EXPECT_THAT(Found(And("c,7,2,False\n")), ElementsAre("E x.motors:12 connection 7 to 2: lane 7 does not exist"));
   EXPECT_THAT(Found(And("c,1,-4,False\n")), ElementsAre("E x.motors:12 connection 1 to -4: lane -4 does not exist"));
 }
 
 TEST(Check, NoStartNoEnd) {
-  EXPECT_THAT(Found(With("2,False,1,1\n", "2,False,1,0\n")), ElementsAre("E x.motors map: no lane is a start lane (mode 1); at least one is needed"));
+  EXPECT_THAT(Found(With("2,False,1,1\n", "2,False,1,0\n")),
+              ElementsAre("E x.motors map: no lane is a start lane (mode 1); at least one is needed"));
   std::string text = With("3,4,False,1,2", "3,4,False,1,0");
   text.replace(text.find("6,False,1,2"), 11, "6,False,1,0");
   EXPECT_THAT(Found(text), ElementsAre("E x.motors map: no lane is an end lane (mode 2); at least one is needed",
@@ -68,14 +75,18 @@ TEST(Check, NoStartNoEnd) {
 
 TEST(Check, Ways) {
   EXPECT_THAT(Found(With("c,1,3,True,0,0,0\n", "")), ElementsAre("E x.motors:9 lane 3: no connection comes or goes"));
-  EXPECT_THAT(Found(With("6,False,1,2\n", "6,False,1,0\n")), ElementsAre("E x.motors:9 lane 3: it leads nowhere: no connection goes on, and it is no end lane"));
-  EXPECT_THAT(Found(And("c,2,1,False\n")),
-              ElementsAre("W x.motors:8 lane 2: a connection goes on, but vehicles end here",
-                          "W x.motors:12 connection 2 to 1: 60.00 m lie between the end of the one and the beginning of the other"));
-  EXPECT_THAT(Found(And("c,1,1,False\n")), ElementsAre("E x.motors:12 connection 1 to 1: it leads back into the lane that it comes from"));
+  EXPECT_THAT(Found(With("6,False,1,2\n", "6,False,1,0\n")),
+              ElementsAre("E x.motors:9 lane 3: it leads nowhere: no connection goes on, and it is no end lane"));
+  EXPECT_THAT(
+      Found(And("c,2,1,False\n")),
+      ElementsAre("W x.motors:8 lane 2: a connection goes on, but vehicles end here",
+                  "W x.motors:12 connection 2 to 1: 60.00 m lie between the end of the one and the beginning of the other"));
+  EXPECT_THAT(Found(And("c,1,1,False\n")),
+              ElementsAre("E x.motors:12 connection 1 to 1: it leads back into the lane that it comes from"));
   // A second start lane whose vehicles circle for ever with another lane, which no start lane but it leads to.
   const std::string circle = And("l,4,1,False,3,2,False,1,1\nl,5,1,False,3,2,False,1,0\nc,4,5,False\nc,5,4,False\n");
-  EXPECT_THAT(Found(circle), testing::IsSupersetOf({"E x.motors:12 lane 4: no end lane can be reached from it", "W x.motors:13 lane 5: no end lane can be reached from it"}));
+  EXPECT_THAT(Found(circle), testing::IsSupersetOf({"E x.motors:12 lane 4: no end lane can be reached from it",
+                                                    "W x.motors:13 lane 5: no end lane can be reached from it"}));
   const std::string source = And("l,4,1,False,3,2,False,1,0\nc,4,2,False\n");
   EXPECT_THAT(Found(source), ElementsAre("W x.motors:12 lane 4: no start lane leads to it"));
 }
@@ -89,13 +100,17 @@ TEST(Check, Curves) {
 TEST(Check, Lanes) {
   EXPECT_THAT(Found(With("l,1,1,False,3,2,False", "l,1,1,False,3,1,False")),
               ElementsAre("E x.motors:7 lane 1: curve 1 is on both of its sides", "W x.motors:2 curve 2: no lane uses it"));
-  EXPECT_THAT(Found(With("l,2,3,True", "l,2,3,False")), ElementsAre("E x.motors:8 lane 2: its curves 3 and 4 run against each other; one must be inverted"));
-  EXPECT_THAT(Found(With("l,1,1,False,3,2,False", "l,1,2,False,3,1,False")),
-              ElementsAre("E x.motors:7 lane 1: its left curve 2 lies to the right of its right curve 1; exchange them, or invert both"));
+  EXPECT_THAT(Found(With("l,2,3,True", "l,2,3,False")),
+              ElementsAre("E x.motors:8 lane 2: its curves 3 and 4 run against each other; one must be inverted"));
+  EXPECT_THAT(
+      Found(With("l,1,1,False,3,2,False", "l,1,2,False,3,1,False")),
+      ElementsAre("E x.motors:7 lane 1: its left curve 2 lies to the right of its right curve 1; exchange them, or invert both"));
   EXPECT_THAT(Found(With("p,2,0,1,-1.5,", "p,2,0,1,4.5,")), testing::Contains("E x.motors:7 lane 1: its borders cross"));
   // In the middle the left border lies at (1.5 + 3 * -0.75 + 3 * -0.75 + 1.5) / 8 = -0.1875.
-  EXPECT_THAT(Found(With("p,1,0,1,1.5,10,1,1.5,20,1,1.5", "p,1,0,1,1.5,10,1,-0.75,20,1,-0.75")), testing::Contains("W x.motors:7 lane 1: only 1.31 m wide where it is narrowest"));
-  EXPECT_THAT(Found(With("p,1,0,1,1.5,10,1,1.5,", "p,1,-1.5,1,31.5,9,1,27,")), testing::Contains(testing::HasSubstr("m wide where it is widest")));
+  EXPECT_THAT(Found(With("p,1,0,1,1.5,10,1,1.5,20,1,1.5", "p,1,0,1,1.5,10,1,-0.75,20,1,-0.75")),
+              testing::Contains("W x.motors:7 lane 1: only 1.31 m wide where it is narrowest"));
+  EXPECT_THAT(Found(With("p,1,0,1,1.5,10,1,1.5,", "p,1,-1.5,1,31.5,9,1,27,")),
+              testing::Contains(testing::HasSubstr("m wide where it is widest")));
   std::string sharp = With("p,5,30,1,1.5,34,1,1.5,38.5,1,6,38.5,1,10", "p,5,30,1,1.5,30.1,1,1.5,29,1,1.5,29,1,2");
   sharp.replace(sharp.find("36,1,-1.5,41.5,1,4,41.5,1,10"), 28, "32,1,-1.5,33,1,0,33,1,2");
   EXPECT_THAT(Found(sharp), testing::Contains(testing::HasSubstr("lane 3: it bends with a radius of")));
@@ -104,29 +119,40 @@ TEST(Check, Lanes) {
 TEST(Check, Joints) {
   std::string shifted = GoodMap();  // the left border of lane 2 begins 1 m too far to the left
   shifted.replace(shifted.find("40,1,1.5,30,1,1.5"), 17, "40,1,1.5,30,1,2.5");
-  EXPECT_THAT(Found(shifted), ElementsAre("W x.motors:10 connection 1 to 2: 0.50 m lie between the end of the one and the beginning of the other"));
-  EXPECT_THAT(Found(With("34,1,1.5,38.5,1,6", "34,1,3.5,38.5,1,6")), testing::Contains(testing::HasSubstr("W x.motors:11 connection 1 to 3: the direction jumps by 11.3 degrees")));
+  EXPECT_THAT(
+      Found(shifted),
+      ElementsAre("W x.motors:10 connection 1 to 2: 0.50 m lie between the end of the one and the beginning of the other"));
+  EXPECT_THAT(Found(With("34,1,1.5,38.5,1,6", "34,1,3.5,38.5,1,6")),
+              testing::Contains(testing::HasSubstr("W x.motors:11 connection 1 to 3: the direction jumps by 11.3 degrees")));
 }
 
 TEST(Check, Picture) {
   EXPECT_THAT(Found(GoodMap() + kPng2x1), IsEmpty());
   EXPECT_THAT(Found(GoodMap() + "\xff\xd8\xff\xe0\0\x04xy\xff\xc0\0\x0b\x08\0\x10\0\x20\x01"s), IsEmpty());
-  EXPECT_THAT(Found(GoodMap() + "GIF89a"), ElementsAre("W x.motors map: the 6 bytes behind the line 'i' are no PNG or JPEG picture"));
-  EXPECT_THAT(Found(GoodMap() + kPng2x1.substr(0, 20)), ElementsAre("W x.motors map: the 20 bytes behind the line 'i' are no PNG or JPEG picture"));
+  EXPECT_THAT(Found(GoodMap() + "GIF89a"),
+              ElementsAre("W x.motors map: the 6 bytes behind the line 'i' are no PNG or JPEG picture"));
+  EXPECT_THAT(Found(GoodMap() + kPng2x1.substr(0, 20)),
+              ElementsAre("W x.motors map: the 20 bytes behind the line 'i' are no PNG or JPEG picture"));
   std::string huge = GoodMap() + kPng2x1;
   huge[GoodMap().size() + 16] = 0x7f;
-  EXPECT_THAT(Found(huge), ElementsAre("W x.motors map: the picture has 2130706434 by 1 pixels; up to 16384 each way can be shown"));
+  EXPECT_THAT(Found(huge),
+              ElementsAre("W x.motors map: the picture has 2130706434 by 1 pixels; up to 16384 each way can be shown"));
 }
 
 TEST(Check, Heights) {
   const std::string head = "rodeira: motors/1\nheights_m:\n";
-  EXPECT_THAT(Found(GoodMap(), head + "  9: [0, 0, 1, 1]\n"), ElementsAre("E x.motors.yaml:3 heights of curve 9: the map has no such curve"));
+  EXPECT_THAT(Found(GoodMap(), head + "  9: [0, 0, 1, 1]\n"),
+              ElementsAre("E x.motors.yaml:3 heights of curve 9: the map has no such curve"));
   EXPECT_THAT(Found(GoodMap(), head + "  1: [0, 0, 2, 2]\n  2: [0, 0, 2, 2]\n"),
-              ElementsAre("W x.motors:10 connection 1 to 2: the height jumps by -2.000 m", "W x.motors:11 connection 1 to 3: the height jumps by -2.000 m"));
+              ElementsAre("W x.motors:10 connection 1 to 2: the height jumps by -2.000 m",
+                          "W x.motors:11 connection 1 to 3: the height jumps by -2.000 m"));
   // 9 m at the inner control points over 30 m: dz/dt = 27 at the beginning.
-  EXPECT_THAT(Found(GoodMap(), head + "  1: [0, 9, 9, 0]\n  2: [0, 9, 9, 0]\n"), ElementsAre("W x.motors:7 lane 1: its grade reaches 90 %"));
-  for (const auto& [text, part] : {std::pair("1: [0, 0, 1]", "has 3 heights; 4 were expected"), std::pair("x: [0, 0, 0, 1]", "'x' is not a curve's number"),
-                                   std::pair("1: [0, 0, 0, 1e9]", "a number from -10000 to 10000 was expected"), std::pair("01: [0, 0, 0, 1]\n  1: [0, 0, 0, 1]", "curve 1 has heights already")}) {
+  EXPECT_THAT(Found(GoodMap(), head + "  1: [0, 9, 9, 0]\n  2: [0, 9, 9, 0]\n"),
+              ElementsAre("W x.motors:7 lane 1: its grade reaches 90 %"));
+  for (const auto& [text, part] :
+       {std::pair("1: [0, 0, 1]", "has 3 heights; 4 were expected"), std::pair("x: [0, 0, 0, 1]", "'x' is not a curve's number"),
+        std::pair("1: [0, 0, 0, 1e9]", "a number from -10000 to 10000 was expected"),
+        std::pair("01: [0, 0, 0, 1]\n  1: [0, 0, 0, 1]", "curve 1 has heights already")}) {
     const auto heights = ParseHeights(head + "  " + text + "\n", "x.motors.yaml");
     ASSERT_FALSE(heights.ok()) << text;
     EXPECT_THAT(heights.error().Text(), testing::HasSubstr(part));

@@ -1,4 +1,5 @@
-// Cubics against closed forms: straight lines, parabolas, semi-cubical parabolas, circles' approximations; and against sums of chords.
+// Cubics against closed forms: straight lines, parabolas, semi-cubical parabolas, circles' approximations; and against sums of
+// chords.
 #include "common/map/cubic.hpp"
 
 #include <gtest/gtest.h>

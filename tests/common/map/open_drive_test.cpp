@@ -51,7 +51,8 @@ Read ReadAt(pugi::xml_node road, double s) {
   const pugi::xml_node width = ChildAt(lanes.child("laneSection").child("right").child("lane"), "width", "sOffset", s);
   const double t = Cubic3(offset, "", s - offset.attribute("s").as_double());
   const pugi::xml_node elevation = ChildAt(road.child("elevationProfile"), "elevation", "s", s);
-  return {place(d), place(d) + t * normal, place(d) + (t - Cubic3(width, "", s - width.attribute("sOffset").as_double())) * normal,
+  return {place(d), place(d) + t * normal,
+          place(d) + (t - Cubic3(width, "", s - width.attribute("sOffset").as_double())) * normal,
           Cubic3(elevation, "", s - elevation.attribute("s").as_double())};
 }
 
@@ -84,7 +85,8 @@ TEST_P(Drive, EveryLaneLiesWithinACentimetre) {
       const LanePoint at = lane.shape.At(length * i / 137.0);
       const Read read = ReadAt(road, length * i / 137.0);
       const V left = at.p_W + at.left_m * at.left_W(), right = at.p_W + at.right_m * at.left_W();
-      worst = std::max({worst, (read.p - at.p_W).norm(), (read.left - left).norm(), (read.right - right).norm(), std::abs(read.z - at.z_m)});
+      worst = std::max(
+          {worst, (read.p - at.p_W).norm(), (read.left - left).norm(), (read.right - right).norm(), std::abs(read.z - at.z_m)});
     }
   }
   EXPECT_LT(worst, 0.01);
@@ -106,7 +108,8 @@ TEST_P(Drive, PiecesMeet) {
 // Every connection is there once: as a link of two roads from both sides, or in a junction that both roads name.
 TEST_P(Drive, EveryConnectionIsThereOnce) {
   std::multiset<std::pair<int, int>> expected, found;
-  for (const MapConnection& connection : map_.connections) expected.insert({map_.lanes[connection.from].id, map_.lanes[connection.to].id});
+  for (const MapConnection& connection : map_.connections)
+    expected.insert({map_.lanes[connection.from].id, map_.lanes[connection.to].id});
   for (const auto& [id, road] : roads_) {
     const pugi::xml_node next = road.child("link").child("successor");
     if (std::string(next.attribute("elementType").value()) != "road") continue;
@@ -121,7 +124,8 @@ TEST_P(Drive, EveryConnectionIsThereOnce) {
     for (const pugi::xml_node connection : junction.children("connection")) {
       const int from = connection.attribute("incomingRoad").as_int(), to = connection.attribute("linkedRoad").as_int();
       found.insert({from, to});
-      for (const pugi::xml_node side : {roads_.at(from).child("link").child("successor"), roads_.at(to).child("link").child("predecessor")}) {
+      for (const pugi::xml_node side :
+           {roads_.at(from).child("link").child("successor"), roads_.at(to).child("link").child("predecessor")}) {
         EXPECT_STREQ(side.attribute("elementType").value(), "junction");
         EXPECT_EQ(side.attribute("elementId").as_int(), junction.attribute("id").as_int());
       }
@@ -131,7 +135,8 @@ TEST_P(Drive, EveryConnectionIsThereOnce) {
   EXPECT_EQ(junctions, drive_.junctions);
 }
 
-INSTANTIATE_TEST_SUITE_P(Maps, Drive, testing::Values("crossing", "roundabout", "ramp", "town", "overpass"), [](const auto& made) { return made.param; });
+INSTANTIATE_TEST_SUITE_P(Maps, Drive, testing::Values("crossing", "roundabout", "ramp", "town", "overpass"),
+                         [](const auto& made) { return made.param; });
 
 TEST(OpenDrive, StopAndMarks) {
   const LaneMap map = MakeLaneMap(ParseMap(GoodMap(), "x.motors").value(), {}, "x.motors").value();

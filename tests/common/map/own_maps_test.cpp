@@ -63,7 +63,8 @@ TEST_P(OwnMap, IsDrawn) {
   EXPECT_THAT(svg, testing::Not(testing::AnyOf(testing::HasSubstr("nan"), testing::HasSubstr("inf\""))));
 }
 
-INSTANTIATE_TEST_SUITE_P(Maps, OwnMap, testing::Values("crossing", "roundabout", "ramp", "town", "overpass"), [](const auto& made) { return made.param; });
+INSTANTIATE_TEST_SUITE_P(Maps, OwnMap, testing::Values("crossing", "roundabout", "ramp", "town", "overpass"),
+                         [](const auto& made) { return made.param; });
 
 struct Passed {
   std::size_t lane;
