@@ -13,7 +13,6 @@ std::string Doing(const Report& report) {
   const double since_s = static_cast<double>(report.since_ms) * 1e-3;
   switch (report.waiting) {
     case Waiting::kServer: return fmt::format("waits at step {} for a server's answer since {:.1f} s", report.progress, since_s);
-    case Waiting::kGrant: return fmt::format("has not been let beyond step {}", report.progress - 1);
     default: break;
   }
   if (report.phase >= Phase::kFailed) return std::string(PhaseName(report.phase));
@@ -38,6 +37,7 @@ std::string WaitChain(const Roster& roster, const std::vector<Report>& reports) 
     chain += fmt::format("'{}' waits for '{}', ", roster.node(at->node).name, roster.node(on).name);
     at = &reports[on];
   }
+  if (at->waiting == Waiting::kGrant && at->phase < Phase::kFailed) return "";
   return chain + fmt::format("'{}' {}", roster.node(at->node).name, Doing(*at));
 }
 

@@ -281,6 +281,7 @@ TEST_F(RecoveryOfOne, TheChainOfWaitingEndsAtItsCause) {
   EXPECT_EQ(WaitChain(roster, reports), "") << "everybody waits for time";
   reports[2].waiting = Waiting::kInputs;
   reports[2].waiting_source = 1;
+  EXPECT_EQ(WaitChain(roster, reports), "") << "the view too";
   reports[1].waiting = Waiting::kInputs;
   reports[1].waiting_source = 0;
   reports[0].waiting = Waiting::kNothing;
