@@ -45,7 +45,8 @@ class RecorderKilled : public Endurance {
   static constexpr std::uintmax_t kFirstSecondBytes = 100'000;  // what is embedded has 20 kB, the first chunk more than these
   static constexpr const char* kSimulated = "40";  // seconds: at the pace below, longer than a run lives
   std::vector<std::string> Command(const std::string& run, const std::string& recording) const {
-    return {Bin("rodeira"), "run", kLaunch, "--run", run, "--for", kSimulated, "--record", recording, "--pace", "12"};
+    return {Bin("rodeira"), "run", kLaunch, "--run", run, "--for", kSimulated, "--record", recording, "--pace", "12",
+            "--set", "limits.silence_s=30", "--set", "limits.step_s=30"};  // whoever else is slow meanwhile is no fault
   }
   // Waits until the recorder's process is there, or until the first second lies in its file.
   static pid_t Find(const std::string& name, const std::string& recording, bool driving) {
@@ -136,9 +137,10 @@ Resident ResidentOf(pid_t pid) {
 }
 
 // Each process' memory, again and again until the run has ended.
-std::map<pid_t, std::vector<Resident>> Watch(Started& run, const std::string& name, std::chrono::milliseconds every) {
+std::map<pid_t, std::vector<Resident>> Watch(Started& run, const std::string& name, std::chrono::milliseconds every, pid_t& clock) {
   std::map<pid_t, std::vector<Resident>> memory;
   while (run.WaitFor("simulated ", every) < 0ms) {
+    for (const pid_t pid : ProcessesWith("--run " + name, "/rodeira-clock")) clock = pid;
     for (const pid_t pid : ProcessesWith("--run " + name)) {
       const Resident resident = ResidentOf(pid);
       if (resident.all > 0) memory[pid].push_back(resident);
@@ -151,13 +153,17 @@ std::map<pid_t, std::vector<Resident>> Watch(Started& run, const std::string& na
 // RODEIRA_LONG_STEPS says how many.
 TEST_F(Endurance, ALongRunOfEightNodesSkipsNoStepAndItsMemoryIsFlat) {
   const auto steps = Setting("RODEIRA_LONG_STEPS", 20'000);
-  std::string text = "rodeira: launch/1\nnodes:\n";
+  // Hours on a machine that others use too: a second without the processor is no fault of a node.
+  std::string text = "rodeira: launch/1\nlimits: {silence_s: 30, step_s: 30}\nnodes:\n";
   for (int node = 0; node < 8; ++node) text += fmt::format("  n{}: {{kind: empty}}\n", node);
   const std::string launch = folder_.Write("eight.yaml", text).string();
   const std::string seconds = fmt::format("{:.3f}", static_cast<double>(steps) * 1e-3);
   const std::string name = fmt::format("long-{}", ::getpid());
   Started run({Bin("rodeira"), "run", launch, "--no-record", "--for", seconds, "--run", name});
-  const auto memory = Watch(run, name, std::chrono::milliseconds(steps > 100'000 ? 1000 : 50));
+  const auto begin_of_run = std::chrono::steady_clock::now();
+  pid_t clock = -1;
+  const auto memory = Watch(run, name, std::chrono::milliseconds(steps > 100'000 ? 1000 : 50), clock);
+  const auto lasted = std::chrono::steady_clock::now() - begin_of_run;
   const Ended ended = run.Wait(30s);
   ASSERT_EQ(ended.status, 0) << ended.out;
   EXPECT_THAT(ended.out, HasSubstr("faults  none"));
@@ -177,8 +183,12 @@ TEST_F(Endurance, ALongRunOfEightNodesSkipsNoStepAndItsMemoryIsFlat) {
     const Resident first{std::max_element(begin, middle, by_all)->all, std::max_element(begin, middle, by_own)->own};
     const Resident second{std::max_element(middle, samples.end(), by_all)->all, std::max_element(middle, samples.end(), by_own)->own};
     fmt::print("process {}: resident {} kB, then {} kB; its own {} kB, then {} kB ({} looks)\n", pid, first.all, second.all, first.own, second.own, samples.size());
-    EXPECT_LE(second.all, first.all + 256) << pid;
-    EXPECT_LE(second.own, first.own + 256) << pid;
+    // The clock keeps the wall times of its last hundred seconds for a recorder that starts again: a run that is hardly
+    // longer still fills them, with some ten bytes a step.
+    const bool fills = pid == clock && lasted < 210s;
+    const std::int64_t most = 256 + (fills ? static_cast<std::int64_t>(steps / 100) : 0);
+    EXPECT_LE(second.all, first.all + most) << pid;
+    EXPECT_LE(second.own, first.own + most) << pid;
   }
 }
 
