@@ -13,9 +13,11 @@
 #include "launch/info_command.hpp"
 #include "launch/joysticks_command.hpp"
 #include "launch/mechanism_command.hpp"
+#include "launch/polyline_command.hpp"
 #include "launch/repair_command.hpp"
 #include "launch/replay_command.hpp"
 #include "launch/run_command.hpp"
+#include "launch/surface_command.hpp"
 #include "launch/world_command.hpp"
 
 namespace rodeira::front {
@@ -72,7 +74,7 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
 }
 
 CLI::App* AddCtl(CLI::App& app, CtlOptions& options) {
-  CLI::App* ctl = app.add_subcommand("ctl", "control a run that is going on: pause | resume | step [N] | pace X | mark TEXT | stop | state");
+  CLI::App* ctl = app.add_subcommand("ctl", "control a run that is going on: pause | resume | step [N] | pace X | mark TEXT | stop | restart NODE | state");
   ctl->add_option("COMMAND", options.words, "what to do")->required();
   ctl->add_option("--run", options.run, "name of the run; the only one otherwise");
   return ctl;
@@ -82,18 +84,64 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
   CLI::App* world = app.add_subcommand("world", "check, describe and ask a world");
   world->require_subcommand(1);
   for (const auto& [name, text] : {std::pair("check", "name every problem of a world file"), std::pair("info", "what the world is"),
-                                   std::pair("query", "SUELO: the ground at X Y"), std::pair("build", "write the generated terrain as .bt and .prj")}) {
+                                   std::pair("map", "draw the plan as SVG"), std::pair("export", "write the roads as OpenDRIVE 1.7"), std::pair("query", "SUELO: the ground at X Y"), std::pair("build", "write the generated terrain as .bt and .prj")}) {
     CLI::App* command = world->add_subcommand(name, text);
-    command->add_option("WORLD.yaml", options.world_file, "world file")->required();
+    command->add_option("WORLD", options.world_file, "world file (.yaml), or OpenDRIVE (.xodr)")->required();
     if (std::string(name) == "query") {
       command->add_option("X", options.x_m, "metres east")->required();
       command->add_option("Y", options.y_m, "metres north")->required();
       command->add_option("Z", options.z_hint_m, "near which height, where surfaces lie over one another");
     }
     if (std::string(name) == "build") command->add_option("--out", options.out, "folder")->required();
-    if (std::string(name) == "info") command->add_option("--svg", options.svg, "draw the plan into this file");
+    if (std::string(name) == "map") command->add_option("-o,--out", options.out, "file to draw into")->required();
+    if (std::string(name) == "export") command->add_option("-o,--out,--opendrive", options.out, "file to write")->required();
+    if (std::string(name) == "check") command->add_flag("--strict", options.strict, "OpenDRIVE: ASAM's own tolerances");
+    if (std::string(name) == "info") {
+      command->add_option("--svg", options.svg, "draw the plan into this file");
+      command->add_option("--profile", options.profile, "draw heights, grades, curvatures and slopes across into this file");
+    }
     command->callback([&options, name] { options.command = name; });
   }
+}
+
+void AddPolyline(CLI::App& app, PolylineOptions& options) {
+  CLI::App* polyline = app.add_subcommand("polyline", "chains of points in CSV files (x_m,y_m,z_m), put together and moved");
+  polyline->require_subcommand(1);
+  const auto add = [&](const char* name, const char* text, const char* file) {
+    CLI::App* command = polyline->add_subcommand(name, text);
+    CLI::Option* files = command->add_option(file, options.files, "CSV file")->required();
+    if (std::string(name) == "join") files->expected(2, CLI::detail::expected_max_vector_size);
+    else files->expected(1);
+    command->add_option("-o,--out", options.out, "CSV file to write")->required();
+    command->callback([&options, name] { options.command = name; });
+    return command;
+  };
+  CLI::App* join = add("join", "one line after the other", "IN.csv");
+  join->add_option("--within", options.within_m, "metres that an end may lie from the next beginning")->check(CLI::NonNegativeNumber)->capture_default_str();
+  join->add_flag("--bridge", options.bridge, "bridge larger gaps by a straight piece");
+  join->add_flag("--turn", options.turn, "turn a line round whose end is nearer than its beginning");
+  CLI::App* translate = add("translate", "shift", "IN.csv");
+  translate->add_option("--by", options.by_m, "metres east, north and, if wanted, up")->required()->expected(2, 3);
+  CLI::App* rotate = add("rotate", "turn about a vertical axis", "IN.csv");
+  rotate->add_option("--deg", options.angle_deg, "degrees, from east to north")->required();
+  rotate->add_option("--about", options.about_m, "X Y of the axis; the first point otherwise")->expected(2);
+  CLI::App* scale = add("scale", "stretch or shrink", "IN.csv");
+  scale->add_option("--by", options.factor, "factor, greater than 0")->required()->check(CLI::PositiveNumber);
+  scale->add_option("--z-by", options.z_factor, "another factor for the heights")->check(CLI::PositiveNumber);
+  scale->add_option("--about", options.about_m, "X Y [Z] that stays; the first point otherwise")->expected(2, 3);
+  CLI::App* offset = add("offset", "the line beside it", "IN.csv");
+  offset->add_option("--left", options.left_m, "metres to the left; negative: to the right")->required();
+  offset->add_flag("--keep-length", options.keep_length, "nodes move by the distance itself along their mitres: bends become narrower");
+  offset->add_flag("--despite-faults", options.despite_faults, "write it even where it folds or crosses itself");
+}
+
+void AddSurface(CLI::App& app, SurfaceOptions& options) {
+  CLI::App* surface = app.add_subcommand("surface", "measured road surfaces, alone");
+  surface->require_subcommand(1);
+  CLI::App* check = surface->add_subcommand("check", "what an OpenCRG file holds, or what is wrong with it");
+  check->add_option("FILE.crg", options.file, "OpenCRG file")->required();
+  check->add_option("--svg", options.svg, "draw plan, heights and tracks into this file");
+  check->callback([&options] { options.command = "check"; });
 }
 
 void AddDoctor(CLI::App& app, DoctorOptions& options) {
@@ -180,6 +228,10 @@ int Main(int argc, char** argv) {
   AddRun(app, run, sets);
   WorldOptions world;
   AddWorld(app, world);
+  PolylineOptions polyline;
+  AddPolyline(app, polyline);
+  SurfaceOptions surface;
+  AddSurface(app, surface);
   MechanismOptions mechanism;
   AddMechanism(app, mechanism);
   DoctorOptions doctor;
@@ -199,6 +251,8 @@ int Main(int argc, char** argv) {
     return app.exit(problem) == 0 ? 0 : 2;
   }
   if (!world.command.empty()) return World(world);
+  if (!polyline.command.empty()) return Polylines(polyline);
+  if (!surface.command.empty()) return Surface(surface);
   if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);

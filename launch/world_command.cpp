@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <utility>
 
 #include "common/base/files.hpp"
+#include "common/road/network_world.hpp"
+#include "common/road/world_export.hpp"
 #include "common/road/world_plot.hpp"
+#include "common/road/world_profile.hpp"
 #include "common/road/world_report.hpp"
 
 namespace rodeira::front {
@@ -16,7 +20,18 @@ int Complain(const base::Error& error) {
   return error.exit_status();
 }
 
+int CheckOpenDrive(const WorldOptions& options) {
+  const road::NetworkCheck check = road::CheckNetwork(options.world_file, options.strict);
+  for (const std::string& warning : check.warnings) fmt::print(stderr, "rodeira: warning: {}\n", warning);
+  for (const base::Error& error : check.errors) fmt::print(stderr, "rodeira: {}\n", error.Text());
+  if (!check.errors.empty()) return check.errors.front().exit_status();
+  fmt::print("{}{}: no error found\n", check.table, options.world_file);
+  return 0;
+}
+
 int Check(const WorldOptions& options) {
+  if (road::IsOpenDrive(options.world_file)) return CheckOpenDrive(options);
+  if (options.strict) return Complain(base::WrongInput("'--strict' is for OpenDRIVE files", options.world_file));
   const auto problems = road::WorldProblems(options.world_file);
   for (const base::Error& problem : problems) fmt::print(stderr, "rodeira: {}\n", problem.Text());
   if (!problems.empty()) return problems.front().exit_status();
@@ -35,15 +50,31 @@ int World(const WorldOptions& options) {
     return 0;
   }
   const auto world = road::World::Load(options.world_file);
+  if (options.command == "export" && world) {
+    const auto text = road::ExportOpenDrive(*world.value());
+    if (!text) return Complain(base::WrongInput(text.error().message, options.world_file));
+    if (auto status = base::WriteWhole(options.out, text.value()); !status) return Complain(status.error());
+    fmt::print("wrote {}\n", options.out);
+    return 0;
+  }
+  if (options.command == "map" && world) {
+    if (auto status = base::WriteWhole(options.out, road::PlotWorld(*world.value())); !status) return Complain(status.error());
+    fmt::print("wrote {}\n", options.out);
+    return 0;
+  }
   if (!world) return Complain(world.error());
   if (options.command == "query") {
     fmt::print("{}", road::DescribePoint(*world.value(), options.x_m, options.y_m, options.z_hint_m));
     return 0;
   }
   fmt::print("{}", road::DescribeWorld(*world.value()));
-  if (options.svg.empty()) return 0;
-  if (auto status = base::WriteWhole(options.svg, road::PlotWorld(*world.value())); !status) return Complain(status.error());
-  fmt::print("wrote {}\n", options.svg);
+  for (const auto& [file, drawn] : {std::pair(options.svg, &road::PlotWorld), std::pair(options.profile, &road::PlotProfiles)}) {
+    if (file.empty()) continue;
+    const std::string svg = drawn(*world.value());
+    if (svg.empty()) return Complain(base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
+    if (auto status = base::WriteWhole(file, svg); !status) return Complain(status.error());
+    fmt::print("wrote {}\n", file);
+  }
   return 0;
 }
 

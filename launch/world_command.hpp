@@ -5,7 +5,7 @@
 
 namespace rodeira::front {
 
-// `rodeira world check | info | query | build WORLD.yaml …`
+// `rodeira world check | info | map | query | build | export WORLD …`
 struct WorldOptions {
   std::string command;  // empty: another command was given
   std::string world_file;
@@ -13,7 +13,9 @@ struct WorldOptions {
   double y_m = 0.0;
   std::optional<double> z_hint_m;
   std::string out;
+  bool strict = false;
   std::string svg;
+  std::string profile;
 };
 
 int World(const WorldOptions& options);

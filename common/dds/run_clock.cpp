@@ -176,6 +176,7 @@ class ClockProcess {
   // To `rodeira run`, here by this line and on other PCs by the lives in the grant, which end the old process and start another.
   void Announce(lockstep::NodeIndex node, const std::string& reason) {
     watchdog_.ExpectNextLife(node, NowNs() / 1'000'000);
+    who_[node] = {};
     Say("restart {} {} {}", roster_.node(node).name, clock_.life(node), OneLine(reason));
     conductor_.NoteFault(reason + "; it is started again", Now());
     SayGrant(clock_.grant());

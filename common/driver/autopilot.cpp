@@ -14,16 +14,19 @@ constexpr double kStopHere_mps2 = -4.0;  // with nothing to drive on
 }  // namespace
 
 Autopilot::Autopilot(const AutopilotSettings& settings, const road::Road& road, int lane_id)
-    : settings_(settings), path_(road, lane_id), plan_(path_, settings.speed) {}
+    : Autopilot(settings, std::make_unique<LanePath>(road, lane_id)) {}
 
-double Autopilot::WantedAcceleration(const DriverView& view, const LanePath::Place& place) {
+Autopilot::Autopilot(const AutopilotSettings& settings, std::unique_ptr<const Way> way)
+    : settings_(settings), path_(std::move(way)), plan_(*path_, settings.speed) {}
+
+double Autopilot::WantedAcceleration(const DriverView& view, const Way::Place& place) {
   const double speed = view.own.speed_mps();
   const SpeedPlan::Allowed allowed = plan_.At(place.d_m + settings_.anticipation_s * std::max(0.0, speed));
-  const double limit = settings_.speed_factor * path_.speed_limit_mps();
+  const double limit = settings_.speed_factor * path_->SpeedLimit_mps(place.d_m);
   const bool limited = allowed.speed_mps > limit;
   allowed_mps_ = limited ? limit : allowed.speed_mps;
   double slope = limited ? 0.0 : allowed.slope_1ps;
-  const double turned = std::fabs(geometry::WrapAngle(view.own.heading_rad() - path_.At(place.d_m).heading_rad));
+  const double turned = std::fabs(geometry::WrapAngle(view.own.heading_rad() - path_->At(place.d_m).heading_rad));
   if (std::fabs(place.offset_m) > settings_.far_off_m || turned > 0.5 * geometry::kPi) {
     allowed_mps_ = std::min(allowed_mps_, settings_.slowly_mps);
     slope = 0.0;
@@ -32,12 +35,12 @@ double Autopilot::WantedAcceleration(const DriverView& view, const LanePath::Pla
 
   const double middle = 0.5 * (view.dimensions.front_m - view.dimensions.rear_m);
   const double half_width = 0.5 * view.dimensions.width_m + settings_.side_margin_m;
-  leader_ = FindLeader(path_, view.others, place.d_m + middle, place.d_m + view.dimensions.front_m, half_width, settings_.range_m);
+  leader_ = FindLeader(*path_, view.others, place.d_m + middle, place.d_m + view.dimensions.front_m, half_width, settings_.range_m);
   if (leader_) wanted = std::min(wanted, IdmAcceleration(settings_.idm, speed, limit, leader_->gap_m, leader_->speed_mps));
   return std::max(wanted, -settings_.idm.hardest_mps2);
 }
 
-double Autopilot::SteeringWheel(const DriverView& view, const LanePath::Place& place, double dt_s) {
+double Autopilot::SteeringWheel(const DriverView& view, const Way::Place& place, double dt_s) {
   const double speed = view.own.speed_mps();
   const double half_base = 0.5 * view.dimensions.wheelbase_m;
   const double heading = view.own.heading_rad();
@@ -45,10 +48,10 @@ double Autopilot::SteeringWheel(const DriverView& view, const LanePath::Place& p
   const Eigen::Vector2d rear_axle = view.own.p_WB_W.head<2>() - half_base * ahead;
   const double target_m = place.d_m - half_base + PreviewDistance(settings_.steering, speed);
   // Beyond the road's end the lane is taken to go straight on.
-  Eigen::Vector2d target = path_.Position(std::min(target_m, path_.length_m()), 0.0).head<2>();
-  if (target_m > path_.length_m()) {
-    const double end = path_.At(path_.length_m()).heading_rad;
-    target += (target_m - path_.length_m()) * Eigen::Vector2d(std::cos(end), std::sin(end));
+  Eigen::Vector2d target = path_->Position(std::min(target_m, path_->length_m()), 0.0).head<2>();
+  if (target_m > path_->length_m()) {
+    const double end = path_->At(path_->length_m()).heading_rad;
+    target += (target_m - path_->length_m()) * Eigen::Vector2d(std::cos(end), std::sin(end));
   }
   const double wheels = PursuitAngle(settings_.steering, rear_axle, heading, target, view.dimensions.wheelbase_m, speed);
   const double limit = view.dimensions.steering_wheel_limit_rad;
@@ -60,7 +63,7 @@ double Autopilot::SteeringWheel(const DriverView& view, const LanePath::Place& p
 
 vehicle::Controls Autopilot::Step(const DriverView& view, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0);
-  const auto place = path_.Locate(view.own.p_WB_W.x(), view.own.p_WB_W.y());
+  const auto place = path_->Locate(view.own.p_WB_W.x(), view.own.p_WB_W.y(), view.own.p_WB_W.z());
   leader_.reset();
   double wanted = kStopHere_mps2;
   if (place) {

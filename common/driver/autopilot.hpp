@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -50,11 +51,13 @@ class Autopilot {
  public:
   // Drives this lane of the road, which must outlive the autopilot.
   Autopilot(const AutopilotSettings& settings, const road::Road& road, int lane_id);
+  // Follows this way.
+  Autopilot(const AutopilotSettings& settings, std::unique_ptr<const Way> way);
 
   // The controls for the coming dt_s (over 0), from what is seen now.
   vehicle::Controls Step(const DriverView& view, double dt_s);
 
-  const LanePath& path() const { return path_; }
+  const Way& path() const { return *path_; }
   // For displays: the speed that is allowed here, and what is followed.
   double allowed_mps() const { return allowed_mps_; }
   const std::optional<Leader>& leader() const { return leader_; }
@@ -63,11 +66,11 @@ class Autopilot {
   void Restore(base::StateReader& reader);
 
  private:
-  double WantedAcceleration(const DriverView& view, const LanePath::Place& place);
-  double SteeringWheel(const DriverView& view, const LanePath::Place& place, double dt_s);
+  double WantedAcceleration(const DriverView& view, const Way::Place& place);
+  double SteeringWheel(const DriverView& view, const Way::Place& place, double dt_s);
 
   AutopilotSettings settings_;
-  LanePath path_;
+  std::unique_ptr<const Way> path_;
   SpeedPlan plan_;
   Pedals pedals_;
   double steering_wheel_rad_ = 0.0;

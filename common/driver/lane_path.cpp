@@ -62,22 +62,12 @@ Eigen::Vector3d LanePath::Position(double d_m, double offset_m) const {
   return road_->Position(AxisS(d_m), along_ ? t_m_ + offset_m : t_m_ - offset_m);
 }
 
-std::optional<LanePath::Place> LanePath::Locate(double x_m, double y_m) const {
+double LanePath::VerticalCurvature_1pm(double d_m) const { return road_->Evaluate(AxisS(d_m)).vertical_curvature_1pm; }
+
+std::optional<Way::Place> LanePath::Locate(double x_m, double y_m, std::optional<double> /*z_m*/) const {
   const auto found = road_->Locate(x_m, y_m);
   if (!found) return std::nullopt;
   return Place{Distance(found->s_m), along_ ? found->t_m - t_m_ : t_m_ - found->t_m};
-}
-
-std::optional<LaneSpan> LanePath::SpanOf(const Footprint& footprint) const {
-  const auto place = Locate(footprint.x_m, footprint.y_m);
-  if (!place) return std::nullopt;
-  const double turn = footprint.heading_rad - At(place->d_m).heading_rad;
-  const double c = std::fabs(std::cos(turn));
-  const double s = std::fabs(std::sin(turn));
-  const double half_along = 0.5 * (c * footprint.length_m + s * footprint.width_m);
-  const double half_across = 0.5 * (s * footprint.length_m + c * footprint.width_m);
-  return LaneSpan{place->d_m - half_along, place->d_m + half_along, place->offset_m - half_across, place->offset_m + half_across,
-                  footprint.speed_mps * std::cos(turn)};
 }
 
 }  // namespace rodeira::driver

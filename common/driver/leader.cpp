@@ -4,7 +4,7 @@
 
 namespace rodeira::driver {
 
-std::optional<Leader> FindLeader(const LanePath& path, std::span<const Footprint> others, double own_middle_m, double own_front_m,
+std::optional<Leader> FindLeader(const Way& path, std::span<const Footprint> others, double own_middle_m, double own_front_m,
                                  double half_width_m, double range_m) {
   std::optional<Leader> nearest;
   const Eigen::Vector3d here = path.At(own_middle_m).p_W;

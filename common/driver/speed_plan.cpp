@@ -9,20 +9,21 @@ namespace {
 constexpr double kNodeStep_m = 1.0;
 constexpr double kLeastSquared_m2ps2 = 1e-4;
 
-double AllowedSquared(const LanePath& path, const SpeedPlanSettings& settings, double d_m) {
-  double squared = path.speed_limit_mps() * path.speed_limit_mps();
+double AllowedSquared(const Way& path, const SpeedPlanSettings& settings, double d_m) {
+  const double limit = path.SpeedLimit_mps(d_m);
+  double squared = limit * limit;
   const LaneFrame frame = path.At(d_m);
-  const double vertical = std::fabs(path.road().Evaluate(path.AxisS(d_m)).vertical_curvature_1pm);
+  const double vertical = std::fabs(path.VerticalCurvature_1pm(d_m));
   const double bend = std::fabs(frame.curvature_1pm);
   if (bend * squared > settings.lateral_mps2) squared = settings.lateral_mps2 / bend;
   if (vertical * squared > settings.vertical_mps2) squared = settings.vertical_mps2 / vertical;
-  if (frame.grade < -settings.steep_grade) squared = std::min(squared, std::pow(settings.steep_factor * path.speed_limit_mps(), 2));
+  if (frame.grade < -settings.steep_grade) squared = std::min(squared, std::pow(settings.steep_factor * limit, 2));
   return squared;
 }
 
 }  // namespace
 
-SpeedPlan::SpeedPlan(const LanePath& path, const SpeedPlanSettings& settings) {
+SpeedPlan::SpeedPlan(const Way& path, const SpeedPlanSettings& settings) {
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(path.length_m() / kNodeStep_m)));
   step_m_ = path.length_m() / static_cast<double>(count);
   for (std::size_t i = 0; i <= count; ++i) {

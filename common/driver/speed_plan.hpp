@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "common/driver/lane_path.hpp"
+#include "common/driver/way.hpp"
 
 namespace rodeira::driver {
 
@@ -20,7 +20,7 @@ struct SpeedPlanSettings {
 // by planned braking. Computed once a lane.
 class SpeedPlan {
  public:
-  SpeedPlan(const LanePath& path, const SpeedPlanSettings& settings);
+  SpeedPlan(const Way& path, const SpeedPlanSettings& settings);
 
   struct Allowed {
     double speed_mps = 0.0;

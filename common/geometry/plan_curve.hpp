@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "common/geometry/clothoid_panel.hpp"
 #include "common/geometry/near_grid.hpp"
 
 namespace rodeira::geometry {
@@ -14,16 +14,6 @@ struct PlanPiece {
   double length_m = 0.0;             // > 0
   double curvature_start_1pm = 0.0;  // positive to the left
   double curvature_end_1pm = 0.0;
-};
-
-// A point of the axis. The heading is counted from +x towards +y and not wrapped: it adds up along the axis.
-struct PlanPoint {
-  Eigen::Vector2d p_W = Eigen::Vector2d::Zero();
-  Eigen::Vector2d tangent_W = Eigen::Vector2d::UnitX();  // (cos, sin) of the heading
-  double heading_rad = 0.0;
-  double curvature_1pm = 0.0;
-
-  Eigen::Vector2d left_W() const { return {-tangent_W.y(), tangent_W.x()}; }
 };
 
 // The point of the axis nearest to a given one. t is positive to the left of the axis.
@@ -60,22 +50,8 @@ class PlanCurve {
   const Eigen::Vector2d& high_W() const { return high_W_; }
 
  private:
-  static constexpr int kTerms = 12;
-
-  // Around its middle: position = middle_W + sum series_W[n] u^(n+1), u = s - middle_s in [-half, half].
-  struct Panel {
+  struct Panel : ClothoidPanel {
     double middle_s_m;
-    double half_m;
-    double heading_rad;  // in the middle
-    double curvature_1pm;
-    double curvature_rate_1pm2;
-    Eigen::Vector2d middle_W;
-    std::array<Eigen::Vector2d, kTerms> series_W;
-    Eigen::Vector2d begin_W, begin_tangent_W, end_W, end_tangent_W;
-    double bulge_m;  // no point of the panel is farther from its chord
-
-    PlanPoint At(double u_m) const;
-    void Point(double u_m, Eigen::Vector2d& p_W, Eigen::Vector2d& tangent_W) const;
   };
   struct Best {
     double squared_m2;
@@ -89,7 +65,6 @@ class PlanCurve {
   void BuildTree();
   void BuildGrid();
   void Nearest(const Eigen::Vector2d& p, std::uint32_t panel, Best& best) const;
-  void NearestWithin(const Eigen::Vector2d& p, std::uint32_t panel, double from, double to, Best& best) const;
   void NearestInTree(const Eigen::Vector2d& p, std::size_t node, std::uint32_t begin, std::uint32_t end, Best& best) const;
   Foot FootAt(const Eigen::Vector2d& p, const Best& best) const;
 

@@ -9,7 +9,6 @@
 namespace rodeira::geometry {
 namespace {
 
-constexpr double kLastStep_m = 1e-7;
 constexpr double kSlack_m = 1e-6;  // far above all rounding: no panel that could be the nearest is left out
 
 double SquaredDistanceToBox(const Eigen::Vector2d& p, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
@@ -53,57 +52,9 @@ void PlanCurve::BuildGrid() {
 
 bool PlanCurve::MayReach(double x_m, double y_m) const { return !grid_.Candidates(x_m, y_m).empty(); }
 
-// The nearest point with u in [from, to], where the squared distance has one minimum at most.
-void PlanCurve::NearestWithin(const Eigen::Vector2d& p, std::uint32_t index, double from, double to, Best& best) const {
-  const Panel& panel = panels_[index];
-  Eigen::Vector2d at, tangent;
-  const auto ahead = [&](double u) {  // how far p lies ahead of the point at u; falls through 0 at a foot
-    if (u == -panel.half_m) at = panel.begin_W, tangent = panel.begin_tangent_W;
-    else if (u == panel.half_m) at = panel.end_W, tangent = panel.end_tangent_W;
-    else panel.Point(u, at, tangent);
-    return (p - at).dot(tangent);
-  };
-  const auto offer = [&](double u) {
-    const double squared = (p - at).squaredNorm();
-    if (squared < best.squared_m2 || (squared == best.squared_m2 && index < best.panel)) best = {squared, index, u};
-  };
-  double low = from, high = to;
-  const double ahead_low = ahead(low);
-  offer(low);
-  const double ahead_high = ahead(high);
-  offer(high);
-  if (!(ahead_low > 0.0 && ahead_high < 0.0)) return;
-  double u = low + (high - low) * (ahead_low / (ahead_low - ahead_high));
-  for (int iteration = 0; iteration < 60; ++iteration) {
-    const double value = ahead(u);
-    (value > 0.0 ? low : high) = u;
-    const double curvature = panel.curvature_1pm + panel.curvature_rate_1pm2 * u;
-    const Eigen::Vector2d away = p - at;
-    const double slope = 1.0 - curvature * (tangent.x() * away.y() - tangent.y() * away.x());
-    const double step = value / slope;
-    if (std::fabs(step) <= kLastStep_m) {  // Newton doubles the digits: what is left after it is rounding
-      u = std::clamp(u + step, from, to);
-      break;
-    }
-    const double next = u + step;
-    u = next > low && next < high ? next : 0.5 * (low + high);
-  }
-  ahead(u);
-  offer(u);
-}
-
 void PlanCurve::Nearest(const Eigen::Vector2d& p, std::uint32_t index, Best& best) const {
-  const Panel& panel = panels_[index];
-  const double steepest = std::fabs(panel.curvature_1pm) + std::fabs(panel.curvature_rate_1pm2) * panel.half_m;
-  const double distance = (p - panel.middle_W).norm() + panel.half_m;
-  if (steepest * distance < 0.9) return NearestWithin(p, index, -panel.half_m, panel.half_m, best);
-  // Near or beyond a centre of curvature the distance may have more than one minimum on the panel.
-  constexpr int kParts = 8;
-  for (int part = 0; part < kParts; ++part) {
-    const double from = panel.half_m * (2.0 * part / kParts - 1.0);
-    const double to = panel.half_m * (2.0 * (part + 1) / kParts - 1.0);
-    NearestWithin(p, index, from, to, best);
-  }
+  const PanelFoot foot = panels_[index].Nearest(p);
+  if (foot.squared_m2 < best.squared_m2 || (foot.squared_m2 == best.squared_m2 && index < best.panel)) best = {foot.squared_m2, index, foot.u_m};
 }
 
 void PlanCurve::NearestInTree(const Eigen::Vector2d& p, std::size_t node, std::uint32_t begin, std::uint32_t end, Best& best) const {

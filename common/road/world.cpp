@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/base/assert.hpp"
+#include "common/road/network_ground.hpp"
 #include "common/road/world_hash.hpp"
 
 namespace rodeira::road {
@@ -18,7 +19,7 @@ class WorldGround final : public terrain::Ground {
   void Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) override {
     RODEIRA_ASSERT(queries.size() == points.size());
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      const SurfacePoint at = world_->At(queries[i].x_m, queries[i].y_m);
+      const SurfacePoint at = world_->At(queries[i].x_m, queries[i].y_m, queries[i].z_hint_m);
       if (!at.inside) {
         points[i] = {};
         continue;
@@ -42,12 +43,13 @@ World::World(WorldSpec spec)
     : name_(spec.name),
       grid_(spec.grid),
       plane_(spec.plane),
+      network_(spec.network),
       terrain_surface_(spec.terrain_surface),
       terrain_friction_(spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)])),
       friction_(spec.friction),
       start_(spec.start),
       content_hash_(ContentHash(spec)) {
-  RODEIRA_ASSERT((grid_ != nullptr) != plane_.has_value());
+  RODEIRA_ASSERT((grid_ != nullptr) + plane_.has_value() + (network_ != nullptr) == 1);
   for (RoadSpec& road : spec.roads) roads_.emplace_back(std::move(road));
 }
 
@@ -55,6 +57,7 @@ std::shared_ptr<const World> World::Make(WorldSpec spec) { return std::shared_pt
 
 Extents World::extents() const {
   if (grid_ != nullptr) return {grid_->frame().west_m, grid_->frame().south_m, grid_->frame().east_m, grid_->frame().north_m};
+  if (network_ != nullptr) return NetworkExtents(*network_);
   const double infinity = std::numeric_limits<double>::infinity();
   return {-infinity, -infinity, infinity, infinity};
 }
@@ -67,14 +70,15 @@ SurfacePoint World::TerrainAt(double x_m, double y_m) const {
     const terrain::GridSample sample = grid_->At(x_m, y_m);
     if (!sample.inside) return point;
     point = {sample.z_m, sample.slope_x, sample.slope_y, terrain_friction_, terrain_surface_, true};
-  } else if (std::isfinite(x_m) && std::isfinite(y_m)) {
+  } else if (plane_ && std::isfinite(x_m) && std::isfinite(y_m)) {
     const double z = plane_->z_m + plane_->slope_x * x_m + plane_->slope_y * y_m;
     point = {z, plane_->slope_x, plane_->slope_y, terrain_friction_, terrain_surface_, true};
   }
   return point;
 }
 
-SurfacePoint World::At(double x_m, double y_m) const {
+SurfacePoint World::At(double x_m, double y_m, double z_hint_m) const {
+  if (network_ != nullptr) return NetworkGround(*network_, friction_, x_m, y_m, z_hint_m);
   SurfacePoint point = TerrainAt(x_m, y_m);
   for (const Road& road : roads_) {
     if (road.plan().MayReach(x_m, y_m)) LayRoad(road, x_m, y_m, point);

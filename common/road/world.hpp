@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -35,11 +36,11 @@ struct SurfacePoint {
   bool inside = false;
 };
 
-// A world: terrain (an elevation grid or a plane), roads, their marks. Immutable and shared; the same file gives the
+// A world: terrain (an elevation grid or a plane), roads, their marks; or the roads of an OpenDRIVE file. Immutable and shared; the same file gives the
 // same content hash, and the same content hash the same answers, bit by bit.
 class World : public std::enable_shared_from_this<World> {
  public:
-  // Reads a world file (docs/formats.md) and all files that it names. Wrong input where anything is missing, broken,
+  // Reads a world file (docs/formats.md) and all files that it names, or an OpenDRIVE file (`.xodr`). Wrong input where anything is missing, broken,
   // out of range or does not fit together.
   static base::Result<std::shared_ptr<const World>> Load(const std::filesystem::path& world_yaml);
   // The same from a text; `name` stands for the path in messages, and relative paths start at its folder.
@@ -53,18 +54,20 @@ class World : public std::enable_shared_from_this<World> {
   // ask MakeGround() for heights.
   const terrain::ElevationGrid* grid() const { return grid_.get(); }
   const std::optional<PlaneSpec>& plane() const { return plane_; }
+  // The roads of an OpenDRIVE world, which has neither roads() nor a terrain of its own; null for others.
+  const network::Network* network() const { return network_.get(); }
   Extents extents() const;
   const StartPose& start() const { return start_; }
   terrain::Surface terrain_surface() const { return terrain_surface_; }
   double terrain_friction() const { return terrain_friction_; }
   double Friction(terrain::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
 
-  // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. One surface lies over each
-  // point as yet, so the height hint chooses nothing.
+  // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. Where surfaces of an
+  // OpenDRIVE world lie over one another, the height hint chooses; a world file has one surface everywhere.
   std::unique_ptr<terrain::Ground> MakeGround() const;
   // One of its answers: the road within its verges, the terrain beyond the blend, and between them both, weighted by
   // 3 u^2 - 2 u^3 of the distance from the verge over the blend's width.
-  SurfacePoint At(double x_m, double y_m) const;
+  SurfacePoint At(double x_m, double y_m, double z_hint_m = std::numeric_limits<double>::quiet_NaN()) const;
   // The terrain without any road.
   SurfacePoint TerrainAt(double x_m, double y_m) const;
 
@@ -80,6 +83,7 @@ class World : public std::enable_shared_from_this<World> {
   std::vector<Road> roads_;
   std::shared_ptr<const terrain::ElevationGrid> grid_;
   std::optional<PlaneSpec> plane_;
+  std::shared_ptr<const network::Network> network_;
   terrain::Surface terrain_surface_;
   double terrain_friction_;
   FrictionTable friction_;

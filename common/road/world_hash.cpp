@@ -59,6 +59,8 @@ base::Digest ContentHash(const WorldSpec& spec) {
     canonical.out().PutRaw(std::as_bytes(spec.grid->heights_m()));
   } else if (spec.plane) {
     canonical.PutAll(2, spec.plane->z_m, spec.plane->slope_x, spec.plane->slope_y);
+  } else if (spec.network != nullptr) {
+    canonical.PutAll(3, static_cast<std::size_t>(spec.network_hash));
   }
   canonical.Put(spec.terrain_surface);
   canonical.Put(spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)]));

@@ -1,4 +1,5 @@
 #include "common/config/config.hpp"
+#include "common/road/network_world.hpp"
 #include "common/road/world.hpp"
 #include "common/road/world_reader.hpp"
 
@@ -14,7 +15,12 @@ base::Result<std::shared_ptr<const World>> Build(const base::Result<config::File
 
 }  // namespace
 
-base::Result<std::shared_ptr<const World>> World::Load(const std::filesystem::path& world_yaml) { return Build(config::File::Load(world_yaml)); }
+base::Result<std::shared_ptr<const World>> World::Load(const std::filesystem::path& world_yaml) {
+  if (!IsOpenDrive(world_yaml)) return Build(config::File::Load(world_yaml));
+  auto spec = ReadNetworkWorld(world_yaml);
+  if (!spec) return spec.error();
+  return Make(std::move(spec).value());
+}
 
 base::Result<std::shared_ptr<const World>> World::Parse(std::string_view text, const std::filesystem::path& name) {
   return Build(config::File::Parse(text, name));

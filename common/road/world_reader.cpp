@@ -100,6 +100,7 @@ struct Keys {
   WorldSpec spec;
   std::optional<HillsSpec> hills;
   std::optional<std::filesystem::path> elevation_file;
+  terrain::Registration registration = terrain::Registration::kUsual;
 };
 
 Keys ReadKeys(const Map& root) {
@@ -116,6 +117,10 @@ Keys ReadKeys(const Map& root) {
   if (root.Has("terrain")) {
     keys.spec.terrain_surface = ReadSurface(terrain, "surface", terrain::Surface::kGrass);
     keys.elevation_file = terrain.OptionalPath("file");
+    if (terrain.Has("registration")) {
+      keys.registration = terrain.Choice("registration", {"posts", "cells"}) == "cells" ? terrain::Registration::kCells : terrain::Registration::kPosts;
+      if (!keys.elevation_file) terrain.Problem("registration", "'registration' says where the heights of a 'file' stand; there is none");
+    }
     const Map hills = terrain.OptionalChild("generate");
     if (terrain.Has("generate")) keys.hills = ReadHills(hills);
     if (terrain.Has("generate") == terrain.Has("file")) terrain.Problem("file", "'terrain' needs either 'file' or 'generate'");
@@ -166,7 +171,7 @@ WorldReading ReadWorld(const config::File& file) {
   std::vector<Road> roads;
   for (const RoadSpec& road : keys.spec.roads) roads.emplace_back(road);
   if (keys.elevation_file) {
-    auto grid = terrain::LoadElevation(*keys.elevation_file);
+    auto grid = terrain::LoadElevation(*keys.elevation_file, keys.registration);
     if (!grid) {
       reading.problems.push_back(grid.error());
       return reading;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "common/base/hash.hpp"
+#include "common/network/network.hpp"
 #include "common/road/road.hpp"
 #include "common/terrain/elevation_grid.hpp"
 #include "common/terrain/ground.hpp"
@@ -40,8 +42,10 @@ inline constexpr FrictionTable kUsualFriction = {0.0, 1.0, 1.0, 0.6, 0.55, 0.65,
 struct WorldSpec {
   std::string name;
   std::vector<RoadSpec> roads;
-  std::shared_ptr<const terrain::ElevationGrid> grid;  // one of these two
+  std::shared_ptr<const terrain::ElevationGrid> grid;  // one of these three
   std::optional<PlaneSpec> plane;
+  std::shared_ptr<const network::Network> network;  // the world is an OpenDRIVE file
+  base::Digest network_hash = 0;                    // of that file's bytes
   terrain::Surface terrain_surface = terrain::Surface::kGrass;
   std::optional<double> terrain_friction;  // otherwise its surface's
   FrictionTable friction = kUsualFriction;

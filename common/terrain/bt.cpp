@@ -57,31 +57,41 @@ base::Status Check(const BtHeader& header) {
                                         header.columns, header.rows, kMostPosts));
   }
   if (!(header.bytes_a_post == 4 || (header.bytes_a_post == 2 && !header.floating))) {
-    return base::WrongInput(fmt::format("the .bt header says {} heights of {} bytes; integers of 2 or 4 bytes or floats of 4 were expected",
-                                        header.floating ? "float" : "integer", header.bytes_a_post));
+    return base::WrongInput(
+        fmt::format("the .bt header says {} heights of {} bytes; integers of 2 or 4 bytes or floats of 4 were expected",
+                    header.floating ? "float" : "integer", header.bytes_a_post));
   }
   if (header.metres_a_unit == 0.0) {
     return base::WrongInput("the .bt grid is in degrees; metres or feet were expected (gdalwarp brings it into a projection)");
   }
   if (header.metres_a_unit < 0.0) return base::WrongInput("the .bt header's horizontal unit is none of 0 to 3");
-  const bool finite = std::isfinite(header.left) && std::isfinite(header.right) && std::isfinite(header.bottom) && std::isfinite(header.top);
-  if (!finite || !(header.left < header.right) || !(header.bottom < header.top)) {
-    return base::WrongInput(fmt::format("the .bt header's extents enclose nothing: left {}, right {}, bottom {}, top {}", header.left,
-                                        header.right, header.bottom, header.top));
+  if (!ExtentsHold(header.left, header.bottom, header.right, header.top, header.columns, header.rows)) {
+    return base::WrongInput(fmt::format("the .bt header's extents enclose nothing: left {}, right {}, bottom {}, top {}",
+                                        header.left, header.right, header.bottom, header.top));
   }
   if (!std::isfinite(header.vertical_scale) || header.vertical_scale < 0.0) {
-    return base::WrongInput(fmt::format("the .bt header's vertical scale is {}; a number greater than 0 was expected", header.vertical_scale));
+    return base::WrongInput(
+        fmt::format("the .bt header's vertical scale is {}; a number greater than 0 was expected", header.vertical_scale));
   }
   return {};
 }
 
 }  // namespace
 
+bool ExtentsHold(double west, double south, double east, double north, int columns, int rows) {
+  constexpr double kFarthest = 1e10, kNarrowest = 1e-6;
+  for (const double edge : {west, south, east, north}) {
+    if (!(std::fabs(edge) <= kFarthest)) return false;
+  }
+  return east - west >= kNarrowest * columns && north - south >= kNarrowest * rows;
+}
+
 bool LooksLikeBt(std::span<const std::byte> bytes) { return bytes.size() >= 7 && std::memcmp(bytes.data(), "binterr", 7) == 0; }
 
 base::Result<BtHeader> ParseBtHeader(std::span<const std::byte> bytes) {
   if (bytes.size() < kBtHeaderBytes) {
-    return base::WrongInput(fmt::format("the file is cut short: {} bytes, and a .bt header alone is {}", bytes.size(), kBtHeaderBytes));
+    return base::WrongInput(
+        fmt::format("the file is cut short: {} bytes, and a .bt header alone is {}", bytes.size(), kBtHeaderBytes));
   }
   std::string magic(10, '\0');
   std::memcpy(magic.data(), bytes.data(), magic.size());

@@ -33,6 +33,9 @@ struct BtHeader {
   }
 };
 
+// Whether a grid can stand within these edges: finite, none farther than 1e10 from 0, a millionth and more a column and row.
+bool ExtentsHold(double west, double south, double east, double north, int columns, int rows);
+
 // Whether the bytes begin as a .bt does, whatever follows.
 bool LooksLikeBt(std::span<const std::byte> bytes);
 // Wrong input where it is no header that can be used: unknown version, sizes or units, extents that enclose nothing.

@@ -10,10 +10,15 @@
 
 namespace rodeira::terrain {
 
-// Reads an elevation file through GDAL: .bt, gzipped or not, with the .prj beside it; or a raster of another format
-// (GeoTIFF, Arc/Info ASCII …), whose heights then stand in the middles of its pixels. Metres in plan; north up.
-// Wrong input where the file is missing, cut short, of no format known, in degrees, turned, or has a broken .prj.
-base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const std::filesystem::path& path);
+// Where the heights of a file stand. kUsual: as its format has it: a .bt's outermost heights on its edges (posts), another
+// raster's in the middles of its pixels (cells).
+enum class Registration { kUsual, kPosts, kCells };
+
+// Reads an elevation file through GDAL: .bt, gzipped or not, or a raster of another format (GeoTIFF, Arc/Info ASCII …),
+// with the .prj beside it. North up; coordinates and heights in metres or feet come out as metres, and the coordinate
+// system with them. Wrong input where the file is missing, cut short, of no format known, in degrees, turned, of more
+// than one band, or has a broken .prj.
+base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const std::filesystem::path& path, Registration registration = Registration::kUsual);
 
 // The coordinate system as WKT 1, in the spelling of .prj files. `definition` is an EPSG code ("EPSG:3763") or WKT;
 // wrong input where PROJ knows no such system or its coordinates are degrees.

@@ -1,8 +1,15 @@
 #include "common/terrain/ground.hpp"
 
+#include <cmath>
+
 #include "common/base/assert.hpp"
 
 namespace rodeira::terrain {
+namespace {
+
+constexpr double kSameLayer_m = 1e-6;
+
+}  // namespace
 
 std::string_view SurfaceName(Surface surface) {
   switch (surface) {
@@ -22,6 +29,35 @@ GroundPoint Ground::At(double x_m, double y_m, double z_hint_m) {
   GroundPoint point;
   Query({&query, 1}, {&point, 1});
   return point;
+}
+
+GroundQuery PatchPoint(const GroundPatch& patch, int row, int column) {
+  const auto place = [](double size_m, int index, int count) {
+    return count > 1 ? size_m * (static_cast<double>(index) / (count - 1) - 0.5) : 0.0;
+  };
+  const double forward = place(patch.length_m, row, patch.along), left = place(patch.width_m, column, patch.across);
+  const double cosine = std::cos(patch.heading_rad), sine = std::sin(patch.heading_rad);
+  return {patch.x_m + cosine * forward - sine * left, patch.y_m + sine * forward + cosine * left, patch.z_hint_m};
+}
+
+void Ground::Patch(const GroundPatch& patch, std::span<GroundPoint> points) {
+  RODEIRA_ASSERT(patch.along >= 1 && patch.across >= 1 && points.size() == patch.size());
+  std::vector<GroundQuery> queries;
+  queries.reserve(patch.size());
+  for (int row = 0; row < patch.along; ++row) {
+    for (int column = 0; column < patch.across; ++column) queries.push_back(PatchPoint(patch, row, column));
+  }
+  Query(queries, points);
+}
+
+std::vector<GroundPoint> Ground::Layers(double x_m, double y_m) {
+  std::vector<GroundPoint> layers;
+  GroundPoint next = At(x_m, y_m);
+  while (next.inside && (layers.empty() || next.z_m < layers.back().z_m)) {
+    layers.push_back(next);
+    next = At(x_m, y_m, next.z_m - kSameLayer_m - kHintAbove_m);
+  }
+  return layers;
 }
 
 PlaneGround::PlaneGround(Eigen::Vector3d origin, double slope_x, double slope_y, double friction, Surface surface)

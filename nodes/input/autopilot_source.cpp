@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/driver/autopilot.hpp"
+#include "common/driver/route_path.hpp"
 #include "common/road/world.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -30,9 +31,10 @@ vehicle::VehicleState FromWire(const msg::VehicleState& in) {
 
 class AutopilotSource final : public Source {
  public:
-  AutopilotSource(std::shared_ptr<const road::World> world, const driver::AutopilotSettings& settings, const vehicle::VehicleDimensions& dimensions, int road,
-                  int lane)
-      : world_(std::move(world)), dimensions_(dimensions), autopilot_(settings, world_->roads()[static_cast<std::size_t>(road)], lane) {}
+  // The way belongs to the world, which is kept alive.
+  AutopilotSource(std::shared_ptr<const road::World> world, const driver::AutopilotSettings& settings,
+                  const vehicle::VehicleDimensions& dimensions, std::unique_ptr<const driver::Way> way)
+      : world_(std::move(world)), dimensions_(dimensions), autopilot_(settings, std::move(way)) {}
 
   vehicle::Controls First() override { return {}; }
 
@@ -62,6 +64,33 @@ class AutopilotSource final : public Source {
   std::vector<driver::Footprint> others_;
 };
 
+constexpr double kRoute_m = 20'000.0;
+
+// The lane that the car starts in, or another one of that road. In a network: straight on from there.
+base::Result<std::unique_ptr<const driver::Way>> WayOf(const road::World& world, std::optional<int> lane_wish,
+                                                       const std::string& place) {
+  const road::StartPose& start = world.start();
+  if (world.network() != nullptr) {
+    const network::Network& network = *world.network();
+    const auto at = network.Locate(start.x_m, start.y_m);
+    if (!at || at->distance_m > 0.0 || at->lane.lane == 0)
+      return base::WrongInput("this world has no lane to start on; the autopilot needs one", place);
+    if (lane_wish && *lane_wish != at->lane.lane) {
+      return base::WrongInput(fmt::format("the car starts in lane {} of road '{}'; no other one can be wished for", at->lane.lane,
+                                          network.roads()[at->lane.road].id()),
+                              place);
+    }
+    return std::unique_ptr<const driver::Way>(
+        std::make_unique<driver::RoutePath>(network, driver::StraightOn(network, at->lane, kRoute_m)));
+  }
+  if (start.road < 0) return base::WrongInput("this world has no road to start on; the autopilot needs one", place);
+  const road::Road& road = world.roads()[static_cast<std::size_t>(start.road)];
+  const int lane = lane_wish.value_or(start.lane);
+  if (road.section().FindLane(lane) == nullptr)
+    return base::WrongInput(fmt::format("road '{}' has no lane {}", road.id(), lane), place);
+  return std::unique_ptr<const driver::Way>(std::make_unique<driver::LanePath>(road, lane));
+}
+
 }  // namespace
 
 base::Result<std::unique_ptr<Source>> MakeAutopilotSource(const config::Map& config, launch::NodeContext& context) {
@@ -72,23 +101,21 @@ base::Result<std::unique_ptr<Source>> MakeAutopilotSource(const config::Map& con
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   bool sees_the_car = false;
   for (const lockstep::Port& port : context.spec().inputs) sees_the_car = sees_the_car || port.topic == topics::kVehicleState;
-  if (!sees_the_car) return base::WrongInput("the autopilot needs the state of the car that it drives; wire 'vehicle_state' to it", config.Place());
+  if (!sees_the_car)
+    return base::WrongInput("the autopilot needs the state of the car that it drives; wire 'vehicle_state' to it",
+                            config.Place());
   const auto settings = driver::LoadDriver(driver_file);
   if (!settings) return settings.error();
   const auto model = vehicle::LoadVehicle(vehicle_file);
   if (!model) return model.error();
   auto world = road::World::Load(context.launch().world());
   if (!world) return world.error();
-  const road::StartPose start = world.value()->start();
-  if (start.road < 0) return base::WrongInput("this world has no road to start on; the autopilot needs one", context.launch().world().string());
-  const road::Road& road = world.value()->roads()[static_cast<std::size_t>(start.road)];
-  const int lane = has_lane ? lane_wish : start.lane;
-  bool known = false;
-  for (const road::Lane& candidate : road.lanes()) known = known || candidate.id == lane;
-  if (!known) return base::WrongInput(fmt::format("road '{}' has no lane {}", road.id(), lane), config.Place("lane"));
+  auto way = has_lane ? WayOf(*world.value(), lane_wish, config.Place("lane"))
+                      : WayOf(*world.value(), std::nullopt, context.launch().world().string());
+  if (!way) return way.error();
   context.set_world_hash(world.value()->content_hash());
-  return std::unique_ptr<Source>(
-      std::make_unique<AutopilotSource>(std::move(world).value(), settings.value(), model.value()->dimensions(), start.road, lane));
+  return std::unique_ptr<Source>(std::make_unique<AutopilotSource>(std::move(world).value(), settings.value(),
+                                                                   model.value()->dimensions(), std::move(way).value()));
 }
 
 }  // namespace rodeira::nodes

@@ -2,6 +2,7 @@
 // the generated code reads, always a sentence. RODEIRA_FUZZ_FILES sets how many are tried a topic, RODEIRA_FUZZ_FIRST the first.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
 
 #include "common/decode/difference.hpp"
@@ -9,14 +10,14 @@
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
 #include "tests/common/decode/fields.hpp"
-#include "tests/property/last_words.hpp"
+#include "tests/property/fuzz.hpp"
 #include "tests/property/mutate.hpp"
-#include "tests/setting.hpp"
 
 namespace rodeira::decode {
 namespace {
 
 using property::Draw;
+using property::Setting;
 
 // A change that a broken disk, a wrong length or somebody's malice makes.
 void Break(base::Bytes& bytes, Draw& draw) {
@@ -40,7 +41,6 @@ void Break(base::Bytes& bytes, Draw& draw) {
 }
 
 TEST(Decode, BrokenPayloadsGiveWhatTheGeneratedCodeReadsOrASentence) {
-  property::SayWhereItDies();
   const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
   const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 4000);
   ForEveryTopicType([&](auto tag, std::string_view name) {
@@ -50,7 +50,6 @@ TEST(Decode, BrokenPayloadsGiveWhatTheGeneratedCodeReadsOrASentence) {
     std::size_t read = 0;
     std::size_t refused = 0;
     for (std::size_t number = first; number < first + count; ++number) {
-      property::NowTrying(std::string(name) + ", payload", number);
       Draw draw(number);
       const base::Bytes whole = idl::Encode(Filled<Message>(draw.Bits() % 64));
       base::Bytes bytes = whole;
@@ -90,12 +89,10 @@ TEST(Decode, BrokenIdlTextsGiveATypeThatWorksOrASentence) {
   const std::string rich =
       "module a { const long kN = 2; enum E { kA, kB }; @final struct I { @key long x[a::kN]; double y; }; typedef sequence<I, 3> L;\n"
       "struct O { I i; L l; string<5> s; sequence<octet> o; E e; boolean b; @unit(\"m\") short g[2][3]; }; };\n";
-  property::SayWhereItDies();
   const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
   const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 4000) * 3;
   std::size_t accepted = 0;
   for (std::size_t number = first; number < first + count; ++number) {
-    property::NowTrying("IDL text", number);
     Draw draw(number);
     const auto& texts = idl::IdlTexts();
     std::string text = draw.Below(2) == 0 ? rich : texts[draw.Below(texts.size())].text;

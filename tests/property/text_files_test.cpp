@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <fstream>
@@ -19,65 +18,27 @@
 #include "common/launch/lab.hpp"
 #include "common/launch/launch.hpp"
 #include "common/multibody/mechanism.hpp"
+#include "common/opendrive/import.hpp"
 #include "common/road/world.hpp"
 #include "common/scenario/scenario_file.hpp"
 #include "common/vehicle/vehicle_model.hpp"
 #include "nodes/input/script_source.hpp"
+#include "tests/common/opendrive/sample.hpp"
 #include "tests/common/road/sample_world.hpp"
 #include "tests/common/vehicle/test_ground.hpp"
-#include "tests/property/last_words.hpp"
-#include "tests/property/mutate.hpp"
-#include "tests/setting.hpp"
+#include "tests/property/fuzz.hpp"
 
 namespace rodeira::property {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr unsigned kHangSeconds = 60;
 const fs::path kRoot = RODEIRA_SOURCE_DIR;
 
 std::string GoodFile(const char* path) {
   const auto text = base::ReadText(kRoot / path);
   EXPECT_TRUE(text.ok()) << path;
   return text.ok() ? text.value() : "";
-}
-
-// One sentence for a terminal: with a place, without line breaks or other control characters.
-void ExpectSentence(const base::Error& error) {
-  EXPECT_FALSE(error.message.empty());
-  EXPECT_FALSE(error.context.empty()) << error.message;
-  EXPECT_EQ(error.exit_status(), 2) << error.Text();
-  for (const char c : error.Text()) EXPECT_FALSE((c >= 0 && c < 0x20) || c == 0x7F) << "a control character in: " << error.Text();
-}
-
-using Read = std::function<std::optional<base::Error>(const std::string& text)>;
-
-void Fuzz(const char* format, const std::vector<std::string>& good, const Read& read) {
-  SayWhereItDies();
-  for (const std::string& text : good) {
-    const auto error = read(text);
-    ASSERT_FALSE(error) << error->Text();
-  }
-  const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
-  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 2000);
-  std::size_t accepted = 0;
-  for (std::size_t number = first; number < first + count; ++number) {
-    Draw draw(number);
-    std::string text = good[draw.Below(good.size())];
-    for (std::size_t mutations = 1 + draw.Below(3); mutations > 0; --mutations) Mutate(text, draw);
-    NowTrying(std::string(format) + ", text", number);
-    if (Setting("RODEIRA_FUZZ_SHOW", 0) != 0) std::fprintf(stderr, "%s%s\n", g_last_words, text.c_str());
-    ::alarm(kHangSeconds);
-    const auto error = read(text);
-    ::alarm(0);
-    if (error) ExpectSentence(*error);
-    else ++accepted;
-    if (testing::Test::HasFailure()) FAIL() << g_last_words << text;
-  }
-  if (count < 1000) return;
-  EXPECT_GT(accepted, count / 50) << "the mutations are so wild that all is refused at the door";
-  EXPECT_LT(accepted, count - count / 5) << "the mutations are so mild that nearly all is accepted";
 }
 
 // For readers that take a path.
@@ -214,6 +175,47 @@ TEST(TextFiles, Mechanisms) {
            if (!mechanism.system->Step(1e-4).converged) break;
          }
          for (const auto& output : mechanism.outputs) (void)output.ValueOf(*mechanism.system);
+         return std::nullopt;
+       });
+}
+
+TEST(TextFiles, OpenDrive) {
+  opendrive::RoadText in, way;
+  in.link = R"(<successor elementType="junction" elementId="9"/>)";
+  in.geometry = R"(<geometry s="0" x="0" y="0" hdg="0.1" length="40"><spiral curvStart="0" curvEnd="0.01"/></geometry>
+      <geometry s="40" x="39.53" y="6.62" hdg="0.3" length="60"><arc curvature="0.01"/></geometry>)";
+  in.elevation = R"(<elevation s="0" a="1" b="0.02" c="0" d="0"/><elevation s="50" a="2" b="0.02" c="-0.0001" d="0"/>)";
+  in.lateral = R"(<superelevation s="0" a="0.02" b="0.0001" c="0" d="0"/><shape s="0" t="-4" a="0" b="0.02" c="0" d="0"/><shape s="50" t="-4" a="0.1" b="0.01" c="0" d="0"/>)";
+  in.offset = R"(<laneOffset s="0" a="0" b="0.01" c="0" d="0"/>)";
+  in.left = R"(<lane id="2" type="sidewalk" level="true"><width sOffset="0" a="2" b="0" c="0" d="0"/><height sOffset="0" inner="0.1" outer="0.1"/></lane>
+      <lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><roadMark sOffset="0" type="broken" color="white" width="0.12"/></lane>)";
+  in.more = R"(<objects><object id="o" s="10" t="8" type="tree"/></objects><signals><signal id="s" s="90" t="-5" type="274" value="50"/></signals>)";
+  way.id = "7";
+  way.attributes = "junction=\"9\"";
+  way.geometry = R"(<geometry s="0" x="85" y="44" hdg="0.9" length="100"><paramPoly3 pRange="normalized" aU="0" bU="100" cU="0" dU="0" aV="0" bV="0" cV="3" dV="-1"/></geometry>)";
+  const std::string junction = R"(<junction id="9"><connection id="0" incomingRoad="1" connectingRoad="7" contactPoint="start"/></junction>)";
+  Fuzz("xodr", {opendrive::Document(opendrive::RoadText().Text()), opendrive::Document(in.Text() + way.Text() + junction)},
+       [](const std::string& text) -> std::optional<base::Error> {
+         opendrive::Tolerance loose;  // so that many mutated roads are driven on too
+         loose.gap_m = 1e9;
+         loose.kink_rad = 10.0;
+         const auto import = opendrive::Read(text, "fuzz.xodr", loose);
+         if (!import) return import.error();
+         if (!import.value().errors.empty()) return opendrive::ToError(import.value().errors.front(), "fuzz.xodr");
+         const network::Network& network = *import.value().network;
+         std::vector<network::Surfacing> surfaces;
+         for (const double x : {-20.0, 0.0, 30.0, 61.0, 1e6, 1e300}) {
+           for (const double y : {-3.0, 0.0, 2.0, 40.0}) {
+             const auto place = network.Locate(x, y, 0.5);
+             const auto slow = network.LocateSlowly(x, y, 0.5);
+             EXPECT_EQ(place.has_value(), slow.has_value());
+             if (place) {
+               EXPECT_LE(place->distance_m, slow->distance_m);
+             }
+             network.Surfaces(x, y, surfaces);
+           }
+         }
+         for (const network::LaneKey& key : network.Lanes()) (void)network.Centre(key, network.Section(key).s_m);
          return std::nullopt;
        });
 }

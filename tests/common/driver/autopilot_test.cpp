@@ -104,7 +104,7 @@ TEST(Autopilot, DrivesTheWholeOfN222) {
   ASSERT_TRUE(world.ok()) << world.error().Text();
   for (const int lane : {-1, 1}) {
     Drive drive(world.value(), lane, 20.0, 0.0);
-    const double limit = drive.autopilot.path().speed_limit_mps();
+    const double limit = drive.autopilot.path().SpeedLimit_mps(0.0);
     const Record record = DriveToTheEnd(drive, limit, 900.0);
     EXPECT_LT(record.aside_m, 0.5) << lane;
     EXPECT_LT(record.over_mps, 0.3) << lane;

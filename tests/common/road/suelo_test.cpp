@@ -141,6 +141,21 @@ TEST(Suelo, SlopesAreTheDerivativesOfTheHeight) {
   EXPECT_LT(kinks, compared / 500);
 }
 
+RC_GTEST_PROP(Suelo, APatchIsItsPoints, (std::uint64_t seed)) {
+  const auto world = Sample();
+  const GroundQuery middle = AnyPoint(*world, seed, 2 + seed % 2);
+  const terrain::GroundPatch patch{middle.x_m, middle.y_m, base::RandomUniform({seed, 1}, -3.0, 3.0), 0.2, 0.18, 20, 20, middle.z_hint_m};
+  std::vector<GroundPoint> points(patch.size());
+  world->MakeGround()->Patch(patch, points);
+  for (int row = 0; row < patch.along; ++row) {
+    for (int column = 0; column < patch.across; ++column) {
+      const GroundQuery query = terrain::PatchPoint(patch, row, column);
+      RC_ASSERT(SameBits(points[static_cast<std::size_t>(row * patch.across + column)], world->MakeGround()->At(query.x_m, query.y_m, query.z_hint_m)));
+    }
+  }
+  RC_ASSERT(world->MakeGround()->Layers(middle.x_m, middle.y_m).size() <= 1);
+}
+
 RC_GTEST_PROP(Suelo, BatchOrderAndHistoryChangeNoBit, (std::uint64_t seed)) {
   const auto world = Sample();
   std::vector<GroundQuery> queries;

@@ -148,6 +148,25 @@ TEST(WorldFile, AllProblemsAreToldInTheOrderOfLines) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(WorldFile, WhereTheHeightsOfAFileStandCanBeSaid) {
+  std::string pattern = (std::filesystem::temp_directory_path() / "rodeira-world-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+  const std::filesystem::path folder = pattern;
+  const terrain::ElevationGrid grid({3, 3, 0.0, 0.0, 30.0, 30.0}, {0.0F, 0.0F, 0.0F, 3.0F, 3.0F, 3.0F, 6.0F, 6.0F, 6.0F});
+  ASSERT_TRUE(terrain::WriteBt(folder / "hills.bt", grid).ok());
+  const auto parse = [&folder](const std::string& terrain) {
+    return World::Parse("rodeira: world/1\nname: w\nterrain: {" + terrain + "}\nstart: {x_m: 15, y_m: 15}\n", folder / "w.yaml");
+  };
+  EXPECT_EQ(parse("file: hills.bt").value()->At(15.0, 15.0).slope_x, 0.2);                         // posts every 15 m
+  EXPECT_EQ(parse("file: hills.bt, registration: posts").value()->At(15.0, 15.0).slope_x, 0.2);
+  EXPECT_NEAR(parse("file: hills.bt, registration: cells").value()->At(15.0, 15.0).slope_x, 0.3, 1e-12);  // 10 m from middle to middle
+  EXPECT_FALSE(parse("file: hills.bt, registration: cells").value()->At(4.9, 15.0).inside);
+  EXPECT_THAT(parse("file: hills.bt, registration: corners").error().Text(), HasSubstr("corners"));
+  EXPECT_THAT(parse("generate: {seed: 1, columns: 3, rows: 3, spacing_m: 20, west_m: 0, south_m: 0, relief: []}, registration: cells").error().Text(),
+              HasSubstr("'registration' says where the heights of a 'file' stand"));
+  std::filesystem::remove_all(folder);
+}
+
 TEST(WorldFile, ElevationFilesAreFoundBesideItAndRefusedWhenBroken) {
   const auto folder = std::filesystem::temp_directory_path() / ("rodeira-beside-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);

@@ -1,15 +1,19 @@
 // What `rodeira world check | info | query | build` say.
 #include "common/road/world_report.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
 #include "common/base/files.hpp"
 #include "common/road/world_plot.hpp"
+#include "common/road/world_profile.hpp"
 #include "tests/common/road/sample_world.hpp"
 
 namespace rodeira::road {
@@ -100,6 +104,30 @@ TEST_F(WorldReport, ThePlotIsAWholeSvg) {
   EXPECT_THAT(svg, HasSubstr("0 km</text>"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   EXPECT_THAT(PlotWorld(*MustParse("rodeira: world/1\nname: p\nground: {kind: plane}\n")), Not(HasSubstr("nan")));
+}
+
+TEST_F(WorldReport, TheProfileShowsGradesRadiiAndSlopes) {
+  const std::string svg = PlotProfiles(*Sample());
+  EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  for (const char* text : {"grade in %", "curvature in 1/m", "slope across in %", "height in m"}) EXPECT_THAT(svg, HasSubstr(text));
+  const auto world = Sample();
+  const Road& road = world->roads()[0];
+  double steepest = 0.0, sharpest = 0.0;  // told at the diagrams' edges, to four digits
+  for (int i = 0; i <= 1500; ++i) {
+    const RoadFrame at = road.Evaluate(road.length_m() * i / 1500);
+    steepest = std::max(steepest, 100.0 * at.grade);
+    sharpest = std::min(sharpest, at.curvature_1pm);
+  }
+  EXPECT_THAT(svg, HasSubstr(fmt::format(">{:.4g}</text>", steepest)));
+  EXPECT_THAT(svg, HasSubstr(fmt::format(">{:.4g}</text>", sharpest)));
+  for (const geometry::PlanPiece& piece : road.plan().pieces()) {
+    if (piece.curvature_start_1pm != 0.0 && piece.curvature_start_1pm == piece.curvature_end_1pm) {
+      EXPECT_THAT(svg, HasSubstr(fmt::format(">{:.0f}</text>", 1.0 / std::fabs(piece.curvature_start_1pm))));
+    }
+  }
+  const auto plane = World::Parse("rodeira: world/1\nname: p\nground: {kind: plane}\nstart: {x_m: 0, y_m: 0}\n", "p.yaml");
+  EXPECT_TRUE(PlotProfiles(*plane.value()).empty());
 }
 
 }  // namespace

@@ -209,6 +209,7 @@ TEST_F(ElevationFile, HeadersThatCannotBeAreRefused) {
   EXPECT_THAT(refusal([](HandMade& made) { made.bytes_a_post = 2; }), HasSubstr("float heights of 2 bytes"));
   EXPECT_THAT(refusal([](HandMade& made) { made.right = made.left; }), HasSubstr("extents enclose nothing"));
   EXPECT_THAT(refusal([](HandMade& made) { made.top = std::nan(""); }), HasSubstr("extents enclose nothing"));
+  EXPECT_THAT(refusal([](HandMade& made) { made.left = 0.0, made.right = 1e-310; }), HasSubstr("extents enclose nothing"));
   EXPECT_THAT(refusal([](HandMade& made) { made.scale = -1.0F; }), HasSubstr("vertical scale"));
 }
 

@@ -52,6 +52,44 @@ TEST(ElevationGrid, AVoidPostTakesItsTrianglesAway) {
   EXPECT_EQ(grid.At(0.8, 0.8).z_m, 1.0);
 }
 
+TEST(ElevationGrid, IsContinuousAcrossEdgesAndDiagonalsToANanometre) {
+  // A tile of 513 x 513 posts every 10 m from (0, 0) on, differences of up to 1000 m from post to post.
+  std::vector<float> heights;
+  for (std::uint64_t i = 0; i < 513 * 513; ++i) heights.push_back(static_cast<float>(base::RandomUniform({i, 77}, -500.0, 500.0)));
+  const ElevationGrid grid({513, 513, 0.0, 0.0, 5120.0, 5120.0}, std::move(heights));
+  for (std::uint64_t i = 0; i < 200'000; ++i) {
+    const double column = std::floor(base::RandomUniform({i, 1}, 0.0, 512.0)), row = std::floor(base::RandomUniform({i, 2}, 0.0, 512.0));
+    const double share = base::RandomUniform({i, 3});
+    double x = 10.0 * column, y = 10.0 * row;
+    Eigen::Vector2d across(1.0, 0.0);
+    if (i % 3 == 0) y += 10.0 * share;                                                        // on the edge between two columns
+    else if (i % 3 == 1) x += 10.0 * share, across = {0.0, 1.0};                              // between two rows
+    else x += 10.0 * share, y += 10.0 * (1.0 - share), across = {0.7071, 0.7071};             // on the diagonal
+    const GridSample at = grid.At(x, y);
+    for (const double step : {-1e-12, 1e-12}) {  // the next numbers on either side
+      const GridSample beside = grid.At(x + step * across.x(), y + step * across.y());
+      if (!beside.inside) continue;  // beyond the grid's own edge
+      ASSERT_NEAR(at.z_m, beside.z_m, 1e-9) << i;
+    }
+  }
+}
+
+TEST(ElevationGrid, AnInclinedPlaneIsExactEverywhere) {
+  std::vector<float> heights;
+  for (int column = 0; column < 33; ++column) {
+    for (int row = 0; row < 17; ++row) heights.push_back(static_cast<float>(4 * column - 2 * row));  // every 8 m: slopes 0.5 and -0.25
+  }
+  const ElevationGrid grid({33, 17, 1000.0, -500.0, 1256.0, -372.0}, std::move(heights));
+  for (std::uint64_t i = 0; i < 10'000; ++i) {
+    const double x = base::RandomUniform({i, 5}, 1000.0, 1256.0), y = base::RandomUniform({i, 6}, -500.0, -372.0);
+    const GridSample at = grid.At(x, y);
+    ASSERT_TRUE(at.inside);
+    ASSERT_NEAR(at.z_m, 0.5 * (x - 1000.0) - 0.25 * (y + 500.0), 1e-12);
+    ASSERT_EQ(at.slope_x, 0.5);
+    ASSERT_EQ(at.slope_y, -0.25);
+  }
+}
+
 RC_GTEST_PROP(ElevationGrid, HasNoCracks, (std::uint64_t seed)) {
   // Walking a millimetre never changes the height by more than the steepest slope allows.
   const ElevationGrid grid = Rough(6, 9, seed);

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace rodeira::geometry {
+
+// A quarter turn to the left.
+inline Eigen::Vector2d Left(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
+
+// The z of the cross product: positive where b lies to the left of a.
+inline double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+}  // namespace rodeira::geometry

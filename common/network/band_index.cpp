@@ -1,0 +1,164 @@
+#include "common/network/band_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/geometry/plane.hpp"
+
+namespace rodeira::network {
+namespace {
+
+constexpr double kSlack_m = 1e-6;  // far above all rounding
+constexpr double kMostCells = 4e6;
+constexpr std::uint32_t kLeaf = 4;
+constexpr double kSteepest = 0.8;  // sine of any superelevation and of any grade
+
+Band MakeBand(const Road& road, std::uint32_t road_index, std::uint32_t panel_index, double closed_m) {
+  const geometry::PlanAxis& axis = road.axis();
+  const geometry::AxisPanel& panel = axis.panels()[panel_index];
+  // The lanes' edges over all sections that the panel passes; where one ends at a joint, both sides count.
+  double right = 0.0, left = 0.0;
+  const std::vector<LaneSection>& sections = road.spec().sections;
+  bool any = false;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const double from = i == 0 ? panel.begin_s_m() : std::max(panel.begin_s_m(), sections[i].s_m);
+    const double to = i + 1 == sections.size() ? panel.end_s_m() : std::min(panel.end_s_m(), sections[i].end_s_m);
+    if (from > to) continue;
+    double section_right, section_left;
+    sections[i].Bounds(road.spec().lane_offset, from, to, section_right, section_left);
+    right = any ? std::min(right, section_right) : section_right;
+    left = any ? std::max(left, section_left) : section_left;
+    any = true;
+  }
+  const Eigen::Vector2d begin = axis.At(panel, -panel.half_m).p_W, end = axis.At(panel, panel.half_m).p_W;
+  Band band;
+  band.road = road_index;
+  band.panel = panel_index;
+  const Eigen::Vector2d chord = end - begin;
+  const double length = chord.norm();
+  band.along_W = length > 0.0 ? Eigen::Vector2d(chord / length) : axis.At(panel, 0.0).tangent_W;
+  double turn = 0.0;  // sine of the largest angle between the panel and its chord
+  for (int i = -4; i <= 4; ++i)
+    turn = std::max(turn, std::fabs(geometry::Cross(band.along_W, axis.At(panel, 0.25 * i * panel.half_m).tangent_W)));
+  turn = std::min(1.0, 1.25 * turn);
+  const double reach = std::max(std::fabs(left), std::fabs(right));
+  const double bulge = axis.Bulge(panel) + kSlack_m;
+  double along = turn * reach + bulge + closed_m;
+  double low = std::min(right, right * std::sqrt(1.0 - turn * turn)), high = std::max(left, left * std::sqrt(1.0 - turn * turn));
+  if (road.rolled()) {  // the section leans forward on a slope, and is narrower seen from above
+    along += reach * kSteepest * kSteepest;
+    low = std::min(low, 0.0), high = std::max(high, 0.0);
+  }
+  band.centre_W = 0.5 * (begin + end) + 0.5 * (low + high) * geometry::Left(band.along_W);
+  band.half_along_m = 0.5 * length + along;
+  band.half_across_m = 0.5 * (high - low) + bulge + turn * closed_m;
+  return band;
+}
+
+}  // namespace
+
+double Band::Distance(const Eigen::Vector2d& p_W) const {
+  const Eigen::Vector2d away = p_W - centre_W;
+  const double ahead = std::max(0.0, std::fabs(away.dot(along_W)) - half_along_m);
+  const double aside = std::max(0.0, std::fabs(geometry::Cross(along_W, away)) - half_across_m);
+  return std::sqrt(ahead * ahead + aside * aside);
+}
+
+BandIndex::BandIndex(std::span<const Road> roads, double closed_m) {
+  AddBands(roads, closed_m);
+  if (bands_.empty()) return;
+  BuildGrid();
+  std::vector<Eigen::Vector2d> low, high;
+  for (const Band& band : bands_) {
+    const Eigen::Vector2d reach =
+        band.half_along_m * band.along_W.cwiseAbs() + band.half_across_m * geometry::Left(band.along_W).cwiseAbs();
+    low.push_back(band.centre_W - reach);
+    high.push_back(band.centre_W + reach);
+    order_.push_back(static_cast<std::uint32_t>(order_.size()));
+  }
+  BuildTree(0, static_cast<std::uint32_t>(bands_.size()), low, high);
+}
+
+void BandIndex::AddBands(std::span<const Road> roads, double closed_m) {
+  for (std::uint32_t road = 0; road < roads.size(); ++road) {
+    const auto& panels = roads[road].axis().panels();
+    for (std::uint32_t panel = 0; panel < panels.size(); ++panel) {
+      if (panel > 0 && panels[panel].begin_s_m() > roads[road].length_m()) break;
+      bands_.push_back(MakeBand(roads[road], road, panel, closed_m));
+    }
+  }
+}
+
+void BandIndex::BuildGrid() {
+  Eigen::Vector2d low = bands_[0].centre_W, high = low;
+  for (const Band& band : bands_) {
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(band.half_along_m + band.half_across_m + kSlack_m);
+    low = low.cwiseMin(band.centre_W - reach);
+    high = high.cwiseMax(band.centre_W + reach);
+  }
+  origin_W_ = low;
+  const Eigen::Vector2d size = high - low;
+  cell_m_ = std::max(cell_m_, std::sqrt(size.x() * size.y() / kMostCells));
+  columns_ = std::floor(size.x() / cell_m_) + 1.0;
+  rows_ = std::floor(size.y() / cell_m_) + 1.0;
+  const double half_diagonal = cell_m_ * std::sqrt(0.5) + kSlack_m;
+  const auto each_cell = [&](const Band& band, const auto& use) {
+    const Eigen::Vector2d reach =
+        band.half_along_m * band.along_W.cwiseAbs() + band.half_across_m * geometry::Left(band.along_W).cwiseAbs();
+    const auto index = [&](double value, double origin, double count) {
+      return std::clamp(std::floor((value - origin) / cell_m_), 0.0, count - 1.0);
+    };
+    const double row_high = index(band.centre_W.y() + reach.y(), low.y(), rows_),
+                 column_high = index(band.centre_W.x() + reach.x(), low.x(), columns_);
+    for (double row = index(band.centre_W.y() - reach.y(), low.y(), rows_); row <= row_high; row += 1.0) {
+      for (double column = index(band.centre_W.x() - reach.x(), low.x(), columns_); column <= column_high; column += 1.0) {
+        const Eigen::Vector2d centre = origin_W_ + cell_m_ * Eigen::Vector2d(column + 0.5, row + 0.5);
+        if (band.Distance(centre) <= half_diagonal) use(static_cast<std::size_t>(row * columns_ + column));
+      }
+    }
+  };
+  first_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+  for (const Band& band : bands_) each_cell(band, [&](std::size_t cell) { ++first_[cell + 1]; });
+  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) first_[cell + 1] += first_[cell];
+  cell_bands_.resize(first_.back());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (std::uint32_t i = 0; i < bands_.size(); ++i)
+    each_cell(bands_[i], [&](std::size_t cell) { cell_bands_[next[cell]++] = i; });
+}
+
+std::span<const std::uint32_t> BandIndex::Around(const Eigen::Vector2d& p_W) const {
+  const double column = (p_W.x() - origin_W_.x()) / cell_m_, row = (p_W.y() - origin_W_.y()) / cell_m_;
+  if (!(column >= 0.0 && column < columns_ && row >= 0.0 && row < rows_)) return {};
+  const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  return std::span(cell_bands_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
+}
+
+std::uint32_t BandIndex::BuildTree(std::uint32_t first, std::uint32_t last, std::span<const Eigen::Vector2d> low,
+                                   std::span<const Eigen::Vector2d> high) {
+  const auto index = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.emplace_back();
+  Eigen::Vector2d node_low = low[order_[first]], node_high = high[order_[first]];
+  for (std::uint32_t i = first; i < last; ++i) {
+    node_low = node_low.cwiseMin(low[order_[i]]);
+    node_high = node_high.cwiseMax(high[order_[i]]);
+  }
+  nodes_[index].low = node_low;
+  nodes_[index].high = node_high;
+  if (last - first <= kLeaf) {
+    nodes_[index].first = first;
+    nodes_[index].count = last - first;
+    return index;
+  }
+  const Eigen::Vector2d size = node_high - node_low;
+  const int axis = size.x() >= size.y() ? 0 : 1;
+  const std::uint32_t middle = first + (last - first) / 2;
+  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last, [&](std::uint32_t a, std::uint32_t b) {
+    const double at_a = bands_[a].centre_W[axis], at_b = bands_[b].centre_W[axis];
+    return at_a < at_b || (at_a == at_b && a < b);
+  });
+  BuildTree(first, middle, low, high);
+  nodes_[index].right = BuildTree(middle, last, low, high);
+  return index;
+}
+
+}  // namespace rodeira::network

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/network/road.hpp"
+
+namespace rodeira::network {
+
+// The part of a road's surface that belongs to one panel of its reference line, within a rectangle along the panel.
+struct Band {
+  std::uint32_t road = 0;
+  std::uint32_t panel = 0;  // of the road's axis
+  Eigen::Vector2d centre_W;
+  Eigen::Vector2d along_W;  // unit length
+  double half_along_m = 0.0, half_across_m = 0.0;
+
+  // How far a point lies outside the rectangle: nothing of the band is nearer.
+  double Distance(const Eigen::Vector2d& p_W) const;
+};
+
+// Where the bands of all roads lie: a grid that tells which may hold a point, and a tree for what is nearest. Static,
+// the same for the same roads; what it leaves out cannot be an answer, so that it changes none.
+class BandIndex {
+ public:
+  // closed_m: bands reach this far beyond the ends of their panels, for gaps that are closed.
+  BandIndex(std::span<const Road> roads, double closed_m);
+
+  const std::vector<Band>& bands() const { return bands_; }
+  // The corners of a box that holds all bands; the origin without any.
+  Eigen::Vector2d low_W() const { return nodes_.empty() ? Eigen::Vector2d::Zero() : nodes_[0].low; }
+  Eigen::Vector2d high_W() const { return nodes_.empty() ? Eigen::Vector2d::Zero() : nodes_[0].high; }
+  // Every band whose rectangle holds (x, y), and maybe others; ascending.
+  std::span<const std::uint32_t> Around(const Eigen::Vector2d& p_W) const;
+
+  // Visits bands in an order that depends on the point alone, and leaves out those that are farther than `best`, which
+  // visit(band) may lower.
+  template <class Visit>
+  void Nearest(const Eigen::Vector2d& p_W, double& best_m, const Visit& visit) const {
+    if (!nodes_.empty()) Descend(p_W, 0, best_m, visit);
+  }
+
+ private:
+  struct Node {
+    Eigen::Vector2d low, high;
+    std::uint32_t first = 0;  // of order_
+    std::uint32_t count = 0;  // 0: an inner node, whose left child follows it
+    std::uint32_t right = 0;
+
+    double Distance(const Eigen::Vector2d& p_W) const { return (low - p_W).cwiseMax(p_W - high).cwiseMax(0.0).norm(); }
+  };
+  void AddBands(std::span<const Road> roads, double closed_m);
+  void BuildGrid();
+  std::uint32_t BuildTree(std::uint32_t first, std::uint32_t last, std::span<const Eigen::Vector2d> low,
+                          std::span<const Eigen::Vector2d> high);
+  template <class Visit>
+  void Descend(const Eigen::Vector2d& p_W, std::uint32_t index, double& best_m, const Visit& visit) const {
+    const Node& node = nodes_[index];
+    if (node.count > 0) {
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+        if (bands_[order_[i]].Distance(p_W) <= best_m) visit(order_[i]);
+      }
+      return;
+    }
+    const std::uint32_t left = index + 1, right = node.right;
+    const double to_left = nodes_[left].Distance(p_W), to_right = nodes_[right].Distance(p_W);
+    const bool left_first = to_left <= to_right;
+    if (std::min(to_left, to_right) <= best_m) Descend(p_W, left_first ? left : right, best_m, visit);
+    if (std::max(to_left, to_right) <= best_m) Descend(p_W, left_first ? right : left, best_m, visit);
+  }
+
+  std::vector<Band> bands_;
+  Eigen::Vector2d origin_W_ = Eigen::Vector2d::Zero();
+  double cell_m_ = 8.0;
+  double columns_ = 0.0, rows_ = 0.0;  // whole numbers
+  std::vector<std::uint32_t> first_;   // per cell, where its bands begin in cell_bands_; one more at the end
+  std::vector<std::uint32_t> cell_bands_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace rodeira::network

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+// What stands at a road: signals, objects, tunnels and bridges, as OpenDRIVE describes them.
+namespace rodeira::network {
+
+// The lanes that something is for; without any it is for all.
+struct LaneValidity {
+  int from_lane = 0;
+  int to_lane = 0;
+};
+
+struct Signal {
+  std::string id, name;
+  double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0;
+  std::string orientation;  // "+": for traffic along s, "-": against it, "none": both
+  bool dynamic = false;
+  std::string country, type, subtype, unit, text;
+  std::optional<double> value;
+  double height_m = 0.0, width_m = 0.0;
+  double h_offset_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
+  std::vector<LaneValidity> validity;
+  std::vector<std::string> depends_on;  // ids of signals
+};
+
+// A signal that stands at another road and is for this one.
+struct SignalReference {
+  double s_m = 0.0, t_m = 0.0;
+  std::string id, orientation;
+  std::vector<LaneValidity> validity;
+};
+
+// A corner of an outline, in the road's coordinates or in the object's.
+struct Corner {
+  bool local = false;
+  double first_m = 0.0;   // s, or u
+  double second_m = 0.0;  // t, or v
+  double dz_m = 0.0;      // over the road, or z in the object
+  double height_m = 0.0;
+};
+
+struct Outline {
+  bool closed = true;
+  std::vector<Corner> corners;
+};
+
+// An object said once for a stretch: every distance_m, or continuous where that is 0.
+struct Repeat {
+  double s_m = 0.0, length_m = 0.0, distance_m = 0.0;
+  double t_start_m = 0.0, t_end_m = 0.0;
+  double z_start_m = 0.0, z_end_m = 0.0;
+  double height_start_m = 0.0, height_end_m = 0.0;
+  double width_start_m = 0.0, width_end_m = 0.0;
+};
+
+struct Object {
+  std::string id, name, type, subtype, orientation;
+  double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0;
+  double hdg_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
+  double length_m = 0.0, width_m = 0.0, height_m = 0.0, radius_m = 0.0;
+  double valid_length_m = 0.0;
+  bool dynamic = false;
+  std::vector<Repeat> repeats;
+  std::vector<Outline> outlines;
+  std::vector<LaneValidity> validity;
+};
+
+struct ObjectReference {
+  double s_m = 0.0, t_m = 0.0;
+  std::string id, orientation;
+};
+
+// A tunnel or a bridge.
+struct Structure {
+  std::string id, name, type;
+  bool bridge = false;
+  double s_m = 0.0, length_m = 0.0;
+};
+
+// An OpenCRG surface laid on the road.
+struct CrgSurface {
+  std::string file, orientation, mode, purpose;
+  double s_start_m = 0.0, s_end_m = 0.0;
+  double s_offset_m = 0.0, t_offset_m = 0.0, z_offset_m = 0.0, z_scale = 1.0, h_offset_rad = 0.0;
+};
+
+}  // namespace rodeira::network

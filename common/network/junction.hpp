@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/network/road.hpp"
+
+namespace rodeira::network {
+
+struct JunctionLaneLink {
+  int from = 0;  // lane of the incoming road
+  int to = 0;    // lane of the connecting road
+};
+
+// A way into a junction. In a direct junction the second road is the one that is met without any connecting road.
+struct JunctionConnection {
+  std::string id, incoming_road, connecting_road;
+  End contact = End::kStart;  // the connecting road's end that meets the incoming road
+  std::vector<JunctionLaneLink> lane_links;
+};
+
+struct JunctionPriority {
+  std::string high, low;  // ids of connecting roads
+};
+
+struct Junction {
+  std::string id, name;
+  std::string type = "default";  // default, direct, virtual, crossing
+  std::vector<JunctionConnection> connections;
+  std::vector<JunctionPriority> priorities;
+  std::vector<std::string> controllers;
+};
+
+struct ControllerEntry {
+  std::string signal_id, type;
+};
+
+struct Controller {
+  std::string id, name;
+  std::vector<ControllerEntry> controls;
+};
+
+}  // namespace rodeira::network

@@ -1,0 +1,74 @@
+#include "common/network/network.hpp"
+
+#include <algorithm>
+
+#include "common/base/assert.hpp"
+
+namespace rodeira::network {
+
+Network::Network(NetworkSpec spec) : spec_(std::move(spec)), index_(spec_.roads, kClosed_m) {
+  for (std::uint32_t i = 0; i < spec_.roads.size(); ++i) road_by_id_.emplace(spec_.roads[i].id(), i);
+  for (std::uint32_t i = 0; i < spec_.junctions.size(); ++i) junction_by_id_.emplace(spec_.junctions[i].id, i);
+  Link();
+}
+
+std::optional<std::uint32_t> Network::FindRoad(std::string_view id) const {
+  const auto found = road_by_id_.find(id);
+  return found == road_by_id_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<std::uint32_t> Network::FindJunction(std::string_view id) const {
+  const auto found = junction_by_id_.find(id);
+  return found == junction_by_id_.end() ? std::nullopt : std::optional(found->second);
+}
+
+const Lane* Network::Find(const LaneKey& key) const {
+  if (key.road >= roads().size() || key.section >= roads()[key.road].spec().sections.size()) return nullptr;
+  return Section(key).Find(key.lane);
+}
+
+Eigen::Vector3d Network::Centre(const LaneKey& key, double s_m) const {
+  const auto span = Span(key, s_m);
+  RODEIRA_ASSERT(span.has_value());
+  return roads()[key.road].Surface(roads()[key.road].Held(key.section, s_m), span->centre_t_m(), Section(key), *span).p_W;
+}
+
+std::size_t Network::Number(const LaneKey& key) const {
+  return first_lane_[key.road][key.section] + static_cast<std::size_t>(key.lane + static_cast<int>(Section(key).right.size()));
+}
+
+std::span<const LaneEnd> Network::AtEnd(const LaneKey& key) const { return ends_[Number(key)].at_end; }
+std::span<const LaneEnd> Network::AtStart(const LaneKey& key) const { return ends_[Number(key)].at_start; }
+
+std::span<const LaneEnd> Network::Successors(const LaneKey& key) const {
+  return Find(key)->direction < 0 ? AtStart(key) : AtEnd(key);
+}
+std::span<const LaneEnd> Network::Predecessors(const LaneKey& key) const {
+  return Find(key)->direction < 0 ? AtEnd(key) : AtStart(key);
+}
+
+std::optional<LaneKey> Network::Left(const LaneKey& key) const {
+  const LaneKey beside{key.road, key.section, key.lane == -1 ? 1 : key.lane + 1};
+  return Find(beside) == nullptr ? std::nullopt : std::optional(beside);
+}
+
+std::optional<LaneKey> Network::Right(const LaneKey& key) const {
+  const LaneKey beside{key.road, key.section, key.lane == 1 ? -1 : key.lane - 1};
+  return Find(beside) == nullptr ? std::nullopt : std::optional(beside);
+}
+
+std::vector<LaneKey> Network::Lanes() const {
+  std::vector<LaneKey> lanes;
+  for (std::uint32_t road = 0; road < roads().size(); ++road) {
+    const auto& sections = roads()[road].spec().sections;
+    for (std::uint32_t section = 0; section < sections.size(); ++section) {
+      for (int id = -static_cast<int>(sections[section].right.size()); id <= static_cast<int>(sections[section].left.size());
+           ++id) {
+        if (id != 0) lanes.push_back({road, section, id});
+      }
+    }
+  }
+  return lanes;
+}
+
+}  // namespace rodeira::network

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/network/band_index.hpp"
+#include "common/network/junction.hpp"
+#include "common/network/road.hpp"
+
+namespace rodeira::network {
+
+// A lane of one lane section: indices into Network::roads() and RoadSpec::sections, and the lane's id.
+struct LaneKey {
+  std::uint32_t road = 0;
+  std::uint32_t section = 0;
+  int lane = 0;
+
+  auto operator<=>(const LaneKey&) const = default;
+};
+
+// A lane that another one goes on into, and the end of it that is met.
+struct LaneEnd {
+  LaneKey lane;
+  End end = End::kStart;
+
+  auto operator<=>(const LaneEnd&) const = default;
+};
+
+// Where a point lies in the network.
+struct Place {
+  LaneKey lane;  // lane 0: a road without lanes on that side
+  double s_m = 0.0;
+  double t_m = 0.0;
+  double z_m = 0.0;         // of the surface there
+  double distance_m = 0.0;  // from the lanes, across the road; farther than kLevel_m above or below counts too. 0: on it
+};
+
+// What a caller may keep between its questions. It makes the next answer faster and never another one.
+struct Hint {
+  std::uint32_t band = std::numeric_limits<std::uint32_t>::max();
+};
+
+// A road's surface over or under a point.
+struct Surfacing {
+  Place place;
+  SurfaceSample sample;
+};
+
+struct NetworkSpec {
+  std::string name;
+  std::string geo_reference;  // PROJ or WKT text; empty: none
+  std::vector<Road> roads;
+  std::vector<Junction> junctions;
+  std::vector<Controller> controllers;
+};
+
+// Roads and junctions, what goes on into what, and where a point lies. Immutable: every answer is a pure function of it.
+class Network {
+ public:
+  // Two surfaces nearer than this in height are one level; a point this far over a road is still on it.
+  static constexpr double kLevel_m = 2.0;
+  // Gaps up to this between elements and between roads are closed.
+  static constexpr double kClosed_m = 0.05;
+
+  // No coordinate of a road or a question is as large.
+  static constexpr double kFarthest_m = 1e8;
+
+  explicit Network(NetworkSpec spec);
+
+  const std::string& name() const { return spec_.name; }
+  const std::string& geo_reference() const { return spec_.geo_reference; }
+  std::span<const Road> roads() const { return spec_.roads; }
+  std::span<const Junction> junctions() const { return spec_.junctions; }
+  std::span<const Controller> controllers() const { return spec_.controllers; }
+  std::optional<std::uint32_t> FindRoad(std::string_view id) const;
+  std::optional<std::uint32_t> FindJunction(std::string_view id) const;
+
+  // The lane at (x, y), on the level of z (without z: the top one). Of several that overlap, as in a junction: a
+  // drivable one, then the one whose middle is nearest, then the first road. Beside all roads: the nearest. Nothing
+  // where there is no road, or a coordinate is not finite or beyond kFarthest_m.
+  std::optional<Place> Locate(double x_m, double y_m, std::optional<double> z_m = std::nullopt, Hint* hint = nullptr) const;
+  // The same without any index, for tests.
+  std::optional<Place> LocateSlowly(double x_m, double y_m, std::optional<double> z_m = std::nullopt) const;
+  // Every road's surface at (x, y), from the highest to the lowest.
+  void Surfaces(double x_m, double y_m, std::vector<Surfacing>& surfaces) const;
+
+  const LaneSection& Section(const LaneKey& key) const { return roads()[key.road].spec().sections[key.section]; }
+  const Lane* Find(const LaneKey& key) const;
+  std::optional<LaneSpan> Span(const LaneKey& key, double s_m) const {
+    return roads()[key.road].SpanAt(key.section, key.lane, s_m);
+  }
+  // The point in the middle of a lane at s.
+  Eigen::Vector3d Centre(const LaneKey& key, double s_m) const;
+  // The lanes that a lane goes on into at its end, and at its start; junctions are passed through. Ascending.
+  std::span<const LaneEnd> AtEnd(const LaneKey& key) const;
+  std::span<const LaneEnd> AtStart(const LaneKey& key) const;
+  // Those in the direction of the lane's traffic, and where it comes from. Lanes of both directions: as along s.
+  std::span<const LaneEnd> Successors(const LaneKey& key) const;
+  std::span<const LaneEnd> Predecessors(const LaneKey& key) const;
+  // The lane beside on the left and right as seen along s. The centre is passed over.
+  std::optional<LaneKey> Left(const LaneKey& key) const;
+  std::optional<LaneKey> Right(const LaneKey& key) const;
+  // The corners of a box that holds every road's surface.
+  std::pair<Eigen::Vector2d, Eigen::Vector2d> Bounds() const { return {index_.low_W(), index_.high_W()}; }
+  // Every lane but the centres, in ascending order of road, section and id.
+  std::vector<LaneKey> Lanes() const;
+
+ private:
+  struct Hit;
+  struct Ends {
+    std::vector<LaneEnd> at_start, at_end;
+  };
+  Hit Try(const Eigen::Vector2d& p_W, std::optional<double> z_m, std::uint32_t band) const;
+  std::optional<Place> Choose(std::vector<Hit>& hits, bool known_height) const;
+  void Link();
+  void LinkEnd(const LaneKey& lane, const std::vector<int>& targets, bool at_end);
+  void LinkJunctions();
+  void Join(const LaneEnd& a, const LaneEnd& b);
+  std::size_t Number(const LaneKey& key) const;
+
+  NetworkSpec spec_;
+  std::map<std::string, std::uint32_t, std::less<>> road_by_id_, junction_by_id_;
+  BandIndex index_;
+  std::vector<std::vector<std::uint32_t>> first_lane_;  // by road and section: the number of its lane of lowest id
+  std::vector<Ends> ends_;                              // by the lane's number
+};
+
+}  // namespace rodeira::network

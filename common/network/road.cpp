@@ -1,0 +1,187 @@
+#include "common/network/road.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/assert.hpp"
+#include "common/geometry/plane.hpp"
+
+namespace rodeira::network {
+namespace {
+
+// The last of the records that begin at s or before; null where none does.
+template <class T>
+const T* InForce(const std::vector<T>& records, double s_m) {
+  const T* found = nullptr;
+  for (const T& record : records) {
+    if (record.s_m <= s_m) found = &record;
+  }
+  return found;
+}
+
+bool HasOwnSurface(const LaneSection& section) {
+  const auto own = [](const Lane& lane) { return lane.level || !lane.heights.empty(); };
+  return std::any_of(section.left.begin(), section.left.end(), own) ||
+         std::any_of(section.right.begin(), section.right.end(), own);
+}
+
+// Where the level lanes that `lane` belongs to begin: the inner edge of the innermost lane from which on all are level.
+LaneSpan LevelFrom(const LaneSection& section, const geometry::CubicPoint& centre, double s_m, int lane) {
+  LaneSpan from = *section.Span(lane, centre, s_m);
+  const int step = lane > 0 ? -1 : 1;
+  for (int inner = lane + step; inner != 0 && section.Find(inner)->level; inner += step) from = *section.Span(inner, centre, s_m);
+  return from;
+}
+
+}  // namespace
+
+Road::Road(RoadSpec spec, geometry::PlanAxis axis)
+    : spec_(std::move(spec)),
+      axis_(std::move(axis)),
+      length_m_(std::min(spec_.length_m, axis_.length_m())),
+      rolled_(!spec_.superelevation.zero()),
+      shaped_(!spec_.lateral.flat() || std::any_of(spec_.sections.begin(), spec_.sections.end(), HasOwnSurface)) {
+  RODEIRA_ASSERT(!spec_.sections.empty());
+  for (std::size_t i = 0; i < spec_.sections.size(); ++i) {
+    spec_.sections[i].end_s_m = i + 1 < spec_.sections.size() ? spec_.sections[i + 1].s_m : length_m_;
+  }
+}
+
+std::size_t Road::SectionIndex(double s_m) const {
+  if (spec_.sections.size() < 2 || s_m < spec_.sections[1].s_m) return 0;
+  const auto after = std::upper_bound(spec_.sections.begin() + 2, spec_.sections.end(), s_m,
+                                      [](double s, const LaneSection& section) { return s < section.s_m; });
+  return static_cast<std::size_t>(after - spec_.sections.begin()) - 1;
+}
+
+double Road::Held(std::size_t section, double s_m) const {
+  const LaneSection& held = spec_.sections[section];
+  const bool last = section + 1 == spec_.sections.size();
+  const double end = last ? length_m_ : std::nextafter(held.end_s_m, held.s_m);
+  return std::clamp(s_m, std::min(held.s_m, end), end);
+}
+
+std::optional<LaneSpan> Road::SpanAt(std::size_t section, int lane, double s_m) const {
+  const double s = Held(section, s_m);
+  return spec_.sections[section].Span(lane, CentreAt(s), s);
+}
+
+LateralPoint Road::LaneHeightAt(const LaneSpan& span, double s_m, double t_m) const {
+  const std::vector<LaneHeight>& heights = span.lane->heights;
+  const double width = span.outer_t_m - span.inner_t_m;  // of either sign
+  if (heights.empty() || width == 0.0) return {};
+  // Between two records the height goes linearly, so that a kerb does not step along the road.
+  const auto after =
+      std::upper_bound(heights.begin(), heights.end(), s_m, [](double s, const LaneHeight& height) { return s < height.s_m; });
+  LaneHeight now = after == heights.begin() ? heights.front() : *(after - 1);
+  double inner_slope = 0.0, outer_slope = 0.0;
+  if (after != heights.begin() && after != heights.end()) {
+    const double length = after->s_m - now.s_m;
+    inner_slope = (after->inner_m - now.inner_m) / length;
+    outer_slope = (after->outer_m - now.outer_m) / length;
+    now.inner_m += inner_slope * (s_m - now.s_m);
+    now.outer_m += outer_slope * (s_m - now.s_m);
+  }
+  const double across = now.outer_m - now.inner_m;
+  const double part = (t_m - span.inner_t_m) / width;
+  const double part_slope = -(span.inner_slope + part * (span.outer_slope - span.inner_slope)) / width;  // by s at fixed t
+  return {now.inner_m + part * across, inner_slope + part * (outer_slope - inner_slope) + part_slope * across, across / width};
+}
+
+SurfaceSample Road::Surface(double s_m, double t_m) const {
+  const LaneSection& section = SectionAt(s_m);
+  double outside;
+  const LaneSpan span = section.At(t_m, CentreAt(s_m), s_m, outside);
+  return Surface(s_m, t_m, section, span);
+}
+
+SurfaceSample Road::Surface(double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const {
+  const geometry::PlanPoint at = axis_.Evaluate(s_m);
+  const geometry::CubicPoint z = spec_.elevation.Evaluate(s_m);
+  const Eigen::Vector2d& T = at.tangent_W;
+  const Eigen::Vector2d N = at.left_W();
+  // How t is split: the part that the superelevation turns, and the part beyond it that stays level.
+  double turned = t_m, turned_s = 0.0, turned_t = 1.0;
+  LateralPoint height;
+  if (shaped_ && span.lane != nullptr) {
+    height = LaneHeightAt(span, s_m, t_m);
+    if (span.lane->level) {
+      const LaneSpan from = LevelFrom(section, CentreAt(s_m), s_m, span.lane->id);
+      turned = from.inner_t_m, turned_s = from.inner_slope, turned_t = 0.0;
+    }
+  }
+  if (shaped_) {
+    const LateralPoint lateral = spec_.lateral.At(s_m, turned);
+    height.z_m += lateral.z_m;
+    height.slope_s += lateral.slope_s + lateral.slope_t * turned_s;
+    height.slope_t += lateral.slope_t * turned_t;
+  }
+  const double flat = t_m - turned;
+  SurfaceSample sample;
+  if (!rolled_) {
+    sample.p_W << at.p_W + t_m * N, z.value + height.z_m;
+    sample.ds_W << (1.0 - at.curvature_1pm * t_m) * T, z.slope + height.slope_s;
+    sample.dt_W << N, height.slope_t;
+    return sample;
+  }
+  const geometry::CubicPoint roll = spec_.superelevation.Evaluate(s_m);
+  const double sine = std::sin(roll.value), cosine = std::cos(roll.value), k = at.curvature_1pm;
+  const double climb_cos = 1.0 / std::sqrt(1.0 + z.slope * z.slope), climb_sin = z.slope * climb_cos;
+  const double sin_s = z.bend * climb_cos * climb_cos * climb_cos;             // d climb_sin / ds
+  const double cos_s = -z.slope * z.bend * climb_cos * climb_cos * climb_cos;  // d climb_cos / ds
+  const Eigen::Vector2d e = cosine * N - sine * climb_sin * T;
+  const Eigen::Vector2d e_s =
+      -sine * roll.slope * N - cosine * k * T - (cosine * roll.slope * climb_sin + sine * sin_s) * T - sine * climb_sin * k * N;
+  const double up = sine * climb_cos;
+  const double up_s = cosine * roll.slope * climb_cos + sine * cos_s;
+  sample.p_W << at.p_W + turned * e + flat * N, z.value + turned * up + height.z_m;
+  sample.ds_W << T + turned_s * e + turned * e_s - turned_s * N - flat * k * T,
+      z.slope + turned_s * up + turned * up_s + height.slope_s;
+  sample.dt_W << turned_t * e + (1.0 - turned_t) * N, turned_t * up + height.slope_t;
+  return sample;
+}
+
+double Road::Settle(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double& s_m, double& t_m) const {
+  Eigen::Vector2d left = Eigen::Vector2d::Zero();
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    const SurfaceSample at = Surface(s_m, t_m);
+    left = p_W - at.p_W.head<2>();
+    const Eigen::Vector2d ds = at.ds_W.head<2>(), dt = at.dt_W.head<2>();
+    const double area = geometry::Cross(ds, dt);
+    if (!(area > 1e-6)) break;
+    const double next = std::clamp(s_m + geometry::Cross(left, dt) / area, low_s_m, high_s_m);
+    const double s_step = next - s_m;
+    const double t_step = (left - s_step * ds).dot(dt) / dt.squaredNorm();  // the nearest to p on the section there
+    s_m = next;
+    t_m += t_step;
+    if (std::fabs(s_step) + std::fabs(t_step) < 1e-10) {
+      left -= s_step * ds + t_step * dt;
+      break;
+    }
+  }
+  return left.norm() < 1e-9 ? 0.0 : left.norm();
+}
+
+double Road::DistanceToEdge(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double t_m, double& s_m) const {
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    const SurfaceSample at = Surface(s_m, t_m);
+    const Eigen::Vector2d ds = at.ds_W.head<2>();
+    const double next = std::clamp(s_m + (p_W - at.p_W.head<2>()).dot(ds) / ds.squaredNorm(), low_s_m, high_s_m);
+    const bool done = std::fabs(next - s_m) < 1e-9;
+    s_m = next;
+    if (done) break;
+  }
+  return (p_W - Surface(s_m, t_m).p_W.head<2>()).norm();
+}
+
+std::optional<double> Road::SpeedLimitAt(const Lane& lane, double s_m) const {
+  if (const SpeedLimit* limit = InForce(lane.speeds, s_m)) return limit->speed_mps;
+  if (const RoadType* type = InForce(spec_.types, s_m)) return type->speed_mps;
+  return std::nullopt;
+}
+
+const RoadMark* Road::MarkAt(const Lane& lane, double s_m) const { return InForce(lane.marks, s_m); }
+
+const LaneMaterial* Road::MaterialAt(const Lane& lane, double s_m) const { return InForce(lane.materials, s_m); }
+
+}  // namespace rodeira::network

@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/opendrive/checks.hpp"
+
+namespace rodeira::opendrive {
+namespace {
+
+using network::End;
+using network::Lane;
+using network::LaneEnd;
+using network::LaneKey;
+using network::Network;
+using network::Road;
+
+constexpr double kListed_m = 0.01;  // ASAM's own limit between two lanes
+
+struct Checker {
+  const Network& network;
+  std::span<const RoadLines> lines;
+  const Tolerance& tolerance;
+  Findings& findings;
+
+  double StationOf(const LaneKey& key, End end) const {
+    const network::LaneSection& section = network.Section(key);
+    return network.roads()[key.road].Held(key.section, end == End::kStart ? section.s_m : section.end_s_m);
+  }
+
+  Finding At(const LaneKey& key, End end, std::string rule, std::string message) const {
+    return {std::move(rule), std::move(message), lines[key.road].sections[key.section], network.roads()[key.road].id(),
+            key.lane,        StationOf(key, end)};
+  }
+
+  // The section that a lane's links at one end mean; nothing where it is a junction or there is none.
+  struct Target {
+    std::uint32_t road, section;
+    End end;
+  };
+  std::optional<Target> TargetOf(const LaneKey& key, End end) const {
+    const Road& road = network.roads()[key.road];
+    const auto count = road.spec().sections.size();
+    if (end == End::kEnd && key.section + 1 < count) return Target{key.road, key.section + 1, End::kStart};
+    if (end == End::kStart && key.section > 0) return Target{key.road, key.section - 1, End::kEnd};
+    const auto& link = end == End::kEnd ? road.spec().successor : road.spec().predecessor;
+    if (!link || link->junction) return std::nullopt;
+    const auto other = network.FindRoad(link->id);
+    if (!other) return std::nullopt;
+    const auto last = static_cast<std::uint32_t>(network.roads()[*other].spec().sections.size()) - 1;
+    return Target{*other, link->contact == End::kStart ? 0u : last, link->contact};
+  }
+
+  void Links(const LaneKey& key, End end) const {
+    const Lane& lane = *network.Find(key);
+    const std::vector<int>& targets = end == End::kEnd ? lane.successors : lane.predecessors;
+    const auto target = TargetOf(key, end);
+    const char* word = end == End::kEnd ? "successor" : "predecessor";
+    for (const int id : targets) {
+      if (!target) continue;
+      const LaneKey other{target->road, target->section, id};
+      const Lane* found = network.Find(other);
+      if (found == nullptr) {
+        findings.errors.push_back(At(key, end, "road.lane.link.lanes_across_lane_sections",
+                                     fmt::format("the lane's {} is lane {} of road {}, which has no such lane there", word, id,
+                                                 network.roads()[target->road].id())));
+        continue;
+      }
+      if (id == 0) continue;
+      // In a junction the other road's lane does not say where it goes.
+      const auto& road_link = target->end == End::kEnd ? network.roads()[target->road].spec().successor
+                                                       : network.roads()[target->road].spec().predecessor;
+      const bool inner = target->road == key.road && target->section != key.section;
+      if (!inner && road_link && road_link->junction) continue;
+      const std::vector<int>& back = target->end == End::kEnd ? found->successors : found->predecessors;
+      if (std::find(back.begin(), back.end(), key.lane) == back.end()) {
+        findings.warnings.push_back(
+            At(key, end, "road.lane.link.lanes_across_lane_sections",
+               fmt::format("the lane's {} is lane {} of road {}, which does not say so; both directions were expected", word, id,
+                           network.roads()[target->road].id())));
+      }
+    }
+  }
+
+  // Where two lanes meet, edge meets edge.
+  void Gap(const LaneKey& key, End end, const LaneEnd& other) const {
+    const Lane &lane = *network.Find(key), &met = *network.Find(other.lane);
+    if (!network::IsDrivable(lane.type) || !network::IsDrivable(met.type)) return;
+    const double s = StationOf(key, end), other_s = StationOf(other.lane, other.end);
+    const auto span = network.Span(key, s), other_span = network.Span(other.lane, other_s);
+    const Road &road = network.roads()[key.road], &other_road = network.roads()[other.lane.road];
+    const auto edge = [](const Road& on, double at_s, double t, const network::LaneSection& section,
+                         const network::LaneSpan& of) { return Eigen::Vector2d(on.Surface(at_s, t, section, of).p_W.head<2>()); };
+    const Eigen::Vector2d inner = edge(road, s, span->inner_t_m, network.Section(key), *span);
+    const Eigen::Vector2d outer = edge(road, s, span->outer_t_m, network.Section(key), *span);
+    Eigen::Vector2d other_inner = edge(other_road, other_s, other_span->inner_t_m, network.Section(other.lane), *other_span);
+    Eigen::Vector2d other_outer = edge(other_road, other_s, other_span->outer_t_m, network.Section(other.lane), *other_span);
+    // Left is left on both where the roads run the same way; inside may be on either side.
+    const bool turned = (end == other.end) == ((key.lane > 0) == (other.lane.lane > 0));
+    if (turned) std::swap(other_inner, other_outer);
+    const double gap = std::max((inner - other_inner).norm(), (outer - other_outer).norm());
+    Finding finding = At(
+        key, end, "lane_smoothness.contact_point_no_horizontal_gaps",
+        fmt::format("a gap of {:.4g} m between the lane's edges and those of lane {} of road {}; at most {:.3g} m was expected",
+                    gap, other.lane.lane, other_road.id(), tolerance.strict ? kListed_m : tolerance.gap_m));
+    if (gap > (tolerance.strict ? kListed_m : tolerance.gap_m)) findings.errors.push_back(finding);
+    else if (gap > kListed_m) findings.warnings.push_back(finding);
+  }
+
+  void JunctionLanes() const {
+    for (const network::Junction& junction : network.junctions()) {
+      for (const network::JunctionConnection& connection : junction.connections) {
+        const auto connecting = network.FindRoad(connection.connecting_road),
+                   incoming = network.FindRoad(connection.incoming_road);
+        if (!connecting || !incoming) continue;
+        const auto& sections = network.roads()[*connecting].spec().sections;
+        const auto section = connection.contact == End::kStart ? 0u : static_cast<std::uint32_t>(sections.size()) - 1;
+        for (const network::JunctionLaneLink& link : connection.lane_links) {
+          const LaneKey to{*connecting, section, link.to};
+          if (network.Find(to) == nullptr) {
+            findings.errors.push_back(
+                At(to, connection.contact, "junctions.connection.lane_link",
+                   fmt::format("connection {} of junction {} leads to this lane, which the road does not have there",
+                               connection.id, junction.id)));
+          }
+          const auto has = [&](const network::LaneSection& on) { return on.Find(link.from) != nullptr; };
+          const auto& from = network.roads()[*incoming].spec().sections;
+          if (has(from.front()) || has(from.back())) continue;
+          findings.errors.push_back(
+              At({*incoming, 0, link.from}, End::kStart, "junctions.connection.lane_link",
+                 fmt::format("connection {} of junction {} comes from this lane, which the road does not have", connection.id,
+                             junction.id)));
+        }
+      }
+    }
+  }
+};
+
+}  // namespace
+
+void CheckLaneLinks(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance, Findings& findings) {
+  const Checker checker{network, lines, tolerance, findings};
+  for (const LaneKey& key : network.Lanes()) {
+    for (const End end : {End::kStart, End::kEnd}) {
+      checker.Links(key, end);
+      for (const LaneEnd& other : end == End::kEnd ? network.AtEnd(key) : network.AtStart(key)) {
+        if (LaneEnd{key, end} < other) checker.Gap(key, end, other);
+      }
+    }
+  }
+  checker.JunctionLanes();
+}
+
+}  // namespace rodeira::opendrive

@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/opendrive/read.hpp"
+
+namespace rodeira::opendrive {
+namespace {
+
+std::vector<network::LaneValidity> ReadValidity(const Node& node) {
+  std::vector<network::LaneValidity> validity;
+  for (const Node& range : node.Children("validity")) {
+    const int from = range.Integer("fromLane"), to = range.Integer("toLane");
+    validity.push_back({std::min(from, to), std::max(from, to)});
+  }
+  return validity;
+}
+
+network::Signal ReadSignal(const Node& node) {
+  network::Signal signal;
+  signal.id = node.Text("id");
+  signal.name = node.Text("name", "");
+  signal.s_m = node.Number("s");
+  signal.t_m = node.Number("t");
+  signal.z_offset_m = node.Number("zOffset", 0.0);
+  signal.orientation = node.Text("orientation", "none");
+  signal.dynamic = node.Flag("dynamic", false);
+  signal.country = node.Text("country", "");
+  signal.type = node.Text("type", "-1");
+  signal.subtype = node.Text("subtype", "-1");
+  signal.unit = node.Text("unit", "");
+  signal.text = node.Text("text", "");
+  if (node.Has("value") && !node.Text("value", "").empty()) signal.value = node.Number("value");
+  signal.height_m = node.Number("height", 0.0);
+  signal.width_m = node.Number("width", 0.0);
+  signal.h_offset_rad = node.Number("hOffset", 0.0);
+  signal.pitch_rad = node.Number("pitch", 0.0);
+  signal.roll_rad = node.Number("roll", 0.0);
+  signal.validity = ReadValidity(node);
+  for (const Node& dependency : node.Children("dependency")) signal.depends_on.push_back(dependency.Text("id"));
+  return signal;
+}
+
+network::Repeat ReadRepeat(const Node& node) {
+  network::Repeat repeat;
+  repeat.s_m = node.Number("s");
+  repeat.length_m = node.Number("length");
+  repeat.distance_m = node.Number("distance", 0.0);
+  repeat.t_start_m = node.Number("tStart", 0.0);
+  repeat.t_end_m = node.Number("tEnd", 0.0);
+  repeat.z_start_m = node.Number("zOffsetStart", 0.0);
+  repeat.z_end_m = node.Number("zOffsetEnd", 0.0);
+  repeat.height_start_m = node.Number("heightStart", 0.0);
+  repeat.height_end_m = node.Number("heightEnd", 0.0);
+  repeat.width_start_m = node.Number("widthStart", 0.0);
+  repeat.width_end_m = node.Number("widthEnd", 0.0);
+  return repeat;
+}
+
+network::Outline ReadOutline(const Node& node) {
+  network::Outline outline;
+  outline.closed = node.Flag("closed", true);
+  for (const Node& corner : node.Children("cornerRoad")) {
+    outline.corners.push_back(
+        {false, corner.Number("s"), corner.Number("t"), corner.Number("dz", 0.0), corner.Number("height", 0.0)});
+  }
+  for (const Node& corner : node.Children("cornerLocal")) {
+    outline.corners.push_back(
+        {true, corner.Number("u"), corner.Number("v"), corner.Number("z", 0.0), corner.Number("height", 0.0)});
+  }
+  return outline;
+}
+
+network::Object ReadObject(const Node& node) {
+  network::Object object;
+  object.id = node.Text("id", "");
+  object.name = node.Text("name", "");
+  object.type = node.Text("type", "none");
+  object.subtype = node.Text("subtype", "");
+  object.orientation = node.Text("orientation", "none");
+  object.s_m = node.Number("s");
+  object.t_m = node.Number("t");
+  object.z_offset_m = node.Number("zOffset", 0.0);
+  object.hdg_rad = node.Number("hdg", 0.0);
+  object.pitch_rad = node.Number("pitch", 0.0);
+  object.roll_rad = node.Number("roll", 0.0);
+  object.length_m = node.Number("length", 0.0);
+  object.width_m = node.Number("width", 0.0);
+  object.height_m = node.Number("height", 0.0);
+  object.radius_m = node.Number("radius", 0.0);
+  object.valid_length_m = node.Number("validLength", 0.0);
+  object.dynamic = node.Flag("dynamic", false);
+  for (const Node& repeat : node.Children("repeat")) object.repeats.push_back(ReadRepeat(repeat));
+  for (const Node& outline : node.Children("outline")) object.outlines.push_back(ReadOutline(outline));
+  for (const Node& outlines : node.Children("outlines")) {
+    for (const Node& outline : outlines.Children("outline")) object.outlines.push_back(ReadOutline(outline));
+  }
+  object.validity = ReadValidity(node);
+  return object;
+}
+
+// Everything is said with the s at which it stands.
+template <class Read>
+void Each(const Node& parent, const char* element, const Read& read) {
+  for (const Node& node : parent.Children(element)) {
+    Within within(node.source());
+    if (node.Has("s")) node.source().where.s_m = node.Number("s");
+    read(node);
+  }
+}
+
+}  // namespace
+
+void ReadSignals(const Node& road, network::RoadSpec& spec) {
+  const Node list = road.Child("signals");
+  Each(list, "signal", [&](const Node& node) { spec.signals.push_back(ReadSignal(node)); });
+  Each(list, "signalReference", [&](const Node& node) {
+    spec.signal_references.push_back(
+        {node.Number("s"), node.Number("t"), node.Text("id"), node.Text("orientation", "none"), ReadValidity(node)});
+  });
+}
+
+void ReadObjects(const Node& road, network::RoadSpec& spec) {
+  const Node list = road.Child("objects");
+  Each(list, "object", [&](const Node& node) { spec.objects.push_back(ReadObject(node)); });
+  Each(list, "objectReference", [&](const Node& node) {
+    spec.object_references.push_back({node.Number("s"), node.Number("t"), node.Text("id"), node.Text("orientation", "none")});
+  });
+  for (const bool bridge : {false, true}) {
+    Each(list, bridge ? "bridge" : "tunnel", [&](const Node& node) {
+      spec.structures.push_back(
+          {node.Text("id", ""), node.Text("name", ""), node.Text("type", ""), bridge, node.Number("s"), node.Number("length")});
+    });
+  }
+  for (const Node& node : road.Child("surface").Children("CRG")) {
+    network::CrgSurface crg;
+    crg.file = node.Text("file");
+    crg.orientation = node.Text("orientation", "same");
+    crg.mode = node.Text("mode", "attached");
+    crg.purpose = node.Text("purpose", "elevation");
+    crg.s_start_m = node.Number("sStart");
+    crg.s_end_m = node.Number("sEnd");
+    crg.s_offset_m = node.Number("sOffset", 0.0);
+    crg.t_offset_m = node.Number("tOffset", 0.0);
+    crg.z_offset_m = node.Number("zOffset", 0.0);
+    crg.z_scale = node.Number("zScale", 1.0);
+    crg.h_offset_rad = node.Number("hOffset", 0.0);
+    spec.crg.push_back(crg);
+  }
+}
+
+}  // namespace rodeira::opendrive

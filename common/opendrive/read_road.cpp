@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+
+#include "common/opendrive/read.hpp"
+
+namespace rodeira::opendrive {
+namespace {
+
+network::End ReadContact(const Node& node, const char* attribute) {
+  const std::string contact = node.Text(attribute, "start");
+  if (contact != "start" && contact != "end") {
+    node.Wrong("road.linkage.contact_point", fmt::format("{} is '{}'; start or end was expected", attribute, contact));
+  }
+  return contact == "end" ? network::End::kEnd : network::End::kStart;
+}
+
+std::optional<network::RoadLink> ReadLink(const Node& link) {
+  if (!link) return std::nullopt;
+  network::RoadLink read;
+  const std::string type = link.Text("elementType", "road");
+  read.junction = type == "junction";
+  if (type != "junction" && type != "road") {
+    link.Wrong("road.linkage.element_type", fmt::format("elementType is '{}'; road or junction was expected", type));
+  }
+  read.id = link.Text("elementId");
+  if (!read.junction) read.contact = ReadContact(link, "contactPoint");
+  return read;
+}
+
+}  // namespace
+
+RoadReading ReadRoad(const Node& road) {
+  RoadReading reading;
+  network::RoadSpec& spec = reading.spec;
+  Within within(road.source());
+  spec.id = road.Text("id");
+  road.source().where.road = spec.id;
+  spec.name = road.Text("name", "");
+  spec.junction = road.Text("junction", "-1");
+  if (spec.junction == "-1") spec.junction.clear();
+  const std::string rule = road.Text("rule", "RHT");
+  if (rule != "RHT" && rule != "LHT") road.Wrong("road.rule", fmt::format("rule is '{}'; RHT or LHT was expected", rule));
+  spec.left_hand = rule == "LHT";
+  spec.length_m = road.Number("length");
+  if (!(spec.length_m > 0.0)) road.Wrong("road.length", fmt::format("the road is {} m long", spec.length_m));
+  spec.predecessor = ReadLink(road.Child("link").Child("predecessor"));
+  spec.successor = ReadLink(road.Child("link").Child("successor"));
+  for (const Node& type : road.Children("type")) {
+    const Node speed = type.Child("speed");
+    spec.types.push_back({type.Number("s"), type.Text("type", "unknown"), type.Text("country", ""),
+                          speed ? ReadSpeed(speed, "max") : std::nullopt});
+  }
+  reading.lines.road = road.line();
+  reading.elements = ReadPlanView(road, reading.lines);
+  ReadProfiles(road, spec);
+  ReadLanes(road, spec, reading.lines);
+  ReadSignals(road, spec);
+  ReadObjects(road, spec);
+  return reading;
+}
+
+network::Junction ReadJunction(const Node& junction) {
+  network::Junction read;
+  read.id = junction.Text("id");
+  read.name = junction.Text("name", "");
+  read.type = junction.Text("type", "default");
+  for (const Node& node : junction.Children("connection")) {
+    network::JunctionConnection connection;
+    connection.id = node.Text("id", "");
+    connection.incoming_road = node.Text("incomingRoad", "");
+    connection.connecting_road = node.Text(node.Has("linkedRoad") ? "linkedRoad" : "connectingRoad", "");
+    connection.contact = ReadContact(node, "contactPoint");
+    for (const Node& link : node.Children("laneLink"))
+      connection.lane_links.push_back({link.Integer("from"), link.Integer("to")});
+    read.connections.push_back(std::move(connection));
+  }
+  for (const Node& node : junction.Children("priority")) read.priorities.push_back({node.Text("high", ""), node.Text("low", "")});
+  for (const Node& node : junction.Children("controller")) read.controllers.push_back(node.Text("id", ""));
+  return read;
+}
+
+network::Controller ReadController(const Node& controller) {
+  network::Controller read;
+  read.id = controller.Text("id");
+  read.name = controller.Text("name", "");
+  for (const Node& control : controller.Children("control"))
+    read.controls.push_back({control.Text("signalId"), control.Text("type", "")});
+  return read;
+}
+
+}  // namespace rodeira::opendrive

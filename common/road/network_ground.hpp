@@ -1,0 +1,22 @@
+#pragma once
+
+#include "common/network/network.hpp"
+#include "common/road/world.hpp"
+
+namespace rodeira::road {
+
+// Beyond its lanes a road goes on level across for this far; farther away there is no ground.
+inline constexpr double kVerge_m = 100.0;
+
+// SUELO on an OpenDRIVE network: the highest road surface that is not above the hint by more than 0.5 m (without a hint
+// the highest); beside all roads a level verge of grass that goes on from the nearest lane's edge.
+SurfacePoint NetworkGround(const network::Network& network, const FrictionTable& friction, double x_m, double y_m,
+                           double z_hint_m);
+
+// What a lane is made of.
+terrain::Surface LaneSurface(network::LaneType type);
+
+// The roads and their verges.
+Extents NetworkExtents(const network::Network& network);
+
+}  // namespace rodeira::road

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/network/network.hpp"
+#include "common/road/world_spec.hpp"
+
+// Worlds that are OpenDRIVE files.
+namespace rodeira::road {
+
+// By its name: `.xodr`, in letters of either case.
+bool IsOpenDrive(const std::filesystem::path& file);
+
+// A world of the file's roads. The car starts on the drivable lane that is longest in one lane section outside of
+// junctions, of those that lead on if there are any, 10 m behind its beginning
+// (or in its middle), where it is 2 m wide. Wrong input: the first error of the file.
+base::Result<WorldSpec> ReadNetworkWorld(const std::filesystem::path& file);
+
+// What `rodeira world check` says of the file: errors and warnings with their places, by line, and a table of what the
+// file holds, which is empty where there are errors. strict: ASAM's own tolerances.
+struct NetworkCheck {
+  std::vector<base::Error> errors;
+  std::vector<std::string> warnings;
+  std::string table;
+};
+NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict);
+
+// Extents, roads, lanes; and where a point lies, as further lines of an answer of SUELO.
+std::string DescribeNetwork(const network::Network& network);
+std::string DescribePlace(const network::Network& network, double x_m, double y_m, std::optional<double> z_m);
+
+// The plan as SVG: lanes in the colours of their types, lines between them, junctions, the ids of roads.
+std::string PlotNetwork(const network::Network& network);
+
+}  // namespace rodeira::road

@@ -1,0 +1,77 @@
+#include "common/terrain/elevation_projection.hpp"
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "common/base/files.hpp"
+#include "common/terrain/elevation_file.hpp"
+#include "common/terrain/gdal_quiet.hpp"
+
+namespace rodeira::terrain {
+namespace {
+
+base::Result<Projection> FromDefinition(std::string_view definition) {
+  const QuietGdal quiet;
+  OGRSpatialReference reference;
+  const std::string text(definition);
+  const bool fine = reference.SetFromUserInput(text.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS) == OGRERR_NONE;
+  if (!fine) {
+    return base::WrongInput(fmt::format("'{}' is no coordinate system that PROJ knows; an EPSG code or WKT was expected",
+                                        text.substr(0, std::min<std::size_t>(60, text.find('\n')))));
+  }
+  return MetricProjection(reference);
+}
+
+}  // namespace
+
+base::Result<Projection> MetricProjection(const OGRSpatialReference& reference) {
+  if (reference.IsGeographic() != 0) {
+    return base::WrongInput(
+        "the coordinate system is in degrees; a projection in metres was expected (gdalwarp brings it into one)");
+  }
+  Projection projection;
+  projection.metres_a_unit = reference.GetLinearUnits();
+  if (!(projection.metres_a_unit > 1e-6 && projection.metres_a_unit < 1e6)) {
+    return base::WrongInput(
+        fmt::format("the coordinate system's unit is {} m; metres or feet were expected", projection.metres_a_unit));
+  }
+  const std::unique_ptr<OGRSpatialReference> metric(reference.Clone());
+  if (projection.metres_a_unit != 1.0) metric->SetLinearUnitsAndUpdateParameters(SRS_UL_METER, 1.0);
+  char* text = nullptr;
+  const std::array<const char*, 2> options = {"FORMAT=WKT1_ESRI", nullptr};
+  const OGRErr failed = metric->exportToWkt(&text, options.data());
+  projection.wkt = text == nullptr ? "" : text;
+  CPLFree(text);
+  if (failed != OGRERR_NONE || projection.wkt.empty()) return base::WrongInput("the coordinate system cannot be written as WKT");
+  return projection;
+}
+
+base::Result<Projection> ReadProjection(const std::filesystem::path& path, bool gzipped, GDALDataset& dataset) {
+  std::filesystem::path beside = gzipped ? std::filesystem::path(path).replace_extension() : path;
+  beside.replace_extension(".prj");
+  std::error_code problem;
+  if (std::filesystem::exists(beside, problem)) {
+    const auto text = base::ReadText(beside, 1u << 20);
+    if (!text) return text.error();
+    auto projection = FromDefinition(text.value());
+    if (!projection) return base::WrongInput(projection.error().message, beside.string());
+    return projection;
+  }
+  const OGRSpatialReference* reference = dataset.GetSpatialRef();
+  if (reference == nullptr) return Projection();
+  auto projection = MetricProjection(*reference);
+  if (!projection) return base::WrongInput(projection.error().message, path.string());
+  return projection;
+}
+
+base::Result<std::string> ProjectionWkt(std::string_view definition) {
+  auto projection = FromDefinition(definition);
+  if (!projection) return projection.error();
+  return std::move(projection).value().wkt;
+}
+
+}  // namespace rodeira::terrain

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <ogr_spatialref.h>
+
+#include <filesystem>
+#include <string>
+
+#include "common/base/result.hpp"
+
+class GDALDataset;
+
+namespace rodeira::terrain {
+
+// A coordinate system of a file, made metric.
+struct Projection {
+  std::string wkt;               // WKT 1 in the spelling of .prj files, its unit the metre; empty: the file names none
+  double metres_a_unit = 1.0;    // of the coordinates in the file
+};
+
+// Wrong input where the coordinates are degrees.
+base::Result<Projection> MetricProjection(const OGRSpatialReference& reference);
+
+// The .prj beside the file (trusted before everything else), or what GDAL found in the file, or nothing.
+base::Result<Projection> ReadProjection(const std::filesystem::path& path, bool gzipped, GDALDataset& dataset);
+
+}  // namespace rodeira::terrain

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+namespace rodeira::front {
+
+struct SurfaceOptions {
+  std::string command;  // check; empty: not asked
+  std::string file;
+  std::string svg;
+};
+
+// `rodeira surface check`: a surface file alone, without a world. Returns the exit status.
+int Surface(const SurfaceOptions& options);
+
+}  // namespace rodeira::front

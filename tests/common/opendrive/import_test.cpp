@@ -1,0 +1,170 @@
+// What of an OpenDRIVE file is read, what is refused, and how it is said.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/common/opendrive/sample.hpp"
+
+namespace rodeira::opendrive {
+namespace {
+
+using testing::HasSubstr;
+
+// The errors of a text, as a person sees them.
+std::vector<std::string> Errors(const std::string& text, const Tolerance& tolerance = {}) {
+  const auto import = Read(text, "f.xodr", tolerance);
+  if (!import) return {import.error().Text()};
+  std::vector<std::string> errors;
+  for (const Finding& error : import.value().errors) errors.push_back(ToError(error, "f.xodr").Text());
+  EXPECT_EQ(import.value().network == nullptr, !errors.empty());
+  return errors;
+}
+
+TEST(OpenDrive, EveryRealFileLoads) {
+  const auto files = RealFiles();
+  if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";
+  for (const auto& file : files) {
+    const auto import = Load(file);
+    ASSERT_TRUE(import.ok()) << import.error().Text();
+    for (const Finding& error : import.value().errors) ADD_FAILURE() << ToError(error, file).Text();
+    // The lengths of the roads are those that the file says.
+    for (const network::Road& road : import.value().network->roads()) EXPECT_NEAR(road.length_m(), road.spec().length_m, 0.05) << file << " " << road.id();
+  }
+}
+
+TEST(OpenDrive, EveryInvalidFileIsRefusedByItsRule) {
+  const auto files = RealFiles("invalid");
+  if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";
+  const std::map<std::string, std::vector<std::string>> expected = {
+      {"asamqc_geometry_ascending_order.xodr", {":15: road.geometry.elem_asc_order: road 1, s 100: "}},
+      {"asamqc_geometry_contact_point.xodr", {":5: road.geometry.contact_point: road 1, s 50: a gap of 3.5 m"}},
+      {"asamqc_junction_needed.xodr", {":6: road.linkage.is_junction_needed: road 1, s 10: roads 2 and 3 both"}},
+      {"asamqc_link_to_missing_lane.xodr", {"road.lane.link.lanes_across_lane_sections: road 1, lane 3, s 50: the lane's predecessor is lane 4",
+                                            "road.lane.link.lanes_across_lane_sections: road 1, lane -3, s 50: the lane's predecessor is lane -4"}},
+      {"asamqc_smoothness_many.xodr", {"road.geometry.contact_point: road 0, s 8.70392: a gap of 0.1002 m", "lane_smoothness.contact_point_no_horizontal_gaps: road 9, lane -1, s 101.094: a gap of 0.05489 m"}}};
+  for (const auto& file : files) {
+    const auto import = Load(file);
+    ASSERT_TRUE(import.ok()) << import.error().Text();
+    EXPECT_EQ(import.value().network, nullptr) << file;
+    std::string all;
+    for (const Finding& error : import.value().errors) all += ToError(error, file.filename()).Text() + "\n";
+    const auto known = expected.find(file.filename());
+    ASSERT_TRUE(known != expected.end()) << file << " is not in this test's table; it says\n" << all;
+    for (const std::string& sentence : known->second) EXPECT_THAT(all, HasSubstr(sentence));
+  }
+}
+
+TEST(OpenDrive, SmallGapsAreWarningsAndStrictlyErrors) {
+  RoadText road;
+  road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50.0015" y="0" hdg="0.0005" length="50"><line/></geometry>)";
+  const auto import = MustImport(Document(road.Text()));
+  ASSERT_EQ(import.warnings.size(), 2u);
+  EXPECT_EQ(import.warnings[0].Text(), "road.geometry.contact_point: road 1, s 50: a gap of 0.0015 m to the element before; at most 0.05 m was expected");
+  EXPECT_THAT(Errors(Document(road.Text()), Tolerance::Strict()), testing::ElementsAre(HasSubstr("road.geometry.contact_point: road 1, s 50"),
+                                                                                      HasSubstr("road.geometry.contact_heading: road 1, s 50")));
+  road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50.051" y="0" hdg="0" length="50"><line/></geometry>)";
+  EXPECT_THAT(Errors(Document(road.Text())), testing::ElementsAre(HasSubstr("a gap of 0.051 m")));
+}
+
+TEST(OpenDrive, WrongThingsAreNamedWithTheirPlace) {
+  const auto with = [](auto change) {
+    RoadText road;
+    change(road);
+    return Errors(Document(road.Text()));
+  };
+  const auto one = [](const char* text) { return testing::ElementsAre(HasSubstr(text)); };
+  EXPECT_THAT(with([](RoadText& r) { r.geometry = R"(<geometry s="0" x="zero" y="0" hdg="0" length="100"><line/></geometry>)"; }),
+              one("f.xodr:6: xml.attribute: road 1, s 0: attribute 'x' of <geometry> is 'zero'; a number was expected"));
+  EXPECT_THAT(with([](RoadText& r) { r.geometry = R"(<geometry s="0" y="0" hdg="0" length="100"><line/></geometry>)"; }), one("<geometry> has no attribute 'x'"));
+  EXPECT_THAT(with([](RoadText& r) { r.geometry = R"(<geometry s="0" x="inf" y="0" hdg="0" length="100"><line/></geometry>)"; }), one("'x' of <geometry> is 'inf'"));
+  EXPECT_THAT(with([](RoadText& r) { r.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="100"/>)"; }), one("none of line, arc, spiral, poly3 and paramPoly3"));
+  EXPECT_THAT(with([](RoadText& r) { r.geometry = ""; }), one("the road has no plan view"));
+  EXPECT_THAT(with([](RoadText& r) { r.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="100"><arc curvature="1e9"/></geometry>)"; }), one("road.geometry.shape"));
+  EXPECT_THAT(with([](RoadText& r) { r.length = 90.0; }), one("road.length: road 1: the road says 90 m, its elements have 100 m"));
+  EXPECT_THAT(with([](RoadText& r) { r.right = "<lane id=\"-2\" type=\"driving\"/>"; }), one("lane -1 was expected on the right, and lane -2 found"));
+  EXPECT_THAT(with([](RoadText& r) { r.right = "<lane id=\"1\" type=\"driving\"/>"; }), one("a lane on the right has the id 1; one below 0 was expected"));
+  EXPECT_THAT(with([](RoadText& r) { r.right = "<lane id=\"-1\" type=\"drivin\"/>"; }), one("lane -1, s 0: the lane's type is 'drivin'; did you mean 'driving'?"));
+  EXPECT_THAT(with([](RoadText& r) { r.elevation = R"(<elevation s="50" a="0" b="0" c="0" d="0"/><elevation s="10" a="0" b="0" c="0" d="0"/>)"; }),
+              one("road.elevation.elem_asc_order: road 1, s 10"));
+  EXPECT_THAT(with([](RoadText& r) { r.link = R"(<successor elementType="road" elementId="77" contactPoint="start"/>)"; }),
+              one("road.linkage.id: road 1, s 100: the road's end goes on into road 77, which is not in the file"));
+  EXPECT_THAT(with([](RoadText& r) { r.link = R"(<successor elementType="street" elementId="77"/>)"; }), one("elementType is 'street'; road or junction was expected"));
+  EXPECT_THAT(with([](RoadText& r) { r.attributes = "junction=\"-1\" rule=\"UHT\""; }), one("rule is 'UHT'; RHT or LHT was expected"));
+  EXPECT_THAT(with([](RoadText& r) { r.more = R"(<signals><signal id="a" s="5" t="x"/></signals>)"; }), one("s 5: attribute 't' of <signal> is 'x'"));
+  EXPECT_THAT(Errors(Document("")), one("there is no <road> in the file"));
+  EXPECT_THAT(Errors("<OpenDRIVE><header revMajor=\"2\" revMinor=\"0\"/>" + RoadText().Text() + "</OpenDRIVE>"), one("this is OpenDRIVE 2.0; 1.4 to 1.8 was expected"));
+  EXPECT_THAT(Errors("<OpenDRIVE>\n<road>\n</OpenDRIVE>"), one("f.xodr:3: this is no XML"));
+  EXPECT_THAT(Errors("<OpenSCENARIO/>"), one("the outermost element is <OpenSCENARIO>; <OpenDRIVE> was expected"));
+  EXPECT_THAT(Errors(Document(RoadText().Text() + RoadText().Text())), one("ids.id_unique_in_class: road 1"));
+}
+
+TEST(OpenDrive, JunctionsNameWhatIsMissing) {
+  RoadText way, incoming;
+  incoming.id = "7";
+  way.attributes = "junction=\"5\"";
+  const auto errors = Errors(Document(incoming.Text() + way.Text() +
+                                      R"(<junction id="5"><connection id="0" incomingRoad="7" connectingRoad="1" contactPoint="start"><laneLink from="-4" to="-9"/></connection>
+                                         <connection id="1" incomingRoad="8" connectingRoad="1" contactPoint="start"/></junction>)"));
+  EXPECT_THAT(errors, testing::UnorderedElementsAre(HasSubstr("connection 1 of junction 5 names the road '8', which is not in the file"),
+                                                    HasSubstr("road 1, lane -9, s 0: connection 0 of junction 5 leads to this lane"),
+                                                    HasSubstr("road 7, lane -4, s 0: connection 0 of junction 5 comes from this lane")));
+}
+
+TEST(OpenDrive, SignalsObjectsAndTheRestAreKept) {
+  RoadText road;
+  road.more = R"(<objects><object id="o" type="tree" s="10" t="8" zOffset="0.5" radius="1.5" height="6"><repeat s="10" length="40" distance="10" tStart="8" tEnd="9" heightStart="5" heightEnd="6"/>
+      <outlines><outline closed="true"><cornerLocal u="1" v="2" z="3" height="4"/></outline></outlines><validity fromLane="1" toLane="-1"/></object>
+      <tunnel id="t" s="20" length="30" type="standard"/><bridge id="b" s="60" length="10" type="steel"/></objects>
+      <signals><signal id="294" s="90" t="-5" type="274" subtype="50" country="DE" value="50" unit="km/h" orientation="+" dynamic="no" hOffset="0.1"><validity fromLane="-1" toLane="-1"/></signal>
+      <signalReference s="1" t="2" id="294" orientation="-"/></signals>
+      <surface><CRG file="a.crg" sStart="10" sEnd="20" orientation="opposite" mode="genuine" zScale="2"/></surface>)";
+  std::string text = Document(road.Text() + R"(<controller id="c" name="lights"><control signalId="294" type="0"/></controller>)");
+  text.replace(text.find("revMinor=\"8\"/>"), 14, "revMinor=\"8\"><geoReference><![CDATA[\n +proj=utm +zone=29 \n]]></geoReference></header>");
+  const Import import = MustImport(text);
+  EXPECT_EQ(import.version, "1.8");
+  EXPECT_EQ(import.network->geo_reference(), "+proj=utm +zone=29");
+  const network::RoadSpec& spec = import.network->roads()[0].spec();
+  ASSERT_EQ(spec.objects.size(), 1u);
+  EXPECT_EQ(spec.objects[0].radius_m, 1.5);
+  EXPECT_EQ(spec.objects[0].repeats[0].distance_m, 10.0);
+  EXPECT_EQ(spec.objects[0].repeats[0].t_end_m, 9.0);
+  EXPECT_EQ(spec.objects[0].outlines[0].corners[0].second_m, 2.0);
+  EXPECT_EQ(spec.objects[0].validity[0].from_lane, -1);
+  ASSERT_EQ(spec.structures.size(), 2u);
+  EXPECT_FALSE(spec.structures[0].bridge);
+  EXPECT_TRUE(spec.structures[1].bridge);
+  ASSERT_EQ(spec.signals.size(), 1u);
+  EXPECT_EQ(spec.signals[0].value, 50.0);
+  EXPECT_EQ(spec.signals[0].country, "DE");
+  EXPECT_EQ(spec.signal_references[0].orientation, "-");
+  EXPECT_EQ(spec.crg[0].z_scale, 2.0);
+  EXPECT_EQ(import.network->controllers()[0].controls[0].signal_id, "294");
+  EXPECT_THAT(Describe(import), testing::AllOf(HasSubstr("roads: 1, 100.000 m"), HasSubstr("lanes: 2 in 1 sections, of which 2 drivable, 200.000 m"),
+                                               HasSubstr("signals: 1\nobjects: 1\n"), HasSubstr("geoReference: +proj=utm +zone=29\n"), HasSubstr("warnings: 0\n")));
+}
+
+TEST(OpenDrive, PolynomialsBorderAndOldSpellings) {
+  RoadText road;
+  // A graph v = 0.005 u^2 by its own length, and the same curve as a parametric one of either range.
+  const auto length = [](double u) {
+    const double x = 0.01 * u;
+    return (x * std::sqrt(1.0 + x * x) + std::asinh(x)) / 0.02;
+  };
+  road.length = length(60.0);
+  for (const char* form : {R"(<poly3 a="0" b="0" c="0.005" d="0"/>)", R"(<paramPoly3 pRange="normalized" aU="0" bU="60" cU="0" dU="0" aV="0" bV="0" cV="18" dV="0"/>)"}) {
+    road.geometry = fmt::format(R"(<geometry s="0" x="0" y="0" hdg="0" length="{}">{}</geometry>)", road.length, form);
+    const auto network = MustRead(Document(road.Text()));
+    const auto at = network->roads()[0].axis().Evaluate(length(40.0));
+    EXPECT_NEAR(at.p_W.x(), 40.0, 1e-9) << form;
+    EXPECT_NEAR(at.p_W.y(), 8.0, 1e-9) << form;
+  }
+  road = RoadText();
+  road.right = R"(<lane id="-1" type="driving"><border sOffset="0" a="-3" b="0" c="0" d="0"/></lane><lane id="-2" type="shoulder"><border sOffset="0" a="4.5" b="0.01" c="0" d="0"/></lane>)";
+  const auto network = MustRead(Document(road.Text()));
+  EXPECT_EQ(network->Span({0, 0, -1}, 50.0)->outer_t_m, -3.0);
+  EXPECT_NEAR(network->Span({0, 0, -2}, 50.0)->outer_t_m, -5.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace rodeira::opendrive
