@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
+#include <algorithm>
 #include <numeric>
 
 #include "common/replay/recorded_node.hpp"
@@ -18,11 +18,12 @@ using lockstep::Snapshot;
 using lockstep::Step;
 
 // The parent's nodes at `at`: computed again from the snapshot before, each sample compared.
-base::Result<std::vector<Snapshot>> StatesAt(const replay::RecordedRun& parent, Step at, BranchOutcome& outcome) {
+base::Result<std::vector<Snapshot>> StatesAt(const replay::RecordedRun& parent, const BranchWish& wish, BranchOutcome& outcome) {
   Recomputation again;
-  again.from = at;
-  again.last_step = at;
-  again.snapshot_at = at;
+  again.from = wish.at;
+  again.last_step = wish.at;
+  again.snapshot_at = wish.at;
+  again.stop_requested = wish.stop_requested;
   auto done = Recompute(parent, again);
   if (!done) return done.error();
   outcome.recomputed_from = done.value().verdict.first_step;
@@ -106,7 +107,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   });
   if (!nodes) return nodes.error();
 
-  auto snapshots = StatesAt(parent.value(), wish.at, outcome);
+  auto snapshots = StatesAt(parent.value(), wish, outcome);
   if (!snapshots) return snapshots.error();
   if (outcome.difference) return outcome;
   for (NodeIndex n = 0; n < roster.nodes().size(); ++n) {
@@ -120,15 +121,17 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   settings.first_step = wish.at;
   settings.last_step = wish.last_step.value_or(parent.value().last_step());
   settings.resume = std::move(snapshots).value();
+  settings.stop_requested = wish.stop_requested;
   const lockstep::RunOutcome ran = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   if (!ran.ok) return base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault), wish.parent);
+  if (wish.stop_requested && wish.stop_requested()) return base::Failed(fmt::format("interrupted at step {}; no branch was written", std::max(ran.last_step, wish.at)), wish.parent);
   outcome.last_step = ran.last_step;
 
   record::TextMap about{{"parent", std::filesystem::path(wish.parent).filename().string()},
                         {"step", std::to_string(wish.at)},
                         {"time_s", fmt::format("{}", static_cast<double>(wish.at) * static_cast<double>(roster.base_step_ns()) * 1e-9)}};
   for (const auto& [key, value] : wish.changes) about["change " + key] = value;
-  if (auto status = replay::Splice(parent.value(), own, wish.at, about, wish.recording); !status) return status.error();
+  if (auto status = replay::Splice(parent.value(), own, wish.at, about, wish.recording, wish.stop_requested); !status) return status.error();
   return outcome;
 }
 

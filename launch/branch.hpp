@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,7 @@ struct BranchWish {
   launch::Overrides changes;        // of the launch file
   std::optional<lockstep::Step> last_step;  // none: the parent's
   std::string recording;            // the new file
+  std::function<bool()> stop_requested = {};  // it fails then, and there is no new file
 };
 
 struct BranchOutcome {

@@ -1,10 +1,8 @@
 #include "launch/doctor.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <functional>
 #include <thread>
@@ -15,6 +13,7 @@
 #include "launch/doctor_gl.hpp"
 #include "launch/doctor_machine.hpp"
 #include "launch/doctor_network.hpp"
+#include "launch/interrupt.hpp"
 #include "launch/joysticks_command.hpp"
 #include "launch/processes.hpp"
 #include "launch/recording_folder.hpp"
@@ -22,9 +21,6 @@
 
 namespace rodeira::front {
 namespace {
-
-std::atomic<bool> g_interrupted = false;
-void OnInterrupt(int) { g_interrupted = true; }
 
 using Check = std::function<Finding()>;
 
@@ -41,7 +37,7 @@ std::vector<Check> Checks(const DoctorOptions& options, launch::Transport transp
   loop_back.transport = transport;
   loop_back.domain = options.domain;
   loop_back.program = ProgramFolder() + "/rodeira";
-  loop_back.cancelled = [] { return g_interrupted.load(); };
+  loop_back.cancelled = Interrupted;
   return {
       [] { return CheckPackages(ParsePackages(PackageList())); },
       [] { return CheckPrograms(NodePrograms(), ProgramFolder()); },
@@ -81,8 +77,7 @@ int StatusOf(std::span<const Finding> findings) {
 int Doctor(const DoctorOptions& options) {
   const auto transport = options.transport == "udp" ? launch::Transport::kUdp : launch::Transport::kSharedMemory;
   if (!options.answer.empty()) return AnswerLoopBack(options.answer, options.domain, transport);
-  ::signal(SIGINT, OnInterrupt);
-  ::signal(SIGTERM, OnInterrupt);
+  CatchInterrupts();
   if (options.clean) {
     const int removed = RemoveLeftOvers({});
     if (!options.quiet) fmt::print("{} files of dead processes removed from /dev/shm\n", removed);
@@ -90,7 +85,7 @@ int Doctor(const DoctorOptions& options) {
   std::vector<Finding> findings;
   for (const Check& check : Checks(options, transport)) {
     findings.push_back(check());
-    if (g_interrupted) return 1;
+    if (Interrupted()) return 1;
     if (options.quiet && findings.back().verdict == Verdict::kOk) continue;
     fmt::print("{}", FindingLine(findings.back()));
     std::fflush(stdout);

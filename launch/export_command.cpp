@@ -1,21 +1,17 @@
 #include "launch/export_command.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 
 #include "common/csv/export.hpp"
+#include "launch/interrupt.hpp"
 #include "launch/recording_text.hpp"
 
 namespace rodeira::front {
 namespace {
-
-std::atomic<bool> g_interrupted = false;
-void OnInterrupt(int) { g_interrupted = true; }
 
 // What is done, on a terminal and after two seconds.
 class Progress {
@@ -29,7 +25,7 @@ class Progress {
       fmt::print(stderr, "\r\033[K{:.0f} % written", 100.0 * share);
       shown_ = true;
     }
-    return !g_interrupted;
+    return !Interrupted();
   }
 
  private:
@@ -41,9 +37,7 @@ class Progress {
 }  // namespace
 
 int Export(const ExportOptions& options) {
-  ::signal(SIGINT, OnInterrupt);
-  ::signal(SIGTERM, OnInterrupt);
-  ::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk
+  CatchInterrupts();
   const auto reader = record::McapReader::Open(options.recording);
   const auto report = [&]() -> base::Result<csv::ExportReport> {
     if (!reader) return reader.error();

@@ -1,9 +1,7 @@
 #include "launch/in_process_command.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
 
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -11,15 +9,13 @@
 #include "common/launch/command_text.hpp"
 #include "common/launch/pace.hpp"
 #include "common/lockstep/in_process.hpp"
+#include "launch/interrupt.hpp"
 #include "launch/local_nodes.hpp"
 #include "launch/operator.hpp"
 #include "launch/run_report.hpp"
 
 namespace rodeira::front {
 namespace {
-
-std::atomic<bool> g_interrupted = false;
-void OnInterrupt(int) { g_interrupted = true; }
 
 RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& roster, double wall_s) {
   RunReport report;
@@ -73,12 +69,10 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   const auto seconds = options.duration_s ? options.duration_s : launch.duration_s();
   if (seconds) settings.last_step = static_cast<lockstep::Step>(std::llround(*seconds * 1e9 / static_cast<double>(roster.base_step_ns())));
   settings.pace = launch::ParsePace(options.pace).value();
-  settings.stop_requested = [] { return g_interrupted.load(); };
+  settings.stop_requested = Interrupted;
   settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
   settings.next_command = [&desk] { return NextCommand(desk); };
-  ::signal(SIGINT, OnInterrupt);
-  ::signal(SIGTERM, OnInterrupt);
-  ::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error to report, like a full disk
+  CatchInterrupts();
   const auto start = std::chrono::steady_clock::now();
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -1,14 +1,14 @@
 #include "launch/joysticks_command.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <thread>
+
+#include "launch/interrupt.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -17,19 +17,15 @@ using WallClock = std::chrono::steady_clock;
 
 constexpr double kMoved = 655.0;  // a hundredth of an axis' whole way
 
-std::atomic<bool> g_interrupted = false;
-void OnInterrupt(int) { g_interrupted = true; }
-
 void Watch(nodes::Joysticks& joysticks, const std::vector<nodes::JoystickInfo>& connected, std::optional<double> duration_s) {
-  ::signal(SIGINT, OnInterrupt);
-  ::signal(SIGTERM, OnInterrupt);
+  CatchInterrupts();
   std::vector<std::string> guids;
   for (const nodes::JoystickInfo& info : connected) guids.push_back(info.guid);
   joysticks.Use(guids);
   std::vector<hands::DeviceReading> before;
   for (std::size_t place = 0; place < guids.size(); ++place) before.push_back(joysticks.reading(place));
   const auto begin = WallClock::now();
-  while (!g_interrupted && (!duration_s || std::chrono::duration<double>(WallClock::now() - begin).count() < *duration_s)) {
+  while (!Interrupted() && (!duration_s || std::chrono::duration<double>(WallClock::now() - begin).count() < *duration_s)) {
     joysticks.Update();
     for (std::size_t place = 0; place < guids.size(); ++place) {
       fmt::print("{}", JoystickMoves(connected[place].name, before[place], joysticks.reading(place)));

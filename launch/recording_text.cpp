@@ -2,7 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
+#include "common/record/mcap_reader.hpp"
+
 namespace rodeira::front {
+namespace {
+
+// The time of the last sample of the lockstep, s; 0 where there is none.
+double LastSample(const record::McapReader& reader) {
+  record::Query end;
+  const std::uint64_t last_ns = reader.statistics().last_log_time_ns;
+  end.from_ns = last_ns - std::min<std::uint64_t>(last_ns, 2'000'000'000);  // remarks may lie behind it, but not by much
+  end.channels.emplace();
+  for (const auto& [id, channel] : reader.channels()) {
+    if (channel.metadata.contains("source_number")) end.channels->insert(id);
+  }
+  std::uint64_t time_ns = 0;
+  auto cursor = reader.Messages(end);
+  for (auto message = cursor.Next(); message && message.value(); message = cursor.Next()) time_ns = std::max(time_ns, message.value()->log_time_ns);
+  return static_cast<double>(time_ns) * 1e-9;
+}
+
+}  // namespace
 
 std::string Size(std::uint64_t bytes) {
   const auto size = static_cast<double>(bytes);
@@ -10,6 +33,17 @@ std::string Size(std::uint64_t bytes) {
   if (bytes < 1'000'000) return fmt::format("{:.1f} kB", size * 1e-3);
   if (bytes < 1'000'000'000) return fmt::format("{:.1f} MB", size * 1e-6);
   return fmt::format("{:.2f} GB", size * 1e-9);
+}
+
+std::string WrittenFile(const std::string& recording, double reached_s) {
+  std::error_code problem;
+  if (!std::filesystem::exists(recording, problem)) return {};
+  std::string text = fmt::format("wrote   {} ({})\n", recording, Size(std::filesystem::file_size(recording, problem)));
+  if (!std::filesystem::is_regular_file(recording, problem)) return text;
+  const auto reader = record::McapReader::Open(recording);
+  if (!reader) return text + fmt::format("lost    {}\n", reader.error().Text());
+  if (reader.value().condition().whole) return text;
+  return text + fmt::format("lost    its end: it holds {:.3f} s of {:.3f} s; what to do: rodeira repair {} --out REPAIRED.mcap\n", LastSample(reader.value()), reached_s, recording);
 }
 
 }  // namespace rodeira::front

@@ -8,4 +8,8 @@ namespace rodeira::front {
 // "871 B", "12.3 kB", "4.5 MB", "1.2 GB".
 std::string Size(std::uint64_t bytes);
 
+// What became of the file of a run that ended at `reached_s`: its size, and where nobody closed it (its recorder died) how
+// much of the run it holds and what to do. One line; empty where there is no file.
+std::string WrittenFile(const std::string& recording, double reached_s);
+
 }  // namespace rodeira::front

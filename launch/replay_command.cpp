@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "launch/branch.hpp"
+#include "launch/interrupt.hpp"
 #include "launch/verify.hpp"
 
 namespace rodeira::front {
@@ -59,6 +60,7 @@ int MakeBranch(const ReplayOptions& options) {
     wish.changes.emplace_back(key, file ? "\"" + std::filesystem::absolute(value).lexically_normal().string() + "\"" : value);
   }
   wish.recording = options.record;
+  wish.stop_requested = Interrupted;
   const auto outcome = Branch(wish);
   if (!outcome) return Complain(outcome.error());
   if (outcome.value().difference) {
@@ -87,6 +89,7 @@ int Replay(const ReplayOptions& options) {
   if (wishes != 1) {
     return Complain(base::WrongInput(fmt::format("{} to do was named; --view, --frames, --verify or --branch was expected", wishes == 0 ? "nothing" : "more than one thing"), "rodeira replay"));
   }
+  if (!options.changes.empty() || options.verify) CatchInterrupts();
   if (!options.changes.empty()) return MakeBranch(options);
   if (!options.verify) return Watch(options);
   const auto run = replay::RecordedRun::Open(options.file);
@@ -99,7 +102,7 @@ int Replay(const ReplayOptions& options) {
   }
   const Progress progress(options.quiet, base_step_s, run.value().last_step());
   const auto begin = std::chrono::steady_clock::now();
-  const auto verdict = Verify(run.value(), from, [&](lockstep::Step step) { progress.Show(step); });
+  const auto verdict = Verify(run.value(), from, [&](lockstep::Step step) { progress.Show(step); }, Interrupted);
   if (!verdict) return Complain(verdict.error());
   const Verdict& found = verdict.value();
   if (!found.substituted.empty()) fmt::print("live input taken from the recording: {}\n", fmt::join(found.substituted, ", "));

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
+
+#include "launch/recording_text.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -109,11 +110,7 @@ std::string RunReport::Table(double base_step_s, const std::string& recording) c
   for (const std::string& again : recovered) text += fmt::format("again   {}\n", again);
   for (const std::string& fault : faults) text += fmt::format("fault   {}\n", fault);
   if (ok) text += fmt::format("digest  {}\n", digest);
-  std::error_code problem;
-  if (!recording.empty() && std::filesystem::exists(recording, problem)) {
-    text += fmt::format("wrote   {} ({:.1f} kB)\n", recording, static_cast<double>(std::filesystem::file_size(recording, problem)) / 1000.0);
-  }
-  return text;
+  return text + WrittenFile(recording, simulated_s);
 }
 
 }  // namespace rodeira::front

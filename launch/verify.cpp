@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 
 #include "common/lockstep/in_process.hpp"
@@ -10,10 +11,12 @@
 
 namespace rodeira::front {
 
-base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from, const std::function<void(lockstep::Step)>& on_progress) {
+base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from, const std::function<void(lockstep::Step)>& on_progress,
+                             const std::function<bool()>& stop_requested) {
   Recomputation wish;
   wish.from = from;
   wish.on_progress = on_progress;
+  wish.stop_requested = stop_requested;
   auto done = Recompute(run, wish);
   if (!done) return done.error();
   return std::move(done.value().verdict);
@@ -65,9 +68,11 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
     comparison.Take(sample);
     if (comparison.differs()) stop = true;
   };
-  settings.stop_requested = [&] { return stop.load(); };
+  const auto interrupted = [&wish] { return wish.stop_requested && wish.stop_requested(); };
+  settings.stop_requested = [&] { return stop.load() || interrupted(); };
   if (wish.on_progress) settings.on_progress = [&](const lockstep::Clock& clock) { wish.on_progress(clock.slowest_progress()); };
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
+  if (interrupted() && !comparison.differs()) return base::Failed(fmt::format("interrupted at step {}", std::max(outcome.last_step, at.value())), run.path().string());
   comparison.Finish(std::min(outcome.last_step, run.last_step()));
   for (lockstep::NodeIndex n = 0; n < recomputed.snapshots.size(); ++n) {
     recomputed.snapshots[n].node = n;

@@ -26,6 +26,7 @@ struct Recomputation {
   std::optional<lockstep::Step> last_step;    // none: the recording's
   std::optional<lockstep::Step> snapshot_at;  // every node's snapshot before this step is handed back
   std::function<void(lockstep::Step)> on_progress;
+  std::function<bool()> stop_requested;  // it fails then
 };
 struct Recomputed {
   Verdict verdict;
@@ -35,7 +36,8 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
 
 // Runs the recording's nodes again in this process, from its launch file and configurations and from the snapshot at or
 // before `from`, and compares every sample, every state digest and every snapshot. Live input is substituted by its
-// recorded samples, sinks by nobody. Failed where a node fails that did not fail then.
-base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from, const std::function<void(lockstep::Step)>& on_progress = {});
+// recorded samples, sinks by nobody. Failed where a node fails that did not fail then, and where it was stopped.
+base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from, const std::function<void(lockstep::Step)>& on_progress = {},
+                             const std::function<bool()>& stop_requested = {});
 
 }  // namespace rodeira::front

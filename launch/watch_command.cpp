@@ -1,13 +1,12 @@
 #include "launch/watch_command.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 
+#include "launch/interrupt.hpp"
 #include "launch/recorded_moments.hpp"
 #include "launch/recorded_view.hpp"
 #include "nodes/view/replay_window.hpp"
@@ -17,9 +16,6 @@ namespace rodeira::front {
 namespace {
 
 using lockstep::Step;
-
-std::atomic<bool> g_interrupted = false;
-void OnInterrupt(int) { g_interrupted = true; }
 
 int Complain(const base::Error& error) {
   fmt::print(stderr, "rodeira: {}\n", error.Text());
@@ -62,7 +58,7 @@ base::Status Watch(const WatchOptions& options) {
   if (options.paused) player.Pause();
   RecordedMoments moments(run.value(), seen.value().sources, seen.value().period);
   return window.value()->Watch(
-      player, marks.value(), [&](std::int64_t time_ns) { return moments.At(time_ns); }, [] { return g_interrupted.load(); });
+      player, marks.value(), [&](std::int64_t time_ns) { return moments.At(time_ns); }, Interrupted);
 }
 
 base::Result<std::vector<Step>> FrameSteps(const replay::RecordedRun& run, const std::vector<lockstep::SourceIndex>& cars,
@@ -97,7 +93,7 @@ base::Status WriteFrames(const WatchOptions& options) {
   if (!stage) return stage.error();
   RecordedMoments moments(run.value(), seen.value().sources, seen.value().period);
   for (const Step step : settings.frame_steps) {
-    if (g_interrupted) break;
+    if (Interrupted()) break;
     auto moment = moments.Exactly(step);
     if (!moment) return moment.error();
     const auto file = settings.folder / view::FrameName(step);
@@ -108,9 +104,7 @@ base::Status WriteFrames(const WatchOptions& options) {
 
 // Ctrl-C ends in order: what was unpacked is removed.
 int InOrder(base::Status (*work)(const WatchOptions&), const WatchOptions& options) {
-  ::signal(SIGINT, OnInterrupt);
-  ::signal(SIGTERM, OnInterrupt);
-  ::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error to report, like a full disk
+  CatchInterrupts();
   const base::Status status = work(options);
   return status ? 0 : Complain(status.error());
 }

@@ -16,8 +16,8 @@ using lockstep::SampleHeader;
 
 class Splicer {
  public:
-  Splicer(const RecordedRun& parent, const record::McapReader& branch, lockstep::Step at, record::McapWriter& writer)
-      : parent_(parent), branch_(branch), at_(at), writer_(writer) {}
+  Splicer(const RecordedRun& parent, const record::McapReader& branch, lockstep::Step at, record::McapWriter& writer, const std::function<bool()>& stop_requested)
+      : parent_(parent), branch_(branch), at_(at), writer_(writer), stop_requested_(stop_requested) {}
 
   base::Status Write(const record::TextMap& about) {
     for (const auto& info : branch_.metadata()) {
@@ -62,6 +62,7 @@ class Splicer {
     for (;;) {
       const auto sample = samples.Next();
       if (!sample) return sample.error();
+      if (stopped()) return Stopped();
       if (!sample.value() || sample.value()->valid() > at_) return {};
       const auto& source = parent_.roster().source(sample.value()->source());
       if (source.topic == lockstep::kSnapshotTopic && sample.value()->valid() == at_) continue;
@@ -77,6 +78,7 @@ class Splicer {
     for (;;) {
       const auto message = cursor.Next();
       if (!message) return message.error();
+      if (stopped()) return Stopped();
       if (!message.value()) return {};
       const record::Message& in = *message.value();
       const record::Channel& channel = branch_.channels().at(in.channel);
@@ -88,17 +90,22 @@ class Splicer {
     }
   }
 
+  bool stopped() const { return stop_requested_ && stop_requested_(); }
+  base::Error Stopped() const { return base::Failed("interrupted while the branch was written; there is no new file", parent_.path().string()); }
+
   const RecordedRun& parent_;
   const record::McapReader& branch_;
   lockstep::Step at_;
   record::McapWriter& writer_;
+  const std::function<bool()>& stop_requested_;
   std::map<record::ChannelId, record::ChannelId> of_branch_;
   std::map<std::string, record::ChannelId> of_source_;
 };
 
 }  // namespace
 
-base::Status Splice(const RecordedRun& parent, const fs::path& branch, lockstep::Step at, const record::TextMap& about, const fs::path& target) {
+base::Status Splice(const RecordedRun& parent, const fs::path& branch, lockstep::Step at, const record::TextMap& about, const fs::path& target,
+                    const std::function<bool()>& stop_requested) {
   std::error_code problem;
   if (fs::exists(target, problem)) return base::WrongInput("the file exists; a recording is never overwritten", target.string());
   const auto reader = record::McapReader::Open(branch);
@@ -109,7 +116,7 @@ base::Status Splice(const RecordedRun& parent, const fs::path& branch, lockstep:
   settings.profile = reader.value().header().profile;
   auto writer = record::McapWriter::Open(part, settings);
   if (!writer) return writer.error();
-  auto status = Splicer(parent, reader.value(), at, writer.value()).Write(about);
+  auto status = Splicer(parent, reader.value(), at, writer.value(), stop_requested).Write(about);
   if (status.ok()) {
     fs::rename(part, target, problem);
     if (!problem) return {};

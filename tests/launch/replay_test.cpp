@@ -1,8 +1,11 @@
 // A recording is a fact: computed again it is the same to the bit, and whatever is not is found and named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <fstream>
+#include <thread>
 
 #include "common/record/mcap_reader.hpp"
 #include "common/record/mcap_writer.hpp"
@@ -174,6 +177,30 @@ TEST_F(ReplayTest, ABranchHasItsParentsPastAndItsOwnFuture) {
   EXPECT_EQ(verdict.value().first_step, 2000);
   EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
   EXPECT_EQ(verdict.value().last_step, 4000);
+}
+
+// Ctrl-C while what was recorded is unpacked and while it is computed: a sentence, status 1, and no folder is left.
+TEST_F(ReplayTest, CtrlCEndsInOrderAndLeavesNothing) {
+  const std::string file = Drive(100.0);
+  const std::filesystem::path unpacked = folder_.path() / "tmp";
+  const std::filesystem::path branch = folder_.path() / "branch.mcap";
+  std::filesystem::create_directory(unpacked);
+  const std::vector<std::string> verify{"TMPDIR=" + unpacked.string(), Bin("rodeira"), "replay", file, "--verify"};
+  std::vector<std::string> to_branch{verify.begin(), verify.end() - 1};
+  to_branch.insert(to_branch.end(), {"--from", "0.5", "--branch", "seed=2", "--record", branch.string()});
+  for (const auto& [command, number, wait_ms] : {std::tuple(verify, SIGINT, 0), std::tuple(verify, SIGTERM, 200), std::tuple(to_branch, SIGINT, 0), std::tuple(to_branch, SIGTERM, 200)}) {
+    system_test::Started replay(command);
+    for (int i = 0; i < 2000 && std::filesystem::is_empty(unpacked); ++i) ::usleep(5000);
+    ASSERT_FALSE(std::filesystem::is_empty(unpacked));
+    std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
+    ASSERT_EQ(::kill(replay.pid(), number), 0);
+    const auto ended = replay.Wait();
+    EXPECT_EQ(ended.status, 1) << ended.out;
+    EXPECT_THAT(ended.out, HasSubstr("interrupted at step ")) << wait_ms;
+    EXPECT_EQ(std::count(ended.out.begin(), ended.out.end(), '\n'), 1) << ended.out;
+    EXPECT_TRUE(std::filesystem::is_empty(unpacked)) << command.back();
+    EXPECT_FALSE(std::filesystem::exists(branch));
+  }
 }
 
 TEST_F(ReplayTest, WhatCannotBeReplayedIsRefusedInOneSentence) {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "common/base/result.hpp"
+#include "tests/setting.hpp"
 
 namespace rodeira::property {
 
-// A number from the environment.
-std::size_t Setting(const char* name, std::size_t otherwise);
+using rodeira::Setting;
 
 // One sentence for a terminal: with a place, without line breaks or other control characters.
 void ExpectSentence(const base::Error& error);

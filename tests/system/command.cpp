@@ -108,7 +108,9 @@ std::vector<pid_t> ProcessesWith(const std::string& first, const std::string& se
     const std::string name = entry.path().filename().string();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
     std::ifstream in(entry.path() / "cmdline", std::ios::binary);
-    std::string line((std::istreambuf_iterator<char>(in)), {});
+    std::ostringstream words;
+    words << in.rdbuf();  // which is no error where the process ends meanwhile
+    std::string line = words.str();
     for (char& c : line) c = c == '\0' ? ' ' : c;
     if (line.find(first) != std::string::npos && line.find(second) != std::string::npos) found.push_back(std::stoi(name));
   }

@@ -19,7 +19,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr const char* kNames[] = {"left", "right", "third"};
 // Four empty nodes, all to all; 2000 steps.
 constexpr const char* kFour = "rodeira: launch/1\nduration_s: 2\nnodes: {a: {kind: empty, host: left}, b: {kind: empty, host: right}, "
                               "c: {kind: empty, host: right}, d: {kind: empty}}\n";
@@ -33,13 +32,11 @@ class Hosts : public ::testing::Test {
   void Make(int hosts, const Weather& weather, const std::string& discovery, const std::string& launch) {
     rig_ = std::make_unique<Rig>(hosts, weather);
     if (!rig_->problem().empty()) GTEST_SKIP() << rig_->problem();
-    std::string lab = "rodeira: lab/1\ndomain: 9\nrun: rig\ndiscovery: " + discovery + "\nhosts:\n";
-    for (int host = 0; host < hosts; ++host) lab += std::string("  ") + kNames[host] + ": {address: " + Rig::Address(host) + "}\n";
-    lab_ = folder_.Write("lab.yaml", lab).string();
+    lab_ = folder_.Write("lab.yaml", Rig::Laboratory(hosts, discovery)).string();
     launch_ = folder_.Write("launch.yaml", launch).string();
   }
   std::vector<std::string> Command(int host, std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {Bin("rodeira"), "run", launch_, "--lab", lab_, "--host", kNames[host]});
+    more.insert(more.begin(), {Bin("rodeira"), "run", launch_, "--lab", lab_, "--host", Rig::Name(host)});
     return rig_->On(host, more);
   }
   std::unique_ptr<Started> Start(int host, const std::vector<std::string>& more = {}) const { return std::make_unique<Started>(Command(host, more)); }
@@ -63,9 +60,9 @@ class Hosts : public ::testing::Test {
     }
     for (int host = 0; host < hosts; ++host) {
       const Ended ended = pcs[host]->Wait(120s);
-      EXPECT_EQ(ended.status, 0) << kNames[host] << ":\n" << ended.out;
-      EXPECT_EQ(DigestIn(ended.out), digest) << kNames[host] << ":\n" << ended.out;
-      EXPECT_NE(ended.out.find("faults  none"), std::string::npos) << kNames[host] << ":\n" << ended.out;
+      EXPECT_EQ(ended.status, 0) << Rig::Name(host) << ":\n" << ended.out;
+      EXPECT_EQ(DigestIn(ended.out), digest) << Rig::Name(host) << ":\n" << ended.out;
+      EXPECT_NE(ended.out.find("faults  none"), std::string::npos) << Rig::Name(host) << ":\n" << ended.out;
     }
     EXPECT_GT(rig_->hub().passed(), 2000u) << "it went over the network";
   }

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <random>
 #include <thread>
@@ -12,6 +11,7 @@
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/setting.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
 
@@ -71,10 +71,8 @@ class Recovery : public ::testing::Test {
 
 // RODEIRA_KILLS says how often, one part after the other; RODEIRA_KILLS_SEED repeats a sequence of instants.
 TEST_F(Recovery, KilledAndStoppedAtAnyInstantNothingIsLost) {
-  const char* count = std::getenv("RODEIRA_KILLS");
-  const char* seed_text = std::getenv("RODEIRA_KILLS_SEED");
-  const int kills = count == nullptr ? 12 : std::atoi(count);
-  const unsigned seed = seed_text == nullptr ? std::random_device()() : static_cast<unsigned>(std::strtoul(seed_text, nullptr, 10));
+  const int kills = static_cast<int>(Setting("RODEIRA_KILLS", 12));
+  const auto seed = static_cast<unsigned>(Setting("RODEIRA_KILLS_SEED", std::random_device()()));
   SCOPED_TRACE("RODEIRA_KILLS_SEED=" + std::to_string(seed));
   std::mt19937 lot(seed);
   const std::string seconds = "60";

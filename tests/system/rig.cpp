@@ -79,6 +79,14 @@ std::vector<std::string> Rig::On(int host, std::vector<std::string> command) con
   return command;
 }
 
+std::string Rig::Name(int host) { return std::vector<std::string>{"left", "right", "third"}.at(static_cast<std::size_t>(host)); }
+
+std::string Rig::Laboratory(int hosts, const std::string& discovery) {
+  std::string text = "rodeira: lab/1\ndomain: 9\nrun: rig\ndiscovery: " + discovery + "\nhosts:\n";
+  for (int host = 0; host < hosts; ++host) text += "  " + Name(host) + ": {address: " + Address(host) + "}\n";
+  return text;
+}
+
 void Rig::Unplug(int host) { (void)Ip({"-n", Space("hub"), "link", "set", "port" + std::to_string(host), "down"}); }
 
 }  // namespace rodeira::system_test

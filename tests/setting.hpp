@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+
+namespace rodeira {
+
+// A number from the environment, for counts and seeds of tests.
+inline std::uint64_t Setting(const char* name, std::uint64_t otherwise) {
+  const char* set = std::getenv(name);
+  return set == nullptr ? otherwise : std::strtoull(set, nullptr, 10);
+}
+
+}  // namespace rodeira
