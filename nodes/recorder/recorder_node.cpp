@@ -20,6 +20,8 @@ namespace rodeira::nodes {
 namespace {
 
 constexpr const char* kProfile = "rodeira/1";
+// With the window by which nodes run ahead and the recorder's own period: at most a second is lost with its process.
+constexpr std::uint64_t kChunkSpanNs = 800'000'000;
 
 class RecorderNode final : public lockstep::Node {
  public:
@@ -35,6 +37,7 @@ class RecorderNode final : public lockstep::Node {
   base::Status Open(launch::NodeContext& context, const record::TextMap& meta) {
     record::WriterSettings settings;
     settings.profile = kProfile;
+    settings.chunk_span_ns = kChunkSpanNs;
     tell_safe_ = context.SafeTeller();
     if (context.is_another_life() && std::filesystem::exists(file_)) {
       if (GoOn(context, settings).ok()) {

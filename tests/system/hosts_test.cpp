@@ -186,7 +186,7 @@ TEST_F(Hosts, ANodeKilledOnTheSecondPcIsNamedOnBothWithinASecond) {
   const auto victims = ProcessesWith("--run rig", "--node c");
   ASSERT_EQ(victims.size(), 1u);
   ::kill(victims[0], SIGKILL);
-  const auto took = left->WaitFor("it was killed by signal 9 (Killed) (host 'right')", 5s);
+  const auto took = left->WaitFor("node 'c' was killed by signal 9 (Killed) (host 'right')", 5s);
   EXPECT_GE(took, 0ms);
   EXPECT_LE(took, 1000ms);
   EXPECT_GE(right->WaitFor("node 'c' was killed by signal 9", 1s), 0ms);
