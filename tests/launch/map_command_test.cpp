@@ -21,7 +21,7 @@ struct Said {
   std::string errors;
 };
 
-Said Run(const MapOptions& options) {
+Said Asked(const MapOptions& options) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   const int status = MapCommand(options);
@@ -31,7 +31,7 @@ Said Run(const MapOptions& options) {
 const std::string kCrossing = std::string(RODEIRA_SOURCE_DIR) + "/configs/maps/crossing.motors";
 
 TEST(MapCommand, ChecksAMap) {
-  const Said said = Run({"check", kCrossing, ""});
+  const Said said = Asked({"check", kCrossing, ""});
   EXPECT_EQ(said.status, 0);
   EXPECT_EQ(said.errors, "");
   EXPECT_THAT(said.out, HasSubstr("lanes        20: 4 start, 4 end\n"));
@@ -43,15 +43,15 @@ TEST(MapCommand, NamesWhatIsWrong) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "a.motors";
   ASSERT_TRUE(base::WriteWhole(file, map::kGoodLines + "p,9,0,0,0,1,0,0,2,0,0,3,0,0\ns,10\ni\n").ok());
-  Said said = Run({"check", file, ""});
+  Said said = Asked({"check", file, ""});
   EXPECT_EQ(said.status, 0);
   EXPECT_EQ(said.errors, "rodeira: " + file + ":12: warning: curve 9: no lane uses it\n");
   ASSERT_TRUE(base::WriteWhole(file, map::kGoodLines + "c,1,7,False\ns,10\ni\n").ok());
-  said = Run({"check", file, ""});
+  said = Asked({"check", file, ""});
   EXPECT_EQ(said.status, 2);
   EXPECT_EQ(said.errors, "rodeira: " + file + ":12: connection 1 to 7: lane 7 does not exist\n");
   EXPECT_THAT(said.out, HasSubstr("found        1 errors, 0 warnings\n"));
-  said = Run({"convert", file, folder.path() / "a.svg"});
+  said = Asked({"convert", file, folder.path() / "a.svg"});
   EXPECT_EQ(said.status, 2);
   EXPECT_EQ(said.errors, "rodeira: " + file + ":12: connection 1 to 7: lane 7 does not exist\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.svg"));
@@ -60,14 +60,14 @@ TEST(MapCommand, NamesWhatIsWrong) {
 TEST(MapCommand, Converts) {
   const TemporaryFolder folder;
   const std::string svg = folder.path() / "a.svg", drive = folder.path() / "a.xodr";
-  EXPECT_EQ(Run({"convert", kCrossing, svg}).out, "wrote " + svg + "\n");
+  EXPECT_EQ(Asked({"convert", kCrossing, svg}).out, "wrote " + svg + "\n");
   EXPECT_THAT(base::ReadText(svg).value(), testing::StartsWith("<svg"));
-  const Said said = Run({"convert", kCrossing, drive});
+  const Said said = Asked({"convert", kCrossing, drive});
   EXPECT_EQ(said.status, 0);
   EXPECT_THAT(said.out, HasSubstr("20 roads"));
   EXPECT_THAT(said.out, HasSubstr("mm (borders)"));
   EXPECT_THAT(base::ReadText(drive).value(), HasSubstr("<OpenDRIVE>"));
-  const Said wrong = Run({"convert", kCrossing, folder.path() / "a.png"});
+  const Said wrong = Asked({"convert", kCrossing, folder.path() / "a.png"});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.errors, HasSubstr("the file's name ends with '.png'; .svg or .xodr was expected"));
 }
