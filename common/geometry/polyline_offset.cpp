@@ -11,15 +11,16 @@
 namespace rodeira::geometry {
 namespace {
 
-constexpr double kCollinear = 1e-12;  // of the sum of two unit vectors
 
 Eigen::Vector2d LeftOf(const Eigen::Vector2d& direction) { return {-direction.y(), direction.x()}; }
 
 // The node's vector, between a segment that arrives and one that leaves, both unit.
 Eigen::Vector2d MitreVector(const Eigen::Vector2d& arriving, const Eigen::Vector2d& leaving, Mitre mitre) {
-  Eigen::Vector2d along_mitre = leaving - arriving;  // towards the next node and towards the one before
+  // Towards the next node and towards the one before; where the line hardly turns that difference is mostly rounding, and the
+  // sum of both perpendiculars has the same direction.
+  const bool turns_much = arriving.dot(leaving) < 0.0;
+  Eigen::Vector2d along_mitre = turns_much ? Eigen::Vector2d(leaving - arriving) : Eigen::Vector2d(LeftOf(arriving) + LeftOf(leaving));
   const Eigen::Vector2d perpendicular = LeftOf(leaving);
-  if (along_mitre.norm() < kCollinear) return perpendicular;
   along_mitre.normalize();
   if (along_mitre.dot(LeftOf(arriving) + LeftOf(leaving)) < 0.0) along_mitre = -along_mitre;
   if (mitre == Mitre::kKeepLength) return along_mitre;

@@ -25,6 +25,7 @@ void Watchdog::ExpectNextLife(NodeIndex node, std::int64_t now_ms) {
   lives_[node].report.incarnation = incarnation;
   first_ms_ = now_ms;
   everybody_ready_ = false;
+  recovering_ = true;
 }
 
 void Watchdog::Excuse(NodeIndex node) { lives_[node].excused = true; }
@@ -47,8 +48,15 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
   std::string missing;
   for (NodeIndex n = 0; n < lives_.size(); ++n) {
     const Life& life = lives_[n];
+    if (!life.heard || life.report.phase < Phase::kReady) missing += (missing.empty() ? "'" : ", '") + roster_.node(n).name + "'";
+  }
+  if (recovering_ && missing.empty()) {
+    recovering_ = false;
+    for (Life& life : lives_) life.last_ms = now_ms;
+  }
+  for (NodeIndex n = 0; n < lives_.size() && !recovering_; ++n) {
+    const Life& life = lives_[n];
     const NodeSpec& spec = roster_.node(n);
-    if (!life.heard || life.report.phase < Phase::kReady) missing += (missing.empty() ? "'" : ", '") + spec.name + "'";
     if (!life.heard || life.excused || life.report.phase == Phase::kFinished) continue;
     const std::int64_t silence_ms = now_ms - life.last_ms;
     if (silence_ms > settings_.silence_ms) {

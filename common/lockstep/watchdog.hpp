@@ -30,7 +30,9 @@ class Watchdog {
   // The first fault in the roster's order; a node that failed by its own word comes first. A gap in the caller's own
   // calls (the clock itself was stopped) is nobody's silence and is forgiven.
   std::optional<Fault> Check(std::int64_t now_ms);
-  // The node is started again and has as long as at the start.
+  // The node is started again and has as long as at the start. Until everybody is ready again nobody's silence or slowness
+  // counts: who speaks to a process that was killed may be held up for a second (Fast DDS, shared memory). A process that dies
+  // meanwhile is seen by who has started it.
   void ExpectNextLife(NodeIndex node, std::int64_t now_ms);
   // Its fault is known and a person looks after it: it is named no more until it goes on.
   void Excuse(NodeIndex node);
@@ -48,6 +50,7 @@ class Watchdog {
   std::optional<std::int64_t> first_ms_;
   std::int64_t checked_ms_ = 0;
   bool everybody_ready_ = false;
+  bool recovering_ = false;
 };
 
 }  // namespace rodeira::lockstep

@@ -94,5 +94,55 @@ TEST_F(WatchdogTest, WhoHasFinishedMayBeSilent) {
   }
 }
 
+TEST_F(WatchdogTest, NobodysSilenceCountsWhileSomebodyIsStartedAgain) {
+  Hear(0, 0);
+  Hear(1, 0);
+  EXPECT_FALSE(dog_.Check(0));
+  dog_.ExpectNextLife(0, 0);
+  for (std::int64_t now = 50; now <= 3000; now += 50) EXPECT_FALSE(dog_.Check(now)) << now;
+  Report back;
+  back.node = 0;
+  back.incarnation = 1;
+  back.phase = Phase::kRunning;
+  back.waiting = Waiting::kGrant;
+  dog_.Heard(back, 3000);
+  for (std::int64_t now = 3000; now <= 3600; now += 50) EXPECT_FALSE(dog_.Check(now)) << now;
+  const auto fault = dog_.Check(3650);
+  ASSERT_TRUE(fault) << "from then on it counts anew";
+  EXPECT_EQ(fault->node, 0u);
+}
+
+TEST_F(WatchdogTest, ALifeThatDoesNotBecomeReadyIsNamed) {
+  Hear(0, 0);
+  Hear(1, 0);
+  EXPECT_FALSE(dog_.Check(0));
+  dog_.ExpectNextLife(1, 1000);
+  for (std::int64_t now = 50; now <= 6000; now += 50) {
+    Hear(0, now);
+    EXPECT_FALSE(dog_.Check(now)) << now;
+  }
+  const auto fault = dog_.Check(6050);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->reason, "after 5 s these are still missing: 'view'");
+}
+
+TEST_F(WatchdogTest, WhoIsExcusedIsNotNamedUntilItGoesOn) {
+  Hear(0, 0);
+  Hear(1, 0);
+  EXPECT_FALSE(dog_.Check(0));
+  dog_.Excuse(0);
+  for (std::int64_t now = 50; now <= 20000; now += 50) {
+    Hear(1, now);
+    EXPECT_FALSE(dog_.Check(now)) << now;
+  }
+  Hear(0, 20000);
+  for (std::int64_t now = 20050; now <= 20600; now += 50) {
+    Hear(1, now);
+    EXPECT_FALSE(dog_.Check(now)) << now;
+  }
+  Hear(1, 20650);
+  EXPECT_TRUE(dog_.Check(20650));
+}
+
 }  // namespace
 }  // namespace rodeira::lockstep
