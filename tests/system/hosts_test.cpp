@@ -195,6 +195,30 @@ TEST_F(Hosts, ANodeKilledOnTheSecondPcIsNamedOnBothWithinASecond) {
   ExpectNobodyLeft();
 }
 
+TEST_F(Hosts, ANodeKilledOnTheSecondPcIsStartedAgainThere) {
+  Make(2, kNoMulticast, "{kind: peers}",
+       "rodeira: launch/1\nrecovery: restart\nduration_s: 8\nnodes: {a: {kind: empty, host: left}, b: {kind: empty, host: right}, "
+       "c: {kind: empty, host: right}, d: {kind: empty}, recorder: {kind: recorder, host: left}}\n");
+  if (!rig_->problem().empty()) return;
+  const std::string one = (folder_.path() / "one.mcap").string(), two = (folder_.path() / "two.mcap").string();
+  const Ended alone = RunCommand({Bin("rodeira"), "run", launch_, "--in-process", "--record", one});
+  ASSERT_EQ(alone.status, 0) << alone.out;
+  const auto left = Start(0, {"--record", two, "--pace", "real"}), right = Start(1);
+  ASSERT_TRUE(WaitUntilItDrives());
+  const auto victims = ProcessesWith("--run rig", "--node c");
+  ASSERT_EQ(victims.size(), 1u);
+  ::kill(victims[0], SIGKILL);
+  const Ended here = left->Wait(60s), there = right->Wait(10s);
+  ASSERT_EQ(here.status, 0) << here.out;
+  EXPECT_EQ(there.status, 0) << there.out;
+  EXPECT_NE(here.out.find("again   node 'c' was killed by signal 9 (Killed) (host 'right')"), std::string::npos) << here.out;
+  EXPECT_NE(there.out.find("it is started again"), std::string::npos) << there.out;
+  EXPECT_EQ(DigestIn(here.out), DigestIn(alone.out)) << here.out;
+  EXPECT_EQ(DigestIn(there.out), DigestIn(alone.out)) << there.out;
+  EXPECT_EQ(FirstDifference(SamplesOf(one), SamplesOf(two)), "");
+  ExpectNobodyLeft();
+}
+
 TEST_F(Hosts, APulledCableEndsBoth) {
   Make(2, kNoMulticast, "{kind: server}", kFour);
   if (!rig_->problem().empty()) return;
