@@ -5,7 +5,7 @@
 namespace rodeira::launch {
 
 bool IsOfTheRun(const Launch& launch, const std::string& key) {
-  if (key == "recovery" || key.ends_with(".recovery") || key == "transport" || key == "discovery" || key.starts_with("discovery.") || key.starts_with("limits.")) return false;
+  if (key == "transport" || key == "discovery" || key.starts_with("discovery.") || key.starts_with("limits.")) return false;
   for (const LaunchNode& node : launch.nodes()) {
     if (node.kind->name == "recorder" && key == fmt::format("nodes.{}.config.file", node.name)) return false;
   }

@@ -157,6 +157,8 @@ TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
   EXPECT_EQ(restart.status, 0) << restart.out;
   EXPECT_NE(restart.out.find("'traffic' is started again"), std::string::npos) << restart.out;
   ExpectUndisturbed(run.Wait(60s), File("pause.mcap"));
+  const Ended verified = RunCommand({Bin("rodeira"), "replay", File("pause.mcap"), "--verify"});
+  EXPECT_EQ(verified.status, 0) << "computed again, it is the same: " << verified.out;
 }
 
 TEST_F(Recovery, WhoDiesAgainAndAgainWithoutGettingOnEndsTheRun) {

@@ -11,6 +11,7 @@
 #include "common/road/world_report.hpp"
 #include "common/terrain/bt.hpp"
 #include "tests/common/road/sample_world.hpp"
+#include "tests/launch/temporary_folder.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -149,9 +150,8 @@ TEST(WorldFile, AllProblemsAreToldInTheOrderOfLines) {
 }
 
 TEST(WorldFile, WhereTheHeightsOfAFileStandCanBeSaid) {
-  std::string pattern = (std::filesystem::temp_directory_path() / "rodeira-world-XXXXXX").string();
-  ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-  const std::filesystem::path folder = pattern;
+  const front::TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
   const terrain::ElevationGrid grid({3, 3, 0.0, 0.0, 30.0, 30.0}, {0.0F, 0.0F, 0.0F, 3.0F, 3.0F, 3.0F, 6.0F, 6.0F, 6.0F});
   ASSERT_TRUE(terrain::WriteBt(folder / "hills.bt", grid).ok());
   const auto parse = [&folder](const std::string& terrain) {
@@ -164,7 +164,6 @@ TEST(WorldFile, WhereTheHeightsOfAFileStandCanBeSaid) {
   EXPECT_THAT(parse("file: hills.bt, registration: corners").error().Text(), HasSubstr("corners"));
   EXPECT_THAT(parse("generate: {seed: 1, columns: 3, rows: 3, spacing_m: 20, west_m: 0, south_m: 0, relief: []}, registration: cells").error().Text(),
               HasSubstr("'registration' says where the heights of a 'file' stand"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(WorldFile, ElevationFilesAreFoundBesideItAndRefusedWhenBroken) {

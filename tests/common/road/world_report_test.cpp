@@ -15,6 +15,7 @@
 #include "common/road/world_plot.hpp"
 #include "common/road/world_profile.hpp"
 #include "tests/common/road/sample_world.hpp"
+#include "tests/launch/temporary_folder.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -25,14 +26,9 @@ using ::testing::Not;
 
 class WorldReport : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "rodeira-report-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-    ASSERT_TRUE(base::WriteWhole(folder_ / "w.yaml", kSample).ok());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_;
+  void SetUp() override { ASSERT_TRUE(base::WriteWhole(folder_ / "w.yaml", kSample).ok()); }
+  const front::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 TEST_F(WorldReport, QueryTellsTheCratersOracle) {

@@ -12,6 +12,7 @@
 #include "common/base/files.hpp"
 #include "common/surface/crg_report.hpp"
 #include "tests/common/surface/made_crg.hpp"
+#include "tests/launch/temporary_folder.hpp"
 
 namespace rodeira::surface {
 namespace {
@@ -97,9 +98,8 @@ TEST(CrgFile, AFileMayNameAnotherRelativeToItself) {
         HasSubstr(
             "testOptionBorderMode.crg: $ROAD_CRG_FILE names '../../../crg-txt/handmade_sloped_opt.crg': there is no such file"));
   }
-  std::string pattern = (fs::temp_directory_path() / "rodeira-crg-XXXXXX").string();
-  ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-  const fs::path folder = pattern;
+  const front::TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   fs::create_directory(folder / "numbers");
   MadeCrg made;
   made.z = [](double, double) { return 1.0; };
@@ -118,7 +118,6 @@ TEST(CrgFile, AFileMayNameAnotherRelativeToItself) {
   ASSERT_TRUE(base::WriteWhole(folder / "environment.crg", std::string_view("$ROAD_CRG_FILE\n $HOME/made.crg\n$\n")).ok());
   EXPECT_THAT(LoadCrg(folder / "environment.crg").error().Text(),
               HasSubstr("environment.crg:2: the file name '$HOME/made.crg' begins with an environment variable"));
-  fs::remove_all(folder);
 }
 
 std::string Refusal(const std::string& text) {

@@ -13,6 +13,7 @@
 #include "common/base/files.hpp"
 #include "common/base/random.hpp"
 #include "common/terrain/bt.hpp"
+#include "tests/launch/temporary_folder.hpp"
 
 namespace rodeira::terrain {
 namespace {
@@ -24,13 +25,6 @@ const fs::path kCrater = fs::path(RODEIRA_SOURCE_DIR) / "../shared/data/road/bt/
 
 class ElevationFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "rodeira-elevation-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path Write(const std::string& name, const base::Bytes& bytes) const {
     EXPECT_TRUE(base::WriteWhole(folder_ / name, std::span<const std::byte>(bytes)).ok());
     return folder_ / name;
@@ -42,7 +36,8 @@ class ElevationFile : public ::testing::Test {
     EXPECT_EQ(loaded.error().exit_status(), 2);
     return loaded.error().Text();
   }
-  fs::path folder_;
+  const front::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 // A .bt put together field by field from the format's description, with heights 10, 11, 12 … in the file's order.

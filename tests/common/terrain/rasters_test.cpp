@@ -12,6 +12,7 @@
 
 #include "common/base/random.hpp"
 #include "common/terrain/elevation_file.hpp"
+#include "tests/launch/temporary_folder.hpp"
 
 namespace rodeira::terrain {
 namespace {
@@ -32,16 +33,10 @@ float Height(int column, int row_from_north) {
 class Rasters : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "rodeira-rasters-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
     GDALAllRegister();
     CPLPushErrorHandler(CPLQuietErrorHandler);
   }
-  void TearDown() override {
-    CPLPopErrorHandler();
-    fs::remove_all(folder_);
-  }
+  void TearDown() override { CPLPopErrorHandler(); }
 
   // A raster in memory, written by a driver; false where the driver cannot.
   bool Write(const char* driver_name, const fs::path& path, const std::function<void(GDALDataset&)>& change = {},
@@ -76,7 +71,8 @@ class Rasters : public ::testing::Test {
     return loaded.ok() ? "" : loaded.error().Text();
   }
 
-  fs::path folder_;
+  const front::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 TEST_F(Rasters, EveryFormatGivesTheSameHeightsAtTheSamePlaces) {
