@@ -9,6 +9,7 @@
 #include "common/network/furniture.hpp"
 #include "common/network/lane.hpp"
 #include "common/network/lateral.hpp"
+#include "common/network/line.hpp"
 
 namespace rodeira::network {
 
@@ -45,6 +46,7 @@ struct RoadSpec {
   std::vector<ObjectReference> object_references;
   std::vector<Structure> structures;
   std::vector<CrgSurface> crg;
+  std::vector<PaintedLine> lines;  // OpenDRIVE has none
 };
 
 // A point of the road's surface and how it moves with s and with t: the upward normal is their cross product.
