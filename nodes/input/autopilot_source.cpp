@@ -70,7 +70,7 @@ constexpr double kRoute_m = 20'000.0;
 base::Result<std::unique_ptr<const driver::Way>> WayOf(const road::World& world, std::optional<int> lane_wish,
                                                        const std::string& place) {
   const road::StartPose& start = world.start();
-  if (world.network() != nullptr) {
+  if (world.open_drive()) {
     const network::Network& network = *world.network();
     const auto at = network.Locate(start.x_m, start.y_m);
     if (!at || at->distance_m > 0.0 || at->lane.lane == 0)
