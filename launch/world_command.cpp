@@ -32,6 +32,7 @@ int CheckOpenDrive(const WorldOptions& options) {
 int Check(const WorldOptions& options) {
   if (road::IsOpenDrive(options.world_file)) return CheckOpenDrive(options);
   if (options.strict) return Complain(base::WrongInput("'--strict' is for OpenDRIVE files", options.world_file));
+  for (const std::string& warning : road::WorldWarnings(options.world_file)) fmt::print(stderr, "rodeira: warning: {}\n", warning);
   const auto problems = road::WorldProblems(options.world_file);
   for (const base::Error& problem : problems) fmt::print(stderr, "rodeira: {}\n", problem.Text());
   if (!problems.empty()) return problems.front().exit_status();

@@ -214,4 +214,5 @@ roads:
         print(f"      - {{t_m: 0, width_m: 0.1, from_s_m: {number(begin)}, to_s_m: {number(end)}, kind: {kinds[kind]}}}")
 
 
-write(*choose())
+if __name__ == "__main__":
+    write(*choose())

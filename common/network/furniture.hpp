@@ -91,6 +91,7 @@ struct CrgSurface {
 // Made roughness (ISO 8608) between two stations, from edge to edge of the lanes that are paved.
 struct Unevenness {
   double s_start_m = 0.0, s_end_m = 0.0;
+  double s_offset_m = 0.0;  // of the made surface: its s is the road's and this
   double density_m3 = 0.0;  // at 0.1 cycles a metre
   std::uint64_t seed = 0;
 };

@@ -11,37 +11,22 @@ namespace rodeira::road {
 namespace {
 
 constexpr double kAxisStep_m = 20.0;
-
-struct AxisPoint {
-  double x_m, y_m, z_m;
-};
-
-std::vector<AxisPoint> AxisPoints(std::span<const Road> roads) {
-  std::vector<AxisPoint> points;
-  for (const Road& road : roads) {
-    const int steps = static_cast<int>(std::ceil(road.length_m() / kAxisStep_m));
-    for (int i = 0; i <= steps; ++i) {
-      const Eigen::Vector3d p = road.Evaluate(road.length_m() * i / steps).p_W;
-      points.push_back({p.x(), p.y(), p.z()});
-    }
-  }
-  return points;
-}
+constexpr double kNetworkStep_m = 40.0;
 
 // The roads' height at (x, y) and the distance to them.
 struct Base {
   double z_m, distance_m;
 };
 
-Base BaseAt(std::span<const AxisPoint> points, double x_m, double y_m, double softness_m2) {
+Base BaseAt(std::span<const Eigen::Vector3d> points, double x_m, double y_m, double softness_m2) {
   double weights = 0.0, heights = 0.0, nearest = std::numeric_limits<double>::infinity();
-  for (const AxisPoint& point : points) {
-    const double dx = x_m - point.x_m, dy = y_m - point.y_m;
+  for (const Eigen::Vector3d& point : points) {
+    const double dx = x_m - point.x(), dy = y_m - point.y();
     const double squared = dx * dx + dy * dy;
     const double soft = squared + softness_m2;
     const double weight = 1.0 / (soft * soft);
     weights += weight;
-    heights += weight * point.z_m;
+    heights += weight * point.z();
     nearest = std::min(nearest, squared);
   }
   return {heights / weights, std::sqrt(nearest)};
@@ -91,9 +76,27 @@ class Noise {
 
 }  // namespace
 
-terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const Road> roads) {
+std::vector<Eigen::Vector3d> AxisPoints(std::span<const Road> roads) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Road& road : roads) {
+    const int steps = static_cast<int>(std::ceil(road.length_m() / kAxisStep_m));
+    for (int i = 0; i <= steps; ++i) points.push_back(road.Evaluate(road.length_m() * i / steps).p_W);
+  }
+  return points;
+}
+
+std::vector<Eigen::Vector3d> AxisPoints(const network::Network& network) {
+  std::vector<Eigen::Vector3d> points;
+  for (const network::Road& road : network.roads()) {
+    if (!road.spec().junction.empty()) continue;
+    const int steps = static_cast<int>(std::ceil(road.length_m() / kNetworkStep_m));
+    for (int i = 0; i <= steps; ++i) points.push_back(road.Surface(road.length_m() * i / steps, 0.0).p_W);
+  }
+  return points;
+}
+
+terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const Eigen::Vector3d> axis) {
   RODEIRA_ASSERT(spec.full_m > spec.flat_m && spec.flat_m > 0.0 && spec.spacing_m > 0.0);
-  const std::vector<AxisPoint> axis = AxisPoints(roads);
   std::vector<Noise> layers;
   for (std::size_t layer = 0; layer < spec.relief.size(); ++layer) layers.emplace_back(spec, layer);
   std::vector<float> heights;

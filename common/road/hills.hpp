@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/network/network.hpp"
 #include "common/road/road.hpp"
 #include "common/terrain/elevation_grid.hpp"
 
@@ -32,9 +33,14 @@ struct HillsSpec {
   std::string projection_wkt;
 };
 
+// Points of the roads' axes, with their heights: every 20 m, on a network every 40 m (and none of its junctions' ways).
+std::vector<Eigen::Vector3d> AxisPoints(std::span<const Road> roads);
+std::vector<Eigen::Vector3d> AxisPoints(const network::Network& network);
+
 // The terrain: the mean of the roads' heights, weighted by 1 / (d^2 + flat^2)^2 of the distance d to points of their axes,
 // less below_m, plus the relief, which grows from nothing at flat_m to all of it at full_m. A pure function of its arguments that uses
 // sums, products, quotients and square roots only.
-terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const Road> roads);
+terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const Eigen::Vector3d> axis_W);
+inline terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const Road> roads) { return MakeHills(spec, AxisPoints(roads)); }
 
 }  // namespace rodeira::road

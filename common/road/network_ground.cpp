@@ -14,12 +14,16 @@ using network::Place;
 
 constexpr double kOverHint_m = 0.5;
 
-SurfacePoint OnRoad(const Network& network, const FrictionTable& friction, const network::Surfacing& surfacing) {
-  const network::SurfaceSample& sample = surfacing.sample;
+SurfacePoint OnRoad(const Network& network, const FrictionTable& friction, const network::Surfacing& surfacing, const SurfaceDetail* detail) {
+  network::SurfaceSample sample = surfacing.sample;
+  const network::Place& place = surfacing.place;
+  if (detail != nullptr) {
+    detail->Add(network.roads()[place.lane.road], place.lane.road, network.Section(place.lane), place.s_m, place.t_m, sample);
+  }
   const Eigen::Vector3d normal = sample.ds_W.cross(sample.dt_W);
   const network::Lane* lane = network.Find(surfacing.place.lane);
-  const terrain::Surface surface = LaneSurface(lane->type);
   const network::LaneMaterial* material = network.roads()[surfacing.place.lane.road].MaterialAt(*lane, surfacing.place.s_m);
+  const terrain::Surface surface = SurfaceOf(*lane, material);
   const double grip =
       material != nullptr && material->friction ? *material->friction : friction[static_cast<std::size_t>(surface)];
   return {sample.p_W.z(), -normal.x() / normal.z(), -normal.y() / normal.z(), grip, surface, true};
@@ -48,8 +52,14 @@ SurfacePoint OnVerge(const Network& network, const FrictionTable& friction, cons
 
 }  // namespace
 
-terrain::Surface LaneSurface(network::LaneType type) {
-  switch (type) {
+terrain::Surface SurfaceOf(const network::Lane& lane, const network::LaneMaterial* material) {
+  if (material != nullptr) {
+    for (const terrain::Surface known : {terrain::Surface::kAsphalt, terrain::Surface::kConcrete, terrain::Surface::kGravel,
+                                         terrain::Surface::kGrass, terrain::Surface::kSoil}) {
+      if (material->surface == SurfaceName(known)) return known;
+    }
+  }
+  switch (lane.type) {
     case network::LaneType::kNone:
     case network::LaneType::kMedian: return terrain::Surface::kGrass;
     case network::LaneType::kSidewalk:
@@ -59,21 +69,22 @@ terrain::Surface LaneSurface(network::LaneType type) {
   }
 }
 
-SurfacePoint NetworkGround(const Network& network, const FrictionTable& friction, double x_m, double y_m, double z_hint_m) {
+SurfacePoint NetworkGround(const Network& network, const FrictionTable& friction, double x_m, double y_m, double z_hint_m,
+                           const SurfaceDetail* detail) {
   thread_local std::vector<network::Surfacing> surfaces;
   network.Surfaces(x_m, y_m, surfaces);
   std::erase_if(surfaces, [&](const network::Surfacing& surfacing) {
     return network.Find(surfacing.place.lane) == nullptr || surfacing.place.lane.lane == 0;
   });
   for (const network::Surfacing& surfacing : surfaces) {
-    if (!(surfacing.sample.p_W.z() > z_hint_m + kOverHint_m)) return OnRoad(network, friction, surfacing);  // NaN: the first
+    if (!(surfacing.sample.p_W.z() > z_hint_m + kOverHint_m)) return OnRoad(network, friction, surfacing, detail);  // NaN: the first
   }
   const bool hinted = std::isfinite(z_hint_m);
   const auto place = network.Locate(x_m, y_m, hinted ? std::optional(z_hint_m) : std::nullopt);
   if (!place || place->distance_m > kVerge_m)
-    return surfaces.empty() ? SurfacePoint{} : OnRoad(network, friction, surfaces.back());
+    return surfaces.empty() ? SurfacePoint{} : OnRoad(network, friction, surfaces.back(), detail);
   const SurfacePoint verge = OnVerge(network, friction, {x_m, y_m}, *place);
-  if (!surfaces.empty() && verge.z_m > z_hint_m + kOverHint_m) return OnRoad(network, friction, surfaces.back());
+  if (!surfaces.empty() && verge.z_m > z_hint_m + kOverHint_m) return OnRoad(network, friction, surfaces.back(), detail);
   return verge;
 }
 

@@ -1,9 +1,10 @@
 #include "common/road/road_network.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "common/base/assert.hpp"
+#include "common/design/profile_reader.hpp"
+#include "common/design/tables.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -29,24 +30,6 @@ std::vector<geometry::PlanElement> Elements(const Road& road) {
   return elements;
 }
 
-// Grades and parabolas are cubics without a cubic term.
-CubicTable Elevation(const Road& road) {
-  std::set<double> begins{0.0};
-  const auto& points = road.profile().points();
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    for (const double side : {-0.5, 0.5}) {
-      const double s = points[i].s_m + side * points[i].parabola_m;
-      if (s > 0.0 && s < road.length_m()) begins.insert(s);
-    }
-  }
-  std::vector<Cubic> records;
-  for (const double s : begins) {
-    const geometry::ProfilePoint at = road.profile().Evaluate(s);
-    records.push_back({s, at.z_m, at.grade, 0.5 * at.curvature_1pm, 0.0});
-  }
-  return CubicTable(std::move(records));
-}
-
 network::LateralProfile Lateral(const Road& road) {
   std::vector<Cubic> records;
   for (const Band& band : road.section().bands()) records.push_back({band.from_t_m, band.from_z_m, band.slope, 0.0, 0.0});
@@ -55,13 +38,11 @@ network::LateralProfile Lateral(const Road& road) {
   return lateral;
 }
 
-CubicTable Constant(double value) { return CubicTable({{0.0, value, 0.0, 0.0, 0.0}}); }
-
 network::Lane Strip(int id, network::LaneType type, double width_m, terrain::Surface surface, const FrictionTable& friction) {
   network::Lane lane;
   lane.id = id;
   lane.type = type;
-  lane.width = Constant(width_m);
+  lane.width = design::Constant(width_m);
   lane.materials.push_back({0.0, std::string(SurfaceName(surface)), friction[static_cast<std::size_t>(surface)], std::nullopt, {}});
   return lane;
 }
@@ -100,7 +81,7 @@ network::Road AsNetworkRoad(const Road& road, const FrictionTable& friction) {
   spec.length_m = road.length_m();
   spec.left_hand = std::all_of(road.lanes().begin(), road.lanes().end(),
                                [](const Lane& lane) { return lane.direction == (lane.id > 0 ? 1 : -1); });
-  spec.elevation = Elevation(road);
+  spec.elevation = design::Elevation(road.profile(), road.length_m());
   spec.lateral = Lateral(road);
   spec.earthwork = network::Earthwork{road.section().spec().blend_m};
   network::LaneSection section;
@@ -108,7 +89,7 @@ network::Road AsNetworkRoad(const Road& road, const FrictionTable& friction) {
   section.right = Side(road.section(), false, spec.left_hand, friction);
   spec.sections.push_back(std::move(section));
   for (const Mark& mark : road.marks()) {
-    network::PaintedLine line{mark.from_s_m, mark.to_s_m, Constant(mark.t_m), mark.width_m, mark.stroke_m, mark.gap_m, "white"};
+    network::PaintedLine line{mark.from_s_m, mark.to_s_m, design::Constant(mark.t_m), mark.width_m, mark.stroke_m, mark.gap_m, "white"};
     if (mark.colour == MarkColour::kYellow) line.colour = "yellow";
     spec.lines.push_back(std::move(line));
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/base/suggest.hpp"
+#include "common/design/profile_reader.hpp"
 #include "common/geometry/angle.hpp"
 
 namespace rodeira::road {
@@ -20,9 +21,7 @@ using config::Range;
 
 constexpr double kSmallestRadius_m = 5.0;
 constexpr Range kElementLength_m = {0.01, 100'000.0};
-constexpr double kSteepestGrade = 0.5;
 constexpr Range kCoordinate_m = {-1e8, 1e8};
-constexpr Range kHeight_m = {-12'000.0, 12'000.0};
 constexpr Range kFall = {-0.2, 0.2};
 
 // 1/radius; positive to the left.
@@ -65,34 +64,6 @@ void ReadAxis(const Map& map, RoadSpec& road) {
   const List axis = map.Items("axis");
   for (std::size_t i = 0; i < axis.size(); ++i) road.pieces.push_back(ReadPiece(axis.At(i)));
   if (map.Has("axis") && axis.size() == 0) map.Problem("axis", "the axis has no elements; at least one was expected");
-}
-
-void ReadGrades(const Map& map, RoadSpec& road) {
-  const List points = map.Items("vertical");
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Map item = points.At(i);
-    const geometry::GradePoint point{item.Number("s_m", kCoordinate_m), item.Number("z_m", kHeight_m),
-                                     item.Number("parabola_m", Range::NotNegative(), 0.0)};
-    if (i > 0 && point.s_m <= road.grade_points.back().s_m) item.Problem("s_m", "the points of 'vertical' must come in ascending 's_m'");
-    if ((i == 0 || i + 1 == points.size()) && point.parabola_m > 0.0) {
-      item.Problem("parabola_m", "the first and the last point of 'vertical' have no parabola: no two grades meet there");
-    }
-    road.grade_points.push_back(point);
-  }
-  if (map.Has("vertical") && points.size() == 0) map.Problem("vertical", "'vertical' has no points; at least one was expected");
-  for (std::size_t i = 1; i < road.grade_points.size(); ++i) {
-    const geometry::GradePoint& before = road.grade_points[i - 1];
-    const geometry::GradePoint& here = road.grade_points[i];
-    const double between = here.s_m - before.s_m;
-    const double grade = (here.z_m - before.z_m) / between;
-    if (!(std::fabs(grade) <= kSteepestGrade)) {
-      points.Problem(i, fmt::format("the grade before this point of 'vertical' is {:.3g}; at most {} was expected", grade, kSteepestGrade));
-    }
-    if (0.5 * (before.parabola_m + here.parabola_m) > between) {
-      points.Problem(i, fmt::format("the parabolas of {} m and {} m overlap: their points are only {} m apart", before.parabola_m,
-                                    here.parabola_m, between));
-    }
-  }
 }
 
 void ReadLanes(const Map& map, SectionSpec& section) {
@@ -181,7 +152,7 @@ RoadSpec ReadRoad(const Map& map) {
   RoadSpec road;
   road.id = map.Text("id");
   ReadAxis(map, road);
-  ReadGrades(map, road);
+  road.grade_points = design::ReadGrades(map);
   ReadSection(map.Child("section"), road.section);
   double length = 0.0;
   for (const geometry::PlanPiece& piece : road.pieces) length += piece.length_m;

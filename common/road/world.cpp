@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/base/assert.hpp"
+#include "common/road/built_ground.hpp"
 #include "common/road/network_ground.hpp"
 #include "common/road/road_network.hpp"
 #include "common/road/world_hash.hpp"
@@ -45,6 +46,7 @@ World::World(WorldSpec spec)
       grid_(spec.grid),
       plane_(spec.plane),
       network_(spec.network),
+      detail_(spec.detail),
       terrain_surface_(spec.terrain_surface),
       terrain_friction_(spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)])),
       friction_(spec.friction),
@@ -53,7 +55,11 @@ World::World(WorldSpec spec)
   RODEIRA_ASSERT(grid_ == nullptr || !plane_);
   RODEIRA_ASSERT(grid_ != nullptr || plane_ || network_ != nullptr);
   for (const RoadSpec& road : spec.roads) roads_.emplace_back(road);
-  if (!roads_.empty()) network_ = AsNetwork(spec, roads_);
+  if (!roads_.empty()) {
+    network_ = AsNetwork(spec, roads_);
+  } else if (network_ != nullptr && !open_drive()) {
+    built_ = std::make_shared<const BuiltGround>(network_, spec.junctions, friction_, detail_ == nullptr ? SurfaceDetail() : *detail_);
+  }
 }
 
 std::shared_ptr<const World> World::Make(WorldSpec spec) { return std::shared_ptr<const World>(new World(std::move(spec))); }
@@ -81,7 +87,8 @@ SurfacePoint World::TerrainAt(double x_m, double y_m) const {
 }
 
 SurfacePoint World::At(double x_m, double y_m, double z_hint_m) const {
-  if (open_drive()) return NetworkGround(*network_, friction_, x_m, y_m, z_hint_m);
+  if (open_drive()) return NetworkGround(*network_, friction_, x_m, y_m, z_hint_m, detail_.get());
+  if (built_ != nullptr) return built_->At(x_m, y_m, z_hint_m, TerrainAt(x_m, y_m));
   SurfacePoint point = TerrainAt(x_m, y_m);
   for (const Road& road : roads_) {
     if (road.plan().MayReach(x_m, y_m)) LayRoad(road, x_m, y_m, point);

@@ -18,22 +18,14 @@
 
 namespace rodeira::road {
 
+class BuiltGround;
+
 // The rectangle in which the ground is known; infinite for a plane.
 struct Extents {
   double west_m = 0.0;
   double south_m = 0.0;
   double east_m = 0.0;
   double north_m = 0.0;
-};
-
-// The ground at a point as height and slopes: the upward normal is (-slope_x, -slope_y, 1), normalised.
-struct SurfacePoint {
-  double z_m = 0.0;
-  double slope_x = 0.0;  // dz/dx
-  double slope_y = 0.0;  // dz/dy
-  double friction = 0.0;
-  terrain::Surface surface = terrain::Surface::kOutside;
-  bool inside = false;
 };
 
 // A world: terrain (an elevation grid or a plane) and a network of roads; or the roads of an OpenDRIVE file alone.
@@ -65,11 +57,11 @@ class World : public std::enable_shared_from_this<World> {
   double terrain_friction() const { return terrain_friction_; }
   double Friction(terrain::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
 
-  // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. Where surfaces of an
-  // OpenDRIVE world lie over one another, the height hint chooses; a world file has one surface everywhere.
+  // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. Where surfaces lie over one
+  // another, the height hint chooses; a world file of version 1 has one surface everywhere.
   std::unique_ptr<terrain::Ground> MakeGround() const;
-  // One of its answers: the road within its verges, the terrain beyond the blend, and between them both, weighted by
-  // 3 u^2 - 2 u^3 of the distance from the verge over the blend's width.
+  // One of its answers: the road within its verges, and beside it the terrain, cut and filled to meet it (BuiltGround). Beside
+  // a road of version 1, over its blend, both, weighted by 3 u^2 - 2 u^3 of the distance from the verge over the blend's width.
   SurfacePoint At(double x_m, double y_m, double z_hint_m = std::numeric_limits<double>::quiet_NaN()) const;
   // The terrain without any road.
   SurfacePoint TerrainAt(double x_m, double y_m) const;
@@ -87,6 +79,8 @@ class World : public std::enable_shared_from_this<World> {
   std::shared_ptr<const terrain::ElevationGrid> grid_;
   std::optional<PlaneSpec> plane_;
   std::shared_ptr<const network::Network> network_;
+  std::shared_ptr<const SurfaceDetail> detail_;
+  std::shared_ptr<const BuiltGround> built_;  // of a network in a terrain that is no road of version 1
   terrain::Surface terrain_surface_;
   double terrain_friction_;
   FrictionTable friction_;

@@ -7,8 +7,151 @@
 #include <set>
 #include <vector>
 
+#include "common/road/export_lanes.hpp"
+#include "common/road/export_text.hpp"
+
 namespace rodeira::road {
 namespace {
+
+using network::End;
+
+std::string Cubics(const char* element, const geometry::CubicTable& table) {
+  std::string text;
+  for (const geometry::Cubic& cubic : table.records()) text += CubicText(element, "s", cubic.from, cubic);
+  return text;
+}
+
+std::string PlanView(const network::Road& road) {
+  std::string text = "<planView>\n";
+  for (const geometry::PlanElement& element : road.axis().elements()) {
+    const double k0 = element.curvature_start_1pm, k1 = element.curvature_end_1pm;
+    std::string kind = "<line/>";
+    if (element.kind == geometry::PlanElement::Kind::kCubic) {
+      // Normalised: p from 0 to 1.
+      const double p = element.p_end;
+      const auto& u = element.u;
+      const auto& v = element.v;
+      kind = fmt::format("<paramPoly3 pRange=\"normalized\" aU=\"{}\" bU=\"{}\" cU=\"{}\" dU=\"{}\" aV=\"{}\" bV=\"{}\" cV=\"{}\" dV=\"{}\"/>", u[0],
+                         u[1] * p, u[2] * p * p, u[3] * p * p * p, v[0], v[1] * p, v[2] * p * p, v[3] * p * p * p);
+    } else if (k0 != k1) {
+      kind = fmt::format("<spiral curvStart=\"{}\" curvEnd=\"{}\"/>", k0, k1);
+    } else if (k0 != 0.0) {
+      kind = fmt::format("<arc curvature=\"{}\"/>", k0);
+    }
+    text += fmt::format("<geometry s=\"{}\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\">{}</geometry>\n", element.s_m, element.start_W.x(),
+                        element.start_W.y(), element.heading_rad, element.length_m, kind);
+  }
+  return text + "</planView>\n";
+}
+
+std::string Coefficients(const char* element, const geometry::CubicTable& table) {
+  if (table.empty()) return "";
+  return fmt::format("<{0}>\n{1}</{0}>\n", element, Cubics("coefficients", table));
+}
+
+std::string Strips(const std::vector<network::SurfaceStrip>& strips, int sign) {
+  std::string text;
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    const network::SurfaceStrip& strip = strips[i];
+    text += fmt::format("<strip id=\"{}\" mode=\"{}\">\n", sign * static_cast<int>(i + 1), strip.relative ? "relative" : "independent");
+    if (strip.has_width) text += Coefficients("width", strip.width);
+    const char* const kNames[] = {"constant", "linear", "quadratic", "cubic"};
+    for (std::size_t n = 0; n < 4; ++n) text += Coefficients(kNames[n], strip.coefficients[n]);
+    text += "</strip>\n";
+  }
+  return text;
+}
+
+std::string Lateral(const network::RoadSpec& spec) {
+  std::string text = "<lateralProfile>\n" + Cubics("superelevation", spec.superelevation);
+  for (const network::Shape& shape : spec.lateral.shapes) {
+    for (const geometry::Cubic& c : shape.height.records()) {
+      text += fmt::format("<shape s=\"{}\" t=\"{}\" a=\"{}\" b=\"{}\" c=\"{}\" d=\"{}\"/>\n", shape.s_m, c.from, c.a, c.b, c.c, c.d);
+    }
+  }
+  const network::CrossSectionSurface& surface = spec.lateral.surface;
+  if (!surface.left.empty() || !surface.right.empty()) {
+    text += "<crossSectionSurface>\n" + Coefficients("tOffset", surface.t_offset) + "<surfaceStrips>\n";
+    text += Strips(surface.left, 1) + Strips(surface.right, -1) + "</surfaceStrips>\n</crossSectionSurface>\n";
+  }
+  return text + "</lateralProfile>\n";
+}
+
+std::string LinkText(const char* name, const std::optional<network::RoadLink>& link) {
+  if (!link) return "";
+  if (link->junction) return fmt::format("<{} elementType=\"junction\" elementId=\"{}\"/>", name, Escaped(link->id));
+  return fmt::format("<{} elementType=\"road\" elementId=\"{}\" contactPoint=\"{}\"/>", name, Escaped(link->id),
+                     link->contact == End::kStart ? "start" : "end");
+}
+
+std::string Types(const network::RoadSpec& spec) {
+  std::string text;
+  for (const network::RoadType& type : spec.types) {
+    text += fmt::format("<type s=\"{}\" type=\"{}\">", type.s_m, type.type);
+    if (type.speed_mps && std::isfinite(*type.speed_mps)) text += fmt::format("<speed max=\"{}\" unit=\"m/s\"/>", *type.speed_mps);
+    text += "</type>\n";
+  }
+  return text;
+}
+
+std::string Furniture(const network::RoadSpec& spec) {
+  std::string objects, signals;
+  for (const network::Object& object : spec.objects) {
+    objects += fmt::format("<object id=\"{}\" name=\"{}\" type=\"{}\" subtype=\"{}\" s=\"{}\" t=\"{}\" zOffset=\"{}\" hdg=\"{}\" orientation=\"none\" "
+                           "length=\"{}\" width=\"{}\" height=\"{}\">",
+                           Escaped(object.id), Escaped(object.name), object.type, object.subtype, object.s_m, object.t_m, object.z_offset_m,
+                           object.hdg_rad, object.length_m, object.width_m, object.height_m);
+    for (const network::Repeat& r : object.repeats) {
+      objects += fmt::format("<repeat s=\"{}\" length=\"{}\" distance=\"{}\" tStart=\"{}\" tEnd=\"{}\" zOffsetStart=\"{}\" zOffsetEnd=\"{}\" "
+                             "heightStart=\"{}\" heightEnd=\"{}\" widthStart=\"{}\" widthEnd=\"{}\"/>",
+                             r.s_m, r.length_m, r.distance_m, r.t_start_m, r.t_end_m, r.z_start_m, r.z_end_m, r.height_start_m, r.height_end_m,
+                             r.width_start_m, r.width_end_m);
+    }
+    objects += "</object>\n";
+  }
+  for (const network::Structure& structure : spec.structures) {
+    objects += fmt::format("<{} id=\"{}\" name=\"{}\" type=\"{}\" s=\"{}\" length=\"{}\"/>\n", structure.bridge ? "bridge" : "tunnel",
+                           Escaped(structure.id), Escaped(structure.name), structure.type, structure.s_m, structure.length_m);
+  }
+  for (const network::Signal& signal : spec.signals) {
+    signals += fmt::format("<signal id=\"{}\" name=\"{}\" s=\"{}\" t=\"{}\" zOffset=\"{}\" orientation=\"{}\" dynamic=\"no\" country=\"{}\" "
+                           "type=\"{}\" subtype=\"{}\" hOffset=\"{}\" height=\"{}\" width=\"{}\"",
+                           Escaped(signal.id), Escaped(signal.name), signal.s_m, signal.t_m, signal.z_offset_m, signal.orientation,
+                           signal.country, signal.type, signal.subtype, signal.h_offset_rad, signal.height_m, signal.width_m);
+    if (signal.value) signals += fmt::format(" value=\"{}\" unit=\"{}\"", *signal.value, signal.unit);
+    if (!signal.text.empty()) signals += fmt::format(" text=\"{}\"", Escaped(signal.text));
+    signals += "/>\n";
+  }
+  std::string text;
+  if (!objects.empty()) text += "<objects>\n" + objects + "</objects>\n";
+  if (!signals.empty()) text += "<signals>\n" + signals + "</signals>\n";
+  return text;
+}
+
+std::string RoadText(const network::Road& road) {
+  const network::RoadSpec& spec = road.spec();
+  std::string text = fmt::format("<road name=\"{}\" id=\"{}\" length=\"{}\" junction=\"{}\" rule=\"{}\">\n", Escaped(spec.name), Escaped(spec.id),
+                                 road.length_m(), spec.junction.empty() ? "-1" : Escaped(spec.junction), spec.left_hand ? "LHT" : "RHT");
+  text += fmt::format("<link>{}{}</link>\n", LinkText("predecessor", spec.predecessor), LinkText("successor", spec.successor));
+  text += Types(spec) + PlanView(road) + "<elevationProfile>\n" + Cubics("elevation", spec.elevation) + "</elevationProfile>\n";
+  return text + Lateral(spec) + LanesText(road) + Furniture(spec) + "</road>\n";
+}
+
+std::string JunctionText(const network::Junction& junction) {
+  std::string text = fmt::format("<junction id=\"{}\" name=\"{}\" type=\"default\">\n", Escaped(junction.id), Escaped(junction.name));
+  for (const network::JunctionConnection& connection : junction.connections) {
+    text += fmt::format("<connection id=\"{}\" incomingRoad=\"{}\" connectingRoad=\"{}\" contactPoint=\"{}\">", connection.id,
+                        Escaped(connection.incoming_road), Escaped(connection.connecting_road), connection.contact == End::kStart ? "start" : "end");
+    for (const network::JunctionLaneLink& link : connection.lane_links) text += fmt::format("<laneLink from=\"{}\" to=\"{}\"/>", link.from, link.to);
+    text += "</connection>\n";
+  }
+  for (const network::JunctionPriority& priority : junction.priorities) {
+    text += fmt::format("<priority high=\"{}\" low=\"{}\"/>\n", Escaped(priority.high), Escaped(priority.low));
+  }
+  return text + "</junction>\n";
+}
+
+}  // namespace
 
 std::string Escaped(std::string_view text) {
   std::string escaped;
@@ -22,171 +165,25 @@ std::string Escaped(std::string_view text) {
   return escaped;
 }
 
-std::string Cubic(const char* element, const char* from, double at, double a, double b, double c) {
-  return fmt::format("<{} {}=\"{}\" a=\"{}\" b=\"{}\" c=\"{}\" d=\"0\"/>\n", element, from, at, a, b, c);
+std::string CubicText(const char* element, const char* from_name, double from, const geometry::Cubic& cubic) {
+  return fmt::format("<{} {}=\"{}\" a=\"{}\" b=\"{}\" c=\"{}\" d=\"{}\"/>\n", element, from_name, from, cubic.a, cubic.b, cubic.c, cubic.d);
 }
-
-std::string PlanView(const Road& road) {
-  std::string text = "<planView>\n";
-  double s = 0.0;
-  for (const geometry::PlanPiece& piece : road.plan().pieces()) {
-    const geometry::PlanPoint at = road.plan().Evaluate(s);
-    const double k0 = piece.curvature_start_1pm, k1 = piece.curvature_end_1pm;
-    const std::string kind = k0 != k1    ? fmt::format("<spiral curvStart=\"{}\" curvEnd=\"{}\"/>", k0, k1)
-                             : k0 != 0.0 ? fmt::format("<arc curvature=\"{}\"/>", k0)
-                                         : "<line/>";
-    text += fmt::format("<geometry s=\"{}\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\">{}</geometry>\n", s, at.p_W.x(),
-                        at.p_W.y(), at.heading_rad, piece.length_m, kind);
-    s += piece.length_m;
-  }
-  return text + "</planView>\n";
-}
-
-// Grades and parabolas are cubics without a cubic term.
-std::string Elevation(const Road& road) {
-  std::set<double> begins{0.0};
-  const auto& points = road.profile().points();
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    for (const double side : {-0.5, 0.5}) {
-      const double s = points[i].s_m + side * points[i].parabola_m;
-      if (s > 0.0 && s < road.length_m()) begins.insert(s);
-    }
-  }
-  std::string text = "<elevationProfile>\n";
-  for (const double s : begins) {
-    const geometry::ProfilePoint at = road.profile().Evaluate(s);
-    text += Cubic("elevation", "s", s, at.z_m, at.grade, 0.5 * at.curvature_1pm);
-  }
-  return text + "</elevationProfile>\n";
-}
-
-std::string Lateral(const Road& road) {
-  std::string text = "<lateralProfile>\n";
-  for (const Band& band : road.section().bands()) {
-    text +=
-        fmt::format("<shape s=\"0\" t=\"{}\" a=\"{}\" b=\"{}\" c=\"0\" d=\"0\"/>\n", band.from_t_m, band.from_z_m, band.slope);
-  }
-  return text + "</lateralProfile>\n";
-}
-
-// The marks whose nearest lane edge is at edge_t, as records along s: one a stretch on which the same marks are painted.
-std::string Marks(const Road& road, double edge_t_m, const std::vector<double>& edges) {
-  std::vector<const Mark*> marks;
-  std::set<double> begins;
-  for (const Mark& mark : road.marks()) {
-    const auto nearest = std::min_element(edges.begin(), edges.end(),
-                                          [&](double a, double b) { return std::fabs(a - mark.t_m) < std::fabs(b - mark.t_m); });
-    if (*nearest != edge_t_m) continue;
-    marks.push_back(&mark);
-    begins.insert(mark.from_s_m);
-    if (mark.to_s_m < road.length_m()) begins.insert(mark.to_s_m);
-  }
-  std::sort(marks.begin(), marks.end(), [](const Mark* a, const Mark* b) { return a->t_m > b->t_m; });  // from the left
-  std::string text;
-  if (begins.empty() || *begins.begin() > 0.0) text += "<roadMark sOffset=\"0\" type=\"none\"/>\n";
-  for (const double s : begins) {
-    std::string type, lines;
-    const Mark* first = nullptr;
-    for (const Mark* mark : marks) {
-      if (mark->from_s_m > s || mark->to_s_m <= s) continue;
-      if (first == nullptr) first = mark;
-      type += (type.empty() ? "" : " ") + std::string(mark->dashed() ? "broken" : "solid");
-      const double period = mark->stroke_m + mark->gap_m;
-      const double phase = mark->dashed() ? std::fmod(s - mark->from_s_m, period) : 0.0;
-      lines += fmt::format("<line length=\"{}\" space=\"{}\" tOffset=\"{}\" sOffset=\"{}\" width=\"{}\"/>",
-                           mark->dashed() ? mark->stroke_m : 0.0, mark->dashed() ? mark->gap_m : 0.0, mark->t_m - edge_t_m,
-                           phase > 0.0 ? period - phase : 0.0, mark->width_m);
-    }
-    if (first == nullptr) {
-      text += fmt::format("<roadMark sOffset=\"{}\" type=\"none\"/>\n", s);
-      continue;
-    }
-    const bool known = type == "solid" || type == "broken" || std::count(type.begin(), type.end(), ' ') == 1;
-    text += fmt::format(
-        "<roadMark sOffset=\"{}\" type=\"{}\" weight=\"standard\" color=\"{}\" width=\"{}\"><type name=\"{}\" "
-        "width=\"{}\">{}</type></roadMark>\n",
-        s, known ? type : "custom", first->colour == MarkColour::kYellow ? "yellow" : "white", first->width_m, type,
-        first->width_m, lines);
-  }
-  return text;
-}
-
-struct Strip {
-  const char* type;
-  double width_m;
-  terrain::Surface surface;
-  const Lane* lane;
-};
-
-// From inside outward: the lanes, the shoulder, the verge.
-std::vector<Strip> Strips(const Section& section, bool left) {
-  std::vector<Strip> strips;
-  for (int id = left ? 1 : -1; const Lane* lane = section.FindLane(id); id += left ? 1 : -1) {
-    strips.push_back({"driving", lane->width_m, section.spec().surface, lane});
-  }
-  const Shoulder& shoulder = left ? section.spec().left : section.spec().right;
-  if (shoulder.width_m > 0.0) strips.push_back({"shoulder", shoulder.width_m, shoulder.surface, nullptr});
-  const Verge& verge = section.spec().verge;
-  if (verge.width_m > 0.0) strips.push_back({"none", verge.width_m, verge.surface, nullptr});
-  return strips;
-}
-
-std::string Side(const World& world, const Road& road, bool left, bool left_hand, const std::vector<double>& edges) {
-  const std::vector<Strip> strips = Strips(road.section(), left);
-  std::vector<std::string> lanes;
-  double t = 0.0;
-  for (std::size_t i = 0; i < strips.size(); ++i) {
-    const Strip& strip = strips[i];
-    const int id = static_cast<int>(i + 1) * (left ? 1 : -1);
-    t += left ? strip.width_m : -strip.width_m;
-    const int usual = left == left_hand ? 1 : -1;
-    const bool reversed = strip.lane != nullptr && strip.lane->direction != usual;
-    std::string text = fmt::format("<lane id=\"{}\" type=\"{}\" level=\"false\"{}>\n", id, strip.type,
-                                   reversed ? " direction=\"reversed\"" : "");
-    text += Cubic("width", "sOffset", 0.0, strip.width_m, 0.0, 0.0);
-    text += Marks(road, t, edges);
-    text += fmt::format("<material sOffset=\"0\" surface=\"{}\" friction=\"{}\"/>\n", terrain::SurfaceName(strip.surface),
-                        world.Friction(strip.surface));
-    if (strip.lane != nullptr)
-      text += fmt::format("<speed sOffset=\"0\" max=\"{}\" unit=\"m/s\"/>\n", strip.lane->speed_limit_mps);
-    lanes.push_back(text + "</lane>\n");
-  }
-  if (lanes.empty()) return "";
-  if (left) std::reverse(lanes.begin(), lanes.end());
-  std::string text = left ? "<left>\n" : "<right>\n";
-  for (const std::string& lane : lanes) text += lane;
-  return text + (left ? "</left>\n" : "</right>\n");
-}
-
-std::string RoadText(const World& world, const Road& road) {
-  const bool left_hand = std::all_of(road.lanes().begin(), road.lanes().end(),
-                                     [](const Lane& lane) { return lane.direction == (lane.id > 0 ? 1 : -1); });
-  std::vector<double> edges{0.0};
-  for (const bool left : {true, false}) {
-    double t = 0.0;
-    for (const Strip& strip : Strips(road.section(), left)) edges.push_back(t += left ? strip.width_m : -strip.width_m);
-  }
-  std::string text = fmt::format("<road name=\"{0}\" id=\"{0}\" length=\"{1}\" junction=\"-1\" rule=\"{2}\">\n",
-                                 Escaped(road.id()), road.length_m(), left_hand ? "LHT" : "RHT");
-  text += "<link/>\n" + PlanView(road) + Elevation(road) + Lateral(road);
-  text += "<lanes>\n<laneSection s=\"0\">\n" + Side(world, road, true, left_hand, edges);
-  text += "<center>\n<lane id=\"0\" type=\"none\" level=\"false\">\n" + Marks(road, 0.0, edges) + "</lane>\n</center>\n";
-  return text + Side(world, road, false, left_hand, edges) + "</laneSection>\n</lanes>\n</road>\n";
-}
-
-}  // namespace
 
 base::Result<std::string> ExportOpenDrive(const World& world) {
   if (world.open_drive()) return base::WrongInput("this world is an OpenDRIVE file already");
-  if (world.roads().empty()) return base::WrongInput("this world has no road; OpenDRIVE needs one");
+  if (world.network() == nullptr || world.network()->roads().empty()) return base::WrongInput("this world has no road; OpenDRIVE needs one");
+  const network::Network& network = *world.network();
+  // Sections of strips came with OpenDRIVE 1.8.
+  const bool strips = std::any_of(network.roads().begin(), network.roads().end(), [](const network::Road& road) {
+    return !road.spec().lateral.surface.left.empty() || !road.spec().lateral.surface.right.empty();
+  });
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<OpenDRIVE>\n";
-  text += fmt::format("<header revMajor=\"1\" revMinor=\"7\" name=\"{}\" version=\"1.00\" vendor=\"Rodeira\">\n",
+  text += fmt::format("<header revMajor=\"1\" revMinor=\"{}\" name=\"{}\" version=\"1.00\" vendor=\"Rodeira\">\n", strips ? 8 : 7,
                       Escaped(world.name()));
-  if (world.grid() != nullptr && !world.grid()->projection_wkt().empty()) {
-    text += fmt::format("<geoReference>{}</geoReference>\n", Escaped(world.grid()->projection_wkt()));
-  }
+  if (!network.geo_reference().empty()) text += fmt::format("<geoReference>{}</geoReference>\n", Escaped(network.geo_reference()));
   text += "</header>\n";
-  for (const Road& road : world.roads()) text += RoadText(world, road);
+  for (const network::Road& road : network.roads()) text += RoadText(road);
+  for (const network::Junction& junction : network.junctions()) text += JunctionText(junction);
   return text + "</OpenDRIVE>\n";
 }
 

@@ -1,6 +1,7 @@
 #include "common/road/world_hash.hpp"
 
 #include "common/base/bytes.hpp"
+#include "common/road/network_hash.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -61,6 +62,9 @@ base::Digest ContentHash(const WorldSpec& spec) {
     canonical.PutAll(2, spec.plane->z_m, spec.plane->slope_x, spec.plane->slope_y);
   } else if (spec.network != nullptr) {
     canonical.PutAll(3, static_cast<std::size_t>(spec.network_hash));
+  }
+  if (spec.network != nullptr && (spec.grid != nullptr || spec.plane)) {
+    canonical.PutAll(4, static_cast<std::size_t>(HashOf(*spec.network)), spec.junctions.size());
   }
   canonical.Put(spec.terrain_surface);
   canonical.Put(spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)]));

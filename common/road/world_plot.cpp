@@ -10,12 +10,19 @@
 
 #include "common/geometry/angle.hpp"
 #include "common/road/network_world.hpp"
+#include "common/road/road_chains.hpp"
 
 namespace rodeira::road {
 namespace {
 
 constexpr double kPicture = 1000.0;  // the longer edge, in SVG units
 constexpr int kTiles = 160;          // shaded squares and contour cells along that edge
+
+std::string Escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return out;
+}
 
 // Heights seen through a raster of points, and the way from world to picture.
 struct View {
@@ -39,11 +46,12 @@ Extents Frame(const World& world) {
   Extents extents = world.extents();
   if (world.grid() != nullptr) return extents;
   extents = {world.start().x_m - 100.0, world.start().y_m - 100.0, world.start().x_m + 100.0, world.start().y_m + 100.0};
-  for (const Road& road : world.roads()) {
-    extents.west_m = std::min(extents.west_m, road.plan().low_W().x() - 50.0);
-    extents.south_m = std::min(extents.south_m, road.plan().low_W().y() - 50.0);
-    extents.east_m = std::max(extents.east_m, road.plan().high_W().x() + 50.0);
-    extents.north_m = std::max(extents.north_m, road.plan().high_W().y() + 50.0);
+  if (world.network() != nullptr) {
+    const auto [low, high] = world.network()->Bounds();
+    extents.west_m = std::min(extents.west_m, low.x() - 50.0);
+    extents.south_m = std::min(extents.south_m, low.y() - 50.0);
+    extents.east_m = std::max(extents.east_m, high.x() + 50.0);
+    extents.north_m = std::max(extents.north_m, high.y() + 50.0);
   }
   return extents;
 }
@@ -126,26 +134,84 @@ std::string Contours(const View& view, double step) {
   return path;
 }
 
-std::string Roads(const World& world, const View& view) {
-  std::string svg;
-  for (const Road& road : world.roads()) {
-    std::string path;
-    for (double s = 0.0;; s += 2.0) {
-      const Eigen::Vector3d p = road.Evaluate(s).p_W;
-      path += fmt::format("{}{:.2f} {:.2f}", s == 0.0 ? "M" : "L", view.X(p.x()), view.Y(p.y()));
-      if (s >= road.length_m()) break;
+// A line along a road's part at the middle of its lanes of one kind, as a path.
+std::string Along(const network::Road& road, const View& view, bool first) {
+  std::string path;
+  const int steps = std::max(1, static_cast<int>(std::ceil(road.length_m() / std::max(2.0, 1.5 / view.scale))));
+  for (int i = 0; i <= steps; ++i) {
+    const Eigen::Vector2d p = road.axis().Evaluate(road.length_m() * i / steps).p_W;
+    path += fmt::format("{}{:.2f} {:.2f}", first && i == 0 ? "M" : "L", view.X(p.x()), view.Y(p.y()));
+  }
+  return path;
+}
+
+double PavedWidth(const network::Road& road) {
+  double width = 0.0;
+  for (const auto* side : {&road.spec().sections[0].left, &road.spec().sections[0].right}) {
+    for (const network::Lane& lane : *side) {
+      if (lane.type != network::LaneType::kNone) width += lane.width.Value(0.0);
     }
-    const double width = std::max(2.0, (road.section().paved_left_m() - road.section().paved_right_m()) * view.scale);
-    svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#ffffff\" stroke-width=\"{:.1f}\"/>\n", path, width + 2.0);
-    svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#303038\" stroke-width=\"{:.1f}\"/>\n", path, width);
-    for (double s = 0.0; s <= road.length_m(); s += 1000.0) {
-      const Eigen::Vector3d p = road.Evaluate(s).p_W;
-      svg += fmt::format("<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"4\" fill=\"#ffffff\" stroke=\"#303038\"/>\n"
-                         "<text x=\"{2:.1f}\" y=\"{1:.1f}\" font-family=\"sans-serif\" font-size=\"14\">{3:.0f} km</text>\n",
-                         view.X(p.x()), view.Y(p.y()), view.X(p.x()) + 7.0, s / 1000.0);
+  }
+  return width;
+}
+
+std::string Label(double x, double y, double size, const char* colour, const std::string& text) {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-family=\"sans-serif\" font-size=\"{}\" fill=\"{}\">{}</text>\n", x, y, size, colour, text);
+}
+
+// Stations along the chains and the radii of their arcs, where there is room for them.
+std::string Stations(const World& world, const View& view) {
+  const network::Network& network = *world.network();
+  std::string svg;
+  std::vector<Eigen::Vector2d> taken;
+  const auto free = [&](const Eigen::Vector2d& p, double room) {
+    const bool is_free = std::all_of(taken.begin(), taken.end(), [&](const Eigen::Vector2d& q) { return (p - q).norm() * view.scale > room; });
+    if (is_free) taken.push_back(p);
+    return is_free;
+  };
+  double step = 100.0;
+  while (step * view.scale < 45.0) step *= step == 200.0 || step == 2000.0 ? 2.5 : 2.0;
+  for (const RoadChain& chain : ChainsOf(network)) {
+    if (chain.length_m * view.scale < 12.0) continue;
+    for (double s = 0.0; s <= chain.length_m; s += step) {
+      const auto [road, own_s] = chain.At(network, s);
+      const Eigen::Vector2d p = road->axis().Evaluate(own_s).p_W;
+      if (!free(p, 24.0)) continue;
+      svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"#ffffff\" stroke=\"#303038\"/>\n", view.X(p.x()), view.Y(p.y()));
+      svg += Label(view.X(p.x()) + 6.0, view.Y(p.y()), 12.0, "#000000",
+                   s == 0.0 ? Escaped(chain.name) : step < 1000.0 ? fmt::format("{:.0f} m", s) : fmt::format("{:g} km", s / 1000.0));
+    }
+  }
+  for (const network::Road& road : network.roads()) {
+    if (!road.spec().junction.empty()) continue;
+    for (const geometry::PlanElement& element : road.axis().elements()) {
+      const double k = element.curvature_start_1pm;
+      if (element.kind != geometry::PlanElement::Kind::kClothoid || k == 0.0 || k != element.curvature_end_1pm) continue;
+      const geometry::PlanPoint at = road.axis().Evaluate(element.s_m + 0.5 * element.length_m);
+      if (!free(at.p_W, 22.0)) continue;
+      const Eigen::Vector2d p = at.p_W + (k > 0.0 ? 1.0 : -1.0) * (PavedWidth(road) + 9.0 / view.scale) * at.left_W();
+      svg += Label(view.X(p.x()) - 9.0, view.Y(p.y()) + 3.0, 9.0, "#203060", fmt::format("R{:.0f}", 1.0 / std::fabs(k)));
     }
   }
   return svg;
+}
+
+std::string Roads(const World& world, const View& view) {
+  if (world.network() == nullptr) return "";
+  std::string under, over;
+  for (const network::Road& road : world.network()->roads()) {
+    if (!road.spec().junction.empty() && road.spec().sections[0].left.empty()) continue;  // ways that turn
+    const std::string path = Along(road, view, true);
+    const double width = std::max(2.0, PavedWidth(road) * view.scale);
+    under += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#ffffff\" stroke-width=\"{:.1f}\"/>\n", path, width + 2.0);
+    over += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#303038\" stroke-width=\"{:.1f}\"/>\n", path, width);
+  }
+  for (const network::Junction& junction : world.network()->junctions()) {
+    std::string path;
+    for (const Eigen::Vector2d& p : junction.paved_W) path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", view.X(p.x()), view.Y(p.y()));
+    if (!path.empty()) over += fmt::format("<path d=\"{}Z\" fill=\"#303038\"/>\n", path);
+  }
+  return under + over + Stations(world, view);
 }
 
 }  // namespace

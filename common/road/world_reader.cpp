@@ -6,8 +6,10 @@
 #include <string>
 
 #include "common/base/suggest.hpp"
+#include "common/design/design_reader.hpp"
 #include "common/geometry/angle.hpp"
 #include "common/road/road_reader.hpp"
+#include "common/road/surface_detail.hpp"
 #include "common/road/world_fit.hpp"
 #include "common/terrain/elevation_file.hpp"
 
@@ -18,13 +20,16 @@ using config::List;
 using config::Map;
 using config::Range;
 
-constexpr const char* kVersion = "world/1";
+constexpr const char* kFirstVersion = "world/1";
+constexpr const char* kVersion = "world/2";
 
-void ReadVersion(const Map& root) {
+// Whether the file is of the second version.
+bool ReadVersion(const Map& root) {
   const std::string version = root.Text("rodeira");
-  if (root.Has("rodeira") && version != kVersion) {
-    root.Problem("rodeira", fmt::format("'rodeira' is '{}'; a world file of this program says '{}'", version, kVersion));
+  if (root.Has("rodeira") && version != kVersion && version != kFirstVersion) {
+    root.Problem("rodeira", fmt::format("'rodeira' is '{}'; a world file of this program says '{}' or '{}'", version, kVersion, kFirstVersion));
   }
+  return version == kVersion;
 }
 
 HillsSpec ReadHills(const Map& map) {
@@ -95,17 +100,32 @@ void ReadStart(const Map& map, const std::vector<RoadSpec>& roads, StartPose& st
   if (!known) map.Problem("lane", fmt::format("road '{}' has no lane {}", id, start.lane));
 }
 
+// The same of a file of version 2: what stands on a road is found with the roads.
+design::StartWish ReadStartWish(const Map& map, StartPose& start) {
+  design::StartWish wish;
+  if (map.Has("x_m") || map.Has("y_m")) {
+    ReadStart(map, {}, start);
+    return wish;
+  }
+  wish.road = map.Text("road", "");
+  if (map.Has("lane")) wish.lane = static_cast<int>(map.Integer("lane", -30, 30));
+  if (map.Has("s_m")) wish.s_m = map.Number("s_m", Range::NotNegative());
+  return wish;
+}
+
 // All keys of the file. What needs other files or the finished roads comes afterwards.
 struct Keys {
   WorldSpec spec;
   std::optional<HillsSpec> hills;
   std::optional<std::filesystem::path> elevation_file;
   terrain::Registration registration = terrain::Registration::kUsual;
+  bool second = false;  // version 2: the roads are read by common/design
+  design::StartWish start;
 };
 
 Keys ReadKeys(const Map& root) {
   Keys keys;
-  ReadVersion(root);
+  keys.second = ReadVersion(root);
   keys.spec.name = root.Text("name");
   (void)root.Text("description", "");
   ReadFriction(root.OptionalChild("friction"), keys.spec);
@@ -125,9 +145,13 @@ Keys ReadKeys(const Map& root) {
     if (terrain.Has("generate")) keys.hills = ReadHills(hills);
     if (terrain.Has("generate") == terrain.Has("file")) terrain.Problem("file", "'terrain' needs either 'file' or 'generate'");
   }
+  if (keys.second) {
+    if (root.Has("start")) keys.start = ReadStartWish(root.Child("start"), keys.spec.start);
+    return keys;
+  }
   const List roads = root.OptionalItems("roads");
   for (std::size_t i = 0; i < roads.size(); ++i) keys.spec.roads.push_back(ReadRoad(roads.At(i)));
-  if (roads.size() > 1) roads.Problem(1, "a second road; one road a world is what can be built as yet");
+  if (roads.size() > 1) roads.Problem(1, "a second road; version 1 has one road a world, several need 'rodeira: world/2'");
   if (root.Has("start")) ReadStart(root.Child("start"), keys.spec.roads, keys.spec.start);
   return keys;
 }
@@ -159,27 +183,78 @@ void PutStart(const Map& root, const std::vector<Road>& roads, const WorldSpec& 
   }
 }
 
+// The terrain's file or hills; false, and a problem, where the file cannot be read.
+template <class Axis>
+bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
+  if (keys.elevation_file) {
+    auto grid = terrain::LoadElevation(*keys.elevation_file, keys.registration);
+    if (!grid) {
+      reading.problems.push_back(grid.error());
+      return false;
+    }
+    keys.spec.grid = std::move(grid).value();
+  } else if (keys.hills) {
+    keys.spec.grid = std::make_shared<const terrain::ElevationGrid>(MakeHills(*keys.hills, axis));
+  }
+  return true;
+}
+
+// Where on its lane the car of a second version's file stands.
+void PutStart(const network::Network& network, const design::StartPlace& place, StartPose& start) {
+  const network::LaneKey key{place.road, 0, place.lane};
+  const network::Lane& lane = *network.Find(key);
+  const Eigen::Vector3d p = network.Centre(key, place.s_m);
+  start.road = static_cast<int>(place.road);
+  start.lane = place.lane;
+  start.s_m = place.s_m;
+  start.x_m = p.x();
+  start.y_m = p.y();
+  const double turned = lane.direction < 0 ? geometry::kPi : 0.0;
+  start.heading_rad = geometry::WrapAngle(network.roads()[place.road].axis().Evaluate(place.s_m).heading_rad + turned);
+}
+
+WorldReading ReadSecond(const config::File& file, Keys keys) {
+  const Map root = file.root();
+  WorldReading reading;
+  if (keys.elevation_file && !PutTerrain(keys, std::span<const Road>(), reading)) return reading;
+  const std::string projection = keys.hills ? keys.hills->projection_wkt : keys.spec.grid != nullptr ? keys.spec.grid->projection_wkt() : "";
+  design::Design design = design::ReadDesign(file, keys.spec.friction, keys.spec.name, projection, keys.start, root.OptionalChild("start"));
+  reading.warnings = std::move(design.warnings);
+  reading.problems = file.Problems();
+  reading.problems.insert(reading.problems.end(), design.problems.begin(), design.problems.end());
+  if (!reading.problems.empty()) return reading;
+  keys.spec.network = design.network;
+  keys.spec.junctions = std::move(design.junctions);
+  if (keys.hills && !PutTerrain(keys, design.network == nullptr ? std::vector<Eigen::Vector3d>() : AxisPoints(*design.network), reading)) return reading;
+  if (design.start) PutStart(*design.network, *design.start, keys.spec.start);
+  else PutStart(root, {}, keys.spec, keys.spec.start);
+  if (design.network != nullptr) {
+    auto detail = SurfaceDetail::Load(*design.network, file.path().parent_path());
+    if (!detail) {
+      reading.problems.push_back(detail.error());
+      return reading;
+    }
+    keys.spec.detail = std::make_shared<const SurfaceDetail>(std::move(detail).value());
+  }
+  reading.problems = file.Problems();
+  reading.hills = std::move(keys.hills);
+  if (reading.problems.empty()) reading.spec = std::move(keys.spec);
+  return reading;
+}
+
 }  // namespace
 
 WorldReading ReadWorld(const config::File& file) {
   const Map root = file.root();
   Keys keys = ReadKeys(root);
+  if (keys.second) return ReadSecond(file, std::move(keys));
   WorldReading reading;
   reading.problems = file.Problems();
   if (!reading.problems.empty()) return reading;
 
   std::vector<Road> roads;
   for (const RoadSpec& road : keys.spec.roads) roads.emplace_back(road);
-  if (keys.elevation_file) {
-    auto grid = terrain::LoadElevation(*keys.elevation_file, keys.registration);
-    if (!grid) {
-      reading.problems.push_back(grid.error());
-      return reading;
-    }
-    keys.spec.grid = std::move(grid).value();
-  } else if (keys.hills) {
-    keys.spec.grid = std::make_shared<const terrain::ElevationGrid>(MakeHills(*keys.hills, roads));
-  }
+  if (!PutTerrain(keys, std::span<const Road>(roads), reading)) return reading;
   PutStart(root, roads, keys.spec, keys.spec.start);
   for (std::size_t i = 0; i < roads.size(); ++i) CheckRoadFits(roads[i], keys.spec.grid.get(), root.Items("roads").At(i));
   reading.problems = file.Problems();

@@ -15,6 +15,7 @@ struct WorldReading {
   std::optional<WorldSpec> spec;
   std::optional<HillsSpec> hills;  // where the terrain is generated
   std::vector<base::Error> problems;
+  std::vector<std::string> warnings;
 };
 
 // Reads a world file (docs/formats.md) with the files that it names, makes its hills, and checks that all fits together.

@@ -9,6 +9,7 @@
 #include "common/config/config.hpp"
 #include "common/geometry/angle.hpp"
 #include "common/road/network_world.hpp"
+#include "common/road/road_chains.hpp"
 #include "common/road/world_reader.hpp"
 
 namespace rodeira::road {
@@ -79,7 +80,35 @@ std::string DescribeRoad(const World& world, const Road& road) {
   return text;
 }
 
+// The roads of a file of version 2, each with its parts put together again.
+std::string DescribeChains(const network::Network& network) {
+  std::string text = fmt::format("network: {} roads with {} junctions\n", ChainsOf(network).size(), network.junctions().size());
+  for (const RoadChain& chain : ChainsOf(network)) {
+    double sharpest = 0.0, up = 0.0, down = 0.0, lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (double at = 0.0; at <= chain.length_m; at += 1.0) {
+      const auto [road, s] = chain.At(network, at);
+      const geometry::CubicPoint z = road->spec().elevation.Evaluate(s);
+      sharpest = std::max(sharpest, std::fabs(road->axis().Evaluate(s).curvature_1pm));
+      up = std::max(up, z.slope), down = std::min(down, z.slope);
+      lowest = std::min(lowest, z.value), highest = std::max(highest, z.value);
+    }
+    const auto junctions = std::count_if(chain.parts.begin(), chain.parts.end(), [&](const RoadChain::Part& part) {
+      return !network.roads()[part.road].spec().junction.empty();
+    });
+    text += fmt::format("road {}\n  length_m: {:.3f}\n  passes junctions: {}\n", chain.name, chain.length_m, junctions);
+    if (sharpest > 1e-9) text += fmt::format("  smallest_radius_m: {:.6g}\n", 1.0 / sharpest);
+    text += fmt::format("  heights_m: {:.2f} to {:.2f}\n  grades: {:.2f} % to {:.2f} %\n", lowest, highest, 100.0 * down, 100.0 * up);
+  }
+  return text;
+}
+
 }  // namespace
+
+std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) {
+  if (IsOpenDrive(world_yaml)) return CheckNetwork(world_yaml, false).warnings;
+  const auto file = config::File::Load(world_yaml);
+  return file ? ReadWorld(file.value()).warnings : std::vector<std::string>();
+}
 
 std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml) {
   if (IsOpenDrive(world_yaml)) return CheckNetwork(world_yaml, false).errors;
@@ -109,9 +138,12 @@ std::string DescribeWorld(const World& world) {
     text += fmt::format("ground: a plane, z_m = {} + {} x + {} y\n", world.plane()->z_m, world.plane()->slope_x, world.plane()->slope_y);
   }
   for (const Road& road : world.roads()) text += DescribeRoad(world, road);
+  if (world.network() != nullptr && world.roads().empty() && !world.open_drive()) text += DescribeChains(*world.network());
   const StartPose& start = world.start();
   text += fmt::format("start: x_m {:.3f}, y_m {:.3f}, heading {:.2f} degrees", start.x_m, start.y_m, Degrees(start.heading_rad));
-  if (start.road >= 0) text += fmt::format(" (road {}, lane {}, s_m {:.3f})", world.roads()[start.road].id(), start.lane, start.s_m);
+  if (start.road >= 0) {
+    text += fmt::format(" (road {}, lane {}, s_m {:.3f})", world.network()->roads()[static_cast<std::size_t>(start.road)].id(), start.lane, start.s_m);
+  }
   return text + "\n";
 }
 
@@ -126,7 +158,7 @@ std::string DescribePoint(const World& world, double x_m, double y_m, std::optio
   const Eigen::Vector3d normal = at.normal_W + Eigen::Vector3d::Zero();  // -0 is 0
   text += fmt::format("inside: true\nz_m: {:.7f}\nnormal: [{:.9f}, {:.9f}, {:.9f}]\nfriction: {}\nsurface: {}\n", at.z_m, normal.x(),
                       normal.y(), normal.z(), at.friction, SurfaceName(at.surface));
-  if (world.open_drive()) text += DescribePlace(*world.network(), x_m, y_m, z_hint_m);
+  if (world.roads().empty() && world.network() != nullptr) text += DescribePlace(*world.network(), x_m, y_m, z_hint_m);
   for (const Road& road : world.roads()) {
     const auto place = road.Locate(x_m, y_m, z_hint_m);
     if (!place || std::fabs(place->t_m) > road.section().reach_m()) continue;

@@ -13,6 +13,8 @@ namespace rodeira::road {
 
 // Every problem of a world file, in the order of its lines; none where World::Load would succeed.
 std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml);
+// What is not wrong but worth a look: curvature that jumps, gaps that are closed, steep approaches to junctions.
+std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml);
 
 // Name, content hash, extents, start; each road's length, bends, grades, lanes, marks, earthwork.
 std::string DescribeWorld(const World& world);

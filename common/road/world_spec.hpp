@@ -1,18 +1,21 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/base/hash.hpp"
+#include "common/design/junction_surface.hpp"
 #include "common/network/network.hpp"
 #include "common/road/road.hpp"
+#include "common/road/surface_point.hpp"
 #include "common/terrain/elevation_grid.hpp"
 #include "common/terrain/ground.hpp"
 
 namespace rodeira::road {
+
+class SurfaceDetail;
 
 // Where the driver's car stands when the simulation begins.
 struct StartPose {
@@ -32,12 +35,6 @@ struct PlaneSpec {
   double slope_y = 0.0;
 };
 
-// Coefficients by surface, indexed by the Surface's number; 1 is dry asphalt. The loose grounds are the adhesion
-// coefficients that textbooks give (J. Y. Wong, Theory of Ground Vehicles, table 1.3: gravel 0.6, earth 0.65), paint is
-// a little smoother than what it is painted on.
-using FrictionTable = std::array<double, 7>;
-inline constexpr FrictionTable kUsualFriction = {0.0, 1.0, 1.0, 0.6, 0.55, 0.65, 0.9};
-
 // What a World is made from: the world file, understood and checked.
 struct WorldSpec {
   std::string name;
@@ -46,6 +43,8 @@ struct WorldSpec {
   std::optional<PlaneSpec> plane;
   std::shared_ptr<const network::Network> network;  // null: made of `roads`, where there are any
   base::Digest network_hash = 0;                    // of an OpenDRIVE file's bytes
+  std::vector<std::shared_ptr<const design::JunctionSurface>> junctions;  // of a network that is built into the terrain
+  std::shared_ptr<const SurfaceDetail> detail;      // what stands on the network's roads; null: nothing
   terrain::Surface terrain_surface = terrain::Surface::kGrass;
   std::optional<double> terrain_friction;  // otherwise its surface's
   FrictionTable friction = kUsualFriction;

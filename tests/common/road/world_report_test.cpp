@@ -97,7 +97,7 @@ TEST_F(WorldReport, ThePlotIsAWholeSvg) {
   const std::string svg = PlotWorld(*Sample());
   EXPECT_TRUE(svg.starts_with("<svg "));
   EXPECT_TRUE(svg.ends_with("</svg>\n"));
-  EXPECT_THAT(svg, HasSubstr("0 km</text>"));
+  EXPECT_THAT(svg, HasSubstr("main</text>"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   EXPECT_THAT(PlotWorld(*MustParse("rodeira: world/1\nname: p\nground: {kind: plane}\n")), Not(HasSubstr("nan")));
 }

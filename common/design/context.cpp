@@ -1,0 +1,89 @@
+#include "common/design/context.hpp"
+
+#include <fmt/format.h>
+
+#include "common/base/assert.hpp"
+#include "common/base/suggest.hpp"
+
+namespace rodeira::design {
+namespace {
+
+using terrain::Surface;
+
+// Widths after the habits of European guidelines for these kinds of road; a motorway is one carriageway.
+constexpr const char* kTemplates = R"(
+rural:
+  lanes: [{id: -1, width_m: 3.5}, {id: 1, width_m: 3.5}]
+  crossfall: {kind: crown, fall: 0.025}
+  shoulders: {left: {width_m: 0.75, fall: 0.025}, right: {width_m: 0.75, fall: 0.025}}
+  verge: {width_m: 1.5, fall: 0.08, material: grass}
+  lines:
+    - {lane: 0, kind: dashed, stroke_m: 4, gap_m: 8, width_m: 0.12}
+    - {lane: -1, kind: continuous, width_m: 0.12}
+    - {lane: 1, kind: continuous, width_m: 0.12}
+bypass:
+  lanes: [{id: -2, width_m: 3.5}, {id: -1, width_m: 3.5}, {id: 1, width_m: 3.5}]
+  crossfall: {kind: crown, fall: 0.025}
+  shoulders: {left: {width_m: 1.5, fall: 0.025}, right: {width_m: 1.5, fall: 0.025}}
+  verge: {width_m: 1.5, fall: 0.08, material: grass}
+  lines:
+    - {lane: 0, kind: mixed, left: continuous, right: dashed, stroke_m: 4, gap_m: 8, width_m: 0.12, apart_m: 0.14}
+    - {lane: -1, kind: dashed, stroke_m: 4, gap_m: 8, width_m: 0.12}
+    - {lane: -2, kind: continuous, width_m: 0.15}
+    - {lane: 1, kind: continuous, width_m: 0.15}
+motorway:
+  lanes: [{id: -2, width_m: 3.75}, {id: -1, width_m: 3.75}]
+  crossfall: {kind: right, fall: 0.025}
+  shoulders: {left: {width_m: 1.0, fall: -0.025}, right: {width_m: 3.0, fall: 0.025}}
+  verge: {width_m: 1.5, fall: 0.08, material: grass}
+  lines:
+    - {lane: 0, kind: continuous, width_m: 0.15}
+    - {lane: -1, kind: dashed, stroke_m: 6, gap_m: 12, width_m: 0.15}
+    - {lane: -2, kind: continuous, width_m: 0.3}
+)";
+
+const std::vector<Surface> kSurfaces = {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil};
+
+}  // namespace
+
+const Material& Context::MaterialOf(const config::Map& map, std::string_view key, std::string_view otherwise) const {
+  std::vector<std::string> names;
+  for (const auto& [name, material] : materials) names.push_back(name);
+  const auto found = materials.find(map.Choice(key, names, otherwise));
+  return found == materials.end() ? materials.find("asphalt")->second : found->second;
+}
+
+std::map<std::string, Material> UsualMaterials(const std::array<double, 7>& friction) {
+  std::map<std::string, Material> materials;
+  for (const Surface surface : kSurfaces) {
+    materials[std::string(SurfaceName(surface))] = {surface, friction[static_cast<std::size_t>(surface)], {}};
+  }
+  return materials;
+}
+
+void ReadMaterials(const config::Map& map, Context& context) {
+  for (const std::string& name : map.Keys()) {
+    const config::Map item = map.Child(name);
+    Material material = context.MaterialOf(item, "surface", "asphalt");
+    material.friction = item.Number("friction", {0.01, 2.0}, material.friction);
+    if (const auto texture = item.OptionalPath("texture")) {
+      std::error_code problem;
+      if (!std::filesystem::is_regular_file(*texture, problem)) {
+        item.Problem("texture", fmt::format("there is no texture file '{}'", texture->string()));
+      }
+      material.texture = texture->string();
+    }
+    context.materials[name] = material;
+  }
+}
+
+config::Map UsualTemplates() {
+  static const config::File file = [] {
+    auto parsed = config::File::Parse(kTemplates, "templates of the program");
+    RODEIRA_ASSERT(parsed.ok());
+    return std::move(parsed).value();
+  }();
+  return file.root();
+}
+
+}  // namespace rodeira::design

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config/config.hpp"
+#include "common/terrain/ground.hpp"
+
+namespace rodeira::design {
+
+// What a lane is made of.
+struct Material {
+  terrain::Surface surface = terrain::Surface::kAsphalt;
+  double friction = 1.0;
+  std::string texture;  // a file; empty: the surface's usual one
+};
+
+// What the parts of a world file refer to.
+struct Context {
+  bool left_hand = false;                     // vehicles keep to the left
+  std::map<std::string, Material> materials;  // the surfaces by their names, and the file's own
+  std::map<std::string, config::Map> templates;  // by name: the mapping that has it
+  std::vector<std::string> warnings;
+
+  const Material& MaterialOf(const config::Map& map, std::string_view key, std::string_view otherwise) const;
+};
+
+// The materials that are the surfaces themselves, with their friction.
+std::map<std::string, Material> UsualMaterials(const std::array<double, 7>& friction);
+// Reads 'materials': {name: {surface, friction, texture}}. A texture must be there.
+void ReadMaterials(const config::Map& map, Context& context);
+// The cross-sections that the program knows: rural, bypass, motorway.
+config::Map UsualTemplates();
+
+}  // namespace rodeira::design

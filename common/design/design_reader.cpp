@@ -1,0 +1,251 @@
+#include "common/design/design_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <set>
+
+#include "common/base/suggest.hpp"
+#include "common/design/junction_builder.hpp"
+#include "common/geometry/angle.hpp"
+
+namespace rodeira::design {
+namespace {
+
+using config::Map;
+using network::End;
+
+constexpr std::size_t kMostFiles = 1000;
+
+// The file itself and what it includes, each once, in the order in which they are named.
+class Files {
+ public:
+  explicit Files(const config::File& file) {
+    roots_.push_back(file.root());
+    seen_.insert(std::filesystem::weakly_canonical(file.path()));
+    for (std::size_t i = 0; i < roots_.size(); ++i) Include(roots_[i]);
+  }
+
+  const std::deque<Map>& roots() const { return roots_; }
+  // Problems of the included files.
+  std::vector<base::Error> Problems() const {
+    std::vector<base::Error> all;
+    for (const config::File& file : files_) {
+      const auto problems = file.Problems();
+      all.insert(all.end(), problems.begin(), problems.end());
+    }
+    return all;
+  }
+
+ private:
+  void Include(const Map root) {
+    const config::List list = root.OptionalItems("include");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const std::filesystem::path named = list.Text(i);
+      const std::string place = list.Place(i);
+      const std::filesystem::path folder = std::filesystem::path(place.substr(0, place.rfind(':'))).parent_path();
+      const std::filesystem::path path = named.is_absolute() ? named : folder / named;
+      if (!seen_.insert(std::filesystem::weakly_canonical(path)).second) {
+        list.Problem(i, fmt::format("'{}' is included already", named.string()));
+        continue;
+      }
+      if (seen_.size() > kMostFiles) return;
+      auto file = config::File::Load(path);
+      if (!file) {
+        list.Problem(i, file.error().Text());
+        continue;
+      }
+      files_.push_back(std::move(file).value());
+      roots_.push_back(files_.back().root());
+      const std::string version = roots_.back().Text("rodeira");
+      if (version != "world/2" && roots_.back().Has("rodeira")) roots_.back().Problem("rodeira", fmt::format("'rodeira' is '{}'; an included file says 'world/2'", version));
+    }
+  }
+
+  std::deque<config::File> files_;
+  std::deque<Map> roots_;
+  std::set<std::filesystem::path> seen_;
+};
+
+struct Link {
+  std::size_t road = 0;
+  End end = End::kEnd, contact = End::kStart;
+  std::string other;
+  Map map;
+};
+
+void ReadLinks(const Map& road, std::size_t index, std::vector<Link>& links) {
+  for (const char* key : {"predecessor", "successor"}) {
+    if (!road.Has(key)) continue;
+    const Map map = road.Child(key);
+    const std::string other = map.Text("road");
+    const bool start = map.Choice("end", {"start", "end"}, *key == 's' ? "start" : "end") == "start";
+    links.push_back({index, *key == 's' ? End::kEnd : End::kStart, start ? End::kStart : End::kEnd, other, map});
+  }
+}
+
+// The piece at an end of a road of the file; nothing where a junction lies there.
+std::optional<std::size_t> PieceAt(const Layout& layout, std::size_t design, End end) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
+    if (layout.pieces[i].design == design && (end == End::kEnd || !found)) found = i;
+  }
+  return found;
+}
+
+void JoinLanes(network::RoadSpec& own, End end, const network::RoadSpec& other, End contact) {
+  const int sign = end == contact ? -1 : 1;
+  for (auto* side : {&own.sections[0].left, &own.sections[0].right}) {
+    for (network::Lane& lane : *side) {
+      const network::Lane* beyond = other.sections[0].Find(sign * lane.id);
+      if (beyond == nullptr || network::IsDrivable(beyond->type) != network::IsDrivable(lane.type)) continue;
+      (end == End::kEnd ? lane.successors : lane.predecessors) = {beyond->id};
+    }
+  }
+}
+
+void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& designs, Layout& layout) {
+  std::vector<network::RoadSpec> specs;
+  for (const network::Road& road : layout.network.roads) specs.push_back(road.spec());
+  const auto join = [&](std::size_t own, End end, std::size_t other, End contact) {
+    auto& link = end == End::kEnd ? specs[own].successor : specs[own].predecessor;
+    link = network::RoadLink{false, specs[other].id, contact};
+    JoinLanes(specs[own], end, specs[other], contact);
+  };
+  for (const Link& link : links) {
+    std::vector<std::string> ids;
+    std::optional<std::size_t> target;
+    for (std::size_t i = 0; i < designs.size(); ++i) {
+      ids.push_back(designs[i].spec.id);
+      if (designs[i].spec.id == link.other) target = i;
+    }
+    if (!target) {
+      link.map.Problem("road", fmt::format("there is no road '{}'{}", link.other, base::DidYouMean(link.other, ids)));
+      continue;
+    }
+    const auto own = PieceAt(layout, link.road, link.end), other = PieceAt(layout, *target, link.contact);
+    if (!own || !other) continue;
+    const auto at = [&](std::size_t piece, End end) {
+      const network::Road& road = layout.network.roads[piece];
+      return road.Surface(end == End::kStart ? 0.0 : road.length_m(), 0.0).p_W;
+    };
+    const double apart = (at(*own, link.end) - at(*other, link.contact)).norm();
+    if (apart > network::Network::kClosed_m) {
+      link.map.Problem("road", fmt::format("the ends of the roads '{}' and '{}' are {:.3f} m apart; at most {} m was expected",
+                                           designs[link.road].spec.id, link.other, apart, network::Network::kClosed_m));
+      continue;
+    }
+    join(*own, link.end, *other, link.contact);
+    join(*other, link.contact, *own, link.end);
+  }
+  if (links.empty()) return;
+  std::vector<network::Road> roads;
+  for (std::size_t i = 0; i < specs.size(); ++i) roads.emplace_back(std::move(specs[i]), layout.network.roads[i].axis());
+  layout.network.roads = std::move(roads);
+}
+
+std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const std::vector<RoadDesign>& designs, const Layout& layout) {
+  std::vector<std::string> ids;
+  std::optional<std::size_t> road;
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    ids.push_back(designs[i].spec.id);
+    if (designs[i].spec.id == wish.road || (wish.road.empty() && i == 0)) road = i;
+  }
+  if (!road) {
+    map.Problem("road", fmt::format("there is no road '{}'{}", wish.road, base::DidYouMean(wish.road, ids)));
+    return std::nullopt;
+  }
+  const network::RoadSpec& spec = designs[*road].spec;
+  int lane = wish.lane.value_or(0);
+  if (!wish.lane) {  // the first drivable one beside the axis, on the side that vehicles keep to
+    for (const int id : spec.left_hand ? std::array{1, -1} : std::array{-1, 1}) {
+      const network::Lane* found = spec.sections[0].Find(id);
+      if (lane == 0 && found != nullptr && network::IsDrivable(found->type)) lane = id;
+    }
+  }
+  const network::Lane* found = spec.sections[0].Find(lane);
+  if (found == nullptr || lane == 0) {
+    map.Problem("lane", fmt::format("road '{}' has no lane {}", spec.id, lane));
+    return std::nullopt;
+  }
+  const double s = wish.s_m.value_or(found->direction < 0 ? spec.length_m - std::min(10.0, 0.5 * spec.length_m) : std::min(10.0, 0.5 * spec.length_m));
+  if (s > spec.length_m) {
+    map.Problem("s_m", fmt::format("'start.s_m' is {}; the road is {:.3f} m long", s, spec.length_m));
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
+    const Piece& piece = layout.pieces[i];
+    if (piece.design == *road && s >= piece.from_s_m && s <= piece.to_s_m) {
+      return StartPlace{static_cast<std::uint32_t>(i), lane, s - piece.from_s_m};
+    }
+  }
+  map.Problem("s_m", fmt::format("'start.s_m' {} of road '{}' lies in a junction", s, spec.id));
+  return std::nullopt;
+}
+
+}  // namespace
+
+Design ReadDesign(const config::File& file, const std::array<double, 7>& friction, const std::string& name,
+                  const std::string& geo_reference, const StartWish& start, const Map& start_map) {
+  Design design;
+  const Files files(file);
+  Context context;
+  context.materials = UsualMaterials(friction);
+  const Map usual = UsualTemplates();
+  for (const std::string& known : usual.Keys()) context.templates.emplace(known, usual);
+  context.left_hand = file.root().Choice("rule", {"right", "left"}, "right") == "left";
+  for (const Map& root : files.roots()) {
+    if (root.Has("materials")) ReadMaterials(root.Child("materials"), context);
+    if (!root.Has("templates")) continue;
+    const Map templates = root.Child("templates");
+    for (const std::string& own : templates.Keys()) context.templates.insert_or_assign(own, templates);
+  }
+  std::vector<RoadDesign> designs;
+  std::vector<Link> links;
+  for (const Map& root : files.roots()) {
+    const config::List roads = root.OptionalItems("roads");
+    for (std::size_t i = 0; i < roads.size(); ++i) {
+      const Map item = roads.At(i);
+      ReadLinks(item, designs.size(), links);
+      designs.push_back(ReadRoad(item, context, designs));
+    }
+    root.LeaveToOthers("junctions");
+  }
+  const auto sound = [&] {
+    design.problems = files.Problems();
+    return design.problems.empty() && file.Finish().ok();
+  };
+  design.warnings = context.warnings;
+  if (designs.empty() || !sound()) return design;
+
+  std::vector<network::Road> roads;
+  for (const RoadDesign& road : designs) {
+    auto built = BuildRoad(road);
+    if (!built) continue;
+    CheckBends(road, *built);
+    roads.push_back(std::move(*built));
+  }
+  if (!sound()) return design;
+  std::vector<JunctionWish> junctions;
+  for (const Map& root : files.roots()) {
+    auto more = ReadJunctions(root, designs, roads);
+    std::move(more.begin(), more.end(), std::back_inserter(junctions));
+  }
+  if (!sound()) return design;
+  FitHeights(junctions, designs, roads, design.warnings);
+  for (std::size_t i = 0; i < roads.size(); ++i) roads[i] = *BuildRoad(designs[i]);
+  Layout layout = BuildLayout(designs, roads, junctions);
+  if (!sound()) return design;
+  JoinRoads(links, designs, layout);
+  if (start_map.Has("x_m") == false) design.start = FindStart(start, start_map, designs, layout);
+  if (!sound()) return design;
+  layout.network.name = name;
+  layout.network.geo_reference = geo_reference;
+  design.junctions = std::move(layout.surfaces);
+  design.network = std::make_shared<const network::Network>(std::move(layout.network));
+  return design;
+}
+
+}  // namespace rodeira::design

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/config/config.hpp"
+#include "common/design/junction_surface.hpp"
+#include "common/network/network.hpp"
+
+namespace rodeira::design {
+
+// Where a car starts, as an author says it: a road of the file, not a part of one.
+struct StartWish {
+  std::string road;  // empty: the first one
+  std::optional<int> lane;
+  std::optional<double> s_m;
+};
+struct StartPlace {
+  std::uint32_t road = 0;
+  int lane = 0;
+  double s_m = 0.0;
+};
+
+// Roads and junctions of a world file of version 2.
+struct Design {
+  std::shared_ptr<const network::Network> network;  // null: the file has no roads, or problems
+  std::vector<std::shared_ptr<const JunctionSurface>> junctions;
+  std::optional<StartPlace> start;
+  std::vector<std::string> warnings;
+  std::vector<base::Error> problems;  // of included files; those of the file itself are with it
+};
+
+// Reads 'include', 'rule', 'materials', 'templates', 'roads' and 'junctions' of a file and of all files that it includes.
+// `friction` by surface. The start, where it is on a road, must be on a lane outside of the junctions; `start_map` has it.
+Design ReadDesign(const config::File& file, const std::array<double, 7>& friction, const std::string& name,
+                  const std::string& geo_reference, const StartWish& start, const config::Map& start_map);
+
+}  // namespace rodeira::design

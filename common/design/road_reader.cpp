@@ -1,0 +1,129 @@
+#include "common/design/road_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/base/suggest.hpp"
+#include "common/design/axis_reader.hpp"
+#include "common/design/furniture_reader.hpp"
+#include "common/design/profile_reader.hpp"
+#include "common/design/section_reader.hpp"
+#include "common/design/tables.hpp"
+#include "common/geometry/angle.hpp"
+
+namespace rodeira::design {
+namespace {
+
+using config::Map;
+
+constexpr double kSharpest = 0.95;  // curvature times the distance of the inner edge
+
+double LengthOf(const std::vector<geometry::PlanElement>& elements) {
+  return elements.empty() ? 1.0 : elements.back().s_m + elements.back().length_m;
+}
+
+// 'place': where on another road a station of this one lies, and how it is turned against it. Returns the height there.
+std::optional<double> ReadPlacing(const Map& road, const std::vector<RoadDesign>& before, std::vector<geometry::PlanElement>& elements) {
+  if (!road.Has("place")) return std::nullopt;
+  const Map place = road.Child("place");
+  if (road.Has("start")) road.Problem("place", "a road has either a 'start' or a 'place' on another road");
+  const std::string id = place.Text("road");
+  const double s = place.Number("s_m", {0.0, 1e7}), turn = place.Number("turn_deg", {-360.0, 360.0}) * geometry::kPi / 180.0;
+  const double own_s = place.Number("own_s_m", {0.0, LengthOf(elements)}, 0.0);
+  std::vector<std::string> ids;
+  for (const RoadDesign& other : before) {
+    ids.push_back(other.spec.id);
+    if (other.spec.id != id) continue;
+    const auto axis = geometry::PlanAxis::Make(other.elements);
+    if (!axis) return std::nullopt;
+    if (s > axis->length_m()) {
+      place.Problem("s_m", fmt::format("'s_m' is {}; road '{}' is {:.3f} m long", s, id, axis->length_m()));
+      return std::nullopt;
+    }
+    const geometry::PlanPoint at = axis->Evaluate(s);
+    Place(elements, own_s, at.p_W, at.heading_rad + turn);
+    return other.spec.elevation.Value(s);
+  }
+  place.Problem("road", fmt::format("there is no road '{}' before this one{}", id, base::DidYouMean(id, ids)));
+  return std::nullopt;
+}
+
+void ReadSpeeds(const Map& road, network::RoadSpec& spec) {
+  const std::string kind = road.Choice("kind", {"rural", "town", "motorway", "lowSpeed", "pedestrian", "bicycle", "unknown"}, "rural");
+  const auto knots = ReadKnots(road, "speed_limits", "speed_kmh", {1.0, 400.0});
+  network::RoadType type{0.0, kind, "", std::nullopt};
+  if (road.Has("speed_limit_kmh")) type.speed_mps = road.Number("speed_limit_kmh", {1.0, 400.0}) / 3.6;
+  if (knots.empty() || knots[0].s_m > 0.0) spec.types.push_back(type);
+  for (const Knot& knot : knots) {
+    type.s_m = knot.s_m;
+    type.speed_mps = knot.value / 3.6;
+    spec.types.push_back(type);
+  }
+}
+
+}  // namespace
+
+RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesign>& before) {
+  RoadDesign design{{}, {}, map};
+  network::RoadSpec& spec = design.spec;
+  spec.id = map.Text("id");
+  spec.name = map.Text("name", spec.id);
+  if (spec.id.find('/') != std::string::npos) map.Problem("id", "a road's id holds no '/': the parts between junctions are named with it");
+  for (const RoadDesign& other : before) {
+    if (other.spec.id == spec.id) map.Problem("id", fmt::format("there is a road '{}' already", spec.id));
+  }
+  AxisReading axis = ReadAxis(map);
+  context.warnings.insert(context.warnings.end(), axis.warnings.begin(), axis.warnings.end());
+  design.elements = std::move(axis.elements);
+  const std::optional<double> met = ReadPlacing(map, before, design.elements);
+  const double length = LengthOf(design.elements);
+  spec.length_m = length;
+  if (map.Has("vertical")) {
+    if (axis.elevation) map.Problem("vertical", "the points of this road have heights; without them 'vertical' counts");
+    std::vector<geometry::GradePoint> grades = ReadGrades(map);
+    bool ascending = !grades.empty();
+    for (std::size_t i = 1; i < grades.size(); ++i) ascending = ascending && grades[i].s_m > grades[i - 1].s_m;
+    spec.elevation = ascending ? Elevation(geometry::VerticalProfile(std::move(grades)), length) : Constant(0.0);
+  } else if (axis.elevation) {
+    spec.elevation = std::move(*axis.elevation);
+  } else {
+    spec.elevation = Constant(map.Number("z_m", {-12'000.0, 12'000.0}, met.value_or(0.0)));
+  }
+  spec.superelevation = ReadSuperelevation(map);
+  ReadSpeeds(map, spec);
+  const std::string rule = map.Choice("rule", {"right", "left"}, context.left_hand ? "left" : "right");
+  Context own = context;
+  own.left_hand = rule == "left";
+  ReadSection(map, own, length, spec);
+  ReadFurniture(map, own, length, spec);
+  return design;
+}
+
+std::optional<network::Road> BuildRoad(const RoadDesign& design) {
+  auto axis = geometry::PlanAxis::Make(design.elements);
+  if (!axis) {
+    design.map.Problem("axis", "the axis stands still somewhere, or turns too often");
+    return std::nullopt;
+  }
+  return network::Road(design.spec, std::move(*axis));
+}
+
+void CheckBends(const RoadDesign& design, const network::Road& road) {
+  const int steps = static_cast<int>(std::ceil(road.length_m()));
+  const int left_lane = static_cast<int>(design.spec.sections[0].left.size());
+  const int right_lane = -static_cast<int>(design.spec.sections[0].right.size());
+  const geometry::CubicTable left = EdgeOf(design.spec, left_lane), right = EdgeOf(design.spec, right_lane);
+  for (int i = 0; i <= steps; ++i) {
+    const double s = road.length_m() * i / steps;
+    const double k = road.axis().Evaluate(s).curvature_1pm;
+    const double inner = k > 0.0 ? left.Value(s) : right.Value(s);
+    if (k * inner <= kSharpest) continue;
+    design.map.Problem(design.map.Has("points") ? "points" : "axis",
+                       fmt::format("the edge of road '{}' {:.2f} m to the {} folds at s = {:.0f} m: the bend there has a radius of {:.6g} m",
+                                   design.spec.id, std::fabs(inner), k > 0.0 ? "left" : "right", s, 1.0 / std::fabs(k)));
+    return;
+  }
+}
+
+}  // namespace rodeira::design

@@ -1,0 +1,111 @@
+#include "common/road/built_ground.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "common/road/network_ground.hpp"
+
+namespace rodeira::road {
+namespace {
+
+// A surface over or under a point.
+struct Layer {
+  double z_m;
+  const network::Surfacing* road;              // or
+  const design::JunctionSurface* junction;     // or the ground
+};
+
+}  // namespace
+
+bool IsExempt(const network::RoadSpec& road, double s_m) {
+  return std::any_of(road.structures.begin(), road.structures.end(), [s_m](const network::Structure& structure) {
+    return s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m;
+  });
+}
+
+BuiltGround::BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions, const FrictionTable& friction, SurfaceDetail detail)
+    : network_(std::move(network)),
+      junctions_(std::move(junctions)),
+      friction_(friction),
+      detail_(std::move(detail)),
+      paint_(*network_),
+      earthworks_(network_, junctions_) {
+  std::set<std::string> made;
+  for (const auto& junction : junctions_) made.insert(junction->id());
+  for (const network::Road& road : network_->roads()) in_junction_.push_back(made.contains(road.spec().junction));
+}
+
+SurfacePoint BuiltGround::OnRoad(const network::Surfacing& surfacing) const {
+  const network::Place& place = surfacing.place;
+  const network::Road& road = network_->roads()[place.lane.road];
+  network::SurfaceSample sample = surfacing.sample;
+  if (!detail_.empty()) detail_.Add(road, place.lane.road, network_->Section(place.lane), place.s_m, place.t_m, sample);
+  const Eigen::Vector3d normal = sample.ds_W.cross(sample.dt_W);
+  const network::Lane& lane = *network_->Find(place.lane);
+  const network::LaneMaterial* material = road.MaterialAt(lane, place.s_m);
+  terrain::Surface surface = SurfaceOf(lane, material);
+  double grip = friction_[static_cast<std::size_t>(surface)];
+  if (material != nullptr && material->friction) grip = *material->friction;
+  if (paint_.At(place.lane.road, place.s_m, place.t_m)) {
+    surface = terrain::Surface::kRoadMark;
+    grip = friction_[static_cast<std::size_t>(surface)];
+  }
+  return {sample.p_W.z(), -normal.x() / normal.z(), -normal.y() / normal.z(), grip, surface, true};
+}
+
+SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W) const {
+  const design::JunctionHeight height = junction.At(p_W);
+  terrain::Surface surface = junction.IsPaved(p_W) ? terrain::Surface::kAsphalt : terrain::Surface::kGrass;
+  // What is painted belongs to the ways through it.
+  const auto place = network_->Locate(p_W.x(), p_W.y(), height.z_m);
+  if (place && place->distance_m == 0.0 && in_junction_[place->lane.road] && paint_.At(place->lane.road, place->s_m, place->t_m)) {
+    surface = terrain::Surface::kRoadMark;
+  }
+  return {height.z_m, height.slope_x, height.slope_y, friction_[static_cast<std::size_t>(surface)], surface, true};
+}
+
+SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m, const SurfacePoint& terrain) const {
+  const Eigen::Vector2d p(x_m, y_m);
+  thread_local std::vector<network::Surfacing> surfaces;
+  thread_local std::vector<Layer> layers;
+  network_->Surfaces(x_m, y_m, surfaces);
+  layers.clear();
+  bool covered = false;  // by what stands on the ground
+  for (const auto& junction : junctions_) {
+    if (!junction->Contains(p)) continue;
+    layers.push_back({junction->At(p).z_m, nullptr, junction.get()});
+    covered = true;
+  }
+  for (const network::Surfacing& surfacing : surfaces) {
+    const network::Place& place = surfacing.place;
+    if (in_junction_[place.lane.road] || place.lane.lane == 0) continue;
+    // Beyond the end of a road at a junction the junction answers.
+    const bool exempt = IsExempt(network_->roads()[place.lane.road].spec(), place.s_m);
+    if (covered && !exempt && !layers.empty() && layers[0].junction != nullptr &&
+        std::fabs(layers[0].z_m - surfacing.sample.p_W.z()) < network::Network::kLevel_m) {
+      continue;
+    }
+    covered = covered || !exempt;
+    layers.push_back({surfacing.sample.p_W.z(), &surfacing, nullptr});
+  }
+  SurfacePoint ground = terrain;
+  if (!covered && ground.inside) {
+    earthworks_.Shape(p, ground);
+    layers.push_back({ground.z_m, nullptr, nullptr});
+  }
+  if (layers.empty()) return {};
+  std::stable_sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.z_m > b.z_m; });
+  const Layer* chosen = &layers.back();
+  for (const Layer& layer : layers) {
+    if (layer.z_m > z_hint_m + terrain::kHintAbove_m) continue;  // NaN: the first
+    chosen = &layer;
+    break;
+  }
+  if (chosen->road != nullptr) return OnRoad(*chosen->road);
+  return chosen->junction != nullptr ? OnJunction(*chosen->junction, p) : ground;
+}
+
+}  // namespace rodeira::road

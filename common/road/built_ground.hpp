@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/design/junction_surface.hpp"
+#include "common/network/network.hpp"
+#include "common/road/earthworks.hpp"
+#include "common/road/paint.hpp"
+#include "common/road/surface_detail.hpp"
+#include "common/road/surface_point.hpp"
+
+namespace rodeira::road {
+
+// SUELO of a network that is built into a terrain: road surfaces, junctions, and the terrain, cut and filled to meet them.
+// Where several lie over one another, the highest that is not more than 0.5 m above the hint answers, without a hint the
+// highest. The ground itself is under bridges and over tunnels; elsewhere a road takes its place.
+class BuiltGround {
+ public:
+  using Junctions = std::vector<std::shared_ptr<const design::JunctionSurface>>;
+  BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions, const FrictionTable& friction, SurfaceDetail detail);
+
+  // `terrain` is the terrain there, without any road.
+  SurfacePoint At(double x_m, double y_m, double z_hint_m, const SurfacePoint& terrain) const;
+
+ private:
+  SurfacePoint OnRoad(const network::Surfacing& surfacing) const;
+  SurfacePoint OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W) const;
+
+  std::shared_ptr<const network::Network> network_;
+  Junctions junctions_;
+  FrictionTable friction_;
+  SurfaceDetail detail_;
+  Paint paint_;
+  Earthworks earthworks_;
+  std::vector<bool> in_junction_;  // by road: its surface is a junction's
+};
+
+// Whether a road is carried by a bridge or runs in a tunnel at s.
+bool IsExempt(const network::RoadSpec& road, double s_m);
+
+}  // namespace rodeira::road

@@ -1,0 +1,173 @@
+#include "common/road/earthworks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/geometry/plane.hpp"
+#include "common/road/built_ground.hpp"
+
+namespace rodeira::road {
+namespace {
+
+constexpr double kSteeper = 0.8;  // of the reach: from here on slopes grow steeper, without bound at its end
+constexpr double kSample_m = 1e-3;
+
+// What is added to a bound at a distance, and its slope by the distance.
+std::pair<double, double> Steepening(double distance_m, double reach_m) {
+  const double x = (distance_m / reach_m - kSteeper) / (1.0 - kSteeper);
+  if (x <= 0.0) return {0.0, 0.0};
+  const double left = std::max(1.0 - x, 1e-9);
+  return {reach_m * x * x / left, x * (2.0 - x) / (left * left) / (1.0 - kSteeper)};
+}
+
+// The stretches of a panel that stand on the ground.
+template <class Use>
+void Standing(const network::Road& road, double low_m, double high_m, const Use& use) {
+  double from = low_m;
+  while (from <= high_m) {
+    double to = high_m;
+    bool exempt = false;
+    for (const network::Structure& structure : road.spec().structures) {
+      const double begin = structure.s_m, end = structure.s_m + structure.length_m;
+      if (from >= begin && from < end) {
+        exempt = true;
+        to = std::min(high_m, end);
+        break;
+      }
+      if (begin > from) to = std::min(to, begin);
+    }
+    if (!exempt) use(from, to);
+    if (to >= high_m) break;
+    from = to;
+  }
+}
+
+}  // namespace
+
+Earthworks::Earthworks(std::shared_ptr<const network::Network> network, std::vector<std::shared_ptr<const design::JunctionSurface>> junctions)
+    : network_(std::move(network)), junctions_(std::move(junctions)) {
+  for (const network::Road& road : network_->roads()) {
+    if (road.spec().earthwork) reach_m_ = std::max(reach_m_, road.spec().earthwork->reach_m);
+  }
+  for (const auto& junction : junctions_) {
+    std::vector<Heights>& heights = edge_heights_.emplace_back();
+    for (const design::FreeEdge& edge : junction->free_edges()) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (const double q : {0.0, 0.5, 1.0}) {
+        const double z = junction->At(edge.from_W + q * (edge.to_W - edge.from_W)).z_m;
+        low = std::min(low, z), high = std::max(high, z);
+      }
+      heights.push_back({low - kSample_m, high + kSample_m});
+    }
+  }
+}
+
+void Earthworks::Offer(const network::Earthwork& earthwork, const Edge& edge, const Eigen::Vector2d& p_W, Bounds& bounds) {
+  const Eigen::Vector2d apart = p_W - edge.p_W;
+  const double distance = apart.norm();
+  if (distance >= earthwork.reach_m) return;
+  const Eigen::Vector2d away = distance > 0.0 ? Eigen::Vector2d(apart / distance) : Eigen::Vector2d::Zero();
+  const auto [more, more_slope] = Steepening(distance, earthwork.reach_m);
+  const double low = edge.z_m - distance / earthwork.fill - more, high = edge.z_m + distance / earthwork.cut + more;
+  if (!bounds.low.any || low > bounds.low.z_m) {
+    bounds.low = {low, distance, edge.along - (1.0 / earthwork.fill + more_slope) * away, away, true};
+  }
+  if (!bounds.high.any || high < bounds.high.z_m) {
+    bounds.high = {high, distance, edge.along + (1.0 / earthwork.cut + more_slope) * away, away, true};
+  }
+}
+
+void Earthworks::FromRoad(const network::Road& road, std::uint32_t panel_index, const Eigen::Vector2d& p_W, Bounds& bounds) const {
+  if (!road.spec().earthwork) return;
+  const geometry::AxisPanel& panel = road.axis().panels()[panel_index];
+  const geometry::AxisFoot foot = road.axis().Foot(panel, p_W);
+  const double low = std::max(panel.begin_s_m(), 0.0), high = std::min(panel.end_s_m(), road.length_m());
+  Standing(road, low, high, [&](double from, double to) {
+    double s = std::clamp(panel.middle_s_m + foot.u_m, from, to);
+    const bool beside = s == panel.middle_s_m + foot.u_m && foot.beyond_m == 0.0;
+    const network::LaneSection& section = road.SectionAt(s);
+    double outside;
+    const geometry::CubicPoint centre = road.CentreAt(s);
+    network::LaneSpan span = section.At(foot.t_m, centre, s, outside);
+    const double t = foot.t_m + (foot.t_m > centre.value ? -outside : outside);
+    if (road.rolled() && outside > 0.0) {  // the section leans: the nearest point of its edge lies elsewhere
+      (void)road.DistanceToEdge(p_W, from, to, t, s);
+      span = section.At(t, road.CentreAt(s), s, outside);
+    }
+    const network::SurfaceSample sample = road.Surface(s, t, section, span);
+    Edge edge{sample.p_W.head<2>(), sample.p_W.z(), Eigen::Vector2d::Zero()};
+    if (beside) {  // the height goes along with the road's
+      const geometry::PlanPoint axis = road.axis().Evaluate(s);
+      const double pace = sample.ds_W.head<2>().norm() - axis.curvature_1pm * geometry::Cross(axis.tangent_W, p_W - edge.p_W);
+      if (pace > 0.05) edge.along = sample.ds_W.z() / pace * axis.tangent_W;
+    }
+    Offer(*road.spec().earthwork, edge, p_W, bounds);
+  });
+}
+
+void Earthworks::FromJunction(std::size_t index, const Eigen::Vector2d& p_W, Bounds& bounds) const {
+  const design::JunctionSurface& junction = *junctions_[index];
+  const network::Earthwork usual;
+  const Eigen::Vector2d box = (junction.low_W() - p_W).cwiseMax(p_W - junction.high_W()).cwiseMax(0.0);
+  if (box.norm() >= usual.reach_m) return;
+  const std::vector<design::FreeEdge>& edges = junction.free_edges();
+  const auto foot = [&](const design::FreeEdge& edge, double& q) {
+    const Eigen::Vector2d along = edge.to_W - edge.from_W;
+    q = std::clamp((p_W - edge.from_W).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    return Eigen::Vector2d(edge.from_W + q * along);
+  };
+  const auto offer = [&](const design::FreeEdge& edge) {
+    double q;
+    const Eigen::Vector2d at = foot(edge, q);
+    const design::JunctionHeight height = junction.At(at);
+    Edge point{at, height.z_m, Eigen::Vector2d::Zero()};
+    const Eigen::Vector2d along = (edge.to_W - edge.from_W).normalized();
+    if (q > 0.0 && q < 1.0) point.along = along * along.dot(Eigen::Vector2d(height.slope_x, height.slope_y));
+    Offer(usual, point, p_W, bounds);
+  };
+  // The nearest edge first; then only those that can hold the ground more tightly.
+  std::size_t nearest = 0;
+  double best = std::numeric_limits<double>::infinity(), q;
+  thread_local std::vector<double> distances;
+  distances.clear();
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    distances.push_back((p_W - foot(edges[i], q)).norm());
+    if (distances.back() < best) best = distances.back(), nearest = i;
+  }
+  if (best >= usual.reach_m) return;
+  offer(edges[nearest]);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i == nearest) continue;
+    const Heights& heights = edge_heights_[index][i];
+    const double more = Steepening(distances[i], usual.reach_m).first;
+    const bool tighter = heights.high_m - distances[i] / usual.fill - more > bounds.low.z_m ||
+                         heights.low_m + distances[i] / usual.cut + more < bounds.high.z_m;
+    if (tighter) offer(edges[i]);
+  }
+}
+
+void Earthworks::Shape(const Eigen::Vector2d& p_W, SurfacePoint& ground) const {
+  Bounds bounds;
+  network_->Near(p_W, reach_m_, [&](std::uint32_t road, std::uint32_t panel) { FromRoad(network_->roads()[road], panel, p_W, bounds); });
+  for (std::size_t i = 0; i < junctions_.size(); ++i) FromJunction(i, p_W, bounds);
+  const auto take = [&](double z, const Eigen::Vector2d& slope) {
+    ground.z_m = z;
+    ground.slope_x = slope.x();
+    ground.slope_y = slope.y();
+  };
+  const Bound &low = bounds.low, &high = bounds.high;
+  if (low.any && high.any && low.z_m > high.z_m) {
+    const double sum = low.distance_m + high.distance_m;
+    const double part = sum > 0.0 ? high.distance_m / sum : 0.5;
+    const Eigen::Vector2d part_slope =
+        sum > 0.0 ? Eigen::Vector2d((low.distance_m * high.away - high.distance_m * low.away) / (sum * sum)) : Eigen::Vector2d::Zero();
+    take(high.z_m + part * (low.z_m - high.z_m), high.slope + part * (low.slope - high.slope) + (low.z_m - high.z_m) * part_slope);
+  } else if (low.any && ground.z_m < low.z_m) {
+    take(low.z_m, low.slope);
+  } else if (high.any && ground.z_m > high.z_m) {
+    take(high.z_m, high.slope);
+  }
+}
+
+}  // namespace rodeira::road

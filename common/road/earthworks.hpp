@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/design/junction_surface.hpp"
+#include "common/network/network.hpp"
+#include "common/road/surface_point.hpp"
+
+namespace rodeira::road {
+
+// Cut and fill. Every point q of a road's or a junction's edge holds the ground at p, d away from it, between
+// z(q) - d / fill and z(q) + d / cut; the terrain is clamped between the greatest lower and the least upper of these bounds.
+// So ground and road meet without a gap, and slopes end where they meet the terrain. Where a lower bound lies above an
+// upper one (a high and a low road side by side) the ground goes from the one to the other by the distances from both.
+class Earthworks {
+ public:
+  Earthworks(std::shared_ptr<const network::Network> network, std::vector<std::shared_ptr<const design::JunctionSurface>> junctions);
+
+  // Changes height and slopes of the terrain beside the roads.
+  void Shape(const Eigen::Vector2d& p_W, SurfacePoint& ground) const;
+
+ private:
+  struct Bound {
+    double z_m = 0.0, distance_m = 0.0;
+    Eigen::Vector2d slope = Eigen::Vector2d::Zero(), away = Eigen::Vector2d::Zero();  // of z and of the distance
+    bool any = false;
+  };
+  struct Bounds {
+    Bound low, high;
+  };
+  struct Edge {  // a point of a road's edge, and how its height goes with p
+    Eigen::Vector2d p_W;
+    double z_m;
+    Eigen::Vector2d along;
+  };
+  void FromRoad(const network::Road& road, std::uint32_t panel, const Eigen::Vector2d& p_W, Bounds& bounds) const;
+  void FromJunction(std::size_t junction, const Eigen::Vector2d& p_W, Bounds& bounds) const;
+  static void Offer(const network::Earthwork& earthwork, const Edge& edge, const Eigen::Vector2d& p_W, Bounds& bounds);
+
+  std::shared_ptr<const network::Network> network_;
+  std::vector<std::shared_ptr<const design::JunctionSurface>> junctions_;
+  struct Heights {
+    double low_m, high_m;
+  };
+  std::vector<std::vector<Heights>> edge_heights_;  // by junction and free edge
+  double reach_m_ = 0.0;
+};
+
+}  // namespace rodeira::road

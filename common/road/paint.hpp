@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/network/network.hpp"
+
+namespace rodeira::road {
+
+// Where the painted lines of a network's roads are, ready to be asked. It keeps the network's tables, not the network.
+class Paint {
+ public:
+  Paint() = default;
+  explicit Paint(const network::Network& network);
+
+  bool At(std::uint32_t road, double s_m, double t_m) const;
+
+ private:
+  struct Line {
+    double from_s_m, to_s_m, half_width_m;
+    const geometry::CubicTable* t;
+    std::vector<double> edges_s_m;  // where the paint begins and ends, in turn
+  };
+  struct Lines {
+    std::vector<Line> lines;
+    std::vector<std::vector<std::uint32_t>> by_stretch;  // of kStretch_m
+  };
+  std::vector<Lines> roads_;
+};
+
+}  // namespace rodeira::road

@@ -1,0 +1,249 @@
+// Worlds of version 2: roads, junctions and terrain as one ground.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "common/base/files.hpp"
+#include "common/base/random.hpp"
+#include "common/road/built_ground.hpp"
+#include "common/road/road_chains.hpp"
+#include "common/road/world_report.hpp"
+#include "tests/common/road/sample_world.hpp"
+
+namespace rodeira::road {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kHilly = R"(rodeira: world/2
+name: hilly
+terrain:
+  surface: soil
+  generate: {seed: 5, columns: 121, rows: 101, spacing_m: 8, west_m: -120, south_m: -260, below_m: 0.4, flat_m: 6, full_m: 40,
+    relief: [{wavelength_m: 110, amplitude_m: 14}, {wavelength_m: 40, amplitude_m: 3}]}
+roads:
+  - id: main
+    start: {x_m: 0, y_m: 0, heading_deg: 10}
+    axis:
+      - line: {length_m: 240}
+      - clothoid: {a_m: 90, radius_end_m: -160}
+      - arc: {length_m: 240, radius_m: -160}
+    vertical: [{s_m: 0, z_m: 30}, {s_m: 260, z_m: 38, parabola_m: 140}, {s_m: 530, z_m: 31}]
+    section: {template: rural}
+  - id: cross
+    place: {road: main, s_m: 140, turn_deg: 100, own_s_m: 110}
+    axis: [line: {length_m: 230}]
+    section: {template: rural}
+  - id: over
+    place: {road: main, s_m: 330, turn_deg: 80, own_s_m: 150}
+    axis: [line: {length_m: 300}]
+    vertical: [{s_m: 0, z_m: 36}, {s_m: 150, z_m: 46, parabola_m: 120}, {s_m: 300, z_m: 36}]
+    section: {template: rural}
+    bridges: [{from_s_m: 130, to_s_m: 170}]
+junctions:
+  - {id: j, roads: [{road: main, s_m: 140}, {road: cross, s_m: 110}]}
+)";
+
+std::shared_ptr<const World> Hilly() {
+  static const auto world = MustParse(kHilly);
+  return world;
+}
+
+// The height on a level: the hint is the height that is followed.
+double Follow(const World& world, const Eigen::Vector2d& p, double z) { return world.At(p.x(), p.y(), z).z_m; }
+
+// Along random straight lines over everything, a step of a millimetre changes the height by what slopes allow: nowhere is
+// there a step, not at verges, junctions, seams between roads, nor where slopes meet the terrain.
+TEST(BuiltWorld, TheGroundHasNoSteps) {
+  const World& world = *Hilly();
+  double worst = 0.0;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    const Eigen::Vector2d from(base::RandomUniform({i, 1}, -40.0, 520.0), base::RandomUniform({i, 2}, -160.0, 300.0));
+    const double angle = base::RandomUniform({i, 3}, 0.0, 6.28);
+    const Eigen::Vector2d ahead(std::cos(angle), std::sin(angle));
+    const double begin = base::RandomUniform({i, 4}, -1e9, 1e9);
+    double z = world.At(from.x(), from.y(), begin < 0.0 ? -1e9 : 1e9).z_m;
+    for (int k = 1; k < 3000; ++k) {
+      const Eigen::Vector2d p = from + 0.02 * k * ahead;
+      const SurfacePoint at = world.At(p.x(), p.y(), z);
+      if (!at.inside) break;
+      const double step = std::fabs(at.z_m - z);
+      if (step > 0.02 * 3.0) {  // off a bridge, or under one
+        const bool leaves_bridge = std::fabs(at.z_m - z) > 1.0;
+        if (leaves_bridge) {
+          z = at.z_m;
+          continue;
+        }
+      }
+      worst = std::max(worst, step - 0.02 * 1.2);
+      z = at.z_m;
+    }
+  }
+  EXPECT_LE(worst, 1e-3);
+}
+
+// Just inside and outside of every edge of every road the heights agree.
+TEST(BuiltWorld, RoadAndGroundMeetAtEveryEdge) {
+  const World& world = *Hilly();
+  const network::Network& network = *world.network();
+  int edges = 0;
+  for (const network::Road& road : network.roads()) {
+    if (!road.spec().junction.empty()) continue;
+    const network::LaneSection& section = road.spec().sections[0];
+    for (double s = 0.05; s < road.length_m(); s += 0.731) {
+      if (IsExempt(road.spec(), s)) continue;
+      for (const int lane : {static_cast<int>(section.left.size()), -static_cast<int>(section.right.size())}) {
+        const double t = section.Span(lane, road.CentreAt(s), s)->outer_t_m;
+        const Eigen::Vector3d in = road.Surface(s, t - std::copysign(1e-7, t)).p_W;
+        const geometry::PlanPoint axis = road.axis().Evaluate(s);
+        const Eigen::Vector2d out = axis.p_W + (t + std::copysign(1e-7, t)) * axis.left_W();
+        ++edges;
+        EXPECT_NEAR(world.At(out.x(), out.y(), in.z()).z_m, in.z(), 1e-6) << road.id() << " " << s << " " << t;
+      }
+    }
+  }
+  EXPECT_GT(edges, 1000);
+}
+
+TEST(BuiltWorld, JunctionsMeetTheGroundAndTheRoads) {
+  const World& world = *Hilly();
+  const network::Junction& junction = world.network()->junctions()[0];
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& corner : junction.outline_W) middle += corner / static_cast<double>(junction.outline_W.size());
+  for (std::size_t i = 0; i < junction.outline_W.size(); ++i) {
+    const Eigen::Vector2d a = junction.outline_W[i], b = junction.outline_W[(i + 1) % junction.outline_W.size()];
+    const Eigen::Vector2d along = (b - a).normalized(), out(along.y(), -along.x());
+    for (double q = 0.05; q < 1.0; q += 0.15) {
+      const Eigen::Vector2d p = a + q * (b - a), inside = p - 1e-7 * out, outside = p + 1e-7 * out;
+      const double z = world.At(inside.x(), inside.y()).z_m;
+      EXPECT_NEAR(world.At(outside.x(), outside.y(), z).z_m, z, 1e-5) << i << " " << q;
+    }
+  }
+}
+
+// Slopes are the derivatives of the heights nearly everywhere.
+TEST(BuiltWorld, SlopesAreTheDerivatives) {
+  const World& world = *Hilly();
+  const double h = 1e-5;
+  int wrong = 0, asked = 0;
+  for (std::uint64_t i = 0; i < 20'000; ++i) {
+    const double x = base::RandomUniform({i, 1}, -60.0, 560.0), y = base::RandomUniform({i, 2}, -170.0, 330.0);
+    const SurfacePoint at = world.At(x, y);
+    if (!at.inside) continue;
+    ++asked;
+    const auto z = [&](double dx, double dy) { return world.At(x + dx, y + dy, at.z_m).z_m; };
+    const double dx = (z(h, 0) - z(-h, 0)) / (2.0 * h), dy = (z(0, h) - z(0, -h)) / (2.0 * h);
+    if (std::fabs(dx - at.slope_x) + std::fabs(dy - at.slope_y) > 0.02) ++wrong;
+  }
+  EXPECT_GT(asked, 15'000);
+  EXPECT_LT(wrong, asked / 100);  // on edges of triangles and of lanes, where slopes jump
+}
+
+// Cuts and fills keep their slopes, and where they would go beyond the terrain it is the terrain.
+TEST(BuiltWorld, CutsAndFillsAreNoSteeperThanSaid) {
+  const World& world = *Hilly();
+  int shaped = 0, untouched = 0;
+  for (std::uint64_t i = 0; i < 20'000; ++i) {
+    const double x = base::RandomUniform({i, 1}, -60.0, 560.0), y = base::RandomUniform({i, 2}, -170.0, 330.0);
+    const auto place = world.network()->Locate(x, y);
+    if (!place || place->distance_m <= 0.0 || place->distance_m > 45.0) continue;
+    const SurfacePoint at = world.At(x, y, -1e9), terrain = world.TerrainAt(x, y);
+    if (!at.inside) continue;
+    if (at.z_m == terrain.z_m) {
+      ++untouched;
+      continue;
+    }
+    ++shaped;
+    const double slope = std::hypot(at.slope_x, at.slope_y);
+    if (at.z_m < terrain.z_m) EXPECT_LE(slope, std::hypot(1.0 / 1.5, 0.1)) << x << " " << y;
+    else EXPECT_LE(slope, std::hypot(0.5, 0.1)) << x << " " << y;
+  }
+  EXPECT_GT(shaped, 1000);
+  EXPECT_GT(untouched, 1000);
+}
+
+TEST(BuiltWorld, UnderABridgeThereIsARoadAndAboveItAnother) {
+  const World& world = *Hilly();
+  const RoadChain chain = ChainsOf(*world.network())[0];
+  const auto [road, s] = chain.At(*world.network(), 330.0);
+  const Eigen::Vector3d low = road->Surface(s, 0.0).p_W;
+  const auto ground = world.MakeGround();
+  const auto layers = ground->Layers(low.x(), low.y());
+  ASSERT_EQ(layers.size(), 2u);
+  EXPECT_NEAR(layers[1].z_m, low.z(), 1e-9);
+  EXPECT_NEAR(layers[0].z_m, 46.0 - (10.0 / 150.0 * 2.0) * 120.0 / 8.0, 0.01);  // the crest of a parabola
+  EXPECT_EQ(ground->At(low.x(), low.y(), low.z()).z_m, layers[1].z_m);
+  EXPECT_EQ(ground->At(low.x(), low.y(), layers[0].z_m).z_m, layers[0].z_m);
+}
+
+TEST(BuiltWorld, RoughnessStandsOnTheRoadAndFadesAtItsEnds) {
+  const std::string text = "rodeira: world/2\nname: r\nground: {kind: plane, surface: asphalt}\nroads:\n  - id: a\n    axis: [line: {length_m: 400}]\n"
+                           "    section: {template: rural, crossfall: {kind: crown, fall: 0}, verge: {width_m: 0}}\n";
+  const auto even = MustParse(text), uneven = MustParse(text + "    surfaces: [{iso_8608: C, seed: 3, from_s_m: 100, to_s_m: 300}]\n");
+  EXPECT_NE(even->content_hash(), uneven->content_hash());
+  const surface::Roughness oracle({256e-6, 3});
+  for (double s = 101.5; s < 298.0; s += 7.3) {
+    EXPECT_NEAR(uneven->At(s, 1.2).z_m - even->At(s, 1.2).z_m, oracle.At(s, 1.2).z_m, 1e-12);
+    EXPECT_NEAR(uneven->At(s, 1.2).slope_x, oracle.At(s, 1.2).dz_ds, 1e-12);
+    EXPECT_NEAR(uneven->At(s, 1.2).slope_y, oracle.At(s, 1.2).dz_dt, 1e-12);
+  }
+  EXPECT_EQ(uneven->At(99.0, 0.0).z_m, 0.0);
+  EXPECT_LT(std::fabs(uneven->At(100.001, 0.0).z_m), 1e-6);
+}
+
+TEST(BuiltWorld, IncludedFilesAreReadAndTheirMistakesToldWithTheirPlaces) {
+  const auto folder = std::filesystem::temp_directory_path() / ("rodeira-include-" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const char* name, std::string_view text) { ASSERT_TRUE(base::WriteWhole(folder / name, text).ok()); };
+  write("w.yaml", "rodeira: world/2\nname: w\nground: {kind: plane}\ninclude: [roads.yaml]\ntemplates:\n  wide: {lanes: [{id: -1, width_m: 5}]}\n");
+  write("roads.yaml", "rodeira: world/2\nroads:\n  - {id: a, axis: [line: {length_m: 50}], section: {template: wide}}\n");
+  const auto world = World::Load(folder / "w.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  EXPECT_EQ(world.value()->network()->roads()[0].id(), "a");
+  write("roads.yaml", "rodeira: world/2\nroads:\n  - {id: a, axis: [line: {lenth_m: 50}], section: {template: wide}}\n");
+  EXPECT_THAT(WorldProblems(folder / "w.yaml").front().Text(), HasSubstr("roads.yaml:3: unknown key"));
+  std::filesystem::remove_all(folder);
+}
+
+class WorldsOfTheProject : public testing::TestWithParam<const char*> {};
+
+TEST_P(WorldsOfTheProject, LoadAndHaveGroundUnderTheirLanes) {
+  const auto path = std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds" / GetParam();
+  for (const auto& problem : WorldProblems(path)) ADD_FAILURE() << problem.Text();
+  const auto loaded = World::Load(path);
+  ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
+  const World& world = *loaded.value();
+  for (const network::LaneKey& key : world.network()->Lanes()) {
+    const network::Road& road = world.network()->roads()[key.road];
+    for (double s = 0.5; s < road.length_m(); s += 23.0) {
+      const Eigen::Vector3d p = world.network()->Centre(key, s);
+      const SurfacePoint at = world.At(p.x(), p.y(), p.z());
+      ASSERT_TRUE(at.inside) << road.id() << " " << s;
+      EXPECT_NEAR(at.z_m, p.z(), 0.05) << road.id() << " " << key.lane << " " << s;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WorldsOfTheProject, testing::Values("haste.yaml", "motorway.yaml", "flat.yaml", "n222.yaml"),
+                         [](const auto& file) { return std::string(file.param).substr(0, std::string(file.param).find('.')); });
+
+TEST(Haste, IsAsLongAndCrossedAsItSays) {
+  const auto world = World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/haste.yaml").value();
+  const auto chains = ChainsOf(*world->network());
+  EXPECT_GT(chains[0].length_m, 29'000.0);
+  EXPECT_GE(world->network()->junctions().size(), 4u);
+  double sharpest = 0.0, steepest = 0.0;
+  for (double at = 0.0; at < chains[0].length_m; at += 1.0) {
+    const auto [road, s] = chains[0].At(*world->network(), at);
+    sharpest = std::max(sharpest, std::fabs(road->axis().Evaluate(s).curvature_1pm));
+    steepest = std::max(steepest, std::fabs(road->spec().elevation.Evaluate(s).slope));
+  }
+  EXPECT_LE(sharpest, 1.0 / 249.0);
+  EXPECT_LE(steepest, 0.045);
+}
+
+}  // namespace
+}  // namespace rodeira::road
