@@ -61,6 +61,11 @@ int World(const WorldOptions& options) {
   if (options.command == "map" && world) {
     if (auto status = base::WriteWhole(options.out, road::PlotWorld(*world.value())); !status) return Complain(status.error());
     fmt::print("wrote {}\n", options.out);
+    if (options.profile.empty()) return 0;
+    const std::string profile = road::PlotProfiles(*world.value());
+    if (profile.empty()) return Complain(base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
+    if (auto status = base::WriteWhole(options.profile, profile); !status) return Complain(status.error());
+    fmt::print("wrote {}\n", options.profile);
     return 0;
   }
   if (!world) return Complain(world.error());

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/suggest.hpp"
@@ -58,6 +59,8 @@ PlanElement ReadElement(const Map& item) {
       const double turn = arc.Number("turn_deg", {0.001, 3600.0}) * geometry::kPi / 180.0;
       if (arc.Has("length_m")) arc.Problem("turn_deg", "an arc has either a 'length_m' or an angle 'turn_deg'");
       element.length_m = turn / std::fabs(element.curvature_start_1pm);
+      if (element.length_m > kLength_m.high) arc.Problem("turn_deg", fmt::format("the arc is {:.4g} m long; at most {} m was expected", element.length_m, kLength_m.high));
+      element.length_m = std::min(element.length_m, kLength_m.high);
     } else {
       element.length_m = arc.Number("length_m", kLength_m);
     }
@@ -104,6 +107,7 @@ void ReadElements(const Map& road, const geometry::PlanPoint& start, AxisReading
   for (std::size_t i = 0; i < items.size(); ++i) {
     const Map item = items.At(i);
     PlanElement element = ReadElement(item);
+    element.length_m = std::clamp(element.length_m, kLength_m.low, kLength_m.high);  // what is outside is a problem already
     element.s_m = s;
     element.start_W = end.p_W;
     element.heading_rad = end.heading_rad;
@@ -136,6 +140,7 @@ AxisReading ReadAxis(const Map& road) {
 }
 
 void Place(std::vector<PlanElement>& elements, double own_s_m, const Eigen::Vector2d& to_W, double heading_rad) {
+  if (elements.empty()) return;
   const auto axis = geometry::PlanAxis::Make(elements);
   if (!axis) return;
   const geometry::PlanPoint own = axis->Evaluate(own_s_m);

@@ -78,12 +78,9 @@ void ReadMaterials(const config::Map& map, Context& context) {
 }
 
 config::Map UsualTemplates() {
-  static const config::File file = [] {
-    auto parsed = config::File::Parse(kTemplates, "templates of the program");
-    RODEIRA_ASSERT(parsed.ok());
-    return std::move(parsed).value();
-  }();
-  return file.root();
+  const auto file = config::File::Parse(kTemplates, "templates of the program");  // each reader its own: it notes what is asked
+  RODEIRA_ASSERT(file.ok());
+  return file.value().root();
 }
 
 }  // namespace rodeira::design

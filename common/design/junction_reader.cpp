@@ -42,6 +42,19 @@ Meeting ReadMeeting(const Map& item, const std::vector<RoadDesign>& designs, con
   return meeting;
 }
 
+// How much lower than its axis a road's outermost edges lie, in the mean. Other roads come to the height of these.
+double EdgeDrop(const network::Road& road, double s_m) {
+  const network::LaneSection& section = road.SectionAt(s_m);
+  const geometry::CubicPoint centre = road.CentreAt(s_m);
+  double edges = 0.0;
+  for (const double far : {-1e4, 1e4}) {
+    double outside;
+    (void)section.At(far, centre, s_m, outside);
+    edges += 0.5 * road.Surface(s_m, far > 0.0 ? far - outside : far + outside, section, {}).p_W.z();
+  }
+  return road.spec().elevation.Value(s_m) - edges;
+}
+
 void CheckMeets(const JunctionWish& junction, const std::vector<network::Road>& roads) {
   const Meeting& first = junction.meetings[0];
   const geometry::PlanPoint at = roads[first.road].axis().Evaluate(first.s_m);
@@ -95,7 +108,8 @@ void FitHeights(const std::vector<JunctionWish>& junctions, std::vector<RoadDesi
                 std::vector<std::string>& warnings) {
   for (const JunctionWish& junction : junctions) {
     const Meeting& first = junction.meetings[0];
-    const geometry::CubicPoint z = designs[first.road].spec.elevation.Evaluate(first.s_m);
+    geometry::CubicPoint z = designs[first.road].spec.elevation.Evaluate(first.s_m);
+    z.value -= EdgeDrop(roads[first.road], first.s_m);
     const Eigen::Vector2d along = roads[first.road].axis().Evaluate(first.s_m).tangent_W;
     for (std::size_t i = 1; i < junction.meetings.size(); ++i) {
       const Meeting& minor = junction.meetings[i];

@@ -62,7 +62,8 @@ Stroke ReadStroke(const Map& item, const Kind& kind, bool dashed) {
   return {item.Number("stroke_m", {0.1, 100.0}, kind.stroke_m), item.Number("gap_m", {0.1, 100.0}, kind.gap_m)};
 }
 
-void ReadLine(const Map& item, double length_m, network::RoadSpec& spec) {
+void ReadLine(const Map& item, bool of_template, double length_m, network::RoadSpec& spec) {
+  if (of_template && item.Has("lane") && spec.sections[0].Find(static_cast<int>(item.Integer("lane", -30, 30))) == nullptr) return;
   std::vector<std::string> names;
   for (const Kind& kind : kKinds) names.emplace_back(kind.name);
   const std::string name = item.Choice("kind", names);
@@ -95,9 +96,9 @@ void ReadLine(const Map& item, double length_m, network::RoadSpec& spec) {
 
 }  // namespace
 
-void ReadLines(const Map& map, double length_m, network::RoadSpec& spec) {
+void ReadLines(const Map& map, bool of_template, double length_m, network::RoadSpec& spec) {
   const config::List lines = map.OptionalItems("lines");
-  for (std::size_t i = 0; i < lines.size(); ++i) ReadLine(lines.At(i), length_m, spec);
+  for (std::size_t i = 0; i < lines.size(); ++i) ReadLine(lines.At(i), of_template, length_m, spec);
 }
 
 }  // namespace rodeira::design

@@ -35,6 +35,7 @@ std::optional<double> ReadPlacing(const Map& road, const std::vector<RoadDesign>
   for (const RoadDesign& other : before) {
     ids.push_back(other.spec.id);
     if (other.spec.id != id) continue;
+    if (other.elements.empty()) return std::nullopt;
     const auto axis = geometry::PlanAxis::Make(other.elements);
     if (!axis) return std::nullopt;
     if (s > axis->length_m()) {
@@ -83,7 +84,9 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
     if (axis.elevation) map.Problem("vertical", "the points of this road have heights; without them 'vertical' counts");
     std::vector<geometry::GradePoint> grades = ReadGrades(map);
     bool ascending = !grades.empty();
-    for (std::size_t i = 1; i < grades.size(); ++i) ascending = ascending && grades[i].s_m > grades[i - 1].s_m;
+    for (std::size_t i = 1; i < grades.size(); ++i) {
+      ascending = ascending && grades[i].s_m > grades[i - 1].s_m && grades[i].parabola_m >= 0.0;
+    }
     spec.elevation = ascending ? Elevation(geometry::VerticalProfile(std::move(grades)), length) : Constant(0.0);
   } else if (axis.elevation) {
     spec.elevation = std::move(*axis.elevation);
@@ -101,7 +104,7 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
 }
 
 std::optional<network::Road> BuildRoad(const RoadDesign& design) {
-  auto axis = geometry::PlanAxis::Make(design.elements);
+  auto axis = design.elements.empty() ? std::nullopt : geometry::PlanAxis::Make(design.elements);
   if (!axis) {
     design.map.Problem("axis", "the axis stands still somewhere, or turns too often");
     return std::nullopt;

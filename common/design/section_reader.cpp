@@ -148,7 +148,17 @@ Keys FindKeys(const Map& road, const Context& context) {
   const std::string name = section.Text("template", "");
   if (name.empty()) return {section, section.OptionalChild("template")};
   const auto found = context.templates.find(name);
-  if (found != context.templates.end()) return {section, found->second.Child(name)};
+  if (found != context.templates.end()) {
+    // A road may say all of a template's keys itself: they are known even where nobody asks for them.
+    const Map other = found->second.Child(name);
+    const std::vector<std::string> known = {"lanes", "crossfall", "crossfalls", "shoulders", "verge", "offset_m", "offsets", "slopes", "lines"};
+    for (const std::string& key : other.Keys()) {
+      if (std::find(known.begin(), known.end(), key) == known.end()) {
+        other.Problem(key, fmt::format("'{}' is no key of a template{}", key, base::DidYouMean(key, known)));
+      }
+    }
+    return {section, other};
+  }
   std::vector<std::string> names;
   for (const auto& [known, map] : context.templates) names.push_back(known);
   section.Problem("template", fmt::format("there is no template '{}'{}", name, base::DidYouMean(name, names)));
@@ -175,8 +185,8 @@ void ReadSection(const Map& road, Context& context, double length_m, network::Ro
   spec.sections.assign(1, std::move(section));
   spec.earthwork.emplace();
   ReadEarthwork(keys, *spec.earthwork);
-  if (road.Has("lines")) ReadLines(road, length_m, spec);
-  else ReadLines(keys.With("lines"), length_m, spec);
+  if (road.Has("lines")) ReadLines(road, false, length_m, spec);
+  else ReadLines(keys.With("lines"), !keys.own.Has("lines"), length_m, spec);
 }
 
 CubicTable EdgeOf(const network::RoadSpec& spec, int lane) {

@@ -87,6 +87,7 @@ std::vector<Knot> ReadKnots(const config::Map& map, std::string_view list_key, s
     const Knot knot{item.Number("s_m", {0.0, 1e8}), item.Number(value_key, range)};
     if (!knots.empty() && !(knot.s_m > knots.back().s_m)) {
       item.Problem("s_m", fmt::format("the points of '{}' must come in ascending 's_m'", list_key));
+      continue;
     }
     knots.push_back(knot);
   }

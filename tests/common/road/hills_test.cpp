@@ -32,7 +32,7 @@ TEST(Hills, TheSameSeedGivesTheSameBytesAndAnotherOneOthers) {
 }
 
 TEST(Hills, WithoutRoadsTheyRiseAboutTheBase) {
-  const auto grid = MakeHills(Spec(), {});
+  const auto grid = MakeHills(Spec(), std::span<const Road>());
   double low = 1e9, high = -1e9;
   for (const float height : grid.heights_m()) low = std::min(low, double{height}), high = std::max(high, double{height});
   EXPECT_TRUE(low > 15.0 && low < 45.0) << low;
@@ -64,7 +64,7 @@ TEST(Hills, LayersAreNoCopiesOfOneAnother) {
   HillsSpec one = Spec(), two = Spec();
   one.relief = {{100.0, 20.0}};
   two.relief = {{100.0, 10.0}, {100.0, 10.0}};
-  const auto a = MakeHills(one, {}), b = MakeHills(two, {});
+  const auto a = MakeHills(one, std::span<const Road>()), b = MakeHills(two, std::span<const Road>());
   double difference = 0.0;
   for (std::size_t i = 0; i < a.heights_m().size(); ++i) difference = std::max(difference, std::fabs(double{a.heights_m()[i]} - double{b.heights_m()[i]}));
   EXPECT_GT(difference, 5.0);
