@@ -26,7 +26,7 @@ void Fields(V& v, msg::Grant& m) {
 }
 template <class V>
 void Fields(V& v, msg::Ask& m) {
-  v("roster_hash", m.roster_hash()), v("from_step", m.from_step()), v("source", m.source()), v("end", m.end());
+  v("roster_hash", m.roster_hash()), v("from_step", m.from_step()), v("source", m.source()), v("asker", m.asker());
 }
 template <class V>
 void Fields(V& v, msg::Hello& m) {
@@ -38,7 +38,8 @@ void Fields(V& v, msg::Report& m) {
   v("clock_id", m.clock_id()), v("node", m.node()), v("hello", m.hello()), v("incarnation", m.incarnation()), v("phase", m.phase());
   v("progress_step", m.progress_step()), v("waiting", m.waiting()), v("waiting_source", m.waiting_source());
   v("since_ms", m.since_ms()), v("digest", m.digest()), v("steps", m.steps()), v("busy_ns", m.busy_ns()), v("worst_ns", m.worst_ns());
-  v("server_calls", m.server_calls()), v("safe_step", m.safe_step()), v("granted_step", m.granted_step());
+  v("server_calls", m.server_calls()), v("median_interval_ns", m.median_interval_ns()),
+      v("p99_interval_ns", m.p99_interval_ns()), v("safe_step", m.safe_step()), v("granted_step", m.granted_step());
   v("granted_final", m.granted_final()), v("message", m.message()), v("end", m.end());
 }
 template <class V>
@@ -103,6 +104,10 @@ void Fields(V& v, msg::ScenarioEvent& m) {
 template <class V>
 void Fields(V& v, msg::ScenarioEvents& m) {
   v("header", m.header()), v("events", m.events()), v("end", m.end());
+}
+template <class V>
+void Fields(V& v, msg::Parcel& m) {
+  v("samples", m.samples()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Snapshot& m) {
@@ -274,6 +279,7 @@ void ForEveryTopicType(const Use& use) {
   use(TypeTag<msg::TrafficState>(), "rodeira::msg::TrafficState");
   use(TypeTag<msg::ScenarioEvents>(), "rodeira::msg::ScenarioEvents");
   use(TypeTag<msg::Snapshot>(), "rodeira::msg::Snapshot");
+  use(TypeTag<msg::Parcel>(), "rodeira::msg::Parcel");
   use(TypeTag<msg::Pulse>(), "rodeira::msg::Pulse");
   use(TypeTag<msg::Grant>(), "rodeira::msg::Grant");
   use(TypeTag<msg::Ask>(), "rodeira::msg::Ask");
