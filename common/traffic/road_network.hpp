@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "common/base/result.hpp"
+#include "common/road/world.hpp"
+
+namespace rodeira::traffic {
+
+// The roads of a world as a network, which keeps the world alive.
+base::Result<std::shared_ptr<const network::Network>> NetworkOf(const std::shared_ptr<const road::World>& world);
+
+}  // namespace rodeira::traffic
