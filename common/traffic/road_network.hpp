@@ -2,12 +2,11 @@
 
 #include <memory>
 
-#include "common/base/result.hpp"
 #include "common/road/world.hpp"
 
 namespace rodeira::traffic {
 
-// The roads of a world as a network, which keeps the world alive.
-base::Result<std::shared_ptr<const network::Network>> NetworkOf(const std::shared_ptr<const road::World>& world);
+// The roads of a world as a network, which keeps the world alive; an empty one where it has none.
+std::shared_ptr<const network::Network> NetworkOf(const std::shared_ptr<const road::World>& world);
 
 }  // namespace rodeira::traffic

@@ -7,7 +7,6 @@
 #include <map>
 #include <set>
 
-#include "common/traffic/road_network.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -15,6 +14,7 @@ namespace {
 constexpr std::size_t kIncidents = 20;
 constexpr double kStanding_mps = 0.05;
 constexpr double kRoom_m = 5.0;
+constexpr double kHard_mps2 = 4.5;
 constexpr double kOnLane_m = 1e-3;
 
 class Watcher {
@@ -25,7 +25,8 @@ class Watcher {
   StudyResult& result() { return result_; }
 
   // After every step: distances against speeds.
-  void Compare(const TrafficModel& model) {
+  void Compare(const TrafficModel& model, double time_s) {
+    time_s_ = time_s;
     std::size_t k = 0;
     for (const AgentPose& pose : model.poses()) {
       while (k < before_.size() && before_[k].id < pose.id) ++k;
@@ -37,14 +38,14 @@ class Watcher {
       const double error = std::fabs(moved - told);
       if (error > 1e-3) Tell("moved {:.4f} m instead of {:.4f} m", pose, moved, told);
       result_.worst_step_m = std::max(result_.worst_step_m, error);
+      if (pose.acceleration_mps2 < -kHard_mps2 && before_[k].acceleration_mps2 >= -kHard_mps2) Tell("brakes at {:.2f} m/s2", pose, -pose.acceleration_mps2);
       result_.hardest_mps2 = std::max(result_.hardest_mps2, -pose.acceleration_mps2);
     }
     before_ = model.poses();
     ++result_.steps;
   }
 
-  void Look(const TrafficModel& model, double time_s) {
-    time_s_ = time_s;
+  void Look(const TrafficModel& model) {
     Contacts(model);
     for (const AgentPose& pose : model.poses()) {
       const auto place = network_.Locate(pose.p_WB_W.x(), pose.p_WB_W.y(), pose.p_WB_W.z(), &hint_);
@@ -117,9 +118,9 @@ class Watcher {
 
 }  // namespace
 
-base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_ptr<const road::World> world,
+base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_ptr<const network::Network> network,
                                    const std::function<void(const StudyMoment&)>& watch) {
-  auto made = TrafficModel::Make(settings.traffic, world, {});
+  auto made = TrafficModel::Make(settings.traffic, std::move(network), {});
   if (!made) return made.error();
   TrafficModel model = std::move(made).value();
   Watcher watcher(model.graph().network(), settings);
@@ -127,9 +128,9 @@ base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_pt
   const auto every = std::max<std::int64_t>(1, std::llround(settings.watch_s / settings.step_s));
   for (std::int64_t k = 0; k <= steps; ++k) {
     if (k > 0) model.Step(settings.step_s, {});
-    watcher.Compare(model);
+    watcher.Compare(model, static_cast<double>(k) * settings.step_s);
     if (k % every != 0) continue;
-    watcher.Look(model, static_cast<double>(k) * settings.step_s);
+    watcher.Look(model);
     if (watch) watch({static_cast<double>(k) * settings.step_s, model});
   }
   StudyResult result = watcher.result();

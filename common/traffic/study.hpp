@@ -44,7 +44,7 @@ struct StudyMoment {
 };
 
 // Runs the model without any network or node. `watch`, where there is one, sees the beginning and every watch_s.
-base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_ptr<const road::World> world,
+base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_ptr<const network::Network> network,
                                    const std::function<void(const StudyMoment&)>& watch = {});
 
 }  // namespace rodeira::traffic

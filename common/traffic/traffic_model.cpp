@@ -45,9 +45,7 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
 base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, std::shared_ptr<const road::World> world,
                                               std::span<const driver::Footprint> others) {
   RODEIRA_ASSERT(world != nullptr);
-  auto network = NetworkOf(world);
-  if (!network) return network.error();
-  auto model = Make(settings, std::move(network).value(), others);
+  auto model = Make(settings, NetworkOf(world), others);
   if (!model) {
     return base::WrongInput("the world '" + world->name() + "' has no lane to put traffic on; a world with a road, or 0 vehicles, was expected");
   }
@@ -66,7 +64,7 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
   return model;
 }
 
-// Which of a track's links the agent takes as the n-th of its trip: by lot, those where its lane ends only if there is no other.
+// Which of a track's links the agent takes as the n-th of its trip: by lot.
 std::size_t TrafficModel::DrawLink(const Agent& agent, std::uint32_t id, std::uint32_t track, std::uint32_t link) const {
   const auto& next = graph()[track].next;
   const double draw = base::RandomUniform({settings_.seed, id, kDrawLink, agent.trip, link});
