@@ -14,6 +14,7 @@ constexpr double kStartJitter = 0.6;     // share of the spacing
 constexpr double kStartClear_m = 15.0;   // from others, at the beginning
 constexpr double kGentle_mps2 = 0.8;     // an entering car needs no harder braking than this
 constexpr double kEnteringShare = 0.95;  // of the speed it wants
+constexpr int kSweeps = 4;
 constexpr double kZoneClear_m = 1.0;
 constexpr double kNarrow_m = 2.0;
 
@@ -86,6 +87,14 @@ void TrafficModel::PlaceAll(std::span<const driver::Footprint> others) {
     if (passages_[id].any) speed = std::min(speed, std::sqrt(1.8 * idm.braking_mps2 * std::max(0.0, passages_[id].line_m - agent.o_m - 0.5 * traits_[id].length_m)));
     passages_[id].any = false;
     agent.speed_mps = speed;
+  }
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {  // nobody begins with hard braking
+    for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+      if (!agents_[id].on_road || !ahead_[id].any) continue;
+      const double leader = ahead_[id].id < 0 ? ahead_[id].speed_mps : agents_[static_cast<std::size_t>(ahead_[id].id)].speed_mps;
+      double& v = agents_[id].speed_mps;
+      while (v > 0.1 && driver::IdmAcceleration(traits_[id].idm, v, 100.0, ahead_[id].gap_m, leader) < -kGentle_mps2) v *= 0.95;
+    }
   }
 }
 
