@@ -42,7 +42,7 @@ double NumberBehind(const std::string& text, const std::string& word) {
 class RecorderKilled : public Endurance {
  protected:
   static constexpr std::uintmax_t kFirstSecondBytes = 100'000;  // what is embedded has 20 kB, the first chunk more than these
-  static constexpr const char* kSimulated = "40";  // seconds: at the pace below, longer than a run lives
+  static constexpr const char* kSimulated = "120";  // seconds: at the pace below ten, longer than a run lives
   std::vector<std::string> Command(const std::string& run, const std::string& recording) const {
     return {Bin("rodeira"), "run", kLaunch, "--run", run, "--for", kSimulated, "--record", recording, "--pace", "12",
             "--set", "limits.silence_s=30", "--set", "limits.step_s=30"};  // whoever else is slow meanwhile is no fault
