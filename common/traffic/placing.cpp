@@ -14,6 +14,7 @@ constexpr double kStartJitter = 0.6;     // share of the spacing
 constexpr double kStartClear_m = 15.0;   // from others, at the beginning
 constexpr double kGentle_mps2 = 0.8;     // an entering car needs no harder braking than this
 constexpr double kEnteringShare = 0.95;  // of the speed it wants
+constexpr double kFast_mps = 40.0;
 constexpr int kSweeps = 4;
 constexpr double kZoneClear_m = 1.0;
 constexpr double kNarrow_m = 2.0;
@@ -73,6 +74,7 @@ void TrafficModel::PlaceAll(std::span<const driver::Footprint> others) {
     agent.o_m = d;
     agent.path = {{tracks[place], 0.0, 0.0, 0.0, 0.0, 1.0}};
   }
+  for (Agent& agent : agents_) agent.speed_mps = agent.on_road ? kFast_mps : 0.0;  // that they look far
   See(others);
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     Agent& agent = agents_[id];

@@ -11,6 +11,7 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr std::uint64_t kDrawLink = 103;
+constexpr double kGentleBend = 0.01;
 constexpr double kEntryClear_m = 12.0;  // from a lane's beginning to its first conflict zone
 
 }  // namespace
@@ -97,6 +98,24 @@ double TrafficModel::Advance(std::uint32_t id, double odometer_m) const {
   return std::max(0.2, 0.5 * (front.stretch * front.ahead_W + rear.stretch * rear.ahead_W).norm());
 }
 
+// The odometer when that point has gone so far; where bends are tight found by secants.
+double TrafficModel::Moved(std::uint32_t id, double travel_m) const {
+  const Agent& agent = agents_[id];
+  const double rate = Advance(id, agent.o_m + 0.5 * travel_m);
+  double odometer = agent.o_m + travel_m / rate;
+  if (std::fabs(rate - 1.0) < kGentleBend) return odometer;
+  const auto middle = [&](double o) -> Eigen::Vector2d {
+    return 0.5 * (FrameAt(graph(), agent.path, o + HalfBase(id)).p_W + FrameAt(graph(), agent.path, o - HalfBase(id)).p_W).head<2>();
+  };
+  const Eigen::Vector2d from = middle(agent.o_m);
+  for (int turn = 0; turn < 4; ++turn) {
+    const double gone = (middle(odometer) - from).norm();
+    if (std::fabs(gone - travel_m) < 1e-5 || gone < 1e-9) break;
+    odometer = agent.o_m + (odometer - agent.o_m) * std::clamp(travel_m / gone, 0.5, 2.0);
+  }
+  return odometer;
+}
+
 // Constant acceleration over the step; a car that comes to rest stays at rest.
 void TrafficModel::Move(std::uint32_t id, double acceleration_mps2, double dt_s) {
   Agent& agent = agents_[id];
@@ -110,7 +129,7 @@ void TrafficModel::Move(std::uint32_t id, double acceleration_mps2, double dt_s)
   agent.acceleration_mps2 = (after - before) / dt_s;
   agent.speed_mps = after;
   agent.driven_m += travel;
-  if (travel > 0.0) agent.o_m += travel / Advance(id, agent.o_m + 0.5 * travel);
+  if (travel > 0.0) agent.o_m = Moved(id, travel);
 }
 
 // The path grows under the front bumper and is forgotten behind the rear one.

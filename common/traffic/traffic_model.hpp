@@ -145,6 +145,7 @@ class TrafficModel {
   driver::SpeedPlan::Allowed Allowed(std::uint32_t id) const;
   void Move(std::uint32_t id, double acceleration_mps2, double dt_s);
   double Advance(std::uint32_t id, double odometer_m) const;
+  double Moved(std::uint32_t id, double travel_m) const;
   double HalfBase(std::uint32_t id) const { return 0.5 * traits_[id].wheelbase_m; }  // of the odometer
   void Follow(std::uint32_t id);
   bool AtTheEnd(std::uint32_t id) const;
