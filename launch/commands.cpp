@@ -20,6 +20,7 @@
 #include "launch/run_command.hpp"
 #include "launch/surface_command.hpp"
 #include "launch/traffic_command.hpp"
+#include "launch/vehicle_command.hpp"
 #include "launch/world_command.hpp"
 
 namespace rodeira::front {
@@ -195,6 +196,20 @@ void AddMechanism(CLI::App& app, MechanismOptions& options) {
   run->callback([&options] { options.asked = true; });
 }
 
+void AddVehicle(CLI::App& app, VehicleOptions& options) {
+  CLI::App* vehicle = app.add_subcommand("vehicle", "vehicle files, alone");
+  vehicle->require_subcommand(1);
+  CLI::App* test = vehicle->add_subcommand("test", "drive the usual manoeuvres and print their figures");
+  test->add_option("VEHICLE.yaml", options.file, "vehicle file")->required();
+  test->add_option("--manoeuvre", options.manoeuvres, "acceleration, braking, split_friction, constant_radius, step_steer, sine, lane_change, park, bump; otherwise all");
+  test->add_option("--step", options.step_s, "step in seconds")->capture_default_str();
+  test->add_option("--csv", options.csv, "write the motion over time into this file");
+  test->add_option("--svg", options.svg, "draw it into this file");
+  test->add_option("--out", options.out, "folder: NAME.csv and NAME.svg of each manoeuvre");
+  test->add_flag("--quiet", options.quiet, "no progress, no table");
+  test->callback([&options] { options.asked = true; });
+}
+
 void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
   CLI::App* joysticks = app.add_subcommand("joysticks", "wheels and joysticks that are plugged in, with their GUIDs");
   CLI::Option* watch = joysticks->add_flag("--watch", options.watch, "say which axis and button moves");
@@ -267,6 +282,8 @@ int Main(int argc, char** argv) {
   AddSurface(app, surface);
   MechanismOptions mechanism;
   AddMechanism(app, mechanism);
+  VehicleOptions vehicle;
+  AddVehicle(app, vehicle);
   DoctorOptions doctor;
   AddDoctor(app, doctor);
   JoysticksOptions joysticks;
@@ -288,6 +305,7 @@ int Main(int argc, char** argv) {
   if (traffic.asked) return TrafficRun(traffic);
   if (!polyline.command.empty()) return Polylines(polyline);
   if (!surface.command.empty()) return Surface(surface);
+  if (vehicle.asked) return TestVehicle(vehicle);
   if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);

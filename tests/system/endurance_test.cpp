@@ -106,7 +106,7 @@ TEST_F(RecorderKilled, AtAnyInstantCostsAtMostASimulatedSecondAndItIsSaid) {
     const pid_t victim = Find(name, recording, driving);
     if (victim < 0) FAIL() << "there is no recorder to kill: " << run.Wait(1s).out;
     std::this_thread::sleep_for(wait);
-    ASSERT_EQ(::kill(victim, SIGKILL), 0);
+    if (::kill(victim, SIGKILL) != 0) FAIL() << "the recorder was gone before it was killed: " << run.Wait(10s).out;
     const Ended ended = run.Wait(30s);
     EXPECT_EQ(ended.status, 1) << ended.out;
     EXPECT_THAT(ended.out, HasSubstr("'recorder' was killed by signal 9"));
