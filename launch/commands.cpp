@@ -19,6 +19,7 @@
 #include "launch/replay_command.hpp"
 #include "launch/run_command.hpp"
 #include "launch/surface_command.hpp"
+#include "launch/traffic_command.hpp"
 #include "launch/vehicle_command.hpp"
 #include "launch/world_command.hpp"
 
@@ -119,6 +120,20 @@ void AddMap(CLI::App& app, MapOptions& options) {
     if (std::string(name) == "convert") command->add_option("-o,--out", options.out, "file to write: OUT.svg or OUT.xodr")->required();
     command->callback([&options, name] { options.command = name; });
   }
+}
+
+void AddTraffic(CLI::App& app, TrafficOptions& options) {
+  CLI::App* traffic = app.add_subcommand("traffic", "the traffic model alone, for studies");
+  traffic->require_subcommand(1);
+  CLI::App* run = traffic->add_subcommand("run", "drive cars on a map's roads and say what came out");
+  run->add_option("MAP", options.map, "world file, OpenDRIVE file (.xodr) or traffic map (.motors)")->required();
+  run->add_option("--vehicles", options.vehicles, "how many cars")->check(CLI::Range(0, 100000));
+  run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
+  run->add_option("--step", options.step_s, "seconds a step, to 0.1")->check(CLI::Range(0.001, 0.1));
+  run->add_option("--seed", options.seed, "seed of everything that is drawn");
+  run->add_option("--csv", options.csv, "folder for trajectories.csv");
+  run->add_flag("--quiet", options.quiet, "no progress, no table");
+  run->callback([&options] { options.asked = true; });
 }
 
 void AddPolyline(CLI::App& app, PolylineOptions& options) {
@@ -262,6 +277,8 @@ int Main(int argc, char** argv) {
   AddWorld(app, world);
   MapOptions map;
   AddMap(app, map);
+  TrafficOptions traffic;
+  AddTraffic(app, traffic);
   PolylineOptions polyline;
   AddPolyline(app, polyline);
   SurfaceOptions surface;
@@ -288,6 +305,7 @@ int Main(int argc, char** argv) {
   }
   if (!world.command.empty()) return World(world);
   if (!map.command.empty()) return MapCommand(map);
+  if (traffic.asked) return TrafficRun(traffic);
   if (!polyline.command.empty()) return Polylines(polyline);
   if (!surface.command.empty()) return Surface(surface);
   if (vehicle.asked) return TestVehicle(vehicle);
