@@ -13,6 +13,16 @@ constexpr double kMostCells = 4e6;
 constexpr std::uint32_t kLeaf = 4;
 constexpr double kSteepest = 0.8;  // sine of any superelevation and of any grade
 
+// What is closed between a panel's end and the next one's beginning.
+double ClosedBetween(const geometry::PlanAxis& axis, std::size_t before, double closed_m) {
+  constexpr double kSmooth = 1e-9;  // metres, and radians
+  const auto& panels = axis.panels();
+  if (before + 1 >= panels.size()) return closed_m;
+  const geometry::PlanPoint end = axis.At(panels[before], panels[before].half_m), begin = axis.At(panels[before + 1], -panels[before + 1].half_m);
+  const bool smooth = (end.p_W - begin.p_W).norm() < kSmooth && (end.tangent_W - begin.tangent_W).norm() < kSmooth;
+  return smooth ? kSlack_m : closed_m;
+}
+
 Band MakeBand(const Road& road, std::uint32_t road_index, std::uint32_t panel_index, double closed_m) {
   const geometry::PlanAxis& axis = road.axis();
   const geometry::AxisPanel& panel = axis.panels()[panel_index];
@@ -52,6 +62,9 @@ Band MakeBand(const Road& road, std::uint32_t road_index, std::uint32_t panel_in
   band.centre_W = 0.5 * (begin + end) + 0.5 * (low + high) * geometry::Left(band.along_W);
   band.half_along_m = 0.5 * length + along;
   band.half_across_m = 0.5 * (high - low) + bulge + turn * closed_m;
+  const auto at_end = [&](const auto& link) { return link ? closed_m : kSlack_m; };  // where it leads nowhere, there is no gap
+  band.closed_before_m = panel_index == 0 ? at_end(road.spec().predecessor) : ClosedBetween(axis, panel_index - 1, closed_m);
+  band.closed_behind_m = panel.end_s_m() >= road.length_m() ? at_end(road.spec().successor) : ClosedBetween(axis, panel_index, closed_m);
   return band;
 }
 

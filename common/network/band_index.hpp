@@ -16,6 +16,9 @@ struct Band {
   Eigen::Vector2d centre_W;
   Eigen::Vector2d along_W;  // unit length
   double half_along_m = 0.0, half_across_m = 0.0;
+  // How far beyond its ends a point still belongs to it: what is closed at gaps and kinks of the reference line and where another road
+  // goes on; no more than rounding where the next panel goes on smoothly, and knows the lanes' edges better, or nothing goes on.
+  double closed_before_m = 0.0, closed_behind_m = 0.0;
 
   // How far a point lies outside the rectangle: nothing of the band is nearer.
   double Distance(const Eigen::Vector2d& p_W) const;

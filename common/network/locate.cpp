@@ -47,7 +47,7 @@ Network::Hit Network::Try(const Eigen::Vector2d& p_W, std::optional<double> z_m,
   if (road.rolled() && hit.outside_m > 0.0) {  // t runs along a slope there: what counts is seen from above
     const double edge = t + (t > road.CentreAt(s).value ? -hit.outside_m : hit.outside_m);
     hit.outside_m = road.DistanceToEdge(p_W, low, high, edge, s);
-  } else if (beyond > kClosed_m) {
+  } else if (beyond > (s <= low ? band.closed_before_m : band.closed_behind_m)) {
     hit.outside_m = std::sqrt(hit.outside_m * hit.outside_m + beyond * beyond);
   }
   hit.place.lane = {band.road, static_cast<std::uint32_t>(section_index), span.lane == nullptr ? 0 : span.lane->id};
