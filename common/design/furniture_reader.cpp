@@ -1,5 +1,6 @@
 #include "common/design/furniture_reader.hpp"
 
+#include <filesystem>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -175,7 +176,7 @@ void ReadSurfaces(const Map& road, double length_m, network::RoadSpec& spec) {
     }
     if (item.Has("crg")) {
       network::CrgSurface crg;
-      crg.file = item.Path("crg").string();
+      crg.file = std::filesystem::absolute(item.Path("crg")).string();  // not to be looked for from the world's folder once more
       crg.orientation = item.Choice("orientation", {"same", "opposite"}, "same");
       crg.mode = "attached";
       crg.purpose = "elevation";

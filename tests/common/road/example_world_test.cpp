@@ -60,5 +60,15 @@ TEST(ExampleWorld, IsAWorld) {
   EXPECT_EQ(world.value()->network()->junctions().size(), 1u);
 }
 
+// Files beside a world are found from wherever one stands.
+TEST(ExampleWorld, LoadsByARelativePathToo) {
+  const fs::path before = fs::current_path();
+  fs::current_path(kRoot);
+  const auto world = World::Load("configs/worlds/example/world.yaml");
+  fs::current_path(before);
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  EXPECT_EQ(world.value()->content_hash(), World::Load(kRoot / "configs/worlds/example/world.yaml").value()->content_hash());
+}
+
 }  // namespace
 }  // namespace rodeira::road

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <map>
+#include <optional>
 
 #include "common/replay/recorded_run.hpp"
 #include "idl/codec.hpp"
@@ -67,10 +69,13 @@ TEST_F(LiveBranch, APersonTakesTheWheelAtTAndWhatTheyDoIsKept) {
                                                     "throttle: {axis: 2, inverted: true}\n");
   const auto parent = ControlsOf(File("parent.mcap"));
   BranchWish wish{File("parent.mcap"), 2000, {{"nodes.driver.config", "{source: joystick, wheel: \"" + file.string() + "\"}"}}, 4000, File("live.mcap")};
-  wish.pace = 4.0;
-  int asked = 0;
-  wish.next_command = [&]() -> std::optional<lockstep::Asked> {  // about every 20 ms of the half second
-    if (++asked == 8) wheel.Axis(0, -16384);
+  wish.pace = 2.0;
+  // The hand moves a while after the drive has begun: an axis counts from its first move on.
+  std::optional<std::chrono::steady_clock::time_point> begun;
+  wish.next_command = [&]() -> std::optional<lockstep::Asked> {
+    const auto now = std::chrono::steady_clock::now();
+    if (!begun) begun = now;
+    if (now - *begun > std::chrono::milliseconds(400)) wheel.Axis(0, -16384);
     return std::nullopt;
   };
   const auto outcome = Branch(wish);
