@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kNear_m = 0.3;  // fixed: depths then mean the same in every frame
 constexpr double kFar_m = 15'000.0;
+constexpr std::array<float, scene::kGroundLevels> kGroundSeen_m = {60.0F, 300.0F, 900.0F, 1e9F};  // beyond the tile's own radius
 constexpr float kMarksSeen_m = 650.0F;
 constexpr float kTreesSeen_m = 1'100.0F;
 constexpr std::array<float, scene::kTerrainLevels> kLevelSeen_m = {450.0F, 1'300.0F, 1e9F};  // up to this distance of the tile's centre
@@ -41,6 +42,26 @@ osg::ref_ptr<osg::Node> TerrainNode(Look& look, const scene::TerrainTile& tile) 
     const scene::Mesh* mesh = &tile.levels[level];
     const float to = kLevelSeen_m[level] + static_cast<float>(tile.radius_m);
     lod->addChild(look.Placed({&mesh, 1}), from, to);
+    from = to;
+  }
+  return lod;
+}
+
+osg::ref_ptr<osg::Node> GroundNode(Look& look, const scene::GroundTile& tile) {
+  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+  lod->setCenter(ToOsg(tile.centre_W));
+  lod->setRadius(tile.radius_m);
+  float from = 0.0F;
+  for (std::size_t level = 0; level < tile.levels.size(); ++level) {
+    std::vector<const scene::Mesh*> meshes;
+    for (const scene::Mesh& mesh : tile.levels[level].ground) meshes.push_back(&mesh);
+    osg::ref_ptr<osg::Group> group = new osg::Group;
+    if (!meshes.empty()) group->addChild(look.Placed(meshes));
+    const scene::Mesh* marks = &tile.levels[level].marks;
+    if (!marks->triangles.empty()) group->addChild(look.Placed({&marks, 1}));
+    const float to = kGroundSeen_m[level] + static_cast<float>(tile.radius_m);
+    lod->addChild(group, from, to);
     from = to;
   }
   return lod;
@@ -75,6 +96,7 @@ Painter::Painter(Surface& surface, const road::World& world, const scene::WorldS
     : surface_(surface), world_(world), parts_(std::make_unique<Parts>()) {
   Look& look = parts_->look;
   osg::Group& root = *parts_->root;
+  for (const scene::GroundTile& tile : standing.ground) root.addChild(GroundNode(look, tile));
   for (const scene::TerrainTile& tile : standing.terrain) root.addChild(TerrainNode(look, tile));
   for (const scene::RoadTile& tile : standing.roads) AddRoadTile(look, tile, root);
   for (const scene::Mesh& trees : standing.trees) {
