@@ -6,6 +6,7 @@
 #include "ground.h"
 #include "live.h"
 #include "log.h"
+#include "parcel.h"
 #include "pulse.h"
 #include "scenario.h"
 #include "snapshot.h"

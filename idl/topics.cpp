@@ -14,6 +14,7 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kScenarioEvents, "rodeira::msg::ScenarioEvents", "scenario", true},
       {topics::kSnapshot, "rodeira::msg::Snapshot", "snapshot", true},
       {topics::kPulse, "rodeira::msg::Pulse", "pulse", true},
+      {topics::kParcels, "rodeira::msg::Parcel", "parcel", false},
       {topics::kGrant, "rodeira::msg::Grant", "clock", false},
       {topics::kAsk, "rodeira::msg::Ask", "clock", false},
       {topics::kReport, "rodeira::msg::Report", "clock", false},
@@ -31,7 +32,9 @@ const std::vector<TopicInfo>& Topics() {
 
 const TopicInfo* FindTopic(std::string_view topic) {
   const auto& all = Topics();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const TopicInfo& info) { return info.topic == topic; });
+  const auto found = std::find_if(all.begin(), all.end(), [&](const TopicInfo& info) {
+    return info.topic == topic || (info.topic == topics::kParcels && topic.starts_with(topics::kParcels));
+  });
   return found == all.end() ? nullptr : &*found;
 }
 

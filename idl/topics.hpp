@@ -16,6 +16,7 @@ inline constexpr std::string_view kTrafficState = "rodeira/traffic_state";
 inline constexpr std::string_view kScenarioEvents = "rodeira/scenario_events";
 inline constexpr std::string_view kPulse = "rodeira/pulse";
 inline constexpr std::string_view kSnapshot = "rodeira/snapshot";
+inline constexpr std::string_view kParcels = "rodeira/parcels/";  // and the name of the node that they are for
 inline constexpr std::string_view kGrant = "rodeira/grant";
 inline constexpr std::string_view kAsk = "rodeira/ask";
 inline constexpr std::string_view kReport = "rodeira/report";

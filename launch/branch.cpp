@@ -54,8 +54,11 @@ base::Status CheckStep(const replay::RecordedRun& parent, Step at) {
 base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, const std::vector<lockstep::Node*>& nodes, std::vector<Snapshot>& snapshots) {
   std::vector<std::string> taken_over;
   for (NodeIndex n = 0; n < nodes.size(); ++n) {
-    if (nodes[n] == nullptr || roster.node(n).is_sink()) {
-      snapshots[n].state.clear();
+    if (nodes[n] == nullptr) continue;
+    if (roster.node(n).is_sink()) {  // begins anew
+      base::StateWriter out;
+      nodes[n]->Save(out);
+      snapshots[n].state = out.bytes();
       continue;
     }
     base::StateReader in(snapshots[n].state);
@@ -72,11 +75,44 @@ base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, con
   return taken_over;
 }
 
-std::string RecorderOf(const launch::Launch& launch) {
+// The first node of a kind; empty where there is none.
+std::string NodeOfKind(const launch::Launch& launch, std::string_view kind) {
   for (const launch::LaunchNode& node : launch.nodes()) {
-    if (node.kind->name == "recorder") return node.name;
+    if (node.kind->name == kind) return node.name;
   }
   return {};
+}
+
+// Who drives anew, and who as recorded: a live input is a person's where the changes name its node.
+std::vector<bool> Persons(const launch::Launch& launch, const launch::Overrides& changes) {
+  std::vector<bool> persons;
+  for (const launch::LaunchNode& node : launch.nodes()) {
+    const std::string own = "nodes." + node.name;
+    const bool named = std::any_of(changes.begin(), changes.end(), [&](const auto& change) {
+      return change.first == own || change.first.starts_with(own + ".");
+    });
+    persons.push_back(node.is_live() && named);
+  }
+  return persons;
+}
+
+std::vector<std::string> NamesOf(const launch::Launch& launch, const std::vector<bool>& marked) {
+  std::vector<std::string> names;
+  for (NodeIndex n = 0; n < marked.size(); ++n) {
+    if (marked[n]) names.push_back(launch.node(n).name);
+  }
+  return names;
+}
+
+base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, const BranchWish& wish, const std::filesystem::path& own) {
+  launch::Overrides changes = wish.changes;
+  changes.emplace_back("nodes." + NodeOfKind(parent.launch(), "recorder") + ".config.file", "\"" + own.string() + "\"");
+  if (!wish.with_view) return changes;
+  const std::string view = NodeOfKind(parent.launch(), "view");
+  if (view.empty()) return base::WrongInput("a view is wanted, but the recorded launch file has none", wish.parent);
+  changes.emplace_back("nodes." + view + ".config.window", "always");
+  changes.emplace_back("nodes." + view + ".config.frames", "~");  // pictures of the parent's
+  return changes;
 }
 
 }  // namespace
@@ -91,18 +127,22 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   auto folder = replay::TemporaryFolder::Make();
   if (!folder) return folder.error();
   const std::filesystem::path own = folder.value().path() / "branch.mcap";
-  launch::Overrides changes = wish.changes;
-  changes.emplace_back("nodes." + RecorderOf(parent.value().launch()) + ".config.file", "\"" + own.string() + "\"");
+  const auto changes = ChangesOf(parent.value(), wish, own);
+  if (!changes) return changes.error();
   // What is wrong with the changes is said before anything is computed.
-  auto changed = replay::RecordedRun::Open(wish.parent, changes);
+  auto changed = replay::RecordedRun::Open(wish.parent, changes.value());
   if (!changed) return changed.error();
   if (changed.value().roster().hash() != roster.hash()) {
     return base::WrongInput("the changes give another roster (other nodes, periods or wires); a branch has its parent's", wish.parent);
   }
   const launch::Launch& launch = changed.value().launch();
+  const std::vector<bool> persons = Persons(launch, wish.changes);
+  outcome.live = NamesOf(launch, persons);
+  const auto is_replayed = [&](NodeIndex n) { return launch.node(n).is_live() && !persons[n]; };
   auto nodes = LocalNodes::Make(launch, [&](NodeIndex n) -> std::unique_ptr<lockstep::Node> {
-    if (launch.node(n).is_live()) return replay::MakeRecordedNode(parent.value(), n, wish.at);
-    if (roster.node(n).is_sink() && launch.node(n).kind->name != "recorder") return replay::MakeNullSink();
+    if (is_replayed(n)) return replay::MakeRecordedNode(parent.value(), n, wish.at);
+    const std::string_view kind = launch.node(n).kind->name;
+    if (roster.node(n).is_sink() && kind != "recorder" && !(wish.with_view && kind == "view")) return replay::MakeNullSink();
     return nullptr;
   });
   if (!nodes) return nodes.error();
@@ -111,7 +151,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   if (!snapshots) return snapshots.error();
   if (outcome.difference) return outcome;
   for (NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    if (launch.node(n).is_live()) snapshots.value()[n].state.clear();
+    if (is_replayed(n)) snapshots.value()[n].state.clear();
   }
   auto taken_over = Adapt(roster, nodes.value().nodes(), snapshots.value());
   if (!taken_over) return taken_over.error();
@@ -122,17 +162,31 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   settings.last_step = wish.last_step.value_or(parent.value().last_step());
   settings.resume = std::move(snapshots).value();
   settings.stop_requested = wish.stop_requested;
+  settings.pace = wish.pace;
+  settings.next_command = wish.next_command;
   const lockstep::RunOutcome ran = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   if (!ran.ok) return base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault), wish.parent);
-  if (wish.stop_requested && wish.stop_requested()) return base::Failed(fmt::format("interrupted at step {}; no branch was written", std::max(ran.last_step, wish.at)), wish.parent);
+  const auto stopped = [&] { return wish.stop_requested && wish.stop_requested(); };
+  // What a person has driven cannot be driven again: it is kept.
+  if (stopped() && outcome.live.empty()) {
+    return base::Failed(fmt::format("interrupted at step {}; no branch was written", std::max(ran.last_step, wish.at)), wish.parent);
+  }
   outcome.last_step = ran.last_step;
 
   record::TextMap about{{"parent", std::filesystem::path(wish.parent).filename().string()},
                         {"step", std::to_string(wish.at)},
                         {"time_s", fmt::format("{}", static_cast<double>(wish.at) * static_cast<double>(roster.base_step_ns()) * 1e-9)}};
   for (const auto& [key, value] : wish.changes) about["change " + key] = value;
-  if (auto status = replay::Splice(parent.value(), own, wish.at, about, wish.recording, wish.stop_requested); !status) return status.error();
+  if (auto status = replay::Splice(parent.value(), own, wish.at, about, wish.recording, outcome.live.empty() ? wish.stop_requested : std::function<bool()>());
+      !status)
+    return status.error();
   return outcome;
+}
+
+base::Result<std::vector<std::string>> DrivenLive(const BranchWish& wish) {
+  auto changed = replay::RecordedRun::Open(wish.parent, wish.changes);
+  if (!changed) return changed.error();
+  return NamesOf(changed.value().launch(), Persons(changed.value().launch(), wish.changes));
 }
 
 }  // namespace rodeira::front

@@ -63,7 +63,7 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   CLI::Option* record = run->add_option("--record", options.record, "recording (MCAP); otherwise a dated file in the folder of recordings");
   run->add_flag("--no-record", options.no_record, "no recording")->excludes(record);
   run->add_option("--seed", options.seed, "seed of everything that is drawn");
-  run->add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file");
+  run->add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file; KEY=~ takes it out");
   run->add_option("--meta", options.meta, "KEY=VALUE: written into the recording (participant=P07)");
   run->add_flag("--in-process", options.in_process, "the same nodes in one process");
   run->add_flag("--headless", options.headless, "no window, even where there is a display");
@@ -190,7 +190,7 @@ void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
 CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::string>& changes) {
   CLI::App* replay = app.add_subcommand("replay", "watch a recording, or run it again");
   replay->add_option("FILE.mcap", options.file, "recording")->required();
-  CLI::Option* view = replay->add_flag("--view", options.view, "watch it in a window");
+  CLI::Option* view = replay->add_flag("--view", options.view, "watch it, or the branch, in a window");
   replay->add_option("--speed", options.watch.speed, "times real time, 0.1 to 10")->needs(view)->capture_default_str();
   replay->add_flag("--paused", options.watch.paused, "begin standing still")->needs(view);
   CLI::Option* frames = replay->add_option("--frames", options.watch.frames, "folder: write pictures (PNG) as the run's view would have");
@@ -204,6 +204,7 @@ CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::stri
   replay->add_option("--branch", changes, "KEY=VALUE: go on from --from with another value of the launch file");
   replay->add_option("--for", options.for_s, "simulated seconds of the branch")->check(Positive);
   replay->add_option("--record", options.record, "recording of the branch (MCAP)");
+  replay->add_option("--pace", options.pace, "of the branch: max, real or a factor; otherwise real where a person drives or watches, or max");
   replay->add_flag("--quiet", options.quiet, "no progress");
   return replay;
 }

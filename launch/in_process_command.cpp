@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/launch/command_text.hpp"
 #include "common/launch/pace.hpp"
 #include "common/lockstep/in_process.hpp"
 #include "launch/interrupt.hpp"
@@ -37,21 +36,6 @@ RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& 
     report.nodes.push_back({roster.node(node.node).name, node.steps, mean_us, static_cast<double>(node.worst_ns) * 1e-3, node.server_calls});
   }
   return report;
-}
-
-// The next command that can be read; who asks for anything else gets an answer at once.
-std::optional<lockstep::Asked> NextCommand(Operator& desk) {
-  while (auto line = desk.Next()) {
-    const auto command = launch::ParseCommand(line->line);
-    if (!command) {
-      line->answer("wrong " + command.error().Text());
-      continue;
-    }
-    return lockstep::Asked{command.value(), [answer = std::move(line->answer)](const base::Result<std::string>& done) {
-                             answer(done ? "ok " + done.value() : "failed " + done.error().Text());
-                           }};
-  }
-  return std::nullopt;
 }
 
 }  // namespace

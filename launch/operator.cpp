@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "common/launch/command_text.hpp"
 #include "launch/control_folder.hpp"
 
 namespace rodeira::front {
@@ -58,6 +59,20 @@ std::optional<AskedLine> Operator::Next() {
     if (auto asked = server_->Next()) return asked;
   }
   looked_ms_ = now_ms;  // only where everything that was there has been taken
+  return std::nullopt;
+}
+
+std::optional<lockstep::Asked> NextCommand(Operator& desk) {
+  while (auto line = desk.Next()) {
+    const auto command = launch::ParseCommand(line->line);
+    if (!command) {
+      line->answer("wrong " + command.error().Text());
+      continue;
+    }
+    return lockstep::Asked{command.value(), [answer = std::move(line->answer)](const base::Result<std::string>& done) {
+                             answer(done ? "ok " + done.value() : "failed " + done.error().Text());
+                           }};
+  }
   return std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "common/lockstep/in_process.hpp"
 #include "launch/control_server.hpp"
 #include "launch/terminal_keys.hpp"
 
@@ -33,5 +34,8 @@ class Operator {
   std::unique_ptr<ControlServer> server_;
   std::int64_t looked_ms_ = 0;
 };
+
+// The next command of theirs for a run in this process; who asks for what cannot be read gets an answer at once.
+std::optional<lockstep::Asked> NextCommand(Operator& desk);
 
 }  // namespace rodeira::front

@@ -113,7 +113,7 @@ class ProcessRun {
         return {};
       }
       if (clock.stopped()) {
-        Fault(fmt::format("the {} {} at about step {}", clock.name(), clock.Fate(), report_.step));
+        if (!report_.ended) Fault(fmt::format("the {} {} at about step {}", clock.name(), clock.Fate(), report_.step));
         return {};
       }
       for (const Child& child : crew_.children()) {

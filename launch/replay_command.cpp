@@ -7,9 +7,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
-#include "launch/branch.hpp"
+#include "launch/branch_command.hpp"
 #include "launch/interrupt.hpp"
 #include "launch/verify.hpp"
 
@@ -40,41 +39,6 @@ class Progress {
   lockstep::Step last_;
 };
 
-Step ToStep(double seconds, double base_step_s) { return static_cast<Step>(std::llround(seconds / base_step_s)); }
-
-int MakeBranch(const ReplayOptions& options) {
-  if (!options.from_s) return Complain(base::WrongInput("--from is missing: where does the branch leave its parent?", "rodeira replay --branch"));
-  if (options.record.empty()) return Complain(base::WrongInput("--record is missing: into which file?", "rodeira replay --branch"));
-  BranchWish wish;
-  {
-    const auto parent = replay::RecordedRun::Open(options.file);
-    if (!parent) return Complain(parent.error());
-    const double base_step_s = static_cast<double>(parent.value().roster().base_step_ns()) * 1e-9;
-    wish.at = ToStep(*options.from_s, base_step_s);
-    if (options.for_s) wish.last_step = wish.at + ToStep(*options.for_s, base_step_s);
-  }
-  wish.parent = options.file;
-  for (const auto& [key, value] : options.changes) {
-    std::error_code problem;  // a file is meant as seen from here, not from the recorded launch file
-    const bool file = std::filesystem::is_regular_file(value, problem);
-    wish.changes.emplace_back(key, file ? "\"" + std::filesystem::absolute(value).lexically_normal().string() + "\"" : value);
-  }
-  wish.recording = options.record;
-  wish.stop_requested = Interrupted;
-  const auto outcome = Branch(wish);
-  if (!outcome) return Complain(outcome.error());
-  if (outcome.value().difference) {
-    fmt::print(stderr, "rodeira: {}: the parent could not be repeated up to the branch; {}\n", options.file, outcome.value().difference->Text());
-    return 1;
-  }
-  fmt::print("parent    {} (repeated from step {} to {}, identical)\nbranch    steps {} to {}\n", options.file, outcome.value().recomputed_from, outcome.value().at,
-             outcome.value().at, outcome.value().last_step);
-  for (const auto& [key, value] : options.changes) fmt::print("changed   {} = {}\n", key, value);
-  if (!outcome.value().taken_over.empty()) fmt::print("began from what was published: {}\n", fmt::join(outcome.value().taken_over, ", "));
-  fmt::print("wrote     {}\n", options.record);
-  return 0;
-}
-
 int Watch(const ReplayOptions& options) {
   WatchOptions watch = options.watch;
   watch.file = options.file;
@@ -85,12 +49,14 @@ int Watch(const ReplayOptions& options) {
 }  // namespace
 
 int Replay(const ReplayOptions& options) {
-  const int wishes = (options.verify ? 1 : 0) + (options.view ? 1 : 0) + (options.watch.frames.empty() ? 0 : 1) + (options.changes.empty() ? 0 : 1);
+  const int wishes = (options.verify ? 1 : 0) + (options.view && options.changes.empty() ? 1 : 0) + (options.watch.frames.empty() ? 0 : 1) +
+                     (options.changes.empty() ? 0 : 1);
   if (wishes != 1) {
     return Complain(base::WrongInput(fmt::format("{} to do was named; --view, --frames, --verify or --branch was expected", wishes == 0 ? "nothing" : "more than one thing"), "rodeira replay"));
   }
   if (!options.changes.empty() || options.verify) CatchInterrupts();
   if (!options.changes.empty()) return MakeBranch(options);
+  if (options.pace) return Complain(base::WrongInput("--pace is of a branch; --speed is --view's", "rodeira replay"));
   if (!options.verify) return Watch(options);
   const auto run = replay::RecordedRun::Open(options.file);
   if (!run) return Complain(run.error());

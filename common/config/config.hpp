@@ -114,7 +114,7 @@ class File {
   static base::Result<File> Parse(std::string_view text, const std::filesystem::path& name);
 
   // Sets `key` ("nodes.ego.period_s") to a YAML value, as `--set KEY=VALUE` does, before anything is read. Mappings on
-  // the way are made. Wrong input where the value is no YAML or the way is blocked.
+  // the way are made. Nothing (`~`) takes the key out. Wrong input where the value is no YAML or the way is blocked.
   base::Status Override(std::string_view key, std::string_view value);
 
   Map root() const;

@@ -82,7 +82,8 @@ base::Status File::Override(std::string_view key, std::string_view value) {
     if (part.empty()) return base::WrongInput("a key of the form a.b.c was expected", where);
     if (!at.IsMap() && !at.IsNull()) return base::WrongInput(fmt::format("'{}' is {}, no mapping", key.substr(0, from == 0 ? 0 : from - 1), KindOf(at)), where);
     if (dot == std::string_view::npos) {
-      at[part] = leaf.value();
+      if (leaf.value().IsNull()) at.remove(part);
+      else at[part] = leaf.value();
       return {};
     }
     if (!Find(at, part).IsDefined()) at[part] = YAML::Node(YAML::NodeType::Map);

@@ -33,7 +33,8 @@ namespace topics = idl::topics;
 using WallClock = std::chrono::steady_clock;
 
 NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings)
-    : roster_(roster), mailbox_(mailbox), settings_(settings), listens_(settings.incarnation == 0), kept_(roster, settings.node) {
+    : roster_(roster), mailbox_(mailbox), settings_(settings), listens_(settings.incarnation == 0), kept_(roster, settings.node),
+      parcels_(roster, settings.node, settings.most_parcel_bytes) {
   last_.node = settings.node;
   last_.incarnation = settings.incarnation;
   if (settings.keeps_all) archive_.emplace(roster);
@@ -73,6 +74,8 @@ base::Status NodeBus::Connect(Participant& participant) {
   }
   for (const lockstep::Port& port : roster_.node(settings_.node).inputs) {
     const std::string_view topic = port.topic;
+    const auto in_parcels = [&](lockstep::SourceIndex source) { return lockstep::GetsParcels(roster_, source, settings_.node); };
+    if (std::all_of(port.sources.begin(), port.sources.end(), in_parcels)) continue;
     if (auto status = add_reader(topic, Delivery::kSaidAgain, [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); }); !status) return status;
   }
   if (archive_) {
@@ -82,6 +85,7 @@ base::Status NodeBus::Connect(Participant& participant) {
       relays_.emplace(port.topic, std::move(relay).value());
     }
   }
+  if (auto status = ConnectParcels(participant); !status) return status;
   if (!writers_.empty() || archive_) {
     if (auto status = add_reader(topics::kAsk, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); }); !status) return status;
   }
@@ -94,43 +98,92 @@ base::Status NodeBus::Connect(Participant& participant) {
   return add_reader(topics::kGrant, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnGrant(std::move(bytes)); });
 }
 
+// Whom this node sends parcels, and those for it. A recorder that answers for others sends them to everybody who gets any.
+base::Status NodeBus::ConnectParcels(Participant& participant) {
+  const auto topic_of = [&](lockstep::NodeIndex n) { return std::string(topics::kParcels) + roster_.node(n).name; };
+  std::set<lockstep::NodeIndex> consumers;
+  for (const lockstep::NodeIndex n : parcels_.Consumers()) consumers.insert(n);
+  bool gets_some = false;
+  for (lockstep::NodeIndex n = 0; n < roster_.nodes().size(); ++n) {
+    for (const lockstep::Port& port : roster_.node(n).inputs) {
+      for (const lockstep::SourceIndex source : port.sources) {
+        if (!lockstep::GetsParcels(roster_, source, n)) continue;
+        if (n == settings_.node) gets_some = true;
+        else if (archive_) consumers.insert(n);
+      }
+    }
+  }
+  for (const lockstep::NodeIndex n : consumers) {
+    auto writer = participant.MakeWriter(topic_of(n), Delivery::kSaidAgain);
+    if (!writer) return writer.error();
+    parcel_writers_.emplace(n, std::move(writer).value());
+  }
+  if (!gets_some) return {};
+  auto reader = participant.MakeReader(topic_of(settings_.node), Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnParcel(bytes); });
+  if (!reader) return reader.error();
+  readers_.push_back(std::move(reader).value());
+  return {};
+}
+
 base::Status NodeBus::Publish(const lockstep::Sample& sample) {
+  std::vector<lockstep::Parcels::Parcel> parcels;
+  const lockstep::Grant grant = mailbox_.grant();
   {
     const std::lock_guard lock(kept_mutex_);
     kept_.Add(sample);
+    parcels = parcels_.Add(sample, grant.final ? grant.through : lockstep::kNever);
   }
-  return Say(sample);
+  for (const auto& parcel : parcels) {
+    if (auto status = parcel_writers_.at(parcel.to)->Write(EncodeParcel(parcel.samples)); !status) return status;
+  }
+  return Say(sample);  // also where every consumer gets parcels: others may look on
 }
 
-base::Status NodeBus::Say(const lockstep::Sample& sample) {
-  const auto output = std::find(outputs_.begin(), outputs_.end(), sample.source());
+base::Status NodeBus::Say(const lockstep::Sample& sample) { return WriterOf(sample.source()).Write(*sample.payload); }
+
+Writer& NodeBus::WriterOf(lockstep::SourceIndex source) {
+  const auto output = std::find(outputs_.begin(), outputs_.end(), source);
   RODEIRA_ASSERT(output != outputs_.end());
-  return writers_[static_cast<std::size_t>(output - outputs_.begin())]->Write(*sample.payload);
+  return *writers_[static_cast<std::size_t>(output - outputs_.begin())];
+}
+
+// By itself also where parcels are usual: what is small gets through where large ones were lost.
+void NodeBus::SayTo(lockstep::NodeIndex asker, const lockstep::Sample& sample, Writer& to_all) {
+  const auto to = parcel_writers_.find(asker);
+  const bool parcel = to != parcel_writers_.end() && lockstep::GetsParcels(roster_, sample.source(), asker);
+  (void)(parcel ? to->second->Write(EncodeParcel({sample})) : to_all.Write(*sample.payload));
 }
 
 void NodeBus::Ask(const lockstep::Gap& gap) {
-  (void)questions_->Write(EncodeAsk(roster_.hash(), gap));  // a lost question is put again by the runner
+  (void)questions_->Write(EncodeAsk(roster_.hash(), {settings_.node, gap}));  // a lost question is put again by the runner
 }
 
 void NodeBus::OnAsk(const base::Bytes& payload) {
-  const auto gap = DecodeAsk(roster_.hash(), payload);
-  if (!gap) return;
+  const auto ask = DecodeAsk(roster_.hash(), payload);
+  if (!ask) return;
   std::vector<lockstep::Sample> again;
   {
     const std::lock_guard lock(kept_mutex_);
-    again = kept_.From(*gap);
+    again = kept_.From(ask->gap);
   }
-  for (const lockstep::Sample& sample : again) (void)Say(sample);
-  if (archive_) AnswerForOthers(*gap);
+  for (const lockstep::Sample& sample : again) SayTo(ask->asker, sample, WriterOf(sample.source()));
+  if (archive_) AnswerForOthers(*ask);
 }
 
-void NodeBus::AnswerForOthers(const lockstep::Gap& gap) {
+void NodeBus::AnswerForOthers(const dds::Ask& ask) {
   std::vector<lockstep::Sample> again;
   {
     const std::lock_guard lock(kept_mutex_);
-    again = archive_->From(gap);
+    again = archive_->From(ask.gap);
   }
-  for (const lockstep::Sample& sample : again) (void)relays_.find(roster_.source(sample.source()).topic)->second->Write(*sample.payload);
+  for (const lockstep::Sample& sample : again) SayTo(ask.asker, sample, *relays_.find(roster_.source(sample.source()).topic)->second);
+}
+
+void NodeBus::OnParcel(const base::Bytes& payload) {
+  if (!listens_) return;
+  auto samples = DecodeParcel(payload);
+  if (!samples) return Abort(samples.error().Text());
+  for (base::Bytes& sample : samples.value()) OnSample({}, std::move(sample));
 }
 
 base::Status NodeBus::Remember(const lockstep::Sample& sample) {
@@ -216,7 +269,7 @@ void NodeBus::OnSample(std::string_view topic, base::Bytes&& payload) {
   if (!listens_) return;
   if (!lockstep::SampleHeader::HasHeader(payload)) return Abort(fmt::format("topic {}: a sample of {} bytes has no header", topic, payload.size()));
   const auto header = lockstep::SampleHeader::Read(payload);
-  if (header.source >= roster_.sources().size() || roster_.source(header.source).topic != topic) {
+  if (header.source >= roster_.sources().size() || (!topic.empty() && roster_.source(header.source).topic != topic)) {
     return Abort(fmt::format("topic {}: a sample of source number {} was found, which does not publish it", topic, header.source));
   }
   lockstep::Sample sample{header, std::make_shared<const base::Bytes>(std::move(payload))};

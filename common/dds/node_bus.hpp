@@ -18,6 +18,7 @@
 #include "common/lockstep/bus.hpp"
 #include "common/lockstep/kept_samples.hpp"
 #include "common/lockstep/mailbox.hpp"
+#include "common/lockstep/parcels.hpp"
 #include "common/lockstep/runner.hpp"
 
 namespace rodeira::dds {
@@ -31,6 +32,7 @@ class NodeBus final : public lockstep::Bus {
     std::uint32_t incarnation = 0;
     Hello hello;
     bool keeps_all = false;  // a recorder, in a run of which a part may be started again: answers for everybody's samples
+    std::size_t most_parcel_bytes = 8'000;  // as Parcels
     std::chrono::milliseconds heartbeat{25};
     std::chrono::milliseconds clock_silence{3000};  // the clock repeats its grant all the time; silent this long it is gone
   };
@@ -65,11 +67,17 @@ class NodeBus final : public lockstep::Bus {
  private:
   NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings);
   base::Status Connect(Participant& participant);
+  base::Status ConnectParcels(Participant& participant);
   base::Status Say(const lockstep::Sample& sample);
+  // Again, for the one who lacks it.
+  void SayTo(lockstep::NodeIndex asker, const lockstep::Sample& sample, Writer& to_all);
+  void OnParcel(const base::Bytes& payload);
+  // `topic`: by which it came; empty: in a parcel.
   void OnSample(std::string_view topic, base::Bytes&& payload);
   void OnGrant(base::Bytes&& payload);
   void OnAsk(const base::Bytes& payload);
-  void AnswerForOthers(const lockstep::Gap& gap);
+  void AnswerForOthers(const dds::Ask& ask);
+  Writer& WriterOf(lockstep::SourceIndex output);
   void Abort(std::string reason);
   void Heartbeat();
   std::uint64_t clock_id() const;  // 0 before the clock was heard
@@ -84,10 +92,12 @@ class NodeBus final : public lockstep::Bus {
   std::unique_ptr<Writer> reports_;
   std::vector<std::unique_ptr<Reader>> readers_;
 
+  std::map<lockstep::NodeIndex, std::unique_ptr<Writer>> parcel_writers_;  // by the node that they are for
   std::map<std::string, std::unique_ptr<Writer>, std::less<>> relays_;  // by topic: where others' samples are said again
 
   std::mutex kept_mutex_;
   lockstep::KeptSamples kept_;
+  lockstep::Parcels parcels_;
   std::optional<lockstep::Archive> archive_;
 
   mutable std::mutex mutex_;

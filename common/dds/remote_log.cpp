@@ -50,12 +50,12 @@ class Speaker final : public LogSpeaker {
 
  private:
   void OnAsk(const base::Bytes& bytes) {
-    const auto gap = DecodeAsk(roster_hash_, bytes);
-    if (!gap || gap->source != kLogSource) return;
+    const auto ask = DecodeAsk(roster_hash_, bytes);
+    if (!ask || ask->gap.source != kLogSource) return;
     std::vector<lockstep::LogBatch> again;
     {
       const std::lock_guard lock(mutex_);
-      again = kept_.From(static_cast<std::uint64_t>(std::max<lockstep::Step>(gap->from, 0)));
+      again = kept_.From(static_cast<std::uint64_t>(std::max<lockstep::Step>(ask->gap.from, 0)));
     }
     for (const auto& batch : again) (void)writer_->Write(EncodeLog(clock_id_, base_step_ns_, batch));
   }
@@ -96,7 +96,7 @@ class Receiver final : public launch::RunLogReceiver {
   }
 
  private:
-  void Ask(std::uint64_t from) { (void)questions_->Write(EncodeAsk(roster_hash_, {kLogSource, static_cast<lockstep::Step>(from)})); }
+  void Ask(std::uint64_t from) { (void)questions_->Write(EncodeAsk(roster_hash_, {0, {kLogSource, static_cast<lockstep::Step>(from)}})); }
   void Hear(const base::Bytes& bytes) {
     auto heard = DecodeLog(bytes);
     if (!heard) return;

@@ -26,6 +26,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
+// A datagram is lost with any of its fragments of 1 500 bytes.
+constexpr std::size_t kParcelOnWire_bytes = 8'000;
+constexpr std::size_t kParcelInMemory_bytes = 40'000;
+
 class ProcessContext final : public launch::NodeContext {
  public:
   ProcessContext(const launch::Launch& launch, lockstep::NodeIndex index, Participant& participant, lockstep::Mailbox& mailbox, NodeBus& bus,
@@ -159,13 +163,15 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   if (index == roster.nodes().size() || roster.node(index).kind != kind) {
     return Complain(program, base::WrongInput(fmt::format("--node {}: the launch file has no node of this name and of kind '{}'", options.node, kind), options.launch_file));
   }
-  auto participant = Participant::Open(DomainOf(options, launch.value(), options.node));
+  const DomainSettings domain = DomainOf(options, launch.value(), options.node);
+  auto participant = Participant::Open(domain);
   if (!participant) return Complain(program, participant.error());
   lockstep::Mailbox mailbox(roster, index);
   NodeBus::Settings settings;
   settings.node = index;
   settings.incarnation = options.incarnation;
   settings.hello = OwnHello(launch::Agreement(launch.value()));
+  settings.most_parcel_bytes = domain.transport == launch::Transport::kSharedMemory ? kParcelInMemory_bytes : kParcelOnWire_bytes;
   settings.keeps_all = launch.value().keeps_for_restarts() && roster.node(index).keeps_snapshots();
   auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
   if (!bus) return Complain(program, bus.error());

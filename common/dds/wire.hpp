@@ -45,8 +45,18 @@ struct NumberedGrant {
 base::Bytes EncodeGrant(const NumberedGrant& grant);
 base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload);
 
-base::Bytes EncodeAsk(base::Digest roster_hash, const lockstep::Gap& gap);
+// A question for samples, and who lacks them.
+struct Ask {
+  lockstep::NodeIndex asker = 0;
+  lockstep::Gap gap;
+};
+
+base::Bytes EncodeAsk(base::Digest roster_hash, const Ask& ask);
 // Nothing where it is of another roster or cannot be read: whoever asks will ask again.
-std::optional<lockstep::Gap> DecodeAsk(base::Digest roster_hash, const base::Bytes& payload);
+std::optional<Ask> DecodeAsk(base::Digest roster_hash, const base::Bytes& payload);
+
+base::Bytes EncodeParcel(const std::vector<lockstep::Sample>& samples);
+// The payloads in it; wrong input where it cannot be read.
+base::Result<std::vector<base::Bytes>> DecodeParcel(const base::Bytes& payload);
 
 }  // namespace rodeira::dds

@@ -83,6 +83,13 @@ vehicle::Controls Autopilot::Step(const DriverView& view, double dt_s) {
 }
 
 // Allowed speed and leader are for displays and found anew each step, but they are published: kept too.
+void Autopilot::TakeOver(const vehicle::Controls& last) {
+  pedals_.TakeOver(last.throttle, last.brake);
+  steering_wheel_rad_ = last.steering_wheel_rad;
+  allowed_mps_ = 0.0;
+  leader_.reset();
+}
+
 void Autopilot::Save(base::StateWriter& writer) const {
   writer.Put("pedals", pedals_);
   writer.Put("steering_wheel_rad", steering_wheel_rad_);

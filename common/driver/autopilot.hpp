@@ -56,6 +56,8 @@ class Autopilot {
 
   // The controls for the coming dt_s (over 0), from what is seen now.
   vehicle::Controls Step(const DriverView& view, double dt_s);
+  // Goes on from where others have left steering wheel and pedals.
+  void TakeOver(const vehicle::Controls& last);
 
   const Way& path() const { return *path_; }
   // For displays: the speed that is allowed here, and what is followed.

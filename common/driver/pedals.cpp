@@ -48,6 +48,14 @@ void Pedals::Step(const PedalSettings& settings, double wanted_mps2, double spee
   if (brake_ > 0.0 && throttle == 0.0) throttle_ = 0.0;
 }
 
+void Pedals::TakeOver(double throttle, double brake) {
+  throttle_ = throttle;
+  brake_ = brake;
+  reference_mps_ = 0.0;  // Step holds it near the speed
+  trim_mps2_ = 0.0;
+  standing_ = false;
+}
+
 void Pedals::Save(base::StateWriter& writer) const {
   writer.Put("throttle", throttle_);
   writer.Put("brake", brake_);

@@ -24,6 +24,8 @@ class Pedals {
  public:
   // One step. `wanted_mps2` along the car, `speed_mps` forward, `grade` uphill positive.
   void Step(const PedalSettings& settings, double wanted_mps2, double speed_mps, double grade, double dt_s);
+  // Goes on with the pedals as they are, of a car that may be moving.
+  void TakeOver(double throttle, double brake);
   double throttle() const { return throttle_; }
   double brake() const { return brake_; }
 

@@ -22,6 +22,11 @@ void GearSelector::Show(vehicle::Controls& controls) const {
   controls.gearbox = mode_;
 }
 
+void GearSelector::TakeOver(const vehicle::Controls& last) {
+  mode_ = last.gearbox;
+  gear_ = std::clamp(last.gear, -1, mode_ == GearboxMode::kAutomatic ? 1 : forward_gears_);
+}
+
 void GearSelector::Save(base::StateWriter& out) const {
   out.Put("gear", gear_);
   out.Put("mode", mode_);

@@ -26,6 +26,8 @@ class GearSelector {
   // A lever with places of its own: the gear, whatever the mode.
   void Put(std::int32_t gear) { gear_ = gear; }
   void Show(vehicle::Controls& controls) const;
+  // The lever and mode that other hands have left; gears that this one does not have: its nearest.
+  void TakeOver(const vehicle::Controls& last);
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);

@@ -57,6 +57,16 @@ vehicle::Controls KeyboardDriver::controls() const {
   return controls;
 }
 
+void KeyboardDriver::TakeOver(const vehicle::Controls& last) {
+  wheel_rad_ = last.steering_wheel_rad;
+  throttle_ = last.throttle;
+  brake_ = last.brake;
+  clutch_ = last.clutch;
+  handbrake_ = false;
+  starter_ = false;
+  lever_.TakeOver(last);
+}
+
 void KeyboardDriver::Save(base::StateWriter& out) const {
   out.Put("wheel_rad", wheel_rad_);
   out.Put("throttle", throttle_);

@@ -77,6 +77,8 @@ class KeyboardDriver {
   vehicle::Controls Step(const KeyboardInput& input, double dt_s);
   // The controls as they are.
   vehicle::Controls controls() const;
+  // Goes on from where others have left hands, feet and lever.
+  void TakeOver(const vehicle::Controls& last);
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);

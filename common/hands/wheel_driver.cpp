@@ -84,6 +84,14 @@ vehicle::Controls WheelDriver::Step(std::span<const DeviceReading> devices, std:
   return controls_;
 }
 
+void WheelDriver::TakeOver(const vehicle::Controls& last) {
+  ReleasePedals();
+  std::fill(std::begin(down_), std::end(down_), false);
+  controls_.steering_wheel_rad = last.steering_wheel_rad;
+  lever_.TakeOver(last);
+  lever_.Show(controls_);
+}
+
 void WheelDriver::Save(base::StateWriter& out) const {
   out.Put("lever", lever_);
   for (const AxisWatch& watch : watches_) out.Put("axis", watch);

@@ -72,6 +72,9 @@ class WheelDriver {
   // left, a device's axis to the right.
   vehicle::Controls Step(std::span<const DeviceReading> devices, std::int32_t engaged);
   const vehicle::Controls& controls() const { return controls_; }
+  // Goes on from where others have left steering and lever: the steering stays there until the wheel is moved. Pedals are
+  // released.
+  void TakeOver(const vehicle::Controls& last);
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);

@@ -37,6 +37,8 @@ class NodeContext {
 
   // SUELO of the run's world: remote or in this process, with the same bits.
   virtual terrain::Ground& Ground() = 0;
+  // It is in this process: asking it costs no round trip.
+  virtual bool ground_is_here() const { return false; }
   // From the road server, waited for; Failed where it does not come.
   virtual base::Result<WorldSummary> World() = 0;
   // The keys held in the run's windows, for who has a window and for who drives by them. Null where the host has no such

@@ -9,9 +9,12 @@
 #include "common/lockstep/in_process_parts.hpp"
 #include "common/lockstep/kept_samples.hpp"
 #include "common/lockstep/mailbox.hpp"
+#include "common/lockstep/parcels.hpp"
 
 namespace rodeira::lockstep {
 namespace {
+
+constexpr std::size_t kMostParcel_bytes = 300;  // a few samples of a test's: some parcels go before they are due
 
 class ShuffledRun {
  public:
@@ -48,25 +51,33 @@ class ShuffledRun {
 
  private:
   struct Message {
-    enum class Kind { kSample, kGrant, kReport, kAsk } kind;
+    enum class Kind { kSample, kParcel, kGrant, kReport, kAsk } kind;
     NodeIndex to = 0;
     Sample sample{};
+    std::vector<Sample> parcel{};
     Grant grant{};
     Report report{};
     Gap gap{};
   };
   struct ShuffleBus final : Bus {
-    ShuffleBus(ShuffledRun& owner, NodeIndex n) : run(owner), node(n), kept(run.roster_, n) {
+    ShuffleBus(ShuffledRun& owner, NodeIndex n) : run(owner), node(n), kept(run.roster_, n), parcels(run.roster_, n, kMostParcel_bytes) {
       if (run.settings_.deaths.share > 0.0 && run.roster_.node(n).keeps_snapshots()) archive.emplace(run.roster_);
     }
     base::Status Publish(const Sample& sample) override {
       if (run.settings_.on_sample) run.settings_.on_sample(sample);
       kept.Add(sample);
-      Say(sample);
+      const Grant grant = run.mailboxes_[node]->grant();
+      for (auto& parcel : parcels.Add(sample, grant.final ? grant.through : kNever)) {
+        run.in_flight_.push_back({.kind = Message::Kind::kParcel, .to = parcel.to, .parcel = std::move(parcel.samples)});
+      }
+      Say(sample, [&](NodeIndex n) { return !GetsParcels(run.roster_, sample.source(), n); });
       return {};
     }
-    void Say(const Sample& sample) {
-      for (const NodeIndex n : run.consumers_[sample.source()]) run.in_flight_.push_back({.kind = Message::Kind::kSample, .to = n, .sample = sample});
+    template <class Whom>
+    void Say(const Sample& sample, Whom whom) {
+      for (const NodeIndex n : run.consumers_[sample.source()]) {
+        if (whom(n)) run.in_flight_.push_back({.kind = Message::Kind::kSample, .to = n, .sample = sample});
+      }
     }
     void Ask(const Gap& gap) override {
       for (NodeIndex n = 0; n < run.buses_.size(); ++n) {
@@ -83,9 +94,10 @@ class ShuffledRun {
       run.in_flight_.push_back({.kind = Message::Kind::kReport, .report = said});
     }
     void Answer(const Gap& gap) {
-      for (const Sample& sample : kept.From(gap)) Say(sample);
+      const auto anybody = [](NodeIndex) { return true; };
+      for (const Sample& sample : kept.From(gap)) Say(sample, anybody);
       if (!archive) return;
-      for (const Sample& sample : archive->From(gap)) Say(sample);
+      for (const Sample& sample : archive->From(gap)) Say(sample, anybody);
     }
     void Keep(const Snapshot& snapshot) override {
       if (run.settings_.on_snapshot) run.settings_.on_snapshot(snapshot);
@@ -93,6 +105,7 @@ class ShuffledRun {
     ShuffledRun& run;
     NodeIndex node;
     KeptSamples kept;
+    Parcels parcels;
     std::optional<Archive> archive;
   };
 
@@ -106,15 +119,12 @@ class ShuffledRun {
       in_flight_[at] = in_flight_.back();
       in_flight_.pop_back();
     }
-    const bool may_be_lost = message.kind == Message::Kind::kSample || message.kind == Message::Kind::kAsk;
+    const bool may_be_lost = message.kind == Message::Kind::kSample || message.kind == Message::Kind::kParcel || message.kind == Message::Kind::kAsk;
     if (may_be_lost && base::RandomUniform({seed_, draws_++}) < settings_.loss) return false;
     switch (message.kind) {
-      case Message::Kind::kSample:
-        if (runners_[message.to] == nullptr) break;  // nobody lives there
-        if (auto& archive = buses_[message.to]->archive) {
-          if (auto status = archive->Add(message.sample); !status) fault_ = status.error().Text();
-        }
-        if (auto status = mailboxes_[message.to]->Deliver(message.sample); !status) fault_ = status.error().Text();
+      case Message::Kind::kSample: Deliver(message.to, message.sample); break;
+      case Message::Kind::kParcel:
+        for (const Sample& sample : message.parcel) Deliver(message.to, sample);
         break;
       case Message::Kind::kGrant:
         mailboxes_[message.to]->DeliverGrant(message.grant);
@@ -125,6 +135,13 @@ class ShuffledRun {
       case Message::Kind::kReport: Hear(message.report); break;
     }
     return false;
+  }
+  void Deliver(NodeIndex to, const Sample& sample) {
+    if (runners_[to] == nullptr) return;  // nobody lives there
+    if (auto& archive = buses_[to]->archive) {
+      if (auto status = archive->Add(sample); !status) fault_ = status.error().Text();
+    }
+    if (auto status = mailboxes_[to]->Deliver(sample); !status) fault_ = status.error().Text();
   }
   void Hear(const Report& report) {
     if (report.incarnation < clock_.life(report.node)) return;

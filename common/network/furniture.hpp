@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -85,6 +86,13 @@ struct CrgSurface {
   std::string file, orientation, mode, purpose;
   double s_start_m = 0.0, s_end_m = 0.0;
   double s_offset_m = 0.0, t_offset_m = 0.0, z_offset_m = 0.0, z_scale = 1.0, h_offset_rad = 0.0;
+};
+
+// Made roughness (ISO 8608) between two stations, from edge to edge of the lanes that are paved.
+struct Unevenness {
+  double s_start_m = 0.0, s_end_m = 0.0;
+  double density_m3 = 0.0;  // at 0.1 cycles a metre
+  std::uint64_t seed = 0;
 };
 
 }  // namespace rodeira::network

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct Junction {
   std::vector<JunctionConnection> connections;
   std::vector<JunctionPriority> priorities;
   std::vector<std::string> controllers;
+  // Of a junction made by this program: the corners of its surface, counter-clockwise, without the first one again; the
+  // part that is paved, and all of it with the verges. Within it World::At says the height. Empty: what its roads cover.
+  std::vector<Eigen::Vector2d> paved_W, outline_W;
 };
 
 struct ControllerEntry {

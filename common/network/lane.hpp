@@ -63,6 +63,7 @@ struct LaneMaterial {
   std::string surface;
   std::optional<double> friction;
   std::optional<double> roughness;
+  std::string texture;  // a file; empty: the surface's usual one
 };
 
 struct LaneAccess {

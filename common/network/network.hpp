@@ -91,6 +91,12 @@ class Network {
   // Every road's surface at (x, y), from the highest to the lowest.
   void Surfaces(double x_m, double y_m, std::vector<Surfacing>& surfaces) const;
 
+  // Visits the panels of all roads whose lanes may lie within reach_m of (x, y): visit(road, panel of its axis).
+  template <class Visit>
+  void Near(const Eigen::Vector2d& p_W, double reach_m, const Visit& visit) const {
+    index_.Nearest(p_W, reach_m, [&](std::uint32_t band) { visit(index_.bands()[band].road, index_.bands()[band].panel); });
+  }
+
   const LaneSection& Section(const LaneKey& key) const { return roads()[key.road].spec().sections[key.section]; }
   const Lane* Find(const LaneKey& key) const;
   std::optional<LaneSpan> Span(const LaneKey& key, double s_m) const {

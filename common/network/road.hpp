@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/geometry/plan_axis.hpp"
+#include "common/network/earthwork.hpp"
 #include "common/network/furniture.hpp"
 #include "common/network/lane.hpp"
 #include "common/network/lateral.hpp"
@@ -46,7 +47,10 @@ struct RoadSpec {
   std::vector<ObjectReference> object_references;
   std::vector<Structure> structures;
   std::vector<CrgSurface> crg;
-  std::vector<PaintedLine> lines;  // OpenDRIVE has none
+  // OpenDRIVE has none of these.
+  std::vector<PaintedLine> lines;
+  std::vector<Unevenness> unevenness;
+  std::optional<Earthwork> earthwork;  // none: the verge goes on level
 };
 
 // A point of the road's surface and how it moves with s and with t: the upward normal is their cross product.

@@ -6,6 +6,7 @@
 
 #include "common/base/assert.hpp"
 #include "common/road/network_ground.hpp"
+#include "common/road/road_network.hpp"
 #include "common/road/world_hash.hpp"
 
 namespace rodeira::road {
@@ -49,15 +50,17 @@ World::World(WorldSpec spec)
       friction_(spec.friction),
       start_(spec.start),
       content_hash_(ContentHash(spec)) {
-  RODEIRA_ASSERT((grid_ != nullptr) + plane_.has_value() + (network_ != nullptr) == 1);
-  for (RoadSpec& road : spec.roads) roads_.emplace_back(std::move(road));
+  RODEIRA_ASSERT(grid_ == nullptr || !plane_);
+  RODEIRA_ASSERT(grid_ != nullptr || plane_ || network_ != nullptr);
+  for (const RoadSpec& road : spec.roads) roads_.emplace_back(road);
+  if (!roads_.empty()) network_ = AsNetwork(spec, roads_);
 }
 
 std::shared_ptr<const World> World::Make(WorldSpec spec) { return std::shared_ptr<const World>(new World(std::move(spec))); }
 
 Extents World::extents() const {
   if (grid_ != nullptr) return {grid_->frame().west_m, grid_->frame().south_m, grid_->frame().east_m, grid_->frame().north_m};
-  if (network_ != nullptr) return NetworkExtents(*network_);
+  if (open_drive()) return NetworkExtents(*network_);
   const double infinity = std::numeric_limits<double>::infinity();
   return {-infinity, -infinity, infinity, infinity};
 }
@@ -78,7 +81,7 @@ SurfacePoint World::TerrainAt(double x_m, double y_m) const {
 }
 
 SurfacePoint World::At(double x_m, double y_m, double z_hint_m) const {
-  if (network_ != nullptr) return NetworkGround(*network_, friction_, x_m, y_m, z_hint_m);
+  if (open_drive()) return NetworkGround(*network_, friction_, x_m, y_m, z_hint_m);
   SurfacePoint point = TerrainAt(x_m, y_m);
   for (const Road& road : roads_) {
     if (road.plan().MayReach(x_m, y_m)) LayRoad(road, x_m, y_m, point);

@@ -36,8 +36,8 @@ struct SurfacePoint {
   bool inside = false;
 };
 
-// A world: terrain (an elevation grid or a plane), roads, their marks; or the roads of an OpenDRIVE file. Immutable and shared; the same file gives the
-// same content hash, and the same content hash the same answers, bit by bit.
+// A world: terrain (an elevation grid or a plane) and a network of roads; or the roads of an OpenDRIVE file alone.
+// Immutable and shared; the same file gives the same content hash, and the same content hash the same answers, bit by bit.
 class World : public std::enable_shared_from_this<World> {
  public:
   // Reads a world file (docs/formats.md) and all files that it names, or an OpenDRIVE file (`.xodr`). Wrong input where anything is missing, broken,
@@ -49,13 +49,16 @@ class World : public std::enable_shared_from_this<World> {
   static std::shared_ptr<const World> Make(WorldSpec spec);
 
   const std::string& name() const { return name_; }
+  // The roads: a network whoever wrote them down, null where the world has none. Its outermost lanes are the verges.
+  const network::Network* network() const { return network_.get(); }
+  // The same roads as a world file of version 1 says them; no others are here.
   std::span<const Road> roads() const { return roads_; }
   // The elevation grid under the roads, for meshes, or null for a plane. Near a road the ground is not the grid's:
   // ask MakeGround() for heights.
   const terrain::ElevationGrid* grid() const { return grid_.get(); }
   const std::optional<PlaneSpec>& plane() const { return plane_; }
-  // The roads of an OpenDRIVE world, which has neither roads() nor a terrain of its own; null for others.
-  const network::Network* network() const { return network_.get(); }
+  // The world is an OpenDRIVE file: it has no terrain of its own.
+  bool open_drive() const { return grid_ == nullptr && !plane_; }
   Extents extents() const;
   const StartPose& start() const { return start_; }
   terrain::Surface terrain_surface() const { return terrain_surface_; }

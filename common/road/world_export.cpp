@@ -177,7 +177,7 @@ std::string RoadText(const World& world, const Road& road) {
 }  // namespace
 
 base::Result<std::string> ExportOpenDrive(const World& world) {
-  if (world.network() != nullptr) return base::WrongInput("this world is an OpenDRIVE file already");
+  if (world.open_drive()) return base::WrongInput("this world is an OpenDRIVE file already");
   if (world.roads().empty()) return base::WrongInput("this world has no road; OpenDRIVE needs one");
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<OpenDRIVE>\n";
   text += fmt::format("<header revMajor=\"1\" revMinor=\"7\" name=\"{}\" version=\"1.00\" vendor=\"Rodeira\">\n",

@@ -151,7 +151,7 @@ std::string Roads(const World& world, const View& view) {
 }  // namespace
 
 std::string PlotWorld(const World& world) {
-  if (world.network() != nullptr) return PlotNetwork(*world.network());
+  if (world.open_drive()) return PlotNetwork(*world.network());
   const View view = Look(world);
   const double width = (view.extents.east_m - view.extents.west_m) * view.scale;
   const double height = (view.extents.north_m - view.extents.south_m) * view.scale;

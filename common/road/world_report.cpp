@@ -103,7 +103,7 @@ std::string DescribeWorld(const World& world) {
     text += fmt::format("extents_m: x {:.3f} to {:.3f}, y {:.3f} to {:.3f}\n", frame.west_m, frame.east_m, frame.south_m, frame.north_m);
     const std::string& wkt = grid->projection_wkt();
     text += fmt::format("projection: {}\n", wkt.empty() ? "none" : wkt.substr(0, 70) + (wkt.size() > 70 ? "…" : ""));
-  } else if (world.network() != nullptr) {
+  } else if (world.open_drive()) {
     text += DescribeNetwork(*world.network());
   } else {
     text += fmt::format("ground: a plane, z_m = {} + {} x + {} y\n", world.plane()->z_m, world.plane()->slope_x, world.plane()->slope_y);
@@ -126,7 +126,7 @@ std::string DescribePoint(const World& world, double x_m, double y_m, std::optio
   const Eigen::Vector3d normal = at.normal_W + Eigen::Vector3d::Zero();  // -0 is 0
   text += fmt::format("inside: true\nz_m: {:.7f}\nnormal: [{:.9f}, {:.9f}, {:.9f}]\nfriction: {}\nsurface: {}\n", at.z_m, normal.x(),
                       normal.y(), normal.z(), at.friction, SurfaceName(at.surface));
-  if (world.network() != nullptr) text += DescribePlace(*world.network(), x_m, y_m, z_hint_m);
+  if (world.open_drive()) text += DescribePlace(*world.network(), x_m, y_m, z_hint_m);
   for (const Road& road : world.roads()) {
     const auto place = road.Locate(x_m, y_m, z_hint_m);
     if (!place || std::fabs(place->t_m) > road.section().reach_m()) continue;

@@ -19,7 +19,7 @@ struct StartPose {
   double x_m = 0.0;
   double y_m = 0.0;
   double heading_rad = 0.0;  // from east to north
-  // On a road: which one (an index into World::roads()), which lane, where along it. Otherwise -1, 0, 0.
+  // On a road: which one (an index into World::network()->roads()), which lane, where along it. Otherwise -1, 0, 0.
   int road = -1;
   int lane = 0;
   double s_m = 0.0;
@@ -42,10 +42,10 @@ inline constexpr FrictionTable kUsualFriction = {0.0, 1.0, 1.0, 0.6, 0.55, 0.65,
 struct WorldSpec {
   std::string name;
   std::vector<RoadSpec> roads;
-  std::shared_ptr<const terrain::ElevationGrid> grid;  // one of these three
+  std::shared_ptr<const terrain::ElevationGrid> grid;  // one of these two, or an OpenDRIVE file
   std::optional<PlaneSpec> plane;
-  std::shared_ptr<const network::Network> network;  // the world is an OpenDRIVE file
-  base::Digest network_hash = 0;                    // of that file's bytes
+  std::shared_ptr<const network::Network> network;  // null: made of `roads`, where there are any
+  base::Digest network_hash = 0;                    // of an OpenDRIVE file's bytes
   terrain::Surface terrain_surface = terrain::Surface::kGrass;
   std::optional<double> terrain_friction;  // otherwise its surface's
   FrictionTable friction = kUsualFriction;

@@ -56,6 +56,7 @@ class AutopilotSource final : public Source {
 
   void Save(base::StateWriter& out) const override { out.Put("autopilot", autopilot_); }
   void Restore(base::StateReader& in) override { in.Get("autopilot", autopilot_); }
+  void TakeOver(const vehicle::Controls& last) override { autopilot_.TakeOver(last); }
 
  private:
   std::shared_ptr<const road::World> world_;
@@ -70,7 +71,7 @@ constexpr double kRoute_m = 20'000.0;
 base::Result<std::unique_ptr<const driver::Way>> WayOf(const road::World& world, std::optional<int> lane_wish,
                                                        const std::string& place) {
   const road::StartPose& start = world.start();
-  if (world.network() != nullptr) {
+  if (world.open_drive()) {
     const network::Network& network = *world.network();
     const auto at = network.Locate(start.x_m, start.y_m);
     if (!at || at->distance_m > 0.0 || at->lane.lane == 0)

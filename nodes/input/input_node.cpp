@@ -30,6 +30,19 @@ msg::Controls ToWire(const vehicle::Controls& in) {
   return out;
 }
 
+vehicle::Controls FromWire(const msg::Controls& in) {
+  vehicle::Controls out;
+  out.steering_wheel_rad = in.steering_wheel_rad();
+  out.throttle = in.throttle();
+  out.brake = in.brake();
+  out.clutch = in.clutch();
+  out.handbrake = in.handbrake();
+  out.gear = in.gear();
+  out.gearbox = in.gearbox_mode() == 1 ? vehicle::GearboxMode::kManual : vehicle::GearboxMode::kAutomatic;
+  out.starter = in.starter() != 0;
+  return vehicle::Cut(out);
+}
+
 class InputNode final : public lockstep::Node {
  public:
   InputNode(std::unique_ptr<Source> source, std::int64_t base_step_ns) : source_(std::move(source)), base_step_ns_(base_step_ns) {}
@@ -42,6 +55,13 @@ class InputNode final : public lockstep::Node {
     const auto controls = source_->Step(step, step.output_valid * base_step_ns_, inbox);
     if (!controls) return controls.error();
     outbox.Put(topics::kControls, idl::Encode(ToWire(controls.value())));
+    return {};
+  }
+  base::Status TakeOver(const std::vector<lockstep::Sample>& published) override {
+    if (published.empty()) return base::WrongInput("no published controls were found");
+    const auto last = idl::Decode<msg::Controls>(*published.back().payload);
+    if (!last) return last.error();
+    source_->TakeOver(FromWire(last.value()));
     return {};
   }
   bool is_brief() const override { return source_->is_brief(); }

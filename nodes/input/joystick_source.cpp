@@ -41,6 +41,7 @@ class JoystickSource final : public Source {
   bool is_brief() const override { return false; }  // SDL wants one thread
   void Save(base::StateWriter& out) const override { out.Put("wheel", driver_); }
   void Restore(base::StateReader& in) override { in.Get("wheel", driver_); }
+  void TakeOver(const vehicle::Controls& last) override { driver_.TakeOver(last); }
 
  private:
   // To the person, once for each time.

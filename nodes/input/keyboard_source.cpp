@@ -37,6 +37,7 @@ class KeyboardSource final : public Source {
 
   void Save(base::StateWriter& out) const override { out.Put("keyboard", driver_); }
   void Restore(base::StateReader& in) override { in.Get("keyboard", driver_); }
+  void TakeOver(const vehicle::Controls& last) override { driver_.TakeOver(last); }
 
  private:
   std::uint32_t Presses(const launch::KeysNow& now, Action action) const {

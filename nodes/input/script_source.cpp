@@ -148,6 +148,7 @@ class ScriptSource final : public Source {
   }
   void Save(base::StateWriter&) const override {}  // a function of time alone
   void Restore(base::StateReader&) override {}
+  void TakeOver(const Controls&) override {}
 
  private:
   Script script_;

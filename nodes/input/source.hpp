@@ -20,6 +20,8 @@ class Source {
   virtual bool is_brief() const { return true; }
   virtual void Save(base::StateWriter& out) const = 0;
   virtual void Restore(base::StateReader& in) = 0;
+  // In place of First(): goes on where another source has left hands, feet and lever.
+  virtual void TakeOver(const vehicle::Controls& last) = 0;
 };
 
 }  // namespace rodeira::nodes

@@ -1,8 +1,11 @@
 #include "nodes/vehicle/vehicle_node.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "common/geometry/angle.hpp"
+#include "common/road/world.hpp"
 #include "common/vehicle/vehicle_model.hpp"
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
@@ -15,8 +18,10 @@ namespace topics = idl::topics;
 
 class VehicleNode final : public lockstep::Node {
  public:
-  VehicleNode(std::unique_ptr<vehicle::VehicleModel> model, const vehicle::InitialCondition& initial, terrain::Ground& ground)
-      : model_(std::move(model)), initial_(initial), ground_(ground) {}
+  // `own`: null where the ground is asked for elsewhere.
+  VehicleNode(std::unique_ptr<vehicle::VehicleModel> model, const vehicle::InitialCondition& initial, std::unique_ptr<terrain::Ground> own,
+              terrain::Ground& ground)
+      : model_(std::move(model)), initial_(initial), own_ground_(std::move(own)), ground_(ground) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     if (auto status = model_->Initialise(initial_, ground_); !status) return status;  // INI
@@ -47,8 +52,21 @@ class VehicleNode final : public lockstep::Node {
 
   std::unique_ptr<vehicle::VehicleModel> model_;
   vehicle::InitialCondition initial_;
+  std::unique_ptr<terrain::Ground> own_ground_;
   terrain::Ground& ground_;
 };
+
+// SUELO in this process, of the world that the road server has too: a function, so the bits are the server's.
+base::Result<std::unique_ptr<terrain::Ground>> OwnGround(const launch::NodeContext& context, const launch::WorldSummary& summary) {
+  const std::filesystem::path& file = context.launch().world();
+  const auto world = road::World::Load(file);
+  if (!world) return world.error();
+  if (world.value()->content_hash() != summary.content_hash) {
+    return base::WrongInput(fmt::format("the world's content hash is {} here and {} where the road server is; give both the same files, or 'ground: remote'",
+                                        base::Hex(world.value()->content_hash()), base::Hex(summary.content_hash)), file.string());
+  }
+  return world.value()->MakeGround();
+}
 
 }  // namespace
 
@@ -65,6 +83,7 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContex
   const double heading_deg = start.Number("heading_deg", {-360.0, 360.0}, 0.0);
   initial.heading_rad = heading_deg * geometry::kPi / 180.0;
   initial.speed_mps = start.Number("speed_mps", {-20.0, 100.0}, 0.0);
+  const bool asks = config.Choice("ground", {"local", "remote"}, "local") == "remote";
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   auto model = vehicle::LoadVehicle(file);
   if (!model) return model.error();
@@ -76,7 +95,14 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContex
     if (!start.Has("heading_deg")) initial.heading_rad = world.value().start_heading_rad;
   }
   context.set_world_hash(world.value().content_hash);
-  return std::unique_ptr<lockstep::Node>(std::make_unique<VehicleNode>(std::move(model).value(), initial, context.Ground()));
+  std::unique_ptr<terrain::Ground> own;
+  if (!asks && !context.ground_is_here()) {
+    auto made = OwnGround(context, world.value());
+    if (!made) return made.error();
+    own = std::move(made).value();
+  }
+  terrain::Ground& ground = own != nullptr ? *own : context.Ground();
+  return std::unique_ptr<lockstep::Node>(std::make_unique<VehicleNode>(std::move(model).value(), initial, std::move(own), ground));
 }
 
 }  // namespace rodeira::nodes

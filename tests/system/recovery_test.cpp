@@ -47,8 +47,9 @@ void WaitForGrowth(const std::string& recording) {
 class Recovery : public ::testing::Test {
  protected:
   std::string File(const std::string& name) const { return (folder_.path() / name).string(); }
+  // At a pace: a fast machine's run would be over before anybody was killed.
   std::vector<std::string> Command(const std::string& run, const std::string& recording, const std::string& seconds, const std::string& policy) const {
-    return {Bin("rodeira"), "run", kLaunch, "--run", run, "--for", seconds, "--record", recording, "--set", "recovery=" + policy};
+    return {Bin("rodeira"), "run", kLaunch, "--run", run, "--for", seconds, "--record", recording, "--pace", "5", "--set", "recovery=" + policy};
   }
   void Undisturbed(const std::string& seconds) {
     const Ended calm = RunCommand({Bin("rodeira"), "run", kLaunch, "--in-process", "--for", seconds, "--record", File("calm.mcap")});

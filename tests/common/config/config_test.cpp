@@ -104,6 +104,16 @@ TEST(Config, NestingIsBounded) {
   EXPECT_NE(file.Override("a", std::string(1000, '[')).error().Text().find("the value is nested too deeply"), std::string::npos);
 }
 
+TEST(Config, AnOverrideByNothingTakesAKeyOut) {
+  auto file = File::Parse("a: 1\nb: {c: 2, d: 3}\n", "x.yaml").value();
+  ASSERT_TRUE(file.Override("b.c", "~").ok());
+  ASSERT_TRUE(file.Override("b.none", "~").ok());
+  EXPECT_FALSE(file.root().Child("b").Has("c"));
+  EXPECT_EQ(file.root().Child("b").Integer("d", 0, 9), 3);
+  EXPECT_EQ(file.root().Integer("a", 0, 9), 1);
+  EXPECT_TRUE(file.Finish().ok());
+}
+
 TEST(Config, OverridesReplaceAndAdd) {
   File file = Parsed("a: 1\nb: {c: 2}\n");
   ASSERT_TRUE(file.Override("a", "5").ok());

@@ -26,7 +26,7 @@ void Fields(V& v, msg::Grant& m) {
 }
 template <class V>
 void Fields(V& v, msg::Ask& m) {
-  v("roster_hash", m.roster_hash()), v("from_step", m.from_step()), v("source", m.source()), v("end", m.end());
+  v("roster_hash", m.roster_hash()), v("from_step", m.from_step()), v("source", m.source()), v("asker", m.asker());
 }
 template <class V>
 void Fields(V& v, msg::Hello& m) {
@@ -103,6 +103,10 @@ void Fields(V& v, msg::ScenarioEvent& m) {
 template <class V>
 void Fields(V& v, msg::ScenarioEvents& m) {
   v("header", m.header()), v("events", m.events()), v("end", m.end());
+}
+template <class V>
+void Fields(V& v, msg::Parcel& m) {
+  v("samples", m.samples()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Snapshot& m) {
@@ -274,6 +278,7 @@ void ForEveryTopicType(const Use& use) {
   use(TypeTag<msg::TrafficState>(), "rodeira::msg::TrafficState");
   use(TypeTag<msg::ScenarioEvents>(), "rodeira::msg::ScenarioEvents");
   use(TypeTag<msg::Snapshot>(), "rodeira::msg::Snapshot");
+  use(TypeTag<msg::Parcel>(), "rodeira::msg::Parcel");
   use(TypeTag<msg::Pulse>(), "rodeira::msg::Pulse");
   use(TypeTag<msg::Grant>(), "rodeira::msg::Grant");
   use(TypeTag<msg::Ask>(), "rodeira::msg::Ask");

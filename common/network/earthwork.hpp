@@ -1,0 +1,17 @@
+#pragma once
+
+namespace rodeira::network {
+
+// How the ground beside a road passes into the terrain, outward from the outermost lanes' edges (the verges').
+struct Earthwork {
+  // > 0: over this width the verge, going on in its slope, passes into the terrain by the weight 3 u^2 - 2 u^3.
+  // 0: slopes up to daylight instead.
+  double blend_m = 0.0;
+  // Run over rise: a cut of 1.5 rises by 1 m in 1.5 m, a fill of 2 falls by 1 m in 2 m.
+  double cut = 1.5;
+  double fill = 2.0;
+  // No slope reaches farther from the road; over the last fifth of it slopes grow steeper.
+  double reach_m = 60.0;
+};
+
+}  // namespace rodeira::network
