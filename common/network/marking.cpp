@@ -151,10 +151,11 @@ double MarkingLength(const Road& road, const Marking& marking, double from_s_m, 
   return length;
 }
 
-std::vector<MarkingStroke> StrokesOf(const Road& road, const Marking& marking) {
+std::vector<Stroke> StrokesOf(const Road& road, const Marking& marking) {
+  if (marking.painted != nullptr) return Strokes(road, *marking.painted);
   if (marking.gap_m <= 0.0) return {{marking.from_s_m, marking.to_s_m}};
   const double period = marking.stroke_m + marking.gap_m;
-  std::vector<MarkingStroke> strokes;
+  std::vector<Stroke> strokes;
   // Goes on along the line by a length; past its end it stays there.
   double s = marking.from_s_m;
   const auto advance = [&](double length) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/network/road.hpp"
+#include "common/network/strokes.hpp"
 
 // Lane marks and painted lines alike, as single lines: what of them is painted, and where.
 namespace rodeira::network {
@@ -24,11 +25,6 @@ struct Marking {
   std::string_view colour;             // the names of RoadMark::colour
 };
 
-// What is painted of a line, between two stations.
-struct MarkingStroke {
-  double from_s_m = 0.0, to_s_m = 0.0;
-};
-
 // How lines are painted of which a mark only says the type: strokes and gaps outside of towns, the distance of the middles
 // of two lines beside one another (Vienna Convention, annex 2: a gap of 0.10 to 0.18 m), the width by weight.
 inline constexpr double kStroke_m = 4.0, kGap_m = 8.0, kDot_m = 0.1, kDotGap_m = 1.0, kBetween_m = 0.14;
@@ -44,6 +40,6 @@ geometry::CubicPoint MarkingAt(const Road& road, const Marking& marking, double 
 // The line's own length in plan.
 double MarkingLength(const Road& road, const Marking& marking, double from_s_m, double to_s_m);
 // What is painted, in ascending order.
-std::vector<MarkingStroke> StrokesOf(const Road& road, const Marking& marking);
+std::vector<Stroke> StrokesOf(const Road& road, const Marking& marking);
 
 }  // namespace rodeira::network

@@ -1,6 +1,5 @@
 #include "common/scene/ground_tile.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -9,6 +8,8 @@
 
 #include "common/base/assert.hpp"
 #include "common/partition/noding.hpp"
+#include "common/scene/ground_digest.hpp"
+#include "common/scene/levels_at.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -26,14 +27,11 @@ void AddReach(const Line3& line, std::set<TileKey>& tiles) {
   }
 }
 
-void Measure(GroundTile& tile) {
-  Eigen::AlignedBox3d box;
-  for (const Mesh& mesh : tile.levels.back().ground) {
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) box.extend(mesh.PositionW(i));
+void AddRectangle(const road::Extents& extents, std::set<TileKey>& tiles) {
+  const WorldStep low = ToSteps({extents.west_m, extents.south_m}), high = ToSteps({extents.east_m, extents.north_m});
+  for (std::int64_t column = TileOf(low.x); column <= TileOf(high.x); ++column) {
+    for (std::int64_t row = TileOf(low.y); row <= TileOf(high.y); ++row) tiles.insert({column, row});
   }
-  if (box.isEmpty()) return;
-  tile.centre_W = box.center();
-  tile.radius_m = 0.5 * box.diagonal().norm();
 }
 
 }  // namespace
@@ -71,6 +69,20 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(worl
       }
     }
   }
+  if (world.grid() != nullptr) AddRectangle(world.extents(), tiles);
+  for (std::size_t i = 0; i < roads.size(); ++i) {
+    RoadTrace trace;
+    trace.low_W = trace.high_W = lines[i].empty() ? Eigen::Vector2d(1e9, 1e9) : Eigen::Vector2d(lines[i].front().front().head<2>());
+    for (const Line3& line : lines[i]) {
+      for (const Eigen::Vector3d& p : line) {
+        trace.low_W = trace.low_W.cwiseMin(p.head<2>()), trace.high_W = trace.high_W.cwiseMax(p.head<2>());
+        trace.points_W.emplace_back(p.head<2>());
+      }
+    }
+    trace.digest = RoadDigest(roads[i], lines[i], paint[i][0]);
+    traces_.push_back(std::move(trace));
+  }
+  terrain_digest_ = TerrainDigest(world);
   tiles_.assign(tiles.begin(), tiles.end());
   std::vector<std::pair<const TileKey, std::vector<partition::GridLine>>*> open;
   for (auto& piece : pieces) open.push_back(&piece);
@@ -80,6 +92,15 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(worl
     edges_.Add(open[i]->first, noded[i]);
     segments_[open[i]->first] = std::move(noded[i]);
   }
+}
+
+TileBall GroundPlan::BallOf(const TileKey& key) const {
+  TileBall ball;
+  const Eigen::Vector2d middle = key.south_west_W() + Eigen::Vector2d::Constant(0.5 * kTile_m);
+  std::vector<road::SurfacePoint> levels;
+  LevelsAt(world_, middle, 1, levels);
+  ball.centre_W = {middle.x(), middle.y(), levels.empty() ? 0.0 : levels.front().z_m};
+  return ball;
 }
 
 GroundTile GroundPlan::Build(const TileKey& key) const {
@@ -99,7 +120,7 @@ GroundTile GroundPlan::Build(const TileKey& key) const {
     }
     tile.levels[at].ground = std::move(woven.meshes);
   }
-  Measure(tile);
+  tile.ball = BallOf(key);
   return tile;
 }
 

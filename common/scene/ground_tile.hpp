@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "common/base/hash.hpp"
 #include "common/road/world.hpp"
 #include "common/scene/mark_strips.hpp"
 #include "common/scene/mesh.hpp"
@@ -18,12 +19,20 @@ struct GroundLevel {
   Mesh marks;                // in the planes of the ground's triangles: to be drawn after it, with an offset
 };
 
+// Around a tile with room for its heights; known without building it.
+struct TileBall {
+  Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();
+  double radius_m = 350.0;
+};
+
+// Up to these distances from a ball's centre the levels are shown.
+inline constexpr std::array<float, kGroundLevels> kGroundSeen_m = {240.0F, 480.0F, 1080.0F, 1e9F};
+
 // A square of ground at several levels of detail, the finest first. On the square's edge all levels have the same
 // vertices, to the bit, and so have neighbours: any two levels fit together without a crack.
 struct GroundTile {
   TileKey key;
-  Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();
-  double radius_m = 0.0;
+  TileBall ball;
   std::array<GroundLevel, kGroundLevels> levels;
 };
 
@@ -39,12 +48,23 @@ class GroundPlan {
 
   std::span<const TileKey> tiles() const { return tiles_; }
   GroundTile Build(const TileKey& tile) const;
+  TileBall BallOf(const TileKey& tile) const;
+  // Of everything that can change a bit of the tile: the roads that are nearest to any of its points, or lie in it, with
+  // their heights, lanes and paint, and the terrain. (A change in a tile's roads changes it; it may change without need.)
+  base::Digest SourceDigest(const TileKey& tile) const;
 
  private:
+  struct RoadTrace {
+    Eigen::Vector2d low_W, high_W;        // a box around it
+    std::vector<Eigen::Vector2d> points_W;
+    base::Digest digest = 0;
+  };
   const road::World& world_;
   std::vector<TileKey> tiles_;  // ascending
   std::map<TileKey, std::vector<partition::GridSegment>> segments_;
   TileEdges edges_;
+  std::vector<RoadTrace> traces_;  // by road
+  base::Digest terrain_digest_ = 0;
   std::array<TilePaint, kGroundLevels - 1> paint_;  // the coarsest level has none
 };
 

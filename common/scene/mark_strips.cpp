@@ -14,9 +14,9 @@ constexpr double kLongest_m = 24.0, kShortest_m = 0.05;
 using Edges = std::array<Eigen::Vector3d, 2>;  // right and left
 
 // Cuts one stroke into pieces.
-class Stroke {
+class Painter {
  public:
-  Stroke(const network::Road& road, const network::Marking& line, double chord_m, TilePaint& paint)
+  Painter(const network::Road& road, const network::Marking& line, double chord_m, TilePaint& paint)
       : road_(road), line_(line), chord_m_(chord_m), colour_(PaintColour(line.colour)), paint_(paint) {}
 
   void Paint(double from, double to) {
@@ -94,8 +94,8 @@ Colour PaintColour(std::string_view name) {
 
 void PaintRoad(const network::Road& road, double chord_m, TilePaint& paint) {
   for (const network::Marking& line : network::MarkingsOf(road)) {
-    Stroke stroke(road, line, chord_m, paint);
-    for (const network::MarkingStroke& at : network::StrokesOf(road, line)) stroke.Paint(at.from_s_m, at.to_s_m);
+    Painter painter(road, line, chord_m, paint);
+    for (const network::Stroke& at : network::StrokesOf(road, line)) painter.Paint(at.from_s_m, at.to_s_m);
   }
 }
 

@@ -11,7 +11,7 @@ constexpr std::uint64_t kTreeSeed = 1;
 
 WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance) {
   WorldScene scene;
-  if (world.open_drive()) {
+  if (world.network() != nullptr && world.roads().empty()) {  // not a world file of version 1
     const GroundPlan plan(world);
     scene.ground.resize(plan.tiles().size());
     ForEachAtOnce(plan.tiles().size(), 0, [&](std::size_t i) { scene.ground[i] = plan.Build(plan.tiles()[i]); });

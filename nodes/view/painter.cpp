@@ -19,7 +19,6 @@ namespace {
 
 constexpr double kNear_m = 0.3;  // fixed: depths then mean the same in every frame
 constexpr double kFar_m = 15'000.0;
-constexpr std::array<float, scene::kGroundLevels> kGroundSeen_m = {60.0F, 300.0F, 900.0F, 1e9F};  // beyond the tile's own radius
 constexpr float kMarksSeen_m = 650.0F;
 constexpr float kTreesSeen_m = 1'100.0F;
 constexpr std::array<float, scene::kTerrainLevels> kLevelSeen_m = {450.0F, 1'300.0F, 1e9F};  // up to this distance of the tile's centre
@@ -50,8 +49,8 @@ osg::ref_ptr<osg::Node> TerrainNode(Look& look, const scene::TerrainTile& tile) 
 osg::ref_ptr<osg::Node> GroundNode(Look& look, const scene::GroundTile& tile) {
   osg::ref_ptr<osg::LOD> lod = new osg::LOD;
   lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-  lod->setCenter(ToOsg(tile.centre_W));
-  lod->setRadius(tile.radius_m);
+  lod->setCenter(ToOsg(tile.ball.centre_W));
+  lod->setRadius(tile.ball.radius_m);
   float from = 0.0F;
   for (std::size_t level = 0; level < tile.levels.size(); ++level) {
     std::vector<const scene::Mesh*> meshes;
@@ -60,9 +59,8 @@ osg::ref_ptr<osg::Node> GroundNode(Look& look, const scene::GroundTile& tile) {
     if (!meshes.empty()) group->addChild(look.Placed(meshes));
     const scene::Mesh* marks = &tile.levels[level].marks;
     if (!marks->triangles.empty()) group->addChild(look.Placed({&marks, 1}));
-    const float to = kGroundSeen_m[level] + static_cast<float>(tile.radius_m);
-    lod->addChild(group, from, to);
-    from = to;
+    lod->addChild(group, from, scene::kGroundSeen_m[level]);
+    from = scene::kGroundSeen_m[level];
   }
   return lod;
 }
