@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <cstdio>
+#include <filesystem>
+#include <string>
 #include <utility>
 
 #include "common/base/files.hpp"
@@ -11,6 +15,7 @@
 #include "common/road/world_plot.hpp"
 #include "common/road/world_profile.hpp"
 #include "common/road/world_report.hpp"
+#include "nodes/view/database.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -39,16 +44,46 @@ int Check(const WorldOptions& options) {
   return 0;
 }
 
+// The roads as OpenDRIVE beside what is seen: an OpenDRIVE file itself, or a world file's export where it can be said.
+int WriteLogical(const WorldOptions& options, const road::World& world) {
+  const std::filesystem::path file = std::filesystem::path(options.out) / "world.xodr";
+  base::Result<std::string> text = world.open_drive() ? base::ReadText(options.world_file) : road::ExportOpenDrive(world);
+  if (!text) return Complain(text.error());
+  if (auto status = base::WriteWhole(file, text.value()); !status) return Complain(status.error());
+  fmt::print("{}\n", file.string());
+  return 0;
+}
+
+int Build(const WorldOptions& options) {
+  const auto world = road::World::Load(options.world_file);
+  if (!world) return Complain(world.error());
+  if (road::IsGenerated(options.world_file)) {
+    const auto written = road::BuildWorld(options.world_file, options.out);
+    if (!written) return Complain(written.error());
+    fmt::print("{}", written.value());
+  }
+  view::DatabaseOptions database;
+  database.folder = options.out;
+  database.threads = options.threads;
+  const bool shown = !options.quiet && ::isatty(STDERR_FILENO) != 0;
+  if (shown) {
+    database.progress = [](std::size_t done, std::size_t of) {
+      constexpr std::size_t kWidth = 40;
+      fmt::print(stderr, "\r[{:<{}}] {} of {} tiles{}", std::string(done * kWidth / of, '='), kWidth, done, of, done == of ? "\n" : "");
+    };
+  }
+  const auto report = view::WriteDatabase(*world.value(), database);
+  if (!report) return Complain(report.error());
+  fmt::print("{}: {} tiles, {} built, {} as they were\n", (database.folder / "world.osgb").string(), report.value().tiles, report.value().built,
+             report.value().tiles - report.value().built);
+  return WriteLogical(options, *world.value());
+}
+
 }  // namespace
 
 int World(const WorldOptions& options) {
   if (options.command == "check") return Check(options);
-  if (options.command == "build") {
-    const auto written = road::BuildWorld(options.world_file, options.out);
-    if (!written) return Complain(written.error());
-    fmt::print("{}", written.value());
-    return 0;
-  }
+  if (options.command == "build") return Build(options);
   const auto world = road::World::Load(options.world_file);
   if (options.command == "export" && world) {
     const auto text = road::ExportOpenDrive(*world.value());
