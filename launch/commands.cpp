@@ -19,6 +19,8 @@
 #include "launch/replay_command.hpp"
 #include "launch/run_command.hpp"
 #include "launch/surface_command.hpp"
+#include "launch/traffic_command.hpp"
+#include "launch/vehicle_command.hpp"
 #include "launch/world_command.hpp"
 
 namespace rodeira::front {
@@ -121,6 +123,20 @@ void AddMap(CLI::App& app, MapOptions& options) {
   }
 }
 
+void AddTraffic(CLI::App& app, TrafficOptions& options) {
+  CLI::App* traffic = app.add_subcommand("traffic", "the traffic model alone, for studies");
+  traffic->require_subcommand(1);
+  CLI::App* run = traffic->add_subcommand("run", "drive cars on a map's roads and say what came out");
+  run->add_option("MAP", options.map, "world file, OpenDRIVE file (.xodr) or traffic map (.motors)")->required();
+  run->add_option("--vehicles", options.vehicles, "how many cars")->check(CLI::Range(0, 100000));
+  run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
+  run->add_option("--step", options.step_s, "seconds a step, to 0.1")->check(CLI::Range(0.001, 0.1));
+  run->add_option("--seed", options.seed, "seed of everything that is drawn");
+  run->add_option("--csv", options.csv, "folder for trajectories.csv");
+  run->add_flag("--quiet", options.quiet, "no progress, no table");
+  run->callback([&options] { options.asked = true; });
+}
+
 void AddPolyline(CLI::App& app, PolylineOptions& options) {
   CLI::App* polyline = app.add_subcommand("polyline", "chains of points in CSV files (x_m,y_m,z_m), put together and moved");
   polyline->require_subcommand(1);
@@ -182,6 +198,20 @@ void AddMechanism(CLI::App& app, MechanismOptions& options) {
   run->add_option("--svg", options.svg, "draw the outputs over time into this file");
   run->add_flag("--quiet", options.quiet, "no progress, no table");
   run->callback([&options] { options.asked = true; });
+}
+
+void AddVehicle(CLI::App& app, VehicleOptions& options) {
+  CLI::App* vehicle = app.add_subcommand("vehicle", "vehicle files, alone");
+  vehicle->require_subcommand(1);
+  CLI::App* test = vehicle->add_subcommand("test", "drive the usual manoeuvres and print their figures");
+  test->add_option("VEHICLE.yaml", options.file, "vehicle file")->required();
+  test->add_option("--manoeuvre", options.manoeuvres, "acceleration, braking, split_friction, constant_radius, step_steer, sine, lane_change, park, bump; otherwise all");
+  test->add_option("--step", options.step_s, "step in seconds")->capture_default_str();
+  test->add_option("--csv", options.csv, "write the motion over time into this file");
+  test->add_option("--svg", options.svg, "draw it into this file");
+  test->add_option("--out", options.out, "folder: NAME.csv and NAME.svg of each manoeuvre");
+  test->add_flag("--quiet", options.quiet, "no progress, no table");
+  test->callback([&options] { options.asked = true; });
 }
 
 void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
@@ -248,12 +278,16 @@ int Main(int argc, char** argv) {
   AddWorld(app, world);
   MapOptions map;
   AddMap(app, map);
+  TrafficOptions traffic;
+  AddTraffic(app, traffic);
   PolylineOptions polyline;
   AddPolyline(app, polyline);
   SurfaceOptions surface;
   AddSurface(app, surface);
   MechanismOptions mechanism;
   AddMechanism(app, mechanism);
+  VehicleOptions vehicle;
+  AddVehicle(app, vehicle);
   DoctorOptions doctor;
   AddDoctor(app, doctor);
   JoysticksOptions joysticks;
@@ -272,8 +306,10 @@ int Main(int argc, char** argv) {
   }
   if (!world.command.empty()) return World(world);
   if (!map.command.empty()) return MapCommand(map);
+  if (traffic.asked) return TrafficRun(traffic);
   if (!polyline.command.empty()) return Polylines(polyline);
   if (!surface.command.empty()) return Surface(surface);
+  if (vehicle.asked) return TestVehicle(vehicle);
   if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);

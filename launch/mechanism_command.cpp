@@ -39,7 +39,7 @@ void Describe(const multibody::Mechanism& mechanism, const multibody::RunSummary
 int RunMechanismFile(const MechanismOptions& options) {
   auto mechanism = multibody::LoadMechanism(options.file);
   if (!mechanism) return Complain(mechanism.error());
-  multibody::RunTable table;
+  plot::Table table;
   multibody::RunSummary summary;
   const auto begin = Clock::now();
   bool shown = false;
@@ -59,12 +59,12 @@ int RunMechanismFile(const MechanismOptions& options) {
   }
   if (!options.quiet) Describe(mechanism.value(), summary, wall_s);
   if (!options.csv.empty()) {
-    if (auto written = base::WriteWhole(options.csv, multibody::ToCsv(table)); !written) return Complain(written.error());
+    if (auto written = base::WriteWhole(options.csv, plot::ToCsv(table)); !written) return Complain(written.error());
     if (!options.quiet) fmt::print("wrote            {}\n", options.csv);
   }
   if (!options.svg.empty()) {
     const std::string title = mechanism.value().system->drawing().name;
-    if (auto written = base::WriteWhole(options.svg, multibody::ToSvg(table, title)); !written) return Complain(written.error());
+    if (auto written = base::WriteWhole(options.svg, plot::ToSvg(table, title)); !written) return Complain(written.error());
     if (!options.quiet) fmt::print("wrote            {}\n", options.svg);
   }
   return 0;

@@ -73,6 +73,8 @@ void RunReport::Take(std::string_view line) {
     node.steps = Number<std::uint64_t>(line, "steps");
     node.mean_us = Number<double>(line, "mean_us");
     node.worst_us = Number<double>(line, "worst_us");
+    node.apart_us = Number<double>(line, "apart_us");
+    node.apart_p99_us = Number<double>(line, "apart_p99_us");
     node.server_calls = Number<std::uint64_t>(line, "server_calls");
     nodes.push_back(node);
   } else if (line.starts_with("end ")) {
@@ -102,9 +104,11 @@ std::string RunReport::Table(double base_step_s, const std::string& recording) c
   }
   std::size_t width = 4;
   for (const Node& node : nodes) width = std::max(width, node.name.size());
-  text += fmt::format("\n{:<{}}  {:>9}  {:>10}  {:>10}  {:>12}\n", "node", width, "steps", "mean µs", "worst µs", "server calls");
+  // Computing a step, and from one step to the next.
+  text += fmt::format("\n{:<{}}  {:>9}  {:>10}  {:>10}  {:>10}  {:>10}  {:>12}\n", "node", width, "steps", "mean µs", "worst µs", "apart µs", "99 % µs", "server calls");
   for (const Node& node : nodes) {
-    text += fmt::format("{:<{}}  {:>9}  {:>9.2f}  {:>9.1f}  {:>12}\n", node.name, width, node.steps, node.mean_us, node.worst_us, node.server_calls);
+    text += fmt::format("{:<{}}  {:>9}  {:>9.2f}  {:>9.1f}  {:>9.1f}  {:>9.1f}  {:>12}\n", node.name, width, node.steps, node.mean_us, node.worst_us,
+                        node.apart_us, node.apart_p99_us, node.server_calls);
   }
   if (faults.empty() && recovered.empty()) text += "faults  none\n";
   for (const std::string& again : recovered) text += fmt::format("again   {}\n", again);

@@ -14,6 +14,8 @@ struct RunReport {
     std::uint64_t steps = 0;
     double mean_us = 0.0;
     double worst_us = 0.0;
+    double apart_us = 0.0;  // wall time from step to step: the median,
+    double apart_p99_us = 0.0;
     std::uint64_t server_calls = 0;
   };
   bool met = false;            // said by who follows a clock on another PC

@@ -353,8 +353,10 @@ class ClockProcess {
     for (lockstep::NodeIndex n = 0; n < roster_.nodes().size(); ++n) {
       const lockstep::Report& report = clock_.report(n);
       const double mean_us = report.steps == 0 ? 0.0 : static_cast<double>(report.busy_ns) * 1e-3 / static_cast<double>(report.steps);
-      lines += fmt::format("node {} steps={} mean_us={:.2f} worst_us={:.1f} server_calls={} digest={}\n", roster_.node(n).name, report.steps, mean_us,
-                           static_cast<double>(report.worst_ns) * 1e-3, report.server_calls, base::Hex(report.digest));
+      lines += fmt::format("node {} steps={} mean_us={:.2f} worst_us={:.1f} apart_us={:.1f} apart_p99_us={:.1f} server_calls={} digest={}\n",
+                           roster_.node(n).name, report.steps, mean_us, static_cast<double>(report.worst_ns) * 1e-3,
+                           static_cast<double>(report.median_interval_ns) * 1e-3, static_cast<double>(report.p99_interval_ns) * 1e-3,
+                           report.server_calls, base::Hex(report.digest));
     }
     return lines;
   }

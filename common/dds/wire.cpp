@@ -70,6 +70,8 @@ base::Bytes EncodeReport(const NamedReport& in) {
   out.busy_ns(report.busy_ns);
   out.worst_ns(report.worst_ns);
   out.server_calls(report.server_calls);
+  out.median_interval_ns(report.median_interval_ns);
+  out.p99_interval_ns(report.p99_interval_ns);
   out.safe_step(report.safe);
   out.granted_step(report.granted);
   out.granted_final(report.granted_final);
@@ -99,6 +101,8 @@ base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
   out.report.busy_ns = in.busy_ns();
   out.report.worst_ns = in.worst_ns();
   out.report.server_calls = in.server_calls();
+  out.report.median_interval_ns = in.median_interval_ns();
+  out.report.p99_interval_ns = in.p99_interval_ns();
   out.report.safe = in.safe_step();
   out.report.granted = in.granted_step();
   out.report.granted_final = in.granted_final();

@@ -19,4 +19,7 @@ struct Footprint {
 
 Footprint FootprintOf(std::uint32_t id, const vehicle::VehicleState& state, const vehicle::VehicleDimensions& dimensions);
 
+// Whether two rectangles share ground: unless one of their four axes parts them.
+bool Overlap(const Footprint& a, const Footprint& b);
+
 }  // namespace rodeira::driver

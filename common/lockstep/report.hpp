@@ -38,6 +38,8 @@ struct Report {
   std::int64_t busy_ns = 0;               // wall time inside Step, all activations together
   std::int64_t worst_ns = 0;              // the longest of them
   std::uint64_t server_calls = 0;         // round trips to a server (SUELO)
+  std::int64_t median_interval_ns = 0;    // wall time from activation to activation: half of them at most this,
+  std::int64_t p99_interval_ns = 0;       // 99 of 100 at most this; both only once the node has finished
   Step safe = -1;                         // of who keeps snapshots (a recorder): samples valid through it are in its file
   Step granted = -1;                      // the newest grant that the node knows …
   bool granted_final = false;             // … and whether that is the last of the run

@@ -134,6 +134,8 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
                       static_cast<double>(spec_.period) * static_cast<double>(roster_.base_step_ns()) * 1e-9, next_ + spec_.delay};
   Note(Phase::kRunning, Waiting::kNothing);
   const auto begin = WallClock::now();
+  if (begun_step_) intervals_.Add(std::chrono::nanoseconds(begin - *begun_step_).count());
+  begun_step_ = begin;
   const base::Status status = node_.Step(info, inbox, outbox_);
   const std::int64_t took_ns = std::chrono::nanoseconds(WallClock::now() - begin).count();
   if (mailbox_.grant().abort) return FinishAborted();  // a server's answer may have failed to come: nothing of this counts
@@ -165,7 +167,7 @@ Runner::Outcome Runner::End(std::chrono::milliseconds limit) {
   }
   const Inbox rest = spec_.is_sink() ? mailbox_.OpenEvents(next_ - spec_.period, last) : Inbox();
   if (auto status = node_.Finish(rest, last, true); !status) return Fail(status.error());
-  Note(Phase::kFinished, Waiting::kNothing);
+  NoteFinished();
   TellReport();
   stage_ = Stage::kOver;
   return Outcome::kFinished;
@@ -176,7 +178,7 @@ Runner::Outcome Runner::FinishAborted() {
   const Step last = mailbox_.CompleteThrough(after);
   const Inbox rest = spec_.is_sink() ? mailbox_.OpenEvents(after, last) : Inbox();
   if (auto status = node_.Finish(rest, last, false); !status) return Fail(status.error());
-  Note(Phase::kFinished, Waiting::kNothing);
+  NoteFinished();
   TellReport();
   stage_ = Stage::kOver;
   return Outcome::kAborted;
@@ -252,6 +254,13 @@ void Runner::Note(Phase phase, Waiting waiting) {
   report_.phase = phase;
   if (report_.waiting != waiting || waiting == Waiting::kNothing) since_ = WallClock::now();
   report_.waiting = waiting;
+}
+
+void Runner::NoteFinished() {
+  Note(Phase::kFinished, Waiting::kNothing);
+  const std::lock_guard lock(report_mutex_);
+  report_.median_interval_ns = intervals_.Quantile(0.5);
+  report_.p99_interval_ns = intervals_.Quantile(0.99);
 }
 
 void Runner::NoteWaiting(Step step) {

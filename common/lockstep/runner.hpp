@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/lockstep/bus.hpp"
+#include "common/lockstep/intervals.hpp"
 #include "common/lockstep/mailbox.hpp"
 #include "common/lockstep/node.hpp"
 #include "common/lockstep/report.hpp"
@@ -59,6 +60,7 @@ class Runner {
   base::Digest StateDigest();
   void Note(Phase phase, Waiting waiting);
   void NoteWaiting(Step step);
+  void NoteFinished();
   void TellReport();
 
   const Roster& roster_;
@@ -78,6 +80,8 @@ class Runner {
 
   mutable std::mutex report_mutex_;
   Report report_;
+  Intervals intervals_;
+  std::optional<std::chrono::steady_clock::time_point> begun_step_;  // the last activation's
   std::chrono::steady_clock::time_point since_;
 };
 

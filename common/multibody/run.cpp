@@ -12,14 +12,14 @@ namespace {
 constexpr double kMostValues = 1e8;
 constexpr long kProgressSteps = 1000;
 
-void AddRow(const Mechanism& mechanism, RunTable& table) {
+void AddRow(const Mechanism& mechanism, plot::Table& table) {
   table.values.push_back(mechanism.system->time_s());
   for (const Output& output : mechanism.outputs) table.values.push_back(output.ValueOf(*mechanism.system));
 }
 
 }  // namespace
 
-base::Status RunMechanism(Mechanism& mechanism, double until_s, double step_s, RunTable& table, RunSummary& summary,
+base::Status RunMechanism(Mechanism& mechanism, double until_s, double step_s, plot::Table& table, RunSummary& summary,
                           const std::function<void(double)>& progress) {
   if (!(until_s > 0.0 && std::isfinite(until_s)))
     return base::WrongInput(fmt::format("--until is {}; a time over 0 s was expected", until_s));
@@ -57,18 +57,6 @@ base::Status RunMechanism(Mechanism& mechanism, double until_s, double step_s, R
   }
   summary.energy_end_J = system.Energy();
   return {};
-}
-
-std::string ToCsv(const RunTable& table) {
-  std::string text;
-  for (std::size_t c = 0; c < table.names.size(); ++c) text += (c == 0 ? "" : ",") + table.names[c];
-  text += "\n";
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    for (std::size_t c = 0; c < table.names.size(); ++c)
-      fmt::format_to(std::back_inserter(text), "{}{}", c == 0 ? "" : ",", table.At(row, c));
-    text += "\n";
-  }
-  return text;
 }
 
 }  // namespace rodeira::multibody

@@ -6,17 +6,9 @@
 
 #include "common/base/result.hpp"
 #include "common/multibody/mechanism.hpp"
+#include "common/plot/table.hpp"
 
 namespace rodeira::multibody {
-
-// What a run of a mechanism leaves: its outputs at the beginning and after every step.
-struct RunTable {
-  std::vector<std::string> names;  // the first is time_s
-  std::vector<double> values;      // row after row
-
-  std::size_t rows() const { return names.empty() ? 0 : values.size() / names.size(); }
-  double At(std::size_t row, std::size_t column) const { return values[row * names.size() + column]; }
-};
 
 struct RunSummary {
   long steps = 0;
@@ -30,15 +22,10 @@ struct RunSummary {
   double energy_end_J = 0.0;
 };
 
-// Runs until `until_s` in steps of `step_s`; `progress` is called now and then with a share from 0 to 1. Wrong input for
-// times that make no sense or a table beyond 100 million values; failed, with the time, where a step does not converge (the
-// table then ends there).
-base::Status RunMechanism(Mechanism& mechanism, double until_s, double step_s, RunTable& table, RunSummary& summary,
+// Runs until `until_s` in steps of `step_s`; `table` gets the outputs at the beginning and after every step;
+// `progress` is called now and then with a share from 0 to 1. Wrong input for times that make no sense or a table beyond 100
+// million values; failed, with the time, where a step does not converge (the table then ends there).
+base::Status RunMechanism(Mechanism& mechanism, double until_s, double step_s, plot::Table& table, RunSummary& summary,
                           const std::function<void(double)>& progress = {});
-
-// Comma-separated values with a header, each number so that it reads back to the same bits.
-std::string ToCsv(const RunTable& table);
-// One small diagram an output over time.
-std::string ToSvg(const RunTable& table, const std::string& title);
 
 }  // namespace rodeira::multibody

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,41 +9,29 @@
 #include "common/base/result.hpp"
 #include "common/base/state.hpp"
 #include "common/driver/footprint.hpp"
-#include "common/driver/lane_path.hpp"
-#include "common/driver/speed_plan.hpp"
+#include "common/driver/way.hpp"
+#include "common/lanes/zones.hpp"
 #include "common/road/world.hpp"
+#include "common/traffic/agent.hpp"
+#include "common/traffic/track_plan.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
 namespace rodeira::traffic {
 
-// One agent as others see it. B as for vehicles: midway between the axles, at the road's height; x forward, y left.
-struct AgentPose {
-  std::uint32_t id = 0;
-  std::uint32_t trip = 0;  // how often it has entered the road; another trip is another appearance
-  Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
-  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
-  double speed_mps = 0.0;
-  double acceleration_mps2 = 0.0;
-  double steer_rad = 0.0;       // of the front wheels, positive to the left
-  double wheel_spin_rad = 0.0;  // in (-pi, pi]
-  bool braking = false;         // its brake lights
-  std::int32_t road = 0;        // index into World::roads()
-  std::int32_t lane = 0;        // id within that road
-};
-
-// The rectangle of an agent.
-driver::Footprint FootprintOf(const AgentPose& pose, const AgentTraits& traits);
-
-// Cars that follow the lanes of a world's roads, each lane by itself, with the IDM, at the speed that limit, bends and
-// crests allow. A car that reaches a lane's end leaves and enters again, by lot, where a lane begins, as soon as there is a
-// safe gap: their number never changes. They see other vehicles (the driver's car) by their rectangles and stop for what
-// stands in their lane. They do not overtake and do not change lanes. Nothing here depends on order of arrival, threads or
-// the clock: the state is Save's, and each step is a function of it and of `others`.
+// Cars on the lanes of a network: each draws its way at every branch, follows whoever is ahead on it with the IDM, at the
+// speed that limits, bends and crests allow, and enters a stretch that other ways cross only when all of it up to the next
+// place to stand is its own (docs/traffic.md). A car that reaches the end of its last lane leaves and enters again, by lot,
+// where traffic enters the network, as soon as there is a safe gap: their number never changes, and nobody is moved or
+// removed elsewhere. They see other vehicles (the driver's car) by their rectangles, wherever they are. They do not change
+// lanes but where one ends. Nothing here depends on order of arrival, threads or the clock: the state is Save's, and each
+// step is a function of it and of `others`.
 class TrafficModel {
  public:
   // Places the agents on all lanes, clear of `others`; who finds no room waits to enter. Wrong input where there should be
   // vehicles and the world has no lane.
   static base::Result<TrafficModel> Make(const TrafficSettings& settings, std::shared_ptr<const road::World> world,
+                                         std::span<const driver::Footprint> others);
+  static base::Result<TrafficModel> Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
                                          std::span<const driver::Footprint> others);
 
   void Step(double dt_s, std::span<const driver::Footprint> others);
@@ -55,68 +41,139 @@ class TrafficModel {
   void Brake(std::uint32_t id, double deceleration_mps2);  // at exactly this rate down to rest, and stay; harder where it must
   void CapSpeed(std::uint32_t id, double speed_mps);       // never faster
   void Release(std::uint32_t id);
-  // The next agent in front of this rectangle, in the lane on which its middle stands and whose way it faces; nothing where
-  // none is in sight. One of the agents itself (by its id) is not in front of itself.
+  // The next agent in front of this rectangle, in the lane on which its middle stands and whose way it faces, or further on
+  // the way, and within sight; nothing where none is. One of the agents itself (by its id) is not in front of itself.
   std::optional<std::uint32_t> AheadOf(const driver::Footprint& other) const;
 
   // Those on the road, by ascending id.
   const std::vector<AgentPose>& poses() const { return poses_; }
   const AgentTraits& traits(std::uint32_t id) const { return traits_[id]; }
+  const Agent& agent(std::uint32_t id) const { return agents_[id]; }
   std::size_t on_road() const { return poses_.size(); }
   std::size_t vehicles() const { return agents_.size(); }
   std::size_t waiting() const { return agents_.size() - poses_.size(); }
+  // From its front bumper to who is ahead, as it was seen in the last step; 1e9 where nobody is in sight.
+  double GapAhead(std::uint32_t id) const { return ahead_[id].gap_m; }
+  const lanes::Graph& graph() const { return map_->graph; }
+  const lanes::Zones& zones() const { return map_->zones; }
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
 
  private:
-  static constexpr double kNoCap_mps = 1e3;
-  struct Lane {
-    driver::LanePath path;
-    driver::SpeedPlan plan;
-    std::int32_t road = 0;
-    std::vector<std::uint32_t> order;    // agents on it, from its beginning to its end
-    std::vector<std::uint32_t> waiting;  // to enter, first come first
+  // What does not change: the network and all that is computed from it.
+  struct Map {
+    std::shared_ptr<const network::Network> network;
+    lanes::Graph graph;
+    lanes::Zones zones;
+    std::vector<TrackPlan> plans;  // by track
+    std::vector<std::uint32_t> entries;
+
+    Map(std::shared_ptr<const network::Network> of, const driver::SpeedPlanSettings& speed);
   };
-  struct Agent {
-    std::int32_t lane = 0;  // on it, or waiting for it
-    bool on_road = false;
-    double d_m = 0.0;  // of its middle
-    double speed_mps = 0.0;
-    double acceleration_mps2 = 0.0;
-    double driven_m = 0.0;
-    std::uint32_t trip = 0;
-    double brake_mps2 = 0.0;  // commanded; 0: not
-    double cap_mps = kNoCap_mps;
+  // A track on an agent's way, in its odometer.
+  struct Stretch {
+    std::uint32_t track = 0;
+    double zero_m = 0.0, begin_m = 0.0, end_m = 0.0;
   };
-  // The next thing ahead of a place in a lane: the car in front, and what else stands there.
+  // Somebody on a track, in its own d, which may lie beyond its ends.
+  struct Occupant {
+    std::uint32_t id = 0;
+    double rear_m = 0.0, front_m = 0.0;
+
+    double middle_m() const { return 0.5 * (rear_m + front_m); }
+  };
+  // A vehicle that is no agent, on a track.
+  struct Block {
+    driver::LaneSpan span;
+    double middle_m = 0.0;
+  };
   struct Ahead {
-    double gap_m = 0.0;
+    double gap_m = 1e9;
     double speed_mps = 0.0;
+    std::int64_t id = -1;  // of an agent
     bool any = false;
   };
-  using Blocks = std::vector<std::vector<driver::LaneSpan>>;  // the others, a lane
+  struct Crossing {
+    std::int64_t zone = -1;  // none: only a STOP line
+    int side = 0;
+    double in_m = 0.0, out_m = 0.0;  // odometer
+  };
+  // The next stretch of conflict zones on an agent's way that are not yet its own, up to where it may stand again.
+  struct Passage {
+    bool any = false;
+    bool due = false;        // it must know now whether it may go on
+    bool head = false;       // nobody stands between it and the line who waits himself
+    bool able = false;       // there is room for it behind the zones
+    bool must_stop = false;  // a STOP sign
+    bool physical = false;   // refused because somebody is in the zones, or wants to be there before
+    double line_m = 0.0;     // odometer at which its front stops
+    double end_m = 0.0;
+    double arrives_s = 0.0, clears_s = 0.0;
+    std::int64_t waits_for = -1;
+    std::vector<Crossing> crossings;
+  };
+  // Somebody who holds, or comes to, a side of a zone. Ids from agents_.size() on are others.
+  struct Claim {
+    std::uint32_t id = 0;
+    double arrives_s = 0.0, clears_s = 0.0;
+  };
 
-  TrafficModel(const TrafficSettings& settings, std::shared_ptr<const road::World> world);
+  TrafficModel(const TrafficSettings& settings, std::shared_ptr<const Map> map);
 
-  Blocks BlocksOf(std::span<const driver::Footprint> others) const;
-  void PlaceAll(const Blocks& blocks);
-  Ahead BlockAhead(std::size_t lane, const Blocks& blocks, double middle_m, const AgentTraits& traits) const;
-  double Wanted(std::size_t lane, std::size_t place, const Blocks& blocks) const;
-  double Desired(std::size_t lane, std::uint32_t id) const;
+  // Sight: who is where.
+  void See(std::span<const driver::Footprint> others);
+  void FindStretches(std::uint32_t id, double range_m);
+  void SeeOthers(std::span<const driver::Footprint> others);
+  Ahead FindAhead(std::uint32_t id) const;
+  std::size_t DrawLink(const Agent& agent, std::uint32_t id, std::uint32_t track, std::uint32_t link) const;
+  double SightOf(const Agent& agent) const;
+
+  // Right of way.
+  void Arbitrate(double dt_s);
+  void FindPassage(std::uint32_t id);
+  void HoldZones(std::uint32_t id);
+  void FindRoom(std::uint32_t id);
+  void ComeToZones();
+  bool Grant(std::uint32_t id, bool yields);
+  void ResolveDeadlocks();
+  bool Urgent(std::uint32_t id) const;
+  double AllowedAt(std::uint32_t id, double odometer_m) const;
+
+  // Driving.
+  double Wanted(std::uint32_t id) const;
+  driver::SpeedPlan::Allowed Allowed(std::uint32_t id) const;
   void Move(std::uint32_t id, double acceleration_mps2, double dt_s);
-  void Leave(std::size_t lane);
-  void Enter(std::size_t lane, const Blocks& blocks);
-  std::int32_t DrawLane(std::uint32_t id, std::uint32_t trip) const;
+  double Advance(std::uint32_t id, double odometer_m) const;
+  double Moved(std::uint32_t id, double travel_m) const;
+  double HalfBase(std::uint32_t id) const { return 0.5 * traits_[id].wheelbase_m; }  // of the odometer
+  void Follow(std::uint32_t id);
+  bool AtTheEnd(std::uint32_t id) const;
+
+  // Coming and going.
+  void PlaceAll(std::span<const driver::Footprint> others);
+  void Leave(std::uint32_t id);
+  void Enter();
+  bool TryEnter(std::uint32_t id);
   void FindPoses();
   AgentPose PoseOf(std::uint32_t id) const;
 
   TrafficSettings settings_;
-  std::shared_ptr<const road::World> world_;
+  std::shared_ptr<const Map> map_;
   std::vector<AgentTraits> traits_;
-  std::vector<Lane> lanes_;
   std::vector<Agent> agents_;
+  std::vector<std::uint32_t> waiting_;  // to enter, first come first
   std::vector<AgentPose> poses_;
+
+  // Found anew each step.
+  std::vector<std::vector<Stretch>> stretches_;        // by agent
+  std::vector<std::vector<Occupant>> occupants_;       // by track
+  std::vector<std::vector<Block>> blocks_;             // by track
+  std::vector<Ahead> ahead_;                           // by agent
+  std::vector<Passage> passages_;                      // by agent
+  std::vector<std::array<std::vector<std::uint32_t>, 2>> holders_;  // by zone
+  std::vector<std::array<std::vector<Claim>, 2>> comers_;           // by zone
+  std::vector<std::array<bool, 2>> awaited_;                        // by zone: an urgent agent waits for that side to end
 };
 
 }  // namespace rodeira::traffic

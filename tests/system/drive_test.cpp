@@ -122,6 +122,28 @@ TEST_F(Drive, AutopilotAndTrafficOnN222GiveTheSameDigestHoweverTheyRun) {
   EXPECT_NE(digest({"--seed", "6"}), first);
 }
 
+// SUELO asked of the road server at each step, over DDS, and answered in the vehicle's own process: the same bits.
+TEST_F(Drive, TheGroundIsTheSameHereAndThere) {
+  const auto samples = [&](const std::string& ground, std::int64_t& asked) {
+    const std::string file = Path(ground + ".mcap");
+    const Ended ended = RunCommand({Bin("rodeira"), "run", std::string(RODEIRA_SOURCE_DIR) + "/tests/data/n222_traffic.yaml", "--for", "5", "--record", file,
+                                    "--set", "nodes.ego.config.ground=" + ground});
+    EXPECT_EQ(ended.status, 0) << ended.out;
+    const auto line = ended.out.find("\nego ");
+    EXPECT_NE(line, std::string::npos) << ended.out;
+    const std::string row = ended.out.substr(line + 1, ended.out.find('\n', line + 1) - line - 1);
+    asked = std::stoll(row.substr(row.find_last_of(' ')));
+    return SamplesOf(file);
+  };
+  std::int64_t asked_here = -1, asked_there = -1;
+  const auto here = samples("local", asked_here);
+  const auto there = samples("remote", asked_there);
+  EXPECT_GT(here.size(), 5000u);
+  EXPECT_EQ(FirstDifference(here, there), "");
+  EXPECT_EQ(asked_here, 0);
+  EXPECT_GE(asked_there, 5001) << "once a step";
+}
+
 TEST_F(Drive, OfAKilledRecorderTheFileIsReadable) {
   Started run(Command({"--for", "1000", "--pace", "real", "--record", Path("cut.mcap"), "--run", "cut-recorder"}));
   std::this_thread::sleep_for(3500ms);
@@ -154,7 +176,8 @@ TEST_F(Drive, OfAKilledCarTheRecordingIsClosedProperly) {
 }
 
 TEST_F(Drive, AStoppedRoadServerIsNamedAndNotTheCarThatWaitsForIt) {
-  Started run(Command({"--for", "1000", "--pace", "real", "--record", Path("x.mcap"), "--run", "stopped-road"}));
+  Started run(Command({"--for", "1000", "--pace", "real", "--record", Path("x.mcap"), "--run", "stopped-road",
+                       "--set", "nodes.ego.config.ground=remote"}));
   std::this_thread::sleep_for(2000ms);
   for (const pid_t victim : ProcessesWith("--run stopped-road", "--node road")) ::kill(victim, SIGSTOP);
   EXPECT_GE(run.WaitFor("node 'road' was stopped", 2s), 0ms);

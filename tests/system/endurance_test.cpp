@@ -42,7 +42,7 @@ double NumberBehind(const std::string& text, const std::string& word) {
 class RecorderKilled : public Endurance {
  protected:
   static constexpr std::uintmax_t kFirstSecondBytes = 100'000;  // what is embedded has 20 kB, the first chunk more than these
-  static constexpr const char* kSimulated = "40";  // seconds: at the pace below, longer than a run lives
+  static constexpr const char* kSimulated = "120";  // seconds: at the pace below ten, longer than a run lives
   std::vector<std::string> Command(const std::string& run, const std::string& recording) const {
     return {Bin("rodeira"), "run", kLaunch, "--run", run, "--for", kSimulated, "--record", recording, "--pace", "12",
             "--set", "limits.silence_s=30", "--set", "limits.step_s=30"};  // whoever else is slow meanwhile is no fault
@@ -106,7 +106,7 @@ TEST_F(RecorderKilled, AtAnyInstantCostsAtMostASimulatedSecondAndItIsSaid) {
     const pid_t victim = Find(name, recording, driving);
     if (victim < 0) FAIL() << "there is no recorder to kill: " << run.Wait(1s).out;
     std::this_thread::sleep_for(wait);
-    ASSERT_EQ(::kill(victim, SIGKILL), 0);
+    if (::kill(victim, SIGKILL) != 0) FAIL() << "the recorder was gone before it was killed: " << run.Wait(10s).out;
     const Ended ended = run.Wait(30s);
     EXPECT_EQ(ended.status, 1) << ended.out;
     EXPECT_THAT(ended.out, HasSubstr("'recorder' was killed by signal 9"));

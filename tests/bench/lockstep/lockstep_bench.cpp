@@ -88,21 +88,36 @@ double RawRate(std::int64_t steps) {
   return static_cast<double>(steps) / seconds;
 }
 
-// Steps a wall second between the first grant and the end, from the closing table.
-double RodeiraRate(std::int64_t steps, const std::string& transport) {
+// Steps a wall second between the first grant and the end, and the nodes' wall times from step to step (the mean of the medians, the
+// worst 99th percentile), from the closing table.
+struct Rate {
+  double steps_1ps = 0.0;
+  double median_us = 0.0;
+  double p99_us = 0.0;
+};
+
+Rate RodeiraRate(std::int64_t steps, const std::string& transport) {
   const std::string command = fmt::format("{}/bin/rodeira run {}/launch/empty.yaml --no-record --for {} --set transport={}", RODEIRA_BINARY_DIR, RODEIRA_SOURCE_DIR,
                                           static_cast<double>(steps) * 1e-3, transport);
   FILE* pipe = ::popen(command.c_str(), "r");
   std::array<char, 512> line{};
+  Rate rate;
   double simulated_s = 0.0;
   double wall_s = 0.0;
   while (std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr) {
     std::sscanf(line.data(), "simulated %lf s in %lf s", &simulated_s, &wall_s);
+    double done = 0.0, mean = 0.0, worst = 0.0, apart = 0.0, p99 = 0.0;
+    char name[64] = {};
+    if (std::sscanf(line.data(), "%63s %lf %lf %lf %lf %lf", name, &done, &mean, &worst, &apart, &p99) == 6) {
+      rate.median_us += apart / kNodes;
+      rate.p99_us = std::max(rate.p99_us, p99);
+    }
     const std::string text(line.data());
     const auto factor = text.find('(');
     if (text.starts_with("simulated") && factor != std::string::npos) wall_s = simulated_s / std::strtod(text.c_str() + factor + 1, nullptr);
   }
-  return ::pclose(pipe) == 0 && wall_s > 0.0 ? simulated_s * 1e3 / wall_s : 0.0;
+  if (::pclose(pipe) == 0 && wall_s > 0.0) rate.steps_1ps = simulated_s * 1e3 / wall_s;
+  return rate;
 }
 
 double Median(std::vector<double> values) {
@@ -120,10 +135,14 @@ int main(int argc, char** argv) {
   std::vector<double> udp;
   for (int round = 0; round < rounds; ++round) {
     raw.push_back(RawRate(steps));
-    shared.push_back(RodeiraRate(steps, "shared_memory"));
-    udp.push_back(RodeiraRate(steps, "udp"));
+    const Rate by_memory = RodeiraRate(steps, "shared_memory");
+    const Rate by_udp = RodeiraRate(steps, "udp");
+    shared.push_back(by_memory.steps_1ps);
+    udp.push_back(by_udp.steps_1ps);
     fmt::print("round {}: raw UDP {:.0f}, shared memory {:.0f} ({:.3f}), UDP {:.0f} ({:.3f}) steps/s\n", round + 1, raw.back(), shared.back(),
                shared.back() / raw.back(), udp.back(), udp.back() / raw.back());
+    fmt::print("         step to step: shared memory {:.0f} µs, 99th percentile {:.0f} ({:.1f} x); UDP {:.0f} µs, {:.0f} ({:.1f} x)\n", by_memory.median_us,
+               by_memory.p99_us, by_memory.p99_us / by_memory.median_us, by_udp.median_us, by_udp.p99_us, by_udp.p99_us / by_udp.median_us);
   }
   fmt::print("median: raw UDP {:.0f} steps/s; shared memory {:.3f}, UDP {:.3f} of it\n", Median(raw), Median(shared) / Median(raw), Median(udp) / Median(raw));
 }

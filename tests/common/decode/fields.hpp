@@ -38,7 +38,8 @@ void Fields(V& v, msg::Report& m) {
   v("clock_id", m.clock_id()), v("node", m.node()), v("hello", m.hello()), v("incarnation", m.incarnation()), v("phase", m.phase());
   v("progress_step", m.progress_step()), v("waiting", m.waiting()), v("waiting_source", m.waiting_source());
   v("since_ms", m.since_ms()), v("digest", m.digest()), v("steps", m.steps()), v("busy_ns", m.busy_ns()), v("worst_ns", m.worst_ns());
-  v("server_calls", m.server_calls()), v("safe_step", m.safe_step()), v("granted_step", m.granted_step());
+  v("server_calls", m.server_calls()), v("median_interval_ns", m.median_interval_ns()),
+      v("p99_interval_ns", m.p99_interval_ns()), v("safe_step", m.safe_step()), v("granted_step", m.granted_step());
   v("granted_final", m.granted_final()), v("message", m.message()), v("end", m.end());
 }
 template <class V>

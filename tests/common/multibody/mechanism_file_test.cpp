@@ -108,16 +108,16 @@ TEST(MechanismFile, VelocitiesThatDoNotFitAreRefused) {
 
 TEST(MechanismRun, WritesATableThatReadsBackExactly) {
   Mechanism pendulum = Example("pendulum");
-  RunTable table;
+  plot::Table table;
   RunSummary summary;
   ASSERT_TRUE(RunMechanism(pendulum, 0.5, 0.01, table, summary).ok());
   EXPECT_EQ(table.rows(), 51u);
   EXPECT_EQ(table.names.front(), "time_s");
-  const std::string csv = ToCsv(table);
+  const std::string csv = plot::ToCsv(table);
   const std::string last = csv.substr(csv.rfind('\n', csv.size() - 2) + 1);
   EXPECT_EQ(std::strtod(last.c_str(), nullptr), 0.5);
   EXPECT_EQ(std::strtod(last.substr(last.find(',') + 1).c_str(), nullptr), Value(pendulum, "x_m"));
-  EXPECT_THAT(ToSvg(table, "a < b"), HasSubstr("a &lt; b"));
+  EXPECT_THAT(plot::ToSvg(table, "a < b"), HasSubstr("a &lt; b"));
   EXPECT_FALSE(RunMechanism(pendulum, 1.0, 2.0, table, summary).ok());
   EXPECT_FALSE(RunMechanism(pendulum, 1e9, 1e-9, table, summary).ok());
 }

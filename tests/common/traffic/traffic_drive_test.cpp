@@ -14,23 +14,6 @@ namespace {
 
 using driver::Footprint;
 
-// Two rectangles overlap unless one of their four axes parts them.
-bool Overlap(const Footprint& a, const Footprint& b) {
-  const Eigen::Vector2d between(b.x_m - a.x_m, b.y_m - a.y_m);
-  const auto reach = [](const Footprint& f, const Eigen::Vector2d& axis) {
-    const Eigen::Vector2d along(std::cos(f.heading_rad), std::sin(f.heading_rad));
-    const Eigen::Vector2d across(-along.y(), along.x());
-    return 0.5 * (f.length_m * std::fabs(along.dot(axis)) + f.width_m * std::fabs(across.dot(axis)));
-  };
-  for (const double heading : {a.heading_rad, b.heading_rad}) {
-    for (const double quarter : {0.0, 1.5707963267948966}) {
-      const Eigen::Vector2d axis(std::cos(heading + quarter), std::sin(heading + quarter));
-      if (std::fabs(between.dot(axis)) >= reach(a, axis) + reach(b, axis)) return false;
-    }
-  }
-  return true;
-}
-
 TEST(TrafficDrive, TwoMinutesAmongSixtyCarsWithoutTouching) {
   const std::filesystem::path source = RODEIRA_SOURCE_DIR;
   const auto world = road::World::Load(source / "configs/worlds/n222.yaml").value();

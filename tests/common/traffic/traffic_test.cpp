@@ -8,6 +8,7 @@
 #include <map>
 
 #include "common/driver/idm.hpp"
+#include "common/driver/lane_path.hpp"
 #include "tests/common/driver/test_road.hpp"
 
 namespace rodeira::traffic {

@@ -1,16 +1,15 @@
-// Diagrams of a run.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "common/multibody/run.hpp"
+#include "common/plot/table.hpp"
 
-namespace rodeira::multibody {
+namespace rodeira::plot {
 namespace {
 
-constexpr int kWidth = 720, kHeight = 120, kLeft = 110, kTop = 34, kGap = 26;
+constexpr int kWidth = 720, kHeight = 120, kLeft = 110, kTop = 44, kGap = 26;
 constexpr std::size_t kMostDiagrams = 24;
 constexpr std::size_t kMostPoints = 800;  // along the axis; between two of them the extremes are kept
 
@@ -19,14 +18,26 @@ struct Extent {
   double high = 0.0;
 };
 
-Extent ExtentOf(const RunTable& table, std::size_t column) {
+Extent ExtentOf(const Table& table, std::size_t column) {
   Extent extent{table.At(0, column), table.At(0, column)};
   for (std::size_t row = 1; row < table.rows(); ++row) {
     extent.low = std::min(extent.low, table.At(row, column));
     extent.high = std::max(extent.high, table.At(row, column));
   }
-  const double room = std::max({0.05 * (extent.high - extent.low), 1e-9 * std::fabs(extent.high), 1e-12});
+  const double spread = extent.high - extent.low;
+  const bool constant = spread <= 1e-9 * std::max(std::fabs(extent.high), std::fabs(extent.low));
+  const double room = constant ? std::max(0.1 * std::fabs(extent.high), 1e-3) : 0.05 * spread;
   return {extent.low - room, extent.high + room};
+}
+
+// 1, 2 or 5 times a power of ten, so that at most ten of them fit into a length.
+double TickOf(double length) {
+  double tick = std::pow(10.0, std::floor(std::log10(length / 10.0)));
+  for (const double factor : {2.0, 2.5, 2.0}) {
+    if (length / tick <= 10.0) break;
+    tick *= factor;
+  }
+  return tick;
 }
 
 std::string Escaped(const std::string& text) {
@@ -42,7 +53,7 @@ std::string Escaped(const std::string& text) {
   return out;
 }
 
-void AddLine(const RunTable& table, std::size_t column, int top, const Extent& extent, std::string& svg) {
+void AddLine(const Table& table, std::size_t column, int top, const Extent& extent, std::string& svg) {
   const double from = table.At(0, 0), to = table.At(table.rows() - 1, 0);
   const auto x = [&](double t) { return kLeft + (to > from ? (t - from) / (to - from) : 0.0) * kWidth; };
   const auto y = [&](double v) { return top + kHeight * (extent.high - v) / (extent.high - extent.low); };
@@ -63,7 +74,7 @@ void AddLine(const RunTable& table, std::size_t column, int top, const Extent& e
 
 }  // namespace
 
-std::string ToSvg(const RunTable& table, const std::string& title) {
+std::string ToSvg(const Table& table, const std::string& title) {
   const std::size_t diagrams = std::min(kMostDiagrams, table.names.size() - 1);
   const int height = kTop + static_cast<int>(diagrams) * (kHeight + kGap) + 20;
   std::string svg = fmt::format(
@@ -81,17 +92,17 @@ std::string ToSvg(const RunTable& table, const std::string& title) {
     svg += fmt::format(
         "<text x='{0}' y='{1}' text-anchor='end'>{2:.5g}</text><text x='{0}' y='{3}' text-anchor='end'>{4:.5g}</text>\n",
         kLeft - 6, top + 10, extent.high, top + kHeight, extent.low);
-    for (int tick = 0; tick <= 10; ++tick) {
-      const int x = kLeft + kWidth * tick / 10;
-      svg += fmt::format("<line x1='{0}' y1='{1}' x2='{0}' y2='{2}' stroke='#eee'/>\n", x, top, top + kHeight);
+    const double tick = to > from ? TickOf(to - from) : 1.0;
+    for (long n = std::lround(std::ceil(from / tick - 1e-9)); static_cast<double>(n) * tick <= to + 1e-9 * tick; ++n) {
+      const double x = kLeft + (to > from ? kWidth * (static_cast<double>(n) * tick - from) / (to - from) : 0.0);
+      svg += fmt::format("<line x1='{0:.1f}' y1='{1}' x2='{0:.1f}' y2='{2}' stroke='#eee'/>\n", x, top, top + kHeight);
       if (k + 1 == diagrams)
-        svg += fmt::format("<text x='{}' y='{}' text-anchor='middle'>{:.4g}</text>\n", x, top + kHeight + 14,
-                           from + (to - from) * tick / 10);
+        svg += fmt::format("<text x='{:.1f}' y='{}' text-anchor='middle'>{:.6g}</text>\n", x, top + kHeight + 14, static_cast<double>(n) * tick);
     }
     AddLine(table, k + 1, top, extent, svg);
   }
-  svg += fmt::format("<text x='{}' y='{}' text-anchor='end'>time_s</text>\n</svg>\n", kLeft - 6, height - 20 + 8);
+  svg += fmt::format("<text x='{}' y='{}' text-anchor='end'>{}</text>\n</svg>\n", kLeft - 6, height - 20 + 8, Escaped(table.names[0]));
   return svg;
 }
 
-}  // namespace rodeira::multibody
+}  // namespace rodeira::plot

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "common/network/network.hpp"
+
+namespace rodeira::lanes {
+
+// A point of a lane's middle, looking the way its traffic goes.
+struct CurvePoint {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();      // on the surface
+  Eigen::Vector2d ahead_W = Eigen::Vector2d::UnitX();  // of unit length
+  double curvature_1pm = 0.0;                          // positive to the left
+  double grade = 0.0;                                  // rise over plan distance
+  double bank = 0.0;                                   // rise over the distance to the left
+  double rate = 1.0;  // plan distance over d: 1 but between nodes where the file's line has a kink
+
+  Eigen::Vector2d left_W() const { return {-ahead_W.y(), ahead_W.x()}; }
+};
+
+// The line on which a lane's traffic keeps, by its own length in plan, d = 0 where it enters: the middle of the lane; where the
+// lane opens beside another one of its direction, or narrows to nothing, so far towards that one that a car has room (at no
+// width 1.25 m beside the edge, from 3 m on the middle). Nodes at most a metre apart are exact; between them position is the
+// cubic with the nodes' tangents: within 1e-5 m for radii over 8 m.
+class Curve {
+ public:
+  struct Node {
+    double d_m = 0.0;
+    double s_m = 0.0;           // of the road
+    Eigen::Vector3d p_W;
+    Eigen::Vector3d along_W;    // dp/dd: of unit length in plan
+    double curvature_1pm = 0.0;
+    double bank = 0.0;
+    double width_m = 0.0;
+  };
+
+  // The lane must be one of the network's. along: its traffic goes with growing s.
+  Curve(const network::Network& network, const network::LaneKey& lane, bool along);
+
+  double length_m() const { return nodes_.back().d_m; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+  // Beyond the ends straight on.
+  CurvePoint At(double d_m) const;
+  double WidthAt(double d_m) const;
+  double StationAt(double d_m) const;  // s of the road, held within the section
+
+  struct Foot {
+    double d_m = 0.0;
+    double offset_m = 0.0;  // to the left
+  };
+  // The foot of (x, y) on the curve near one of its nodes, at most three nodes away; held at the ends.
+  Foot FootNear(const Eigen::Vector2d& p_W, std::size_t node) const;
+
+ private:
+  std::size_t Before(double d_m) const;  // the node at or before d, not the last
+
+  std::vector<Node> nodes_;  // at least two
+};
+
+}  // namespace rodeira::lanes

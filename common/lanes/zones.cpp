@@ -1,0 +1,105 @@
+#include "common/lanes/zones.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "common/lanes/right_of_way.hpp"
+#include "common/lanes/swath.hpp"
+
+namespace rodeira::lanes {
+namespace {
+
+constexpr double kMargin_m = 0.15;     // between cars side by side
+constexpr double kSpacing_m = 1.0;     // of nodes
+constexpr double kApart_m = 8.0;       // two zones of one pair are as far apart
+constexpr double kSamePlace_m = 1.0;
+constexpr double kSameHeading = 0.95;  // cosine
+constexpr double kFollowing_m = 12.0;  // tracks that follow within this distance are no conflict
+
+// Whether `to` is reached from the end of `from` within kFollowing_m.
+bool Follows(const Graph& graph, std::uint32_t from, std::uint32_t to, double left_m) {
+  for (const Link& link : graph[from].next) {
+    if (link.to == to) return true;
+    const double rest = left_m - graph[link.to].length_m();
+    if (rest > 0.0 && Follows(graph, link.to, to, rest)) return true;
+  }
+  return false;
+}
+
+bool Share(const std::vector<Link>& a, const std::vector<Link>& b) {
+  return std::any_of(a.begin(), a.end(), [&](const Link& x) {
+    return std::any_of(b.begin(), b.end(), [&](const Link& y) { return x.to == y.to; });
+  });
+}
+
+bool Share(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  return std::any_of(a.begin(), a.end(), [&](std::uint32_t x) { return std::find(b.begin(), b.end(), x) != b.end(); });
+}
+
+bool SamePlace(const CurvePoint& a, const CurvePoint& b) {
+  return (a.p_W - b.p_W).norm() < kSamePlace_m && a.ahead_W.dot(b.ahead_W) > kSameHeading;
+}
+
+}  // namespace
+
+Zones::Zones(const Graph& graph) : of_(graph.tracks().size()) {
+  const double reach = 2.0 * HalfSwath_m(1.0) + kMargin_m + kSpacing_m;
+  std::vector<NodeKey> near;
+  for (std::uint32_t a = 0; a < graph.tracks().size(); ++a) {
+    std::map<std::uint32_t, std::vector<Touch>> touches;  // by the other track
+    for (const Curve::Node& node : graph[a].curve.nodes()) {
+      const Eigen::Vector2d p = node.p_W.head<2>();
+      graph.Near(p, reach, near);
+      for (const NodeKey& key : near) {
+        const Curve& other = graph[key.track].curve;
+        const Curve::Node& beside = other.nodes()[key.node];
+        if (key.track <= a || std::fabs(beside.p_W.z() - node.p_W.z()) > network::Network::kLevel_m) continue;
+        const double wide = HalfSwath_m(node.curvature_1pm) + HalfSwath_m(beside.curvature_1pm) + kMargin_m;
+        if ((beside.p_W.head<2>() - p).norm() > wide + kSpacing_m) continue;
+        const Curve::Foot foot = other.FootNear(p, key.node);
+        if ((other.At(foot.d_m).p_W.head<2>() - p).norm() < wide) touches[key.track].push_back({node.d_m, foot.d_m});
+      }
+    }
+    for (const auto& [b, places] : touches) Pair(graph, a, b, places);
+  }
+  for (std::uint32_t z = 0; z < zones_.size(); ++z) {
+    Zone& zone = zones_[z];
+    Decide(graph, zone);
+    for (int side = 0; side < 2; ++side) of_[zone.track[static_cast<std::size_t>(side)]].push_back({z, side});
+  }
+  for (std::uint32_t t = 0; t < of_.size(); ++t) {
+    std::stable_sort(of_[t].begin(), of_[t].end(), [&](const ZoneSide& x, const ZoneSide& y) {
+      return zones_[x.zone].in_m[static_cast<std::size_t>(x.side)] < zones_[y.zone].in_m[static_cast<std::size_t>(y.side)];
+    });
+  }
+}
+
+void Zones::Pair(const Graph& graph, std::uint32_t a, std::uint32_t b, const std::vector<Touch>& touches) {
+  if (Follows(graph, a, b, kFollowing_m) || Follows(graph, b, a, kFollowing_m)) return;
+  const Curve &one = graph[a].curve, &other = graph[b].curve;
+  for (std::size_t i = 0; i < touches.size();) {
+    Zone zone;
+    zone.track = {a, b};
+    zone.in_m = {touches[i].a_m, touches[i].b_m};
+    zone.out_m = zone.in_m;
+    for (; i < touches.size() && touches[i].a_m - zone.out_m[0] < kApart_m; ++i) {
+      zone.out_m[0] = touches[i].a_m;
+      zone.in_m[1] = std::min(zone.in_m[1], touches[i].b_m);
+      zone.out_m[1] = std::max(zone.out_m[1], touches[i].b_m);
+    }
+    const std::array<const Curve*, 2> curves{&one, &other};
+    for (std::size_t side = 0; side < 2; ++side) {
+      zone.in_m[side] = std::max(0.0, zone.in_m[side] - kSpacing_m);
+      zone.out_m[side] = std::min(curves[side]->length_m(), zone.out_m[side] + kSpacing_m);
+    }
+    const bool at_start = zone.in_m[0] <= 0.0 && zone.in_m[1] <= 0.0;
+    const bool at_end = zone.out_m[0] >= one.length_m() && zone.out_m[1] >= other.length_m();
+    if (at_start && (Share(graph[a].before, graph[b].before) || SamePlace(one.At(0.0), other.At(0.0)))) zone.kind = ZoneKind::kDiverge;
+    else if (at_end && (Share(graph[a].next, graph[b].next) || SamePlace(one.At(one.length_m()), other.At(other.length_m()))))
+      zone.kind = ZoneKind::kMerge;
+    zones_.push_back(zone);
+  }
+}
+
+}  // namespace rodeira::lanes

@@ -1,0 +1,23 @@
+#include "common/map/map_network.hpp"
+
+#include "common/map/open_drive.hpp"
+#include "common/opendrive/import.hpp"
+
+namespace rodeira::map {
+
+base::Result<std::shared_ptr<const network::Network>> ToNetwork(const LaneMap& map, const std::string& name) {
+  const auto drive = ToOpenDrive(map, name);
+  if (!drive) return base::WrongInput(drive.error().message, name);
+  const auto import = opendrive::Read(drive.value().xml, name);
+  if (!import) return import.error();
+  if (!import.value().errors.empty()) return opendrive::ToError(import.value().errors.front(), name);
+  return import.value().network;
+}
+
+base::Result<std::shared_ptr<const network::Network>> LoadNetwork(const std::filesystem::path& path) {
+  const auto made = LoadLaneMap(path);
+  if (!made) return made.error();
+  return ToNetwork(made.value(), path.string());
+}
+
+}  // namespace rodeira::map

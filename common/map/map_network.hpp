@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "common/base/result.hpp"
+#include "common/map/lane_map.hpp"
+#include "common/network/network.hpp"
+
+namespace rodeira::map {
+
+// The map as a network of roads: what ToOpenDrive writes, read again.
+base::Result<std::shared_ptr<const network::Network>> ToNetwork(const LaneMap& map, const std::string& name);
+// Of the file and its companion with the heights.
+base::Result<std::shared_ptr<const network::Network>> LoadNetwork(const std::filesystem::path& path);
+
+}  // namespace rodeira::map

@@ -1,0 +1,116 @@
+#include "common/traffic/agent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/assert.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kSideways_mps2 = 1.2;  // lateral acceleration of a change to another middle
+constexpr double kSideways_mps = 0.8;   // and its speed
+constexpr double kShortestBlend_m = 3.0;
+constexpr double kLongestBlend_m = 90.0;
+
+}  // namespace
+
+void Agent::Save(base::StateWriter& writer) const {
+  writer.Put("on_road", on_road);
+  writer.Put("entry", entry);
+  writer.Put("trip", trip);
+  writer.Put("links", links);
+  writer.Put("o_m", o_m);
+  writer.Put("speed_mps", speed_mps);
+  writer.Put("acceleration_mps2", acceleration_mps2);
+  writer.Put("driven_m", driven_m);
+  writer.Put("brake_mps2", brake_mps2);
+  writer.Put("cap_mps", cap_mps);
+  writer.Put("granted_m", granted_m);
+  writer.Put("stopped_m", stopped_m);
+  writer.Put("waited_s", waited_s);
+  std::vector<std::uint32_t> tracks;
+  std::vector<double> numbers;
+  for (const Piece& piece : path) {
+    tracks.push_back(piece.track);
+    numbers.insert(numbers.end(), {piece.zero_m, piece.begin_m, piece.offset_m, piece.slope, piece.blend_m});
+  }
+  writer.Put("tracks", tracks);
+  writer.Put("pieces", numbers);
+}
+
+void Agent::Restore(base::StateReader& reader) {
+  reader.Get("on_road", on_road);
+  reader.Get("entry", entry);
+  reader.Get("trip", trip);
+  reader.Get("links", links);
+  reader.Get("o_m", o_m);
+  reader.Get("speed_mps", speed_mps);
+  reader.Get("acceleration_mps2", acceleration_mps2);
+  reader.Get("driven_m", driven_m);
+  reader.Get("brake_mps2", brake_mps2);
+  reader.Get("cap_mps", cap_mps);
+  reader.Get("granted_m", granted_m);
+  reader.Get("stopped_m", stopped_m);
+  reader.Get("waited_s", waited_s);
+  std::vector<std::uint32_t> tracks;
+  std::vector<double> numbers;
+  reader.Get("tracks", tracks);
+  reader.Get("pieces", numbers);
+  path.clear();
+  for (std::size_t i = 0; i < tracks.size() && 5 * i + 4 < numbers.size(); ++i) {
+    const double* at = &numbers[5 * i];
+    path.push_back({tracks[i], at[0], at[1], at[2], at[3], at[4]});
+  }
+  on_road = on_road && !path.empty();
+}
+
+// Quintic from (offset, slope) at u = 0 to rest on the middle at u = 1.
+PathFrame FrameAt(const lanes::Graph& graph, const std::vector<Piece>& path, double odometer_m) {
+  RODEIRA_ASSERT(!path.empty());
+  std::size_t i = path.size() - 1;
+  while (i > 0 && path[i].begin_m > odometer_m) --i;
+  const Piece& piece = path[i];
+  const lanes::CurvePoint at = graph[piece.track].curve.At(odometer_m - piece.zero_m);
+  PathFrame frame;
+  frame.p_W = at.p_W;
+  frame.ahead_W = at.ahead_W;
+  frame.curvature_1pm = at.curvature_1pm;
+  frame.bank = at.bank;
+  frame.stretch = at.rate;
+  const double u = (odometer_m - piece.begin_m) / piece.blend_m;
+  if (u >= 1.0 || u < 0.0 || (piece.offset_m == 0.0 && piece.slope == 0.0)) return frame;
+  const double u2 = u * u, u3 = u2 * u, L = piece.blend_m;
+  const double e = piece.offset_m * (1.0 - u3 * (10.0 - 15.0 * u + 6.0 * u2)) + piece.slope * L * (u - u3 * (6.0 - 8.0 * u + 3.0 * u2));
+  const double e1 = -piece.offset_m / L * 30.0 * u2 * (1.0 - 2.0 * u + u2) + piece.slope * (1.0 - u2 * (18.0 - 32.0 * u + 15.0 * u2));
+  const double e2 = -piece.offset_m / (L * L) * u * (60.0 - 180.0 * u + 120.0 * u2) - piece.slope / L * u * (36.0 - 96.0 * u + 60.0 * u2);
+  const Eigen::Vector2d left = at.left_W();
+  const double along = at.rate * (1.0 - at.curvature_1pm * e);
+  frame.p_W.head<2>() += e * left;
+  frame.p_W.z() += e * at.bank;
+  frame.stretch = std::hypot(along, e1);
+  frame.ahead_W = (along * at.ahead_W + e1 * left) / frame.stretch;
+  frame.curvature_1pm += e2;
+  frame.offset_m = e;
+  frame.slope = e1 / std::max(0.2, along);
+  return frame;
+}
+
+Piece Onward(const lanes::Graph& graph, const std::vector<Piece>& path, const lanes::Link& link, double speed_mps) {
+  const Piece& last = path.back();
+  Piece piece;
+  piece.track = link.to;
+  piece.begin_m = last.zero_m + graph[last.track].length_m();
+  piece.zero_m = piece.begin_m - link.from_d_m;
+  const PathFrame end = FrameAt(graph, path, piece.begin_m);
+  piece.offset_m = link.offset_m + end.offset_m;
+  piece.slope = link.slope + end.slope;
+  // The quintic's largest acceleration is 5.77 offset/blend² v², its largest speed 1.875 offset/blend v.
+  const double size = std::fabs(piece.offset_m);
+  const double wanted = std::max({speed_mps * std::sqrt(5.77 * size / kSideways_mps2), 1.875 * speed_mps * size / kSideways_mps,
+                                  6.0 * size, 4.0 * speed_mps * std::fabs(piece.slope)});
+  piece.blend_m = std::clamp(wanted, kShortestBlend_m, kLongestBlend_m);
+  return piece;
+}
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "common/base/state.hpp"
+#include "common/driver/footprint.hpp"
+#include "common/lanes/graph.hpp"
+#include "common/traffic/traffic_settings.hpp"
+
+namespace rodeira::traffic {
+
+// One agent as others see it. B as for vehicles: midway between the axles, at the road's height; x forward, y left.
+struct AgentPose {
+  std::uint32_t id = 0;
+  std::uint32_t trip = 0;  // how often it has entered the road; another trip is another appearance
+  Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
+  double speed_mps = 0.0;
+  double acceleration_mps2 = 0.0;
+  double steer_rad = 0.0;       // of the front wheels, positive to the left
+  double wheel_spin_rad = 0.0;  // in (-pi, pi]
+  bool braking = false;         // its brake lights
+  std::int32_t road = 0;        // index into the network's roads
+  std::int32_t lane = 0;        // id within that road
+};
+
+// The rectangle of an agent.
+driver::Footprint FootprintOf(const AgentPose& pose, const AgentTraits& traits);
+
+// A part of the path of one agent, by the agent's odometer: the middle of a track, which it approaches from where it came
+// over blend_m, offset and slope going to 0 with the smooth polynomials of degree five.
+struct Piece {
+  std::uint32_t track = 0;
+  double zero_m = 0.0;    // odometer where the track's d is 0
+  double begin_m = 0.0;   // odometer from which the piece holds
+  double offset_m = 0.0;  // there, to the left of the track's middle
+  double slope = 0.0;     // of the path against the track there
+  double blend_m = 1.0;
+};
+
+// What changes about one agent.
+struct Agent {
+  static constexpr double kNoCap_mps = 1e3;
+
+  bool on_road = false;
+  std::uint32_t entry = 0;  // the track where it waits to enter
+  std::uint32_t trip = 0;
+  std::uint32_t links = 0;  // passed on this trip: keys of the draws at branches
+  double o_m = 0.0;         // odometer of its middle on this trip
+  double speed_mps = 0.0;
+  double acceleration_mps2 = 0.0;
+  double driven_m = 0.0;
+  double brake_mps2 = 0.0;  // commanded; 0: not
+  double cap_mps = kNoCap_mps;
+  double granted_m = 0.0;   // odometer to which the conflict zones on its way are its own
+  double stopped_m = -1.0;  // odometer of the STOP line at which it has come to rest
+  double waited_s = 0.0;    // at rest for others to go first
+  std::vector<Piece> path;  // from the piece under its rear bumper to that under its front bumper
+
+  void Save(base::StateWriter& writer) const;
+  void Restore(base::StateReader& reader);
+};
+
+// The path at an odometer.
+struct PathFrame {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+  Eigen::Vector2d ahead_W = Eigen::Vector2d::UnitX();
+  double curvature_1pm = 0.0;
+  double bank = 0.0;
+  double stretch = 1.0;   // distance driven over that of the odometer
+  double offset_m = 0.0;  // from the track's middle, and its slope
+  double slope = 0.0;
+};
+PathFrame FrameAt(const lanes::Graph& graph, const std::vector<Piece>& path, double odometer_m);
+
+// The piece that begins at the end of the path's last one and goes on by a link, joining the new middle comfortably.
+Piece Onward(const lanes::Graph& graph, const std::vector<Piece>& path, const lanes::Link& link, double speed_mps);
+
+}  // namespace rodeira::traffic

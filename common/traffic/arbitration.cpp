@@ -1,0 +1,134 @@
+// Who may go: conflict zones are granted all at once from one place to stand to the next, in an order that depends on
+// nothing but who waits, who has the right of way, and the agents' numbers.
+#include <algorithm>
+#include <cmath>
+
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kPatience_s = 40.0;   // at rest for others; longer than this and others let one go
+constexpr double kGap_s = 1.0;         // after the own clearing before who goes first may arrive
+constexpr double kAtRest_mps = 0.05;
+constexpr double kAtLine_m = 1.5;      // a full stop counts within this before the line
+constexpr int kMostInChain = 64;
+
+}  // namespace
+
+bool TrafficModel::Urgent(std::uint32_t id) const { return agents_[id].waited_s > kPatience_s; }
+
+// Grants the passage unless somebody is in its way: in the zones, or, where the agent has to yield, about to come to them.
+bool TrafficModel::Grant(std::uint32_t id, bool yields) {
+  Passage& passage = passages_[id];
+  const auto others = static_cast<std::uint32_t>(agents_.size());
+  passage.physical = true;
+  for (const Crossing& crossing : passage.crossings) {
+    if (crossing.zone < 0) continue;
+    const auto zone = static_cast<std::size_t>(crossing.zone);
+    const auto mine = static_cast<std::size_t>(crossing.side), theirs = 1 - mine;
+    for (const std::uint32_t holder : holders_[zone][theirs]) {
+      if (holder == id) continue;
+      passage.waits_for = holder == others ? -1 : static_cast<std::int64_t>(holder);
+      return false;
+    }
+    if (awaited_[zone][mine] && !Urgent(id)) return false;
+  }
+  passage.physical = false;
+  for (const Crossing& crossing : passage.crossings) {
+    if (crossing.zone < 0 || !yields) continue;
+    const auto zone = static_cast<std::size_t>(crossing.zone);
+    const auto mine = static_cast<std::size_t>(crossing.side), theirs = 1 - mine;
+    if (zones()[static_cast<std::uint32_t>(zone)].first == crossing.side) continue;
+    for (const Claim& claim : comers_[zone][theirs]) {
+      if (claim.id == id || claim.arrives_s > passage.clears_s + kGap_s) continue;
+      if (claim.id != others && Urgent(id) && agents_[claim.id].waited_s < agents_[id].waited_s) continue;
+      passage.waits_for = claim.id == others ? -1 : static_cast<std::int64_t>(claim.id);
+      return false;
+    }
+  }
+  agents_[id].granted_m = passage.end_m;
+  for (const Crossing& crossing : passage.crossings) {
+    if (crossing.zone >= 0) holders_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)].push_back(id);
+  }
+  passage.any = false;
+  return true;
+}
+
+void TrafficModel::Arbitrate(double dt_s) {
+  for (std::size_t zone = 0; zone < holders_.size(); ++zone) {
+    for (const int side : {0, 1}) holders_[zone][side].clear(), comers_[zone][side].clear(), awaited_[zone][side] = false;
+  }
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+    Agent& agent = agents_[id];
+    passages_[id].any = false;
+    if (!agent.on_road) continue;
+    FindPassage(id);
+    HoldZones(id);
+    Passage& passage = passages_[id];
+    const double to_line = passage.line_m - agent.o_m - 0.5 * traits_[id].length_m;
+    if (passage.any && passage.must_stop && agent.speed_mps < kAtRest_mps && to_line < kAtLine_m) {
+      agent.stopped_m = passage.line_m;
+      passage.must_stop = false;
+    }
+    if (!passage.any || agent.speed_mps > 1.0) agent.waited_s = 0.0;
+    else if (agent.speed_mps < kAtRest_mps) agent.waited_s += dt_s;
+  }
+  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+    if (!agents_[id].on_road || !passages_[id].any) continue;
+    FindRoom(id);
+    if (passages_[id].due && passages_[id].head && !passages_[id].must_stop) order.push_back(id);
+  }
+  ComeToZones();
+  // Who has lost patience, by how long; then by when they come to the line, as told by their own motion; then by number.
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const double patience_a = Urgent(a) ? agents_[a].waited_s : 0.0, patience_b = Urgent(b) ? agents_[b].waited_s : 0.0;
+    if (patience_a != patience_b) return patience_a > patience_b;
+    if (passages_[a].arrives_s != passages_[b].arrives_s) return passages_[a].arrives_s < passages_[b].arrives_s;
+    return a < b;
+  });
+  for (const std::uint32_t id : order) {
+    Passage& passage = passages_[id];
+    if (!passage.able) continue;
+    if (Grant(id, true) || !Urgent(id)) continue;
+    for (const Crossing& crossing : passage.crossings) {  // nobody else takes up what it waits for
+      if (crossing.zone >= 0) awaited_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(1 - crossing.side)] = true;
+    }
+  }
+  ResolveDeadlocks();
+}
+
+// Where the chain of who waits for whom closes, the one of it that has waited longest (of equals the first) goes although it
+// would have to yield, or though there is no room behind yet because those who stand there are in the same chain.
+void TrafficModel::ResolveDeadlocks() {
+  const auto next = [&](std::uint32_t id) -> std::int64_t {
+    if (agents_[id].speed_mps > kAtRest_mps) return -1;
+    const Passage& passage = passages_[id];
+    if (passage.any && passage.head && passage.due) return passage.waits_for;
+    return ahead_[id].any ? ahead_[id].id : -1;
+  };
+  std::vector<std::uint8_t> seen(agents_.size(), 0);  // 1: on a chain that has been looked at
+  for (std::uint32_t start = 0; start < agents_.size(); ++start) {
+    if (!agents_[start].on_road || seen[start] != 0 || !passages_[start].any || !passages_[start].head) continue;
+    std::vector<std::uint32_t> chain;
+    std::int64_t at = start;
+    while (at >= 0 && static_cast<std::size_t>(at) < agents_.size() && seen[static_cast<std::size_t>(at)] == 0) {
+      seen[static_cast<std::size_t>(at)] = 1;
+      chain.push_back(static_cast<std::uint32_t>(at));
+      at = next(static_cast<std::uint32_t>(at));
+    }
+    const auto closes = std::find(chain.begin(), chain.end(), at < 0 ? start + 1000000000u : static_cast<std::uint32_t>(at));
+    if (closes == chain.end()) continue;
+    std::vector<std::uint32_t> circle(closes, chain.end());
+    std::sort(circle.begin(), circle.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return agents_[a].waited_s != agents_[b].waited_s ? agents_[a].waited_s > agents_[b].waited_s : a < b;
+    });
+    for (const std::uint32_t id : circle) {
+      Passage& passage = passages_[id];
+      if (passage.any && passage.head && passage.due && !passage.must_stop && Grant(id, false)) break;
+    }
+  }
+}
+
+}  // namespace rodeira::traffic

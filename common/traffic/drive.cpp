@@ -1,0 +1,66 @@
+// How an agent accelerates.
+#include <algorithm>
+#include <cmath>
+
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kLeast_mps = 0.01;
+constexpr double kSlow_mps = 0.3;
+constexpr double kLeastGap_m = 0.02;
+
+}  // namespace
+
+// The plan of the track, and what the beginnings of those ahead leave, braked for as the plans are.
+driver::SpeedPlan::Allowed TrafficModel::Allowed(std::uint32_t id) const {
+  const Agent& agent = agents_[id];
+  driver::SpeedPlan::Allowed allowed{1e3, 0.0};
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.end_m < agent.o_m) continue;
+    const driver::SpeedPlan& plan = map_->plans[stretch.track].plan;
+    if (stretch.begin_m <= agent.o_m) {
+      allowed = plan.At(agent.o_m - stretch.zero_m);
+      continue;
+    }
+    const double there = plan.At(stretch.begin_m - stretch.zero_m).speed_mps;
+    const double b = settings_.speed.braking_mps2;
+    const double now = std::sqrt(there * there + 2.0 * b * (stretch.begin_m - agent.o_m));
+    if (now < allowed.speed_mps) allowed = {now, -b / std::max(now, kLeast_mps)};
+  }
+  return allowed;
+}
+
+// The least of the plan, who is ahead, and the line before zones that are not its own.
+double TrafficModel::Wanted(std::uint32_t id) const {
+  const Agent& agent = agents_[id];
+  const AgentTraits& traits = traits_[id];
+  const double v = agent.speed_mps;
+  const driver::SpeedPlan::Allowed allowed = Allowed(id);
+  const double planned = allowed.speed_mps * traits.speed_factor;
+  double road_limit = 1e3;
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.end_m >= agent.o_m) { road_limit = graph().SpeedLimit_mps(stretch.track, agent.o_m - stretch.zero_m); break; }
+  }
+  const double limit = std::min(road_limit * traits.speed_factor, agent.cap_mps);
+  double wanted = std::min(driver::IdmFreeAcceleration(traits.idm, v, limit),
+                           allowed.slope_1ps * traits.speed_factor * v + (planned - v) / settings_.tracking_s);
+  if (planned > agent.cap_mps) wanted = std::min(wanted, (agent.cap_mps - v) / settings_.tracking_s);
+  const Ahead& ahead = ahead_[id];
+  if (ahead.any && ahead.gap_m < settings_.sight_m) wanted = std::min(wanted, driver::IdmAcceleration(traits.idm, v, limit, ahead.gap_m, ahead.speed_mps));
+  const Passage& passage = passages_[id];
+  if (passage.any && passage.due) {
+    const double gap = passage.line_m - agent.o_m - 0.5 * traits.length_m;
+    const double b = traits.idm.braking_mps2;
+    const double there = std::sqrt(2.0 * b * std::max(0.0, gap));
+    double stop = -b * v / std::max(there, kLeast_mps) + (there - v) / settings_.tracking_s;
+    if (v > there) stop = std::min(stop, -v * v / (2.0 * std::max(gap, kLeastGap_m)));
+    if (gap < 2.0 * kLeastGap_m && v < kSlow_mps) stop = -1.0;
+    wanted = std::min(wanted, stop);
+  }
+  wanted = std::clamp(wanted, -traits.idm.hardest_mps2, traits.idm.acceleration_mps2);
+  return agent.brake_mps2 > 0.0 ? std::min(wanted, -agent.brake_mps2) : wanted;
+}
+
+}  // namespace rodeira::traffic

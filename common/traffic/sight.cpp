@@ -1,0 +1,112 @@
+// Who is where on the tracks, and who is ahead of whom.
+#include <algorithm>
+#include <cmath>
+
+#include "common/lanes/swath.hpp"
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kComfort_mps2 = 1.5;   // braking within which everything of interest lies …
+constexpr double kSpare_m = 60.0;       // … and so much more
+constexpr double kWithout_m = 1e-9;
+
+}  // namespace
+
+double TrafficModel::SightOf(const Agent& agent) const {
+  return std::min(settings_.sight_m, agent.speed_mps * agent.speed_mps / (2.0 * kComfort_mps2) + 3.0 * agent.speed_mps + kSpare_m);
+}
+
+// From the piece under the rear bumper to `range` beyond the front one.
+void TrafficModel::FindStretches(std::uint32_t id, double range_m) {
+  const Agent& agent = agents_[id];
+  auto& stretches = stretches_[id];
+  stretches.clear();
+  for (std::size_t i = 0; i < agent.path.size(); ++i) {
+    const Piece& piece = agent.path[i];
+    const double end = i + 1 < agent.path.size() ? agent.path[i + 1].begin_m : piece.zero_m + graph()[piece.track].length_m();
+    stretches.push_back({piece.track, piece.zero_m, piece.begin_m, end});
+  }
+  const double far = agent.o_m + 0.5 * traits_[id].length_m + range_m;
+  for (std::uint32_t link = agent.links; stretches.back().end_m < far; ++link) {
+    const Stretch& last = stretches.back();
+    const auto& next = graph()[last.track].next;
+    if (next.empty()) break;
+    const lanes::Link& on = next[DrawLink(agent, id, last.track, link)];
+    const double zero = last.end_m - on.from_d_m;
+    stretches.push_back({on.to, zero, last.end_m, zero + graph()[on.to].length_m()});
+  }
+}
+
+void TrafficModel::SeeOthers(std::span<const driver::Footprint> others) {
+  constexpr double kWidest_m = 3.0;
+  for (auto& blocks : blocks_) blocks.clear();
+  for (const driver::Footprint& other : others) {
+    const double reach = 0.5 * std::hypot(other.length_m, other.width_m) + kWidest_m;
+    for (const lanes::Graph::Beside& beside : graph().TracksAt({other.x_m, other.y_m}, reach)) {
+      const lanes::CurvePoint at = graph()[beside.track].curve.At(beside.foot.d_m);
+      const Eigen::Vector2d away = Eigen::Vector2d(other.x_m, other.y_m) - at.p_W.head<2>();
+      const double d = beside.foot.d_m + (away.dot(at.ahead_W));  // beyond an end too
+      const double turn = other.heading_rad - std::atan2(at.ahead_W.y(), at.ahead_W.x());
+      const double c = std::fabs(std::cos(turn)), s = std::fabs(std::sin(turn));
+      const double along = 0.5 * (c * other.length_m + s * other.width_m), across = 0.5 * (s * other.length_m + c * other.width_m);
+      const double offset = beside.foot.offset_m;
+      blocks_[beside.track].push_back({{d - along, d + along, offset - across, offset + across, other.speed_mps * std::cos(turn)}, d});
+    }
+  }
+}
+
+void TrafficModel::See(std::span<const driver::Footprint> others) {
+  SeeOthers(others);
+  for (auto& occupants : occupants_) occupants.clear();
+  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+    const Agent& agent = agents_[id];
+    if (!agent.on_road) continue;
+    FindStretches(id, SightOf(agent));
+    const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
+    for (const Stretch& stretch : stretches_[id]) {
+      if (stretch.begin_m >= front) break;
+      if (stretch.end_m > rear) occupants_[stretch.track].push_back({id, rear - stretch.zero_m, front - stretch.zero_m});
+    }
+  }
+  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+    if (agents_[id].on_road) ahead_[id] = FindAhead(id);
+  }
+}
+
+// The nearest of: agents on the tracks of the way; agents on tracks that part from them, as long as they are not clear; what
+// else stands in the way.
+TrafficModel::Ahead TrafficModel::FindAhead(std::uint32_t id) const {
+  const Agent& agent = agents_[id];
+  const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half;
+  const double half_width = 0.5 * traits_[id].width_m + settings_.side_margin_m;
+  Ahead ahead;
+  const auto consider = [&](const Occupant& other, double zero_m) {
+    if (other.id == id || zero_m + other.middle_m() <= agent.o_m + kWithout_m) return;
+    const double gap = zero_m + other.rear_m - front;
+    if (!ahead.any || gap < ahead.gap_m) ahead = {gap, agents_[other.id].speed_mps, other.id, true};
+  };
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.end_m < agent.o_m) continue;
+    if (ahead.any && stretch.begin_m > front + ahead.gap_m + 10.0) break;
+    for (const Occupant& other : occupants_[stretch.track]) consider(other, stretch.zero_m);
+    for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
+      const lanes::Zone& zone = zones()[part.zone];
+      const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;
+      if (zone.kind != lanes::ZoneKind::kDiverge || agent.o_m - half > stretch.zero_m + zone.out_m[mine]) continue;
+      for (const Occupant& other : occupants_[zone.track[theirs]]) {
+        if (other.rear_m < zone.out_m[theirs] && other.front_m > zone.in_m[theirs]) consider(other, stretch.zero_m);
+      }
+    }
+    for (const Block& block : blocks_[stretch.track]) {
+      const double middle = stretch.zero_m + block.middle_m;
+      if (middle <= agent.o_m || block.span.right_m > half_width || block.span.left_m < -half_width) continue;
+      const double gap = stretch.zero_m + block.span.rear_m - front;
+      if (gap < settings_.sight_m && (!ahead.any || gap < ahead.gap_m)) ahead = {gap, block.span.speed_mps, -1, true};
+    }
+  }
+  return ahead;
+}
+
+}  // namespace rodeira::traffic

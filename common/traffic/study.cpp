@@ -1,0 +1,144 @@
+#include "common/traffic/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr std::size_t kIncidents = 20;
+constexpr double kStanding_mps = 0.05;
+constexpr double kRoom_m = 5.0;
+constexpr double kHard_mps2 = 4.5;
+constexpr double kOnLane_m = 1e-3;
+
+class Watcher {
+ public:
+  Watcher(const network::Network& network, const StudySettings& settings)
+      : network_(network), settings_(settings), stands_s_(settings.traffic.vehicles, 0.0) {}
+
+  StudyResult& result() { return result_; }
+
+  // After every step: distances against speeds.
+  void Compare(const TrafficModel& model, double time_s) {
+    time_s_ = time_s;
+    std::size_t k = 0;
+    for (const AgentPose& pose : model.poses()) {
+      while (k < before_.size() && before_[k].id < pose.id) ++k;
+      result_.vehicle_s += settings_.step_s;
+      if (k >= before_.size() || before_[k].id != pose.id || before_[k].trip != pose.trip) continue;
+      const double moved = (pose.p_WB_W - before_[k].p_WB_W).head<2>().norm();
+      const double told = 0.5 * (pose.speed_mps + before_[k].speed_mps) * settings_.step_s;
+      result_.driven_km += 1e-3 * moved;
+      const double error = std::fabs(moved - told);
+      if (error > 1e-3) Tell("moved {:.4f} m instead of {:.4f} m", pose, moved, told);
+      result_.worst_step_m = std::max(result_.worst_step_m, error);
+      if (pose.acceleration_mps2 < -kHard_mps2 && before_[k].acceleration_mps2 >= -kHard_mps2) Tell("brakes at {:.2f} m/s2", pose, -pose.acceleration_mps2);
+      result_.hardest_mps2 = std::max(result_.hardest_mps2, -pose.acceleration_mps2);
+    }
+    before_ = model.poses();
+    ++result_.steps;
+  }
+
+  void Look(const TrafficModel& model) {
+    Contacts(model);
+    for (const AgentPose& pose : model.poses()) {
+      const auto place = network_.Locate(pose.p_WB_W.x(), pose.p_WB_W.y(), pose.p_WB_W.z(), &hint_);
+      const network::Lane* lane = place ? network_.Find(place->lane) : nullptr;
+      if (lane == nullptr || place->distance_m > kOnLane_m || !network::IsDrivable(lane->type)) {
+        ++result_.off_lane;
+        Tell("off its lane ({} m)", pose, place ? place->distance_m : -1.0);
+      }
+      double& stands = stands_s_[pose.id];
+      if (pose.speed_mps > kStanding_mps) {
+        stands = 0.0;
+        continue;
+      }
+      stands += settings_.watch_s;
+      result_.standing_s += settings_.watch_s;
+      if (stands > result_.longest_stand_s) result_.longest_stand_s = stands, result_.longest_stand_id = pose.id;
+      if (stands > result_.longest_with_room_s && model.GapAhead(pose.id) > kRoom_m) result_.longest_with_room_s = stands;
+    }
+  }
+
+ private:
+  template <class... Values>
+  void Tell(const char* what, const AgentPose& pose, Values... values) {
+    if (result_.incidents.size() >= kIncidents) return;
+    result_.incidents.push_back(fmt::format("{:.2f} s: car {} on road '{}', lane {}, at ({:.2f}, {:.2f}), {:.2f} m/s: ", time_s_, pose.id,
+                                            network_.roads()[static_cast<std::size_t>(pose.road)].id(), pose.lane, pose.p_WB_W.x(),
+                                            pose.p_WB_W.y(), pose.speed_mps) +
+                                fmt::format(fmt::runtime(what), values...));
+  }
+
+  void Contacts(const TrafficModel& model) {
+    constexpr double kCell_m = 12.0;
+    std::map<std::pair<std::int64_t, std::int64_t>, std::vector<const AgentPose*>> cells;
+    for (const AgentPose& pose : model.poses())
+      cells[{std::llround(pose.p_WB_W.x() / kCell_m), std::llround(pose.p_WB_W.y() / kCell_m)}].push_back(&pose);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> now;
+    for (const auto& [cell, here] : cells) {
+      for (std::int64_t dx = -1; dx <= 1; ++dx) {
+        for (std::int64_t dy = -1; dy <= 1; ++dy) {
+          const auto beside = cells.find({cell.first + dx, cell.second + dy});
+          if (beside == cells.end()) continue;
+          for (const AgentPose* a : here) {
+            for (const AgentPose* b : beside->second) {
+              if (a->id >= b->id || std::fabs(a->p_WB_W.z() - b->p_WB_W.z()) > network::Network::kLevel_m) continue;
+              if (driver::Overlap(FootprintOf(*a, model.traits(a->id)), FootprintOf(*b, model.traits(b->id)))) now.insert({a->id, b->id});
+            }
+          }
+        }
+      }
+    }
+    for (const auto& pair : now) {
+      if (touching_.count(pair) != 0) continue;
+      ++result_.collisions;
+      const auto a = std::find_if(model.poses().begin(), model.poses().end(), [&](const AgentPose& p) { return p.id == pair.first; });
+      const auto b = std::find_if(model.poses().begin(), model.poses().end(), [&](const AgentPose& p) { return p.id == pair.second; });
+      Tell("touches car {} on road '{}', lane {}, {:.2f} m/s", *a, b->id, network_.roads()[static_cast<std::size_t>(b->road)].id(), b->lane, b->speed_mps);
+    }
+    touching_ = std::move(now);
+  }
+
+  const network::Network& network_;
+  const StudySettings& settings_;
+  StudyResult result_;
+  double time_s_ = 0.0;
+  network::Hint hint_;
+  std::vector<double> stands_s_;
+  std::vector<AgentPose> before_;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> touching_;
+};
+
+}  // namespace
+
+base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_ptr<const network::Network> network,
+                                   const std::function<void(const StudyMoment&)>& watch) {
+  auto made = TrafficModel::Make(settings.traffic, std::move(network), {});
+  if (!made) return made.error();
+  TrafficModel model = std::move(made).value();
+  Watcher watcher(model.graph().network(), settings);
+  const auto steps = static_cast<std::int64_t>(std::llround(settings.duration_s / settings.step_s));
+  const auto every = std::max<std::int64_t>(1, std::llround(settings.watch_s / settings.step_s));
+  for (std::int64_t k = 0; k <= steps; ++k) {
+    if (k > 0) model.Step(settings.step_s, {});
+    watcher.Compare(model, static_cast<double>(k) * settings.step_s);
+    if (k % every != 0) continue;
+    watcher.Look(model);
+    if (watch) watch({static_cast<double>(k) * settings.step_s, model});
+  }
+  StudyResult result = watcher.result();
+  result.steps = steps;
+  result.on_road = model.on_road();
+  result.waiting = model.waiting();
+  for (std::uint32_t id = 0; id < model.vehicles(); ++id) result.arrivals += model.agent(id).trip;
+  return result;
+}
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+
+struct StudySettings {
+  TrafficSettings traffic;
+  double duration_s = 60.0;
+  double step_s = 0.01;
+  double watch_s = 0.1;  // how often contacts, lanes and speeds are looked at; a multiple of the step
+};
+
+// What came out of a run of the model alone. Everything is counted from the published poses.
+struct StudyResult {
+  std::int64_t steps = 0;
+  double driven_km = 0.0;
+  double vehicle_s = 0.0;  // on the road, summed over all
+  double standing_s = 0.0;
+  double longest_stand_s = 0.0;
+  std::uint32_t longest_stand_id = 0;
+  double longest_with_room_s = 0.0;  // of those with more than 5 m before them
+  std::int64_t collisions = 0;       // times that two rectangles on one level came to overlap
+  std::int64_t off_lane = 0;         // times that a middle was looked at beside every drivable lane
+  double worst_step_m = 0.0;         // |distance between two poses - mean speed · step|, in plan
+  double hardest_mps2 = 0.0;
+  std::int64_t arrivals = 0;         // trips that ended
+  std::size_t on_road = 0, waiting = 0;
+  std::vector<std::string> incidents;  // the first ones, as sentences
+
+  double mean_speed_mps() const { return vehicle_s > 0.0 ? 1000.0 * driven_km / vehicle_s : 0.0; }
+};
+
+// One moment of a study, for tables.
+struct StudyMoment {
+  double time_s = 0.0;
+  const TrafficModel& model;
+};
+
+// Runs the model without any network or node. `watch`, where there is one, sees the beginning and every watch_s.
+base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_ptr<const network::Network> network,
+                                   const std::function<void(const StudyMoment&)>& watch = {});
+
+}  // namespace rodeira::traffic

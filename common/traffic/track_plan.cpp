@@ -1,0 +1,56 @@
+#include "common/traffic/track_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kAside_m = 1.0;
+
+}  // namespace
+
+driver::LaneFrame TrackWay::At(double d_m) const {
+  const lanes::CurvePoint at = curve().At(std::clamp(d_m, 0.0, length_m()));
+  return {at.p_W, std::atan2(at.ahead_W.y(), at.ahead_W.x()), at.curvature_1pm, at.grade};
+}
+
+double TrackWay::VerticalCurvature_1pm(double d_m) const {
+  const double low = std::max(0.0, d_m - kAside_m), high = std::min(length_m(), d_m + kAside_m);
+  return high > low ? (curve().At(high).grade - curve().At(low).grade) / (high - low) : 0.0;
+}
+
+Eigen::Vector3d TrackWay::Position(double d_m, double offset_m) const {
+  const lanes::CurvePoint at = curve().At(std::clamp(d_m, 0.0, length_m()));
+  Eigen::Vector3d p = at.p_W;
+  p.head<2>() += offset_m * at.left_W();
+  p.z() += offset_m * at.bank;
+  return p;
+}
+
+std::optional<driver::Way::Place> TrackWay::Locate(double x_m, double y_m, std::optional<double> z_m) const {
+  const auto& nodes = curve().nodes();
+  const Eigen::Vector2d p(x_m, y_m);
+  std::optional<std::size_t> nearest;
+  double least = 0.0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (z_m && std::fabs(nodes[i].p_W.z() - *z_m) > network::Network::kLevel_m) continue;
+    const double squared = (nodes[i].p_W.head<2>() - p).squaredNorm();
+    if (!nearest || squared < least) nearest = i, least = squared;
+  }
+  if (!nearest) return std::nullopt;
+  const lanes::Curve::Foot foot = curve().FootNear(p, *nearest);
+  const lanes::CurvePoint at = curve().At(foot.d_m);
+  const double along = (p - at.p_W.head<2>()).dot(at.ahead_W);
+  if (std::fabs(along) > 1e-6 && (foot.d_m <= 0.0 || foot.d_m >= length_m())) return std::nullopt;
+  return Place{foot.d_m, foot.offset_m};
+}
+
+TrackPlan::TrackPlan(const lanes::Graph& graph, std::uint32_t track, const driver::SpeedPlanSettings& settings)
+    : plan(TrackWay(graph, track), settings), limit_mps(graph.SpeedLimit_mps(track, 0.0)) {
+  for (const lanes::SignPlace& sign : lanes::SignsOf(graph, track)) {
+    if (sign.sign == lanes::Sign::kStop) stops_m.push_back(sign.d_m);
+  }
+}
+
+}  // namespace rodeira::traffic

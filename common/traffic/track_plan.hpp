@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "common/driver/speed_plan.hpp"
+#include "common/driver/way.hpp"
+#include "common/lanes/graph.hpp"
+#include "common/lanes/signs.hpp"
+
+namespace rodeira::traffic {
+
+// One track as a way, for what is computed along it.
+class TrackWay final : public driver::Way {
+ public:
+  TrackWay(const lanes::Graph& graph, std::uint32_t track) : graph_(&graph), track_(track) {}
+
+  double length_m() const override { return curve().length_m(); }
+  double SpeedLimit_mps(double d_m) const override { return graph_->SpeedLimit_mps(track_, d_m); }
+  driver::LaneFrame At(double d_m) const override;
+  double VerticalCurvature_1pm(double d_m) const override;
+  Eigen::Vector3d Position(double d_m, double offset_m) const override;
+  std::optional<Place> Locate(double x_m, double y_m, std::optional<double> z_m = std::nullopt) const override;
+
+ private:
+  const lanes::Curve& curve() const { return (*graph_)[track_].curve; }
+
+  const lanes::Graph* graph_;
+  std::uint32_t track_;
+};
+
+// What is known of a track beforehand: the speed that it allows, its limit, and its STOP lines.
+struct TrackPlan {
+  driver::SpeedPlan plan;
+  double limit_mps;            // at its beginning
+  std::vector<double> stops_m;  // of STOP signs
+
+  TrackPlan(const lanes::Graph& graph, std::uint32_t track, const driver::SpeedPlanSettings& settings);
+};
+
+}  // namespace rodeira::traffic

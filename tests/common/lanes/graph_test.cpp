@@ -1,0 +1,90 @@
+#include "common/lanes/graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/lanes/ring.hpp"
+#include "common/lanes/signs.hpp"
+#include "tests/common/lanes/lane_networks.hpp"
+
+namespace rodeira::lanes {
+namespace {
+
+TEST(LaneGraph, HasTheMapsLanesAndConnections) {
+  for (const std::string& name : MapNames()) {
+    const auto map = map::LoadLaneMap(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/maps" / (name + ".motors")).value();
+    const auto network = MapNetwork(name);
+    const Graph graph(*network);
+    ASSERT_EQ(graph.tracks().size(), map.lanes.size()) << name;
+    std::size_t links = 0, entries = 0;
+    for (const Track& track : graph.tracks()) {
+      links += track.next.size();
+      entries += track.entry ? 1 : 0;
+      for (const Link& link : track.next) {
+        EXPECT_LT(std::fabs(link.offset_m), 0.02) << name;
+        EXPECT_LT(std::fabs(link.from_d_m), 0.02) << name;
+      }
+    }
+    EXPECT_EQ(links, map.connections.size()) << name;
+    EXPECT_EQ(entries, map.start_lanes.size()) << name;
+  }
+}
+
+// Whoever goes over a link stays where it is.
+TEST(LaneGraph, LinksMeetWithinTheFilesGaps) {
+  if (RealFiles().empty()) GTEST_SKIP() << "the real files are not beside the project";
+  for (const auto& file : RealFiles()) {
+    const auto network = opendrive::LoadNetwork(file).value();
+    const Graph graph(*network);
+    EXPECT_FALSE(graph.tracks().empty()) << file;
+    for (const Track& track : graph.tracks()) {
+      const CurvePoint end = track.curve.At(track.length_m());
+      for (const Link& link : track.next) {
+        const CurvePoint at = graph[link.to].curve.At(link.from_d_m);
+        const Eigen::Vector2d there = at.p_W.head<2>() + link.offset_m * at.left_W();
+        EXPECT_LT((there - end.p_W.head<2>()).norm(), 0.02) << file << " road " << track.lane.road;
+        EXPECT_LT(std::fabs(end.p_W.z() - at.p_W.z()), 0.5) << file;
+      }
+    }
+  }
+}
+
+TEST(LaneGraph, FindsWhatIsNear) {
+  const auto network = MapNetwork("town");
+  const Graph graph(*network);
+  std::vector<NodeKey> found;
+  for (const Eigen::Vector2d& p : {Eigen::Vector2d(0, 0), Eigen::Vector2d(31, -17), Eigen::Vector2d(-200, 3)}) {
+    graph.Near(p, 6.5, found);
+    std::vector<NodeKey> all;
+    for (std::uint32_t t = 0; t < graph.tracks().size(); ++t) {
+      for (std::uint32_t n = 0; n < graph[t].curve.nodes().size(); ++n) {
+        if ((graph[t].curve.nodes()[n].p_W.head<2>() - p).norm() <= 6.5) all.push_back({t, n});
+      }
+    }
+    EXPECT_EQ(found, all);
+  }
+}
+
+TEST(LaneGraph, KnowsRoundaboutsAndStopLines) {
+  int on_ring = 0;
+  const auto roundabout = MapNetwork("roundabout");
+  const Graph graph(*roundabout);
+  for (std::uint32_t t = 0; t < graph.tracks().size(); ++t) on_ring += OnRing(graph, t) ? 1 : 0;
+  EXPECT_GE(on_ring, 4);
+  const auto crossing = MapNetwork("crossing");
+  const Graph arms(*crossing);
+  int stops = 0;
+  for (std::uint32_t t = 0; t < arms.tracks().size(); ++t) {
+    EXPECT_FALSE(OnRing(arms, t)) << t;
+    for (const SignPlace& sign : SignsOf(arms, t)) {
+      EXPECT_EQ(sign.sign, Sign::kStop);
+      EXPECT_NEAR(sign.d_m, arms[t].length_m(), 0.01);
+      ++stops;
+    }
+  }
+  EXPECT_EQ(stops, 2);  // two lanes of the four arms
+}
+
+}  // namespace
+}  // namespace rodeira::lanes

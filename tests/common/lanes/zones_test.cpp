@@ -1,0 +1,104 @@
+#include "common/lanes/zones.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/lanes/swath.hpp"
+#include "tests/common/lanes/lane_networks.hpp"
+
+namespace rodeira::lanes {
+namespace {
+
+struct Box {
+  Eigen::Vector2d p, along;
+};
+
+Box CarAt(const Curve& curve, double d) {
+  const LargestCar car;
+  const Eigen::Vector2d front = curve.At(d + 0.5 * car.wheelbase_m).p_W.head<2>(), rear = curve.At(d - 0.5 * car.wheelbase_m).p_W.head<2>();
+  return {0.5 * (front + rear), (front - rear).normalized()};
+}
+
+bool Touch(const Box& a, const Box& b) {
+  const LargestCar car;
+  const auto reach = [&](const Box& box, const Eigen::Vector2d& axis) {
+    return 0.5 * (car.length_m * std::fabs(box.along.dot(axis)) + car.width_m * std::fabs(box.along.x() * axis.y() - box.along.y() * axis.x()));
+  };
+  for (const Box* box : {&a, &b}) {
+    for (const Eigen::Vector2d& axis : {box->along, Eigen::Vector2d(-box->along.y(), box->along.x())}) {
+      if (std::fabs((b.p - a.p).dot(axis)) >= reach(a, axis) + reach(b, axis)) return false;
+    }
+  }
+  return true;
+}
+
+// Brute force: wherever two of the largest cars on two tracks touch, each has a part within a zone of the pair. (On one track
+// and its continuation cars follow one another.)
+TEST(Zones, HoldEveryPlaceWhereCarsOnTwoTracksTouch) {
+  const double half = 0.5 * LargestCar{}.length_m;
+  std::size_t touches = 0;
+  for (const std::string& name : std::vector<std::string>{"crossing", "roundabout", "ramp"}) {
+    const auto network = MapNetwork(name);
+    const Graph graph(*network);
+    const Zones zones(graph);
+    for (std::uint32_t a = 0; a < graph.tracks().size(); ++a) {
+      for (std::uint32_t b = a + 1; b < graph.tracks().size(); ++b) {
+        const auto follows = [&](std::uint32_t from, std::uint32_t to) {
+          for (const Link& link : graph[from].next) {
+            if (link.to == to) return true;
+            for (const Link& on : graph[link.to].next) {
+              if (on.to == to && graph[link.to].length_m() < 12.0) return true;
+            }
+          }
+          return false;
+        };
+        if (follows(a, b) || follows(b, a)) continue;
+        for (double x = half; x < graph[a].length_m() - half; x += 0.8) {
+          const Box one = CarAt(graph[a].curve, x);
+          for (double y = half; y < graph[b].length_m() - half; y += 0.8) {
+            const Box other = CarAt(graph[b].curve, y);
+            if ((one.p - other.p).squaredNorm() > 36.0 || !Touch(one, other)) continue;
+            if (std::fabs(graph[a].curve.At(x).p_W.z() - graph[b].curve.At(y).p_W.z()) > 2.0) continue;
+            ++touches;
+            bool held = false;
+            for (const ZoneSide& part : zones.Of(a)) {
+              const Zone& zone = zones[part.zone];
+              if (zone.track[1] != b) continue;
+              held = held || (x + half > zone.in_m[0] && x - half < zone.out_m[0] && y + half > zone.in_m[1] && y - half < zone.out_m[1]);
+            }
+            ASSERT_TRUE(held) << name << ": tracks " << a << " at " << x << " and " << b << " at " << y;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(touches, 1000u);
+}
+
+TEST(Zones, LevelsDoNotMeet) {
+  const auto network = MapNetwork("overpass");
+  const Graph graph(*network);
+  const Zones zones(graph);
+  for (const Zone& zone : zones.zones()) {
+    const double z0 = graph[zone.track[0]].curve.At(0.5 * (zone.in_m[0] + zone.out_m[0])).p_W.z();
+    const double z1 = graph[zone.track[1]].curve.At(0.5 * (zone.in_m[1] + zone.out_m[1])).p_W.z();
+    EXPECT_LT(std::fabs(z0 - z1), 3.0);
+  }
+}
+
+// Who comes from a STOP sign yields; on the ring of a roundabout nobody yields to who enters.
+TEST(Zones, SignsAndRingsDecide) {
+  const auto network = MapNetwork("crossing");
+  const Graph graph(*network);
+  const Zones zones(graph);
+  int by_sign = 0;
+  for (const Zone& zone : zones.zones()) {
+    EXPECT_TRUE(zone.first == 0 || zone.first == 1);
+    by_sign += zone.kind != ZoneKind::kDiverge && zone.signed_ ? 1 : 0;
+  }
+  EXPECT_GT(by_sign, 10);
+}
+
+}  // namespace
+}  // namespace rodeira::lanes

@@ -1,0 +1,156 @@
+// Traffic on networks: the project's maps and the real files, whole runs looked at car by car.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "common/lanes/signs.hpp"
+#include "common/traffic/study.hpp"
+#include "tests/common/lanes/lane_networks.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+using NetworkPointer = std::shared_ptr<const network::Network>;
+
+// Simulated seconds of each run; RODEIRA_TRAFFIC_FOR makes it longer (tests/run --endurance).
+double Duration() {
+  const char* text = std::getenv("RODEIRA_TRAFFIC_FOR");
+  return text == nullptr ? 120.0 : std::strtod(text, nullptr);
+}
+
+std::string Told(const StudyResult& result) {
+  std::string told;
+  for (const std::string& incident : result.incidents) told += "\n  " + incident;
+  return told;
+}
+
+// Nobody touches anybody, leaves the lanes, moves otherwise than its speed says, brakes in an emergency or is stuck.
+void Behaves(const std::string& name, const NetworkPointer& network, std::uint32_t vehicles, std::uint64_t seed) {
+  StudySettings settings;
+  settings.traffic.vehicles = vehicles;
+  settings.traffic.seed = seed;
+  settings.duration_s = Duration();
+  const auto result = RunStudy(settings, network);
+  ASSERT_TRUE(result.ok()) << name << ": " << result.error().Text();
+  const StudyResult& r = result.value();
+  EXPECT_EQ(r.collisions, 0) << name << " seed " << seed << Told(r);
+  EXPECT_EQ(r.off_lane, 0) << name << " seed " << seed << Told(r);
+  EXPECT_LT(r.worst_step_m, 1e-3) << name << " seed " << seed << Told(r);
+  EXPECT_LT(r.hardest_mps2, 6.0) << name << " seed " << seed << Told(r);
+  EXPECT_LT(r.longest_with_room_s, 300.0) << name << " seed " << seed << Told(r);
+  EXPECT_EQ(r.on_road + r.waiting, vehicles) << name;
+  EXPECT_GT(r.driven_km, 0.0) << name;
+}
+
+TEST(NetworkTraffic, DrivesTheProjectsMaps) {
+  for (const std::string& name : lanes::MapNames()) Behaves(name, lanes::MapNetwork(name), name == "town" ? 60 : 25, 3);
+}
+
+TEST(NetworkTraffic, DrivesTheRealFiles) {
+  if (lanes::RealFiles().empty()) GTEST_SKIP() << "the real files are not beside the project";
+  for (const auto& file : lanes::RealFiles()) {
+    const bool large = file.filename() == "carla_Town04.xodr";
+    Behaves(file.filename(), opendrive::LoadNetwork(file).value(), large ? 100 : 25, 1);
+  }
+}
+
+// A small crossing, many ways to meet at it.
+TEST(NetworkTraffic, ManySeedsAtTheCrossing) {
+  const auto network = lanes::MapNetwork("crossing");
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    StudySettings settings;
+    settings.traffic.vehicles = 16;
+    settings.traffic.seed = seed;
+    settings.duration_s = 40.0;
+    const StudyResult r = RunStudy(settings, network).value();
+    EXPECT_EQ(r.collisions, 0) << "seed " << seed << Told(r);
+    EXPECT_GT(r.arrivals, 2) << "seed " << seed;
+  }
+}
+
+base::Digest DigestOf(const TrafficModel& model) {
+  base::StateWriter writer;
+  model.Save(writer);
+  return writer.digest();
+}
+
+TEST(NetworkTraffic, RestoredAmongCrossingTrafficItGoesOnWithTheSameBits) {
+  TrafficSettings settings;
+  settings.vehicles = 40;
+  const auto network = lanes::MapNetwork("town");
+  for (const int restore_at : {0, 1234, 5000}) {
+    TrafficModel a = TrafficModel::Make(settings, network, {}).value();
+    for (int i = 0; i < restore_at; ++i) a.Step(0.01, {});
+    base::StateWriter writer;
+    a.Save(writer);
+    TrafficModel b = TrafficModel::Make(settings, lanes::MapNetwork("town"), {}).value();
+    for (int i = 0; i < 100; ++i) b.Step(0.01, {});
+    base::StateReader reader(writer.bytes());
+    b.Restore(reader);
+    ASSERT_TRUE(reader.Finish().ok());
+    for (int i = 0; i < 1500; ++i) {
+      a.Step(0.01, {});
+      b.Step(0.01, {});
+      if (i % 50 == 0) {
+        ASSERT_EQ(DigestOf(a), DigestOf(b)) << i;
+      }
+    }
+    EXPECT_EQ(DigestOf(a), DigestOf(b));
+  }
+}
+
+// STOP: whoever passes the line has come to rest within two metres of it.
+TEST(NetworkTraffic, StopsFullyAtStopSigns) {
+  const auto network = lanes::MapNetwork("crossing");
+  TrafficSettings settings;
+  settings.vehicles = 12;
+  TrafficModel model = TrafficModel::Make(settings, network, {}).value();
+  struct Approach {
+    double slowest_mps = 1e9;
+    std::int32_t road = -1;
+    double to_line_m = 1e9;
+  };
+  std::vector<Approach> approaches(settings.vehicles);
+  int passed = 0;
+  for (int i = 0; i < 12000; ++i) {
+    model.Step(0.01, {});
+    for (const AgentPose& pose : model.poses()) {
+      Approach& approach = approaches[pose.id];
+      const auto track = *model.graph().Find({static_cast<std::uint32_t>(pose.road), 0, pose.lane});
+      const auto signs = lanes::SignsOf(model.graph(), track);
+      if (pose.road != approach.road) {
+        if (approach.to_line_m < 5.0) {
+          EXPECT_LT(approach.slowest_mps, 0.06) << pose.id << " at " << 0.01 * i << " s";
+          ++passed;
+        }
+        approach = Approach();
+        approach.road = pose.road;
+      }
+      if (signs.empty()) continue;
+      const Agent& agent = model.agent(pose.id);
+      approach.to_line_m = signs.back().d_m - (agent.o_m + 0.5 * model.traits(pose.id).length_m - agent.path.front().zero_m);
+      if (std::fabs(approach.to_line_m) < 2.0) approach.slowest_mps = std::min(approach.slowest_mps, pose.speed_mps);
+    }
+  }
+  EXPECT_GT(passed, 5);
+}
+
+// A car that is no agent stands in the middle of the crossing: nobody drives into it, whatever way it points.
+TEST(NetworkTraffic, NobodyDrivesIntoACarThatStandsOnTheCrossing) {
+  const auto network = lanes::MapNetwork("crossing");
+  TrafficSettings settings;
+  settings.vehicles = 16;
+  for (const double heading : {0.3, 1.2, 2.5}) {
+    const std::vector<driver::Footprint> others{{9999, 0.5, -0.4, heading, 0.0, 4.4, 1.8}};
+    TrafficModel model = TrafficModel::Make(settings, network, others).value();
+    for (int i = 0; i < 6000; ++i) {
+      model.Step(0.01, others);
+      for (const AgentPose& pose : model.poses())
+        ASSERT_FALSE(driver::Overlap(FootprintOf(pose, model.traits(pose.id)), others[0])) << pose.id << " at " << 0.01 * i << " s";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::traffic
