@@ -25,6 +25,19 @@ TileHeights::TileHeights(const road::World& world, const TilePlan& plan) : world
   }
 }
 
+std::vector<double> TileHeights::Way(std::uint32_t point, double from_m, double to_m) const {
+  std::vector<double> way = {from_m, to_m};
+  for (auto at = corners_.lower_bound({point, 0}); at != corners_.end() && at->first.first == point; ++at) {
+    for (const CornerHeight& height : at->second) {
+      if (height.z_m > std::min(from_m, to_m) && height.z_m < std::max(from_m, to_m)) way.push_back(height.z_m);
+    }
+  }
+  std::sort(way.begin(), way.end());
+  way.erase(std::unique(way.begin(), way.end()), way.end());
+  if (from_m > to_m) std::reverse(way.begin(), way.end());
+  return way;
+}
+
 // From where each face is asked at its corners: towards its thickest triangle there.
 void TileHeights::FindAims() {
   const auto points = plan_.triangles.points();

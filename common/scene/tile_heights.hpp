@@ -28,6 +28,9 @@ class TileHeights {
 
   // From the highest to the lowest, as many as the face has levels.
   const std::vector<CornerHeight>& At(std::uint32_t point, std::uint32_t face) const { return corners_.at({point, face}); }
+  // The way from one height to another straight up or down at a point, over all heights that any face has there between them:
+  // walls that meet at a point have the same vertices.
+  std::vector<double> Way(std::uint32_t point, double from_m, double to_m) const;
 
  private:
   struct Aim {

@@ -106,24 +106,29 @@ class Weaver {
       std::array<double, 2> foot = {z(0) - kApron_m, z(1) - kApron_m};
       if (partner != kNobody) {
         foot = {heights_.At(side[0], other)[partner].z_m, heights_.At(side[1], other)[partner].z_m};
-        if (z(0) + z(1) <= foot[0] + foot[1]) continue;
+        if (z(0) == foot[0] && z(1) == foot[1]) continue;
+        const double higher = z(0) + z(1) - foot[0] - foot[1];
+        if (higher < 0.0 || (higher == 0.0 && face > other)) continue;  // that face's wall
       }
       const double high = std::max(z(0) - foot[0], z(1) - foot[1]);
       const Skin& skin = plan_.faces[face].skins[level];
       Colour colour = SurfaceColour(terrain::Surface::kSoil);
       if (partner == kNobody || (high < kKerb_m && !skin.grown)) colour = SurfaceColour(terrain::Surface::kConcrete);
       if (partner != kNobody && high < kKerb_m && plan_.faces[other].skins[partner].colour == skin.colour) colour = skin.colour;
-      Wall({Place(side[0], z(0)), Place(side[0], foot[0]), Place(side[1], foot[1]), Place(side[1], z(1))}, colour);
+      Wall(side, {heights_.Way(side[0], z(0), foot[0]), heights_.Way(side[1], z(1), foot[1])}, colour);
     }
   }
 
-  void Wall(const std::array<Eigen::Vector3d, 4>& p_W, Colour colour) {
-    const Eigen::Vector3d along = p_W[2] - p_W[1];
+  // Between two points, each with its way down.
+  void Wall(const std::array<std::uint32_t, 2>& side, const std::array<std::vector<double>, 2>& ways_m, Colour colour) {
+    const Eigen::Vector3d along = Place(side[1], 0.0) - Place(side[0], 0.0);
     const Eigen::Vector3d normal = Eigen::Vector3d(along.y(), -along.x(), 0.0).normalized();
-    std::array<std::uint32_t, 4> index{};
-    for (std::size_t i = 0; i < 4; ++i) index[i] = wall_.Add(p_W[i], normal, colour);
-    if (p_W[0] != p_W[1]) wall_.AddTriangle(index[0], index[1], index[2]);
-    if (p_W[2] != p_W[3]) wall_.AddTriangle(index[0], index[2], index[3]);
+    std::array<std::vector<std::uint32_t>, 2> down;
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const double z_m : ways_m[k]) down[k].push_back(wall_.Add(Place(side[k], z_m), normal, colour));
+    }
+    for (std::size_t i = 0; i + 1 < down[1].size(); ++i) wall_.AddTriangle(down[0].front(), down[1][i + 1], down[1][i]);
+    for (std::size_t i = 0; i + 1 < down[0].size(); ++i) wall_.AddTriangle(down[0][i], down[0][i + 1], down[1].back());
   }
 
   const TilePlan& plan_;

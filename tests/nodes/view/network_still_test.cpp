@@ -28,7 +28,8 @@ TEST(NetworkStill, LanesMarksKerbAndLand) {
   const auto probe = [&](double s_m, double t_m) { return ProbeAt(image.value(), camera, At(road, s_m, t_m)); };
   EXPECT_TRUE(probe(32.0, 1.5).IsAsphalt()) << probe(32.0, 1.5);
   EXPECT_TRUE(probe(40.0, -2.6).IsAsphalt()) << probe(40.0, -2.6);
-  EXPECT_TRUE(ProbeAt(image.value(), camera, At(road, 24.0, 3.5), 0).IsWhite()) << probe(24.0, 3.5);  // the solid line at the kerb
+  // The solid line at the kerb: half of it lies below, on the road, and half on the pavement; at 3.5 there is the kerb's side.
+  EXPECT_TRUE(ProbeAt(image.value(), camera, At(road, 24.0, 3.46), 0).IsWhite()) << probe(24.0, 3.46);
   EXPECT_TRUE(ProbeAt(image.value(), camera, At(road, 26.0, 0.13), 0).IsYellow()) << probe(26.0, 0.13);  // left of the centre's two
   const Eigen::Vector3d walk = At(road, 30.0, 4.5);
   EXPECT_GT(ProbeAt(image.value(), camera, walk).red, probe(32.0, 1.5).red + 25.0);  // the pavement is lighter
