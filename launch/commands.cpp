@@ -87,7 +87,7 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
   CLI::App* world = app.add_subcommand("world", "check, describe and ask a world");
   world->require_subcommand(1);
   for (const auto& [name, text] : {std::pair("check", "name every problem of a world file"), std::pair("info", "what the world is"),
-                                   std::pair("map", "draw the plan as SVG"), std::pair("export", "write the roads as OpenDRIVE"), std::pair("query", "SUELO: the ground at X Y"), std::pair("build", "write the generated terrain as .bt and .prj")}) {
+                                   std::pair("map", "draw the plan as SVG"), std::pair("export", "write the roads as OpenDRIVE"), std::pair("query", "SUELO: the ground at X Y"), std::pair("build", "write a world's files: its roads (.xodr), generated terrain (.bt), what an OpenDRIVE world looks like (.osgb)")}) {
     CLI::App* command = world->add_subcommand(name, text);
     command->add_option("WORLD", options.world_file, "world file (.yaml), or OpenDRIVE (.xodr)")->required();
     if (std::string(name) == "query") {
@@ -95,7 +95,11 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
       command->add_option("Y", options.y_m, "metres north")->required();
       command->add_option("Z", options.z_hint_m, "near which height, where surfaces lie over one another");
     }
-    if (std::string(name) == "build") command->add_option("--out", options.out, "folder")->required();
+    if (std::string(name) == "build") {
+      command->add_option("-o,--out", options.out, "folder")->required();
+      command->add_option("--threads", options.threads, "how many at once; as many as the machine has otherwise");
+      command->add_flag("--quiet", options.quiet, "no progress");
+    }
     if (std::string(name) == "map") {
       command->add_option("-o,--out", options.out, "file to draw the plan into")->required();
       command->add_option("--profile", options.profile, "draw heights, grades, curvatures and slopes across into this file");

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <cstdio>
+#include <filesystem>
+#include <string>
 #include <utility>
 
 #include "common/base/files.hpp"
@@ -11,6 +15,7 @@
 #include "common/road/world_plot.hpp"
 #include "common/road/world_profile.hpp"
 #include "common/road/world_report.hpp"
+#include "nodes/view/database.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -40,16 +45,52 @@ int Check(const WorldOptions& options) {
   return 0;
 }
 
+int Written(const std::filesystem::path& file, const base::Result<std::string>& text) {
+  if (!text) return Complain(text.error());
+  if (auto status = base::WriteWhole(file, text.value()); !status) return Complain(status.error());
+  fmt::print("{}\n", file.string());
+  return 0;
+}
+
+// What an OpenDRIVE world looks like, tile by tile, and the file itself beside it.
+int BuildOpenDrive(const WorldOptions& options, const road::World& world) {
+  view::DatabaseOptions database;
+  database.folder = options.out;
+  database.threads = options.threads;
+  if (!options.quiet && ::isatty(STDERR_FILENO) != 0) {
+    database.progress = [](std::size_t done, std::size_t of) {
+      constexpr std::size_t kWidth = 40;
+      fmt::print(stderr, "\r[{:<{}}] {} of {} tiles{}", std::string(done * kWidth / of, '='), kWidth, done, of, done == of ? "\n" : "");
+    };
+  }
+  const auto report = view::WriteDatabase(world, database);
+  if (!report) return Complain(report.error());
+  fmt::print("{}: {} tiles, {} built, {} as they were\n", (database.folder / "world.osgb").string(), report.value().tiles, report.value().built,
+             report.value().tiles - report.value().built);
+  return Written(database.folder / "world.xodr", base::ReadText(options.world_file));
+}
+
+// A world file's generated terrain, and its roads as OpenDRIVE.
+int Build(const WorldOptions& options) {
+  const auto world = road::World::Load(options.world_file);
+  if (!world) return Complain(world.error());
+  if (world.value()->open_drive()) return BuildOpenDrive(options, *world.value());
+  if (road::IsGenerated(options.world_file) || world.value()->roads().empty()) {
+    const auto written = road::BuildWorld(options.world_file, options.out);
+    if (!written) return Complain(written.error());
+    fmt::print("{}", written.value());
+  }
+  if (world.value()->roads().empty()) return 0;
+  std::error_code problem;
+  std::filesystem::create_directories(options.out, problem);
+  return Written(std::filesystem::path(options.out) / "world.xodr", road::ExportOpenDrive(*world.value()));
+}
+
 }  // namespace
 
 int World(const WorldOptions& options) {
   if (options.command == "check") return Check(options);
-  if (options.command == "build") {
-    const auto written = road::BuildWorld(options.world_file, options.out);
-    if (!written) return Complain(written.error());
-    fmt::print("{}", written.value());
-    return 0;
-  }
+  if (options.command == "build") return Build(options);
   const auto world = road::World::Load(options.world_file);
   if (options.command == "export" && world) {
     const auto text = road::ExportOpenDrive(*world.value());

@@ -14,6 +14,8 @@ struct WorldOptions {
   std::optional<double> z_hint_m;
   std::string out;
   bool strict = false;
+  unsigned threads = 0;  // 0: as many as the machine has
+  bool quiet = false;
   std::string svg;
   std::string profile;
 };

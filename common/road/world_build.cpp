@@ -2,6 +2,7 @@
 
 #include "common/base/files.hpp"
 #include "common/config/config.hpp"
+#include "common/road/network_world.hpp"
 #include "common/road/world_reader.hpp"
 #include "common/road/world_report.hpp"
 #include "common/terrain/bt.hpp"
@@ -27,6 +28,12 @@ std::string WithTerrain(const std::string& text, const std::string& block) {
 }
 
 }  // namespace
+
+bool IsGenerated(const std::filesystem::path& world_file) {
+  if (IsOpenDrive(world_file)) return false;
+  const auto file = config::File::Load(world_file);
+  return file.ok() && ReadWorld(file.value()).hills.has_value();
+}
 
 base::Result<std::string> BuildWorld(const std::filesystem::path& world_yaml, const std::filesystem::path& folder) {
   const auto file = config::File::Load(world_yaml);

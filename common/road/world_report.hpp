@@ -22,6 +22,9 @@ std::string DescribeWorld(const World& world);
 // SUELO's answer at (x, y) and, where a road is near, the place on it.
 std::string DescribePoint(const World& world, double x_m, double y_m, std::optional<double> z_hint_m = std::nullopt);
 
+// Whether a world file's terrain is generated, so that there is something for BuildWorld to write. False for what cannot be read.
+bool IsGenerated(const std::filesystem::path& world_file);
+
 // Writes the generated terrain of a world as STEM.bt and STEM.prj into `folder` and beside them STEM.yaml, the same
 // world file naming the .bt instead of the generator; STEM is the world file's. That world has the same content hash,
 // or it is a failure and no world file is written. Returns what was written. Wrong input where the terrain is no

@@ -11,6 +11,12 @@ constexpr std::uint64_t kTreeSeed = 1;
 
 WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance) {
   WorldScene scene;
+  if (world.network() != nullptr && world.roads().empty()) {  // not a world file of version 1
+    const GroundPlan plan(world);
+    scene.ground.resize(plan.tiles().size());
+    ForEachAtOnce(plan.tiles().size(), 0, [&](std::size_t i) { scene.ground[i] = plan.Build(plan.tiles()[i]); });
+    return scene;
+  }
   const Lattice lattice(world);
   std::vector<Ribbon> ribbons;
   for (const road::Road& road : world.roads()) ribbons.push_back(LayRibbon(road, tolerance));

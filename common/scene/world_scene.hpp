@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/road/world.hpp"
+#include "common/scene/ground_tile.hpp"
 #include "common/scene/ribbon.hpp"
 #include "common/scene/terrain_mesh.hpp"
 
@@ -10,6 +11,7 @@ namespace rodeira::scene {
 
 // Everything of a world that stands still.
 struct WorldScene {
+  std::vector<GroundTile> ground;  // of a network
   std::vector<TerrainTile> terrain;
   std::vector<RoadTile> roads;
   std::vector<Mesh> trees;

@@ -46,6 +46,25 @@ osg::ref_ptr<osg::Node> TerrainNode(Look& look, const scene::TerrainTile& tile) 
   return lod;
 }
 
+osg::ref_ptr<osg::Node> GroundNode(Look& look, const scene::GroundTile& tile) {
+  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+  lod->setCenter(ToOsg(tile.ball.centre_W));
+  lod->setRadius(tile.ball.radius_m);
+  float from = 0.0F;
+  for (std::size_t level = 0; level < tile.levels.size(); ++level) {
+    std::vector<const scene::Mesh*> meshes;
+    for (const scene::Mesh& mesh : tile.levels[level].ground) meshes.push_back(&mesh);
+    osg::ref_ptr<osg::Group> group = new osg::Group;
+    if (!meshes.empty()) group->addChild(look.Placed(meshes));
+    const scene::Mesh* marks = &tile.levels[level].marks;
+    if (!marks->triangles.empty()) group->addChild(look.Placed({&marks, 1}));
+    lod->addChild(group, from, scene::kGroundSeen_m[level]);
+    from = scene::kGroundSeen_m[level];
+  }
+  return lod;
+}
+
 void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group) {
   std::vector<const scene::Mesh*> ground;
   for (const scene::Mesh& mesh : tile.ground) ground.push_back(&mesh);
@@ -75,6 +94,7 @@ Painter::Painter(Surface& surface, const road::World& world, const scene::WorldS
     : surface_(surface), world_(world), parts_(std::make_unique<Parts>()) {
   Look& look = parts_->look;
   osg::Group& root = *parts_->root;
+  for (const scene::GroundTile& tile : standing.ground) root.addChild(GroundNode(look, tile));
   for (const scene::TerrainTile& tile : standing.terrain) root.addChild(TerrainNode(look, tile));
   for (const scene::RoadTile& tile : standing.roads) AddRoadTile(look, tile, root);
   for (const scene::Mesh& trees : standing.trees) {

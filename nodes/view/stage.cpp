@@ -27,9 +27,6 @@ Stage::Stage(const ViewSettings& settings, std::shared_ptr<const road::World> wo
 
 base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, std::shared_ptr<const road::World> world,
                                                  std::unique_ptr<launch::LiveKeysSender> keys) {
-  if (world->open_drive()) {
-    return base::WrongInput("the view cannot draw an OpenDRIVE world yet; see `rodeira world map`", world->name());
-  }
   std::unique_ptr<Stage> stage(new Stage(settings, std::move(world), std::move(keys)));
   {
     std::unique_lock lock(stage->mutex_);

@@ -1,0 +1,76 @@
+#include "common/scene/ground_digest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/scene/ground_tile.hpp"
+
+namespace rodeira::scene {
+namespace {
+
+// How far the farthest point of a tile lies from a point, and how near a box.
+double Farthest(const Eigen::Vector2d& low, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d from = (p - low).cwiseAbs(), to = (p - low - Eigen::Vector2d::Constant(kTile_m)).cwiseAbs();
+  return from.cwiseMax(to).norm();
+}
+double Nearest(const Eigen::Vector2d& low, const Eigen::Vector2d& box_low, const Eigen::Vector2d& box_high) {
+  const Eigen::Vector2d high = low + Eigen::Vector2d::Constant(kTile_m);
+  return (box_low - high).cwiseMax(low - box_high).cwiseMax(0.0).norm();
+}
+
+}  // namespace
+
+base::Digest RoadDigest(const network::Road& road, std::span<const Line3> lines, const TilePaint& paint) {
+  base::Digest digest = base::Hash(road.id());
+  for (const Line3& line : lines) {
+    digest = base::Combine(digest, base::Hash(std::as_bytes(std::span(line.front().data(), 3 * line.size()))));
+  }
+  std::string lanes;
+  for (const network::LaneSection& section : road.spec().sections) {
+    lanes += fmt::format("section {} {}\n", section.s_m, section.end_s_m);
+    for (const auto* side : {&section.left, &section.right}) {
+      for (const network::Lane& lane : *side) {
+        lanes += fmt::format("{} {} {}\n", lane.id, network::LaneTypeName(lane.type), lane.level);
+        for (const network::LaneHeight& height : lane.heights) lanes += fmt::format("h {} {} {}\n", height.s_m, height.inner_m, height.outer_m);
+        for (const network::LaneMaterial& material : lane.materials) lanes += fmt::format("m {} {} {}\n", material.s_m, material.surface, material.friction.value_or(-1.0));
+      }
+    }
+  }
+  digest = base::Combine(digest, base::Hash(lanes));
+  for (const auto& [key, pieces] : paint) {
+    for (const PaintPiece& piece : pieces) {
+      digest = base::Combine(digest, base::Hash(std::as_bytes(std::span(piece.p_W[0].data(), 12))));
+      digest = base::Combine(digest, static_cast<base::Digest>(piece.colour.red) << 16 | static_cast<base::Digest>(piece.colour.green) << 8 | piece.colour.blue);
+    }
+  }
+  return digest;
+}
+
+base::Digest TerrainDigest(const road::World& world) {
+  base::Digest digest = base::Hash(fmt::format("{}", static_cast<int>(world.terrain_surface())));
+  if (world.grid() != nullptr) {
+    const auto& frame = world.grid()->frame();
+    digest = base::Combine(digest, base::Hash(fmt::format("{} {} {} {} {} {}", frame.columns, frame.rows, frame.west_m, frame.south_m, frame.east_m, frame.north_m)));
+    digest = base::Combine(digest, base::Hash(std::as_bytes(world.grid()->heights_m())));
+  }
+  if (world.plane()) digest = base::Combine(digest, base::Hash(fmt::format("{} {} {}", world.plane()->z_m, world.plane()->slope_x, world.plane()->slope_y)));
+  return digest;
+}
+
+base::Digest GroundPlan::SourceDigest(const TileKey& tile) const {
+  const Eigen::Vector2d low = tile.south_west_W();
+  double reach = 1e9;  // no point of the tile is farther from its nearest road
+  for (const RoadTrace& trace : traces_) {
+    if (Nearest(low, trace.low_W, trace.high_W) > reach) continue;
+    for (const Eigen::Vector2d& p : trace.points_W) reach = std::min(reach, Farthest(low, p));
+  }
+  base::Digest digest = base::Combine(base::Hash(fmt::format("ground 1 {} {}", tile.column, tile.row)), terrain_digest_);
+  for (const RoadTrace& trace : traces_) {
+    if (Nearest(low, trace.low_W, trace.high_W) <= reach) digest = base::Combine(digest, trace.digest);
+  }
+  return digest;
+}
+
+}  // namespace rodeira::scene

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+
+#include "common/base/hash.hpp"
+#include "common/network/road.hpp"
+#include "common/road/world.hpp"
+#include "common/scene/mark_strips.hpp"
+#include "common/scene/road_lines.hpp"
+
+namespace rodeira::scene {
+
+// Of all of a road that is seen or that heights follow from: its lines, lanes, heights, materials, and its paint.
+base::Digest RoadDigest(const network::Road& road, std::span<const Line3> lines, const TilePaint& paint);
+// Of the terrain under the roads.
+base::Digest TerrainDigest(const road::World& world);
+
+}  // namespace rodeira::scene

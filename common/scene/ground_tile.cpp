@@ -1,0 +1,127 @@
+#include "common/scene/ground_tile.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <set>
+#include <thread>
+
+#include "common/base/assert.hpp"
+#include "common/partition/noding.hpp"
+#include "common/scene/ground_digest.hpp"
+#include "common/scene/levels_at.hpp"
+
+namespace rodeira::scene {
+namespace {
+
+constexpr std::array<double, kGroundLevels - 1> kPaintChords_m = {0.001, 0.01, 0.05};
+
+// Tiles within reach of a road's lines.
+void AddReach(const Line3& line, std::set<TileKey>& tiles) {
+  const auto reach = static_cast<std::int64_t>(GroundPlan::kAround_m / kStep_m);
+  for (const Eigen::Vector3d& p : line) {
+    const WorldStep at = ToSteps(p.head<2>());
+    for (std::int64_t column = TileOf(at.x - reach); column <= TileOf(at.x + reach); ++column) {
+      for (std::int64_t row = TileOf(at.y - reach); row <= TileOf(at.y + reach); ++row) tiles.insert({column, row});
+    }
+  }
+}
+
+void AddRectangle(const road::Extents& extents, std::set<TileKey>& tiles) {
+  const WorldStep low = ToSteps({extents.west_m, extents.south_m}), high = ToSteps({extents.east_m, extents.north_m});
+  for (std::int64_t column = TileOf(low.x); column <= TileOf(high.x); ++column) {
+    for (std::int64_t row = TileOf(low.y); row <= TileOf(high.y); ++row) tiles.insert({column, row});
+  }
+}
+
+}  // namespace
+
+void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work) {
+  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  std::atomic<std::size_t> next{0};
+  const auto run = [&] {
+    for (std::size_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::thread> others;
+  for (unsigned i = 1; i < threads && i < count; ++i) others.emplace_back(run);
+  run();
+  for (std::thread& other : others) other.join();
+}
+
+GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(world) {
+  RODEIRA_ASSERT(world.network() != nullptr);
+  const auto roads = world.network()->roads();
+  std::vector<std::vector<Line3>> lines(roads.size());
+  std::vector<std::array<TilePaint, kGroundLevels - 1>> paint(roads.size());
+  ForEachAtOnce(roads.size(), threads, [&](std::size_t i) {
+    lines[i] = RoadLinesOf(roads[i], kRoadTolerances[0]);
+    for (std::size_t level = 0; level < paint[i].size(); ++level) PaintRoad(roads[i], kPaintChords_m[level], paint[i][level]);
+  });
+  TileLines pieces;
+  std::set<TileKey> tiles;
+  for (std::size_t i = 0; i < roads.size(); ++i) {
+    AddToTiles(lines[i], pieces);
+    for (const Line3& line : lines[i]) AddReach(line, tiles);
+    for (std::size_t level = 0; level < paint[i].size(); ++level) {
+      for (auto& [key, some] : paint[i][level]) {
+        auto& all = paint_[level][key];
+        all.insert(all.end(), some.begin(), some.end());
+      }
+    }
+  }
+  if (world.grid() != nullptr) AddRectangle(world.extents(), tiles);
+  for (std::size_t i = 0; i < roads.size(); ++i) {
+    RoadTrace trace;
+    trace.low_W = trace.high_W = lines[i].empty() ? Eigen::Vector2d(1e9, 1e9) : Eigen::Vector2d(lines[i].front().front().head<2>());
+    for (const Line3& line : lines[i]) {
+      for (const Eigen::Vector3d& p : line) {
+        trace.low_W = trace.low_W.cwiseMin(p.head<2>()), trace.high_W = trace.high_W.cwiseMax(p.head<2>());
+        trace.points_W.emplace_back(p.head<2>());
+      }
+    }
+    trace.digest = RoadDigest(roads[i], lines[i], paint[i][0]);
+    traces_.push_back(std::move(trace));
+  }
+  terrain_digest_ = TerrainDigest(world);
+  tiles_.assign(tiles.begin(), tiles.end());
+  std::vector<std::pair<const TileKey, std::vector<partition::GridLine>>*> open;
+  for (auto& piece : pieces) open.push_back(&piece);
+  std::vector<std::vector<partition::GridSegment>> noded(open.size());
+  ForEachAtOnce(open.size(), threads, [&](std::size_t i) { noded[i] = partition::Node(open[i]->second); });
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    edges_.Add(open[i]->first, noded[i]);
+    segments_[open[i]->first] = std::move(noded[i]);
+  }
+}
+
+TileBall GroundPlan::BallOf(const TileKey& key) const {
+  TileBall ball;
+  const Eigen::Vector2d middle = key.south_west_W() + Eigen::Vector2d::Constant(0.5 * kTile_m);
+  std::vector<road::SurfacePoint> levels;
+  LevelsAt(world_, middle, 1, levels);
+  ball.centre_W = {middle.x(), middle.y(), levels.empty() ? 0.0 : levels.front().z_m};
+  return ball;
+}
+
+GroundTile GroundPlan::Build(const TileKey& key) const {
+  GroundTile tile;
+  tile.key = key;
+  static const std::vector<partition::GridSegment> kNone;
+  const auto found = segments_.find(key);
+  const auto& finest = found == segments_.end() ? kNone : found->second;
+  const std::vector<partition::GridPoint> edge = edges_.Of(key);
+  for (int level = 0; level < kGroundLevels; ++level) {
+    const auto at = static_cast<std::size_t>(level);
+    const auto segments = level == 0 || finest.empty() ? finest : Simplify(finest, key, world_, kRoadTolerances[at]);
+    const TilePlan plan = PlanTile(world_, key, segments, edge, level);
+    WovenTile woven = WeaveTile(world_, plan);
+    if (at < paint_.size()) {
+      if (const auto paint = paint_[at].find(key); paint != paint_[at].end()) tile.levels[at].marks = LayPaint(paint->second, key, woven.triangles);
+    }
+    tile.levels[at].ground = std::move(woven.meshes);
+  }
+  tile.ball = BallOf(key);
+  return tile;
+}
+
+}  // namespace rodeira::scene

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "common/base/hash.hpp"
+#include "common/road/world.hpp"
+#include "common/scene/mark_strips.hpp"
+#include "common/scene/mesh.hpp"
+#include "common/scene/tile_lines.hpp"
+#include "common/scene/tile_plan.hpp"
+
+namespace rodeira::scene {
+
+struct GroundLevel {
+  std::vector<Mesh> ground;  // one a material, then walls; nothing above or below another but on another level of roads
+  Mesh marks;                // in the planes of the ground's triangles: to be drawn after it, with an offset
+};
+
+// Around a tile with room for its heights; known without building it.
+struct TileBall {
+  Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();
+  double radius_m = 350.0;
+};
+
+// Up to these distances from a ball's centre the levels are shown.
+inline constexpr std::array<float, kGroundLevels> kGroundSeen_m = {240.0F, 480.0F, 1080.0F, 1e9F};
+
+// A square of ground at several levels of detail, the finest first. On the square's edge all levels have the same
+// vertices, to the bit, and so have neighbours: any two levels fit together without a crack.
+struct GroundTile {
+  TileKey key;
+  TileBall ball;
+  std::array<GroundLevel, kGroundLevels> levels;
+};
+
+// A network's ground, ready to be made tile by tile. Tiles are pure functions of the world: in any order, on any threads,
+// the same bits.
+class GroundPlan {
+ public:
+  // Land is drawn this far around roads.
+  static constexpr double kAround_m = 500.0;
+
+  // world.network() must not be null; the world must outlive the plan. threads: 0 for as many as the machine has.
+  explicit GroundPlan(const road::World& world, unsigned threads = 0);
+
+  std::span<const TileKey> tiles() const { return tiles_; }
+  GroundTile Build(const TileKey& tile) const;
+  TileBall BallOf(const TileKey& tile) const;
+  // Of everything that can change a bit of the tile: the roads that are nearest to any of its points, or lie in it, with
+  // their heights, lanes and paint, and the terrain. (A change in a tile's roads changes it; it may change without need.)
+  base::Digest SourceDigest(const TileKey& tile) const;
+
+ private:
+  struct RoadTrace {
+    Eigen::Vector2d low_W, high_W;        // a box around it
+    std::vector<Eigen::Vector2d> points_W;
+    base::Digest digest = 0;
+  };
+  const road::World& world_;
+  std::vector<TileKey> tiles_;  // ascending
+  std::map<TileKey, std::vector<partition::GridSegment>> segments_;
+  TileEdges edges_;
+  std::vector<RoadTrace> traces_;  // by road
+  base::Digest terrain_digest_ = 0;
+  std::array<TilePaint, kGroundLevels - 1> paint_;  // the coarsest level has none
+};
+
+// Calls work(i) for each i < count on several threads (0: as many as the machine has), each exactly once.
+void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work);
+
+}  // namespace rodeira::scene

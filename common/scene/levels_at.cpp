@@ -1,0 +1,57 @@
+#include "common/scene/levels_at.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/network/network.hpp"
+
+namespace rodeira::scene {
+namespace {
+
+// SUELO below a height is asked with hints that lie deeper and deeper: the nearest road to a hint just below a bridge is
+// the bridge itself.
+constexpr double kDeeper_m[] = {2.6, 4.6, 8.0};
+constexpr double kWithin_m = 0.02;  // so far from a corner a face is asked
+constexpr double kSteepest = 4.0;   // slopes beyond this are a step's, not the ground's
+
+}  // namespace
+
+void LevelsAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t most, std::vector<road::SurfacePoint>& levels) {
+  levels.clear();
+  road::SurfacePoint top = world.At(p_W.x(), p_W.y());
+  if (!top.inside) {
+    if (world.network() == nullptr) return;
+    const auto place = world.network()->Locate(p_W.x(), p_W.y());
+    if (!place || !std::isfinite(place->z_m)) return;
+    top = {place->z_m, 0.0, 0.0, 0.0, terrain::Surface::kGrass, false};
+    levels.push_back(top);
+    return;
+  }
+  levels.push_back(top);
+  while (levels.size() < most) {
+    const double z = levels.back().z_m;
+    bool deeper = false;
+    for (const double down : kDeeper_m) {
+      const road::SurfacePoint below = world.At(p_W.x(), p_W.y(), z - down);
+      if (!below.inside || !(below.z_m < z - kLevelApart_m)) continue;
+      levels.push_back(below);
+      deeper = true;
+      break;
+    }
+    if (!deeper) break;
+  }
+}
+
+void LevelsWithin(const road::World& world, const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t most,
+                  std::vector<road::SurfacePoint>& levels) {
+  const Eigen::Vector2d way = towards_W - p_W;
+  const double length = way.norm();
+  const Eigen::Vector2d off = length > 0.0 ? Eigen::Vector2d(std::min(kWithin_m, 0.3 * length) / length * way) : Eigen::Vector2d::Zero();
+  LevelsAt(world, p_W + off, most, levels);
+  for (road::SurfacePoint& level : levels) {
+    const Eigen::Vector2d slope(level.slope_x, level.slope_y);
+    if (slope.norm() <= kSteepest) level.z_m -= slope.dot(off);
+  }
+}
+
+}  // namespace rodeira::scene

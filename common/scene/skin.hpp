@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/road/world.hpp"
+#include "common/scene/mesh.hpp"
+
+namespace rodeira::scene {
+
+// How a piece of ground looks.
+struct Skin {
+  Material material = Material::kGround;
+  Colour colour;
+  terrain::Surface surface = terrain::Surface::kGrass;
+  bool land = true;    // beside all roads
+  bool grown = true;   // its colour changes from place to place
+};
+
+// Of one of SUELO's levels at a place: by what it is made of, and by the type of the lane there.
+Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::SurfacePoint& level);
+
+}  // namespace rodeira::scene

@@ -1,0 +1,107 @@
+#include "common/scene/tile_lines.hpp"
+
+#include <algorithm>
+
+namespace rodeira::scene {
+namespace {
+
+using partition::GridLine;
+using partition::GridPoint;
+
+// Where the way from a to b meets the line on which its first coordinate is `at`: the second one, rounded. a.x != b.x.
+std::int64_t Crossing(std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by, std::int64_t at) {
+  if (ax > bx) std::swap(ax, bx), std::swap(ay, by);  // the same for both directions
+  const __int128 rise = static_cast<__int128>(by - ay) * (at - ax), run = bx - ax;
+  const __int128 doubled = 2 * rise + run;
+  __int128 whole = doubled / (2 * run);
+  if (doubled % (2 * run) < 0) --whole;
+  return ay + static_cast<std::int64_t>(whole);
+}
+
+// The first tile edge strictly between two coordinates, going from the first one; false where there is none.
+bool EdgeBetween(std::int64_t from, std::int64_t to, std::int64_t& edge) {
+  const std::int64_t low = std::min(from, to), high = std::max(from, to);
+  edge = (TileOf(low) + 1) * kTileSteps;
+  return edge > low && edge < high;
+}
+
+// Puts one line's segments into tiles.
+class Cutter {
+ public:
+  explicit Cutter(TileLines& tiles) : tiles_(tiles) {}
+
+  void Segment(const WorldStep& a, const WorldStep& b) {
+    std::int64_t edge = 0;
+    if (EdgeBetween(a.x, b.x, edge)) {
+      const WorldStep p{edge, Crossing(a.x, a.y, b.x, b.y, edge)};
+      Segment(a, p);
+      return Segment(p, b);
+    }
+    if (EdgeBetween(a.y, b.y, edge)) {
+      const WorldStep p{Crossing(a.y, a.x, b.y, b.x, edge), edge};
+      Segment(a, p);
+      return Segment(p, b);
+    }
+    const std::int64_t column = TileOf(std::min(a.x, b.x)), row = TileOf(std::min(a.y, b.y));
+    Put({column, row}, a, b);
+    const bool on_west = a.x == b.x && a.x == column * kTileSteps, on_south = a.y == b.y && a.y == row * kTileSteps;
+    if (on_west) Put({column - 1, row}, a, b);
+    if (on_south) Put({column, row - 1}, a, b);
+  }
+
+ private:
+  void Put(const TileKey& key, const WorldStep& a, const WorldStep& b) {
+    std::vector<GridLine>& lines = tiles_[key];
+    const GridPoint from = InTile(key, a), to = InTile(key, b);
+    auto [open, fresh] = open_.try_emplace(key, lines.size());
+    if (fresh || lines[open->second].back() != from) {
+      open->second = lines.size();
+      lines.push_back({from});
+    }
+    lines[open->second].push_back(to);
+  }
+
+  TileLines& tiles_;
+  std::map<TileKey, std::size_t> open_;  // the line that is being gone along
+};
+
+}  // namespace
+
+void AddToTiles(std::span<const Line3> lines, TileLines& tiles) {
+  for (const Line3& line : lines) {
+    Cutter cutter(tiles);
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      const WorldStep a = ToSteps(line[i].head<2>()), b = ToSteps(line[i + 1].head<2>());
+      if (a != b) cutter.Segment(a, b);
+    }
+  }
+}
+
+void TileEdges::Add(const TileKey& tile, std::span<const partition::GridSegment> segments) {
+  for (const partition::GridSegment& segment : segments) {
+    for (const GridPoint& p : {segment.a, segment.b}) {
+      if (p.x == 0) places_[{tile, true}].insert(p.y);
+      if (p.y == 0) places_[{tile, false}].insert(p.x);
+      if (p.x == kTileSteps) places_[{{tile.column + 1, tile.row}, true}].insert(p.y);
+      if (p.y == kTileSteps) places_[{{tile.column, tile.row + 1}, false}].insert(p.x);
+    }
+  }
+}
+
+std::vector<GridPoint> TileEdges::Of(const TileKey& tile) const {
+  const auto size = static_cast<std::int32_t>(kTileSteps);
+  std::set<GridPoint> points;
+  const auto add = [&](const Edge& edge, auto&& point_at) {
+    for (std::int32_t k = 0; k <= size; k += kEvery) points.insert(point_at(k));
+    if (const auto found = places_.find(edge); found != places_.end()) {
+      for (const std::int32_t k : found->second) points.insert(point_at(k));
+    }
+  };
+  add({tile, true}, [](std::int32_t k) { return GridPoint{0, k}; });
+  add({tile, false}, [](std::int32_t k) { return GridPoint{k, 0}; });
+  add({{tile.column + 1, tile.row}, true}, [&](std::int32_t k) { return GridPoint{size, k}; });
+  add({{tile.column, tile.row + 1}, false}, [&](std::int32_t k) { return GridPoint{k, size}; });
+  return {points.begin(), points.end()};
+}
+
+}  // namespace rodeira::scene

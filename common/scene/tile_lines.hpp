@@ -1,0 +1,39 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "common/partition/grid_point.hpp"
+#include "common/scene/road_lines.hpp"
+#include "common/scene/tile_grid.hpp"
+
+namespace rodeira::scene {
+
+using TileLines = std::map<TileKey, std::vector<partition::GridLine>>;
+
+// Adds the lines' parts to the tiles that they run through, cut where they pass from one to another. What runs along a
+// common edge is in both tiles.
+void AddToTiles(std::span<const Line3> lines, TileLines& tiles);
+
+// The points on tiles' edges, of both neighbours together: a tile triangulates all of its edges' points, at every level.
+class TileEdges {
+ public:
+  static constexpr std::int32_t kEvery = static_cast<std::int32_t>(kTileSteps / 16);  // and there is always one this often
+
+  void Add(const TileKey& tile, std::span<const partition::GridSegment> segments);
+  // All points on the tile's four edges.
+  std::vector<partition::GridPoint> Of(const TileKey& tile) const;
+
+ private:
+  struct Edge {
+    TileKey tile;          // whose west or south edge it is
+    bool west = false;
+
+    auto operator<=>(const Edge&) const = default;
+  };
+  std::map<Edge, std::set<std::int32_t>> places_;
+};
+
+}  // namespace rodeira::scene

@@ -1,0 +1,171 @@
+#include "common/scene/tile_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/scene/levels_at.hpp"
+
+namespace rodeira::scene {
+namespace {
+
+using partition::GridPoint;
+using partition::Triangulation;
+
+constexpr int kRounds = 5;  // of points put in where the ground is not met
+// Thinner triangles are not divided: on roads, and on land.
+constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.15, 0.5, 1.5, 4.0}, kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
+
+class Planner {
+ public:
+  Planner(const road::World& world, const TileKey& key, int level) : world_(world), level_(static_cast<std::size_t>(level)) { plan_.key = key; }
+
+  TilePlan Plan(std::span<const partition::GridSegment> segments, std::span<const GridPoint> edge) {
+    Triangulation& t = plan_.triangles;
+    for (const GridPoint& p : edge) t.Insert(p);
+    for (const partition::GridSegment& segment : segments) {
+      const std::uint32_t a = t.Insert(segment.a), b = t.Insert(segment.b);
+      fixed_.push_back({a, b});
+    }
+    for (const auto& [a, b] : fixed_) plan_.left_out += !t.Fix(a, b);
+    plan_.face_of = t.Faces();
+    Classify();
+    SpreadOverLand();
+    for (int round = 0; round < kRounds; ++round) {
+      if (!MeetGround()) break;
+    }
+    return std::move(plan_);
+  }
+
+ private:
+  GridPoint Middle(const Triangulation::Triangle& triangle) const {
+    const auto p = plan_.triangles.points();
+    const auto mean = [](std::int32_t a, std::int32_t b, std::int32_t c) {
+      return static_cast<std::int32_t>((static_cast<std::int64_t>(a) + b + c) / 3);
+    };
+    const GridPoint &a = p[triangle.corner[0]], &b = p[triangle.corner[1]], &c = p[triangle.corner[2]];
+    return {mean(a.x, b.x, c.x), mean(a.y, b.y, c.y)};
+  }
+
+  // A face is what SUELO says in the middle of its thickest triangle.
+  void Classify() {
+    const auto triangles = plan_.triangles.triangles();
+    const std::size_t count = plan_.face_of.empty() ? 0 : *std::max_element(plan_.face_of.begin(), plan_.face_of.end()) + 1;
+    std::vector<double> thickest(count, -1.0);
+    std::vector<std::uint32_t> chosen(count, 0);
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+      const double thickness = ThicknessOf(plan_.triangles, triangles[i]);
+      if (thickness > thickest[plan_.face_of[i]]) thickest[plan_.face_of[i]] = thickness, chosen[plan_.face_of[i]] = i;
+    }
+    plan_.faces.resize(count);
+    for (std::size_t face = 0; face < count; ++face) {
+      const Eigen::Vector2d p_W = ToWorld(plan_.key, Middle(triangles[chosen[face]]));
+      LevelsAt(world_, p_W, kMostLevels, plan_.faces[face].levels);
+      for (const road::SurfacePoint& level : plan_.faces[face].levels) plan_.faces[face].skins.push_back(SkinAt(world_, p_W, level));
+      plan_.faces[face].land = plan_.faces[face].skins.empty() || plan_.faces[face].skins.front().land;
+    }
+  }
+
+  // New triangles belong to the face that they were cut from.
+  void CarryFaces() {
+    const std::vector<std::uint32_t> now = plan_.triangles.Faces();
+    const std::size_t count = *std::max_element(now.begin(), now.end()) + 1;
+    std::vector<std::uint32_t> before(count, 0);
+    for (std::size_t i = plan_.face_of.size(); i-- > 0;) before[now[i]] = plan_.face_of[i];
+    plan_.face_of.resize(now.size());
+    for (std::size_t i = 0; i < now.size(); ++i) plan_.face_of[i] = before[now[i]];
+  }
+
+  void SpreadOverLand() {
+    const auto every = static_cast<std::int32_t>(std::lround(kLandSpacings_m[level_] / kStep_m));
+    const double room = 0.4 * every;
+    std::vector<GridPoint> fresh;
+    for (std::int32_t x = every; x < kTileSteps; x += every) {
+      for (std::int32_t y = every; y < kTileSteps; y += every) {
+        const GridPoint p{x, y};
+        const std::uint32_t at = plan_.triangles.Find(p);
+        if (!plan_.faces[plan_.face_of[at]].land) continue;
+        const auto& corner = plan_.triangles.triangles()[at].corner;
+        const bool close = std::any_of(corner.begin(), corner.end(), [&](std::uint32_t c) {
+          const GridPoint q = plan_.triangles.points()[c];
+          return std::hypot(static_cast<double>(q.x - p.x), static_cast<double>(q.y - p.y)) < room;
+        });
+        if (!close) fresh.push_back(p);
+      }
+    }
+    for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
+    CarryFaces();
+  }
+
+  double Height(const Eigen::Vector2d& p_W) {
+    LevelsAt(world_, p_W, 1, levels_);
+    return levels_.empty() ? 0.0 : levels_.front().z_m;
+  }
+  double HeightWithin(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) {
+    LevelsWithin(world_, p_W, towards_W, 1, levels_);
+    return levels_.empty() ? 0.0 : levels_.front().z_m;
+  }
+
+  // Puts points where a triangle, in its middle or in the middle of a side, is too far from the ground. False where none is.
+  bool MeetGround() {
+    std::vector<GridPoint> fresh;
+    const auto triangles = plan_.triangles.triangles();
+    tried_.resize(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      if (tried_[i] == triangles[i].corner) continue;
+      tried_[i] = triangles[i].corner;
+      const bool land = plan_.faces[plan_.face_of[i]].land;
+      if (ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < (land ? kThinnestLand_m : kThinnestRoad_m)[level_]) continue;
+      Check(triangles[i], land ? kLandTolerances_m[level_] : 0.8 * kRoadTolerances[level_].height_m, land, fresh);
+    }
+    for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
+    if (!fresh.empty()) CarryFaces();
+    return !fresh.empty();
+  }
+
+  void Check(const Triangulation::Triangle& t, double tolerance, bool land, std::vector<GridPoint>& fresh) {
+    const auto points = plan_.triangles.points();
+    const GridPoint middle = Middle(t);
+    const Eigen::Vector2d middle_W = ToWorld(plan_.key, middle);
+    std::array<Eigen::Vector2d, 3> at;
+    std::array<double, 3> z{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      at[k] = ToWorld(plan_.key, points[t.corner[k]]);
+      z[k] = HeightWithin(at[k], middle_W);
+    }
+    if (std::fabs(Height(middle_W) - (z[0] + z[1] + z[2]) / 3.0) > tolerance) fresh.push_back(middle);
+    if (land) return;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t n = (k + 1) % 3;
+      if (t.fixed[k] || t.across[k] == Triangulation::kNone || t.corner[k] > t.corner[n]) continue;
+      const GridPoint &p = points[t.corner[k]], &q = points[t.corner[n]];
+      const GridPoint half{p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2};
+      if (std::fabs(HeightWithin(0.5 * (at[k] + at[n]), middle_W) - 0.5 * (z[k] + z[n])) > tolerance) fresh.push_back(half);
+    }
+  }
+
+  const road::World& world_;
+  std::size_t level_;
+  TilePlan plan_;
+  std::vector<std::array<std::uint32_t, 2>> fixed_;
+  std::vector<std::array<std::uint32_t, 3>> tried_;
+  std::vector<road::SurfacePoint> levels_;
+};
+
+}  // namespace
+
+double ThicknessOf(const Triangulation& triangles, const Triangulation::Triangle& triangle) {
+  const auto p = triangles.points();
+  double longest = 1.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const GridPoint &a = p[triangle.corner[k]], &b = p[triangle.corner[(k + 1) % 3]];
+    longest = std::max(longest, std::hypot(static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y)));
+  }
+  return static_cast<double>(partition::Turn(p[triangle.corner[0]], p[triangle.corner[1]], p[triangle.corner[2]])) / longest;
+}
+
+TilePlan PlanTile(const road::World& world, const TileKey& key, std::span<const partition::GridSegment> segments,
+                  std::span<const GridPoint> edge, int level) {
+  return Planner(world, key, level).Plan(segments, edge);
+}
+
+}  // namespace rodeira::scene

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/partition/triangulation.hpp"
+#include "common/road/world.hpp"
+#include "common/scene/road_lines.hpp"
+#include "common/scene/skin.hpp"
+#include "common/scene/tile_grid.hpp"
+
+namespace rodeira::scene {
+
+inline constexpr int kGroundLevels = 4;
+inline constexpr std::size_t kMostLevels = 4;  // of roads over one another
+// How closely the ground is followed, level by level: on roads, and beside them.
+inline constexpr std::array<Tolerance, kGroundLevels> kRoadTolerances = {{{0.001, 0.003}, {0.02, 0.02}, {0.10, 0.10}, {0.50, 0.50}}};
+inline constexpr std::array<double, kGroundLevels> kLandTolerances_m = {0.03, 0.15, 0.6, 2.0};
+inline constexpr std::array<double, kGroundLevels> kLandSpacings_m = {16.0, 16.0, 32.0, 64.0};
+
+// A piece of a tile on which SUELO is continuous: one lane, or the land between roads.
+struct Face {
+  std::vector<road::SurfacePoint> levels;  // in its middle, from the highest to the lowest
+  std::vector<Skin> skins;                 // as many
+  bool land = false;                       // no lane of a road is highest there
+};
+
+// A tile in triangles, seen from above: lanes, and the land around them.
+struct TilePlan {
+  TileKey key;
+  partition::Triangulation triangles{static_cast<std::int32_t>(kTileSteps)};
+  std::vector<std::uint32_t> face_of;  // by triangle
+  std::vector<Face> faces;
+  int left_out = 0;  // lines that crossed others after all; 0 but for mistakes
+};
+
+// A triangle's smallest height, in steps.
+double ThicknessOf(const partition::Triangulation& triangles, const partition::Triangulation::Triangle& triangle);
+
+// segments: noded, of the finest level. edge: all points on the tile's edges.
+TilePlan PlanTile(const road::World& world, const TileKey& key, std::span<const partition::GridSegment> segments,
+                  std::span<const partition::GridPoint> edge, int level);
+
+// The same lines with fewer points, none farther from what it leaves out than the tolerance; ends, crossings and points on
+// the tile's edge stay.
+std::vector<partition::GridSegment> Simplify(std::span<const partition::GridSegment> segments, const TileKey& key,
+                                             const road::World& world, const Tolerance& tolerance);
+
+}  // namespace rodeira::scene

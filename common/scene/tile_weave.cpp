@@ -1,0 +1,155 @@
+#include "common/scene/tile_weave.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "common/scene/colours.hpp"
+#include "common/scene/levels_at.hpp"
+#include "common/scene/tile_heights.hpp"
+
+namespace rodeira::scene {
+namespace {
+
+using partition::Triangulation;
+
+constexpr double kApron_m = 0.9;    // of a bridge's side
+constexpr double kKerb_m = 0.35;    // lower steps are stone, higher ones earth
+constexpr std::size_t kNobody = 99;
+
+class Weaver {
+ public:
+  Weaver(const road::World& world, const TilePlan& plan) : plan_(plan), heights_(world, plan) {
+    const Face& first = plan.faces.front();
+    origin_W_ = TileOrigin(plan.key, first.levels.empty() ? 0.0 : first.levels.front().z_m);
+    wall_.material = Material::kRoad;
+    wall_.origin_W = origin_W_;
+  }
+
+  WovenTile Weave() {
+    const auto triangles = plan_.triangles.triangles();
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+      const Face& face = plan_.faces[plan_.face_of[i]];
+      for (std::size_t level = 0; level < face.levels.size(); ++level) Ground(i, level);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t beyond = triangles[i].across[k];
+        if (beyond != Triangulation::kNone && plan_.face_of[beyond] != plan_.face_of[i]) Steps(i, k, beyond);
+      }
+    }
+    for (auto& [material, mesh] : meshes_) {
+      if (!mesh.triangles.empty()) woven_.meshes.push_back(std::move(mesh));
+    }
+    if (!wall_.triangles.empty()) woven_.meshes.push_back(std::move(wall_));
+    return std::move(woven_);
+  }
+
+ private:
+  Eigen::Vector3d Place(std::uint32_t point, double z_m) const {
+    const Eigen::Vector2d p = ToWorld(plan_.key, plan_.triangles.points()[point]);
+    return {p.x(), p.y(), z_m};
+  }
+
+  std::uint32_t Vertex(Mesh& mesh, std::uint32_t point, std::uint32_t face, std::size_t level) {
+    const auto [found, fresh] = vertices_.try_emplace({point, face, level}, 0);
+    if (!fresh) return found->second;
+    const CornerHeight& height = heights_.At(point, face)[level];
+    const Skin& skin = plan_.faces[face].skins[level];
+    const Eigen::Vector3d p_W = Place(point, height.z_m);
+    const Colour colour = skin.grown ? GroundColour(skin.surface, p_W.x(), p_W.y(), height.normal_W) : skin.colour;
+    return found->second = mesh.Add(p_W, height.normal_W, colour);
+  }
+
+  void Ground(std::uint32_t triangle, std::size_t level) {
+    const auto& corner = plan_.triangles.triangles()[triangle].corner;
+    const std::uint32_t face = plan_.face_of[triangle];
+    auto [found, fresh] = meshes_.try_emplace(plan_.faces[face].skins[level].material);
+    if (fresh) found->second.material = plan_.faces[face].skins[level].material, found->second.origin_W = origin_W_;
+    GroundTriangle ground;
+    std::array<std::uint32_t, 3> index{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      index[k] = Vertex(found->second, corner[k], face, level);
+      ground.p_W[k] = Place(corner[k], heights_.At(corner[k], face)[level].z_m);
+    }
+    ground.normal_W = (ground.p_W[1] - ground.p_W[0]).cross(ground.p_W[2] - ground.p_W[0]).normalized();
+    found->second.AddTriangle(index[0], index[1], index[2]);
+    woven_.triangles.push_back(ground);
+  }
+
+  double MeanHeight(const std::array<std::uint32_t, 2>& side, std::uint32_t face, std::size_t level) const {
+    return 0.5 * (heights_.At(side[0], face)[level].z_m + heights_.At(side[1], face)[level].z_m);
+  }
+
+  // Which of the other face's levels goes on from this one.
+  std::size_t Partner(const std::array<std::uint32_t, 2>& side, std::uint32_t face, std::size_t level, std::uint32_t other) const {
+    const std::size_t count = plan_.faces[other].levels.size();
+    if (count == 1 && plan_.faces[face].levels.size() == 1) return 0;
+    const double z = MeanHeight(side, face, level);
+    std::size_t best = kNobody;
+    double nearest = kLevelApart_m;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double apart = std::fabs(MeanHeight(side, other, i) - z);
+      if (apart < nearest) nearest = apart, best = i;
+    }
+    return best;
+  }
+
+  // What stands between a triangle's side and the face beyond, seen from there: where this one is higher.
+  void Steps(std::uint32_t triangle, std::size_t k, std::uint32_t beyond) {
+    const auto& t = plan_.triangles.triangles()[triangle];
+    const std::array<std::uint32_t, 2> side = {t.corner[k], t.corner[(k + 1) % 3]};
+    const std::uint32_t face = plan_.face_of[triangle], other = plan_.face_of[beyond];
+    for (std::size_t level = 0; level < plan_.faces[face].levels.size(); ++level) {
+      const auto z = [&](std::size_t c) { return heights_.At(side[c], face)[level].z_m; };
+      const std::size_t partner = Partner(side, face, level, other);
+      std::array<double, 2> foot = {z(0) - kApron_m, z(1) - kApron_m};
+      if (partner != kNobody) {
+        foot = {heights_.At(side[0], other)[partner].z_m, heights_.At(side[1], other)[partner].z_m};
+        if (z(0) == foot[0] && z(1) == foot[1]) continue;
+        const double higher = z(0) + z(1) - foot[0] - foot[1];
+        if (higher < 0.0 || (higher == 0.0 && face > other)) continue;  // that face's wall
+      }
+      const double high = std::max(z(0) - foot[0], z(1) - foot[1]);
+      const Skin& skin = plan_.faces[face].skins[level];
+      Colour colour = SurfaceColour(terrain::Surface::kSoil);
+      if (partner == kNobody || (high < kKerb_m && !skin.grown)) colour = SurfaceColour(terrain::Surface::kConcrete);
+      if (partner != kNobody && high < kKerb_m && plan_.faces[other].skins[partner].colour == skin.colour) colour = skin.colour;
+      Wall(side, {heights_.Way(side[0], z(0), foot[0]), heights_.Way(side[1], z(1), foot[1])}, colour);
+    }
+  }
+
+  // Between two points, each with its way down.
+  void Wall(const std::array<std::uint32_t, 2>& side, const std::array<std::vector<double>, 2>& ways_m, Colour colour) {
+    const Eigen::Vector3d along = Place(side[1], 0.0) - Place(side[0], 0.0);
+    const Eigen::Vector3d normal = Eigen::Vector3d(along.y(), -along.x(), 0.0).normalized();
+    std::array<std::vector<std::uint32_t>, 2> down;
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const double z_m : ways_m[k]) down[k].push_back(wall_.Add(Place(side[k], z_m), normal, colour));
+    }
+    for (std::size_t i = 0; i + 1 < down[1].size(); ++i) wall_.AddTriangle(down[0].front(), down[1][i + 1], down[1][i]);
+    for (std::size_t i = 0; i + 1 < down[0].size(); ++i) wall_.AddTriangle(down[0][i], down[0][i + 1], down[1].back());
+  }
+
+  const TilePlan& plan_;
+  TileHeights heights_;
+  Eigen::Vector3d origin_W_;
+  WovenTile woven_;
+  std::map<Material, Mesh> meshes_;
+  Mesh wall_;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::size_t>, std::uint32_t> vertices_;
+};
+
+}  // namespace
+
+Eigen::Vector3d TileOrigin(const TileKey& key, double z_m) {
+  const Eigen::Vector2d middle = key.south_west_W() + Eigen::Vector2d::Constant(0.5 * kTile_m);
+  return {middle.x(), middle.y(), std::round(z_m / kOriginGrid_m) * kOriginGrid_m};
+}
+
+WovenTile WeaveTile(const road::World& world, const TilePlan& plan) {
+  if (plan.faces.empty()) return {};
+  return Weaver(world, plan).Weave();
+}
+
+}  // namespace rodeira::scene

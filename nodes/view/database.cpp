@@ -1,0 +1,198 @@
+#include "nodes/view/database.hpp"
+
+#include <fmt/format.h>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/PolygonOffset>
+#include <osgDB/Registry>
+
+#include <array>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <sstream>
+
+#include "common/base/files.hpp"
+#include "common/scene/ground_tile.hpp"
+
+namespace rodeira::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kManifest = "visual.txt";
+
+struct Known {
+  base::Digest hash = 0;    // of the file
+  base::Digest source = 0;  // of what it was made from
+};
+using Manifest = std::map<std::string, Known>;
+
+const char* NameOf(scene::Material material) {
+  switch (material) {
+    case scene::Material::kGround: return "ground";
+    case scene::Material::kRoad: return "road";
+    case scene::Material::kMark: return "mark";
+    default: return "other";
+  }
+}
+
+osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh) {
+  osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array, normals = new osg::Vec3Array;
+  osg::ref_ptr<osg::Vec4ubArray> colours = new osg::Vec4ubArray;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Eigen::Vector3f &p = mesh.positions[i], &n = mesh.normals[i];
+    positions->push_back({p.x(), p.y(), p.z()});
+    normals->push_back({n.x(), n.y(), n.z()});
+    colours->push_back({mesh.colours[i].red, mesh.colours[i].green, mesh.colours[i].blue, 255});
+  }
+  colours->setNormalize(true);
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  geometry->setName(NameOf(mesh.material));
+  geometry->setUseDisplayList(false);
+  geometry->setUseVertexBufferObjects(true);
+  geometry->setVertexArray(positions);
+  geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
+  geometry->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
+  geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.triangles.begin(), mesh.triangles.end()));
+  if (mesh.material == scene::Material::kMark) {  // over the ground that it lies in
+    geometry->getOrCreateStateSet()->setAttributeAndModes(new osg::PolygonOffset(-1.0F, -4.0F));
+    geometry->getOrCreateStateSet()->setRenderBinDetails(1, "RenderBin");
+  }
+  return geometry;
+}
+
+osg::ref_ptr<osg::Node> LevelNode(const scene::GroundLevel& level) {
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  const auto add = [&](const scene::Mesh& mesh) {
+    if (mesh.triangles.empty()) return;
+    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(mesh.origin_W.x(), mesh.origin_W.y(), mesh.origin_W.z()));
+    place->addChild(GeometryOf(mesh));
+    group->addChild(place);
+  };
+  for (const scene::Mesh& mesh : level.ground) add(mesh);
+  add(level.marks);
+  return group;
+}
+
+// The bytes of a node's file. Not by several threads at once: the library's registry is one for all.
+base::Result<std::string> Serialise(const osg::Node& node) {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  osgDB::ReaderWriter* writer = osgDB::Registry::instance()->getReaderWriterForExtension("osgb");
+  if (writer == nullptr) return base::Failed("OpenSceneGraph's plugin for .osgb files is missing; the package libopenscenegraph161 was expected");
+  std::ostringstream bytes;
+  if (!writer->writeNode(node, bytes).success()) return base::Failed("OpenSceneGraph cannot write .osgb files");
+  return bytes.str();
+}
+
+Manifest ReadManifest(const fs::path& folder) {
+  Manifest manifest;
+  std::ifstream file(folder / kManifest);
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string name;
+    Known known;
+    if (words >> std::hex >> known.hash >> known.source >> name) manifest[name] = known;
+  }
+  return manifest;
+}
+
+std::string TileName(const scene::TileKey& key, int level) { return fmt::format("tiles/{}_{}_{}.osgb", key.column, key.row, level); }
+
+// Whether all files of a tile are there, made from the same, byte for byte as they were written.
+bool IsFresh(const fs::path& folder, const Manifest& before, const scene::TileKey& key, base::Digest source) {
+  for (int level = 0; level < scene::kGroundLevels; ++level) {
+    const auto known = before.find(TileName(key, level));
+    if (known == before.end() || known->second.source != source) return false;
+    std::ifstream file(folder / known->first, std::ios::binary);
+    std::ostringstream bytes;
+    bytes << file.rdbuf();
+    if (!file || base::Hash(bytes.view()) != known->second.hash) return false;
+  }
+  return true;
+}
+
+osg::ref_ptr<osg::Node> RootNode(const scene::GroundPlan& plan, const std::map<scene::TileKey, scene::TileBall>& balls) {
+  osg::ref_ptr<osg::Group> root = new osg::Group;
+  for (const scene::TileKey& key : plan.tiles()) {
+    const scene::TileBall& ball = balls.at(key);
+    osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
+    lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+    lod->setCenter(osg::Vec3d(ball.centre_W.x(), ball.centre_W.y(), ball.centre_W.z()));
+    lod->setRadius(static_cast<float>(ball.radius_m));
+    float from = 0.0F;
+    for (int level = 0; level < scene::kGroundLevels; ++level) {
+      const float to = scene::kGroundSeen_m[static_cast<std::size_t>(level)];
+      lod->setFileName(static_cast<unsigned>(level), TileName(key, level));
+      lod->setRange(static_cast<unsigned>(level), from, to);
+      from = to;
+    }
+    root->addChild(lod);
+  }
+  return root;
+}
+
+}  // namespace
+
+base::Result<DatabaseReport> WriteDatabase(const road::World& world, const DatabaseOptions& options) {
+  if (world.network() == nullptr || !world.open_drive()) return base::WrongInput("only an OpenDRIVE world can be written as it is seen", world.name());
+  std::error_code problem;
+  fs::create_directories(options.folder / "tiles", problem);
+  if (!fs::is_directory(options.folder / "tiles", problem)) return base::WrongInput("this is no folder, and none can be made", options.folder.string());
+  const Manifest before = ReadManifest(options.folder);
+  const scene::GroundPlan plan(world, options.threads);
+  const std::size_t count = plan.tiles().size();
+
+  Manifest after;
+  std::map<scene::TileKey, scene::TileBall> balls;
+  DatabaseReport report;
+  report.tiles = count;
+  std::mutex mutex;  // of the four below
+  base::Status status;
+  std::size_t done = 0;
+  scene::ForEachAtOnce(count, options.threads, [&](std::size_t i) {
+    const scene::TileKey& key = plan.tiles()[i];
+    const base::Digest source = plan.SourceDigest(key);
+    const scene::TileBall ball = plan.BallOf(key);
+    const bool fresh = IsFresh(options.folder, before, key, source);
+    Manifest files;
+    base::Status written;
+    if (!fresh) {
+      const scene::GroundTile tile = plan.Build(key);
+      for (int level = 0; level < scene::kGroundLevels && written; ++level) {
+        const auto bytes = Serialise(*LevelNode(tile.levels[static_cast<std::size_t>(level)]));
+        if (!bytes) {
+          written = bytes.error();
+          break;
+        }
+        files[TileName(key, level)] = {base::Hash(bytes.value()), source};
+        written = base::WriteWhole(options.folder / TileName(key, level), bytes.value());
+      }
+    } else {
+      for (int level = 0; level < scene::kGroundLevels; ++level) files[TileName(key, level)] = before.at(TileName(key, level));
+    }
+    const std::lock_guard lock(mutex);
+    if (status && !written) status = written;
+    after.merge(files);
+    balls[key] = ball;
+    report.built += !fresh;
+    options.progress(++done, count);
+  });
+  if (!status) return status.error();
+
+  const auto root = Serialise(*RootNode(plan, balls));
+  if (!root) return root.error();
+  if (auto written = base::WriteWhole(options.folder / "world.osgb", root.value()); !written) return written.error();
+  std::string manifest = fmt::format("# The world {} as it is seen: hash of each file, hash of what it was made from, file\n# content_hash: {}\n{} {} world.osgb\n",
+                                     world.name(), base::Hex(world.content_hash()), base::Hex(base::Hash(root.value())), base::Hex(world.content_hash()));
+  for (const auto& [name, known] : after) manifest += fmt::format("{} {} {}\n", base::Hex(known.hash), base::Hex(known.source), name);
+  if (auto written = base::WriteWhole(options.folder / kManifest, manifest); !written) return written.error();
+  for (const auto& [name, known] : before) {
+    if (name != "world.osgb" && !after.contains(name)) report.removed += fs::remove(options.folder / name, problem);
+  }
+  return report;
+}
+
+}  // namespace rodeira::view

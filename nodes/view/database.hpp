@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "common/base/result.hpp"
+#include "common/road/world.hpp"
+
+namespace rodeira::view {
+
+struct DatabaseOptions {
+  std::filesystem::path folder;
+  unsigned threads = 0;  // 0: as many as the machine has
+  std::function<void(std::size_t done, std::size_t of)> progress = [](std::size_t, std::size_t) {};
+};
+
+struct DatabaseReport {
+  std::size_t tiles = 0;
+  std::size_t built = 0;    // the others were there already
+  std::size_t removed = 0;  // files of tiles that are no more
+};
+
+// Writes the world as it is seen: `world.osgb` with a PagedLOD a tile, `tiles/COLUMN_ROW_LEVEL.osgb`, and `visual.txt`, which
+// names every file with its hash and what it was made from. Tiles whose sources did not change, and whose files are as they
+// were written, stay. The bytes are the same for any number of threads and whatever was there before. Wrong input where
+// the world is no OpenDRIVE file (others are drawn in another way) or the folder cannot be written.
+base::Result<DatabaseReport> WriteDatabase(const road::World& world, const DatabaseOptions& options);
+
+}  // namespace rodeira::view

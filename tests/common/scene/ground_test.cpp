@@ -1,0 +1,278 @@
+// The ground as it is drawn, against SUELO and against itself.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "common/base/random.hpp"
+#include "common/network/marking.hpp"
+#include "common/scene/ground_tile.hpp"
+#include "tests/common/scene/ground_worlds.hpp"
+#include "tests/setting.hpp"
+
+namespace rodeira::scene {
+namespace {
+
+std::vector<GroundTile> BuildAll(const road::World& world, unsigned threads = 0) {
+  const GroundPlan plan(world, threads);
+  std::vector<GroundTile> tiles(plan.tiles().size());
+  ForEachAtOnce(tiles.size(), threads, [&](std::size_t i) { tiles[i] = plan.Build(plan.tiles()[i]); });
+  return tiles;
+}
+
+bool IsWall(const Mesh& mesh, std::size_t triangle) { return std::fabs(mesh.normals[mesh.triangles[3 * triangle]].z()) < 1e-6F; }
+
+std::array<Eigen::Vector3d, 3> CornersOf(const Mesh& mesh, std::size_t triangle) {
+  return {mesh.PositionW(mesh.triangles[3 * triangle]), mesh.PositionW(mesh.triangles[3 * triangle + 1]), mesh.PositionW(mesh.triangles[3 * triangle + 2])};
+}
+
+struct Correlation {
+  int asked = 0;
+  int stepped = 0;  // within 3 mm of a step of SUELO
+  int far = 0;      // more than 5 mm from SUELO elsewhere
+  double worst_m = 0.0;
+  Eigen::Vector3d where = Eigen::Vector3d::Zero();
+};
+
+// Whether SUELO is at a height within 3 mm of a place: where SUELO steps, a drawn line is up to 1 mm beside the edge.
+bool MeetsNearby(const road::World& world, const Eigen::Vector3d& p, double within_m) {
+  for (int k = 0; k < 8; ++k) {
+    const double angle = 0.785398 * k;
+    const road::SurfacePoint near = world.At(p.x() + 0.003 * std::cos(angle), p.y() + 0.003 * std::sin(angle), p.z() + 0.3);
+    if (near.inside && std::fabs(near.z_m - p.z()) < within_m) return true;
+  }
+  return false;
+}
+
+// Points on the finest level's road triangles, evenly by area, against SUELO at the same place and level.
+Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed) {
+  std::vector<std::array<Eigen::Vector3d, 3>> triangles;
+  std::vector<double> sums;
+  for (const GroundTile& tile : tiles) {
+    for (const Mesh& mesh : tile.levels[0].ground) {
+      if (mesh.material != Material::kRoad) continue;
+      for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
+        if (IsWall(mesh, i)) continue;
+        triangles.push_back(CornersOf(mesh, i));
+        const Eigen::Vector3d u = triangles.back()[1] - triangles.back()[0], v = triangles.back()[2] - triangles.back()[0];
+        sums.push_back((sums.empty() ? 0.0 : sums.back()) + 0.5 * u.cross(v).norm());
+      }
+    }
+  }
+  Correlation result;
+  if (triangles.empty()) return result;
+  for (int n = 0; n < count; ++n) {
+    const auto draw = [&](std::uint64_t what) { return base::RandomUniform({seed, static_cast<std::uint64_t>(n), what}, 0.0, 1.0); };
+    const auto found = std::upper_bound(sums.begin(), sums.end(), draw(0) * sums.back());
+    const auto& t = triangles[std::min(static_cast<std::size_t>(found - sums.begin()), triangles.size() - 1)];
+    double a = draw(1), b = draw(2);
+    if (a + b > 1.0) a = 1.0 - a, b = 1.0 - b;
+    const Eigen::Vector3d p = t[0] + a * (t[1] - t[0]) + b * (t[2] - t[0]);
+    ++result.asked;
+    const road::SurfacePoint at = world.At(p.x(), p.y(), p.z() + 0.3);
+    const double error = at.inside ? std::fabs(at.z_m - p.z()) : 1e9;
+    if (error > 0.005) {
+      const bool steps = MeetsNearby(world, p, 0.005);
+      if (steps) {
+        ++result.stepped;
+        continue;
+      }
+    }
+    result.far += error > 0.005;
+    if (error > result.worst_m) result.worst_m = error, result.where = p;
+  }
+  return result;
+}
+
+int Points() { return static_cast<int>(Setting("RODEIRA_GROUND_POINTS", 5'000)); }
+
+TEST(Ground, IsWhereTheTyresAre) {
+  const auto world = OpenDriveWorld(BendUnderBridge());
+  ASSERT_NE(world, nullptr);
+  const Correlation found = Correlate(*world, BuildAll(*world), Points(), 1);
+  EXPECT_EQ(found.asked, Points());
+  EXPECT_LT(found.stepped, 0.002 * found.asked);
+  EXPECT_LT(found.worst_m, 0.005) << "at " << found.where.transpose();
+}
+
+// In files of other programs surfaces of overlapping roads cross and step anywhere: nearly all points agree, not all.
+TEST(Ground, IsNearlyWhereTheTyresAreOnRealFiles) {
+  std::uint64_t files = Setting("RODEIRA_GROUND_FILES", 2);
+  for (const char* name : {"esmini_curves_elevation", "esmini_fabriksgatan", "esmini_e6mini", "esmini_highway_exit", "carla_Town04"}) {
+    if (files-- == 0) break;
+    if (!std::filesystem::exists(SharedXodr(name))) GTEST_SKIP() << "skipped: " << SharedXodr(name) << " is absent";
+    const auto world = road::World::Load(SharedXodr(name));
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    const Correlation found = Correlate(*world.value(), BuildAll(*world.value()), Points(), 2);
+    EXPECT_LT(found.far, 0.001 * found.asked) << name << ": worst " << found.worst_m << " m at " << found.where.transpose();
+    EXPECT_LT(found.stepped, 0.002 * found.asked) << name;
+    std::printf("%s: %d of %d more than 5 mm from SUELO, worst %.4f m\n", name, found.far, found.asked, found.worst_m);
+  }
+}
+
+// A place to the bit: coordinates of drawn points are whole steps.
+using Place = std::array<double, 3>;
+Place PlaceOf(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+// Every side of every triangle has one that goes back along it, but on the tile's own edge, at the end of the ground, and
+// at the free lower edge of a bridge's apron. So there is no hole, no T-junction and nothing that faces down.
+TEST(Ground, IsClosed) {
+  const auto world = OpenDriveWorld(BendUnderBridge());
+  ASSERT_NE(world, nullptr);
+  for (const GroundTile& tile : BuildAll(*world)) {
+    for (const GroundLevel& level : tile.levels) {
+      std::map<std::pair<Place, Place>, int> sides;
+      for (const Mesh& mesh : level.ground) {
+        for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
+          const auto corners = CornersOf(mesh, i);
+          if (!IsWall(mesh, i)) {
+            const Eigen::Vector3d u = corners[1] - corners[0], v = corners[2] - corners[0];
+            EXPECT_GT(u.x() * v.y() - u.y() * v.x(), 0.0) << "it faces down";
+            for (std::size_t k = 0; k < 3; ++k) EXPECT_GT(mesh.normals[mesh.triangles[3 * i + k]].z(), 0.0F);
+          }
+          for (std::size_t k = 0; k < 3; ++k) ++sides[{PlaceOf(corners[k]), PlaceOf(corners[(k + 1) % 3])}];
+        }
+      }
+      const Eigen::Vector2d low = tile.key.south_west_W(), high = low + Eigen::Vector2d::Constant(kTile_m);
+      int open = 0, aprons = 0;
+      for (const auto& [side, count] : sides) {
+        const auto back = sides.find({side.second, side.first});
+        if (back != sides.end() && back->second == count) continue;
+        const auto on_edge = [&](const Place& p) { return p[0] == low.x() || p[1] == low.y() || p[0] == high.x() || p[1] == high.y(); };
+        if (on_edge(side.first) && on_edge(side.second)) continue;
+        // The bridge's aprons hang 0.9 m below it: their lower edges and ends are free, and nothing else at that height is.
+        const bool apron = side.first[2] > 14.5 && side.second[2] > 14.5;
+        apron ? ++aprons : ++open;
+      }
+      EXPECT_EQ(open, 0) << "tile " << tile.key.column << " " << tile.key.row;
+    }
+  }
+}
+
+// The points on a common edge of two tiles, whatever their levels.
+TEST(Ground, NeighboursFitAtEveryPairOfLevels) {
+  const auto world = OpenDriveWorld(BendUnderBridge(700.0, -300.0));
+  ASSERT_NE(world, nullptr);
+  std::map<TileKey, GroundTile> tiles;
+  for (GroundTile& tile : BuildAll(*world)) tiles[tile.key] = std::move(tile);
+  const auto along = [](const GroundTile& tile, std::size_t level, bool column, double at) {
+    std::set<Place> places;
+    for (const Mesh& mesh : tile.levels[level].ground) {
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const Eigen::Vector3d p = mesh.PositionW(i);
+        if ((column ? p.x() : p.y()) == at && mesh.normals[i].z() > 1e-6F) places.insert(PlaceOf(p));
+      }
+    }
+    return places;
+  };
+  int pairs = 0;
+  for (const auto& [key, tile] : tiles) {
+    for (const bool column : {true, false}) {
+      const auto other = tiles.find(column ? TileKey{key.column + 1, key.row} : TileKey{key.column, key.row + 1});
+      if (other == tiles.end()) continue;
+      const double at = column ? other->second.key.south_west_W().x() : other->second.key.south_west_W().y();
+      const auto expected = along(tile, 0, column, at);
+      EXPECT_GE(expected.size(), 17u);
+      for (std::size_t level = 0; level < kGroundLevels; ++level) {
+        EXPECT_EQ(along(tile, level, column, at), expected) << "level " << level;
+        EXPECT_EQ(along(other->second, level, column, at), expected) << "level " << level << " of the neighbour";
+      }
+      ++pairs;
+    }
+  }
+  EXPECT_GT(pairs, 20);
+}
+
+// 5 000 km away the same file gives the same ground, as exactly: only where a height lies between two steps it may go to
+// the other one.
+TEST(Ground, LosesNothingFarAway) {
+  const double far_m = 20'000.0 * kTile_m;
+  const auto here = OpenDriveWorld(BendUnderBridge()), there = OpenDriveWorld(BendUnderBridge(far_m, -far_m));
+  ASSERT_TRUE(here != nullptr && there != nullptr);
+  const Correlation found = Correlate(*there, BuildAll(*there), Points(), 3);
+  EXPECT_LT(found.worst_m, 0.005);
+  const GroundPlan near_plan(*here), far_plan(*there);
+  EXPECT_EQ(near_plan.tiles().size(), far_plan.tiles().size());
+  for (const TileKey key : {TileKey{0, 0}, TileKey{0, -1}}) {
+    const GroundTile a = near_plan.Build(key), b = far_plan.Build({key.column + 20'000, key.row - 20'000});
+    ASSERT_EQ(a.levels[0].ground.size(), b.levels[0].ground.size());
+    for (std::size_t m = 0; m < a.levels[0].ground.size(); ++m) {
+      const Mesh &p = a.levels[0].ground[m], &q = b.levels[0].ground[m];
+      EXPECT_NEAR(static_cast<double>(p.positions.size()), static_cast<double>(q.positions.size()), 0.01 * static_cast<double>(p.positions.size()));
+    }
+  }
+}
+
+TEST(Ground, TheSameBitsForAnyNumberOfThreads) {
+  const auto world = OpenDriveWorld(BendUnderBridge());
+  ASSERT_NE(world, nullptr);
+  const auto one = BuildAll(*world, 1), five = BuildAll(*world, 5);
+  ASSERT_EQ(one.size(), five.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    for (std::size_t level = 0; level < kGroundLevels; ++level) {
+      ASSERT_EQ(one[i].levels[level].ground.size(), five[i].levels[level].ground.size());
+      const auto same = [](const Mesh& a, const Mesh& b) {
+        return a.positions == b.positions && a.normals == b.normals && a.colours == b.colours && a.triangles == b.triangles && a.origin_W == b.origin_W;
+      };
+      for (std::size_t m = 0; m < one[i].levels[level].ground.size(); ++m) EXPECT_TRUE(same(one[i].levels[level].ground[m], five[i].levels[level].ground[m]));
+      EXPECT_TRUE(same(one[i].levels[level].marks, five[i].levels[level].marks));
+    }
+  }
+}
+
+// What is painted, point by point: on the line that the file says, and within its dashes.
+TEST(Ground, PaintLiesWhereTheFileSays) {
+  const auto world = OpenDriveWorld(BendUnderBridge());
+  ASSERT_NE(world, nullptr);
+  const network::Road& road = world->network()->roads()[0];
+  struct Known {
+    network::Marking line;
+    std::vector<network::Stroke> strokes;
+  };
+  std::vector<Known> lines;
+  double expected_m2 = 0.0, painted_m2 = 0.0, off_m2 = 0.0;
+  for (const network::Marking& line : network::MarkingsOf(road)) {
+    lines.push_back({line, network::StrokesOf(road, line)});
+    for (const network::Stroke& stroke : lines.back().strokes) expected_m2 += line.width_m * network::MarkingLength(road, line, stroke.from_s_m, stroke.to_s_m);
+  }
+  ASSERT_EQ(lines.size(), 4u);
+  double worst_m = 0.0;
+  int asked = 0;
+  for (const GroundTile& tile : BuildAll(*world)) {
+    const Mesh& marks = tile.levels[0].marks;
+    for (std::size_t i = 0; i < marks.triangle_count(); ++i) {
+      const auto c = CornersOf(marks, i);
+      const double area_m2 = 0.5 * std::fabs((c[1] - c[0]).x() * (c[2] - c[0]).y() - (c[1] - c[0]).y() * (c[2] - c[0]).x());
+      painted_m2 += area_m2;
+      bool on_suelo = true;
+      for (const Eigen::Vector3d& p : {c[0], c[1], c[2], Eigen::Vector3d((c[0] + c[1] + c[2]) / 3.0)}) {
+        const auto place = world->network()->Locate(p.x(), p.y(), p.z());
+        ASSERT_TRUE(place.has_value());
+        ++asked;
+        double nearest = 1.0;
+        for (const Known& known : lines) {
+          const double aside = std::fabs(place->t_m - network::MarkingAt(road, known.line, place->s_m).value) - 0.5 * known.line.width_m;
+          for (const network::Stroke& stroke : known.strokes) {
+            const double beyond = std::max({0.0, stroke.from_s_m - place->s_m, place->s_m - stroke.to_s_m});
+            nearest = std::min(nearest, std::max({0.0, aside, beyond}));
+          }
+        }
+        worst_m = std::max(worst_m, nearest);
+        const double z_m = world->At(p.x(), p.y(), p.z() + 0.3).z_m;
+        on_suelo = on_suelo && (std::fabs(z_m - p.z()) < 0.006 || MeetsNearby(*world, p, 0.006));
+      }
+      if (!on_suelo) off_m2 += area_m2;
+    }
+  }
+  EXPECT_LT(off_m2, 1e-5 * painted_m2);  // slivers at the road's ends, thinner than a step of the grid
+  EXPECT_GT(asked, 10'000);
+  EXPECT_LT(worst_m, 0.002);
+  EXPECT_NEAR(painted_m2 / expected_m2, 1.0, 0.01);
+}
+
+}  // namespace
+}  // namespace rodeira::scene

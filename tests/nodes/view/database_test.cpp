@@ -1,0 +1,120 @@
+// The files of what is seen: against the ground built in memory, against one another, and after changes.
+#include "nodes/view/database.hpp"
+
+#include <gtest/gtest.h>
+#include <osg/Geometry>
+#include <osg/PagedLOD>
+#include <osgDB/ReadFile>
+#include <unistd.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "common/scene/ground_tile.hpp"
+#include "tests/common/scene/ground_worlds.hpp"
+
+namespace rodeira::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Database : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / fmt::format("rodeira_database_{}", ::getpid());
+    fs::remove_all(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  DatabaseReport Write(const road::World& world, const std::string& name, unsigned threads = 2) {
+    DatabaseOptions options;
+    options.folder = folder_ / name;
+    options.threads = threads;
+    const auto report = WriteDatabase(world, options);
+    EXPECT_TRUE(report.ok()) << report.error().Text();
+    return report.ok() ? report.value() : DatabaseReport{};
+  }
+
+  std::map<std::string, std::string> Files(const std::string& name) const {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / name)) {
+      if (!entry.is_regular_file()) continue;
+      std::ostringstream bytes;
+      bytes << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+      files[fs::relative(entry.path(), folder_ / name).string()] = bytes.str();
+    }
+    return files;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Database, TheSameBytesForAnyNumberOfThreads) {
+  const auto world = scene::OpenDriveWorld(scene::BendUnderBridge());
+  ASSERT_NE(world, nullptr);
+  const DatabaseReport report = Write(*world, "one", 1);
+  EXPECT_EQ(report.built, report.tiles);
+  Write(*world, "three", 3);
+  const auto one = Files("one"), three = Files("three");
+  EXPECT_EQ(one.size(), 4 * report.tiles + 2);
+  EXPECT_TRUE(one == three);
+}
+
+TEST_F(Database, OnlyWhatChangedIsBuiltAgain) {
+  // Two roads far from one another, of which the second is then moved by a metre.
+  const auto text = [](double x) {
+    const auto road = [](int id, double at) {
+      return fmt::format("<road id=\"{}\" length=\"200\" junction=\"-1\"><planView><geometry s=\"0\" x=\"{}\" y=\"30\" hdg=\"0.2\" length=\"200\"><line/></geometry></planView>"
+                         "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\">"
+                         "<width sOffset=\"0\" a=\"4\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>\n", id, at);
+    };
+    return road(1, 10.0) + road(2, x);
+  };
+  const auto before = scene::OpenDriveWorld(text(4000.0)), after = scene::OpenDriveWorld(text(4001.0));
+  ASSERT_TRUE(before != nullptr && after != nullptr);
+  const DatabaseReport first = Write(*before, "world");
+  EXPECT_EQ(Write(*before, "world").built, 0u);
+  const DatabaseReport second = Write(*after, "world");
+  EXPECT_GT(second.built, 0u);
+  EXPECT_LT(second.built, first.tiles);
+  Write(*after, "fresh");
+  EXPECT_TRUE(Files("world") == Files("fresh"));
+  // A file that is not what was written is written again.
+  std::ofstream(folder_ / "world" / "tiles" / "0_0_0.osgb", std::ios::app) << "more";
+  EXPECT_EQ(Write(*after, "world").built, 1u);
+  EXPECT_TRUE(Files("world") == Files("fresh"));
+}
+
+TEST_F(Database, OpenSceneGraphReadsIt) {
+  const auto world = scene::OpenDriveWorld(scene::BendUnderBridge());
+  ASSERT_NE(world, nullptr);
+  const DatabaseReport report = Write(*world, "world");
+  const osg::ref_ptr<osg::Node> root = osgDB::readNodeFile((folder_ / "world" / "world.osgb").string());
+  ASSERT_TRUE(root.valid());
+  const osg::Group* group = root->asGroup();
+  ASSERT_NE(group, nullptr);
+  ASSERT_EQ(group->getNumChildren(), report.tiles);
+  const scene::GroundPlan plan(*world);
+  const scene::GroundTile tile = plan.Build({0, 0});
+  struct Count : osg::NodeVisitor {
+    std::size_t triangles = 0;
+    Count() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Geometry& geometry) override { triangles += geometry.getPrimitiveSet(0)->getNumIndices() / 3; }
+  };
+  for (std::size_t level = 0; level < scene::kGroundLevels; ++level) {
+    std::size_t expected = tile.levels[level].marks.triangle_count();
+    for (const scene::Mesh& mesh : tile.levels[level].ground) expected += mesh.triangle_count();
+    const osg::ref_ptr<osg::Node> node = osgDB::readNodeFile((folder_ / "world" / "tiles" / fmt::format("0_0_{}.osgb", level)).string());
+    ASSERT_TRUE(node.valid());
+    Count count;
+    node->accept(count);
+    EXPECT_EQ(count.triangles, expected);
+  }
+  const auto* lod = dynamic_cast<const osg::PagedLOD*>(group->getChild(0));
+  ASSERT_NE(lod, nullptr);
+  EXPECT_EQ(lod->getNumFileNames(), static_cast<unsigned>(scene::kGroundLevels));
+}
+
+}  // namespace
+}  // namespace rodeira::view
