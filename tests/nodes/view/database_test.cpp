@@ -86,6 +86,17 @@ TEST_F(Database, OnlyWhatChangedIsBuiltAgain) {
   EXPECT_TRUE(Files("world") == Files("fresh"));
 }
 
+TEST_F(Database, AWorldFileIsRefused) {
+  const auto world = road::World::Load(fs::path(RODEIRA_SOURCE_DIR) / "configs/worlds/n222.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  DatabaseOptions options;
+  options.folder = folder_ / "n222";
+  const auto report = WriteDatabase(*world.value(), options);
+  ASSERT_FALSE(report.ok());
+  EXPECT_NE(report.error().Text().find("only an OpenDRIVE world can be written as it is seen"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "n222"));
+}
+
 TEST_F(Database, OpenSceneGraphReadsIt) {
   const auto world = scene::OpenDriveWorld(scene::BendUnderBridge());
   ASSERT_NE(world, nullptr);
