@@ -71,7 +71,7 @@ constexpr double kRoute_m = 20'000.0;
 base::Result<std::unique_ptr<const driver::Way>> WayOf(const road::World& world, std::optional<int> lane_wish,
                                                        const std::string& place) {
   const road::StartPose& start = world.start();
-  if (world.open_drive()) {
+  if (world.network() != nullptr && world.roads().empty()) {
     const network::Network& network = *world.network();
     const auto at = network.Locate(start.x_m, start.y_m);
     if (!at || at->distance_m > 0.0 || at->lane.lane == 0)

@@ -122,6 +122,25 @@ TEST_F(Drive, AutopilotAndTrafficOnN222GiveTheSameDigestHoweverTheyRun) {
   EXPECT_NE(digest({"--seed", "6"}), first);
 }
 
+// A world file of version 2, whose roads are a network: autopilot, traffic and car drive on it, as processes and in one.
+TEST_F(Drive, AutopilotAndTrafficDriveOnHaste) {
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {Bin("rodeira"), "run", LaunchFile("haste.yaml"), "--headless", "--for", "20"});
+    const Ended ended = RunCommand(more);
+    EXPECT_EQ(ended.status, 0) << ended.out;
+    return DigestIn(ended.out);
+  };
+  const std::string digest = run({"--record", Path("haste.mcap")});
+  EXPECT_EQ(digest.size(), 16u);
+  EXPECT_EQ(run({"--record", Path("one.mcap"), "--in-process"}), digest);
+  double furthest_m = 0.0;
+  for (const auto& state : MessagesOf<msg::VehicleState>(Path("haste.mcap"), idl::topics::kVehicleState)) {
+    furthest_m = state.odometer_m();
+    ASSERT_EQ(state.inside_world(), 1u) << state.header().step();
+  }
+  EXPECT_GT(furthest_m, 200.0);
+}
+
 // SUELO asked of the road server at each step, over DDS, and answered in the vehicle's own process: the same bits.
 TEST_F(Drive, TheGroundIsTheSameHereAndThere) {
   const auto samples = [&](const std::string& ground, std::int64_t& asked) {
