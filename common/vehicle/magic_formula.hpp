@@ -6,8 +6,8 @@
 namespace rodeira::vehicle {
 
 // Pacejka's Magic Formula, version 6.1 (H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed., 2012, chapter 4.3), forces Fx
-// and Fy with combined slip, camber and inflation pressure; turn slip and the moments are left out. A file of version 5.2
-// is the same with the newer coefficients at their defaults. Names are those of the .tir files in lower case.
+// and Fy with combined slip, camber and inflation pressure; turn slip and the moments are left out. Version
+// 5.2 without camber is the same with the newer coefficients at their defaults; its terms of camber are others. Names are those of the .tir files in lower case.
 struct MagicFormulaSettings {
   double fnomin = 4000.0;     // nominal load, N
   double fzmax = 20000.0;     // above it the formula is evaluated at this load, N

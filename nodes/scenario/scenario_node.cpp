@@ -145,6 +145,9 @@ base::Result<std::vector<Gate>> MakeGates(const launch::NodeContext& context, co
   for (const scenario::ConditionalEvent& event : scenario.conditional) {
     if (!sees)
       return base::WrongInput("'passes_m' waits for the driver's car; wire 'vehicle_state' to the scenario", event.place);
+    if (names.empty() && world.network() != nullptr) {
+      return base::WrongInput("'passes_m' is known on the roads of world files of version 1; this world has others, so give the event a time ('at_s')", event.place);
+    }
     auto road = std::find(names.begin(), names.end(), event.road);
     if (event.road.empty() && names.size() == 1) road = names.begin();
     if (road == names.end())
