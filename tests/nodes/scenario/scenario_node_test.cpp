@@ -228,6 +228,9 @@ TEST_F(Scenario, WhatCannotBeIsRefusedAtTheStart) {
             std::string::npos);
   EXPECT_EQ(Complaint(Text(File("  - {at_s: 1.001, name: mark, text: x}\n"), "", ", period_s: 0.001")), "")
       << "with that period it can";
+  std::string newer = Text(File("  - {when: {road: main, passes_m: 3}, name: mark, text: x}\n"));
+  newer.replace(newer.find("n222.yaml"), 9, "haste.yaml");
+  EXPECT_NE(Complaint(newer).find("world files of version 1; this world has others"), std::string::npos);
   EXPECT_NE(Complaint(Text(File("  - {when: {road: n22, passes_m: 3}, name: mark, text: x}\n")))
                 .find("there is no road 'n22'; did you mean 'n222'?"),
             std::string::npos);
