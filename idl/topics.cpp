@@ -17,6 +17,7 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kParcels, "rodeira::msg::Parcel", "parcel", false},
       {topics::kGrant, "rodeira::msg::Grant", "clock", false},
       {topics::kAsk, "rodeira::msg::Ask", "clock", false},
+      {topics::kAnswers, "rodeira::msg::Parcel", "parcel", false},
       {topics::kReport, "rodeira::msg::Report", "clock", false},
       {topics::kGroundRequest, "rodeira::msg::GroundRequest", "ground", false},
       {topics::kGroundReply, "rodeira::msg::GroundReply", "ground", false},

@@ -19,6 +19,7 @@ inline constexpr std::string_view kSnapshot = "rodeira/snapshot";
 inline constexpr std::string_view kParcels = "rodeira/parcels/";  // and the name of the node that they are for
 inline constexpr std::string_view kGrant = "rodeira/grant";
 inline constexpr std::string_view kAsk = "rodeira/ask";
+inline constexpr std::string_view kAnswers = "rodeira/answers";
 inline constexpr std::string_view kReport = "rodeira/report";
 inline constexpr std::string_view kGroundRequest = "rodeira/ground_request";
 inline constexpr std::string_view kGroundReply = "rodeira/ground_reply";

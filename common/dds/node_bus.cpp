@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <set>
 #include <utility>
 
 #include "idl/topics.hpp"
@@ -33,11 +32,13 @@ namespace topics = idl::topics;
 using WallClock = std::chrono::steady_clock;
 
 NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings)
-    : roster_(roster), mailbox_(mailbox), settings_(settings), listens_(settings.incarnation == 0), kept_(roster, settings.node),
+    : roster_(roster), mailbox_(mailbox), settings_(settings), listens_(settings.incarnation == 0),
       parcels_(roster, settings.node, settings.most_parcel_bytes) {
   last_.node = settings.node;
   last_.incarnation = settings.incarnation;
-  if (settings.keeps_all) archive_.emplace(roster);
+  answers_.emplace(roster, settings.node, settings.keeps_all, settings.most_answer_bytes, [this](lockstep::NodeIndex asker, std::span<const lockstep::Sample> samples) {
+    if (asker != settings_.node) (void)answers_writer_->Write(EncodeParcel(asker, samples));
+  });
 }
 
 base::Result<std::unique_ptr<NodeBus>> NodeBus::Open(Participant& participant, const lockstep::Roster& roster, lockstep::Mailbox& mailbox,
@@ -56,6 +57,7 @@ NodeBus::~NodeBus() {
   woken_.notify_all();
   if (heartbeat_.joinable()) heartbeat_.join();
   readers_.clear();  // first: their callbacks use the rest
+  answers_.reset();  // then: it uses the writers
 }
 
 base::Status NodeBus::Connect(Participant& participant) {
@@ -78,15 +80,14 @@ base::Status NodeBus::Connect(Participant& participant) {
     if (std::all_of(port.sources.begin(), port.sources.end(), in_parcels)) continue;
     if (auto status = add_reader(topic, Delivery::kSaidAgain, [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); }); !status) return status;
   }
-  if (archive_) {
-    for (const lockstep::Port& port : roster_.node(settings_.node).inputs) {
-      auto relay = participant.MakeWriter(port.topic, Delivery::kSaidAgain);
-      if (!relay) return relay.error();
-      relays_.emplace(port.topic, std::move(relay).value());
-    }
-  }
   if (auto status = ConnectParcels(participant); !status) return status;
-  if (!writers_.empty() || archive_) {
+  // Answers have a topic of their own, which no step is published on: two threads that write on a topic which their process
+  // also reads can stop each other for good, each within a lock of Fast DDS that the other wants.
+  auto answers = participant.MakeWriter(topics::kAnswers, Delivery::kSaidAgain);
+  if (!answers) return answers.error();
+  answers_writer_ = std::move(answers).value();
+  if (auto status = add_reader(topics::kAnswers, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAnswer(bytes); }); !status) return status;
+  if (!writers_.empty() || settings_.keeps_all) {
     if (auto status = add_reader(topics::kAsk, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); }); !status) return status;
   }
   auto questions = participant.MakeWriter(topics::kAsk, Delivery::kSaidAgain);
@@ -98,27 +99,19 @@ base::Status NodeBus::Connect(Participant& participant) {
   return add_reader(topics::kGrant, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnGrant(std::move(bytes)); });
 }
 
-// Whom this node sends parcels, and those for it. A recorder that answers for others sends them to everybody who gets any.
+// Whom this node sends parcels, and those for it.
 base::Status NodeBus::ConnectParcels(Participant& participant) {
   const auto topic_of = [&](lockstep::NodeIndex n) { return std::string(topics::kParcels) + roster_.node(n).name; };
-  std::set<lockstep::NodeIndex> consumers;
-  for (const lockstep::NodeIndex n : parcels_.Consumers()) consumers.insert(n);
-  bool gets_some = false;
-  for (lockstep::NodeIndex n = 0; n < roster_.nodes().size(); ++n) {
-    for (const lockstep::Port& port : roster_.node(n).inputs) {
-      for (const lockstep::SourceIndex source : port.sources) {
-        if (!lockstep::GetsParcels(roster_, source, n)) continue;
-        if (n == settings_.node) gets_some = true;
-        else if (archive_) consumers.insert(n);
-      }
-    }
-  }
-  for (const lockstep::NodeIndex n : consumers) {
+  for (const lockstep::NodeIndex n : parcels_.Consumers()) {
     auto writer = participant.MakeWriter(topic_of(n), Delivery::kSaidAgain);
     if (!writer) return writer.error();
     parcel_writers_.emplace(n, std::move(writer).value());
   }
-  if (!gets_some) return {};
+  const auto gets_parcels = [&](const lockstep::Port& port) {
+    return std::any_of(port.sources.begin(), port.sources.end(), [&](lockstep::SourceIndex source) { return lockstep::GetsParcels(roster_, source, settings_.node); });
+  };
+  const auto& inputs = roster_.node(settings_.node).inputs;
+  if (std::none_of(inputs.begin(), inputs.end(), gets_parcels)) return {};
   auto reader = participant.MakeReader(topic_of(settings_.node), Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnParcel(bytes); });
   if (!reader) return reader.error();
   readers_.push_back(std::move(reader).value());
@@ -126,15 +119,10 @@ base::Status NodeBus::ConnectParcels(Participant& participant) {
 }
 
 base::Status NodeBus::Publish(const lockstep::Sample& sample) {
-  std::vector<lockstep::Parcels::Parcel> parcels;
   const lockstep::Grant grant = mailbox_.grant();
-  {
-    const std::lock_guard lock(kept_mutex_);
-    kept_.Add(sample);
-    parcels = parcels_.Add(sample, grant.final ? grant.through : lockstep::kNever);
-  }
-  for (const auto& parcel : parcels) {
-    if (auto status = parcel_writers_.at(parcel.to)->Write(EncodeParcel(parcel.samples)); !status) return status;
+  answers_->Keep(sample);
+  for (const auto& parcel : parcels_.Add(sample, grant.final ? grant.through : lockstep::kNever)) {
+    if (auto status = parcel_writers_.at(parcel.to)->Write(EncodeParcel(parcel.to, parcel.samples)); !status) return status;
   }
   return Say(sample);  // also where every consumer gets parcels: others may look on
 }
@@ -147,50 +135,43 @@ Writer& NodeBus::WriterOf(lockstep::SourceIndex source) {
   return *writers_[static_cast<std::size_t>(output - outputs_.begin())];
 }
 
-// By itself also where parcels are usual: what is small gets through where large ones were lost.
-void NodeBus::SayTo(lockstep::NodeIndex asker, const lockstep::Sample& sample, Writer& to_all) {
-  const auto to = parcel_writers_.find(asker);
-  const bool parcel = to != parcel_writers_.end() && lockstep::GetsParcels(roster_, sample.source(), asker);
-  (void)(parcel ? to->second->Write(EncodeParcel({sample})) : to_all.Write(*sample.payload));
-}
-
 void NodeBus::Ask(const lockstep::Gap& gap) {
   (void)questions_->Write(EncodeAsk(roster_.hash(), {settings_.node, gap}));  // a lost question is put again by the runner
 }
 
 void NodeBus::OnAsk(const base::Bytes& payload) {
-  const auto ask = DecodeAsk(roster_.hash(), payload);
-  if (!ask) return;
-  std::vector<lockstep::Sample> again;
-  {
-    const std::lock_guard lock(kept_mutex_);
-    again = kept_.From(ask->gap);
-  }
-  for (const lockstep::Sample& sample : again) SayTo(ask->asker, sample, WriterOf(sample.source()));
-  if (archive_) AnswerForOthers(*ask);
-}
-
-void NodeBus::AnswerForOthers(const dds::Ask& ask) {
-  std::vector<lockstep::Sample> again;
-  {
-    const std::lock_guard lock(kept_mutex_);
-    again = archive_->From(ask.gap);
-  }
-  for (const lockstep::Sample& sample : again) SayTo(ask.asker, sample, *relays_.find(roster_.source(sample.source()).topic)->second);
+  if (const auto question = DecodeAsk(roster_.hash(), payload)) answers_->Take(*question);
 }
 
 void NodeBus::OnParcel(const base::Bytes& payload) {
   if (!listens_) return;
-  auto samples = DecodeParcel(payload);
-  if (!samples) return Abort(samples.error().Text());
-  for (base::Bytes& sample : samples.value()) OnSample({}, std::move(sample));
+  auto opened = DecodeParcel(payload);
+  if (!opened) return Abort(opened.error().Text());
+  for (base::Bytes& sample : opened.value().samples) OnSample({}, std::move(sample));
 }
 
-base::Status NodeBus::Remember(const lockstep::Sample& sample) {
-  if (!archive_) return {};
-  const std::lock_guard lock(kept_mutex_);
-  return archive_->Add(sample);
+void NodeBus::OnAnswer(const base::Bytes& payload) {
+  auto opened = DecodeParcel(payload);
+  if (!opened) return Abort(opened.error().Text());
+  if (opened.value().to != settings_.node) return;
+  for (base::Bytes& sample : opened.value().samples) {
+    TakeSnapshot(sample);
+    OnSample({}, std::move(sample));
+  }
 }
+
+void NodeBus::TakeSnapshot(const base::Bytes& payload) {
+  const std::lock_guard lock(mutex_);
+  if (!wanted_ || !lockstep::SampleHeader::HasHeader(payload)) return;
+  const auto header = lockstep::SampleHeader::Read(payload);
+  if (header.source != wanted_->source || header.step != wanted_->from) return;
+  auto snapshot = lockstep::Snapshot::FromSample(payload);
+  if (!snapshot || snapshot.value().node != settings_.node) return;
+  snapshot_ = std::move(snapshot).value();
+  woken_.notify_all();
+}
+
+base::Status NodeBus::Remember(const lockstep::Sample& sample) { return answers_->Remember(sample); }
 
 std::optional<lockstep::Grant> NodeBus::AwaitGrant(std::chrono::milliseconds limit) {
   const auto until = WallClock::now() + limit;
@@ -199,33 +180,19 @@ std::optional<lockstep::Grant> NodeBus::AwaitGrant(std::chrono::milliseconds lim
   return heard_ && !heard_->abort ? heard_ : std::nullopt;
 }
 
-std::optional<lockstep::Snapshot> NodeBus::FetchSnapshot(Participant& participant, lockstep::Step step, std::chrono::milliseconds limit) {
-  const lockstep::SourceIndex source = *roster_.node(settings_.node).snapshots;
-  std::mutex mutex;
-  std::condition_variable arrived;
-  std::optional<lockstep::Snapshot> found;
-  auto reader = participant.MakeReader(lockstep::kSnapshotTopic, Delivery::kSaidAgain, [&](base::Bytes&& payload) {
-    if (!lockstep::SampleHeader::HasHeader(payload)) return;
-    const auto header = lockstep::SampleHeader::Read(payload);
-    if (header.source != source || header.step != step) return;
-    auto snapshot = lockstep::Snapshot::FromSample(payload);
-    if (!snapshot || snapshot.value().node != settings_.node) return;
-    const std::lock_guard lock(mutex);
-    found = std::move(snapshot).value();
-    arrived.notify_all();
-  });
-  if (!reader) return std::nullopt;
+std::optional<lockstep::Snapshot> NodeBus::FetchSnapshot(lockstep::Step step, std::chrono::milliseconds limit) {
+  const lockstep::Gap wanted{*roster_.node(settings_.node).snapshots, step};
   const auto until = WallClock::now() + limit;
-  std::unique_lock lock(mutex);
-  while (!found && WallClock::now() < until && !mailbox_.grant().abort) {
+  std::unique_lock lock(mutex_);
+  wanted_ = wanted;
+  while (!snapshot_ && WallClock::now() < until && !mailbox_.grant().abort) {
     lock.unlock();
-    Ask({source, step});
+    Ask(wanted);
     lock.lock();
-    arrived.wait_for(lock, std::chrono::milliseconds(10), [&] { return found.has_value(); });
+    woken_.wait_for(lock, std::chrono::milliseconds(10), [&] { return snapshot_.has_value(); });
   }
-  lock.unlock();
-  reader.value().reset();  // its callback uses what lies on this stack
-  return found;
+  wanted_.reset();
+  return std::exchange(snapshot_, std::nullopt);
 }
 
 void NodeBus::SetSafe(lockstep::Step safe) {
@@ -292,11 +259,7 @@ void NodeBus::OnGrant(base::Bytes&& payload) {
   const std::vector<std::uint32_t>& lives = grant.value().grant.lives;
   if (settings_.node < lives.size() && lives[settings_.node] > settings_.incarnation) return Abort("another process has taken its place");
   mailbox_.DeliverGrant(grant.value().grant);
-  {
-    const std::lock_guard lock(kept_mutex_);
-    kept_.Granted(grant.value().grant);
-    if (archive_) archive_->Forget(grant.value().grant.resume);
-  }
+  answers_->Granted(grant.value().grant);
   if (grant.value().grant.over || grant.value().grant.abort) woken_.notify_all();
 }
 

@@ -12,11 +12,10 @@
 #include <thread>
 #include <vector>
 
+#include "common/dds/answers.hpp"
 #include "common/dds/participant.hpp"
 #include "common/dds/wire.hpp"
-#include "common/lockstep/archive.hpp"
 #include "common/lockstep/bus.hpp"
-#include "common/lockstep/kept_samples.hpp"
 #include "common/lockstep/mailbox.hpp"
 #include "common/lockstep/parcels.hpp"
 #include "common/lockstep/runner.hpp"
@@ -33,6 +32,7 @@ class NodeBus final : public lockstep::Bus {
     Hello hello;
     bool keeps_all = false;  // a recorder, in a run of which a part may be started again: answers for everybody's samples
     std::size_t most_parcel_bytes = 8'000;  // as Parcels
+    std::size_t most_answer_bytes = 1'200;  // as Answers; what is small gets through where large datagrams do not
     std::chrono::milliseconds heartbeat{25};
     std::chrono::milliseconds clock_silence{3000};  // the clock repeats its grant all the time; silent this long it is gone
   };
@@ -53,7 +53,7 @@ class NodeBus final : public lockstep::Bus {
   // Another life than the first takes samples only from then on: its mailbox must know before where it begins.
   void Listen() { listens_ = true; }
   // This node's snapshot at `step`, from whoever keeps it: asked for until it comes; none after `limit` or an abort.
-  std::optional<lockstep::Snapshot> FetchSnapshot(Participant& participant, lockstep::Step step, std::chrono::milliseconds limit);
+  std::optional<lockstep::Snapshot> FetchSnapshot(lockstep::Step step, std::chrono::milliseconds limit);
   // What a recorder that is started again has in its file already.
   base::Status Remember(const lockstep::Sample& sample);
   // The node's last word, repeated until the clock says that all is over, at most for `limit`.
@@ -69,14 +69,13 @@ class NodeBus final : public lockstep::Bus {
   base::Status Connect(Participant& participant);
   base::Status ConnectParcels(Participant& participant);
   base::Status Say(const lockstep::Sample& sample);
-  // Again, for the one who lacks it.
-  void SayTo(lockstep::NodeIndex asker, const lockstep::Sample& sample, Writer& to_all);
   void OnParcel(const base::Bytes& payload);
+  void OnAnswer(const base::Bytes& payload);
+  void TakeSnapshot(const base::Bytes& payload);
   // `topic`: by which it came; empty: in a parcel.
   void OnSample(std::string_view topic, base::Bytes&& payload);
   void OnGrant(base::Bytes&& payload);
   void OnAsk(const base::Bytes& payload);
-  void AnswerForOthers(const dds::Ask& ask);
   Writer& WriterOf(lockstep::SourceIndex output);
   void Abort(std::string reason);
   void Heartbeat();
@@ -93,12 +92,10 @@ class NodeBus final : public lockstep::Bus {
   std::vector<std::unique_ptr<Reader>> readers_;
 
   std::map<lockstep::NodeIndex, std::unique_ptr<Writer>> parcel_writers_;  // by the node that they are for
-  std::map<std::string, std::unique_ptr<Writer>, std::less<>> relays_;  // by topic: where others' samples are said again
+  std::unique_ptr<Writer> answers_writer_;  // of the answering thread
 
-  std::mutex kept_mutex_;
-  lockstep::KeptSamples kept_;
-  lockstep::Parcels parcels_;
-  std::optional<lockstep::Archive> archive_;
+  lockstep::Parcels parcels_;  // of the thread that publishes
+  std::optional<Answers> answers_;
 
   mutable std::mutex mutex_;
   std::condition_variable woken_;
@@ -108,6 +105,8 @@ class NodeBus final : public lockstep::Bus {
   std::chrono::steady_clock::time_point clock_heard_;
   std::string fault_;
   std::optional<lockstep::Grant> heard_;
+  std::optional<lockstep::Gap> wanted_;  // the snapshot that is waited for
+  std::optional<lockstep::Snapshot> snapshot_;
   lockstep::Step safe_ = -1;
   bool stop_ = false;
   std::thread heartbeat_;

@@ -29,6 +29,7 @@ using namespace std::chrono_literals;
 // A datagram is lost with any of its fragments of 1 500 bytes.
 constexpr std::size_t kParcelOnWire_bytes = 8'000;
 constexpr std::size_t kParcelInMemory_bytes = 40'000;
+constexpr std::size_t kAnswerOnWire_bytes = 1'200;
 
 class ProcessContext final : public launch::NodeContext {
  public:
@@ -97,14 +98,14 @@ class ProcessContext final : public launch::NodeContext {
 };
 
 // For another life than the first.
-base::Status FindBeginning(ProcessContext& context, Participant& participant, NodeBus& bus, lockstep::Mailbox& mailbox, lockstep::Runner::Settings& settings) {
+base::Status FindBeginning(ProcessContext& context, NodeBus& bus, lockstep::Mailbox& mailbox, lockstep::Runner::Settings& settings) {
   const auto limit = std::chrono::milliseconds(context.launch().watchdog().start_ms);
   const auto grant = bus.AwaitGrant(limit);
   if (!grant) return base::Failed("the clock says nothing to a node that is started again");
   const lockstep::Beginning beginning = lockstep::BeginningOf(context.roster(), context.index(), *grant, context.has_through());
   settings.sink_from = beginning.sink_from;
   if (beginning.snapshot > 0) {
-    settings.resume = bus.FetchSnapshot(participant, beginning.snapshot, limit);
+    settings.resume = bus.FetchSnapshot(beginning.snapshot, limit);
     if (!settings.resume) return base::Failed(fmt::format("nobody has its snapshot at step {}", beginning.snapshot));
   }
   mailbox.StartAt(settings.resume ? settings.resume->at : settings.sink_from);
@@ -118,7 +119,7 @@ int Complain(const std::string& who, const base::Error& error) {
 }
 
 // The node is made and runs; what goes wrong is told to the clock, which ends the run.
-int Drive(const launch::NodeFactory& factory, ProcessContext& context, Participant& participant, NodeBus& bus, lockstep::Mailbox& mailbox, const ProcessOptions& options) {
+int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& bus, lockstep::Mailbox& mailbox, const ProcessOptions& options) {
   const auto fail = [&](const base::Error& error) {
     lockstep::Report report;
     report.node = context.index();
@@ -135,7 +136,7 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, Participa
   lockstep::Runner::Settings settings;
   settings.incarnation = options.incarnation;
   if (options.incarnation > 0) {
-    if (auto status = FindBeginning(context, participant, bus, mailbox, settings); !status) return fail(status.error());
+    if (auto status = FindBeginning(context, bus, mailbox, settings); !status) return fail(status.error());
   }
   lockstep::Runner runner(context.roster(), context.index(), *node.value(), bus, mailbox, settings);
   context.Follow(&runner);
@@ -172,11 +173,12 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   settings.incarnation = options.incarnation;
   settings.hello = OwnHello(launch::Agreement(launch.value()));
   settings.most_parcel_bytes = domain.transport == launch::Transport::kSharedMemory ? kParcelInMemory_bytes : kParcelOnWire_bytes;
+  settings.most_answer_bytes = domain.transport == launch::Transport::kSharedMemory ? kParcelInMemory_bytes : kAnswerOnWire_bytes;
   settings.keeps_all = launch.value().keeps_for_restarts() && roster.node(index).keeps_snapshots();
   auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
   if (!bus) return Complain(program, bus.error());
   ProcessContext context(launch.value(), index, *participant.value(), mailbox, *bus.value(), options.incarnation);
-  return Drive(factory, context, *participant.value(), *bus.value(), mailbox, options);
+  return Drive(factory, context, *bus.value(), mailbox, options);
 }
 
 }  // namespace rodeira::dds

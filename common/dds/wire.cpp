@@ -145,25 +145,26 @@ base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload) {
   return out;
 }
 
-base::Bytes EncodeAsk(base::Digest roster_hash, const Ask& ask) {
+base::Bytes EncodeAsk(base::Digest roster_hash, const lockstep::Question& question) {
   msg::Ask out;
   out.roster_hash(roster_hash);
-  out.from_step(ask.gap.from);
-  out.source(ask.gap.source);
-  out.asker(ask.asker);
+  out.from_step(question.gap.from);
+  out.source(question.gap.source);
+  out.asker(question.asker);
   return idl::Encode(out);
 }
 
-std::optional<Ask> DecodeAsk(base::Digest roster_hash, const base::Bytes& payload) {
+std::optional<lockstep::Question> DecodeAsk(base::Digest roster_hash, const base::Bytes& payload) {
   const auto in = idl::Decode<msg::Ask>(payload);
   if (!in || in.value().roster_hash() != roster_hash) return std::nullopt;
-  return Ask{in.value().asker(), {in.value().source(), in.value().from_step()}};
+  return lockstep::Question{in.value().asker(), {in.value().source(), in.value().from_step()}};
 }
 
-base::Bytes EncodeParcel(const std::vector<lockstep::Sample>& samples) {
+base::Bytes EncodeParcel(lockstep::NodeIndex to, std::span<const lockstep::Sample> samples) {
   std::size_t size = 0;
   for (const lockstep::Sample& sample : samples) size += sizeof(std::uint32_t) + sample.payload->size();
   msg::Parcel out;
+  out.to(to);
   auto& bytes = out.samples();
   bytes.resize(size);
   std::uint8_t* at = bytes.data();
@@ -176,21 +177,21 @@ base::Bytes EncodeParcel(const std::vector<lockstep::Sample>& samples) {
   return idl::Encode(out);
 }
 
-base::Result<std::vector<base::Bytes>> DecodeParcel(const base::Bytes& payload) {
+base::Result<Opened> DecodeParcel(const base::Bytes& payload) {
   const auto in = idl::Decode<msg::Parcel>(payload);
   if (!in) return in.error();
   const auto all = std::as_bytes(std::span(in.value().samples()));
-  std::vector<base::Bytes> samples;
+  Opened opened{in.value().to(), {}};
   for (std::size_t at = 0; at < all.size();) {
     std::uint32_t length = 0;
     if (all.size() - at < sizeof(length)) return base::WrongInput(fmt::format("a parcel of {} bytes ends within a length", all.size()));
     std::memcpy(&length, all.data() + at, sizeof(length));
     at += sizeof(length);
     if (length > all.size() - at) return base::WrongInput(fmt::format("a parcel of {} bytes has {} left for a sample of {}", all.size(), all.size() - at, length));
-    samples.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(at), all.begin() + static_cast<std::ptrdiff_t>(at + length));
+    opened.samples.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(at), all.begin() + static_cast<std::ptrdiff_t>(at + length));
     at += length;
   }
-  return samples;
+  return opened;
 }
 
 }  // namespace rodeira::dds

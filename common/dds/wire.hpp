@@ -1,11 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "common/base/bytes.hpp"
 #include "common/base/result.hpp"
-#include "common/lockstep/mailbox.hpp"
+#include "common/lockstep/questions.hpp"
 #include "common/lockstep/report.hpp"
 #include "common/lockstep/roster.hpp"
 
@@ -45,18 +46,16 @@ struct NumberedGrant {
 base::Bytes EncodeGrant(const NumberedGrant& grant);
 base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload);
 
-// A question for samples, and who lacks them.
-struct Ask {
-  lockstep::NodeIndex asker = 0;
-  lockstep::Gap gap;
-};
-
-base::Bytes EncodeAsk(base::Digest roster_hash, const Ask& ask);
+base::Bytes EncodeAsk(base::Digest roster_hash, const lockstep::Question& question);
 // Nothing where it is of another roster or cannot be read: whoever asks will ask again.
-std::optional<Ask> DecodeAsk(base::Digest roster_hash, const base::Bytes& payload);
+std::optional<lockstep::Question> DecodeAsk(base::Digest roster_hash, const base::Bytes& payload);
 
-base::Bytes EncodeParcel(const std::vector<lockstep::Sample>& samples);
-// The payloads in it; wrong input where it cannot be read.
-base::Result<std::vector<base::Bytes>> DecodeParcel(const base::Bytes& payload);
+base::Bytes EncodeParcel(lockstep::NodeIndex to, std::span<const lockstep::Sample> samples);
+struct Opened {
+  lockstep::NodeIndex to = 0;
+  std::vector<base::Bytes> samples;  // payloads
+};
+// Wrong input where it cannot be read.
+base::Result<Opened> DecodeParcel(const base::Bytes& payload);
 
 }  // namespace rodeira::dds

@@ -35,6 +35,8 @@ std::vector<Sample> KeptSamples::From(const Gap& gap) const {
   return {first, first + std::min<std::ptrdiff_t>(kAtATime, kept.end() - first)};
 }
 
+bool KeptSamples::Has(SourceIndex source) const { return std::find(outputs_.begin(), outputs_.end(), source) != outputs_.end(); }
+
 std::size_t KeptSamples::size() const {
   std::size_t size = 0;
   for (const auto& kept : samples_) size += kept.size();

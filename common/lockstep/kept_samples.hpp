@@ -24,6 +24,8 @@ class KeptSamples {
   // where the source is another node's.
   static constexpr std::size_t kAtATime = 64;
   std::vector<Sample> From(const Gap& gap) const;
+  // Whether it is the node's own.
+  bool Has(SourceIndex source) const;
   std::size_t size() const;
 
  private:

@@ -274,11 +274,18 @@ TEST_F(Hosts, APcStartedTwiceBeforeTheClockIsRefusedToo) {
   if (!rig_->problem().empty()) return;
   const auto right = Start(1), again = Start(1);
   std::this_thread::sleep_for(2s);
-  const Ended left = Start(0)->Wait(60s);
-  EXPECT_EQ(left.status, 2) << left.out;
-  EXPECT_NE(left.out.find("takes part twice, as process "), std::string::npos) << left.out;
-  EXPECT_EQ(right->Wait(10s).status, 2);
-  EXPECT_EQ(again->Wait(10s).status, 2);
+  const Ended left = Start(0)->Wait(60s), one = right->Wait(10s), two = again->Wait(10s);
+  if (left.status == 0) {  // the processes of one of them were all there before any of the other: so that one has come too late
+    const Ended& late = one.status == 0 ? two : one;
+    EXPECT_EQ(one.status + two.status, 2) << one.out << two.out;
+    EXPECT_NE(late.out.find("run 'rig' in domain 9: it is under way already"), std::string::npos) << late.out;
+    EXPECT_EQ(DigestIn(left.out), DigestOfOneHost());
+  } else {
+    EXPECT_EQ(left.status, 2) << left.out;
+    EXPECT_NE(left.out.find("takes part twice, as process "), std::string::npos) << left.out;
+    EXPECT_EQ(one.status, 2) << one.out;
+    EXPECT_EQ(two.status, 2) << two.out;
+  }
   ExpectNobodyLeft();
 }
 

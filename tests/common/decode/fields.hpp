@@ -107,7 +107,7 @@ void Fields(V& v, msg::ScenarioEvents& m) {
 }
 template <class V>
 void Fields(V& v, msg::Parcel& m) {
-  v("samples", m.samples()), v("end", m.end());
+  v("to", m.to()), v("samples", m.samples()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Snapshot& m) {
