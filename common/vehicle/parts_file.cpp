@@ -76,6 +76,15 @@ GearboxSettings ReadGearbox(const Map& map) {
   return gearbox;
 }
 
+DifferentialSettings ReadDifferential(const Map& map) {
+  constexpr Range kLocking{0.0, 1.0};
+  DifferentialSettings differential;
+  differential.preload_Nm = map.Number("preload_Nm", Range::NotNegative(), differential.preload_Nm);
+  differential.locking_drive = map.Number("locking_drive", kLocking, differential.locking_drive);
+  differential.locking_overrun = map.Number("locking_overrun", kLocking, differential.locking_overrun);
+  return differential;
+}
+
 AutomaticSettings ReadAutomatic(const Map& map) {
   AutomaticSettings automatic;
   automatic.up_light_radps = Rpm(map, "up_light_rpm", automatic.up_light_radps);
@@ -102,6 +111,7 @@ PowertrainSettings ReadPowertrain(const Map& root) {
   powertrain.engine = ReadEngine(root.Child("engine"));
   powertrain.clutch = ReadClutch(root.Child("clutch"));
   powertrain.gearbox = ReadGearbox(root.Child("gearbox"));
+  powertrain.differential = ReadDifferential(root.OptionalChild("differential"));
   powertrain.automatic = ReadAutomatic(root.OptionalChild("automatic"));
   return powertrain;
 }

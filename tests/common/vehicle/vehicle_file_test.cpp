@@ -51,6 +51,9 @@ TEST(VehicleFile, RefusalsNamePlaceAndRemedy) {
   EXPECT_THAT(ProblemAfter("PCX1: 1.6", "PCX9: 1.6"), HasSubstr("'tyre.front.magic_formula.PCX9'"));
   EXPECT_THAT(ProblemAfter("resume_rpm: 6300", "resume_rpm: 6600"), HasSubstr("not below"));
   EXPECT_THAT(ProblemAfter("[3.46, 1.96,", "[1.96, 3.46,"), HasSubstr("does not fall"));
+  EXPECT_THAT(ProblemAfter("automatic:  #", "differential: {locking_drive: 1.3}\nautomatic:  #"), HasSubstr("'differential.locking_drive' is 1.3"));
+  EXPECT_THAT(ProblemAfter("automatic:  #", "differential: {locking: 0.3}\nautomatic:  #"), HasSubstr("locking_drive"));
+  EXPECT_EQ(ProblemAfter("automatic:  #", "differential: {preload_Nm: 40, locking_drive: 0.3, locking_overrun: 0.15}\nautomatic:  #"), "");
   EXPECT_THAT(ProblemAfter("driven_axle: front", "driven_axle: frnt"), HasSubstr("did you mean 'front'?"));
   EXPECT_THAT(ProblemAfter("cg_to_front_axle_m: 1.0 ", "cg_to_front_axle_m: 3.0 "), HasSubstr("between the axles"));
   EXPECT_EQ(LoadVehicle("/no/such/car.yaml").error().exit_status(), 2);
