@@ -1,0 +1,111 @@
+#include "common/network/placing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/geometry/angle.hpp"
+
+namespace rodeira::network {
+namespace {
+
+constexpr double kMostOfARepeat = 1e5;
+
+double Between(double start, double end, double share) { return start + share * (end - start); }
+
+// s, t and what stands there are known; the rest follows from the road.
+void Stand(const Road& road, double turn_rad, Placed& placed) {
+  placed.foot_W = road.Surface(placed.s_m, placed.t_m).p_W;
+  placed.heading_rad = road.axis().Evaluate(placed.s_m).heading_rad + turn_rad;
+}
+
+Placed PlaceSignal(const Road& road, const Signal& signal) {
+  Placed placed;
+  placed.signal = &signal;
+  placed.s_m = signal.s_m, placed.t_m = signal.t_m, placed.z_offset_m = signal.z_offset_m;
+  placed.width_m = signal.width_m, placed.height_m = signal.height_m;
+  placed.both_sides = signal.orientation != "+" && signal.orientation != "-";
+  Stand(road, signal.h_offset_rad + (signal.orientation == "-" ? 0.0 : geometry::kPi), placed);
+  return placed;
+}
+
+Placed PlaceObject(const Road& road, const Object& object) {
+  Placed placed;
+  placed.object = &object;
+  placed.s_m = object.s_m, placed.t_m = object.t_m, placed.z_offset_m = object.z_offset_m;
+  placed.length_m = object.length_m, placed.width_m = object.width_m;
+  placed.height_m = object.height_m, placed.radius_m = object.radius_m;
+  Stand(road, object.hdg_rad, placed);
+  return placed;
+}
+
+// A size that a repeat leaves open is the object's own.
+void TakeSizes(const Repeat& repeat, const Object& object, double& height_start, double& height_end, double& width_start, double& width_end) {
+  const bool has_height = repeat.height_start_m != 0.0 || repeat.height_end_m != 0.0;
+  const bool has_width = repeat.width_start_m != 0.0 || repeat.width_end_m != 0.0;
+  height_start = has_height ? repeat.height_start_m : object.height_m;
+  height_end = has_height ? repeat.height_end_m : object.height_m;
+  width_start = has_width ? repeat.width_start_m : object.width_m;
+  width_end = has_width ? repeat.width_end_m : object.width_m;
+}
+
+void PlaceRow(const Road& road, const Object& object, const Repeat& repeat, std::uint32_t index, std::vector<Placed>& things) {
+  double height_start, height_end, width_start, width_end;
+  TakeSizes(repeat, object, height_start, height_end, width_start, width_end);
+  const double last = std::min(std::floor(repeat.length_m / repeat.distance_m + 1e-9), kMostOfARepeat);
+  for (double i = 0.0; i <= last; i += 1.0) {
+    const double s = repeat.s_m + i * repeat.distance_m;
+    if (s > road.length_m() + 1e-6) break;
+    const double share = repeat.length_m > 0.0 ? i * repeat.distance_m / repeat.length_m : 0.0;
+    Placed placed = PlaceObject(road, object);
+    placed.road = index;
+    placed.s_m = s;
+    placed.t_m = Between(repeat.t_start_m, repeat.t_end_m, share);
+    placed.z_offset_m = Between(repeat.z_start_m, repeat.z_end_m, share);
+    placed.height_m = Between(height_start, height_end, share);
+    placed.width_m = Between(width_start, width_end, share);
+    Stand(road, object.hdg_rad, placed);
+    things.push_back(placed);
+  }
+}
+
+void PlaceRun(const Road& road, const Object& object, const Repeat& repeat, std::uint32_t index, std::vector<PlacedRun>& runs) {
+  PlacedRun run;
+  run.road = index;
+  run.object = &object;
+  run.from_s_m = std::max(0.0, repeat.s_m);
+  run.to_s_m = std::min(repeat.s_m + repeat.length_m, road.length_m());
+  if (!(run.to_s_m > run.from_s_m)) return;
+  double height_start, height_end, width_start, width_end;
+  TakeSizes(repeat, object, height_start, height_end, width_start, width_end);
+  const auto at = [&](double s, double start, double end) { return Between(start, end, (s - repeat.s_m) / repeat.length_m); };
+  run.t_start_m = at(run.from_s_m, repeat.t_start_m, repeat.t_end_m), run.t_end_m = at(run.to_s_m, repeat.t_start_m, repeat.t_end_m);
+  run.z_start_m = at(run.from_s_m, repeat.z_start_m, repeat.z_end_m), run.z_end_m = at(run.to_s_m, repeat.z_start_m, repeat.z_end_m);
+  run.height_start_m = at(run.from_s_m, height_start, height_end), run.height_end_m = at(run.to_s_m, height_start, height_end);
+  run.width_start_m = at(run.from_s_m, width_start, width_end), run.width_end_m = at(run.to_s_m, width_start, width_end);
+  runs.push_back(run);
+}
+
+}  // namespace
+
+Furniture PlaceFurniture(const Network& network) {
+  Furniture furniture;
+  for (std::uint32_t index = 0; index < network.roads().size(); ++index) {
+    const Road& road = network.roads()[index];
+    for (const Signal& signal : road.spec().signals) {
+      furniture.things.push_back(PlaceSignal(road, signal));
+      furniture.things.back().road = index;
+    }
+    for (const Object& object : road.spec().objects) {
+      for (const Repeat& repeat : object.repeats) {
+        if (repeat.distance_m > 0.0) PlaceRow(road, object, repeat, index, furniture.things);
+        else PlaceRun(road, object, repeat, index, furniture.runs);
+      }
+      if (!object.repeats.empty()) continue;
+      furniture.things.push_back(PlaceObject(road, object));
+      furniture.things.back().road = index;
+    }
+  }
+  return furniture;
+}
+
+}  // namespace rodeira::network

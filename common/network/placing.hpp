@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/network/network.hpp"
+
+// Where what stands at the roads stands.
+namespace rodeira::network {
+
+// A signal or an object at its place; of a repeated object one of them.
+struct Placed {
+  std::uint32_t road = 0;
+  const Signal* signal = nullptr;  // one of these two is not null; both live as long as the network
+  const Object* object = nullptr;
+  double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0;
+  Eigen::Vector3d foot_W = Eigen::Vector3d::Zero();  // on the road's surface at (s, t), without the offset
+  // Of its x axis, from east to north; it stands upright. An object's x axis points along the road, turned by its own heading;
+  // a signal's is where its face looks: against the traffic that it is for (for both: against s), turned by its own offset.
+  double heading_rad = 0.0;
+  bool both_sides = false;  // of a signal: it has a second face, which looks the other way
+  double length_m = 0.0, width_m = 0.0, height_m = 0.0, radius_m = 0.0;
+};
+
+// An object that goes on along a road: all but s are linear in s.
+struct PlacedRun {
+  std::uint32_t road = 0;
+  const Object* object = nullptr;
+  double from_s_m = 0.0, to_s_m = 0.0;
+  double t_start_m = 0.0, t_end_m = 0.0;
+  double z_start_m = 0.0, z_end_m = 0.0;  // over the road's surface
+  double height_start_m = 0.0, height_end_m = 0.0;
+  double width_start_m = 0.0, width_end_m = 0.0;
+};
+
+struct Furniture {
+  std::vector<Placed> things;
+  std::vector<PlacedRun> runs;
+};
+
+// Everything that stands at a network's roads, by road, then signals and objects as they were written. An object that is
+// repeated every d metres over a length L stands at floor(L / d) + 1 stations as its repeats say, and not at its own; stations
+// beyond the road's end are left out, and what is said once for a road that ends before counts to its end.
+Furniture PlaceFurniture(const Network& network);
+
+}  // namespace rodeira::network

@@ -1,0 +1,116 @@
+// Where things at roads stand, against circles and counts in closed form.
+#include "common/network/placing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/geometry/angle.hpp"
+#include "tests/common/opendrive/sample.hpp"
+
+namespace rodeira::network {
+namespace {
+
+using opendrive::Document;
+using opendrive::MustRead;
+using opendrive::RoadText;
+
+constexpr double kRadius_m = 50.0;
+
+// A circle to the left about (10, 70), from its southernmost point.
+RoadText Circle() {
+  RoadText road;
+  road.geometry = R"(<geometry s="0" x="10" y="20" hdg="0" length="100"><arc curvature="0.02"/></geometry>)";
+  road.elevation = R"(<elevation s="0" a="5" b="0.03" c="0" d="0"/>)";
+  return road;
+}
+
+Eigen::Vector3d OnCircle(double s_m, double t_m) {
+  const double angle = s_m / kRadius_m;
+  return {10.0 + (kRadius_m - t_m) * std::sin(angle), 70.0 - (kRadius_m - t_m) * std::cos(angle), 5.0 + 0.03 * s_m};
+}
+
+TEST(Placing, ARowHasItsCountItsSpacingAndItsTaper) {
+  RoadText road = Circle();
+  road.more = R"(<objects><object id="o" type="tree" s="1" t="1" zOffset="9" radius="2" height="3" hdg="0.25"><repeat s="10" length="40" distance="7" tStart="6" tEnd="8" zOffsetStart="0" zOffsetEnd="1" heightStart="5" heightEnd="9"/></object></objects>)";
+  const auto network = MustRead(Document(road.Text()));
+  const Furniture furniture = PlaceFurniture(*network);
+  EXPECT_TRUE(furniture.runs.empty());
+  ASSERT_EQ(furniture.things.size(), 6u);  // 10, 17 … 45: floor(40 / 7) + 1
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Placed& tree = furniture.things[i];
+    const double s = 10.0 + 7.0 * static_cast<double>(i), share = 7.0 * static_cast<double>(i) / 40.0;
+    EXPECT_NEAR(tree.s_m, s, 1e-12);
+    EXPECT_NEAR(tree.t_m, 6.0 + 2.0 * share, 1e-12);
+    EXPECT_NEAR(tree.z_offset_m, share, 1e-12);
+    EXPECT_NEAR(tree.height_m, 5.0 + 4.0 * share, 1e-12);
+    EXPECT_EQ(tree.radius_m, 2.0);
+    EXPECT_NEAR((tree.foot_W - OnCircle(s, tree.t_m)).norm(), 0.0, 1e-10);
+    EXPECT_NEAR(tree.heading_rad, s / kRadius_m + 0.25, 1e-12);
+  }
+}
+
+TEST(Placing, AWholeNumberOfSpacesCountsItsEndAndARoadsEndCutsARow) {
+  RoadText road;
+  road.more = R"(<objects><object id="a" type="pole" s="0" t="5" height="1"><repeat s="0" length="0.9" distance="0.3" tStart="5" tEnd="5"/></object>
+    <object id="b" type="pole" s="0" t="5" height="1"><repeat s="90" length="40" distance="5" tStart="5" tEnd="5"/></object></objects>)";
+  const Furniture furniture = PlaceFurniture(*MustRead(Document(road.Text())));
+  ASSERT_EQ(furniture.things.size(), 4u + 3u);  // 0, 0.3, 0.6, 0.9; 90, 95, 100
+  EXPECT_NEAR(furniture.things[3].s_m, 0.9, 1e-12);
+  EXPECT_EQ(furniture.things[6].s_m, 100.0);
+}
+
+TEST(Placing, ARailGoesOnToTheRoadsEndAtMost) {
+  RoadText road;
+  road.more = R"(<objects><object id="a" type="barrier" s="0" t="5" height="0.7" width="0.3"><repeat s="60" length="80" distance="0" tStart="4" tEnd="6" zOffsetStart="0" zOffsetEnd="0.8"/></object></objects>)";
+  const auto network = MustRead(Document(road.Text()));
+  const Furniture furniture = PlaceFurniture(*network);
+  EXPECT_TRUE(furniture.things.empty());
+  ASSERT_EQ(furniture.runs.size(), 1u);
+  const PlacedRun& run = furniture.runs[0];
+  EXPECT_EQ(run.from_s_m, 60.0);
+  EXPECT_EQ(run.to_s_m, 100.0);
+  EXPECT_NEAR(run.t_start_m, 4.0, 1e-12);
+  EXPECT_NEAR(run.t_end_m, 5.0, 1e-12);  // half of the way
+  EXPECT_NEAR(run.z_end_m, 0.4, 1e-12);
+  EXPECT_EQ(run.height_end_m, 0.7);
+  EXPECT_EQ(run.width_start_m, 0.3);
+}
+
+TEST(Placing, FacesLookAgainstTheTrafficThatTheyAreFor) {
+  RoadText road = Circle();
+  road.more = R"(<signals><signal id="a" s="30" t="-5" zOffset="2" orientation="+" dynamic="no" type="274" subtype="-1" country="DE" hOffset="0.1"/>
+    <signal id="b" s="30" t="5" zOffset="2" orientation="-" dynamic="no" type="274" subtype="-1" country="DE" hOffset="0.1"/>
+    <signal id="c" s="30" t="5" zOffset="2" orientation="none" dynamic="no" type="274" subtype="-1" country="DE"/></signals>)";
+  const auto network = MustRead(Document(road.Text()));
+  const Furniture furniture = PlaceFurniture(*network);
+  ASSERT_EQ(furniture.things.size(), 3u);
+  const Eigen::Vector2d along(std::cos(30.0 / kRadius_m), std::sin(30.0 / kRadius_m));
+  const auto looks = [&](std::size_t i) { return Eigen::Vector2d(std::cos(furniture.things[i].heading_rad), std::sin(furniture.things[i].heading_rad)); };
+  EXPECT_NEAR(looks(0).dot(along), -std::cos(0.1), 1e-12);
+  EXPECT_NEAR(looks(1).dot(along), std::cos(0.1), 1e-12);
+  EXPECT_NEAR(looks(2).dot(along), -1.0, 1e-12);
+  EXPECT_FALSE(furniture.things[0].both_sides || furniture.things[1].both_sides);
+  EXPECT_TRUE(furniture.things[2].both_sides);
+  // Turned by a positive offset: counter-clockwise, whichever way it looks.
+  EXPECT_NEAR(-along.x() * looks(0).y() + along.y() * looks(0).x(), std::sin(0.1), 1e-12);
+  EXPECT_NEAR(along.x() * looks(1).y() - along.y() * looks(1).x(), std::sin(0.1), 1e-12);
+  EXPECT_NEAR((furniture.things[0].foot_W - OnCircle(30.0, -5.0)).norm(), 0.0, 1e-10);
+  EXPECT_EQ(furniture.things[0].z_offset_m, 2.0);
+}
+
+TEST(Placing, ByRoadThenSignalsThenObjectsAsWritten) {
+  RoadText one, two;
+  two.id = "2";
+  two.geometry = R"(<geometry s="0" x="0" y="500" hdg="0" length="100"><line/></geometry>)";
+  one.more = two.more = R"(<objects><object id="z" type="pole" s="80" t="5" height="1"/><object id="a" type="pole" s="8" t="5" height="1"/></objects>
+    <signals><signal id="s" s="50" t="5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"/></signals>)";
+  const auto network = MustRead(Document(one.Text() + two.Text()));
+  const Furniture furniture = PlaceFurniture(*network);
+  std::string order;
+  for (const Placed& placed : furniture.things) order += std::to_string(placed.road) + (placed.signal != nullptr ? placed.signal->id : placed.object->id);
+  EXPECT_EQ(order, "0s0z0a1s1z1a");
+}
+
+}  // namespace
+}  // namespace rodeira::network
