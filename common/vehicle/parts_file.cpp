@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "common/geometry/angle.hpp"
+#include "common/vehicle/tir_file.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -151,7 +152,13 @@ TyreSettings ReadTyre(const Map& map) {
   tyre.relaxation_lateral_m = map.Number("relaxation_lateral_m", {0.05, 5.0});
   tyre.low_speed_mps = map.Number("low_speed_mps", {0.1, 20.0}, tyre.low_speed_mps);
   tyre.low_speed_damping_Nspm = map.Number("low_speed_damping_Nspm", {0.0, 8000.0}, tyre.low_speed_damping_Nspm);
-  const Map coefficients = map.Child("magic_formula");
+  // From a file of its maker, by coefficients that stand here, or by both: what stands here counts.
+  if (const auto tir = map.OptionalPath("tir")) {
+    auto formula = LoadTir(*tir);
+    if (formula) tyre.formula = formula.value();
+    else map.Problem("tir", formula.error().Text());
+  }
+  const Map coefficients = map.Has("tir") ? map.OptionalChild("magic_formula") : map.Child("magic_formula");
   for (const MagicFormulaCoefficient& coefficient : MagicFormulaCoefficients()) {
     double& value = tyre.formula.*coefficient.member;
     value = coefficients.Number(coefficient.name, IsSize(coefficient.name) ? Range::Positive() : Range{}, value);
