@@ -15,6 +15,7 @@
 #include "idl/topics.hpp"
 #include "nodes/recorder/embed.hpp"
 #include "nodes/recorder/log_channels.hpp"
+#include "nodes/recorder/program.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -35,6 +36,7 @@ class RecorderNode final : public lockstep::Node {
 
   // A file of its own, or that of an earlier life.
   base::Status Open(launch::NodeContext& context, const record::TextMap& meta) {
+    if (auto status = AskForTheWorld(context); !status) return status;
     record::WriterSettings settings;
     settings.profile = kProfile;
     settings.chunk_span_ns = kChunkSpanNs;
@@ -55,6 +57,15 @@ class RecorderNode final : public lockstep::Node {
     writer_.emplace(std::move(writer).value());
     if (auto status = Begin(context.launch(), meta); !status) return status;
     return AddChannels(context.index());
+  }
+
+  base::Status AskForTheWorld(launch::NodeContext& context) {
+    const auto& nodes = context.launch().nodes();
+    if (std::none_of(nodes.begin(), nodes.end(), [](const auto& node) { return node.kind->name == "road"; })) return {};
+    const auto world = context.World();
+    if (!world) return world.error();
+    world_hash_ = world.value().content_hash;
+    return {};
   }
 
   // Called while the writer is being opened: the samples of the file's end, which others may ask for.
@@ -84,7 +95,7 @@ class RecorderNode final : public lockstep::Node {
   }
 
   base::Status Begin(const launch::Launch& launch, const record::TextMap& meta) {
-    const record::TextMap about{
+    record::TextMap about{
         {"launch", launch.name()},
         {"launch_file", launch.path().filename().string()},
         {"roster_hash", base::Hex(roster_.hash())},
@@ -92,8 +103,10 @@ class RecorderNode final : public lockstep::Node {
         {"mathematics_hash", base::Hex(base::MathematicsDigest())},
         {"base_step_ns", std::to_string(roster_.base_step_ns())},
         {"seed", std::to_string(launch.seed())},
-        {"version", "0.1.0"},
+        {"version", std::string(ProgramVersion())},
+        {"commit", std::string(ProgramCommit())},
     };
+    if (world_hash_) about["world_hash"] = base::Hex(*world_hash_);
     if (auto status = writer_->AddMetadata("rodeira", about); !status) return status;
     if (!meta.empty()) {
       if (auto status = writer_->AddMetadata("rodeira.meta", meta); !status) return status;
@@ -176,6 +189,7 @@ class RecorderNode final : public lockstep::Node {
 
   std::optional<record::McapWriter> writer_;
   std::filesystem::path file_;
+  std::optional<base::Digest> world_hash_;  // none where the run has no world
   bool complete_ = false;
   bool has_samples_ = false;
   const lockstep::Roster& roster_;
