@@ -66,11 +66,11 @@ base::Digest GroundPlan::SourceDigest(const TileKey& tile) const {
     if (Nearest(low, trace.low_W, trace.high_W) > reach) continue;
     for (const Eigen::Vector2d& p : trace.points_W) reach = std::min(reach, Farthest(low, p));
   }
-  base::Digest digest = base::Combine(base::Hash(fmt::format("ground 1 {} {}", tile.column, tile.row)), terrain_digest_);
+  base::Digest digest = base::Combine(base::Hash(fmt::format("ground 2 {} {}", tile.column, tile.row)), terrain_digest_);
   for (const RoadTrace& trace : traces_) {
     if (Nearest(low, trace.low_W, trace.high_W) <= reach) digest = base::Combine(digest, trace.digest);
   }
-  return digest;
+  return base::Combine(digest, things_.DigestOf(tile));
 }
 
 }  // namespace rodeira::scene

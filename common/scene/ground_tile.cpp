@@ -48,8 +48,7 @@ void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void
   for (std::thread& other : others) other.join();
 }
 
-GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(world) {
-  RODEIRA_ASSERT(world.network() != nullptr);
+GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(world), things_(world) {
   const auto roads = world.network()->roads();
   std::vector<std::vector<Line3>> lines(roads.size());
   std::vector<std::array<TilePaint, kGroundLevels - 1>> paint(roads.size());
@@ -69,6 +68,7 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(worl
       }
     }
   }
+  for (const auto& [key, things] : things_.tiles()) tiles.insert(key);
   if (world.grid() != nullptr) AddRectangle(world.extents(), tiles);
   for (std::size_t i = 0; i < roads.size(); ++i) {
     RoadTrace trace;
@@ -119,6 +119,7 @@ GroundTile GroundPlan::Build(const TileKey& key) const {
       if (const auto paint = paint_[at].find(key); paint != paint_[at].end()) tile.levels[at].marks = LayPaint(paint->second, key, woven.triangles);
     }
     tile.levels[at].ground = std::move(woven.meshes);
+    if (const auto things = things_.tiles().find(key); things != things_.tiles().end()) tile.levels[at].things = DrawThings(things->second, key, level);
   }
   tile.ball = BallOf(key);
   return tile;
