@@ -1,6 +1,7 @@
 // Who is where on the tracks, and who is ahead of whom.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/lanes/swath.hpp"
 #include "common/traffic/traffic_model.hpp"
@@ -65,9 +66,11 @@ void TrafficModel::See(std::span<const driver::Footprint> others) {
     if (!agent.on_road) continue;
     FindStretches(id, SightOf(agent));
     const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
+    std::int64_t from = -1;
     for (const Stretch& stretch : stretches_[id]) {
       if (stretch.begin_m >= front) break;
-      if (stretch.end_m > rear) occupants_[stretch.track].push_back({id, rear - stretch.zero_m, front - stretch.zero_m});
+      if (stretch.end_m > rear) occupants_[stretch.track].push_back({id, rear - stretch.zero_m, front - stretch.zero_m, from});
+      from = stretch.track;
     }
   }
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
@@ -87,10 +90,16 @@ TrafficModel::Ahead TrafficModel::FindAhead(std::uint32_t id) const {
     const double gap = zero_m + other.rear_m - front;
     if (!ahead.any || gap < ahead.gap_m) ahead = {gap, agents_[other.id].speed_mps, other.id, true};
   };
+  std::int64_t before = -1;  // the track by which its own way comes
   for (const Stretch& stretch : stretches_[id]) {
+    const std::int64_t from = std::exchange(before, stretch.track);
     if (stretch.end_m < agent.o_m) continue;
     if (ahead.any && stretch.begin_m > front + ahead.gap_m + 10.0) break;
-    for (const Occupant& other : occupants_[stretch.track]) consider(other, stretch.zero_m);
+    for (Occupant other : occupants_[stretch.track]) {
+      // Who comes in from beside has his rear in the zone where the ways merge, which its own line keeps it out of.
+      if (from >= 0 && other.from >= 0 && other.from != from) other.rear_m = std::max(other.rear_m, stretch.begin_m - stretch.zero_m);
+      consider(other, stretch.zero_m);
+    }
     for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
       const lanes::Zone& zone = zones()[part.zone];
       const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;

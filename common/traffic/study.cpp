@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kIncidents = 20;
 constexpr double kStanding_mps = 0.05;
 constexpr double kRoom_m = 5.0;
-constexpr double kHard_mps2 = 4.5;
+constexpr double kHard_mps2 = 3.0;
 constexpr double kOnLane_m = 1e-3;
 
 class Watcher {

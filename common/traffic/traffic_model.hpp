@@ -80,6 +80,7 @@ class TrafficModel {
   struct Occupant {
     std::uint32_t id = 0;
     double rear_m = 0.0, front_m = 0.0;
+    std::int64_t from = -1;  // the track by which it came, as long as a part of it may be there
 
     double middle_m() const { return 0.5 * (rear_m + front_m); }
   };

@@ -37,8 +37,8 @@ void Behaves(const std::string& name, const NetworkPointer& network, std::uint32
   EXPECT_EQ(r.collisions, 0) << name << " seed " << seed << Told(r);
   EXPECT_EQ(r.off_lane, 0) << name << " seed " << seed << Told(r);
   EXPECT_LT(r.worst_step_m, 1e-3) << name << " seed " << seed << Told(r);
-  // 4.5 m/s² is what priority may ask of a driver. The town is a known fault (docs/traffic.md): there only the brakes' own limit holds.
-  EXPECT_LE(r.hardest_mps2, name == "town" ? 8.0 : 4.5) << name << " seed " << seed << Told(r);
+  // The drivers' comfortable braking is 2 m/s² ± 15 %; what else happens is within half as much again.
+  EXPECT_LE(r.hardest_mps2, 3.0) << name << " seed " << seed << Told(r);
   EXPECT_LT(r.longest_with_room_s, 300.0) << name << " seed " << seed << Told(r);
   EXPECT_EQ(r.on_road + r.waiting, vehicles) << name;
   EXPECT_GT(r.driven_km, 0.0) << name;
