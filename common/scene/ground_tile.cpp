@@ -80,6 +80,10 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(worl
       }
     }
     trace.digest = RoadDigest(roads[i], lines[i], paint[i][0]);
+    const network::RoadSpec& spec = roads[i].spec();
+    // Detail comes from files: the world's own hash knows them.
+    if (!spec.crg.empty() || !spec.unevenness.empty()) trace.digest = base::Combine(trace.digest, world.content_hash());
+    if (spec.earthwork) slopes_reach_m_ = std::max({slopes_reach_m_, spec.earthwork->reach_m, spec.earthwork->blend_m});
     traces_.push_back(std::move(trace));
   }
   terrain_digest_ = TerrainDigest(world);

@@ -68,6 +68,7 @@ class GroundPlan {
   TileEdges edges_;
   std::vector<RoadTrace> traces_;  // by road
   base::Digest terrain_digest_ = 0;
+  double slopes_reach_m_ = 0.0;  // from any road
   std::array<TilePaint, kGroundLevels - 1> paint_;  // the coarsest level has none
 };
 

@@ -148,7 +148,9 @@ osg::ref_ptr<osg::Node> RootNode(const scene::GroundPlan& plan, const std::map<s
 }  // namespace
 
 base::Result<DatabaseReport> WriteDatabase(const road::World& world, const DatabaseOptions& options) {
-  if (world.network() == nullptr || !world.open_drive()) return base::WrongInput("only an OpenDRIVE world can be written as it is seen", world.name());
+  if (world.network() == nullptr || !world.roads().empty()) {
+    return base::WrongInput("only an OpenDRIVE world or the roads of a world file of version 2 can be written as they are seen", world.name());
+  }
   std::error_code problem;
   fs::create_directories(options.folder / "tiles", problem);
   if (!fs::is_directory(options.folder / "tiles", problem)) return base::WrongInput("this is no folder, and none can be made", options.folder.string());

@@ -108,14 +108,62 @@ TEST_F(Database, OnlyWhatChangedIsBuiltAgain) {
   EXPECT_TRUE(Files("world") == Files("fresh"));
 }
 
-TEST_F(Database, AWorldFileIsRefused) {
+TEST_F(Database, WhateverChangesInAWorldFileAnUpdateIsAFreshBuild) {
+  const auto world = [](const std::string& change) {
+    std::string text = R"(rodeira: world/2
+name: two roads in hills
+terrain:
+  surface: grass
+  generate: {seed: 3, columns: 65, rows: 33, spacing_m: 25, west_m: -200, south_m: -400, relief: [{wavelength_m: 300, amplitude_m: 8}]}
+roads:
+  - id: near
+    start: {x_m: 0, y_m: 0, heading_deg: 0}
+    axis: [line: {length_m: 200}]
+    z_m: 4
+    section: {template: rural, slopes: {cut: 1.5, fill: 2}}
+    signs:
+      - {type: stop, s_m: 190}
+    objects:
+      - {type: tree, side: left, beside_m: 9, from_s_m: 0, every_m: 20}
+    surfaces:
+      - {iso_8608: C, seed: 7, from_s_m: 10, to_s_m: 100}
+  - id: far
+    start: {x_m: 1000, y_m: 0, heading_deg: 0}
+    axis: [line: {length_m: 200}]
+    z_m: 4
+    section: {template: rural}
+)";
+    const auto arrow = change.find(" -> ");
+    if (arrow != std::string::npos) text.replace(text.find(change.substr(0, arrow)), arrow, change.substr(arrow + 4));
+    const auto parsed = road::World::Parse(text, "two_roads.yaml");
+    EXPECT_TRUE(parsed.ok()) << parsed.error().Text();
+    return parsed.value();
+  };
+  const DatabaseReport first = Write(*world(""), "world");
+  EXPECT_EQ(first.built, first.tiles);
+  EXPECT_EQ(Write(*world(""), "world").built, 0u);
+  int number = 0;
+  for (const char* change : {"cut: 1.5 -> cut: 4", "type: stop -> type: give_way", "every_m: 20 -> every_m: 25", "iso_8608: C -> iso_8608: E", "    signs: ->     bridges: [{from_s_m: 50, to_s_m: 90}]\n    signs:",
+                             "  - id: near -> \n  - id: near", "z_m: 4 -> z_m: 5"}) {
+    const auto changed = world(change);
+    const DatabaseReport again = Write(*changed, "world");
+    if (!std::string_view(change).starts_with("z_m")) {  // generated hills follow the road's height
+      EXPECT_LT(again.built, first.tiles) << change;
+    }
+    const std::string fresh = fmt::format("fresh{}", number++);
+    Write(*changed, fresh);
+    EXPECT_TRUE(Files("world") == Files(fresh)) << change;
+  }
+}
+
+TEST_F(Database, RoadsOfVersion1AreRefused) {
   const auto world = road::World::Load(fs::path(RODEIRA_SOURCE_DIR) / "configs/worlds/n222.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   DatabaseOptions options;
   options.folder = folder_ / "n222";
   const auto report = WriteDatabase(*world.value(), options);
   ASSERT_FALSE(report.ok());
-  EXPECT_NE(report.error().Text().find("only an OpenDRIVE world can be written as it is seen"), std::string::npos);
+  EXPECT_NE(report.error().Text().find("only an OpenDRIVE world or the roads of a world file of version 2"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "n222"));
 }
 
