@@ -59,6 +59,9 @@ osg::ref_ptr<osg::Node> GroundNode(Look& look, const scene::GroundTile& tile) {
     if (!meshes.empty()) group->addChild(look.Placed(meshes));
     const scene::Mesh* marks = &tile.levels[level].marks;
     if (!marks->triangles.empty()) group->addChild(look.Placed({&marks, 1}));
+    std::vector<const scene::Mesh*> things;
+    for (const scene::Mesh& mesh : tile.levels[level].things) things.push_back(&mesh);
+    if (!things.empty()) group->addChild(look.Placed(things));
     lod->addChild(group, from, scene::kGroundSeen_m[level]);
     from = scene::kGroundSeen_m[level];
   }
