@@ -16,6 +16,7 @@
 #include "nodes/recorder/embed.hpp"
 #include "nodes/recorder/log_channels.hpp"
 #include "nodes/recorder/program.hpp"
+#include "nodes/recorder/written_samples.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -27,7 +28,7 @@ constexpr std::uint64_t kChunkSpanNs = 800'000'000;
 class RecorderNode final : public lockstep::Node {
  public:
   RecorderNode(std::filesystem::path file, const lockstep::Roster& roster, launch::NodeContext& context)
-      : file_(std::move(file)), roster_(roster), log_(context.RunLog(), roster.base_step_ns()) {}
+      : file_(std::move(file)), roster_(roster), log_(context.RunLog(), roster.base_step_ns()), written_(roster, context.index()) {}
   // Of a run that never began no recording is left: only what this recorder has made is removed. What is no plain file (a device, a pipe) was not made here.
   ~RecorderNode() override {
     std::error_code problem;
@@ -47,6 +48,7 @@ class RecorderNode final : public lockstep::Node {
         has_samples_ = true;
         if (auto status = AddChannels(context.index()); !status) return status;
         context.BeginBehind(last_step_ - 1);
+        written_.BeginBehind(last_step_, last_source_);
         if (tell_safe_) tell_safe_(last_step_ - 1);
         return {};
       }
@@ -145,9 +147,10 @@ class RecorderNode final : public lockstep::Node {
     if (auto status = WriteAll(rest); !status) return status;
     const bool log_complete = log_.AwaitEnd(complete);
     if (auto status = log_.Write(*writer_); !status) return status;
-    const record::TextMap end{{"last_step", std::to_string(last_step)},
+    record::TextMap end{{"last_step", std::to_string(last_step)},
                               {"complete", complete ? "true" : "false"},
                               {"log_complete", log_complete ? "true" : "false"}};
+    end.merge(written_.Entries(last_step));
     if (auto status = writer_->AddMetadata("rodeira.end", end); !status) return status;
     return writer_->Close();
   }
@@ -178,6 +181,7 @@ class RecorderNode final : public lockstep::Node {
     const auto time_ns = static_cast<std::uint64_t>(sample.header.time_ns);
     const auto sequence = static_cast<std::uint32_t>(sample.valid() / roster_.source(sample.source()).period);
     if (auto status = writer_->Write(channels_[sample.source()], sequence, time_ns, time_ns, payload_); !status) return status;
+    written_.Note(sample.valid(), sample.source());
     // Whatever went out before this sample was put into a chunk of its own is beyond harm.
     if (tell_safe_ && writer_->written_bytes() != written_bytes) tell_safe_(sample.valid() - 1);
     return {};
@@ -194,6 +198,7 @@ class RecorderNode final : public lockstep::Node {
   bool has_samples_ = false;
   const lockstep::Roster& roster_;
   LogChannels log_;
+  WrittenSamples written_;
   std::vector<record::ChannelId> channels_;  // by source
   base::Bytes payload_;
   std::function<void(lockstep::Step)> tell_safe_;

@@ -54,6 +54,7 @@ TEST_F(Recordings, ARunWithoutARecorderIsRecordedInTheUsersDataFolder) {
   const std::string file = Recorded()[0].string();
   EXPECT_TRUE(fs::path(file).filename().string().starts_with("empty-")) << file;
   EXPECT_THAT(run.out, HasSubstr(file));
+  EXPECT_THAT(run.out, HasSubstr("audit   lossless: 808 samples of 8 sources"));
   const Ended info = Ask({"info", file});
   EXPECT_EQ(info.status, 0) << info.out;
   EXPECT_THAT(info.out, HasSubstr("lossless: each source's samples are there once, from step 0 to step 200"));
