@@ -186,7 +186,10 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
     if (!safe(speed)) return wait();
   }
   agent.speed_mps = speed;
-  if (agent.granted_m > 0.0) HoldZones(id);
+  if (agent.granted_m > 0.0) {
+    agent.grants = {{agent.granted_m, next_grant_++, false}};
+    HoldZones(id);
+  }
   return true;
 }
 
