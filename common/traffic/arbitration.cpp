@@ -100,7 +100,7 @@ void TrafficModel::Arbitrate(double dt_s) {
     if (!passage.any || agent.speed_mps > 1.0) agent.waited_s = 0.0;
     else if (agent.speed_mps < kAtRest_mps) agent.waited_s += dt_s;
   }
-  FindReaches();
+  std::fill(reaches_.begin(), reaches_.end(), -1.0);
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     if (!agents_[id].on_road || !passages_[id].any) continue;
     FindRoom(id);

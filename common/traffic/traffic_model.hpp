@@ -141,8 +141,9 @@ class TrafficModel {
   void Arbitrate(double dt_s);
   void FindPassage(std::uint32_t id);
   void HoldZones(std::uint32_t id);
-  void FindReaches();
-  double ReachOf(std::uint32_t id) const;
+  template <class Tell>
+  void EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell);
+  double ReachOf(std::uint32_t id, int depth);
   void FindRoom(std::uint32_t id);
   void ComeToZones();
   void OthersAtZones();
@@ -187,7 +188,7 @@ class TrafficModel {
   std::vector<std::vector<Block>> blocks_;             // by track
   std::vector<Ahead> ahead_;                           // by agent
   std::vector<Passage> passages_;                      // by agent
-  std::vector<double> reaches_;                        // by agent: how far its front comes whatever others decide
+  std::vector<double> reaches_;                        // by agent: how far its front comes whatever others decide; below 0 not yet told
   std::vector<double> barriers_;                       // by agent: odometer at which it waits for who holds a zone before it
   std::vector<std::array<std::vector<Holder>, 2>> holders_;         // by zone
   std::vector<std::array<std::vector<Claim>, 2>> comers_;           // by zone
