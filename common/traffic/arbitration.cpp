@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPatience_s = 40.0;   // at rest for others; longer than this and others let one go
 constexpr double kGap_s = 1.0;         // after the own clearing before who goes first may arrive
-constexpr double kBehind_s = 0.0;      // after the own arrival who holds a zone may be out of it at the latest
+constexpr double kBehind_s = 0.5;      // after the own arrival who holds a zone may be out of it at the latest
 constexpr double kAtRest_mps = 0.05;
 constexpr double kAtLine_m = 1.5;      // a full stop counts within this before the line
 constexpr int kMostInChain = 64;
@@ -28,11 +28,13 @@ bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
   const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
   for (const Holder& holder : holders_[zone][theirs]) {
     if (holder.id == id) continue;
-    if (holder.id < agents_.size() && holder.grant.sure) {
+    if (holder.id < agents_.size()) {
       const Agent& other = agents_[holder.id];
       const double way_out = holder.out_m - other.o_m + 0.5 * traits_[holder.id].length_m;
       const double clears = TravelTime(way_out, other.speed_mps, AllowedAt(holder.id, holder.out_m));
-      if (clears < TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m)) + kBehind_s) continue;
+      const double arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m));
+      if (holder.grant.sure && clears < arrives + kBehind_s) continue;
+      passages_[id].delay_s = clears - arrives;
     }
     passages_[id].waits_for = holder.id == agents_.size() ? -1 : static_cast<std::int64_t>(holder.id);
     return true;
@@ -53,6 +55,8 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
     const bool agents = claim.id < agents_.size();
     if (agents && Urgent(id) && agents_[claim.id].waited_s < agent.waited_s) continue;
     passages_[id].waits_for = agents ? static_cast<std::int64_t>(claim.id) : -1;
+    const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
+    passages_[id].delay_s = claim.clears_s - TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m));
     return true;
   }
   return false;
@@ -117,11 +121,17 @@ void TrafficModel::Arbitrate(double dt_s) {
   });
   for (const std::uint32_t id : order) {
     Passage& passage = passages_[id];
-    if (!passage.able) continue;
-    if (Grant(id, true) || !Urgent(id)) continue;
+    if (!passage.able || Grant(id, true)) continue;
+    if (!Urgent(id)) {
+      ComeLater(id);
+      continue;
+    }
     for (const Crossing& crossing : passage.crossings) {  // nobody else takes up what it waits for
       if (crossing.zone >= 0) awaited_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(1 - crossing.side)] = true;
     }
+  }
+  for (const std::uint32_t id : order) {  // … and now who had to yield to such as cannot come yet
+    if (passages_[id].any && passages_[id].able) Grant(id, true);
   }
   ResolveDeadlocks();
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {

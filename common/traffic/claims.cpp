@@ -77,6 +77,18 @@ void TrafficModel::ComeToZones() {
   }
 }
 
+// Who has just been refused does not come before whoever keeps it out is gone.
+void TrafficModel::ComeLater(std::uint32_t id) {
+  const Passage& passage = passages_[id];
+  if (passage.delay_s <= 0.0) return;
+  for (const Crossing& crossing : passage.crossings) {
+    if (crossing.zone < 0) continue;
+    for (Claim& claim : comers_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)]) {
+      if (claim.id == id) claim.arrives_s += passage.delay_s, claim.clears_s += passage.delay_s;
+    }
+  }
+}
+
 // Vehicles that are no agents.
 void TrafficModel::OthersAtZones() {
   const auto nobody = static_cast<std::uint32_t>(agents_.size());

@@ -110,6 +110,7 @@ class TrafficModel {
     double line_m = 0.0;     // odometer at which its front stops
     double end_m = 0.0;
     double arrives_s = 0.0, clears_s = 0.0;
+    double delay_s = 0.0;  // until who keeps it out is out of the way
     std::int64_t waits_for = -1;
     std::vector<Crossing> crossings;
   };
@@ -146,6 +147,7 @@ class TrafficModel {
   double ReachOf(std::uint32_t id, int depth);
   void FindRoom(std::uint32_t id);
   void ComeToZones();
+  void ComeLater(std::uint32_t id);
   void OthersAtZones();
   bool Held(std::uint32_t id, const Crossing& crossing);
   bool Yields(std::uint32_t id, const Crossing& crossing);
