@@ -52,8 +52,8 @@ int Written(const std::filesystem::path& file, const base::Result<std::string>& 
   return 0;
 }
 
-// What an OpenDRIVE world looks like, tile by tile, and the file itself beside it.
-int BuildOpenDrive(const WorldOptions& options, const road::World& world) {
+// What a world looks like, tile by tile.
+int BuildDatabase(const WorldOptions& options, const road::World& world) {
   view::DatabaseOptions database;
   database.folder = options.out;
   database.threads = options.threads;
@@ -67,23 +67,31 @@ int BuildOpenDrive(const WorldOptions& options, const road::World& world) {
   if (!report) return Complain(report.error());
   fmt::print("{}: {} tiles, {} built, {} as they were\n", (database.folder / "world.osgb").string(), report.value().tiles, report.value().built,
              report.value().tiles - report.value().built);
-  return Written(database.folder / "world.xodr", base::ReadText(options.world_file));
+  return 0;
 }
 
-// A world file's generated terrain, and its roads as OpenDRIVE.
+// What is seen of an OpenDRIVE file, and the file itself beside it; of a world file its generated terrain, its roads as
+// OpenDRIVE, and, where they are of version 2, what is seen.
 int Build(const WorldOptions& options) {
   const auto world = road::World::Load(options.world_file);
   if (!world) return Complain(world.error());
-  if (world.value()->open_drive()) return BuildOpenDrive(options, *world.value());
-  if (road::IsGenerated(options.world_file) || world.value()->roads().empty()) {
+  const std::filesystem::path copy = std::filesystem::path(options.out) / "world.xodr";
+  if (world.value()->open_drive()) {
+    const int status = BuildDatabase(options, *world.value());
+    return status != 0 ? status : Written(copy, base::ReadText(options.world_file));
+  }
+  if (road::IsGenerated(options.world_file) || world.value()->network() == nullptr) {
     const auto written = road::BuildWorld(options.world_file, options.out);
     if (!written) return Complain(written.error());
     fmt::print("{}", written.value());
   }
-  if (world.value()->roads().empty()) return 0;
+  if (world.value()->network() == nullptr) return 0;
+  if (world.value()->roads().empty()) {
+    if (const int status = BuildDatabase(options, *world.value()); status != 0) return status;
+  }
   std::error_code problem;
   std::filesystem::create_directories(options.out, problem);
-  return Written(std::filesystem::path(options.out) / "world.xodr", road::ExportOpenDrive(*world.value()));
+  return Written(copy, road::ExportOpenDrive(*world.value()));
 }
 
 }  // namespace

@@ -38,6 +38,8 @@ base::Digest RoadDigest(const network::Road& road, std::span<const Line3> lines,
       }
     }
   }
+  if (const auto& earthwork = road.spec().earthwork) lanes += fmt::format("slopes {} {} {} {}\n", earthwork->blend_m, earthwork->cut, earthwork->fill, earthwork->reach_m);
+  for (const network::Structure& structure : road.spec().structures) lanes += fmt::format("{} {} {}\n", structure.bridge ? "bridge" : "tunnel", structure.s_m, structure.length_m);
   digest = base::Combine(digest, base::Hash(lanes));
   for (const auto& [key, pieces] : paint) {
     for (const PaintPiece& piece : pieces) {
@@ -61,16 +63,17 @@ base::Digest TerrainDigest(const road::World& world) {
 
 base::Digest GroundPlan::SourceDigest(const TileKey& tile) const {
   const Eigen::Vector2d low = tile.south_west_W();
-  double reach = 1e9;  // no point of the tile is farther from its nearest road
+  double reach = 1e9;  // no point of the tile is farther from its nearest road, or from one whose slopes reach it
   for (const RoadTrace& trace : traces_) {
     if (Nearest(low, trace.low_W, trace.high_W) > reach) continue;
     for (const Eigen::Vector2d& p : trace.points_W) reach = std::min(reach, Farthest(low, p));
   }
-  base::Digest digest = base::Combine(base::Hash(fmt::format("ground 1 {} {}", tile.column, tile.row)), terrain_digest_);
+  reach = std::max(reach, slopes_reach_m_);
+  base::Digest digest = base::Combine(base::Hash(fmt::format("ground 2 {} {}", tile.column, tile.row)), terrain_digest_);
   for (const RoadTrace& trace : traces_) {
     if (Nearest(low, trace.low_W, trace.high_W) <= reach) digest = base::Combine(digest, trace.digest);
   }
-  return digest;
+  return base::Combine(digest, things_.DigestOf(tile));
 }
 
 }  // namespace rodeira::scene

@@ -48,8 +48,7 @@ void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void
   for (std::thread& other : others) other.join();
 }
 
-GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(world) {
-  RODEIRA_ASSERT(world.network() != nullptr);
+GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(world), things_(world) {
   const auto roads = world.network()->roads();
   std::vector<std::vector<Line3>> lines(roads.size());
   std::vector<std::array<TilePaint, kGroundLevels - 1>> paint(roads.size());
@@ -69,6 +68,7 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(worl
       }
     }
   }
+  for (const auto& [key, things] : things_.tiles()) tiles.insert(key);
   if (world.grid() != nullptr) AddRectangle(world.extents(), tiles);
   for (std::size_t i = 0; i < roads.size(); ++i) {
     RoadTrace trace;
@@ -80,6 +80,10 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(worl
       }
     }
     trace.digest = RoadDigest(roads[i], lines[i], paint[i][0]);
+    const network::RoadSpec& spec = roads[i].spec();
+    // Detail comes from files: the world's own hash knows them.
+    if (!spec.crg.empty() || !spec.unevenness.empty()) trace.digest = base::Combine(trace.digest, world.content_hash());
+    if (spec.earthwork) slopes_reach_m_ = std::max({slopes_reach_m_, spec.earthwork->reach_m, spec.earthwork->blend_m});
     traces_.push_back(std::move(trace));
   }
   terrain_digest_ = TerrainDigest(world);
@@ -119,6 +123,10 @@ GroundTile GroundPlan::Build(const TileKey& key) const {
       if (const auto paint = paint_[at].find(key); paint != paint_[at].end()) tile.levels[at].marks = LayPaint(paint->second, key, woven.triangles);
     }
     tile.levels[at].ground = std::move(woven.meshes);
+    if (const auto things = things_.tiles().find(key); things != things_.tiles().end()) {
+      tile.levels[at].things = DrawThings(things->second, key, level);
+      tile.levels[at].models = ModelsOf(things->second, level);
+    }
   }
   tile.ball = BallOf(key);
   return tile;

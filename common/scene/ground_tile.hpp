@@ -9,6 +9,7 @@
 #include "common/road/world.hpp"
 #include "common/scene/mark_strips.hpp"
 #include "common/scene/mesh.hpp"
+#include "common/scene/things.hpp"
 #include "common/scene/tile_lines.hpp"
 #include "common/scene/tile_plan.hpp"
 
@@ -17,6 +18,8 @@ namespace rodeira::scene {
 struct GroundLevel {
   std::vector<Mesh> ground;  // one a material, then walls; nothing above or below another but on another level of roads
   Mesh marks;                // in the planes of the ground's triangles: to be drawn after it, with an offset
+  std::vector<Mesh> things;  // signs and objects that stand in the tile, all with one origin
+  std::vector<PlacedModel> models;  // the same, from files
 };
 
 // Around a tile with room for its heights; known without building it.
@@ -50,7 +53,7 @@ class GroundPlan {
   GroundTile Build(const TileKey& tile) const;
   TileBall BallOf(const TileKey& tile) const;
   // Of everything that can change a bit of the tile: the roads that are nearest to any of its points, or lie in it, with
-  // their heights, lanes and paint, and the terrain. (A change in a tile's roads changes it; it may change without need.)
+  // their heights, lanes and paint, the terrain, and what stands in it. (A change in a tile's roads changes it; it may change without need.)
   base::Digest SourceDigest(const TileKey& tile) const;
 
  private:
@@ -60,11 +63,13 @@ class GroundPlan {
     base::Digest digest = 0;
   };
   const road::World& world_;
+  Things things_;
   std::vector<TileKey> tiles_;  // ascending
   std::map<TileKey, std::vector<partition::GridSegment>> segments_;
   TileEdges edges_;
   std::vector<RoadTrace> traces_;  // by road
   base::Digest terrain_digest_ = 0;
+  double slopes_reach_m_ = 0.0;  // from any road
   std::array<TilePaint, kGroundLevels - 1> paint_;  // the coarsest level has none
 };
 

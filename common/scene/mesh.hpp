@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 // What can be seen, as plain numbers: no graphics library is known here.
@@ -19,6 +20,7 @@ enum class Material : std::uint32_t {
   kMatt,  // rubber, grilles
   kLamp,  // shines by itself
   kFoliage,
+  kSign,  // a picture of its own
 };
 
 struct Colour {
@@ -46,6 +48,10 @@ struct Mesh {
   std::vector<Eigen::Vector3f> normals;  // unit length
   std::vector<Colour> colours;
   std::vector<std::uint32_t> triangles;  // three indices each
+  // Of kSign only: which face (scene::DrawFace), and where on it each vertex lies: (0, 0) its lower left corner, (1, 1) its
+  // upper right one.
+  std::string face;
+  std::vector<Eigen::Vector2f> on_face;
 
   std::uint32_t Add(const Eigen::Vector3d& p_W, const Eigen::Vector3d& normal, Colour colour);
   void AddTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { triangles.insert(triangles.end(), {a, b, c}); }

@@ -84,15 +84,6 @@ void AddRings(Mesh& mesh, const Tree& tree, const Profile& profile, int sides, C
   }
 }
 
-void AddTree(Mesh& mesh, const Tree& tree) {
-  static const Profile kRound = {{0.22, 0.15}, {0.36, 0.85}, {0.58, 1.0}, {0.82, 0.72}, {1.0, 0.08}};
-  static const Profile kCone = {{0.14, 0.3}, {0.2, 1.0}, {0.5, 0.62}, {0.78, 0.32}, {1.0, 0.02}};
-  static const Profile kTrunk = {{-0.08, 0.13}, {0.3, 0.09}};
-  const Colour bark = Colour::Of(0x5b4936);
-  AddRings(mesh, tree, kTrunk, 5, bark, bark);
-  AddRings(mesh, tree, tree.conifer ? kCone : kRound, 7, Shade(tree.leaves, 0.72), Shade(tree.leaves, 1.12));
-}
-
 }  // namespace
 
 std::vector<Tree> PlantTrees(const road::World& world, std::uint64_t seed) {
@@ -110,6 +101,18 @@ std::vector<Tree> PlantTrees(const road::World& world, std::uint64_t seed) {
     }
   }
   return trees;
+}
+
+void AddTree(Mesh& mesh, const Tree& tree, int level) {
+  static const Profile kRound = {{0.22, 0.15}, {0.36, 0.85}, {0.58, 1.0}, {0.82, 0.72}, {1.0, 0.08}};
+  static const Profile kCone = {{0.14, 0.3}, {0.2, 1.0}, {0.5, 0.62}, {0.78, 0.32}, {1.0, 0.02}};
+  static const Profile kBush = {{-0.08, 0.6}, {0.3, 1.0}, {0.6, 0.9}, {0.85, 0.55}, {1.0, 0.06}};
+  static const Profile kPlainRound = {{0.2, 0.3}, {0.55, 1.0}, {1.0, 0.15}}, kPlainCone = {{0.14, 0.3}, {0.22, 1.0}, {1.0, 0.02}}, kPlainBush = {{-0.08, 0.6}, {0.45, 1.0}, {1.0, 0.1}};
+  static const Profile kTrunk = {{-0.08, 0.13}, {0.3, 0.09}};
+  const Colour bark = Colour::Of(0x5b4936), dark = Shade(tree.leaves, 0.72), light = Shade(tree.leaves, 1.12);
+  if (!tree.bush && level < 2) AddRings(mesh, tree, kTrunk, level == 0 ? 5 : 3, bark, bark);
+  if (level == 0) AddRings(mesh, tree, tree.bush ? kBush : tree.conifer ? kCone : kRound, 7, dark, light);
+  else AddRings(mesh, tree, tree.bush ? kPlainBush : tree.conifer ? kPlainCone : kPlainRound, level == 1 ? 6 : 4, dark, light);
 }
 
 std::vector<Mesh> BuildTrees(const std::vector<Tree>& trees) {

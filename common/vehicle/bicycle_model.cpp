@@ -148,7 +148,7 @@ BicycleModel::WheelTorques BicycleModel::TurnWheels(const Controls& controls, co
   const DrivelineMotion& motion = powertrain_.Step(settings_.powertrain, controls, input, dt_s);
   for (std::size_t i = 0; i < 2; ++i) {
     wheels_[driven + i].spin_radps = motion.wheel_radps[i];
-    torques.drive_Nm[driven + i] = motion.drive_torque_Nm;
+    torques.drive_Nm[driven + i] = motion.shaft_torque_Nm()[i];
     Wheel& rolling = wheels_[free + i];
     rolling.spin_radps = StepFreeWheel(rolling.spin_radps, settings_.wheel.inertia_kgm2, road[free + i], friction[free + i], dt_s);
   }

@@ -9,12 +9,18 @@
 namespace rodeira::vehicle {
 namespace {
 
-// The friction elements, and a give that keeps their matrix definite when all four stick (four ties on three rotors). It is
-// put where it does not matter: a parked car held by its engine creeps by less than 1e-9 rad/s.
-enum Element { kLeft = 0, kRight = 1, kClutch = 2, kEngineDrag = 3 };
+// The friction elements, and a give that keeps their matrix definite when all five stick (five ties on three rotors). It is
+// put where it does not matter: a parked car held by its engine creeps by less than 1e-9 rad/s, a locked differential's shafts
+// differ by less than 1e-6.
+enum Element { kLeft = 0, kRight = 1, kClutch = 2, kEngineDrag = 3, kDifferential = 4 };
 constexpr double kGive = 1e-6;
 
 }  // namespace
+
+double LockingTorque(const DifferentialSettings& differential, double sum_of_shafts_Nm) {
+  const double locking = sum_of_shafts_Nm > 0.0 ? differential.locking_drive : differential.locking_overrun;
+  return differential.preload_Nm + locking * std::fabs(sum_of_shafts_Nm);
+}
 
 double ClutchCapacity(const ClutchSettings& clutch, double pedal) { return clutch.capacity_Nm * (1.0 - std::clamp(pedal, 0.0, 1.0)); }
 
@@ -30,10 +36,12 @@ DrivelineMotion StepDriveline(const EngineSettings& settings, const Engine& engi
   ties(kRight, 1) = 1.0;
   ties.row(kClutch) << -0.5 * loads.ratio, -0.5 * loads.ratio, 1.0;
   ties(kEngineDrag, 2) = 1.0;
+  ties.row(kDifferential) << 0.5, -0.5, 0.0;
   FrictionMatrix a = ties * inverse_inertia.asDiagonal() * ties.transpose();
-  a(kEngineDrag, kEngineDrag) *= 1.0 + kGive;
-  FrictionVector bound(loads.friction_torque_Nm[0], loads.friction_torque_Nm[1],
-                       loads.ratio == 0.0 ? 0.0 : loads.clutch_capacity_Nm, engine.drag_Nm());
+  for (const Element element : {kEngineDrag, kDifferential}) a(element, element) *= 1.0 + kGive;
+  FrictionVector bound;
+  bound << loads.friction_torque_Nm[0], loads.friction_torque_Nm[1], loads.ratio == 0.0 ? 0.0 : loads.clutch_capacity_Nm, engine.drag_Nm(),
+      loads.locking_torque_Nm;
   bound *= dt_s;
   const FrictionVector impulse = SolveFriction(a, ties * free, bound);
   const Rotors after = free + inverse_inertia.cwiseProduct(ties.transpose() * impulse);
@@ -51,6 +59,8 @@ DrivelineMotion StepDriveline(const EngineSettings& settings, const Engine& engi
   motion.clutch_in_W = motion.clutch_torque_Nm * mean[2];
   motion.clutch_out_W = motion.drive_torque_Nm * (mean[0] + mean[1]);
   motion.clutch_heat_W = motion.clutch_in_W - motion.clutch_out_W;
+  motion.locking_torque_Nm = impulse[kDifferential] / dt_s;
+  motion.locking_heat_W = -0.5 * motion.locking_torque_Nm * (mean[0] - mean[1]);
   return motion;
 }
 
@@ -73,6 +83,8 @@ void DrivelineMotion::Save(base::StateWriter& writer) const {
   writer.Put("clutch_in_W", clutch_in_W);
   writer.Put("clutch_out_W", clutch_out_W);
   writer.Put("clutch_heat_W", clutch_heat_W);
+  writer.Put("locking_torque_Nm", locking_torque_Nm);
+  writer.Put("locking_heat_W", locking_heat_W);
   writer.Put("wheel_radps", std::span<const double>(wheel_radps));
   writer.Put("friction_torque_Nm", std::span<const double>(friction_torque_Nm));
 }
@@ -85,6 +97,8 @@ void DrivelineMotion::Restore(base::StateReader& reader) {
   reader.Get("clutch_in_W", clutch_in_W);
   reader.Get("clutch_out_W", clutch_out_W);
   reader.Get("clutch_heat_W", clutch_heat_W);
+  reader.Get("locking_torque_Nm", locking_torque_Nm);
+  reader.Get("locking_heat_W", locking_heat_W);
   reader.Get("wheel_radps", std::span<double>(wheel_radps));
   reader.Get("friction_torque_Nm", std::span<double>(friction_torque_Nm));
 }

@@ -28,9 +28,9 @@ FrictionVector ImpulsesFor(const Roles& roles, const FrictionMatrix& a, const Fr
 }  // namespace
 
 // Least-index pivoting (K. G. Murty's rule) on the box-constrained complementarity problem: change the role of the first
-// element that breaks its condition. Finite for a positive definite A; with four elements a handful of turns.
+// element that breaks its condition. Finite for a positive definite A; with five elements a handful of turns.
 FrictionVector SolveFriction(const FrictionMatrix& a, const FrictionVector& s_free, const FrictionVector& bound) {
-  constexpr int kMostTurns = 200;  // there are 81 patterns
+  constexpr int kMostTurns = 500;  // there are 243 patterns
   Roles roles{};  // begin with what each would do by itself; a bound of 0 never changes its role
   for (int i = 0; i < kFrictionElements; ++i) {
     const double most = a(i, i) * bound[i];

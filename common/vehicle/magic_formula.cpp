@@ -14,7 +14,7 @@ constexpr auto kCoefficients = std::to_array<MagicFormulaCoefficient>({
     {"FNOMIN", &S::fnomin}, {"FZMAX", &S::fzmax}, {"NOMPRES", &S::nompres}, {"INFLPRES", &S::inflpres},
     {"LFZO", &S::lfzo}, {"LCX", &S::lcx}, {"LMUX", &S::lmux}, {"LEX", &S::lex}, {"LKX", &S::lkx}, {"LHX", &S::lhx},
     {"LVX", &S::lvx}, {"LCY", &S::lcy}, {"LMUY", &S::lmuy}, {"LEY", &S::ley}, {"LKY", &S::lky}, {"LKYC", &S::lkyc},
-    {"LHY", &S::lhy}, {"LVY", &S::lvy}, {"LXAL", &S::lxal}, {"LYKA", &S::lyka}, {"LVYKA", &S::lvyka},
+    {"LHY", &S::lhy}, {"LVY", &S::lvy}, {"LXAL", &S::lxal}, {"LYKA", &S::lyka}, {"LVYKA", &S::lvyka}, {"LGAX", &S::lgax}, {"LGAY", &S::lgay},
     {"PCX1", &S::pcx1}, {"PDX1", &S::pdx1}, {"PDX2", &S::pdx2}, {"PDX3", &S::pdx3}, {"PEX1", &S::pex1},
     {"PEX2", &S::pex2}, {"PEX3", &S::pex3}, {"PEX4", &S::pex4}, {"PKX1", &S::pkx1}, {"PKX2", &S::pkx2},
     {"PKX3", &S::pkx3}, {"PHX1", &S::phx1}, {"PHX2", &S::phx2}, {"PVX1", &S::pvx1}, {"PVX2", &S::pvx2},
@@ -24,7 +24,7 @@ constexpr auto kCoefficients = std::to_array<MagicFormulaCoefficient>({
     {"PCY1", &S::pcy1}, {"PDY1", &S::pdy1}, {"PDY2", &S::pdy2}, {"PDY3", &S::pdy3}, {"PEY1", &S::pey1},
     {"PEY2", &S::pey2}, {"PEY3", &S::pey3}, {"PEY4", &S::pey4}, {"PEY5", &S::pey5}, {"PKY1", &S::pky1},
     {"PKY2", &S::pky2}, {"PKY3", &S::pky3}, {"PKY4", &S::pky4}, {"PKY5", &S::pky5}, {"PKY6", &S::pky6},
-    {"PKY7", &S::pky7}, {"PHY1", &S::phy1}, {"PHY2", &S::phy2}, {"PVY1", &S::pvy1}, {"PVY2", &S::pvy2},
+    {"PKY7", &S::pky7}, {"PHY1", &S::phy1}, {"PHY2", &S::phy2}, {"PHY3", &S::phy3}, {"PVY1", &S::pvy1}, {"PVY2", &S::pvy2},
     {"PVY3", &S::pvy3}, {"PVY4", &S::pvy4}, {"PPY1", &S::ppy1}, {"PPY2", &S::ppy2}, {"PPY3", &S::ppy3},
     {"PPY4", &S::ppy4}, {"PPY5", &S::ppy5},
     {"RBY1", &S::rby1}, {"RBY2", &S::rby2}, {"RBY3", &S::rby3}, {"RBY4", &S::rby4}, {"RCY1", &S::rcy1},
@@ -74,27 +74,32 @@ double Ky(const S& t, const Operating& o, double camber) {
          std::sin(t.pky4 * std::atan(o.fz / o.fz0 / bend)) * t.lky;
 }
 
-// The formula's degressive friction factor for the vertical shifts: it lets them vanish with the friction.
-double ShiftFactor(double lambda) { return 10.0 * lambda / (1.0 + 9.0 * lambda); }
+// The formula's factor of friction for the vertical shifts, degressive since version 6: it lets them vanish with the friction.
+double ShiftFactor(const S& t, double lambda) { return t.version == MagicFormulaVersion::k52 ? lambda : 10.0 * lambda / (1.0 + 9.0 * lambda); }
+
+// Version 5.2 scales the camber of each direction by a factor of its own.
+double CamberX(const S& t, const TyreSlip& slip) { return t.version == MagicFormulaVersion::k52 ? slip.camber_rad * t.lgax : slip.camber_rad; }
+double CamberY(const S& t, const TyreSlip& slip) { return t.version == MagicFormulaVersion::k52 ? slip.camber_rad * t.lgay : slip.camber_rad; }
 
 double PureLongitudinal(const S& t, const Operating& o, const TyreSlip& slip, double friction) {
   const double kappa = slip.kappa + (t.phx1 + t.phx2 * o.dfz) * t.lhx;
   const double c = t.pcx1 * t.lcx;
-  const double d = Mux(t, o, slip.camber_rad, friction) * o.fz;
+  const double d = Mux(t, o, CamberX(t, slip), friction) * o.fz;
   const double e = std::min(1.0, (t.pex1 + t.pex2 * o.dfz + t.pex3 * o.dfz * o.dfz) * (1.0 - t.pex4 * Sign(kappa)) * t.lex);
   const double b = Kx(t, o) / (c * d + kTiny);
-  const double vertical = o.fz * (t.pvx1 + t.pvx2 * o.dfz) * t.lvx * ShiftFactor(t.lmux * friction);
+  const double vertical = o.fz * (t.pvx1 + t.pvx2 * o.dfz) * t.lvx * ShiftFactor(t, t.lmux * friction);
   return d * std::sin(Angle(b, c, e, kappa)) + vertical;
 }
 
 double PureLateral(const S& t, const Operating& o, const TyreSlip& slip, double friction) {
-  const double gamma = slip.camber_rad;
-  const double shift_factor = ShiftFactor(t.lmuy * friction);
+  const double gamma = CamberY(t, slip);
+  const double shift_factor = ShiftFactor(t, t.lmuy * friction);
   const double k = Ky(t, o, gamma);
   const double camber_shift = o.fz * (t.pvy3 + t.pvy4 * o.dfz) * gamma * t.lkyc * shift_factor;
   const double camber_stiffness = o.fz * (t.pky6 + t.pky7 * o.dfz) * (1.0 + t.ppy5 * o.dpi) * t.lkyc;
   const double k_safe = std::fabs(k) < kTiny ? -kTiny : k;
-  const double alpha = slip.tan_alpha + (t.phy1 + t.phy2 * o.dfz) * t.lhy + (camber_stiffness * gamma - camber_shift) / k_safe;
+  const double shift_by_camber = t.version == MagicFormulaVersion::k52 ? t.phy3 * gamma : (camber_stiffness * gamma - camber_shift) / k_safe;
+  const double alpha = slip.tan_alpha + (t.phy1 + t.phy2 * o.dfz) * t.lhy + shift_by_camber;
   const double c = t.pcy1 * t.lcy;
   const double d = Muy(t, o, gamma, friction) * o.fz;
   const double bend = 1.0 + t.pey5 * gamma * gamma - (t.pey3 + t.pey4 * gamma) * Sign(alpha);
@@ -122,7 +127,7 @@ double WeightLateral(const S& t, const Operating& o, const TyreSlip& slip) {
 
 // The side force that longitudinal slip brings about by itself.
 double InducedLateral(const S& t, const Operating& o, const TyreSlip& slip, double friction) {
-  const double size = Muy(t, o, slip.camber_rad, friction) * o.fz * (t.rvy1 + t.rvy2 * o.dfz + t.rvy3 * slip.camber_rad) *
+  const double size = Muy(t, o, CamberY(t, slip), friction) * o.fz * (t.rvy1 + t.rvy2 * o.dfz + t.rvy3 * CamberY(t, slip)) *
                       CosAtan(t.rvy4 * slip.tan_alpha);
   return size * std::sin(t.rvy5 * std::atan(t.rvy6 * slip.kappa)) * t.lvyka;
 }

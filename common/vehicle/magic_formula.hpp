@@ -7,8 +7,13 @@ namespace rodeira::vehicle {
 
 // Pacejka's Magic Formula, version 6.1 (H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed., 2012, chapter 4.3), forces Fx
 // and Fy with combined slip, camber and inflation pressure; turn slip and the moments are left out. Version
-// 5.2 without camber is the same with the newer coefficients at their defaults; its terms of camber are others. Names are those of the .tir files in lower case.
+// 5.2 (the same book's 2nd ed., 2006, chapter 4.3) is the same with the newer coefficients at their defaults, but for the terms of
+// camber: the side force is shifted by PHY3 instead of by PKY6 and PKY7, LGAX and LGAY scale the camber, and the vertical shift of
+// Fy is scaled with friction itself. Names are those of the .tir files in lower case.
+enum class MagicFormulaVersion { k61, k52 };
+
 struct MagicFormulaSettings {
+  MagicFormulaVersion version = MagicFormulaVersion::k61;
   double fnomin = 4000.0;     // nominal load, N
   double fzmax = 20000.0;     // above it the formula is evaluated at this load, N
   double nompres = 220000.0;  // Pa
@@ -17,6 +22,7 @@ struct MagicFormulaSettings {
   double lfzo = 1.0, lcx = 1.0, lmux = 1.0, lex = 1.0, lkx = 1.0, lhx = 1.0, lvx = 1.0;
   double lcy = 1.0, lmuy = 1.0, ley = 1.0, lky = 1.0, lkyc = 1.0, lhy = 1.0, lvy = 1.0;
   double lxal = 1.0, lyka = 1.0, lvyka = 1.0;
+  double lgax = 1.0, lgay = 1.0;  // 5.2 only
   // Longitudinal, pure and (r) combined.
   double pcx1 = 1.65, pdx1 = 1.0, pdx2 = 0.0, pdx3 = 0.0, pex1 = 0.0, pex2 = 0.0, pex3 = 0.0, pex4 = 0.0;
   double pkx1 = 20.0, pkx2 = 0.0, pkx3 = 0.0, phx1 = 0.0, phx2 = 0.0, pvx1 = 0.0, pvx2 = 0.0;
@@ -25,7 +31,7 @@ struct MagicFormulaSettings {
   // Lateral, pure and (r) combined. pky1 is negative: a positive slip angle gives a force to the right.
   double pcy1 = 1.3, pdy1 = 1.0, pdy2 = 0.0, pdy3 = 0.0, pey1 = 0.0, pey2 = 0.0, pey3 = 0.0, pey4 = 0.0, pey5 = 0.0;
   double pky1 = -18.0, pky2 = 1.5, pky3 = 0.0, pky4 = 2.0, pky5 = 0.0, pky6 = 0.0, pky7 = 0.0;
-  double phy1 = 0.0, phy2 = 0.0, pvy1 = 0.0, pvy2 = 0.0, pvy3 = 0.0, pvy4 = 0.0;
+  double phy1 = 0.0, phy2 = 0.0, phy3 = 0.0 /* 5.2 only */, pvy1 = 0.0, pvy2 = 0.0, pvy3 = 0.0, pvy4 = 0.0;
   double ppy1 = 0.0, ppy2 = 0.0, ppy3 = 0.0, ppy4 = 0.0, ppy5 = 0.0;
   double rby1 = 10.0, rby2 = 8.0, rby3 = 0.0, rby4 = 0.0, rcy1 = 1.0, rey1 = 0.0, rey2 = 0.0, rhy1 = 0.0, rhy2 = 0.0;
   double rvy1 = 0.0, rvy2 = 0.0, rvy3 = 0.0, rvy4 = 0.0, rvy5 = 0.0, rvy6 = 0.0;

@@ -145,7 +145,7 @@ MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls
   const DrivelineMotion& motion = powertrain_.Step(settings_.powertrain, controls, input, dt_s);
   for (std::size_t i = 0; i < 2; ++i) {
     wheels_[driven + i].spin_radps = motion.wheel_radps[i];
-    torques.drive_Nm[driven + i] = motion.drive_torque_Nm;
+    torques.drive_Nm[driven + i] = motion.shaft_torque_Nm()[i];
     torques.friction_Nm[driven + i] = motion.friction_torque_Nm[i];
     Wheel& rolling = wheels_[free + i];
     torques.friction_Nm[free + i] = friction[free + i];

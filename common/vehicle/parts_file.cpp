@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "common/geometry/angle.hpp"
+#include "common/vehicle/tir_file.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -76,6 +77,15 @@ GearboxSettings ReadGearbox(const Map& map) {
   return gearbox;
 }
 
+DifferentialSettings ReadDifferential(const Map& map) {
+  constexpr Range kLocking{0.0, 1.0};
+  DifferentialSettings differential;
+  differential.preload_Nm = map.Number("preload_Nm", Range::NotNegative(), differential.preload_Nm);
+  differential.locking_drive = map.Number("locking_drive", kLocking, differential.locking_drive);
+  differential.locking_overrun = map.Number("locking_overrun", kLocking, differential.locking_overrun);
+  return differential;
+}
+
 AutomaticSettings ReadAutomatic(const Map& map) {
   AutomaticSettings automatic;
   automatic.up_light_radps = Rpm(map, "up_light_rpm", automatic.up_light_radps);
@@ -102,6 +112,7 @@ PowertrainSettings ReadPowertrain(const Map& root) {
   powertrain.engine = ReadEngine(root.Child("engine"));
   powertrain.clutch = ReadClutch(root.Child("clutch"));
   powertrain.gearbox = ReadGearbox(root.Child("gearbox"));
+  powertrain.differential = ReadDifferential(root.OptionalChild("differential"));
   powertrain.automatic = ReadAutomatic(root.OptionalChild("automatic"));
   return powertrain;
 }
@@ -141,7 +152,13 @@ TyreSettings ReadTyre(const Map& map) {
   tyre.relaxation_lateral_m = map.Number("relaxation_lateral_m", {0.05, 5.0});
   tyre.low_speed_mps = map.Number("low_speed_mps", {0.1, 20.0}, tyre.low_speed_mps);
   tyre.low_speed_damping_Nspm = map.Number("low_speed_damping_Nspm", {0.0, 8000.0}, tyre.low_speed_damping_Nspm);
-  const Map coefficients = map.Child("magic_formula");
+  // From a file of its maker, by coefficients that stand here, or by both: what stands here counts.
+  if (const auto tir = map.OptionalPath("tir")) {
+    auto formula = LoadTir(*tir);
+    if (formula) tyre.formula = formula.value();
+    else map.Problem("tir", formula.error().Text());
+  }
+  const Map coefficients = map.Has("tir") ? map.OptionalChild("magic_formula") : map.Child("magic_formula");
   for (const MagicFormulaCoefficient& coefficient : MagicFormulaCoefficients()) {
     double& value = tyre.formula.*coefficient.member;
     value = coefficients.Number(coefficient.name, IsSize(coefficient.name) ? Range::Positive() : Range{}, value);

@@ -41,6 +41,8 @@ const DrivelineMotion& Powertrain::Step(const PowertrainSettings& settings, cons
   DrivelineLoads loads;
   loads.ratio = TotalRatio(settings.gearbox, gear_);
   loads.clutch_capacity_Nm = ClutchCapacity(settings.clutch, clutch_);
+  // As the losses: by the torque of the step before.
+  loads.locking_torque_Nm = LockingTorque(settings.differential, 2.0 * motion_.drive_torque_Nm);
   loads.wheel_inertia_kgm2 = input.wheel_inertia_kgm2;
   loads.wheel_radps = input.wheel_radps;
   loads.road_torque_Nm = input.road_torque_Nm;

@@ -16,6 +16,7 @@ struct PowertrainSettings {
   EngineSettings engine;
   ClutchSettings clutch;
   GearboxSettings gearbox;
+  DifferentialSettings differential;
   AutomaticSettings automatic;
 };
 
@@ -29,7 +30,7 @@ struct PowertrainInput {
   double inertia_torque_Nm = 0.0;              // mass × radius × forward acceleration, of the last step
 };
 
-// Engine, clutch, gearbox worked by hand or by the car, final drive and open differential to two wheels.
+// Engine, clutch, gearbox worked by hand or by the car, final drive and differential to two wheels.
 class Powertrain {
  public:
   // The engine runs; where the wheels turn fast enough it turns with them in a gear that suits.

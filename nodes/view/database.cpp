@@ -15,6 +15,8 @@
 
 #include "common/base/files.hpp"
 #include "common/scene/ground_tile.hpp"
+#include "nodes/view/face_texture.hpp"
+#include "nodes/view/model_file.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -34,6 +36,9 @@ const char* NameOf(scene::Material material) {
     case scene::Material::kGround: return "ground";
     case scene::Material::kRoad: return "road";
     case scene::Material::kMark: return "mark";
+    case scene::Material::kSign: return "sign";
+    case scene::Material::kFoliage: return "foliage";
+    case scene::Material::kMatt: return "thing";
     default: return "other";
   }
 }
@@ -60,6 +65,12 @@ osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh) {
     geometry->getOrCreateStateSet()->setAttributeAndModes(new osg::PolygonOffset(-1.0F, -4.0F));
     geometry->getOrCreateStateSet()->setRenderBinDetails(1, "RenderBin");
   }
+  if (mesh.material == scene::Material::kSign) {  // the picture goes into the file
+    osg::ref_ptr<osg::Texture2D> texture = MakeFaceTexture(mesh.face);
+    texture->getImage()->setWriteHint(osg::Image::STORE_INLINE);
+    geometry->setTexCoordArray(0, PlacesOnFace(mesh));
+    geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
+  }
   return geometry;
 }
 
@@ -73,6 +84,8 @@ osg::ref_ptr<osg::Node> LevelNode(const scene::GroundLevel& level) {
   };
   for (const scene::Mesh& mesh : level.ground) add(mesh);
   add(level.marks);
+  for (const scene::Mesh& mesh : level.things) add(mesh);
+  if (!level.models.empty()) group->addChild(PlaceModels(level.models));
   return group;
 }
 
@@ -137,7 +150,9 @@ osg::ref_ptr<osg::Node> RootNode(const scene::GroundPlan& plan, const std::map<s
 }  // namespace
 
 base::Result<DatabaseReport> WriteDatabase(const road::World& world, const DatabaseOptions& options) {
-  if (world.network() == nullptr || !world.open_drive()) return base::WrongInput("only an OpenDRIVE world can be written as it is seen", world.name());
+  if (world.network() == nullptr || !world.roads().empty()) {
+    return base::WrongInput("only an OpenDRIVE world or the roads of a world file of version 2 can be written as they are seen", world.name());
+  }
   std::error_code problem;
   fs::create_directories(options.folder / "tiles", problem);
   if (!fs::is_directory(options.folder / "tiles", problem)) return base::WrongInput("this is no folder, and none can be made", options.folder.string());
@@ -161,6 +176,9 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
     base::Status written;
     if (!fresh) {
       const scene::GroundTile tile = plan.Build(key);
+      for (const scene::PlacedModel& model : tile.levels[0].models) {
+        if (auto read = ReadModel(model.file); !read) written = read;
+      }
       for (int level = 0; level < scene::kGroundLevels && written; ++level) {
         const auto bytes = Serialise(*LevelNode(tile.levels[static_cast<std::size_t>(level)]));
         if (!bytes) {

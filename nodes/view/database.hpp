@@ -25,7 +25,7 @@ struct DatabaseReport {
 // Writes the world as it is seen: `world.osgb` with a PagedLOD a tile, `tiles/COLUMN_ROW_LEVEL.osgb`, and `visual.txt`, which
 // names every file with its hash and what it was made from. Tiles whose sources did not change, and whose files are as they
 // were written, stay. The bytes are the same for any number of threads and whatever was there before. Wrong input where
-// the world is no OpenDRIVE file (others are drawn in another way) or the folder cannot be written.
+// the world has no roads, or such of version 1 (they are drawn in another way), or the folder cannot be written.
 base::Result<DatabaseReport> WriteDatabase(const road::World& world, const DatabaseOptions& options);
 
 }  // namespace rodeira::view

@@ -13,6 +13,7 @@
 
 #include "common/base/assert.hpp"
 #include "common/base/random.hpp"
+#include "nodes/view/face_texture.hpp"
 #include "nodes/view/shaders.hpp"
 
 namespace rodeira::view {
@@ -85,6 +86,16 @@ osg::StateSet* Look::StateOf(scene::Material material) {
   return state;
 }
 
+osg::StateSet* Look::StateOfFace(const std::string& face) {
+  auto& state = faces_[face];
+  if (!state) {
+    state = new osg::StateSet(*StateOf(scene::Material::kSign), osg::CopyOp::SHALLOW_COPY);
+    state->setTextureAttribute(1, MakeFaceTexture(face));
+    state->addUniform(new osg::Uniform("face", 1));
+  }
+  return state;
+}
+
 osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
   osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
   osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
@@ -107,7 +118,8 @@ osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
   colours->setNormalize(true);
   geometry->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
   geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.triangles.begin(), mesh.triangles.end()));
-  geometry->setStateSet(StateOf(mesh.material));
+  geometry->setStateSet(mesh.material == scene::Material::kSign ? StateOfFace(mesh.face) : StateOf(mesh.material));
+  if (mesh.material == scene::Material::kSign) geometry->setTexCoordArray(1, PlacesOnFace(mesh));
   return geometry;
 }
 

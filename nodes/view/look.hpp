@@ -8,7 +8,9 @@
 #include <osg/ref_ptr>
 
 #include <array>
+#include <map>
 #include <span>
+#include <string>
 
 #include "common/scene/mesh.hpp"
 
@@ -31,11 +33,13 @@ class Look {
 
  private:
   osg::ref_ptr<osg::StateSet> MakeState(scene::Material material);
+  osg::StateSet* StateOfFace(const std::string& face);
 
   osg::Vec3f sun_W_;
   osg::ref_ptr<osg::Texture2D> noise_;  // repeats: fine in its red part, coarse in its green one
   osg::ref_ptr<osg::Program> shadow_;
-  std::array<osg::ref_ptr<osg::StateSet>, 9> states_;
+  std::array<osg::ref_ptr<osg::StateSet>, 10> states_;
+  std::map<std::string, osg::ref_ptr<osg::StateSet>> faces_;  // of signs
 };
 
 }  // namespace rodeira::view

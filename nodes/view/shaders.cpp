@@ -80,6 +80,11 @@ vec3 Look() {
     case scene::Material::kLamp: return R"(
 uniform float glow;
 vec3 Look() { return gl_Color.rgb * glow; })";
+    case scene::Material::kSign: return R"(
+uniform sampler2D face;
+varying vec2 on_face;
+// Signs throw light back: they are never as dark as what stands in the shade.
+vec3 Look() { return texture2D(face, on_face).rgb * max(light, vec3(0.72)); })";
     case scene::Material::kMatt:
     case scene::Material::kFoliage: break;
   }
@@ -91,6 +96,7 @@ vec3 Look() { return gl_Color.rgb * light; })";
 
 std::string VertexShader() {
   return std::string(kHead) + R"(
+varying vec2 on_face;
 void main() {
   vec4 p = gl_ModelViewMatrix * gl_Vertex;
   gl_Position = gl_ProjectionMatrix * p;
@@ -101,6 +107,7 @@ void main() {
   light = vec3(0.30, 0.31, 0.30) + sky * vec3(0.20, 0.24, 0.30) + sun * vec3(0.78, 0.73, 0.62);
   ground = gl_Vertex.xy;
   gl_FrontColor = gl_Color;
+  on_face = gl_MultiTexCoord1.xy;
 }
 )";
 }

@@ -7,7 +7,7 @@
 namespace rodeira::view {
 
 // GLSL 1.20, which every OpenGL from 2.1 on understands. Uniforms: sun_eye, up_eye (unit vectors in the eye's frame),
-// noise (a texture that repeats), glow (of lamps).
+// noise (a texture that repeats), glow (of lamps), face (a sign's picture; where on it: texture coordinates 1).
 std::string VertexShader();
 std::string FragmentShader(scene::Material material);
 std::string SkyVertexShader();

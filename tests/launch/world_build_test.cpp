@@ -76,5 +76,18 @@ TEST(WorldBuild, AWorldFilesRoadsAndHills) {
   EXPECT_THAT(nothing.errors, HasSubstr("there is nothing to build"));
 }
 
+TEST(WorldBuild, AWorldFileOfVersion2IsWrittenAsItIsSeenToo) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "plane.yaml", out = folder.path() / "out";
+  ASSERT_TRUE(base::WriteWhole(file, std::string("rodeira: world/2\nname: plane\nground: {kind: plane, z_m: 0}\nroads:\n  - id: main\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n"
+                                                 "    axis: [{line: {length_m: 60}}]\n    z_m: 0\n    section: {template: rural}\n    signs: [{type: stop, s_m: 50}]\n")).ok());
+  const Said said = Build(file, out);
+  EXPECT_EQ(said.status, 0) << said.errors;
+  EXPECT_TRUE(fs::exists(out / "world.osgb"));
+  EXPECT_TRUE(fs::exists(out / "tiles" / "0_0_0.osgb"));
+  EXPECT_TRUE(road::World::Load(out / "world.xodr").ok());
+  EXPECT_THAT(Build(file, out).out, HasSubstr(" 0 built, "));
+}
+
 }  // namespace
 }  // namespace rodeira::front

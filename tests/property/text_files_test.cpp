@@ -23,6 +23,7 @@
 #include "common/opendrive/import.hpp"
 #include "common/road/world.hpp"
 #include "common/scenario/scenario_file.hpp"
+#include "common/vehicle/tir_file.hpp"
 #include "common/vehicle/vehicle_model.hpp"
 #include "nodes/input/script_source.hpp"
 #include "tests/common/map/sample_map.hpp"
@@ -121,6 +122,18 @@ TEST(TextFiles, Laboratories) {
       const auto told = launch::Launch::Parse(launch.text(), "empty.yaml", lab.value().For(host));
       EXPECT_TRUE(told.ok()) << (told.ok() ? "" : told.error().Text());
     }
+    return std::nullopt;
+  });
+}
+
+TEST(TextFiles, TyreProperties) {
+  const std::string good = "[UNITS]\nLENGTH ='meter'\nANGLE = 'radians'\n[MODEL]\nFITTYP = 61 $version\n[VERTICAL]\nFNOMIN = 4000\n[LONGITUDINAL_COEFFICIENTS]\n"
+                           "PCX1 = 1.6\nPDX1 = 1.1\nPKX1 = 2.1E1\n{x y}\n 1.0 2\n[LATERAL_COEFFICIENTS]\nPCY1=1.3\nPDY1 = 1.0\nPKY1 = -18\n! end\n";
+  Fuzz("tyre", {good, good + "PHY3 = +.04\r\nFZMAX = 9e3"}, [](const std::string& text) -> std::optional<base::Error> {
+    const auto tyre = vehicle::ParseTir(text, "fuzz.tir");
+    if (!tyre) return tyre.error();
+    EXPECT_LT(tyre.value().pky1, 0.0);
+    (void)vehicle::SteadyForces(tyre.value(), {0.1, -0.1, 0.05}, 3000.0, 1.0);
     return std::nullopt;
   });
 }

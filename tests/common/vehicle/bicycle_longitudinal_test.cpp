@@ -1,6 +1,7 @@
 // Along the road: standing, holding, rolling, braking, top speed, gears.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -317,6 +318,47 @@ TEST(BicycleDriving, TheClutchWorkIsAccountedFor) {
   });
   EXPECT_GT(heat_J, 500.0);
   EXPECT_LT(heat_J, 50000.0);
+}
+
+// Ice under the left wheels. An open differential gives both the little that ice bears; with plates of locking value S the right
+// one gets (1 + S)/(1 - S) of it.
+class SplitGround final : public terrain::Ground {
+ public:
+  void Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) override {
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      points[i] = {};
+      points[i].normal_W = Eigen::Vector3d::UnitZ();
+      points[i].friction = queries[i].y_m > 0.0 ? 0.1 : 1.0;
+      points[i].surface = terrain::Surface::kAsphalt;
+      points[i].inside = true;
+    }
+  }
+};
+
+TEST(BicycleOnSplitFriction, PlatesHelpAsMuchAsTheirLockingValueSays) {
+  const auto started = [](double locking) {
+    SplitGround ground;
+    BicycleSettings settings = DefaultSettings();
+    settings.powertrain.differential.locking_drive = locking;
+    BicycleModel car = PlacedCar(settings, ground);
+    Controls controls;
+    controls.throttle = 0.4;
+    double shortest_mps2 = 1e9, left_Nm = 0.0, right_Nm = 0.0;
+    Drive(car, ground, controls, 2.0, [&](int step) {
+      if (step < 1000) return;  // the left wheel spins since long
+      const std::size_t driven = settings.front_driven ? kFrontLeft : kRearLeft;
+      const auto& wheels = car.state().wheels;
+      EXPECT_GT(wheels[driven].spin_radps, 2.0 * wheels[driven + 1].spin_radps);
+      left_Nm += wheels[driven].drive_torque_Nm;
+      right_Nm += wheels[driven + 1].drive_torque_Nm;
+      shortest_mps2 = std::min(shortest_mps2, car.state().a_WB_W.x());
+    });
+    return std::array<double, 2>{right_Nm / left_Nm, shortest_mps2};
+  };
+  const auto open = started(0.0), plates = started(0.3);
+  EXPECT_NEAR(open[0], 1.0, 1e-12);
+  EXPECT_NEAR(plates[0], 1.3 / 0.7, 0.02) << "the plates' torque is that of the step before";
+  EXPECT_GT(plates[1], 1.4 * open[1]) << "and the slipping wheel is slower, so its tyre is better too";
 }
 
 }  // namespace

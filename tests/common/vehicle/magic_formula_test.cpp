@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common/base/random.hpp"
+#include "common/vehicle/tir_file.hpp"
 #include "common/vehicle/tyre.hpp"
 #include "tests/common/vehicle/test_car.hpp"
 
@@ -17,25 +18,10 @@ namespace {
 
 const std::filesystem::path kTir = std::filesystem::path(RODEIRA_SOURCE_DIR) / "../shared/data/tyre/mfeval_MagicFormula61_Parameters.tir";
 
-// Enough of a reader for one well-formed file: NAME = number.
-MagicFormulaSettings ReadTir(const std::filesystem::path& path) {
-  MagicFormulaSettings tyre;
-  std::ifstream in(path);
-  for (std::string line; std::getline(in, line);) {
-    const auto equals = line.find('=');
-    if (equals == std::string::npos) continue;
-    const std::string name = line.substr(0, line.find(' '));
-    for (const auto& coefficient : MagicFormulaCoefficients()) {
-      if (coefficient.name == name) tyre.*coefficient.member = std::stod(line.substr(equals + 1));
-    }
-  }
-  return tyre;
-}
-
 // Values of an independent implementation for a 255/55 tyre (facts page, Tyre).
 TEST(MagicFormula, AgreesWithAnIndependentImplementationOfVersion61) {
   if (!std::filesystem::exists(kTir)) GTEST_SKIP() << "the tyre file " << kTir << " is not on this machine";
-  const MagicFormulaSettings tyre = ReadTir(kTir);
+  const MagicFormulaSettings tyre = LoadTir(kTir).value();
   struct Row {
     double load, kappa, alpha, fx, fy;
   };

@@ -108,6 +108,7 @@ RC_GTEST_PROP(Driveline, WorkBalances, (std::uint32_t seed)) {
   loads.wheel_radps = {draw(2, -100, 100), draw(3, -100, 100)};
   loads.road_torque_Nm = {draw(4, -1000, 1000), draw(5, -1000, 1000)};
   loads.friction_torque_Nm = {draw(6, 0, 1500), draw(7, 0, 1500)};
+  loads.locking_torque_Nm = std::max(0.0, draw(10, -500, 1500));
   Engine engine;
   engine.Start(draw(8, 50, 650));
   engine.Prepare(settings, draw(9, 0, 1), false);
@@ -120,7 +121,7 @@ RC_GTEST_PROP(Driveline, WorkBalances, (std::uint32_t seed)) {
     const double j = loads.wheel_inertia_kgm2;
     double change = 0.5 * settings.inertia_kgm2 * (m.engine_radps * m.engine_radps - w0 * w0);
     const double drag_Nm = settings.inertia_kgm2 * (m.engine_radps - w0) / kStep_s - engine.driving_Nm() + m.clutch_torque_Nm;
-    double work = (engine.driving_Nm() + drag_Nm) * 0.5 * (w0 + m.engine_radps) - m.clutch_heat_W;
+    double work = (engine.driving_Nm() + drag_Nm) * 0.5 * (w0 + m.engine_radps) - m.clutch_heat_W - m.locking_heat_W;
     for (std::size_t k = 0; k < 2; ++k) {
       change += 0.5 * j * (m.wheel_radps[k] * m.wheel_radps[k] - wheels0[k] * wheels0[k]);
       work += (loads.road_torque_Nm[k] + m.friction_torque_Nm[k]) * 0.5 * (wheels0[k] + m.wheel_radps[k]);
@@ -128,6 +129,7 @@ RC_GTEST_PROP(Driveline, WorkBalances, (std::uint32_t seed)) {
     }
     RC_ASSERT(std::fabs(drag_Nm) <= engine.drag_Nm() * (1 + 1e-6));
     RC_ASSERT(std::fabs(m.clutch_torque_Nm) <= loads.clutch_capacity_Nm * (1 + 1e-9));
+    RC_ASSERT(std::fabs(m.locking_torque_Nm) <= loads.locking_torque_Nm * (1 + 1e-9));
     worst = std::max(worst, std::fabs(change / kStep_s - work));
     scale = std::max({scale, std::fabs(change / kStep_s), std::fabs(m.clutch_in_W), std::fabs(m.clutch_out_W)});
     heat_least = std::min(heat_least, m.clutch_heat_W);
@@ -188,20 +190,71 @@ TEST(Driveline, TorquePassesBothWaysAndHalvesAtTheDifferential) {
   EXPECT_NEAR(m.wheel_radps[0] - m.wheel_radps[1], 10.0, 1e-9);  // open: the difference is free
 }
 
+// The left wheel spins on ice, the right one is held by the road: what the shafts differ by is what the plates bear, and it heats them.
+TEST(Driveline, PlatesCarryTheirTorqueToTheSlowerWheel) {
+  const EngineSettings settings = DefaultSettings().powertrain.engine;
+  Engine engine;
+  engine.Start(300.0);
+  engine.Prepare(settings, 0.5, false);
+  DrivelineLoads loads;
+  loads.ratio = 10.0;
+  loads.clutch_capacity_Nm = 200.0;
+  loads.wheel_radps = {50.0, 10.0};
+  loads.road_torque_Nm = {-30.0, -30.0};
+  loads.locking_torque_Nm = 240.0;
+  const DrivelineMotion m = StepDriveline(settings, engine, loads, kStep_s);
+  const auto shafts = m.shaft_torque_Nm();
+  EXPECT_NEAR(shafts[0] - shafts[1], -240.0, 1e-9);
+  EXPECT_NEAR(shafts[0] + shafts[1], 10.0 * m.clutch_torque_Nm, 1e-9);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(m.wheel_radps[i], loads.wheel_radps[i] + kStep_s * (shafts[i] - 30.0) / loads.wheel_inertia_kgm2, 1e-9);
+  EXPECT_NEAR(m.locking_heat_W, 120.0 * 0.5 * (40.0 + m.wheel_radps[0] - m.wheel_radps[1]), 1e-6);
+}
+
+// Two wheels and the plates' friction alone: the difference falls by locking torque / inertia a second, to nothing and stays there.
+TEST(Driveline, PlatesWearADifferenceAwayAndThenHoldIt) {
+  const EngineSettings settings = DefaultSettings().powertrain.engine;
+  Engine engine;
+  engine.Start(100.0);
+  DrivelineLoads loads;  // in neutral
+  loads.wheel_radps = {21.0, 20.0};
+  loads.locking_torque_Nm = 4.0;
+  for (int i = 1; i <= 400; ++i) {
+    engine.Prepare(settings, 0.0, false);
+    const DrivelineMotion m = StepDriveline(settings, engine, loads, kStep_s);
+    EXPECT_NEAR(m.wheel_radps[0] - m.wheel_radps[1], std::max(0.0, 1.0 - 4.0 * kStep_s * i), 1e-8);
+    EXPECT_NEAR(m.wheel_radps[0] + m.wheel_radps[1], 41.0, 1e-9);
+    engine.Finish(settings, m.engine_radps, kStep_s);
+    loads.wheel_radps = m.wheel_radps;
+  }
+  loads.road_torque_Nm = {1.9, -1.9};  // 3.8 of 4: held
+  engine.Prepare(settings, 0.0, false);
+  const DrivelineMotion m = StepDriveline(settings, engine, loads, kStep_s);
+  EXPECT_NEAR(m.wheel_radps[0], m.wheel_radps[1], 1e-6);
+  EXPECT_NEAR(m.locking_torque_Nm, -3.8, 1e-4);
+}
+
+TEST(Differential, LocksByPreloadAndByTheTorqueOfItsDirection) {
+  const DifferentialSettings settings{40.0, 0.4, 0.1};
+  EXPECT_EQ(LockingTorque(settings, 0.0), 40.0);
+  EXPECT_EQ(LockingTorque(settings, 500.0), 240.0);
+  EXPECT_EQ(LockingTorque(settings, -500.0), 90.0);
+  EXPECT_EQ(LockingTorque({}, 500.0), 0.0);
+}
+
 // The complementarity conditions themselves are the oracle.
 RC_GTEST_PROP(Friction, TheSolutionSticksOrSlides, (std::uint32_t seed)) {
   const auto draw = [&](std::uint64_t what, double low, double high) { return base::RandomUniform({seed, what}, low, high); };
   FrictionMatrix root;
-  for (int i = 0; i < 16; ++i) root(i / 4, i % 4) = draw(static_cast<std::uint64_t>(i), -1, 1);
+  for (int i = 0; i < 25; ++i) root(i / 5, i % 5) = draw(static_cast<std::uint64_t>(i), -1, 1);
   const FrictionMatrix a = root * root.transpose() + 0.01 * FrictionMatrix::Identity();
   FrictionVector s, bound;
-  for (int i = 0; i < 4; ++i) {
-    s[i] = draw(20 + static_cast<std::uint64_t>(i), -2, 2);
-    bound[i] = std::max(0.0, draw(30 + static_cast<std::uint64_t>(i), -0.5, 3));
+  for (int i = 0; i < kFrictionElements; ++i) {
+    s[i] = draw(40 + static_cast<std::uint64_t>(i), -2, 2);
+    bound[i] = std::max(0.0, draw(50 + static_cast<std::uint64_t>(i), -0.5, 3));
   }
   const FrictionVector p = SolveFriction(a, s, bound);
   const FrictionVector slide = s + a * p;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < kFrictionElements; ++i) {
     RC_ASSERT(std::fabs(p[i]) <= bound[i]);
     if (std::fabs(slide[i]) > 1e-9) RC_ASSERT(std::fabs(p[i] + std::copysign(bound[i], slide[i])) < 1e-12);
   }

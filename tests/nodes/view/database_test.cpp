@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <osg/Geometry>
 #include <osg/PagedLOD>
+#include <osg/Texture2D>
 #include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
 #include <unistd.h>
 
 #include <fstream>
@@ -50,8 +52,29 @@ class Database : public testing::Test {
   fs::path folder_;
 };
 
+// With signs, trees and a rail beside the bend.
+std::string BendWithThings(double sign_s_m = 90.0) {
+  std::string text = scene::BendUnderBridge();
+  text.insert(text.find("</road>"), fmt::format(
+      "<objects><object id=\"t\" type=\"tree\" s=\"0\" t=\"-9\" zOffset=\"0\" radius=\"2\" height=\"7\"><repeat s=\"0\" length=\"390\" distance=\"13\" tStart=\"-9\" tEnd=\"-12\"/></object>"
+      "<object id=\"r\" type=\"barrier\" subtype=\"guardRail\" s=\"0\" t=\"6\" height=\"0.75\" width=\"0.3\"><repeat s=\"0\" length=\"400\" distance=\"0\" tStart=\"6\" tEnd=\"6\"/></object></objects>"
+      "<signals><signal id=\"a\" s=\"{}\" t=\"-6\" zOffset=\"2\" orientation=\"+\" dynamic=\"no\" type=\"274\" subtype=\"-1\" country=\"DE\" value=\"60\" unit=\"km/h\"/>"
+      "<signal id=\"b\" s=\"80\" t=\"6\" zOffset=\"2\" orientation=\"-\" dynamic=\"no\" type=\"206\" subtype=\"-1\" country=\"DE\"/></signals>", sign_s_m));
+  return text;
+}
+
+TEST_F(Database, AMovedSignBuildsItsOwnTilesAlone) {
+  const auto before = scene::OpenDriveWorld(BendWithThings(30.0)), after = scene::OpenDriveWorld(BendWithThings(31.0));
+  ASSERT_TRUE(before != nullptr && after != nullptr);
+  Write(*before, "world");
+  EXPECT_EQ(Write(*before, "world").built, 0u);
+  EXPECT_EQ(Write(*after, "world").built, 1u);  // both places lie in one tile
+  Write(*after, "fresh");
+  EXPECT_TRUE(Files("world") == Files("fresh"));
+}
+
 TEST_F(Database, TheSameBytesForAnyNumberOfThreads) {
-  const auto world = scene::OpenDriveWorld(scene::BendUnderBridge());
+  const auto world = scene::OpenDriveWorld(BendWithThings());
   ASSERT_NE(world, nullptr);
   const DatabaseReport report = Write(*world, "one", 1);
   EXPECT_EQ(report.built, report.tiles);
@@ -86,19 +109,117 @@ TEST_F(Database, OnlyWhatChangedIsBuiltAgain) {
   EXPECT_TRUE(Files("world") == Files("fresh"));
 }
 
-TEST_F(Database, AWorldFileIsRefused) {
+TEST_F(Database, WhateverChangesInAWorldFileAnUpdateIsAFreshBuild) {
+  const auto world = [](const std::string& change) {
+    std::string text = R"(rodeira: world/2
+name: two roads in hills
+terrain:
+  surface: grass
+  generate: {seed: 3, columns: 65, rows: 33, spacing_m: 25, west_m: -200, south_m: -400, relief: [{wavelength_m: 300, amplitude_m: 8}]}
+roads:
+  - id: near
+    start: {x_m: 0, y_m: 0, heading_deg: 0}
+    axis: [line: {length_m: 200}]
+    z_m: 4
+    section: {template: rural, slopes: {cut: 1.5, fill: 2}}
+    signs:
+      - {type: stop, s_m: 190}
+    objects:
+      - {type: tree, side: left, beside_m: 9, from_s_m: 0, every_m: 20}
+    surfaces:
+      - {iso_8608: C, seed: 7, from_s_m: 10, to_s_m: 100}
+  - id: far
+    start: {x_m: 1000, y_m: 0, heading_deg: 0}
+    axis: [line: {length_m: 200}]
+    z_m: 4
+    section: {template: rural}
+)";
+    const auto arrow = change.find(" -> ");
+    if (arrow != std::string::npos) text.replace(text.find(change.substr(0, arrow)), arrow, change.substr(arrow + 4));
+    const auto parsed = road::World::Parse(text, "two_roads.yaml");
+    EXPECT_TRUE(parsed.ok()) << parsed.error().Text();
+    return parsed.value();
+  };
+  const DatabaseReport first = Write(*world(""), "world");
+  EXPECT_EQ(first.built, first.tiles);
+  EXPECT_EQ(Write(*world(""), "world").built, 0u);
+  int number = 0;
+  for (const char* change : {"cut: 1.5 -> cut: 4", "type: stop -> type: give_way", "every_m: 20 -> every_m: 25", "iso_8608: C -> iso_8608: E", "    signs: ->     bridges: [{from_s_m: 50, to_s_m: 90}]\n    signs:",
+                             "  - id: near -> \n  - id: near", "z_m: 4 -> z_m: 5"}) {
+    const auto changed = world(change);
+    const DatabaseReport again = Write(*changed, "world");
+    if (!std::string_view(change).starts_with("z_m")) {  // generated hills follow the road's height
+      EXPECT_LT(again.built, first.tiles) << change;
+    }
+    const std::string fresh = fmt::format("fresh{}", number++);
+    Write(*changed, fresh);
+    EXPECT_TRUE(Files("world") == Files(fresh)) << change;
+  }
+}
+
+TEST_F(Database, AModelFromAFileStandsAtItsPlace) {
+  fs::create_directories(folder_);
+  // A flat quadrangle of 4 x 2 m, 3 m up: its corner (x, y) = (4, 2) is where it is farthest.
+  osg::ref_ptr<osg::Geometry> quad = new osg::Geometry;
+  osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
+  for (const auto& [x, y] : {std::pair(0.0F, 0.0F), std::pair(4.0F, 0.0F), std::pair(4.0F, 2.0F), std::pair(0.0F, 2.0F)}) corners->push_back({x, y, 3.0F});
+  quad->setVertexArray(corners);
+  quad->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_FAN, 0, 4));
+  const auto model = folder_ / "shelter.osgt";
+  ASSERT_TRUE(osgDB::writeNodeFile(*quad, model.string()));
+  const auto world = [&](const fs::path& file) {
+    return road::World::Parse(fmt::format("rodeira: world/2\nname: plane\nground: {{kind: plane, z_m: 1}}\nroads:\n  - id: main\n    start: {{x_m: 10, y_m: 20, heading_deg: 90}}\n"
+                                          "    axis: [{{line: {{length_m: 60}}}}]\n    z_m: 1\n    section: {{template: rural}}\n    objects: [{{type: house, s_m: 30, t_m: -15, model: {}}}]\n", file.string()), "plane.yaml");
+  };
+  const auto parsed = world(model);
+  ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
+  Write(*parsed.value(), "one", 1);
+  Write(*parsed.value(), "two", 3);
+  EXPECT_TRUE(Files("one") == Files("two"));
+  struct Find : osg::NodeVisitor {
+    osg::BoundingBoxd box;
+    Find() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Geometry& geometry) override {
+      const auto* points = dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray());
+      if (points == nullptr || points->size() != 4 || (*points)[2] != osg::Vec3(4.0F, 2.0F, 3.0F)) return;
+      const osg::Matrixd place = osg::computeLocalToWorld(getNodePath());
+      for (const osg::Vec3& point : *points) box.expandBy(osg::Vec3d(point) * place);
+    }
+  };
+  Find find;
+  const osg::ref_ptr<osg::Node> tile = osgDB::readRefNodeFile((folder_ / "one" / "tiles" / "0_0_0.osgb").string());
+  ASSERT_TRUE(tile.valid());
+  tile->accept(find);
+  // The road goes north from (10, 20): s = 30, t = -15 is (25, 50); the model's x is north, its y west.
+  EXPECT_NEAR(find.box.xMin(), 23.0, 1e-9);
+  EXPECT_NEAR(find.box.xMax(), 25.0, 1e-9);
+  EXPECT_NEAR(find.box.yMin(), 50.0, 1e-9);
+  EXPECT_NEAR(find.box.yMax(), 54.0, 1e-9);
+  EXPECT_NEAR(find.box.zMin(), parsed.value()->At(25.0, 50.0).z_m + 3.0, 1e-6);
+  // A file that is none.
+  std::ofstream(folder_ / "broken.osgt") << "no model";
+  const auto broken = world(folder_ / "broken.osgt");
+  ASSERT_TRUE(broken.ok()) << broken.error().Text();
+  DatabaseOptions options;
+  options.folder = folder_ / "none";
+  const auto report = WriteDatabase(*broken.value(), options);
+  ASSERT_FALSE(report.ok());
+  EXPECT_NE(report.error().Text().find("broken.osgt: OpenSceneGraph cannot read this model"), std::string::npos) << report.error().Text();
+}
+
+TEST_F(Database, RoadsOfVersion1AreRefused) {
   const auto world = road::World::Load(fs::path(RODEIRA_SOURCE_DIR) / "configs/worlds/n222.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   DatabaseOptions options;
   options.folder = folder_ / "n222";
   const auto report = WriteDatabase(*world.value(), options);
   ASSERT_FALSE(report.ok());
-  EXPECT_NE(report.error().Text().find("only an OpenDRIVE world can be written as it is seen"), std::string::npos);
+  EXPECT_NE(report.error().Text().find("only an OpenDRIVE world or the roads of a world file of version 2"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "n222"));
 }
 
 TEST_F(Database, OpenSceneGraphReadsIt) {
-  const auto world = scene::OpenDriveWorld(scene::BendUnderBridge());
+  const auto world = scene::OpenDriveWorld(BendWithThings());
   ASSERT_NE(world, nullptr);
   const DatabaseReport report = Write(*world, "world");
   const osg::ref_ptr<osg::Node> root = osgDB::readNodeFile((folder_ / "world" / "world.osgb").string());
@@ -109,18 +230,25 @@ TEST_F(Database, OpenSceneGraphReadsIt) {
   const scene::GroundPlan plan(*world);
   const scene::GroundTile tile = plan.Build({0, 0});
   struct Count : osg::NodeVisitor {
-    std::size_t triangles = 0;
+    std::size_t triangles = 0, pictures = 0;
     Count() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Geometry& geometry) override { triangles += geometry.getPrimitiveSet(0)->getNumIndices() / 3; }
+    void apply(osg::Geometry& geometry) override {
+      triangles += geometry.getPrimitiveSet(0)->getNumIndices() / 3;
+      const osg::StateSet* state = geometry.getStateSet();
+      const auto* texture = state == nullptr ? nullptr : dynamic_cast<const osg::Texture2D*>(state->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+      if (texture != nullptr && texture->getImage() != nullptr && texture->getImage()->t() == 128) ++pictures;
+    }
   };
   for (std::size_t level = 0; level < scene::kGroundLevels; ++level) {
     std::size_t expected = tile.levels[level].marks.triangle_count();
     for (const scene::Mesh& mesh : tile.levels[level].ground) expected += mesh.triangle_count();
+    for (const scene::Mesh& mesh : tile.levels[level].things) expected += mesh.triangle_count();
     const osg::ref_ptr<osg::Node> node = osgDB::readNodeFile((folder_ / "world" / "tiles" / fmt::format("0_0_{}.osgb", level)).string());
     ASSERT_TRUE(node.valid());
     Count count;
     node->accept(count);
     EXPECT_EQ(count.triangles, expected);
+    EXPECT_EQ(count.pictures, level < 2 ? 2u : 0u);  // a limit and a STOP sign
   }
   const auto* lod = dynamic_cast<const osg::PagedLOD*>(group->getChild(0));
   ASSERT_NE(lod, nullptr);

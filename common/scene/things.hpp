@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/base/hash.hpp"
+#include "common/network/placing.hpp"
+#include "common/road/world.hpp"
+#include "common/scene/mesh.hpp"
+#include "common/scene/solids.hpp"
+#include "common/scene/tile_grid.hpp"
+
+namespace rodeira::scene {
+
+enum class ThingKind { kTree, kBush, kHouse, kFillingStation, kPost, kLamp, kPlain, kOutline, kSign, kTrafficLight, kModel };
+
+// Something that stands, as it is to be drawn.
+struct Thing {
+  ThingKind kind = ThingKind::kPlain;
+  Stand stand;  // on the ground, and the way it looks (models.hpp says of each)
+  double above_m = 0.0;  // over the ground: of a plate its lower edge
+  double length_m = 0.0, width_m = 0.0, height_m = 0.0, radius_m = 0.0;
+  std::string face;            // of a sign
+  std::string file;            // of a model: a graphics library reads it
+  bool both_sides = false;
+  bool on_post = false;        // of signs and traffic lights; what hangs over a lane has none
+  Colour colour;               // of plain ones and outlines
+  std::vector<Eigen::Vector3d> feet_W;  // of an outline
+  std::vector<double> heights_m;
+  bool closed = true;
+};
+
+// A piece of a rail or wall. Neighbours meet in the same points.
+struct RailPiece {
+  bool wall = false;
+  std::array<Eigen::Vector3d, 2> foot_W = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  std::array<Eigen::Vector2d, 2> left_W = {Eigen::Vector2d::UnitY(), Eigen::Vector2d::UnitY()};
+  std::array<double, 2> height_m{}, width_m{};
+};
+
+// What stands at a network's roads, by the tiles in which it stands. Pure functions of the world.
+// Feet are on SUELO's ground, on the level nearest to the road's own surface at (s, t), which counts itself where SUELO
+// knows no ground: what stands is seen to stand on what is drawn. Objects without any height (markings, parking places) and
+// signals that are only paint are left out.
+class Things {
+ public:
+  // world.network() must not be null; the network must outlive this.
+  explicit Things(const road::World& world);
+
+  struct Tile {
+    std::vector<Thing> things;
+    std::vector<RailPiece> rails;
+  };
+  const std::map<TileKey, Tile>& tiles() const { return tiles_; }
+  // Of everything that stands in a tile; 0 where nothing does.
+  base::Digest DigestOf(const TileKey& tile) const;
+
+ private:
+  void AddThing(const road::World& world, const network::Placed& placed);
+  void AddSignal(const network::Road& road, const network::Placed& placed, Thing thing);
+  void AddObject(const network::Road& road, const network::Placed& placed, Thing thing);
+  void AddRun(const road::World& world, const network::PlacedRun& run);
+  void Keep(Thing thing);
+
+  std::map<TileKey, Tile> tiles_;
+};
+
+// A model from a file at its place: x forward, z up, in metres.
+struct PlacedModel {
+  std::string file;
+  Stand stand;
+};
+
+// A tile's models at a level of detail: all of them but at level 3, where there are none.
+std::vector<PlacedModel> ModelsOf(const Things::Tile& tile, int level);
+
+// A tile's things at a level of detail, all with the same origin: at level 0 and 1 everything, simpler at 1; at 2 trees,
+// houses and rails as plain as can be; at 3 only houses and what else is large.
+std::vector<Mesh> DrawThings(const Things::Tile& tile, const TileKey& key, int level);
+
+}  // namespace rodeira::scene

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <osg/Array>
+#include <osg/Texture2D>
+#include <osg/ref_ptr>
+
+#include <string>
+
+#include "common/scene/mesh.hpp"
+
+namespace rodeira::view {
+
+// The picture of a sign's face (scene::DrawFace).
+osg::ref_ptr<osg::Image> MakeFaceImage(const std::string& face);
+// The same to be drawn at any distance.
+osg::ref_ptr<osg::Texture2D> MakeFaceTexture(const std::string& face);
+// Where on the face each vertex of a mesh of kSign lies.
+osg::ref_ptr<osg::Vec2Array> PlacesOnFace(const scene::Mesh& mesh);
+
+}  // namespace rodeira::view
