@@ -64,6 +64,7 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   for (const Node& controller : root.Children("controller")) spec.controllers.push_back(ReadController(controller));
   if (readings.empty()) root.Wrong("core.roads", "there is no <road> in the file");
   import.errors = source.errors;
+  import.warnings.insert(import.warnings.end(), source.warnings.begin(), source.warnings.end());
   Finish(import);
   if (!import.errors.empty()) return import;
 

@@ -106,6 +106,7 @@ void AddThing(const Thing& thing, int level, Drawing& drawing) {
     case ThingKind::kOutline: return AddOutline(drawing.solid, thing.feet_W, thing.heights_m, thing.closed, thing.colour, Shade(thing.colour, 0.85));
     case ThingKind::kSign:
     case ThingKind::kTrafficLight: return AddSign(thing, level, drawing);
+    case ThingKind::kModel: return;
   }
 }
 
@@ -153,6 +154,14 @@ void AddRail(const RailPiece& piece, int level, Mesh& mesh) {
 }
 
 }  // namespace
+
+std::vector<PlacedModel> ModelsOf(const Things::Tile& tile, int level) {
+  std::vector<PlacedModel> models;
+  for (const Thing& thing : tile.things) {
+    if (thing.kind == ThingKind::kModel && level < 3) models.push_back({thing.file, {thing.stand.ToWorld({0.0, 0.0, thing.above_m}), thing.stand.x_W}});
+  }
+  return models;
+}
 
 std::vector<Mesh> DrawThings(const Things::Tile& tile, const TileKey& key, int level) {
   const Vector2d middle = key.south_west_W() + Vector2d::Constant(0.5 * kTile_m);

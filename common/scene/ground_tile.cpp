@@ -123,7 +123,10 @@ GroundTile GroundPlan::Build(const TileKey& key) const {
       if (const auto paint = paint_[at].find(key); paint != paint_[at].end()) tile.levels[at].marks = LayPaint(paint->second, key, woven.triangles);
     }
     tile.levels[at].ground = std::move(woven.meshes);
-    if (const auto things = things_.tiles().find(key); things != things_.tiles().end()) tile.levels[at].things = DrawThings(things->second, key, level);
+    if (const auto things = things_.tiles().find(key); things != things_.tiles().end()) {
+      tile.levels[at].things = DrawThings(things->second, key, level);
+      tile.levels[at].models = ModelsOf(things->second, level);
+    }
   }
   tile.ball = BallOf(key);
   return tile;

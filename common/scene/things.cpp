@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
 
 #include "common/base/assert.hpp"
+#include "common/base/files.hpp"
 #include "common/network/network.hpp"
 #include "common/scene/levels_at.hpp"
 #include "common/scene/sign_face.hpp"
@@ -66,6 +69,13 @@ Colour ColourOf(std::string_view type) {
   if (type == "trafficIsland") return Colour::Of(0xb4b1a9);
   if (type == "vegetation" || type == "tree") return Colour::Of(0x56703a);
   return Colour::Of(0x9d9a94);
+}
+
+// An object's name may be the absolute path of a model (world files write it so). Pictures are none.
+bool IsModelFile(const std::string& name) {
+  const std::filesystem::path path(name);
+  const std::string ending = path.extension().string();
+  return path.is_absolute() && IsOneOf(ending, {".osgb", ".osgt", ".osg", ".ive", ".obj", ".3ds", ".dae", ".stl", ".ac", ".lwo", ".flt", ".dxf"});
 }
 
 ThingKind KindOf(const network::Object& object) {
@@ -130,6 +140,11 @@ void Things::AddObject(const network::Road& road, const network::Placed& placed,
   const network::Object& object = *placed.object;
   thing.kind = KindOf(object);
   thing.colour = ColourOf(object.type);
+  if (IsModelFile(object.name)) {
+    thing.kind = ThingKind::kModel;
+    thing.file = object.name;
+    return Keep(std::move(thing));
+  }
   for (const network::Outline& outline : object.outlines) {
     Thing part = thing;
     part.kind = ThingKind::kOutline;
@@ -205,8 +220,14 @@ base::Digest Things::DigestOf(const TileKey& key) const {
   const auto found = tiles_.find(key);
   if (found == tiles_.end()) return 0;
   std::string text = "things 1\n";
+  std::set<std::string> files;
   const auto put = [&text](const Vector3d& p) { fmt::format_to(std::back_inserter(text), "{} {} {} ", p.x(), p.y(), p.z()); };
   for (const Thing& thing : found->second.things) {
+    if (!thing.file.empty() && files.insert(thing.file).second) {
+      const auto bytes = base::ReadText(thing.file);
+      text += thing.file + (bytes ? base::Hex(base::Hash(bytes.value())) : "missing") + "\n";
+    }
+    if (!thing.file.empty()) text += thing.file;
     put(thing.stand.foot_W);
     fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {} {} {} {} {} {} {}-{}-{} {}", static_cast<int>(thing.kind), thing.stand.x_W.x(), thing.stand.x_W.y(), thing.above_m,
                    thing.length_m, thing.width_m, thing.height_m, thing.radius_m, thing.face, thing.both_sides, thing.on_post, thing.closed, thing.colour.red, thing.colour.green,

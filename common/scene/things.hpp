@@ -14,7 +14,7 @@
 
 namespace rodeira::scene {
 
-enum class ThingKind { kTree, kBush, kHouse, kFillingStation, kPost, kLamp, kPlain, kOutline, kSign, kTrafficLight };
+enum class ThingKind { kTree, kBush, kHouse, kFillingStation, kPost, kLamp, kPlain, kOutline, kSign, kTrafficLight, kModel };
 
 // Something that stands, as it is to be drawn.
 struct Thing {
@@ -23,6 +23,7 @@ struct Thing {
   double above_m = 0.0;  // over the ground: of a plate its lower edge
   double length_m = 0.0, width_m = 0.0, height_m = 0.0, radius_m = 0.0;
   std::string face;            // of a sign
+  std::string file;            // of a model: a graphics library reads it
   bool both_sides = false;
   bool on_post = false;        // of signs and traffic lights; what hangs over a lane has none
   Colour colour;               // of plain ones and outlines
@@ -65,6 +66,15 @@ class Things {
 
   std::map<TileKey, Tile> tiles_;
 };
+
+// A model from a file at its place: x forward, z up, in metres.
+struct PlacedModel {
+  std::string file;
+  Stand stand;
+};
+
+// A tile's models at a level of detail: all of them but at level 3, where there are none.
+std::vector<PlacedModel> ModelsOf(const Things::Tile& tile, int level);
 
 // A tile's things at a level of detail, all with the same origin: at level 0 and 1 everything, simpler at 1; at 2 trees,
 // houses and rails as plain as can be; at 3 only houses and what else is large.

@@ -41,6 +41,13 @@ struct Piece {
   double blend_m = 1.0;
 };
 
+// Conflict zones that an agent was granted together.
+struct ZoneGrant {
+  double to_m = 0.0;         // odometer at their end
+  std::uint64_t number = 0;  // of two who hold a zone the lower one goes first
+  bool sure = false;         // there is room behind the zones, so that nothing keeps the agent in them
+};
+
 // What changes about one agent.
 struct Agent {
   static constexpr double kNoCap_mps = 1e3;
@@ -56,6 +63,7 @@ struct Agent {
   double brake_mps2 = 0.0;  // commanded; 0: not
   double cap_mps = kNoCap_mps;
   double granted_m = 0.0;   // odometer to which the conflict zones on its way are its own
+  std::vector<ZoneGrant> grants;  // those that its rear has not left yet, as it meets them
   double stopped_m = -1.0;  // odometer of the STOP line at which it has come to rest
   double waited_s = 0.0;    // at rest for others to go first
   std::vector<Piece> path;  // from the piece under its rear bumper to that under its front bumper

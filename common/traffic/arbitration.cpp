@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "common/traffic/traffic_model.hpp"
+#include "common/traffic/travel_time.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 constexpr double kPatience_s = 40.0;   // at rest for others; longer than this and others let one go
 constexpr double kGap_s = 1.0;         // after the own clearing before who goes first may arrive
+constexpr double kBehind_s = 0.5;      // after the own arrival who holds a zone may be out of it at the latest
 constexpr double kAtRest_mps = 0.05;
 constexpr double kAtLine_m = 1.5;      // a full stop counts within this before the line
 constexpr int kMostInChain = 64;
@@ -18,38 +20,63 @@ constexpr int kMostInChain = 64;
 
 bool TrafficModel::Urgent(std::uint32_t id) const { return agents_[id].waited_s > kPatience_s; }
 
-// Grants the passage unless somebody is in its way: in the zones, or, where the agent has to yield, about to come to them.
+// Whether somebody keeps it out of the zone: who is in it, or has been granted it, and is not surely out before it comes.
+bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
+  const auto zone = static_cast<std::size_t>(crossing.zone);
+  const auto mine = static_cast<std::size_t>(crossing.side), theirs = 1 - mine;
+  const Agent& agent = agents_[id];
+  const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
+  for (const Holder& holder : holders_[zone][theirs]) {
+    if (holder.id == id) continue;
+    if (holder.id < agents_.size()) {
+      const Agent& other = agents_[holder.id];
+      const double way_out = holder.out_m - other.o_m + 0.5 * traits_[holder.id].length_m;
+      const double clears = TravelTime(way_out, other.speed_mps, AllowedAt(holder.id, holder.out_m));
+      const double arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m));
+      if (holder.grant.sure && clears < arrives + kBehind_s) continue;
+      passages_[id].delay_s = clears - arrives;
+    }
+    passages_[id].waits_for = holder.id == agents_.size() ? -1 : static_cast<std::int64_t>(holder.id);
+    return true;
+  }
+  return awaited_[zone][mine] && !Urgent(id);
+}
+
+// Whether somebody who goes first is about to come to the zone before this one is out of it.
+bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
+  const auto zone = static_cast<std::size_t>(crossing.zone);
+  const auto theirs = static_cast<std::size_t>(1 - crossing.side);
+  if (zones()[static_cast<std::uint32_t>(zone)].first == crossing.side) return false;
+  const Agent& agent = agents_[id];
+  const double way_out = crossing.out_m - agent.o_m + 0.5 * traits_[id].length_m;
+  const double clears = TravelTime(way_out, agent.speed_mps, AllowedAt(id, crossing.out_m));
+  for (const Claim& claim : comers_[zone][theirs]) {
+    if (claim.id == id || claim.arrives_s > clears + kGap_s) continue;
+    const bool agents = claim.id < agents_.size();
+    if (agents && Urgent(id) && agents_[claim.id].waited_s < agent.waited_s) continue;
+    passages_[id].waits_for = agents ? static_cast<std::int64_t>(claim.id) : -1;
+    const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
+    passages_[id].delay_s = claim.clears_s - TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m));
+    return true;
+  }
+  return false;
+}
+
+// Grants the passage unless somebody is in its way: holds one of the zones or, where the agent has to yield, comes to one.
 bool TrafficModel::Grant(std::uint32_t id, bool yields) {
   Passage& passage = passages_[id];
-  const auto others = static_cast<std::uint32_t>(agents_.size());
-  passage.physical = true;
+  for (const Crossing& crossing : passage.crossings) {
+    if (crossing.zone >= 0 && Held(id, crossing)) return false;
+  }
+  for (const Crossing& crossing : passage.crossings) {
+    if (yields && crossing.zone >= 0 && Yields(id, crossing)) return false;
+  }
+  const ZoneGrant grant{passage.end_m, next_grant_++, passage.able};
+  agents_[id].granted_m = passage.end_m;
+  agents_[id].grants.push_back(grant);
   for (const Crossing& crossing : passage.crossings) {
     if (crossing.zone < 0) continue;
-    const auto zone = static_cast<std::size_t>(crossing.zone);
-    const auto mine = static_cast<std::size_t>(crossing.side), theirs = 1 - mine;
-    for (const std::uint32_t holder : holders_[zone][theirs]) {
-      if (holder == id) continue;
-      passage.waits_for = holder == others ? -1 : static_cast<std::int64_t>(holder);
-      return false;
-    }
-    if (awaited_[zone][mine] && !Urgent(id)) return false;
-  }
-  passage.physical = false;
-  for (const Crossing& crossing : passage.crossings) {
-    if (crossing.zone < 0 || !yields) continue;
-    const auto zone = static_cast<std::size_t>(crossing.zone);
-    const auto mine = static_cast<std::size_t>(crossing.side), theirs = 1 - mine;
-    if (zones()[static_cast<std::uint32_t>(zone)].first == crossing.side) continue;
-    for (const Claim& claim : comers_[zone][theirs]) {
-      if (claim.id == id || claim.arrives_s > passage.clears_s + kGap_s) continue;
-      if (claim.id != others && Urgent(id) && agents_[claim.id].waited_s < agents_[id].waited_s) continue;
-      passage.waits_for = claim.id == others ? -1 : static_cast<std::int64_t>(claim.id);
-      return false;
-    }
-  }
-  agents_[id].granted_m = passage.end_m;
-  for (const Crossing& crossing : passage.crossings) {
-    if (crossing.zone >= 0) holders_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)].push_back(id);
+    holders_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)].push_back({id, grant, crossing.out_m});
   }
   passage.any = false;
   return true;
@@ -64,6 +91,8 @@ void TrafficModel::Arbitrate(double dt_s) {
     Agent& agent = agents_[id];
     passages_[id].any = false;
     if (!agent.on_road) continue;
+    const double rear = agent.o_m - 0.5 * traits_[id].length_m;
+    std::erase_if(agent.grants, [&](const ZoneGrant& grant) { return grant.to_m <= rear; });
     FindPassage(id);
     HoldZones(id);
     Passage& passage = passages_[id];
@@ -75,12 +104,14 @@ void TrafficModel::Arbitrate(double dt_s) {
     if (!passage.any || agent.speed_mps > 1.0) agent.waited_s = 0.0;
     else if (agent.speed_mps < kAtRest_mps) agent.waited_s += dt_s;
   }
+  std::fill(reaches_.begin(), reaches_.end(), -1.0);
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     if (!agents_[id].on_road || !passages_[id].any) continue;
     FindRoom(id);
     if (passages_[id].due && passages_[id].head && !passages_[id].must_stop) order.push_back(id);
   }
   ComeToZones();
+  OthersAtZones();
   // Who has lost patience, by how long; then by when they come to the line, as told by their own motion; then by number.
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     const double patience_a = Urgent(a) ? agents_[a].waited_s : 0.0, patience_b = Urgent(b) ? agents_[b].waited_s : 0.0;
@@ -90,13 +121,22 @@ void TrafficModel::Arbitrate(double dt_s) {
   });
   for (const std::uint32_t id : order) {
     Passage& passage = passages_[id];
-    if (!passage.able) continue;
-    if (Grant(id, true) || !Urgent(id)) continue;
+    if (!passage.able || Grant(id, true)) continue;
+    if (!Urgent(id)) {
+      ComeLater(id);
+      continue;
+    }
     for (const Crossing& crossing : passage.crossings) {  // nobody else takes up what it waits for
       if (crossing.zone >= 0) awaited_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(1 - crossing.side)] = true;
     }
   }
+  for (const std::uint32_t id : order) {  // … and now who had to yield to such as cannot come yet
+    if (passages_[id].any && passages_[id].able) Grant(id, true);
+  }
   ResolveDeadlocks();
+  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+    if (agents_[id].on_road) FindBarrier(id);
+  }
 }
 
 // Where the chain of who waits for whom closes, the one of it that has waited longest (of equals the first) goes although it

@@ -32,6 +32,16 @@ driver::SpeedPlan::Allowed TrafficModel::Allowed(std::uint32_t id) const {
   return allowed;
 }
 
+// The acceleration with which its front comes to rest there, braking comfortably from where it must.
+double TrafficModel::StopAt(std::uint32_t id, double odometer_m) const {
+  const double v = agents_[id].speed_mps, b = traits_[id].idm.braking_mps2;
+  const double gap = odometer_m - agents_[id].o_m - 0.5 * traits_[id].length_m;
+  const double there = std::sqrt(2.0 * b * std::max(0.0, gap));
+  if (gap < 2.0 * kLeastGap_m && v < kSlow_mps) return -1.0;
+  const double stop = -b * v / std::max(there, kLeast_mps) + (there - v) / settings_.tracking_s;
+  return v > there ? std::min(stop, -v * v / (2.0 * std::max(gap, kLeastGap_m))) : stop;
+}
+
 // The least of the plan, who is ahead, and the line before zones that are not its own.
 double TrafficModel::Wanted(std::uint32_t id) const {
   const Agent& agent = agents_[id];
@@ -49,16 +59,8 @@ double TrafficModel::Wanted(std::uint32_t id) const {
   if (planned > agent.cap_mps) wanted = std::min(wanted, (agent.cap_mps - v) / settings_.tracking_s);
   const Ahead& ahead = ahead_[id];
   if (ahead.any && ahead.gap_m < settings_.sight_m) wanted = std::min(wanted, driver::IdmAcceleration(traits.idm, v, limit, ahead.gap_m, ahead.speed_mps));
-  const Passage& passage = passages_[id];
-  if (passage.any && passage.due) {
-    const double gap = passage.line_m - agent.o_m - 0.5 * traits.length_m;
-    const double b = traits.idm.braking_mps2;
-    const double there = std::sqrt(2.0 * b * std::max(0.0, gap));
-    double stop = -b * v / std::max(there, kLeast_mps) + (there - v) / settings_.tracking_s;
-    if (v > there) stop = std::min(stop, -v * v / (2.0 * std::max(gap, kLeastGap_m)));
-    if (gap < 2.0 * kLeastGap_m && v < kSlow_mps) stop = -1.0;
-    wanted = std::min(wanted, stop);
-  }
+  if (passages_[id].any && passages_[id].due) wanted = std::min(wanted, StopAt(id, passages_[id].line_m));
+  if (barriers_[id] < kNoBarrier_m) wanted = std::min(wanted, StopAt(id, barriers_[id]));
   wanted = std::clamp(wanted, -traits.idm.hardest_mps2, traits.idm.acceleration_mps2);
   return agent.brake_mps2 > 0.0 ? std::min(wanted, -agent.brake_mps2) : wanted;
 }

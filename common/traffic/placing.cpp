@@ -14,6 +14,7 @@ constexpr double kStartJitter = 0.6;     // share of the spacing
 constexpr double kStartClear_m = 15.0;   // from others, at the beginning
 constexpr double kGentle_mps2 = 0.8;     // an entering car needs no harder braking than this
 constexpr double kEnteringShare = 0.95;  // of the speed it wants
+constexpr double kEnteringBrake = 1.8;    // times braking times the way to the line: v²
 constexpr double kFast_mps = 40.0;
 constexpr int kSweeps = 4;
 constexpr double kZoneClear_m = 1.0;
@@ -86,7 +87,7 @@ void TrafficModel::PlaceAll(std::span<const driver::Footprint> others) {
       speed = std::min({speed, gap / (ahead_[id].id < 0 ? 2.0 * idm.time_gap_s : idm.time_gap_s), std::sqrt(2.0 * idm.braking_mps2 * gap)});
     }
     FindPassage(id);
-    if (passages_[id].any) speed = std::min(speed, std::sqrt(1.8 * idm.braking_mps2 * std::max(0.0, passages_[id].line_m - agent.o_m - 0.5 * traits_[id].length_m)));
+    if (passages_[id].any) speed = std::min(speed, std::sqrt(kEnteringBrake * idm.braking_mps2 * std::max(0.0, passages_[id].line_m - agent.o_m - 0.5 * traits_[id].length_m)));
     passages_[id].any = false;
     agent.speed_mps = speed;
   }
@@ -156,19 +157,17 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
   const double limit = map_->plans[agent.entry].limit_mps * traits.speed_factor;
   double speed = kEnteringShare * Allowed(id).speed_mps * traits.speed_factor;
   // Conflict zones right at the beginning must be free, and are its own from now on.
-  double to_zone = track.length_m();
   for (const lanes::ZoneSide& part : zones().Of(agent.entry)) {
     const lanes::Zone& zone = zones()[part.zone];
     const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;
     if (zone.kind == lanes::ZoneKind::kDiverge) continue;
-    if (zone.in_m[mine] > traits.length_m + 2.0 && zone.in_m[mine] > agent.granted_m + traits.length_m + 2.0) {
-      to_zone = zone.in_m[mine] - traits.length_m - 2.0;
-      break;
-    }
+    if (zone.in_m[mine] > traits.length_m + 2.0 && zone.in_m[mine] > agent.granted_m + traits.length_m + 2.0) break;
     if (!holders_[part.zone][theirs].empty()) return wait();
     agent.granted_m = std::max(agent.granted_m, zone.out_m[mine]);
   }
-  speed = std::min(speed, std::sqrt(2.0 * traits.idm.braking_mps2 * to_zone));
+  FindPassage(id);
+  if (passages_[id].any) speed = std::min(speed, std::sqrt(kEnteringBrake * traits.idm.braking_mps2 * std::max(0.0, passages_[id].line_m - traits.length_m)));
+  passages_[id].any = false;
   // Nobody may stand where it enters, not even with its rear; agents have moved since they were last seen.
   for (std::uint32_t other = 0; other < agents_.size(); ++other) {
     if (other == id || !agents_[other].on_road) continue;
@@ -186,7 +185,10 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
     if (!safe(speed)) return wait();
   }
   agent.speed_mps = speed;
-  if (agent.granted_m > 0.0) HoldZones(id);
+  if (agent.granted_m > 0.0) {
+    agent.grants = {{agent.granted_m, next_grant_++, false}};
+    HoldZones(id);
+  }
   return true;
 }
 

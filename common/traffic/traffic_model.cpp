@@ -36,6 +36,8 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   stretches_.resize(agents_.size());
   ahead_.resize(agents_.size());
   passages_.resize(agents_.size());
+  reaches_.resize(agents_.size());
+  barriers_.resize(agents_.size());
   occupants_.resize(graph().tracks().size());
   blocks_.resize(graph().tracks().size());
   holders_.resize(zones().zones().size());
@@ -157,12 +159,14 @@ bool TrafficModel::AtTheEnd(std::uint32_t id) const {
 void TrafficModel::Save(base::StateWriter& writer) const {
   for (const Agent& agent : agents_) writer.Put("agent", agent);
   writer.Put("waiting", waiting_);
+  writer.Put("next_grant", next_grant_);
 }
 
 // A snapshot comes from outside: whatever it says, nothing is read beside the arrays.
 void TrafficModel::Restore(base::StateReader& reader) {
   for (Agent& agent : agents_) reader.Get("agent", agent);
   reader.Get("waiting", waiting_);
+  reader.Get("next_grant", next_grant_);
   for (Agent& agent : agents_) {
     const auto tracks = graph().tracks().size();
     if (agent.entry >= tracks || std::any_of(agent.path.begin(), agent.path.end(), [&](const Piece& p) { return p.track >= tracks; })) agent = Agent();

@@ -107,18 +107,26 @@ class TrafficModel {
     bool head = false;       // nobody stands between it and the line who waits himself
     bool able = false;       // there is room for it behind the zones
     bool must_stop = false;  // a STOP sign
-    bool physical = false;   // refused because somebody is in the zones, or wants to be there before
     double line_m = 0.0;     // odometer at which its front stops
     double end_m = 0.0;
     double arrives_s = 0.0, clears_s = 0.0;
+    double delay_s = 0.0;  // until who keeps it out is out of the way
     std::int64_t waits_for = -1;
     std::vector<Crossing> crossings;
   };
-  // Somebody who holds, or comes to, a side of a zone. Ids from agents_.size() on are others.
+  // Somebody who holds a side of a zone. Ids from agents_.size() on are others.
+  struct Holder {
+    std::uint32_t id = 0;
+    ZoneGrant grant;
+    double out_m = 0.0;  // odometer at the zone's end
+  };
+  // Somebody who comes to a side of a zone.
   struct Claim {
     std::uint32_t id = 0;
     double arrives_s = 0.0, clears_s = 0.0;
   };
+
+  static constexpr double kNoBarrier_m = 1e18;
 
   TrafficModel(const TrafficSettings& settings, std::shared_ptr<const Map> map);
 
@@ -134,9 +142,17 @@ class TrafficModel {
   void Arbitrate(double dt_s);
   void FindPassage(std::uint32_t id);
   void HoldZones(std::uint32_t id);
+  template <class Tell>
+  void EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell);
+  double ReachOf(std::uint32_t id, int depth);
   void FindRoom(std::uint32_t id);
   void ComeToZones();
+  void ComeLater(std::uint32_t id);
+  void OthersAtZones();
+  bool Held(std::uint32_t id, const Crossing& crossing);
+  bool Yields(std::uint32_t id, const Crossing& crossing);
   bool Grant(std::uint32_t id, bool yields);
+  void FindBarrier(std::uint32_t id);
   void ResolveDeadlocks();
   bool Urgent(std::uint32_t id) const;
   double AllowedAt(std::uint32_t id, double odometer_m) const;
@@ -144,6 +160,7 @@ class TrafficModel {
   // Driving.
   double Wanted(std::uint32_t id) const;
   driver::SpeedPlan::Allowed Allowed(std::uint32_t id) const;
+  double StopAt(std::uint32_t id, double odometer_m) const;
   void Move(std::uint32_t id, double acceleration_mps2, double dt_s);
   double Advance(std::uint32_t id, double odometer_m) const;
   double Moved(std::uint32_t id, double travel_m) const;
@@ -164,6 +181,7 @@ class TrafficModel {
   std::vector<AgentTraits> traits_;
   std::vector<Agent> agents_;
   std::vector<std::uint32_t> waiting_;  // to enter, first come first
+  std::uint64_t next_grant_ = 1;
   std::vector<AgentPose> poses_;
 
   // Found anew each step.
@@ -172,7 +190,9 @@ class TrafficModel {
   std::vector<std::vector<Block>> blocks_;             // by track
   std::vector<Ahead> ahead_;                           // by agent
   std::vector<Passage> passages_;                      // by agent
-  std::vector<std::array<std::vector<std::uint32_t>, 2>> holders_;  // by zone
+  std::vector<double> reaches_;                        // by agent: how far its front comes whatever others decide; below 0 not yet told
+  std::vector<double> barriers_;                       // by agent: odometer at which it waits for who holds a zone before it
+  std::vector<std::array<std::vector<Holder>, 2>> holders_;         // by zone
   std::vector<std::array<std::vector<Claim>, 2>> comers_;           // by zone
   std::vector<std::array<bool, 2>> awaited_;                        // by zone: an urgent agent waits for that side to end
 };

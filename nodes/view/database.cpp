@@ -16,6 +16,7 @@
 #include "common/base/files.hpp"
 #include "common/scene/ground_tile.hpp"
 #include "nodes/view/face_texture.hpp"
+#include "nodes/view/model_file.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -84,6 +85,7 @@ osg::ref_ptr<osg::Node> LevelNode(const scene::GroundLevel& level) {
   for (const scene::Mesh& mesh : level.ground) add(mesh);
   add(level.marks);
   for (const scene::Mesh& mesh : level.things) add(mesh);
+  if (!level.models.empty()) group->addChild(PlaceModels(level.models));
   return group;
 }
 
@@ -174,6 +176,9 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
     base::Status written;
     if (!fresh) {
       const scene::GroundTile tile = plan.Build(key);
+      for (const scene::PlacedModel& model : tile.levels[0].models) {
+        if (auto read = ReadModel(model.file); !read) written = read;
+      }
       for (int level = 0; level < scene::kGroundLevels && written; ++level) {
         const auto bytes = Serialise(*LevelNode(tile.levels[static_cast<std::size_t>(level)]));
         if (!bytes) {

@@ -11,6 +11,7 @@
 #include "nodes/view/car_node.hpp"
 #include "nodes/view/instruments.hpp"
 #include "nodes/view/look.hpp"
+#include "nodes/view/model_file.hpp"
 #include "nodes/view/overlay.hpp"
 #include "nodes/view/timeline_bar.hpp"
 
@@ -62,6 +63,7 @@ osg::ref_ptr<osg::Node> GroundNode(Look& look, const scene::GroundTile& tile) {
     std::vector<const scene::Mesh*> things;
     for (const scene::Mesh& mesh : tile.levels[level].things) things.push_back(&mesh);
     if (!things.empty()) group->addChild(look.Placed(things));
+    if (!tile.levels[level].models.empty()) group->addChild(PlaceModels(tile.levels[level].models));
     lod->addChild(group, from, scene::kGroundSeen_m[level]);
     from = scene::kGroundSeen_m[level];
   }
@@ -171,10 +173,20 @@ Image Painter::Read() const {
   return image;
 }
 
+base::Status CheckModels(const scene::WorldScene& standing) {
+  for (const scene::GroundTile& tile : standing.ground) {
+    for (const scene::PlacedModel& model : tile.levels[0].models) {
+      if (auto read = ReadModel(model.file); !read) return read;
+    }
+  }
+  return {};
+}
+
 base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px) {
   auto surface = Surface::Open(SurfaceKind::kOffscreen, width_px, height_px, "Rodeira");
   if (!surface) return surface.error();
   const scene::WorldScene standing = scene::BuildWorldScene(world);
+  if (auto status = CheckModels(standing); !status) return status.error();
   Painter painter(*surface.value(), world, standing);
   painter.Draw(picture);
   return painter.Read();

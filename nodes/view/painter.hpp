@@ -29,6 +29,9 @@ class Painter {
   std::unique_ptr<Parts> parts_;
 };
 
+// Whether every model that a world names can be read. Wrong input otherwise.
+base::Status CheckModels(const scene::WorldScene& standing);
+
 // One picture of a world, without a window and without a run.
 base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px);
 

@@ -43,6 +43,7 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   screen->surface_ = std::move(surface).value();
   {
     const scene::WorldScene standing = scene::BuildWorldScene(world);  // the painter has its own copy
+    if (auto status = CheckModels(standing); !status) return status.error();
     screen->painter_ = std::make_unique<Painter>(*screen->surface_, world, standing);
   }
   screen->painter_->Draw(FirstPicture(world));

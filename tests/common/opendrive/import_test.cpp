@@ -166,5 +166,14 @@ TEST(OpenDrive, PolynomialsBorderAndOldSpellings) {
   EXPECT_NEAR(network->Span({0, 0, -2}, 50.0)->outer_t_m, -5.0, 1e-12);
 }
 
+TEST(OpenDrive, AnUnknownTypeOfObjectIsToldWithTheNearestRightOne) {
+  RoadText road;
+  road.more = "<objects><object id=\"7\" type=\"tre\" s=\"10\" t=\"8\" height=\"5\"/><object id=\"8\" type=\"tree\" s=\"20\" t=\"8\" height=\"5\"/></objects>";
+  const Import import = MustImport(Document(road.Text()));
+  ASSERT_EQ(import.warnings.size(), 1u);
+  EXPECT_EQ(import.warnings[0].Text(), "road.object.type: road 1, s 10: the object '7' has the type 'tre', which OpenDRIVE does not know; did you mean 'tree'?");
+  EXPECT_GT(import.warnings[0].line, 0u);
+}
+
 }  // namespace
 }  // namespace rodeira::opendrive

@@ -56,6 +56,25 @@ TEST(NetworkTraffic, DrivesTheRealFiles) {
   }
 }
 
+// More cars than the town bears without queues that reach back into the next junction: it goes on, and everybody with it.
+TEST(NetworkTraffic, AFullTownGoesOn) {
+  StudySettings settings;
+  settings.traffic.vehicles = 150;
+  settings.traffic.seed = 4;
+  settings.duration_s = 1200.0;
+  settings.step_s = 0.02;
+  std::int64_t at_half = 0;
+  const StudyResult r = RunStudy(settings, lanes::MapNetwork("town"), [&](const StudyMoment& moment) {
+    if (moment.time_s > 600.0) return;
+    at_half = 0;
+    for (std::uint32_t id = 0; id < moment.model.vehicles(); ++id) at_half += moment.model.agent(id).trip;
+  }).value();
+  EXPECT_EQ(r.collisions, 0) << Told(r);
+  EXPECT_LE(r.hardest_mps2, 3.0) << Told(r);
+  EXPECT_LT(r.longest_stand_s, 240.0) << "car " << r.longest_stand_id;
+  EXPECT_GT(r.arrivals - at_half, at_half / 2);
+}
+
 // A small crossing, many ways to meet at it.
 TEST(NetworkTraffic, ManySeedsAtTheCrossing) {
   const auto network = lanes::MapNetwork("crossing");

@@ -6,6 +6,7 @@
 #include <osg/PagedLOD>
 #include <osg/Texture2D>
 #include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
 #include <unistd.h>
 
 #include <fstream>
@@ -154,6 +155,56 @@ roads:
     Write(*changed, fresh);
     EXPECT_TRUE(Files("world") == Files(fresh)) << change;
   }
+}
+
+TEST_F(Database, AModelFromAFileStandsAtItsPlace) {
+  fs::create_directories(folder_);
+  // A flat quadrangle of 4 x 2 m, 3 m up: its corner (x, y) = (4, 2) is where it is farthest.
+  osg::ref_ptr<osg::Geometry> quad = new osg::Geometry;
+  osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
+  for (const auto& [x, y] : {std::pair(0.0F, 0.0F), std::pair(4.0F, 0.0F), std::pair(4.0F, 2.0F), std::pair(0.0F, 2.0F)}) corners->push_back({x, y, 3.0F});
+  quad->setVertexArray(corners);
+  quad->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_FAN, 0, 4));
+  const auto model = folder_ / "shelter.osgt";
+  ASSERT_TRUE(osgDB::writeNodeFile(*quad, model.string()));
+  const auto world = [&](const fs::path& file) {
+    return road::World::Parse(fmt::format("rodeira: world/2\nname: plane\nground: {{kind: plane, z_m: 1}}\nroads:\n  - id: main\n    start: {{x_m: 10, y_m: 20, heading_deg: 90}}\n"
+                                          "    axis: [{{line: {{length_m: 60}}}}]\n    z_m: 1\n    section: {{template: rural}}\n    objects: [{{type: house, s_m: 30, t_m: -15, model: {}}}]\n", file.string()), "plane.yaml");
+  };
+  const auto parsed = world(model);
+  ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
+  Write(*parsed.value(), "one", 1);
+  Write(*parsed.value(), "two", 3);
+  EXPECT_TRUE(Files("one") == Files("two"));
+  struct Find : osg::NodeVisitor {
+    osg::BoundingBoxd box;
+    Find() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Geometry& geometry) override {
+      const auto* points = dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray());
+      if (points == nullptr || points->size() != 4 || (*points)[2] != osg::Vec3(4.0F, 2.0F, 3.0F)) return;
+      const osg::Matrixd place = osg::computeLocalToWorld(getNodePath());
+      for (const osg::Vec3& point : *points) box.expandBy(osg::Vec3d(point) * place);
+    }
+  };
+  Find find;
+  const osg::ref_ptr<osg::Node> tile = osgDB::readRefNodeFile((folder_ / "one" / "tiles" / "0_0_0.osgb").string());
+  ASSERT_TRUE(tile.valid());
+  tile->accept(find);
+  // The road goes north from (10, 20): s = 30, t = -15 is (25, 50); the model's x is north, its y west.
+  EXPECT_NEAR(find.box.xMin(), 23.0, 1e-9);
+  EXPECT_NEAR(find.box.xMax(), 25.0, 1e-9);
+  EXPECT_NEAR(find.box.yMin(), 50.0, 1e-9);
+  EXPECT_NEAR(find.box.yMax(), 54.0, 1e-9);
+  EXPECT_NEAR(find.box.zMin(), parsed.value()->At(25.0, 50.0).z_m + 3.0, 1e-6);
+  // A file that is none.
+  std::ofstream(folder_ / "broken.osgt") << "no model";
+  const auto broken = world(folder_ / "broken.osgt");
+  ASSERT_TRUE(broken.ok()) << broken.error().Text();
+  DatabaseOptions options;
+  options.folder = folder_ / "none";
+  const auto report = WriteDatabase(*broken.value(), options);
+  ASSERT_FALSE(report.ok());
+  EXPECT_NE(report.error().Text().find("broken.osgt: OpenSceneGraph cannot read this model"), std::string::npos) << report.error().Text();
 }
 
 TEST_F(Database, RoadsOfVersion1AreRefused) {

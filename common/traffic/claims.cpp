@@ -1,0 +1,125 @@
+// Who holds and who comes to each conflict zone, and who waits within his own ones for who holds them before him.
+#include <algorithm>
+#include <cmath>
+
+#include "common/traffic/traffic_model.hpp"
+#include "common/traffic/travel_time.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kLine_m = 0.6;        // before the zone the front stops
+constexpr double kLaterThan_s = 30.0;  // of no interest now
+
+// That of a zone with this end; nothing for zones that it came into without any.
+ZoneGrant GrantOf(const Agent& agent, double out_m) {
+  for (const ZoneGrant& grant : agent.grants) {
+    if (out_m <= grant.to_m) return grant;
+  }
+  return {};
+}
+
+}  // namespace
+
+// Its own are the zones that are granted to it and those that it stands in.
+void TrafficModel::HoldZones(std::uint32_t id) {
+  const Agent& agent = agents_[id];
+  const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
+  const double to = std::max(front, agent.granted_m);
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.begin_m > to) break;
+    if (stretch.end_m < rear) continue;
+    for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
+      const lanes::Zone& zone = zones()[part.zone];
+      const auto mine = static_cast<std::size_t>(part.side);
+      if (zone.kind == lanes::ZoneKind::kDiverge) continue;
+      const double in = stretch.zero_m + zone.in_m[mine], out = stretch.zero_m + zone.out_m[mine];
+      if (in >= to || out <= rear) continue;
+      holders_[part.zone][mine].push_back({id, GrantOf(agent, out), out});
+    }
+  }
+}
+
+// The first zone of its own that it has not come to and that somebody holds before it.
+void TrafficModel::FindBarrier(std::uint32_t id) {
+  const Agent& agent = agents_[id];
+  const double front = agent.o_m + 0.5 * traits_[id].length_m;
+  barriers_[id] = kNoBarrier_m;
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.begin_m > agent.granted_m) break;
+    for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
+      const lanes::Zone& zone = zones()[part.zone];
+      const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;
+      const double in = stretch.zero_m + zone.in_m[mine];
+      if (zone.kind == lanes::ZoneKind::kDiverge || in < front || in >= agent.granted_m || in - kLine_m >= barriers_[id]) continue;
+      const std::uint64_t number = GrantOf(agent, stretch.zero_m + zone.out_m[mine]).number;
+      for (const Holder& holder : holders_[part.zone][theirs]) {
+        if (holder.id < agents_.size() && holder.id != id && holder.grant.number < number) barriers_[id] = in - kLine_m;
+      }
+    }
+  }
+}
+
+// Who comes to which zone: the heads of those that wait to be granted it.
+void TrafficModel::ComeToZones() {
+  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+    const Passage& passage = passages_[id];
+    if (!agents_[id].on_road || !passage.any || !passage.head || !passage.able || passage.arrives_s > kLaterThan_s) continue;
+    if (agents_[id].brake_mps2 > 0.0) continue;
+    const double front = agents_[id].o_m + 0.5 * traits_[id].length_m, rear = front - traits_[id].length_m;
+    for (const Crossing& crossing : passage.crossings) {
+      if (crossing.zone < 0) continue;
+      const double most = AllowedAt(id, crossing.in_m);
+      comers_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)].push_back(
+          {id, TravelTime(crossing.in_m - front, agents_[id].speed_mps, most),
+           TravelTime(crossing.out_m - rear, agents_[id].speed_mps, most)});
+    }
+  }
+}
+
+// Who has just been refused does not come before whoever keeps it out is gone.
+void TrafficModel::ComeLater(std::uint32_t id) {
+  const Passage& passage = passages_[id];
+  if (passage.delay_s <= 0.0) return;
+  for (const Crossing& crossing : passage.crossings) {
+    if (crossing.zone < 0) continue;
+    for (Claim& claim : comers_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)]) {
+      if (claim.id == id) claim.arrives_s += passage.delay_s, claim.clears_s += passage.delay_s;
+    }
+  }
+}
+
+// Vehicles that are no agents.
+void TrafficModel::OthersAtZones() {
+  const auto nobody = static_cast<std::uint32_t>(agents_.size());
+  for (std::uint32_t track = 0; track < blocks_.size(); ++track) {
+    for (const Block& block : blocks_[track]) {
+      for (const lanes::ZoneSide& part : zones().Of(track)) {
+        const lanes::Zone& zone = zones()[part.zone];
+        const auto mine = static_cast<std::size_t>(part.side);
+        if (zone.kind == lanes::ZoneKind::kDiverge || std::min(std::fabs(block.span.left_m), std::fabs(block.span.right_m)) > 1.2) continue;
+        if (block.span.front_m > zone.in_m[mine] && block.span.rear_m < zone.out_m[mine]) holders_[part.zone][mine].push_back({nobody, {}, 0.0});
+      }
+      if (block.span.speed_mps < 0.5 || block.span.left_m < -1.0 || block.span.right_m > 1.0) continue;
+      // Where it goes is not known: it comes to all zones within six seconds, on every way.
+      struct At { std::uint32_t track; double ahead_m; };
+      std::vector<At> open{{track, -block.span.front_m}};
+      for (std::size_t i = 0; i < open.size() && i < 64; ++i) {
+        const At at = open[i];
+        for (const lanes::ZoneSide& part : zones().Of(at.track)) {
+          const lanes::Zone& zone = zones()[part.zone];
+          const auto mine = static_cast<std::size_t>(part.side);
+          const double way = at.ahead_m + zone.in_m[mine], length = block.span.front_m - block.span.rear_m;
+          if (zone.kind == lanes::ZoneKind::kDiverge || way < 0.0 || way > 6.0 * block.span.speed_mps) continue;
+          comers_[part.zone][mine].push_back(
+              {nobody, way / block.span.speed_mps, (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
+        }
+        const double end = at.ahead_m + graph()[at.track].length_m();
+        if (end > 6.0 * block.span.speed_mps) continue;
+        for (const lanes::Link& link : graph()[at.track].next) open.push_back({link.to, end - link.from_d_m});
+      }
+    }
+  }
+}
+
+}  // namespace rodeira::traffic

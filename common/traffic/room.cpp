@@ -1,0 +1,89 @@
+// Whether there is room behind conflict zones, told from how far everybody comes whatever others decide.
+#include <algorithm>
+#include <cmath>
+
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kHardest_mps2 = 3.0;  // braking by which it is told where a vehicle could stand that may stop
+constexpr double kSameLine_m = 1.2;    // lines nearer to one another than this are one
+constexpr double kLoose_m = 0.5;       // more than its standing gap that a queueing car leaves
+constexpr double kNever_m = 1e18;
+constexpr int kDeepest = 256;           // longer columns count as ending there
+
+double StopsWithin(double speed_mps) { return std::max(0.0, speed_mps) * speed_mps / (2.0 * kHardest_mps2); }
+
+}  // namespace
+
+// Whoever stands or drives before it on its way as far as `to_m`, and how far its rear surely comes: `tell(id, rear_m)`, in its
+// own odometer, -1 for a vehicle that is no agent. Who parts from its way and surely comes clear of it is nobody to it.
+template <class Tell>
+void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell) {
+  const Agent& agent = agents_[id];
+  const double half_width = 0.5 * traits_[id].width_m + settings_.side_margin_m;
+  const auto told = [&](const Occupant& other, double zero_m, double clear_m) {
+    const double rear = zero_m + other.rear_m;
+    if (other.id == id || rear > to_m || zero_m + other.middle_m() <= agent.o_m) return;
+    const double comes = other.rear_m + ReachOf(other.id, depth + 1);
+    if (comes < clear_m) tell(static_cast<std::int64_t>(other.id), rear, zero_m + comes);
+  };
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.begin_m > to_m) break;
+    if (stretch.end_m < agent.o_m) continue;
+    for (const Occupant& other : occupants_[stretch.track]) told(other, stretch.zero_m, kNever_m);
+    for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
+      const lanes::Zone& zone = zones()[part.zone];
+      const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;
+      if (zone.kind != lanes::ZoneKind::kDiverge || stretch.zero_m + zone.out_m[mine] < agent.o_m) continue;
+      for (const Occupant& other : occupants_[zone.track[theirs]]) {
+        if (other.rear_m < zone.out_m[theirs] && other.front_m > zone.in_m[theirs]) told(other, stretch.zero_m, zone.out_m[theirs]);
+      }
+    }
+    for (const Block& block : blocks_[stretch.track]) {
+      const double rear = stretch.zero_m + block.span.rear_m;
+      if (rear > to_m || stretch.zero_m + block.middle_m <= agent.o_m || block.span.right_m > half_width || block.span.left_m < -half_width) continue;
+      tell(std::int64_t{-1}, rear, rear + StopsWithin(block.span.speed_mps));
+    }
+  }
+}
+
+// How far its front comes whatever others decide: as far as it sees, to the line before zones that are not its own, behind
+// whoever is before it as far as those come. Who is told to brake, and whoever is no agent, may stop at once. In a ring of
+// followers the one that closes it counts as standing.
+double TrafficModel::ReachOf(std::uint32_t id, int depth) {
+  if (reaches_[id] >= 0.0) return reaches_[id];
+  const Agent& agent = agents_[id];
+  const Passage& passage = passages_[id];
+  if (agent.brake_mps2 > 0.0) return reaches_[id] = StopsWithin(agent.speed_mps);
+  reaches_[id] = 0.0;
+  if (depth > kDeepest) return 0.0;
+  const double front = agent.o_m + 0.5 * traits_[id].length_m;
+  double to = front + SightOf(agent);
+  if (passage.any) to = std::min(to, passage.line_m);
+  const double apart = traits_[id].idm.standing_gap_m + kLoose_m;
+  EachAhead(id, to + apart, depth, [&](std::int64_t, double, double comes_m) { to = std::min(to, comes_m - apart); });
+  return reaches_[id] = std::max(0.0, to - front);
+}
+
+// Whether it can stand behind the zones once all before it have come as far as they surely do. Who waits before it at the
+// same line makes it no head.
+void TrafficModel::FindRoom(std::uint32_t id) {
+  Passage& passage = passages_[id];
+  passage.head = passage.able = true;
+  const double to = passage.end_m + traits_[id].length_m + settings_.idm.standing_gap_m + kLoose_m;
+  double nearest = kNever_m;
+  EachAhead(id, to, 0, [&](std::int64_t other, double rear_m, double comes_m) {
+    if (comes_m < to) {
+      passage.able = false;
+      if (rear_m < nearest) passage.waits_for = other, nearest = rear_m;
+    }
+    if (other < 0) return;
+    const auto next = static_cast<std::uint32_t>(other);
+    const double its_line = rear_m + 0.5 * traits_[next].length_m + passages_[next].line_m - agents_[next].o_m;
+    if (passages_[next].any && its_line < passage.line_m + kSameLine_m) passage.head = false;
+  });
+}
+
+}  // namespace rodeira::traffic
