@@ -6,7 +6,6 @@
 #include <condition_variable>
 #include <csignal>
 #include <deque>
-#include <map>
 #include <mutex>
 #include <random>
 #include <string>
@@ -28,6 +27,7 @@
 #include "common/launch/command_text.hpp"
 #include "common/lockstep/clock.hpp"
 #include "common/lockstep/conductor.hpp"
+#include "common/lockstep/missed_nodes.hpp"
 #include "common/lockstep/wait_chain.hpp"
 #include "common/lockstep/watchdog.hpp"
 #include "idl/topics.hpp"
@@ -142,23 +142,9 @@ class ClockProcess {
     stop_asked_ = stop_asked_ || command.kind == Kind::kStop;
     auto done = conductor_.Do(command, Now());
     if (!done || command.kind != Kind::kState) return done;
-    if (!missed_.empty()) return done.value() + "; it stands: " + Missed();
+    if (!missed_.empty()) return done.value() + "; it stands: " + missed_.Text(NowNs());
     const std::string chain = lockstep::WaitChain(roster_, clock_.reports());
     return chain.empty() ? done : done.value() + "; " + chain;
-  }
-  // Of each lost node that the run waits for: how, and since when.
-  std::string Missed() const {
-    std::string text;
-    for (const auto& [node, lost] : missed_) {
-      text += fmt::format("{}{} {:.1f} s ago", text.empty() ? "" : "; ", lost.reason, static_cast<double>(NowNs() - lost.since_ns) * 1e-9);
-    }
-    return text;
-  }
-  // A report long after the loss: somebody has let the process go on.
-  void NoteBack(lockstep::NodeIndex node) {
-    constexpr std::int64_t kOnItsWayStill_ns = 300'000'000;
-    const auto lost = missed_.find(node);
-    if (lost != missed_.end() && NowNs() - lost->second.since_ns > kOnItsWayStill_ns) missed_.erase(lost);
   }
   base::Result<std::string> RestartByHand(const std::string& name) {
     const lockstep::NodeIndex node = roster_.Find(name);
@@ -181,7 +167,7 @@ class ClockProcess {
         watchdog_.Excuse(node);
         Say("paused {} {}", roster_.node(node).name, OneLine(reason));
         conductor_.NoteFault(reason + "; the run waits for it", Now());
-        missed_[node] = {reason, NowNs()};
+        missed_.Lost(node, reason, NowNs());
         return std::nullopt;
       case lockstep::Policy::kRestart: Announce(node, reason); return std::nullopt;
     }
@@ -194,7 +180,7 @@ class ClockProcess {
   // To `rodeira run`, here by this line and on other PCs by the lives in the grant, which end the old process and start another.
   void Announce(lockstep::NodeIndex node, const std::string& reason) {
     watchdog_.ExpectNextLife(node, NowNs() / 1'000'000);
-    missed_.erase(node);
+    missed_.Restarted(node);
     who_[node] = {};
     Say("restart {} {} {}", roster_.node(node).name, clock_.life(node), OneLine(reason));
     conductor_.NoteFault(reason + "; it is started again", Now());
@@ -251,7 +237,7 @@ class ClockProcess {
       const lockstep::Grant before = clock_.grant();
       DoCommands();
       if (clock_.grant().abort) return Abort(clock_.grant().reason, 1);
-      if (stop_asked_ && !missed_.empty()) return Abort("stopped while the run waited: " + Missed(), 1);
+      if (stop_asked_ && !missed_.empty()) return Abort("stopped while the run waited: " + missed_.Text(NowNs()), 1);
       const lockstep::Grant grant = conductor_.Move(Now());
       if (grant.through != before.through || grant.final != before.final || now - said >= 10ms) {
         said = now;
@@ -341,7 +327,7 @@ class ClockProcess {
     if (named.report.phase < lockstep::Phase::kFailed && IsTwice(node, named)) return;
     named.report.node = node;
     watchdog_.Heard(named.report, NowNs() / 1'000'000);
-    NoteBack(node);
+    missed_.Heard(node, NowNs());
     if (auto status = clock_.Take(named.report); !status) Say("refused {}", OneLine(status.error().Text()));
   }
 
@@ -417,12 +403,8 @@ class ClockProcess {
     std::string host;
     std::uint32_t pid = 0;
   };
-  struct Lost {
-    std::string reason;
-    std::int64_t since_ns = 0;
-  };
-  std::map<lockstep::NodeIndex, Lost> missed_;  // whom the run waits for
-  bool stop_asked_ = false;                     // by the operator
+  lockstep::MissedNodes missed_;
+  bool stop_asked_ = false;  // by the operator
   std::vector<Who> who_ = std::vector<Who>(roster_.nodes().size());
   std::uint64_t clock_id_ = 0;
   std::uint32_t serial_ = 0;
