@@ -34,6 +34,12 @@ base::Result<std::vector<Snapshot>> StatesAt(const replay::RecordedRun& parent, 
 base::Status CheckStep(const replay::RecordedRun& parent, Step at) {
   const auto& roster = parent.roster();
   const double dt_s = static_cast<double>(roster.base_step_ns()) * 1e-9;
+  if (at < parent.branched_at()) {
+    return base::WrongInput(fmt::format("--from {:.3f} s was found, but this recording left its parent at {:.3f} s; what lies before is the parent's to branch from",
+                                        static_cast<double>(at) * dt_s, static_cast<double>(parent.branched_at()) * dt_s), parent.path().string());
+  }
+  const bool has_snapshots = std::any_of(roster.nodes().begin(), roster.nodes().end(), [](const auto& node) { return node.snapshots.has_value(); });
+  if (at == 0 && !has_snapshots) return base::WrongInput("--from 0 was found; a run without snapshots has no states at its beginning", parent.path().string());
   if (at < 0 || at > parent.last_step()) {
     return base::WrongInput(fmt::format("--from {:.3f} s was found, but the run ends at {:.3f} s", static_cast<double>(at) * dt_s, static_cast<double>(parent.last_step()) * dt_s),
                             parent.path().string());

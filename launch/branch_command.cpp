@@ -69,8 +69,9 @@ base::Result<BranchWish> WishOf(const ReplayOptions& options) {
 }
 
 void Tell(const ReplayOptions& options, const BranchOutcome& outcome) {
-  fmt::print("parent    {} (repeated from step {} to {}, identical)\nbranch    steps {} to {}\n", options.file, outcome.recomputed_from,
-             outcome.at, outcome.at, outcome.last_step);
+  const std::string basis = outcome.recomputed_from == outcome.at ? fmt::format("the states recorded at step {}", outcome.at)
+                                                                  : fmt::format("repeated from step {} to {}, identical", outcome.recomputed_from, outcome.at);
+  fmt::print("parent    {} ({})\nbranch    steps {} to {}\n", options.file, basis, outcome.at, outcome.last_step);
   for (const auto& [key, value] : options.changes) fmt::print("changed   {} = {}\n", key, value);
   if (!outcome.live.empty()) fmt::print("driven by a person: {}\n", fmt::join(outcome.live, ", "));
   if (!outcome.taken_over.empty()) fmt::print("began from what was published: {}\n", fmt::join(outcome.taken_over, ", "));

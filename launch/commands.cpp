@@ -237,7 +237,7 @@ CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::stri
   replay->add_option("--follow", options.watch.follow, "name of a vehicle node; otherwise as the run's view");
   replay->add_option("--size", options.watch.size, "WIDTHxHEIGHT in pixels; otherwise as the run's view");
   replay->add_flag("--verify", options.verify, "compute everything again and compare every sample and state");
-  replay->add_option("--from", options.from_s, "simulated seconds at which to begin")->check(CLI::NonNegativeNumber);
+  replay->add_option("--from", options.from_s, "simulated seconds at which to begin");
   replay->add_option("--branch", changes, "KEY=VALUE: go on from --from with another value of the launch file");
   replay->add_option("--for", options.for_s, "simulated seconds of the branch")->check(Positive);
   replay->add_option("--record", options.record, "recording of the branch (MCAP)");

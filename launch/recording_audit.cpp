@@ -51,6 +51,7 @@ bool RecordingAudit::lossless() const {
 RecordingAudit Audit(const record::McapReader& reader) {
   RecordingAudit result;
   result.damages = reader.condition().findings;
+  if (result.damages.empty()) result.damages = reader.Verify();
   const record::TextMap end = EntriesOf(reader, "rodeira.end");
   result.last_step = Number(end, "last_step");
   const auto complete = end.find("complete");

@@ -25,6 +25,16 @@ double LastSample(const record::McapReader& reader) {
   return static_cast<double>(time_ns) * 1e-9;
 }
 
+// What the recorder counted.
+std::string AuditLine(const record::McapReader& reader) {
+  const auto end = reader.FindMetadata("rodeira.end");
+  if (!end || !end.value()) return "";
+  record::TextMap entries = end.value()->entries;
+  if (!entries.contains("missing")) return "";
+  if (entries["missing"] == "0") return fmt::format("audit   lossless: {} samples of {} sources\n", entries["samples"], entries["sources"]);
+  return fmt::format("audit   {} samples are missing; rodeira info says which\n", entries["missing"]);
+}
+
 }  // namespace
 
 std::string Size(std::uint64_t bytes) {
@@ -42,7 +52,7 @@ std::string WrittenFile(const std::string& recording, double reached_s) {
   if (!std::filesystem::is_regular_file(recording, problem)) return text;
   const auto reader = record::McapReader::Open(recording);
   if (!reader) return text + fmt::format("lost    {}\n", reader.error().Text());
-  if (reader.value().condition().whole) return text;
+  if (reader.value().condition().whole) return text + AuditLine(reader.value());
   return text + fmt::format("lost    its end: it holds {:.3f} s of {:.3f} s; what to do: rodeira repair {} --out REPAIRED.mcap\n", LastSample(reader.value()), reached_s, recording);
 }
 

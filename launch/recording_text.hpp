@@ -9,7 +9,7 @@ namespace rodeira::front {
 std::string Size(std::uint64_t bytes);
 
 // What became of the file of a run that ended at `reached_s`: its size, and where nobody closed it (its recorder died) how
-// much of the run it holds and what to do. One line; empty where there is no file.
+// much of the run it holds and what to do; where it was closed, what the recorder's audit found. A line each; empty where there is no file.
 std::string WrittenFile(const std::string& recording, double reached_s);
 
 }  // namespace rodeira::front

@@ -6,13 +6,15 @@
 #include <cstdio>
 
 #include "common/record/repair.hpp"
+#include "common/replay/repaired_end.hpp"
 #include "launch/recording_text.hpp"
 
 namespace rodeira::front {
 
 int RepairRecording(const std::string& recording, const std::string& out) {
   ::signal(SIGXFSZ, SIG_IGN);
-  const auto report = record::Repair(recording, out);
+  replay::RepairedEnd end;
+  const auto report = record::Repair(recording, out, &end);
   if (!report) {
     fmt::print(stderr, "rodeira: {}\n", report.error().Text());
     return report.error().exit_status();

@@ -16,6 +16,7 @@ namespace rodeira::front {
 namespace {
 
 using lockstep::Step;
+constexpr double kMost_s = 1e9;  // whatever the run: steps can be counted that far
 
 int Complain(const base::Error& error) {
   fmt::print(stderr, "rodeira: {}\n", error.Text());
@@ -53,6 +54,9 @@ int Replay(const ReplayOptions& options) {
                      (options.changes.empty() ? 0 : 1);
   if (wishes != 1) {
     return Complain(base::WrongInput(fmt::format("{} to do was named; --view, --frames, --verify or --branch was expected", wishes == 0 ? "nothing" : "more than one thing"), "rodeira replay"));
+  }
+  if (const double from_s = options.from_s.value_or(0.0); !(from_s >= 0.0 && from_s <= kMost_s)) {
+    return Complain(base::WrongInput(fmt::format("--from {} s was found; a time from 0 s to the run's end was expected", from_s), "rodeira replay"));
   }
   if (!options.changes.empty() || options.verify) CatchInterrupts();
   if (!options.changes.empty()) return MakeBranch(options);

@@ -24,9 +24,14 @@ base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from
 
 base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish) {
   const auto& roster = run.roster();
+  if (auto status = run.CheckBytes(); !status) return status.error();
   if (auto status = run.CheckMathematics(); !status) return status.error();
   const auto at = run.SnapshotAtOrBefore(wish.from);
   if (!at) return at.error();
+  if (wish.snapshot_at && *wish.snapshot_at < at.value()) {
+    return base::WrongInput(fmt::format("the states of step {} are wanted, but the first snapshots of this run's own are at step {}", *wish.snapshot_at, at.value()),
+                            run.path().string());
+  }
   Recomputed recomputed;
   Verdict& verdict = recomputed.verdict;
   verdict.first_step = at.value();
@@ -53,13 +58,13 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
       if (snapshot.at == *wish.snapshot_at) recomputed.snapshots[snapshot.node] = snapshot;
     };
   }
-  if (at.value() > 0) {
+  if (at.value() > 0 || wish.snapshot_at == 0) {
     auto snapshots = run.Snapshots(at.value());
     if (!snapshots) return snapshots.error();
-    settings.resume = std::move(snapshots).value();
-    if (wish.snapshot_at == at.value()) recomputed.snapshots = settings.resume;
+    if (wish.snapshot_at == at.value()) recomputed.snapshots = snapshots.value();
+    if (at.value() > 0) settings.resume = std::move(snapshots).value();
     for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-      if (trusted[n]) settings.resume[n].state.clear();  // it was another node's
+      if (trusted[n] && !settings.resume.empty()) settings.resume[n].state.clear();  // it was another node's
     }
   }
   replay::Comparison comparison(run, at.value(), trusted);

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <csignal>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <random>
 #include <string>
@@ -138,10 +139,26 @@ class ClockProcess {
   base::Result<std::string> Do(const lockstep::Command& command) {
     using Kind = lockstep::Command::Kind;
     if (command.kind == Kind::kRestart) return RestartByHand(command.text);
+    stop_asked_ = stop_asked_ || command.kind == Kind::kStop;
     auto done = conductor_.Do(command, Now());
     if (!done || command.kind != Kind::kState) return done;
+    if (!missed_.empty()) return done.value() + "; it stands: " + Missed();
     const std::string chain = lockstep::WaitChain(roster_, clock_.reports());
     return chain.empty() ? done : done.value() + "; " + chain;
+  }
+  // Of each lost node that the run waits for: how, and since when.
+  std::string Missed() const {
+    std::string text;
+    for (const auto& [node, lost] : missed_) {
+      text += fmt::format("{}{} {:.1f} s ago", text.empty() ? "" : "; ", lost.reason, static_cast<double>(NowNs() - lost.since_ns) * 1e-9);
+    }
+    return text;
+  }
+  // A report long after the loss: somebody has let the process go on.
+  void NoteBack(lockstep::NodeIndex node) {
+    constexpr std::int64_t kOnItsWayStill_ns = 300'000'000;
+    const auto lost = missed_.find(node);
+    if (lost != missed_.end() && NowNs() - lost->second.since_ns > kOnItsWayStill_ns) missed_.erase(lost);
   }
   base::Result<std::string> RestartByHand(const std::string& name) {
     const lockstep::NodeIndex node = roster_.Find(name);
@@ -164,6 +181,7 @@ class ClockProcess {
         watchdog_.Excuse(node);
         Say("paused {} {}", roster_.node(node).name, OneLine(reason));
         conductor_.NoteFault(reason + "; the run waits for it", Now());
+        missed_[node] = {reason, NowNs()};
         return std::nullopt;
       case lockstep::Policy::kRestart: Announce(node, reason); return std::nullopt;
     }
@@ -176,6 +194,7 @@ class ClockProcess {
   // To `rodeira run`, here by this line and on other PCs by the lives in the grant, which end the old process and start another.
   void Announce(lockstep::NodeIndex node, const std::string& reason) {
     watchdog_.ExpectNextLife(node, NowNs() / 1'000'000);
+    missed_.erase(node);
     who_[node] = {};
     Say("restart {} {} {}", roster_.node(node).name, clock_.life(node), OneLine(reason));
     conductor_.NoteFault(reason + "; it is started again", Now());
@@ -222,6 +241,7 @@ class ClockProcess {
         if (const int signals = g_signals; signals > 0) {
           if (signals > 2 || clock_.grant().through < 0) return Abort("stopped by a signal", 1);
           conductor_.Stop(Now());
+          stop_asked_ = true;
         }
       }
       if (!told_ready && clock_.all_ready()) {
@@ -231,6 +251,7 @@ class ClockProcess {
       const lockstep::Grant before = clock_.grant();
       DoCommands();
       if (clock_.grant().abort) return Abort(clock_.grant().reason, 1);
+      if (stop_asked_ && !missed_.empty()) return Abort("stopped while the run waited: " + Missed(), 1);
       const lockstep::Grant grant = conductor_.Move(Now());
       if (grant.through != before.through || grant.final != before.final || now - said >= 10ms) {
         said = now;
@@ -320,6 +341,7 @@ class ClockProcess {
     if (named.report.phase < lockstep::Phase::kFailed && IsTwice(node, named)) return;
     named.report.node = node;
     watchdog_.Heard(named.report, NowNs() / 1'000'000);
+    NoteBack(node);
     if (auto status = clock_.Take(named.report); !status) Say("refused {}", OneLine(status.error().Text()));
   }
 
@@ -395,6 +417,12 @@ class ClockProcess {
     std::string host;
     std::uint32_t pid = 0;
   };
+  struct Lost {
+    std::string reason;
+    std::int64_t since_ns = 0;
+  };
+  std::map<lockstep::NodeIndex, Lost> missed_;  // whom the run waits for
+  bool stop_asked_ = false;                     // by the operator
   std::vector<Who> who_ = std::vector<Who>(roster_.nodes().size());
   std::uint64_t clock_id_ = 0;
   std::uint32_t serial_ = 0;

@@ -149,7 +149,7 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
     report_.worst_ns = std::max(report_.worst_ns, took_ns);
     next_ += spec_.period;
     report_.progress = next_;
-    report_.waiting = Waiting::kInputs;
+    report_.waiting = Waiting::kGrant;  // until it is known that something else is missing
     since_ = WallClock::now();
   }
   if (auto sent = PublishAll(std::move(samples)); !sent) return Fail(sent.error());

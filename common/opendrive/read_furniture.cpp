@@ -72,9 +72,9 @@ network::Outline ReadOutline(const Node& node) {
   return outline;
 }
 
-// The standard's types of objects, up to 1.8; older files may say -1.
+// The standard's types of objects, up to 1.8.
 const std::vector<std::string>& ObjectTypes() {
-  static const std::vector<std::string> types = {"none", "-1", "obstacle", "car", "pole", "tree", "vegetation", "barrier", "building", "parkingSpace", "patch", "railing",
+  static const std::vector<std::string> types = {"none", "obstacle", "car", "pole", "tree", "vegetation", "barrier", "building", "parkingSpace", "patch", "railing",
                                                  "trafficIsland", "crosswalk", "streetLamp", "gantry", "soundBarrier", "van", "bus", "trailer", "bike", "motorbike", "tram",
                                                  "train", "pedestrian", "wind", "roadMark", "roadSurface"};
   return types;
@@ -83,7 +83,7 @@ const std::vector<std::string>& ObjectTypes() {
 // A type that nobody knows is no error: it stands as a plain body.
 void CheckType(const Node& node, const network::Object& object) {
   const auto& types = ObjectTypes();
-  if (std::find(types.begin(), types.end(), object.type) != types.end()) return;
+  if (object.type == "-1" || std::find(types.begin(), types.end(), object.type) != types.end()) return;  // -1: none, in older files
   Source& source = node.source();
   source.warnings.push_back({"road.object.type", fmt::format("the object '{}' has the type '{}', which OpenDRIVE does not know{}", object.id, object.type, base::DidYouMean(object.type, types)),
                              node.line(), source.where.road, source.where.lane, source.where.s_m});

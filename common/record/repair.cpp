@@ -21,10 +21,12 @@ using base::Status;
 // Copies what can be read of one recording into a new one, in file order and chunk by chunk.
 class Copier {
  public:
-  Copier(const Source& source, const Contents& contents, McapWriter& writer, RepairReport& report)
-      : source_(source), contents_(contents), writer_(writer), report_(report) {}
+  Copier(const Source& source, const Contents& contents, McapWriter& writer, RepairReport& report, RepairEnd* end)
+      : source_(source), contents_(contents), writer_(writer), report_(report), end_(end) {}
 
   Status Run();
+  // Of the record that is written anew.
+  const TextMap& found_end() const { return found_end_; }
 
  private:
   // Ids of the new recording for those of the old one.
@@ -42,6 +44,8 @@ class Copier {
   const Contents& contents_;
   McapWriter& writer_;
   RepairReport& report_;
+  RepairEnd* end_;
+  TextMap found_end_;
   std::map<ChannelId, ChannelId> channel_ids_;
 };
 
@@ -76,6 +80,7 @@ Status Copier::CopyRecord(const RecordView& record) {
     const auto id = IdOf(contents_.definitions.channels.at(message.channel));
     if (!id) return id.error();
   }
+  if (end_ != nullptr) end_->Keep(contents_.definitions.channels.at(message.channel), message);
   return writer_.Write(channel_ids_.at(message.channel), message.sequence, message.log_time_ns, message.publish_time_ns,
                        message.data);
 }
@@ -99,6 +104,10 @@ Status Copier::CopyMetadata(const MetadataInfo& info) {
   const auto metadata = record ? ParseMetadata(record.value().content()) : std::nullopt;
   if (!metadata || record.value().opcode != Opcode::kMetadata) {
     report_.losses.push_back(fmt::format("byte {}: the metadata '{:.64}' are damaged", info.offset, info.name));
+    return {};
+  }
+  if (end_ != nullptr && metadata->name == end_->name()) {
+    found_end_ = metadata->entries;
     return {};
   }
   return writer_.AddMetadata(metadata->name, metadata->entries);
@@ -147,7 +156,7 @@ TextMap Statement(const RepairReport& report) {
   return entries;
 }
 
-base::Result<RepairReport> RepairInto(const Source& source, std::unique_ptr<Sink> sink) {
+base::Result<RepairReport> RepairInto(const Source& source, std::unique_ptr<Sink> sink, RepairEnd* end) {
   RepairReport report;
   report.source_bytes = source.size();
   const auto scan = ScanFile(source);
@@ -170,7 +179,13 @@ base::Result<RepairReport> RepairInto(const Source& source, std::unique_ptr<Sink
   settings.compression = compressed ? Compression::kZstd : Compression::kNone;
   auto writer = McapWriter::Open(std::move(sink), settings);
   if (!writer) return writer.error();
-  if (auto status = Copier(source, contents, writer.value(), report).Run(); !status) return status.error();
+  if (report.was_whole) end = nullptr;
+  if (end != nullptr) end->Begin(contents.definitions.channels);
+  Copier copier(source, contents, writer.value(), report, end);
+  if (auto status = copier.Run(); !status) return status.error();
+  if (const TextMap entries = end != nullptr ? end->Entries(copier.found_end()) : TextMap(); !entries.empty()) {
+    if (auto status = writer.value().AddMetadata(end->name(), entries); !status) return status.error();
+  }
   report.kept = writer.value().statistics();
   if (!report.was_whole) {
     if (auto status = writer.value().AddMetadata(kRepairMetadata, Statement(report)); !status) return status.error();
@@ -192,7 +207,7 @@ std::string RepairReport::Text() const {
   return text + "\n";
 }
 
-base::Result<RepairReport> Repair(const std::filesystem::path& source, const std::filesystem::path& target) {
+base::Result<RepairReport> Repair(const std::filesystem::path& source, const std::filesystem::path& target, RepairEnd* end) {
   auto opened = OpenFileSource(source);
   if (!opened) return opened.error();
   std::error_code problem;
@@ -203,7 +218,7 @@ base::Result<RepairReport> Repair(const std::filesystem::path& source, const std
   const std::filesystem::path beside = target.string() + fmt::format(".{}.part", ::getpid());
   auto sink = OpenFileSink(beside, false);
   if (!sink) return sink.error();
-  auto report = RepairInto(*opened.value(), std::move(sink).value());
+  auto report = RepairInto(*opened.value(), std::move(sink).value(), end);
   if (report && ::rename(beside.c_str(), target.c_str()) != 0) {
     report = base::Failed(fmt::format("the repaired recording cannot be put in its place: {}", std::strerror(errno)),
                           target.string());
@@ -212,9 +227,9 @@ base::Result<RepairReport> Repair(const std::filesystem::path& source, const std
   return report;
 }
 
-base::Result<RepairReport> RepairBytes(base::Bytes source, base::Bytes* target) {
+base::Result<RepairReport> RepairBytes(base::Bytes source, base::Bytes* target, RepairEnd* end) {
   base::Bytes written;
-  auto report = RepairInto(*MemorySource(std::move(source)), std::make_unique<MemorySink>(&written));
+  auto report = RepairInto(*MemorySource(std::move(source)), std::make_unique<MemorySink>(&written), end);
   if (report) *target = std::move(written);
   return report;
 }

@@ -168,13 +168,19 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   const auto end = reader_.FindMetadata("rodeira.end");
   if (!end) return end.error();
   const auto last = end.value() ? Whole(Entry(end.value()->entries, "last_step")) : std::nullopt;
-  if (!last || *last < 0) return base::WrongInput("the recording does not say at which step the run ended; `rodeira repair` makes one that does");
+  if (!last || *last < 0) return base::WrongInput("the recording does not say at which step the run ended; not even its first samples are there");
   if (*last > std::numeric_limits<std::int64_t>::max() / 4 / roster().base_step_ns()) {
     return base::WrongInput(fmt::format("the recording says that the run ended at step {}, which cannot be", *last));
   }
   last_step_ = *last;
   complete_ = Entry(end.value()->entries, "complete") == "true";
   return {};
+}
+
+base::Status RecordedRun::CheckBytes() const {
+  const std::vector<std::string> findings = reader_.Verify();
+  if (findings.empty()) return {};
+  return base::WrongInput(fmt::format("the recording was changed or damaged after it was written ({})", findings.front()), path_.string());
 }
 
 base::Status RecordedRun::CheckMathematics() const {

@@ -60,6 +60,8 @@ class RecordedRun {
   const lockstep::Roster& roster() const { return launch_->roster(); }
   lockstep::Step last_step() const { return last_step_; }
   bool complete() const { return complete_; }  // false: the run was aborted
+  // Wrong input where a byte of the file is not as it was written. Reads all of it.
+  base::Status CheckBytes() const;
   // Wrong input where this process would compute other bits than the one that recorded (law L7).
   base::Status CheckMathematics() const;
   // Where this run left its parent; 0 where it has none. What lies before was computed by the parent's nodes.

@@ -15,6 +15,8 @@
 #include "idl/topics.hpp"
 #include "nodes/recorder/embed.hpp"
 #include "nodes/recorder/log_channels.hpp"
+#include "nodes/recorder/program.hpp"
+#include "nodes/recorder/written_samples.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -26,7 +28,7 @@ constexpr std::uint64_t kChunkSpanNs = 800'000'000;
 class RecorderNode final : public lockstep::Node {
  public:
   RecorderNode(std::filesystem::path file, const lockstep::Roster& roster, launch::NodeContext& context)
-      : file_(std::move(file)), roster_(roster), log_(context.RunLog(), roster.base_step_ns()) {}
+      : file_(std::move(file)), roster_(roster), log_(context.RunLog(), roster.base_step_ns()), written_(roster, context.index()) {}
   // Of a run that never began no recording is left: only what this recorder has made is removed. What is no plain file (a device, a pipe) was not made here.
   ~RecorderNode() override {
     std::error_code problem;
@@ -35,6 +37,7 @@ class RecorderNode final : public lockstep::Node {
 
   // A file of its own, or that of an earlier life.
   base::Status Open(launch::NodeContext& context, const record::TextMap& meta) {
+    if (auto status = AskForTheWorld(context); !status) return status;
     record::WriterSettings settings;
     settings.profile = kProfile;
     settings.chunk_span_ns = kChunkSpanNs;
@@ -45,6 +48,7 @@ class RecorderNode final : public lockstep::Node {
         has_samples_ = true;
         if (auto status = AddChannels(context.index()); !status) return status;
         context.BeginBehind(last_step_ - 1);
+        written_.BeginBehind(last_step_, last_source_);
         if (tell_safe_) tell_safe_(last_step_ - 1);
         return {};
       }
@@ -55,6 +59,15 @@ class RecorderNode final : public lockstep::Node {
     writer_.emplace(std::move(writer).value());
     if (auto status = Begin(context.launch(), meta); !status) return status;
     return AddChannels(context.index());
+  }
+
+  base::Status AskForTheWorld(launch::NodeContext& context) {
+    const auto& nodes = context.launch().nodes();
+    if (std::none_of(nodes.begin(), nodes.end(), [](const auto& node) { return node.kind->name == "road"; })) return {};
+    const auto world = context.World();
+    if (!world) return world.error();
+    world_hash_ = world.value().content_hash;
+    return {};
   }
 
   // Called while the writer is being opened: the samples of the file's end, which others may ask for.
@@ -84,7 +97,7 @@ class RecorderNode final : public lockstep::Node {
   }
 
   base::Status Begin(const launch::Launch& launch, const record::TextMap& meta) {
-    const record::TextMap about{
+    record::TextMap about{
         {"launch", launch.name()},
         {"launch_file", launch.path().filename().string()},
         {"roster_hash", base::Hex(roster_.hash())},
@@ -92,8 +105,10 @@ class RecorderNode final : public lockstep::Node {
         {"mathematics_hash", base::Hex(base::MathematicsDigest())},
         {"base_step_ns", std::to_string(roster_.base_step_ns())},
         {"seed", std::to_string(launch.seed())},
-        {"version", "0.1.0"},
+        {"version", std::string(ProgramVersion())},
+        {"commit", std::string(ProgramCommit())},
     };
+    if (world_hash_) about["world_hash"] = base::Hex(*world_hash_);
     if (auto status = writer_->AddMetadata("rodeira", about); !status) return status;
     if (!meta.empty()) {
       if (auto status = writer_->AddMetadata("rodeira.meta", meta); !status) return status;
@@ -132,9 +147,10 @@ class RecorderNode final : public lockstep::Node {
     if (auto status = WriteAll(rest); !status) return status;
     const bool log_complete = log_.AwaitEnd(complete);
     if (auto status = log_.Write(*writer_); !status) return status;
-    const record::TextMap end{{"last_step", std::to_string(last_step)},
+    record::TextMap end{{"last_step", std::to_string(last_step)},
                               {"complete", complete ? "true" : "false"},
                               {"log_complete", log_complete ? "true" : "false"}};
+    end.merge(written_.Entries(last_step));
     if (auto status = writer_->AddMetadata("rodeira.end", end); !status) return status;
     return writer_->Close();
   }
@@ -165,6 +181,7 @@ class RecorderNode final : public lockstep::Node {
     const auto time_ns = static_cast<std::uint64_t>(sample.header.time_ns);
     const auto sequence = static_cast<std::uint32_t>(sample.valid() / roster_.source(sample.source()).period);
     if (auto status = writer_->Write(channels_[sample.source()], sequence, time_ns, time_ns, payload_); !status) return status;
+    written_.Note(sample.valid(), sample.source());
     // Whatever went out before this sample was put into a chunk of its own is beyond harm.
     if (tell_safe_ && writer_->written_bytes() != written_bytes) tell_safe_(sample.valid() - 1);
     return {};
@@ -176,10 +193,12 @@ class RecorderNode final : public lockstep::Node {
 
   std::optional<record::McapWriter> writer_;
   std::filesystem::path file_;
+  std::optional<base::Digest> world_hash_;  // none where the run has no world
   bool complete_ = false;
   bool has_samples_ = false;
   const lockstep::Roster& roster_;
   LogChannels log_;
+  WrittenSamples written_;
   std::vector<record::ChannelId> channels_;  // by source
   base::Bytes payload_;
   std::function<void(lockstep::Step)> tell_safe_;

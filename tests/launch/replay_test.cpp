@@ -4,11 +4,17 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <fstream>
+#include <functional>
 #include <thread>
 
+#include "common/base/files.hpp"
 #include "common/record/mcap_reader.hpp"
 #include "common/record/mcap_writer.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
 #include "launch/branch.hpp"
 #include "launch/verify.hpp"
 #include "tests/launch/temporary_folder.hpp"
@@ -40,14 +46,24 @@ class ReplayTest : public ::testing::Test {
     return Verify(run.value(), from);
   }
 
-  // A copy of the recording with one bit of one message turned.
-  std::string WithABitTurned(const std::string& file, const std::string& topic, std::uint64_t message_number, std::size_t byte) {
-    const std::string copy = (folder_.path() / "turned.mcap").string();
+  // A copy of the recording, its metadata and messages changed on the way; a message for which `keep` says no is left out.
+  using Entries = std::function<void(const std::string& name, record::TextMap& entries)>;
+  using Keep = std::function<bool(const std::string& topic, const record::Message& message, base::Bytes& data)>;
+  std::string Copied(const std::string& file, const Entries& change, const Keep& keep) {
+    const std::string copy = (folder_.path() / "copied.mcap").string();
+    std::filesystem::remove(copy);
     auto reader = record::McapReader::Open(file);
     auto writer = record::McapWriter::Open(copy);
     const auto& in = reader.value();
-    for (const auto& info : in.metadata()) EXPECT_TRUE(writer.value().AddMetadata(info.name, in.ReadMetadata(info).value().entries).ok());
-    for (const auto& info : in.attachments()) EXPECT_TRUE(writer.value().AddAttachment(info.name, info.media_type, in.ReadAttachment(info).value().data, 0, 0).ok());
+    for (const auto& info : in.metadata()) {
+      record::TextMap entries = in.ReadMetadata(info).value().entries;
+      change(info.name, entries);
+      EXPECT_TRUE(writer.value().AddMetadata(info.name, entries).ok());
+    }
+    for (const auto& info : in.attachments()) {
+      const auto attachment = in.ReadAttachment(info);
+      EXPECT_TRUE(writer.value().AddAttachment(info.name, info.media_type, attachment.value().data, 0, 0).ok());
+    }
     std::map<record::ChannelId, record::ChannelId> ids;
     for (const auto& [id, channel] : in.channels()) {
       const auto& schema = in.schemas().at(channel.schema);
@@ -55,14 +71,32 @@ class ReplayTest : public ::testing::Test {
       ids[id] = writer.value().AddChannel(channel.topic, made.value(), channel.message_encoding, channel.metadata).value();
     }
     auto cursor = in.Messages();
-    std::uint64_t seen = 0;
     for (auto message = cursor.Next(); message.value(); message = cursor.Next()) {
-      base::Bytes data(message.value()->data.begin(), message.value()->data.end());
-      if (in.channels().at(message.value()->channel).topic == topic && seen++ == message_number) data[byte] ^= std::byte{1};
-      EXPECT_TRUE(writer.value().Write(ids[message.value()->channel], message.value()->sequence, message.value()->log_time_ns, message.value()->publish_time_ns, data).ok());
+      const auto& m = *message.value();
+      base::Bytes data(m.data.begin(), m.data.end());
+      if (!keep(in.channels().at(m.channel).topic, m, data)) continue;
+      EXPECT_TRUE(writer.value().Write(ids[m.channel], m.sequence, m.log_time_ns, m.publish_time_ns, data).ok());
     }
     EXPECT_TRUE(writer.value().Close().ok());
     return copy;
+  }
+  // With one bit of one message turned.
+  std::string WithABitTurned(const std::string& file, const std::string& topic, std::uint64_t message_number, std::size_t byte) {
+    std::uint64_t seen = 0;
+    return Copied(file, [](const std::string&, record::TextMap&) {}, [&](const std::string& on, const record::Message&, base::Bytes& data) {
+      if (on == topic && seen++ == message_number) data[byte] ^= std::byte{1};
+      return true;
+    });
+  }
+  // The car's published state at a step.
+  static msg::VehicleState CarAt(const replay::RecordedRun& run, lockstep::Step step) {
+    auto samples = run.Samples(step);
+    for (auto next = samples.Next(); next.ok() && next.value(); next = samples.Next()) {
+      if (next.value()->valid() != step || run.roster().source(next.value()->source()).topic != idl::topics::kVehicleState) continue;
+      return idl::Decode<msg::VehicleState>(*next.value()->payload).value();
+    }
+    ADD_FAILURE() << "no car at step " << step;
+    return {};
   }
 
   TemporaryFolder folder_;
@@ -122,7 +156,7 @@ TEST_F(ReplayTest, ABrokenNodeIsFoundAndNamed) {
                                     {"--for", "1.5", "--set", std::string("nodes.c.config.broken=") + broken, "--set", "snapshot_every_s=0.5"});
     const auto run = RunCommand({Bin("rodeira"), "replay", file, "--verify"});  // in another process: other addresses
     EXPECT_EQ(run.status, 1) << run.out;
-    EXPECT_THAT(run.out, HasSubstr("first difference at step 1: node 'c', topic rodeira/pulse")) << run.out;
+    EXPECT_THAT(run.out, HasSubstr("first difference at step 1: node 'c', topic rodeira/pulse, field 'value'")) << run.out;
   }
 }
 
@@ -179,6 +213,131 @@ TEST_F(ReplayTest, ABranchHasItsParentsPastAndItsOwnFuture) {
   EXPECT_EQ(verdict.value().last_step, 4000);
 }
 
+// At the beginning too, where nothing is computed again; and of a branch, only behind its own beginning.
+TEST_F(ReplayTest, ABranchMayLeaveAtTheFirstStepAndABranchsBranchBehindItsOwn) {
+  const std::string file = Drive();
+  const std::string first = (folder_.path() / "first.mcap").string(), second = (folder_.path() / "second.mcap").string();
+  BranchWish wish{file, 0, {}, std::nullopt, first};
+  const auto outcome = Branch(wish);
+  ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
+  const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(first);
+  auto of_a = parent.value().Samples(), of_b = branch.value().Samples();
+  for (;;) {
+    const auto x = of_a.Next(), y = of_b.Next();
+    ASSERT_EQ(x.value().has_value(), y.value().has_value());
+    if (!x.value()) break;
+    ASSERT_EQ(*x.value()->payload, *y.value()->payload) << "at step " << x.value()->valid();
+  }
+  wish = {file, 1500, {}, std::nullopt, second};
+  ASSERT_TRUE(Branch(wish).ok());
+  const std::string third = (folder_.path() / "third.mcap").string();
+  const auto refusal = [&](lockstep::Step at) {
+    const auto refused = Branch({second, at, {}, std::nullopt, third});
+    EXPECT_FALSE(refused.ok());
+    if (refused.ok()) return std::string();
+    EXPECT_EQ(refused.error().exit_status(), 2);
+    EXPECT_FALSE(std::filesystem::exists(third));
+    return refused.error().Text();
+  };
+  EXPECT_THAT(refusal(0), HasSubstr("this recording left its parent at 1.500 s"));
+  EXPECT_THAT(refusal(1490), HasSubstr("this recording left its parent at 1.500 s"));
+  EXPECT_THAT(refusal(1800), HasSubstr("the first snapshots of this run's own are at step 2000"));
+  EXPECT_TRUE(Branch({second, 2100, {}, std::nullopt, third}).ok());
+}
+
+// What is left of a recording is a run again: up to its last whole step it is verified and may be branched from.
+TEST_F(ReplayTest, ARepairedFileIsARunUpToWhereItIsWhole) {
+  const std::string file = Drive();
+  const std::string cut = (folder_.path() / "cut.mcap").string(), good = (folder_.path() / "good.mcap").string();
+  std::filesystem::copy_file(file, cut);
+  std::filesystem::resize_file(cut, std::filesystem::file_size(file) * 6 / 10);
+  const auto repair = RunCommand({Bin("rodeira"), "repair", cut, "--out", good});
+  ASSERT_EQ(repair.status, 0) << repair.out;
+  const auto run = replay::RecordedRun::Open(good);
+  ASSERT_TRUE(run.ok()) << run.error().Text();
+  EXPECT_FALSE(run.value().complete());
+  EXPECT_GT(run.value().last_step(), 700);
+  EXPECT_LT(run.value().last_step(), 3000);
+  const auto verdict = VerifyFile(good);
+  ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
+  EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
+  EXPECT_EQ(verdict.value().last_step, run.value().last_step());
+  EXPECT_GE(verdict.value().samples, static_cast<std::uint64_t>(run.value().last_step()));
+  EXPECT_TRUE(Branch({good, 500, {{"seed", "2"}}, std::nullopt, (folder_.path() / "branch.mcap").string()}).ok());
+}
+
+// A byte anywhere behind the first bytes, also where nobody reads it otherwise: metadata, embedded files.
+TEST_F(ReplayTest, AChangedByteOutsideOfTheSamplesIsFoundToo) {
+  const std::string file = Record("drive.mcap", LaunchFile("first_drive.yaml"), {"--for", "1", "--meta", "participant=P07"});
+  const auto original = base::ReadText(file).value();
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"P07", "P06"}, {"last_step", "last_stop"}, {"1000", "0999"}, {"rodeira.end", "rodeira.eno"}}) {
+    std::string text = original;
+    const auto at = text.rfind(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    const std::string changed = folder_.Write("changed.mcap", text.replace(at, from.size(), to)).string();
+    const auto verify = RunCommand({Bin("rodeira"), "replay", changed, "--verify"});
+    EXPECT_EQ(verify.status, 2) << from << ": " << verify.out;
+    const auto info = RunCommand({Bin("rodeira"), "info", changed});
+    EXPECT_NE(info.status, 0) << from << ": " << info.out;
+    EXPECT_THAT(info.out, testing::AnyOf(HasSubstr("damage"), HasSubstr("rodeira: "))) << from;
+  }
+}
+
+// The car of another model goes on where the other one was: pose, speed and yaw rate at the next published step.
+TEST_F(ReplayTest, ABranchMayHaveAnotherVehicleModel) {
+  const std::string file = Drive(4.0);
+  const std::string other = std::string(RODEIRA_SOURCE_DIR) + "/configs/vehicles/prototype.yaml";
+  const BranchWish wish{file, 3000, {{"nodes.ego.config.vehicle", "\"" + other + "\""}}, 4000, (folder_.path() / "branch.mcap").string()};
+  const auto outcome = Branch(wish);
+  ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
+  EXPECT_EQ(outcome.value().taken_over, std::vector<std::string>{"ego"});
+  const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(wish.recording);
+  ASSERT_TRUE(branch.ok()) << branch.error().Text();
+  const auto was = CarAt(parent.value(), 3005), is = CarAt(branch.value(), 3005), later = CarAt(branch.value(), 4000), otherwise = CarAt(parent.value(), 4000);
+  EXPECT_GT(was.velocity_w_mps().x(), 1.0);
+  EXPECT_NEAR(is.position_w_m().x(), was.position_w_m().x(), 0.005);
+  EXPECT_NEAR(is.position_w_m().y(), was.position_w_m().y(), 0.005);
+  EXPECT_NEAR(is.position_w_m().z(), was.position_w_m().z(), 0.3) << "another car's origin";
+  EXPECT_NEAR(is.velocity_w_mps().x(), was.velocity_w_mps().x(), 0.05);
+  EXPECT_GT(std::fabs(later.velocity_w_mps().x() - otherwise.velocity_w_mps().x()), 0.01) << "and is another car";
+  const auto verdict = Verify(branch.value(), 0);
+  ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
+  EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
+}
+
+TEST_F(ReplayTest, ABranchMayHaveAnotherTrafficSeed) {
+  const std::string file = Record("traffic.mcap", LaunchFile("demo.yaml"), {"--for", "4", "--headless", "--set", "nodes.view.config.frames=~"});
+  const BranchWish wish{file, 2000, {{"seed", "77"}}, 4000, (folder_.path() / "branch.mcap").string()};
+  const auto outcome = Branch(wish);
+  ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
+  const auto branch = replay::RecordedRun::Open(wish.recording);
+  ASSERT_TRUE(branch.ok()) << branch.error().Text();
+  EXPECT_EQ(branch.value().launch().seed(), 77u);
+  const auto verdict = Verify(branch.value(), 0);
+  ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
+  EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
+}
+
+TEST_F(ReplayTest, AnotherProtocolAndAMissingSnapshotAreNamed) {
+  const std::string file = Drive(2.0);
+  const auto all = [](const std::string&, const record::Message&, base::Bytes&) { return true; };
+  const auto nothing = [](const std::string&, record::TextMap&) {};
+  const auto about_another = [](const std::string& name, record::TextMap& entries) {
+    if (name == "rodeira") entries["protocol_hash"] = "0123456789abcdef";
+  };
+  const auto refused = VerifyFile(Copied(file, about_another, all));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().exit_status(), 2);
+  EXPECT_THAT(refused.error().Text(), HasSubstr("the recording's protocol hash is 0123456789abcdef, this program's is "));
+  const std::string lacking = Copied(file, nothing, [](const std::string& topic, const record::Message& message, base::Bytes&) {
+    return topic != idl::topics::kSnapshot || message.log_time_ns != 1'000'000'000;
+  });
+  const auto branch = Branch({lacking, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()});
+  ASSERT_FALSE(branch.ok());
+  EXPECT_EQ(branch.error().exit_status(), 2);
+  EXPECT_THAT(branch.error().Text(), testing::MatchesRegex(".*the snapshot of node '[a-z]+' at step 1000 is missing.*"));
+}
+
 // Ctrl-C while what was recorded is unpacked and while it is computed: a sentence, status 1, and no folder is left.
 TEST_F(ReplayTest, CtrlCEndsInOrderAndLeavesNothing) {
   const std::string file = Drive(100.0);
@@ -215,6 +374,9 @@ TEST_F(ReplayTest, WhatCannotBeReplayedIsRefusedInOneSentence) {
   };
   EXPECT_THAT(complaint({file}), HasSubstr("nothing to do was named; --view, --frames, --verify or --branch was expected"));
   EXPECT_THAT(complaint({file, "--verify", "--from", "7"}), HasSubstr("the run ends at 1.000 s"));
+  EXPECT_THAT(complaint({file, "--verify", "--from", "-1"}), HasSubstr("--from -1 s was found; a time from 0 s to the run's end was expected"));
+  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "nan", "--record", "x.mcap"}), HasSubstr("--from nan s was found"));
+  EXPECT_THAT(complaint({file, "--branch", "nodes.ego.config.vehicle=nonesuch.yaml", "--from", "0.5", "--record", "x.mcap"}), HasSubstr("nonesuch.yaml"));
   EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "7", "--record", "x.mcap"}), HasSubstr("the run ends at 1.000 s"));
   EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.503", "--record", "x.mcap"}), HasSubstr("the nearest such time is 0.500 s"));
   EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.5"}), HasSubstr("--record is missing"));

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 namespace rodeira::system_test {
 
@@ -115,6 +116,15 @@ std::vector<pid_t> ProcessesWith(const std::string& first, const std::string& se
     if (line.find(first) != std::string::npos && line.find(second) != std::string::npos) found.push_back(std::stoi(name));
   }
   return found;
+}
+
+bool Runs(const std::string& run_name, std::chrono::milliseconds limit) {
+  const auto until = WallClock::now() + limit;
+  while (WallClock::now() < until) {
+    if (RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "state"}).status == 0) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
 }
 
 std::string DigestIn(const std::string& table) {

@@ -44,6 +44,9 @@ Ended RunCommand(const std::vector<std::string>& command);
 // Living processes whose command line holds both texts (the run's name, "--node a").
 std::vector<pid_t> ProcessesWith(const std::string& first, const std::string& second = "");
 
+// Waits until a run of separate processes goes on; false where it does not within `limit`.
+bool Runs(const std::string& run_name, std::chrono::milliseconds limit = std::chrono::milliseconds(30000));
+
 // The word behind "digest" in a closing table.
 std::string DigestIn(const std::string& table);
 

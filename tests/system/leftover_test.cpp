@@ -52,7 +52,8 @@ TEST_F(Leftover, OfANormalEnd) {
 TEST_F(Leftover, TwoSecondsAfterCtrlC) {
   Started run(Demo("left-ctrlc", {"--for", "1000", "--pace", "real"}));
   WaitUntilAllAreThere("left-ctrlc");
-  std::this_thread::sleep_for(3s);
+  ASSERT_TRUE(Runs("left-ctrlc"));
+  std::this_thread::sleep_for(1s);
   ::kill(run.pid(), SIGINT);
   std::this_thread::sleep_for(2s);
   EXPECT_TRUE(ProcessesWith("--run left-ctrlc", "bin/rodeira-").empty());
@@ -74,7 +75,8 @@ TEST_F(Leftover, TwoSecondsAfterCtrlCDuringTheStart) {
 TEST_F(Leftover, TwoSecondsAfterRodeiraItselfWasKilled) {
   Started run(Demo("left-killed", {"--for", "1000", "--pace", "real"}));
   WaitUntilAllAreThere("left-killed");
-  std::this_thread::sleep_for(3s);
+  ASSERT_TRUE(Runs("left-killed"));
+  std::this_thread::sleep_for(1s);
   ::kill(run.pid(), SIGKILL);
   std::this_thread::sleep_for(2s);
   EXPECT_TRUE(ProcessesWith("--run left-killed", "bin/rodeira-").empty());

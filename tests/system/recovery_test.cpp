@@ -137,7 +137,8 @@ TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
   Undisturbed("20");
   const std::string run_name = "recovery-pause-" + std::to_string(::getpid());
   Started run(Command(run_name, File("pause.mcap"), "20", "pause"));
-  std::this_thread::sleep_for(1500ms);
+  ASSERT_TRUE(Runs(run_name));
+  std::this_thread::sleep_for(500ms);
   // As a debugger stops it: it goes on when it is let go on.
   const pid_t ego = Find(run_name, "ego");
   ASSERT_GT(ego, 0);
@@ -146,7 +147,7 @@ TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
   std::this_thread::sleep_for(2s);  // longer than any limit of silence
   const Ended state = RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "state"});
   EXPECT_EQ(state.status, 0) << state.out;
-  EXPECT_NE(state.out.find("'ego'"), std::string::npos) << "the end of the chain of waiting is named: " << state.out;
+  EXPECT_NE(state.out.find("it stands: node 'ego' was stopped by signal 19"), std::string::npos) << "the end of the chain of waiting is named: " << state.out;
   ::kill(ego, SIGCONT);
   std::this_thread::sleep_for(500ms);
   // Dead, it needs a person's word.
@@ -160,6 +161,25 @@ TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
   ExpectUndisturbed(run.Wait(60s), File("pause.mcap"));
   const Ended verified = RunCommand({Bin("rodeira"), "replay", File("pause.mcap"), "--verify"});
   EXPECT_EQ(verified.status, 0) << "computed again, it is the same: " << verified.out;
+}
+
+// Nobody has to restart a dead node only to be able to stop.
+TEST_F(Recovery, ARunThatWaitsForADeadNodeCanBeStopped) {
+  const std::string run_name = "recovery-stop-" + std::to_string(::getpid());
+  Started run(Command(run_name, File("stop.mcap"), "60", "pause"));
+  ASSERT_TRUE(Runs(run_name));
+  const pid_t traffic = Find(run_name, "traffic");
+  ASSERT_GT(traffic, 0);
+  ::kill(traffic, SIGKILL);
+  ASSERT_GE(run.WaitFor("node 'traffic' was killed by signal 9", 5s), 0ms);
+  const Ended state = RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "state"});
+  EXPECT_NE(state.out.find("it stands: node 'traffic' was killed by signal 9"), std::string::npos) << state.out;
+  (void)RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "stop"});
+  const Ended ended = run.Wait(20s);
+  EXPECT_EQ(ended.status, 1) << ended.out;
+  EXPECT_NE(ended.out.find("stopped while the run waited: node 'traffic' was killed by signal 9"), std::string::npos) << ended.out;
+  const Ended info = RunCommand({Bin("rodeira"), "info", File("stop.mcap")});
+  EXPECT_NE(info.out.find("no gaps; the run was broken off at step "), std::string::npos) << info.out;
 }
 
 TEST_F(Recovery, WhoDiesAgainAndAgainWithoutGettingOnEndsTheRun) {
