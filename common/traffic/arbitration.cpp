@@ -20,6 +20,14 @@ constexpr int kMostInChain = 64;
 
 bool TrafficModel::Urgent(std::uint32_t id) const { return agents_[id].waited_s > kPatience_s; }
 
+// Where two ways merge who holds the zone takes up room behind it, too.
+bool TrafficModel::RoomBehind(std::uint32_t id, const Crossing& crossing, const Holder& holder) {
+  const Passage& passage = passages_[id];
+  if (!passage.able || zones()[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge) return true;
+  const double its_rear = agents_[holder.id].o_m - 0.5 * traits_[holder.id].length_m;
+  return crossing.out_m + its_rear + ReachOf(holder.id, 0) - holder.out_m >= passage.room_m;
+}
+
 // Whether somebody keeps it out of the zone: who is in it, or has been granted it, and is not surely out before it comes.
 bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
   const auto zone = static_cast<std::size_t>(crossing.zone);
@@ -33,7 +41,7 @@ bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
       const double way_out = holder.out_m - other.o_m + 0.5 * traits_[holder.id].length_m;
       const double clears = TravelTime(way_out, other.speed_mps, AllowedAt(holder.id, holder.out_m));
       const double arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m));
-      if (holder.grant.sure && clears < arrives + kBehind_s) continue;
+      if (holder.grant.sure && clears < arrives + kBehind_s && RoomBehind(id, crossing, holder)) continue;
       passages_[id].delay_s = clears - arrives;
     }
     passages_[id].waits_for = holder.id == agents_.size() ? -1 : static_cast<std::int64_t>(holder.id);

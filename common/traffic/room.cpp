@@ -72,7 +72,7 @@ double TrafficModel::ReachOf(std::uint32_t id, int depth) {
 void TrafficModel::FindRoom(std::uint32_t id) {
   Passage& passage = passages_[id];
   passage.head = passage.able = true;
-  const double to = passage.end_m + traits_[id].length_m + settings_.idm.standing_gap_m + kLoose_m;
+  const double to = passage.room_m = passage.end_m + traits_[id].length_m + settings_.idm.standing_gap_m + kLoose_m;
   double nearest = kNever_m;
   EachAhead(id, to, 0, [&](std::int64_t other, double rear_m, double comes_m) {
     if (comes_m < to) {

@@ -109,6 +109,7 @@ class TrafficModel {
     bool must_stop = false;  // a STOP sign
     double line_m = 0.0;     // odometer at which its front stops
     double end_m = 0.0;
+    double room_m = 0.0;  // odometer up to which who is ahead must have left
     double arrives_s = 0.0, clears_s = 0.0;
     double delay_s = 0.0;  // until who keeps it out is out of the way
     std::int64_t waits_for = -1;
@@ -149,6 +150,7 @@ class TrafficModel {
   void ComeToZones();
   void ComeLater(std::uint32_t id);
   void OthersAtZones();
+  bool RoomBehind(std::uint32_t id, const Crossing& crossing, const Holder& holder);
   bool Held(std::uint32_t id, const Crossing& crossing);
   bool Yields(std::uint32_t id, const Crossing& crossing);
   bool Grant(std::uint32_t id, bool yields);
@@ -171,6 +173,8 @@ class TrafficModel {
   // Coming and going.
   void PlaceAll(std::span<const driver::Footprint> others);
   void Leave(std::uint32_t id);
+  std::uint32_t DrawEntry(std::uint32_t id, std::uint32_t trip) const;
+  double AtMostForLine(std::uint32_t id);
   void Enter();
   bool TryEnter(std::uint32_t id);
   void FindPoses();

@@ -1,0 +1,121 @@
+// How agents leave at a lane's end and enter again.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/base/random.hpp"
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr std::uint64_t kDrawLane = 102;
+constexpr double kGentle_mps2 = 0.8;     // an entering car needs no harder braking than this
+constexpr double kEnteringShare = 0.95;  // of the speed it wants
+constexpr double kEnteringBrake = 0.9;   // share of its comfortable braking before the first line
+
+}  // namespace
+
+// Where it enters on this trip: by lot.
+std::uint32_t TrafficModel::DrawEntry(std::uint32_t id, std::uint32_t trip) const {
+  const double draw = base::RandomUniform({settings_.seed, id, kDrawLane, trip});
+  return map_->entries[static_cast<std::size_t>(draw * static_cast<double>(map_->entries.size()))];
+}
+
+// The speed from which it can stop before the first zones that are not its own.
+double TrafficModel::AtMostForLine(std::uint32_t id) {
+  FindPassage(id);
+  if (!std::exchange(passages_[id].any, false)) return Agent::kNoCap_mps;
+  const double way = passages_[id].line_m - agents_[id].o_m - 0.5 * traits_[id].length_m;
+  return std::sqrt(2.0 * kEnteringBrake * traits_[id].idm.braking_mps2 * std::max(0.0, way));
+}
+
+void TrafficModel::Leave(std::uint32_t id) {
+  Agent& agent = agents_[id];
+  const std::uint32_t trip = agent.trip + 1;
+  const double driven = agent.driven_m;
+  agent = Agent();
+  agent.trip = trip;
+  agent.driven_m = driven;
+  agent.entry = DrawEntry(id, trip);
+  waiting_.push_back(id);
+}
+
+// At each entry the first who waits there.
+void TrafficModel::Enter() {
+  if (waiting_.empty()) return;
+  std::vector<bool> tried(graph().tracks().size(), false);
+  std::vector<std::uint32_t> left;
+  for (const std::uint32_t id : waiting_) {
+    const std::uint32_t entry = agents_[id].entry;
+    if (tried[entry] || !TryEnter(id)) left.push_back(id);
+    tried[entry] = true;
+  }
+  waiting_ = std::move(left);
+}
+
+// With its rear bumper at the lane's beginning, at its own speed or at that of the car ahead, once the gap bears it.
+bool TrafficModel::TryEnter(std::uint32_t id) {
+  Agent& agent = agents_[id];
+  const AgentTraits& traits = traits_[id];
+  const double half = 0.5 * traits.length_m;
+  const lanes::Track& track = graph()[agent.entry];
+  for (const Block& block : blocks_[agent.entry]) {
+    if (block.span.rear_m < traits.length_m + traits.idm.standing_gap_m && block.span.front_m > 0.0) return false;
+  }
+  if (!track.before.empty()) {  // in the middle of the network: nobody may be on the way there
+    for (std::uint32_t other = 0; other < agents_.size(); ++other) {
+      if (!agents_[other].on_road) continue;
+      const double front = agents_[other].o_m + 0.5 * traits_[other].length_m;
+      for (const Stretch& stretch : stretches_[other]) {
+        if (stretch.track == agent.entry && stretch.begin_m > front - 1.0 && stretch.begin_m - front < SightOf(agents_[other])) return false;
+      }
+    }
+  }
+  Agent entering = agent;
+  entering.on_road = true;
+  entering.o_m = half;
+  entering.path = {{agent.entry, 0.0, 0.0, 0.0, 0.0, 1.0}};
+  std::swap(agent, entering);
+  const auto wait = [&] {
+    std::swap(agent, entering);
+    return false;
+  };
+  FindStretches(id, settings_.sight_m);
+  const double limit = map_->plans[agent.entry].limit_mps * traits.speed_factor;
+  double speed = kEnteringShare * Allowed(id).speed_mps * traits.speed_factor;
+  // Conflict zones right at the beginning must be free, and are its own from now on.
+  for (const lanes::ZoneSide& part : zones().Of(agent.entry)) {
+    const lanes::Zone& zone = zones()[part.zone];
+    const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;
+    if (zone.kind == lanes::ZoneKind::kDiverge) continue;
+    if (zone.in_m[mine] > traits.length_m + 2.0 && zone.in_m[mine] > agent.granted_m + traits.length_m + 2.0) break;
+    if (!holders_[part.zone][theirs].empty()) return wait();
+    agent.granted_m = std::max(agent.granted_m, zone.out_m[mine]);
+  }
+  speed = std::min(speed, AtMostForLine(id));
+  // Nobody may stand where it enters, not even with its rear; agents have moved since they were last seen.
+  for (std::uint32_t other = 0; other < agents_.size(); ++other) {
+    if (other == id || !agents_[other].on_road) continue;
+    for (const Piece& piece : agents_[other].path) {
+      if (piece.track == agent.entry && agents_[other].o_m - 0.5 * traits_[other].length_m - piece.zero_m < traits.length_m + 2.0 * traits.idm.standing_gap_m) return wait();
+    }
+  }
+  const Ahead ahead = FindAhead(id);
+  if (ahead.any) {
+    const auto safe = [&](double v) {
+      return ahead.gap_m > 2.0 * traits.idm.standing_gap_m && ahead.gap_m >= traits.idm.standing_gap_m + v * traits.idm.time_gap_s &&
+             driver::IdmAcceleration(traits.idm, v, limit, ahead.gap_m, ahead.speed_mps) > -kGentle_mps2;
+    };
+    if (!safe(speed)) speed = std::clamp(ahead.speed_mps, 0.0, speed);
+    if (!safe(speed)) return wait();
+  }
+  agent.speed_mps = speed;
+  if (agent.granted_m > 0.0) {
+    agent.grants = {{agent.granted_m, next_grant_++, false}};
+    HoldZones(id);
+  }
+  return true;
+}
+
+}  // namespace rodeira::traffic
