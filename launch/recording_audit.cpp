@@ -3,22 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "common/lockstep/sample.hpp"
+#include "common/record/text_number.hpp"
 
 namespace rodeira::front {
 namespace {
-
-std::optional<std::int64_t> Number(const record::TextMap& map, const char* key) {
-  const auto found = map.find(key);
-  if (found == map.end()) return std::nullopt;
-  std::int64_t number = 0;
-  const char* end = found->second.data() + found->second.size();
-  const auto [at, problem] = std::from_chars(found->second.data(), end, number);
-  if (problem != std::errc() || at != end) return std::nullopt;
-  return number;
-}
 
 // The entries of a metadata record; none where it is not there.
 record::TextMap EntriesOf(const record::McapReader& reader, const char* name) {
@@ -53,10 +43,10 @@ RecordingAudit Audit(const record::McapReader& reader) {
   result.damages = reader.condition().findings;
   if (result.damages.empty()) result.damages = reader.Verify();
   const record::TextMap end = EntriesOf(reader, "rodeira.end");
-  result.last_step = Number(end, "last_step");
+  result.last_step = record::WholeNumber(end, "last_step");
   const auto complete = end.find("complete");
   result.broken_off = complete != end.end() && complete->second != "true";
-  const auto base_step_ns = Number(EntriesOf(reader, "rodeira"), "base_step_ns");
+  const auto base_step_ns = record::WholeNumber(EntriesOf(reader, "rodeira"), "base_step_ns");
   record::StepAudit steps;
   std::map<record::ChannelId, RecordedSource> sources;
   std::map<record::ChannelId, std::uint64_t> periods;
@@ -67,7 +57,7 @@ RecordingAudit Audit(const record::McapReader& reader) {
     if (name != channel.metadata.end()) source.source = name->second;
     const auto schema = reader.schemas().find(channel.schema);
     if (schema != reader.schemas().end()) source.type = schema->second.name;
-    const auto period = Number(channel.metadata, "period_steps");
+    const auto period = record::WholeNumber(channel.metadata, "period_steps");
     if (!period || *period <= 0) continue;
     periods[id] = static_cast<std::uint64_t>(*period);
     steps.Declare(channel.topic, id, periods[id]);

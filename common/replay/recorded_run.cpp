@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
-#include <charconv>
 #include <limits>
 #include <system_error>
 
 #include "common/base/mathematics.hpp"
 #include "common/launch/files_of.hpp"
 #include "common/record/compress.hpp"
+#include "common/record/text_number.hpp"
 #include "common/replay/splice.hpp"
 #include "idl/topics.hpp"
 
@@ -24,12 +24,6 @@ constexpr const char* kCompressed = "application/x-rodeira-zstd";
 std::string Entry(const record::TextMap& map, const std::string& key) {
   const auto found = map.find(key);
   return found == map.end() ? std::string() : found->second;
-}
-
-std::optional<std::int64_t> Whole(const std::string& text) {
-  std::int64_t value = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return problem == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
 base::Result<base::Bytes> Unpacked(const record::Attachment& attachment) {
@@ -151,7 +145,7 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   launch_ = std::make_shared<launch::Launch>(std::move(recorded).value());
 
   for (const auto& [id, channel] : reader_.channels()) {
-    const auto number = Whole(Entry(channel.metadata, "source_number"));
+    const auto number = record::WholeNumber(channel.metadata, "source_number");
     if (!number) continue;
     if (*number < 0 || static_cast<std::size_t>(*number) >= roster().sources().size() || roster().source(static_cast<lockstep::SourceIndex>(*number)).topic != channel.topic) {
       return base::WrongInput(fmt::format("the channel '{}' says that it is source {}, which the roster does not know", channel.topic, *number));
@@ -161,13 +155,13 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   const auto branch = reader_.FindMetadata(kBranchMetadata);
   if (!branch) return branch.error();
   if (branch.value()) {
-    const auto at = Whole(Entry(branch.value()->entries, "step"));
+    const auto at = record::WholeNumber(branch.value()->entries, "step");
     if (!at || *at < 0) return base::WrongInput("the recording does not say at which step it left its parent");
     branched_at_ = *at;
   }
   const auto end = reader_.FindMetadata("rodeira.end");
   if (!end) return end.error();
-  const auto last = end.value() ? Whole(Entry(end.value()->entries, "last_step")) : std::nullopt;
+  const auto last = end.value() ? record::WholeNumber(end.value()->entries, "last_step") : std::nullopt;
   if (!last || *last < 0) return base::WrongInput("the recording does not say at which step the run ended; not even its first samples are there");
   if (*last > std::numeric_limits<std::int64_t>::max() / 4 / roster().base_step_ns()) {
     return base::WrongInput(fmt::format("the recording says that the run ended at step {}, which cannot be", *last));

@@ -1,30 +1,17 @@
 #include "common/replay/repaired_end.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
-#include <optional>
 #include <string>
 
+#include "common/record/text_number.hpp"
+
 namespace rodeira::replay {
-namespace {
-
 using lockstep::Step;
-
-std::optional<Step> Number(const record::TextMap& map, const char* key) {
-  const auto found = map.find(key);
-  if (found == map.end()) return std::nullopt;
-  Step value = 0;
-  const char* end = found->second.data() + found->second.size();
-  const auto [at, problem] = std::from_chars(found->second.data(), end, value);
-  return problem == std::errc() && at == end && value >= 0 ? std::optional(value) : std::nullopt;
-}
-
-}  // namespace
 
 void RepairedEnd::Begin(const std::map<record::ChannelId, record::Channel>& channels) {
   for (const auto& [id, channel] : channels) {
-    const auto period = Number(channel.metadata, "period_steps");
+    const auto period = record::WholeNumber(channel.metadata, "period_steps");
     if (period && *period > 0 && *period <= std::numeric_limits<std::uint32_t>::max()) lines_[id] = {*period, 0};
   }
 }
@@ -42,8 +29,8 @@ record::TextMap RepairedEnd::Entries(const record::TextMap& found) const {
   Step last = std::numeric_limits<Step>::max();
   for (const auto& [id, line] : lines_) last = std::min(last, line.next - 1);
   if (last < 0) return {};
-  const auto said = Number(found, "last_step");
-  if (said && *said <= last) return found;
+  const auto said = record::WholeNumber(found, "last_step");
+  if (said && *said >= 0 && *said <= last) return found;
   record::TextMap entries{{"log_complete", "false"}};
   entries["last_step"] = std::to_string(last);
   entries["complete"] = "false";

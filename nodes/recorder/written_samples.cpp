@@ -20,17 +20,17 @@ void WrittenSamples::BeginBehind(Step step, lockstep::SourceIndex source) {
 void WrittenSamples::Note(Step valid, lockstep::SourceIndex source) {
   const auto line = std::find_if(lines_.begin(), lines_.end(), [&](const Line& each) { return each.source == source; });
   if (line == lines_.end()) return;
-  ++samples_;
   if (valid > line->next) missing_ += static_cast<std::uint64_t>((valid - line->next) / line->period);
   line->next = std::max(line->next, valid + line->period);
 }
 
 record::TextMap WrittenSamples::Entries(Step last_step) const {
-  std::uint64_t missing = missing_;
+  std::uint64_t samples = 0, missing = missing_;
   for (const Line& line : lines_) {
+    samples += static_cast<std::uint64_t>(line.next / line.period);
     if (line.next <= last_step) missing += static_cast<std::uint64_t>((last_step - line.next) / line.period + 1);
   }
-  return {{"samples", std::to_string(samples_)}, {"sources", std::to_string(lines_.size())}, {"missing", std::to_string(missing)}};
+  return {{"samples", std::to_string(samples - missing_)}, {"sources", std::to_string(lines_.size())}, {"missing", std::to_string(missing)}};
 }
 
 }  // namespace rodeira::nodes

@@ -17,8 +17,8 @@ class WrittenSamples {
   // An earlier life has written everything up to here, in the order of (step, source).
   void BeginBehind(lockstep::Step step, lockstep::SourceIndex source);
   void Note(lockstep::Step valid, lockstep::SourceIndex source);
-  // What the file says at its end: how many `samples` this life has written of how many `sources`, and how many are `missing` of a run that
-  // ended at `last_step`.
+  // What the file says at its end: how many `samples` of how many `sources` are in it, those of an earlier life among them, and how
+  // many are `missing` of a run that ended at `last_step`.
   record::TextMap Entries(lockstep::Step last_step) const;
 
  private:
@@ -28,8 +28,7 @@ class WrittenSamples {
     lockstep::Step next = 0;  // valid step of the sample that comes next
   };
   std::vector<Line> lines_;
-  std::uint64_t samples_ = 0;
-  std::uint64_t missing_ = 0;
+  std::uint64_t missing_ = 0;  // before the lines' next ones
 };
 
 }  // namespace rodeira::nodes

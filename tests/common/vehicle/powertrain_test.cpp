@@ -173,17 +173,21 @@ TEST(Driveline, TheClutchLocksAndThenPassesAllPower) {
   EXPECT_GT(locked_power, 1000.0);
 }
 
-TEST(Driveline, TorquePassesBothWaysAndHalvesAtTheDifferential) {
+DrivelineMotion OneStep(double engine_radps, double throttle, const DrivelineLoads& loads) {
   const EngineSettings settings = DefaultSettings().powertrain.engine;
   Engine engine;
-  engine.Start(200.0);
-  engine.Prepare(settings, 0.0, false);
+  engine.Start(engine_radps);
+  engine.Prepare(settings, throttle, false);
+  return StepDriveline(settings, engine, loads, kStep_s);
+}
+
+TEST(Driveline, TorquePassesBothWaysAndHalvesAtTheDifferential) {
   DrivelineLoads loads;
   loads.ratio = 8.0;
   loads.clutch_capacity_Nm = 200.0;
   loads.wheel_radps = {30.0, 20.0};  // the road drives: 8 · 25 = 200
   loads.road_torque_Nm = {100.0, 100.0};
-  const DrivelineMotion m = StepDriveline(settings, engine, loads, kStep_s);
+  const DrivelineMotion m = OneStep(200.0, 0.0, loads);
   EXPECT_LT(m.clutch_torque_Nm, 0.0);
   EXPECT_NEAR(m.drive_torque_Nm, 0.5 * 8.0 * m.clutch_torque_Nm, 1e-12);
   EXPECT_NEAR(m.engine_radps, 4.0 * (m.wheel_radps[0] + m.wheel_radps[1]), 1e-9);
@@ -192,17 +196,13 @@ TEST(Driveline, TorquePassesBothWaysAndHalvesAtTheDifferential) {
 
 // The left wheel spins on ice, the right one is held by the road: what the shafts differ by is what the plates bear, and it heats them.
 TEST(Driveline, PlatesCarryTheirTorqueToTheSlowerWheel) {
-  const EngineSettings settings = DefaultSettings().powertrain.engine;
-  Engine engine;
-  engine.Start(300.0);
-  engine.Prepare(settings, 0.5, false);
   DrivelineLoads loads;
   loads.ratio = 10.0;
   loads.clutch_capacity_Nm = 200.0;
   loads.wheel_radps = {50.0, 10.0};
   loads.road_torque_Nm = {-30.0, -30.0};
   loads.locking_torque_Nm = 240.0;
-  const DrivelineMotion m = StepDriveline(settings, engine, loads, kStep_s);
+  const DrivelineMotion m = OneStep(300.0, 0.5, loads);
   const auto shafts = m.shaft_torque_Nm();
   EXPECT_NEAR(shafts[0] - shafts[1], -240.0, 1e-9);
   EXPECT_NEAR(shafts[0] + shafts[1], 10.0 * m.clutch_torque_Nm, 1e-9);

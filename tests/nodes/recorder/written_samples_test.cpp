@@ -36,7 +36,7 @@ TEST(WrittenSamples, GapsAtTheBeginningWithinAndAtTheEndAreCounted) {
   WrittenSamples written(roster, 2);
   for (const Step step : {2, 3, 6, 7}) written.Note(step, 0);  // 0, 1, 4, 5 and 8, 9 are missing
   for (const Step step : {0, 9}) written.Note(step, 1);         // 3 and 6
-  EXPECT_EQ(Missing(written, 9), "8");
+  EXPECT_EQ(written.Entries(9), (record::TextMap{{"samples", "6"}, {"sources", "2"}, {"missing", "8"}}));
 }
 
 TEST(WrittenSamples, AnotherLifeBeginsWhereTheFirstOneEnded) {
@@ -46,7 +46,7 @@ TEST(WrittenSamples, AnotherLifeBeginsWhereTheFirstOneEnded) {
   EXPECT_EQ(Missing(written, 6), "1");
   written.Note(6, 1);
   written.Note(7, 0);
-  EXPECT_EQ(Missing(written, 7), "0");
+  EXPECT_EQ(written.Entries(7), (record::TextMap{{"samples", "11"}, {"sources", "2"}, {"missing", "0"}})) << "0 to 7 and 0, 3, 6";
 }
 
 }  // namespace
