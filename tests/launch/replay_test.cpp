@@ -7,7 +7,6 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
-#include <map>
 #include <thread>
 
 #include "common/base/files.hpp"
@@ -282,27 +281,6 @@ TEST_F(ReplayTest, AChangedByteOutsideOfTheSamplesIsFoundToo) {
     EXPECT_NE(info.status, 0) << from << ": " << info.out;
     EXPECT_THAT(info.out, testing::AnyOf(HasSubstr("damage"), HasSubstr("rodeira: "))) << from;
   }
-}
-
-// The demo with another model of its car: a word on the command line, the same nodes, recorded and computed again.
-TEST_F(ReplayTest, TheDemoMayBeDrivenByAnyModel) {
-  std::map<std::string, double> driven_m;
-  for (const std::string model : {"bicycle", "multibody", "ode"}) {
-    const std::string file = Record(model + ".mcap", LaunchFile("demo.yaml"),
-                                    {"--for", "3", "--headless", "--set", "nodes.view.config.frames=~", "--set", "vehicle.model=" + model});
-    const auto verdict = VerifyFile(file);
-    ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
-    EXPECT_FALSE(verdict.value().difference.has_value()) << model << ": " << verdict.value().difference->Text();
-    const auto run = replay::RecordedRun::Open(file);
-    ASSERT_TRUE(run.ok()) << run.error().Text();
-    driven_m[model] = CarAt(run.value(), 3000).odometer_m();
-    EXPECT_GT(driven_m[model], 1.0) << model;
-  }
-  EXPECT_NE(driven_m["ode"], driven_m["bicycle"]);
-  EXPECT_NE(driven_m["multibody"], driven_m["bicycle"]);
-  const auto unknown = RunCommand({Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--in-process", "--headless", "--no-record", "--set", "vehicle.model=bycicle"});
-  EXPECT_EQ(unknown.status, 2);
-  EXPECT_THAT(unknown.out, HasSubstr("this car is wanted as model 'bycicle'; did you mean 'bicycle'?"));
 }
 
 // The car of another model goes on where the other one was: pose, speed and yaw rate at the next published step.
