@@ -56,4 +56,14 @@ std::string WrittenFile(const std::string& recording, double reached_s) {
   return text + fmt::format("lost    its end: it holds {:.3f} s of {:.3f} s; what to do: rodeira repair {} --out REPAIRED.mcap\n", LastSample(reader.value()), reached_s, recording);
 }
 
+std::string WithoutStateLine(const std::string& node) {
+  return fmt::format("state   node '{}' cannot save its state: replayed from the first step, and not to be started again\n", node);
+}
+
+std::string ComputedFromTheStart(const std::vector<std::string>& nodes) {
+  std::string text;
+  for (const std::string& node : nodes) text += fmt::format("node '{}' cannot save its state: all is computed again from step 0\n", node);
+  return text;
+}
+
 }  // namespace rodeira::front

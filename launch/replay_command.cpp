@@ -10,6 +10,7 @@
 
 #include "launch/branch_command.hpp"
 #include "launch/interrupt.hpp"
+#include "launch/recording_text.hpp"
 #include "launch/verify.hpp"
 
 namespace rodeira::front {
@@ -76,6 +77,7 @@ int Replay(const ReplayOptions& options) {
   if (!verdict) return Complain(verdict.error());
   const Verdict& found = verdict.value();
   if (!found.substituted.empty()) fmt::print("live input taken from the recording: {}\n", fmt::join(found.substituted, ", "));
+  if (!found.without_state.empty()) fmt::print("{}", ComputedFromTheStart(found.without_state));
   if (found.difference) {
     fmt::print("{}\n", found.difference->Text());
     return 1;

@@ -7,7 +7,6 @@
 
 #include "common/lockstep/in_process.hpp"
 #include "common/replay/recorded_node.hpp"
-#include "launch/local_nodes.hpp"
 
 namespace rodeira::front {
 
@@ -26,6 +25,8 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   const auto& roster = run.roster();
   if (auto status = run.CheckBytes(); !status) return status.error();
   if (auto status = run.CheckMathematics(); !status) return status.error();
+  const auto without_state = run.WithoutState();
+  if (!without_state) return without_state.error();
   const auto at = run.SnapshotAtOrBefore(wish.from);
   if (!at) return at.error();
   if (wish.snapshot_at && *wish.snapshot_at < at.value()) {
@@ -35,6 +36,10 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   Recomputed recomputed;
   Verdict& verdict = recomputed.verdict;
   verdict.first_step = at.value();
+  for (const lockstep::NodeIndex n : without_state.value()) {
+    verdict.without_state.push_back(roster.node(n).name);
+    if (wish.snapshot_at) recomputed.last_published[n] = {};
+  }
   std::vector<bool> trusted(roster.nodes().size(), false);
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
     trusted[n] = run.launch().node(n).is_live();
@@ -72,6 +77,9 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   settings.on_sample = [&](const lockstep::Sample& sample) {
     comparison.Take(sample);
     if (comparison.differs()) stop = true;
+    const auto last = recomputed.last_published.find(roster.source(sample.source()).node);
+    if (last == recomputed.last_published.end() || sample.source() == roster.node(last->first).snapshots) return;
+    if (sample.valid() == *wish.snapshot_at + roster.node(last->first).delay) last->second.push_back(sample);
   };
   const auto interrupted = [&wish] { return wish.stop_requested && wish.stop_requested(); };
   settings.stop_requested = [&] { return stop.load() || interrupted(); };
@@ -89,6 +97,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   verdict.samples = comparison.compared();
   verdict.snapshots = comparison.snapshots_compared();
   verdict.difference = comparison.first();
+  if (wish.snapshot_at) recomputed.nodes = std::make_shared<LocalNodes>(std::move(nodes).value());
   return recomputed;
 }
 

@@ -196,7 +196,36 @@ SampleStream RecordedRun::Samples(Step from) const {
   return SampleStream(reader_.Messages(query), sources_, last_step_);
 }
 
+base::Result<std::vector<lockstep::NodeIndex>> RecordedRun::WithoutState() const {
+  std::vector<lockstep::NodeIndex> without;
+  std::size_t missing = 0;  // first snapshots that have not been seen
+  for (const lockstep::NodeSpec& node : roster().nodes()) missing += node.snapshots.has_value() ? 1 : 0;
+  if (missing == 0) return without;
+  std::vector<bool> seen(roster().nodes().size(), false);
+  SampleStream samples = Samples(branched_at_);
+  while (missing > 0) {
+    const auto sample = samples.Next();
+    if (!sample) return sample.error();
+    if (!sample.value()) break;
+    const lockstep::NodeIndex n = roster().source(sample.value()->source()).node;
+    if (roster().node(n).snapshots != sample.value()->source() || seen[n]) continue;
+    seen[n] = true;
+    --missing;
+    const auto snapshot = lockstep::Snapshot::FromSample(*sample.value()->payload);
+    if (!snapshot) return snapshot.error();
+    if (!snapshot.value().has_state && !launch().node(n).is_live()) without.push_back(n);
+  }
+  return without;
+}
+
 base::Result<Step> RecordedRun::SnapshotAtOrBefore(Step step) const {
+  const auto without = WithoutState();
+  if (!without) return without.error();
+  if (!without.value().empty()) {
+    if (branched_at_ == 0) return Step{0};
+    return base::WrongInput(fmt::format("node '{}' cannot save its state, and up to step {} its parent's nodes computed: the branch cannot be computed again",
+                                        roster().node(without.value().front()).name, branched_at_), path_.string());
+  }
   for (const lockstep::NodeSpec& node : roster().nodes()) {
     if (!node.snapshots) continue;
     const Step period = roster().source(*node.snapshots).period;

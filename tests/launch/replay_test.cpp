@@ -318,6 +318,80 @@ TEST_F(ReplayTest, ABranchMayHaveAnotherTrafficSeed) {
   EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
 }
 
+// What cannot save its state is computed from the first step, wherever one asks it to begin.
+TEST_F(ReplayTest, ANodeWithoutAStateIsComputedFromTheStart) {
+  const std::string file = Record("without.mcap", LaunchFile("empty.yaml"), {"--for", "1.5", "--set", "nodes.c.config.saves=false", "--set", "snapshot_every_s=0.5"});
+  const auto late = VerifyFile(file, 1200);
+  ASSERT_TRUE(late.ok()) << late.error().Text();
+  EXPECT_FALSE(late.value().difference.has_value()) << late.value().difference->Text();
+  EXPECT_EQ(late.value().first_step, 0);
+  EXPECT_EQ(late.value().without_state, std::vector<std::string>{"c"});
+  EXPECT_EQ(late.value().samples, 4u * 1501u + 4u * 4u);
+  const auto said = RunCommand({Bin("rodeira"), "replay", file, "--verify", "--from", "1.2"});
+  EXPECT_EQ(said.status, 0) << said.out;
+  EXPECT_THAT(said.out, HasSubstr("node 'c' cannot save its state: all is computed again from step 0\nidentical: 1500 steps, 4 nodes"));
+  EXPECT_THAT(RunCommand({Bin("rodeira"), "info", file}).out, HasSubstr("state   node 'c' cannot save its state: replayed from the first step"));
+  // Its digests are compared like everybody's: a change of another node reaches it.
+  const auto changed = VerifyFile(file, 1200, {{"nodes.c.config.broken", "clock"}});
+  ASSERT_TRUE(changed.ok()) << changed.error().Text();
+  ASSERT_TRUE(changed.value().difference.has_value());
+  EXPECT_EQ(changed.value().difference->node, "c");
+  EXPECT_EQ(changed.value().difference->step, 1);
+}
+
+// Unchanged, it goes on itself, to the bit: nobody could make another one that stands where it stood.
+TEST_F(ReplayTest, ANodeWithoutAStateGoesOnInABranch) {
+  const std::string file = Record("without.mcap", LaunchFile("empty.yaml"), {"--for", "1.5", "--set", "nodes.c.config.saves=false", "--set", "nodes.c.delay_s=0.003"});
+  for (const lockstep::Step at : {0, 700}) {
+    const BranchWish wish{file, at, {}, std::nullopt, (folder_.path() / ("branch" + std::to_string(at) + ".mcap")).string()};
+    const auto outcome = Branch(wish);
+    ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
+    EXPECT_EQ(outcome.value().recomputed_from, 0);
+    EXPECT_EQ(outcome.value().without_state, std::vector<std::string>{"c"});
+    EXPECT_TRUE(outcome.value().taken_over.empty());
+    const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(wish.recording);
+    ASSERT_TRUE(branch.ok()) << branch.error().Text();
+    auto of_a = parent.value().Samples(), of_b = branch.value().Samples();
+    std::size_t count = 0;
+    for (;;) {
+      const auto x = of_a.Next(), y = of_b.Next();
+      ASSERT_EQ(x.value().has_value(), y.value().has_value());
+      if (!x.value()) break;
+      ++count;
+      ASSERT_EQ(*x.value()->payload, *y.value()->payload) << "at step " << x.value()->valid();
+    }
+    EXPECT_EQ(count, 4u * 1501u + 4u * 2u);
+    const auto verdict = Verify(branch.value(), 0);
+    if (at == 0) {
+      ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
+      EXPECT_FALSE(verdict.value().difference.has_value());
+      continue;
+    }
+    ASSERT_FALSE(verdict.ok());
+    EXPECT_EQ(verdict.error().exit_status(), 2);
+    EXPECT_THAT(verdict.error().Text(), HasSubstr("node 'c' cannot save its state, and up to step 700 its parent's nodes computed"));
+  }
+  // Another node's change reaches it one step later; one of its own lets it begin from what it had published.
+  const std::string other = (folder_.path() / "other.mcap").string(), own = (folder_.path() / "own.mcap").string();
+  ASSERT_TRUE(Branch({file, 700, {{"nodes.a.config.broken", "order"}}, 1000, other}).ok());
+  const auto fresh = Branch({file, 700, {{"nodes.c.config.saves", "true"}}, 1000, own});
+  ASSERT_TRUE(fresh.ok()) << fresh.error().Text();
+  EXPECT_EQ(fresh.value().taken_over, std::vector<std::string>{"c"});
+  const auto first_other_value = [&](const std::string& name, const std::string& node) {
+    const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(name);
+    auto of_a = parent.value().Samples(), of_b = branch.value().Samples();
+    for (;;) {
+      const auto x = of_a.Next(), y = of_b.Next();
+      if (!x.value() || !y.value()) return lockstep::Step{-1};
+      const auto& source = parent.value().roster().source(x.value()->source());
+      if (parent.value().roster().node(source.node).name == node && source.topic == "rodeira/pulse" && *x.value()->payload != *y.value()->payload) return x.value()->valid();
+    }
+  };
+  EXPECT_EQ(first_other_value(other, "a"), 701);
+  EXPECT_EQ(first_other_value(other, "c"), 704) << "activated at 701, valid three steps later";
+  EXPECT_EQ(first_other_value(own, "c"), 703);
+}
+
 TEST_F(ReplayTest, AnotherProtocolAndAMissingSnapshotAreNamed) {
   const std::string file = Drive(2.0);
   const auto all = [](const std::string&, const record::Message&, base::Bytes&) { return true; };
