@@ -11,6 +11,7 @@
 #include "common/replay/splice.hpp"
 #include "launch/continued_node.hpp"
 #include "launch/local_nodes.hpp"
+#include "launch/recording_text.hpp"
 #include "launch/verify.hpp"
 
 namespace rodeira::front {
@@ -152,6 +153,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   outcome.at = wish.at;
   auto parent = replay::RecordedRun::Open(wish.parent);
   if (!parent) return parent.error();
+  outcome.recorded_by_another = RecordedByAnother(parent.value().version(), parent.value().commit());
   const auto& roster = parent.value().roster();
   if (auto status = CheckStep(parent.value(), wish.at); !status) return status.error();
   auto folder = replay::TemporaryFolder::Make();
@@ -184,7 +186,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
     if (roster.node(n).is_sink() && kind != "recorder" && !(wish.with_view && kind == "view")) return replay::MakeNullSink();
     return nullptr;
   });
-  if (!nodes) return nodes.error();
+  if (!nodes) return changed.value().Named(nodes.error());
 
   auto states = StatesAt(parent.value(), wish, outcome);
   if (!states) return states.error();
@@ -195,7 +197,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   }
   for (const auto& [n, continued] : go_on) continued->Follow(*states.value().nodes->nodes()[n], states.value().last_published[n], roster);
   auto taken_over = Adapt(roster, nodes.value().nodes(), go_on, snapshots);
-  if (!taken_over) return taken_over.error();
+  if (!taken_over) return changed.value().Named(taken_over.error());
   outcome.taken_over = std::move(taken_over).value();
 
   lockstep::InProcessSettings settings;
@@ -206,7 +208,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   settings.pace = wish.pace;
   settings.next_command = wish.next_command;
   const lockstep::RunOutcome ran = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
-  if (!ran.ok) return base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault), wish.parent);
+  if (!ran.ok) return changed.value().Named(base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault)));
   const auto stopped = [&] { return wish.stop_requested && wish.stop_requested(); };
   // What a person has driven cannot be driven again: it is kept.
   if (stopped() && outcome.live.empty()) {

@@ -94,7 +94,8 @@ int MakeBranch(const ReplayOptions& options) {
   desk.reset();  // the terminal is a terminal again
   if (!outcome) return Complain(outcome.error());
   if (outcome.value().difference) {
-    fmt::print(stderr, "rodeira: {}: the parent could not be repeated up to the branch; {}\n", options.file, outcome.value().difference->Text());
+    fmt::print(stderr, "rodeira: {}: the parent could not be repeated up to the branch; {}\n{}", options.file, outcome.value().difference->Text(),
+               outcome.value().recorded_by_another);
     return 1;
   }
   Tell(options, outcome.value());

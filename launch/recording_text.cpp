@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "common/record/mcap_reader.hpp"
+#include "nodes/recorder/program.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -64,6 +65,12 @@ std::string ComputedFromTheStart(const std::vector<std::string>& nodes) {
   std::string text;
   for (const std::string& node : nodes) text += fmt::format("node '{}' cannot save its state: all is computed again from step 0\n", node);
   return text;
+}
+
+std::string RecordedByAnother(const std::string& version, const std::string& commit) {
+  if (version == nodes::ProgramVersion() && commit == nodes::ProgramCommit()) return {};
+  return fmt::format("recorded by another program (version {}, commit {}; this one is version {}, commit {}): other sources may give other bits\n", version, commit,
+                     nodes::ProgramVersion(), nodes::ProgramCommit());
 }
 
 }  // namespace rodeira::front

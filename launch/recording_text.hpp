@@ -17,4 +17,8 @@ std::string WrittenFile(const std::string& recording, double reached_s);
 std::string WithoutStateLine(const std::string& node);
 std::string ComputedFromTheStart(const std::vector<std::string>& nodes);
 
+// Where another program recorded than this one: a line that says so, because another one may compute other bits. Empty where it was
+// the same release and commit.
+std::string RecordedByAnother(const std::string& version, const std::string& commit);
+
 }  // namespace rodeira::front

@@ -79,7 +79,7 @@ int Replay(const ReplayOptions& options) {
   if (!found.substituted.empty()) fmt::print("live input taken from the recording: {}\n", fmt::join(found.substituted, ", "));
   if (!found.without_state.empty()) fmt::print("{}", ComputedFromTheStart(found.without_state));
   if (found.difference) {
-    fmt::print("{}\n", found.difference->Text());
+    fmt::print("{}\n{}", found.difference->Text(), RecordedByAnother(run.value().version(), run.value().commit()));
     return 1;
   }
   fmt::print("identical: {} steps, {} nodes ({} samples, {} snapshots; from {:.3f} s; {:.1f} s of wall time)\n", found.last_step - found.first_step, found.nodes,

@@ -27,8 +27,16 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   if (auto status = run.CheckMathematics(); !status) return status.error();
   const auto without_state = run.WithoutState();
   if (!without_state) return without_state.error();
-  const auto at = run.SnapshotAtOrBefore(wish.from);
+  // The recording ends with its last step; what is published ahead of it is there only where it is computed again.
+  lockstep::Step ahead = 0;
+  for (const lockstep::NodeSpec& node : roster.nodes()) {
+    if (!node.outputs.empty()) ahead = std::max(ahead, node.delay - node.period);
+  }
+  const auto at = run.SnapshotAtOrBefore(wish.snapshot_at ? std::min(wish.from, std::max<lockstep::Step>(run.last_step() - ahead, 0)) : wish.from);
   if (!at) return at.error();
+  if (wish.snapshot_at && *wish.snapshot_at == at.value() && at.value() + ahead > run.last_step()) {
+    return base::WrongInput(fmt::format("the run ends at step {}; what its nodes publish ahead of step {} is not in it", run.last_step(), at.value()), run.path().string());
+  }
   if (wish.snapshot_at && *wish.snapshot_at < at.value()) {
     return base::WrongInput(fmt::format("the states of step {} are wanted, but the first snapshots of this run's own are at step {}", *wish.snapshot_at, at.value()),
                             run.path().string());
@@ -51,7 +59,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
     if (trusted[n]) return replay::MakeRecordedNode(run, n, at.value());
     return nullptr;
   });
-  if (!nodes) return nodes.error();
+  if (!nodes) return run.Named(nodes.error());
 
   lockstep::InProcessSettings settings;
   settings.first_step = at.value();
@@ -92,7 +100,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
     recomputed.snapshots[n].at = *wish.snapshot_at;
   }
   if (comparison.problem()) return *comparison.problem();
-  if (!outcome.ok && !comparison.first()) return base::Failed(fmt::format("the run could not be computed again: {}", outcome.fault), run.path().string());
+  if (!outcome.ok && !comparison.first()) return run.Named(base::Failed(fmt::format("the run could not be computed again: {}", outcome.fault)));
   verdict.last_step = outcome.last_step;
   verdict.samples = comparison.compared();
   verdict.snapshots = comparison.snapshots_compared();
