@@ -52,7 +52,8 @@ void SetSnapshots(const config::Map& root, std::int64_t base_step_ns, std::vecto
   if (std::none_of(wishes.begin(), wishes.end(), [](const NodeWish& wish) { return wish.kind == "recorder"; })) return;
   Step common = 1;
   for (const NodeWish& wish : wishes) {
-    if (has_state(wish)) common = std::lcm(common, wish.period);
+    // Recorders too: one that begins at a snapshot waits for none that lies before.
+    if (has_state(wish) || wish.kind == "recorder") common = std::lcm(common, wish.period);
   }
   every = lockstep::CeilTo(every, common);
   for (NodeWish& wish : wishes) {
@@ -162,6 +163,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   launch.name_ = root.Text("name", launch.file_->path().stem().string());
   if (const auto world = root.OptionalPath("world")) launch.world_ = *world;
   if (const auto lab = root.OptionalPath("lab")) launch.lab_ = *lab;
+  launch.vehicle_model_ = root.OptionalChild("vehicle").Text("model", "");
   launch.seed_ = static_cast<std::uint64_t>(root.Integer("seed", 0, INT64_MAX, 1));
   if (root.Has("duration_s")) launch.duration_s_ = root.Number("duration_s", config::Range::Positive());
   launch.transport_ = root.Choice("transport", {"shared_memory", "udp"}, "shared_memory") == "udp" ? Transport::kUdp : Transport::kSharedMemory;

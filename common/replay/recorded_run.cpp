@@ -287,6 +287,10 @@ base::Result<std::vector<lockstep::Snapshot>> RecordedRun::Snapshots(Step at) co
       if (valid != at) continue;
       auto snapshot = lockstep::Snapshot::FromSample(*sample.value()->payload);
       if (!snapshot) return snapshot.error();
+      if (snapshot.value().node != n || snapshot.value().at != at) {
+        return base::WrongInput(fmt::format("the snapshot of node '{}' at step {} says that it is of node number {} at step {}", spec.name, at, snapshot.value().node,
+                                            snapshot.value().at), path_.string());
+      }
       auto samples_so_far = std::move(snapshots[n].samples);
       snapshots[n] = std::move(snapshot).value();
       snapshots[n].samples = std::move(samples_so_far);
