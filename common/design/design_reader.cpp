@@ -19,12 +19,19 @@ using network::End;
 
 constexpr std::size_t kMostFiles = 1000;
 
+// One name for a file, however it is written; of what cannot be a file the text itself.
+std::filesystem::path Canonical(const std::filesystem::path& path) {
+  std::error_code problem;
+  std::filesystem::path canonical = std::filesystem::weakly_canonical(path, problem);
+  return problem ? path.lexically_normal() : canonical;
+}
+
 // The file itself and what it includes, each once, in the order in which they are named.
 class Files {
  public:
   explicit Files(const config::File& file) {
     roots_.push_back(file.root());
-    seen_.insert(std::filesystem::weakly_canonical(file.path()));
+    seen_.insert(Canonical(file.path()));
     for (std::size_t i = 0; i < roots_.size(); ++i) Include(roots_[i]);
   }
 
@@ -47,7 +54,7 @@ class Files {
       const std::string place = list.Place(i);
       const std::filesystem::path folder = std::filesystem::path(place.substr(0, place.rfind(':'))).parent_path();
       const std::filesystem::path path = named.is_absolute() ? named : folder / named;
-      if (!seen_.insert(std::filesystem::weakly_canonical(path)).second) {
+      if (!seen_.insert(Canonical(path)).second) {
         list.Problem(i, fmt::format("'{}' is included already", named.string()));
         continue;
       }

@@ -176,7 +176,8 @@ void ReadSurfaces(const Map& road, double length_m, network::RoadSpec& spec) {
     }
     if (item.Has("crg")) {
       network::CrgSurface crg;
-      crg.file = std::filesystem::absolute(item.Path("crg")).string();  // not to be looked for from the world's folder once more
+      const std::filesystem::path file = item.Path("crg");
+      if (!file.empty()) crg.file = std::filesystem::absolute(file).string();  // not to be looked for from the world's folder once more
       crg.orientation = item.Choice("orientation", {"same", "opposite"}, "same");
       crg.mode = "attached";
       crg.purpose = "elevation";

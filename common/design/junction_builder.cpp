@@ -88,7 +88,7 @@ class Builder {
       before = &gap;
       if (!meeting.after) return;
     }
-    if (from > length - kShortest_m) return Crowded(gaps.back(), road, length - from);
+    if (!gaps.empty() && from > length - kShortest_m) return Crowded(gaps.back(), road, length - from);
     add(length, nullptr);
   }
 

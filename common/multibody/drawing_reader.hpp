@@ -47,6 +47,8 @@ class DrawingReader {
   void ReadForces(const config::Map& root);
   std::shared_ptr<Load> ReadForce(const config::Map& map, const std::string& kind);
   std::shared_ptr<Load> ReadSpring(const config::Map& map, bool torsion);
+  std::shared_ptr<Load> ReadAntiRollBar(const config::Map& map);
+  std::shared_ptr<Load> ReadBushing(const config::Map& map);
 
   int AddEntity(const config::Map& map, const std::string& name, EntityKind kind, const Vector3d& at);
   bool IsNew(const config::Map& map, const std::string& name);

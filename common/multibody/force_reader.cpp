@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "common/multibody/bushing.hpp"
 #include "common/multibody/drawing_reader.hpp"
 #include "common/multibody/springs.hpp"
 
@@ -73,7 +74,7 @@ void DrawingReader::ReadForces(const Map& root) {
   const Map forces = root.OptionalChild("forces");
   for (const std::string& name : forces.Keys()) {
     const Map map = forces.Child(name);
-    const std::string kind = map.Choice("kind", {"spring", "torsion", "force", "torque", "coordinate", "drag", "bushing"});
+    const std::string kind = map.Choice("kind", {"spring", "torsion", "anti_roll", "force", "torque", "coordinate", "drag", "bushing"});
     if (auto load = ReadForce(map, kind)) drawing_.loads.push_back({name, std::move(load)});
   }
 }
@@ -101,6 +102,7 @@ std::shared_ptr<Load> DrawingReader::ReadSpring(const Map& map, bool torsion) {
 
 std::shared_ptr<Load> DrawingReader::ReadForce(const Map& map, const std::string& kind) {
   if (kind == "spring" || kind == "torsion") return ReadSpring(map, kind == "torsion");
+  if (kind == "anti_roll") return ReadAntiRollBar(map);
   if (kind == "coordinate") {
     const auto coordinate = Entity(map, "coordinate", map.Text("coordinate"), true);
     const bool angle = coordinate && drawing_.entities[static_cast<std::size_t>(*coordinate)].kind == EntityKind::kAngle;
@@ -141,20 +143,58 @@ std::shared_ptr<Load> DrawingReader::ReadForce(const Map& map, const std::string
     if (!point) return nullptr;
     return std::make_shared<Drag>(*point, 0.5 * density * area);
   }
+  return ReadBushing(map);
+}
+
+std::shared_ptr<Load> DrawingReader::ReadAntiRollBar(const Map& map) {
+  const List list = map.Items("coordinates");
+  if (list.size() != 2) {
+    if (map.Has("coordinates")) map.Problem("coordinates", fmt::format("'coordinates' names {}; two were expected", list.size()));
+    return nullptr;
+  }
+  const auto a = Entity(map, "coordinates", list.Text(0), true);
+  const auto b = Entity(map, "coordinates", list.Text(1), true);
+  if (!a || !b) return nullptr;
+  const auto is_angle = [this](int entity) {
+    return drawing_.entities[static_cast<std::size_t>(entity)].kind == EntityKind::kAngle;
+  };
+  if (*a == *b || is_angle(*a) != is_angle(*b)) {
+    map.Problem("coordinates", "an anti-roll bar joins two different coordinates of one kind, distances or angles");
+    return nullptr;
+  }
+  const Keys& keys = is_angle(*a) ? kAngles : kLengths;
+  AntiRollBar::Settings settings;
+  settings.stiffness = map.Number(keys.stiffness, {0.0, kStiffest});
+  settings.damping = map.Number(keys.damping, {0.0, kStiffest}, 0.0);
+  settings.drawn = at_[static_cast<std::size_t>(3 * *b)] - at_[static_cast<std::size_t>(3 * *a)];
+  return std::make_shared<AntiRollBar>(*a, *b, settings);
+}
+
+// Between two bodies, or between a body and a point: then where that is drawn, and without resistance to turning.
+std::shared_ptr<Load> DrawingReader::ReadBushing(const Map& map) {
   const auto first = Body(map, "first");
-  const auto second = Body(map, "second");
-  const Vector3d at = ThreeNumbers(map, "at_m", 1e6);
   BushingSettings settings;
   settings.stiffness_Npm = ThreeNumbers(map, "stiffness_Npm", kStiffest);
   if (map.Has("damping_Nspm")) settings.damping_Nspm = ThreeNumbers(map, "damping_Nspm", kStiffest);
-  settings.turn_Nmprad = map.Number("stiffness_Nmprad", {0.0, kStiffest}, 0.0);
-  settings.turn_Nmsprad = map.Number("damping_Nmsprad", {0.0, kStiffest}, 0.0);
   if (settings.stiffness_Npm.minCoeff() < 0.0 || settings.damping_Nspm.minCoeff() < 0.0)
     map.Problem("stiffness_Npm", "a bushing's stiffness or damping is negative");
+  const auto turns = [this](int body) { return drawing_.bodies[static_cast<std::size_t>(body)].turns; };
+  if (first && !turns(*first)) {
+    map.Problem("first", "a bushing's first body must be a general or planar one");
+    return nullptr;
+  }
+  if (map.Has("point")) {
+    const auto point = Point(map, "point", map.Text("point"));
+    if (!first || !point) return nullptr;
+    return std::make_shared<Bushing>(drawing_.bodies[static_cast<std::size_t>(*first)].frame, *point, Drawn(*point), settings);
+  }
+  const auto second = Body(map, "second");
+  const Vector3d at = ThreeNumbers(map, "at_m", 1e6);
+  settings.turn_Nmprad = map.Number("stiffness_Nmprad", {0.0, kStiffest}, 0.0);
+  settings.turn_Nmsprad = map.Number("damping_Nmsprad", {0.0, kStiffest}, 0.0);
   if (!first || !second) return nullptr;
-  for (const int body : {*first, *second}) {
-    if (drawing_.bodies[static_cast<std::size_t>(body)].turns) continue;
-    map.Problem(body == *first ? "first" : "second", "a bushing joins general or planar bodies only");
+  if (!turns(*second)) {
+    map.Problem("second", "a bushing joins general or planar bodies, or one with a 'point'");
     return nullptr;
   }
   return std::make_shared<Bushing>(drawing_.bodies[static_cast<std::size_t>(*first)].frame,

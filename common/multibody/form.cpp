@@ -25,6 +25,12 @@ Form TurnedAboutZ(const Form& form) {
   return turned;
 }
 
+std::vector<int> EntitiesOf(const Form& form) {
+  std::vector<int> entities;
+  for (const Term& term : form.terms) entities.push_back(term.entity);
+  return entities;
+}
+
 Vector3d Evaluate(const Form& form, const double* q) {
   Vector3d value = Vector3d::Zero();
   for (const Term& term : form.terms) value += ValueOf(term, q);

@@ -30,6 +30,8 @@ Form Sum(const Form& first, const Form& second, double factor = 1.0);
 // Turned by 90 degrees about z (planar mechanisms).
 Form TurnedAboutZ(const Form& form);
 
+std::vector<int> EntitiesOf(const Form& form);
+
 // Value with coordinates (or velocities) in triples, entity after entity.
 Vector3d Evaluate(const Form& form, const double* q);
 // Adds what a force (or gradient) at the form means for each entity: (a + b z×)ᵀ f.

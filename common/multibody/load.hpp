@@ -41,6 +41,8 @@ class Sink {
   double damping_factor_;
 };
 
+inline constexpr std::size_t kMostLoadEntities = 24;  // that a load stiffens against each other
+
 // Something that acts: a function of motion and time. It names the entities whose coordinates it stiffens against each
 // other (a pattern that never changes), and gets their places in the matrix. Add may not allocate.
 class Load {
@@ -64,6 +66,9 @@ class Load {
   }
 
  protected:
+  // Gradients of a form along n for the load's entities that can move.
+  void AlongForm(const Form& form, const Vector3d& n, Triple* gradients) const;
+
   std::vector<int> entities_;
   std::vector<OuterPair> pairs_;
   std::vector<Vector3d> free_;  // 1 for a coordinate that can move, 0 for a fixed one

@@ -56,6 +56,29 @@ class CoordinateSpring final : public Load {
   SpringLaw law_;
 };
 
+// An anti-roll bar between two coordinates of one kind, distances or angles: it pushes both by the difference of what they
+// have moved since they were drawn, F = k ((b - b0) - (a - a0)) + c (bd - ad), a by +F and b by -F.
+class AntiRollBar final : public Load {
+ public:
+  struct Settings {
+    double stiffness = 0.0;
+    double damping = 0.0;
+    double drawn = 0.0;  // b0 - a0
+  };
+  AntiRollBar(int a, int b, const Settings& settings) : a_(a), b_(b), settings_(settings) {}
+  std::vector<int> Stiffens() const override { return {a_, b_}; }
+  void Add(const Motion& motion, Sink& sink) const override;
+  double Energy(const Motion& motion) const override;
+  double Force(const Motion& motion) const override;
+  double ForceAtRest(const Motion& motion) const override { return settings_.stiffness * Twist(motion.q); }
+
+ private:
+  double Twist(const double* q) const { return q[3 * b_] - q[3 * a_] - settings_.drawn; }
+
+  int a_, b_;
+  Settings settings_;
+};
+
 // A given force at a point, in the world's axes, or a torque on a body, times a function of time.
 class GivenForce final : public Load {
  public:
@@ -106,33 +129,6 @@ class Drag final : public Load {
  private:
   Form point_;
   double half_rho_area_kgpm_;
-};
-
-struct BushingSettings {
-  Vector3d stiffness_Npm = Vector3d::Zero();  // along the first body's axes as drawn
-  Vector3d damping_Nspm = Vector3d::Zero();
-  double turn_Nmprad = 0.0;  // against relative rotation, the same about every axis
-  double turn_Nmsprad = 0.0;
-};
-
-// An elastic joint between two bodies: forces along the first body's axes from the displacement of two points that
-// coincide as drawn, and a torque against relative rotation (½ k Σ eᵢ × e'ᵢ: linear for small turns).
-class Bushing final : public Load {
- public:
-  Bushing(const Frame& first, const Frame& second, const Vector3d& drawn, const BushingSettings& settings);
-  std::vector<int> Stiffens() const override;
-  void Add(const Motion& motion, Sink& sink) const override;
-  double Energy(const Motion& motion) const override;
-  double Force(const Motion& motion) const override;
-
- private:
-  Vector3d ForceOn(const Motion& motion) const;
-  Vector3d TorqueOn(const Motion& motion) const;
-
-  Frame first_, second_;
-  Form at_first_, at_second_;
-  Form gap_;
-  BushingSettings settings_;
 };
 
 }  // namespace rodeira::multibody

@@ -10,6 +10,7 @@
 #include "common/partition/noding.hpp"
 #include "common/scene/ground_digest.hpp"
 #include "common/scene/levels_at.hpp"
+#include "common/scene/road_paint.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -56,6 +57,9 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(worl
     lines[i] = RoadLinesOf(roads[i], kRoadTolerances[0]);
     for (std::size_t level = 0; level < paint[i].size(); ++level) PaintRoad(roads[i], kPaintChords_m[level], paint[i][level]);
   });
+  for (const network::Placed& placed : network::PlaceFurniture(*world.network()).things) {
+    for (TilePaint& level : paint[placed.road]) PaintThing(*world.network(), placed, level);
+  }
   TileLines pieces;
   std::set<TileKey> tiles;
   for (std::size_t i = 0; i < roads.size(); ++i) {
@@ -77,6 +81,11 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(worl
       for (const Eigen::Vector3d& p : line) {
         trace.low_W = trace.low_W.cwiseMin(p.head<2>()), trace.high_W = trace.high_W.cwiseMax(p.head<2>());
         trace.points_W.emplace_back(p.head<2>());
+      }
+    }
+    for (const auto& [key, painted] : paint[i][0]) {  // crossings and arrows may reach beyond the lanes
+      for (const PaintPiece& piece : painted) {
+        for (const Eigen::Vector3d& p : piece.p_W) trace.low_W = trace.low_W.cwiseMin(p.head<2>()), trace.high_W = trace.high_W.cwiseMax(p.head<2>());
       }
     }
     trace.digest = RoadDigest(roads[i], lines[i], paint[i][0]);

@@ -60,16 +60,7 @@ class Painter {
       Refine(middle, to, between, after, depth + 1);
       return;
     }
-    Put({{before[0], after[0], after[1], before[1]}, colour_});
-  }
-
-  void Put(const PaintPiece& piece) {
-    Eigen::Vector2d low = piece.p_W[0].head<2>(), high = low;
-    for (const Eigen::Vector3d& p : piece.p_W) low = low.cwiseMin(p.head<2>()), high = high.cwiseMax(p.head<2>());
-    const WorldStep from = ToSteps(low), to = ToSteps(high);
-    for (std::int64_t column = TileOf(from.x - 1); column <= TileOf(to.x + 1); ++column) {
-      for (std::int64_t row = TileOf(from.y - 1); row <= TileOf(to.y + 1); ++row) paint_[{column, row}].push_back(piece);
-    }
+    AddPaint({{before[0], after[0], after[1], before[1]}, colour_}, paint_);
   }
 
   const network::Road& road_;
@@ -90,6 +81,15 @@ Colour PaintColour(std::string_view name) {
   if (name == "violet") return Colour::Of(0x8a4fb5);
   if (name == "black") return Colour::Of(0x202020);
   return SurfaceColour(terrain::Surface::kRoadMark);  // white, standard, unsaid
+}
+
+void AddPaint(const PaintPiece& piece, TilePaint& paint) {
+  Eigen::Vector2d low = piece.p_W[0].head<2>(), high = low;
+  for (const Eigen::Vector3d& p : piece.p_W) low = low.cwiseMin(p.head<2>()), high = high.cwiseMax(p.head<2>());
+  const WorldStep from = ToSteps(low), to = ToSteps(high);
+  for (std::int64_t column = TileOf(from.x - 1); column <= TileOf(to.x + 1); ++column) {
+    for (std::int64_t row = TileOf(from.y - 1); row <= TileOf(to.y + 1); ++row) paint[{column, row}].push_back(piece);
+  }
 }
 
 void PaintRoad(const network::Road& road, double chord_m, TilePaint& paint) {

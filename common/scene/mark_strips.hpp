@@ -20,6 +20,9 @@ struct PaintPiece {
 
 using TilePaint = std::map<TileKey, std::vector<PaintPiece>>;
 
+// Puts a piece into every tile that it touches.
+void AddPaint(const PaintPiece& piece, TilePaint& paint);
+
 // A road's lines in pieces, for each tile those that touch it. The edges of a piece lie within chord_m of the line's.
 void PaintRoad(const network::Road& road, double chord_m, TilePaint& paint);
 

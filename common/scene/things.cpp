@@ -11,6 +11,7 @@
 #include "common/base/files.hpp"
 #include "common/network/network.hpp"
 #include "common/scene/levels_at.hpp"
+#include "common/scene/road_paint.hpp"
 #include "common/scene/sign_face.hpp"
 
 namespace rodeira::scene {
@@ -126,7 +127,7 @@ void Things::AddSignal(const network::Road& road, const network::Placed& placed,
     }
     return Keep(std::move(thing));
   }
-  if (thing.height_m > 0.0 && thing.height_m <= kFlatSign_m) return;  // an arrow or a crossing on the road
+  if (IsPaint(*placed.signal) || (thing.height_m > 0.0 && thing.height_m <= kFlatSign_m)) return;  // on the road
   thing.kind = ThingKind::kSign;
   thing.face = FaceOf(*placed.signal, BendsLeft(road, placed));
   if (thing.face.empty()) return;
@@ -145,6 +146,7 @@ void Things::AddObject(const network::Road& road, const network::Placed& placed,
     thing.file = object.name;
     return Keep(std::move(thing));
   }
+  if (IsPaint(object)) return;
   for (const network::Outline& outline : object.outlines) {
     Thing part = thing;
     part.kind = ThingKind::kOutline;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "common/base/result.hpp"
 #include "common/base/state.hpp"
@@ -79,9 +80,10 @@ struct ModelKind {
   std::function<base::Status(VehicleModel& model)> complete = nullptr;
 };
 
-// Reads a vehicle file (`rodeira: vehicle/1`, `model: bicycle`). Wrong input, with file:line, where it cannot be read, a
-// key is unknown or out of range, or the model's name is unknown (the nearest is given). `more`: kinds beyond this
-// library's own.
-base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::path& path, std::span<const ModelKind> more = {});
+// Reads a vehicle file (`rodeira: vehicle/1`, `model: bicycle`). `wanted`: another model than the file's own; the file names the one
+// in which that is, `models: {ode: FILE}`. Wrong input, with file:line, where it cannot be read, a key is unknown or out of range,
+// or the model's name is unknown (the nearest is given). `more`: kinds beyond this library's own.
+base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::path& path, std::string_view wanted = {},
+                                                        std::span<const ModelKind> more = {});
 
 }  // namespace rodeira::vehicle

@@ -6,7 +6,6 @@
 #include <cstdio>
 
 #include "tests/property/last_words.hpp"
-#include "tests/property/mutate.hpp"
 
 namespace rodeira::property {
 namespace {
@@ -22,7 +21,7 @@ void ExpectSentence(const base::Error& error) {
   for (const char c : error.Text()) EXPECT_FALSE((c >= 0 && c < 0x20) || c == 0x7F) << "a control character in: " << error.Text();
 }
 
-void Fuzz(const char* format, const std::vector<std::string>& good, const Read& read) {
+void Fuzz(const char* format, const std::vector<std::string>& good, const Read& read, const Change& change) {
   SayWhereItDies();
   for (const std::string& text : good) {
     const auto error = read(text);
@@ -34,7 +33,7 @@ void Fuzz(const char* format, const std::vector<std::string>& good, const Read& 
   for (std::size_t number = first; number < first + count; ++number) {
     Draw draw(number);
     std::string text = good[draw.Below(good.size())];
-    for (std::size_t mutations = 1 + draw.Below(3); mutations > 0; --mutations) Mutate(text, draw);
+    for (std::size_t mutations = 1 + draw.Below(3); mutations > 0; --mutations) change(text, draw);
     NowTrying(std::string(format) + ", text", number);
     if (Setting("RODEIRA_FUZZ_SHOW", 0) != 0) std::fprintf(stderr, "%s%s\n", g_last_words, text.c_str());
     ::alarm(kHangSeconds);

@@ -87,11 +87,13 @@ void ChangeNumber(std::string& text, Draw& draw) {
     const Piece other = numbers[draw.Below(numbers.size())];
     text.replace(number.at, number.size, text.substr(other.at, other.size));
   } else {
-    text.replace(number.at, number.size, kNumbers[draw.Below(std::size(kNumbers))]);
+    text.replace(number.at, number.size, EdgeNumber(draw));
   }
 }
 
 }  // namespace
+
+std::string_view EdgeNumber(Draw& draw) { return kNumbers[draw.Below(std::size(kNumbers))]; }
 
 void Mutate(std::string& text, Draw& draw) {
   if (text.empty()) return;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "common/base/random.hpp"
 
@@ -19,6 +20,9 @@ class Draw {
   std::uint64_t text_;
   std::uint64_t count_ = 0;
 };
+
+// A number as somebody may write it down who means no good: zero, huge, tiny, none, with a comma.
+std::string_view EdgeNumber(Draw& draw);
 
 // One change such as a slip of the hand, a broken transfer or somebody's malice makes: bytes flipped, put in, cut out or
 // cut off; pieces said twice; lines swapped, doubled, lost or shifted; numbers replaced by ones at an edge; brackets without end.

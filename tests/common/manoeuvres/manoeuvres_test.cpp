@@ -205,6 +205,12 @@ TEST_P(EveryCar, GoesThroughEveryManoeuvreTwiceTheSame) {
     const Outcome a = Driven(manoeuvre.drive(*first.value(), 0.002));
     ASSERT_FALSE(a.figures.empty());
     for (const Figure& figure : a.figures) EXPECT_TRUE(std::isfinite(figure.value)) << figure.name;
+    if (manoeuvre.name == "constant_radius") {
+      EXPECT_GT(Value(a, "understeer gradient"), 0.0);
+    }
+    if (manoeuvre.name == "step_steer") {
+      EXPECT_LT(Value(a, "90 % of lateral acceleration after"), 0.4);
+    }
     if (manoeuvre.name == "acceleration" || manoeuvre.name == "constant_radius" || manoeuvre.name == "park") continue;  // long
     EXPECT_EQ(Driven(manoeuvre.drive(*second.value(), 0.002)).table.values, a.table.values);
   }

@@ -45,6 +45,24 @@ TEST(MechanismFile, MistakesAreNamedWithTheirLine) {
   EXPECT_THAT(Refusal("points: [B, C]", "points: [B, X]"), HasSubstr("bar.yaml:9: 'X' is no point"));
   EXPECT_THAT(Refusal("[1, 0, 0]", "[1, 0]"), HasSubstr("three were expected"));
   EXPECT_THAT(Refusal("mechanism/1", "mechanism/2"), HasSubstr("mechanism/1"));
+  const auto force = [](const std::string& text) { return Refusal("constraints:\n", "forces: {f: {" + text + "}}\nconstraints:\n"); };
+  EXPECT_THAT(force("kind: anti_roll, coordinates: [B, C], stiffness_Npm: 1"), HasSubstr("bar.yaml:8: "));
+  EXPECT_THAT(force("kind: anti_roll, coordinates: [B], stiffness_Npm: 1"), HasSubstr("two were expected"));
+  EXPECT_THAT(force("kind: bushing, first: crank, point: C, stiffness_Npm: [1, 1, 1]"), HasSubstr("must be a general or planar one"));
+}
+
+// A bar joins two different coordinates of one kind.
+TEST(MechanismFile, AnAntiRollBarJoinsTwoOfOneKind) {
+  const auto refusal = [](const std::string& pair) {
+    const auto mechanism = ParseMechanism("rodeira: mechanism/1\npoints: {A: {at_m: [0, 0, 0], fixed: true}, B: {at_m: [1, 0, 0]}}\n"
+                                          "bodies: {b: {kind: particle, points: [B], mass_kg: 1}}\n"
+                                          "angles: {turn: {rotor_kgm2: 1}}\ndistances: {way: {points: [A, B]}}\n"
+                                          "forces: {bar: {kind: anti_roll, coordinates: [" + pair + "], stiffness_Npm: 5}}\n", "bar.yaml");
+    EXPECT_FALSE(mechanism.ok()) << pair;
+    return mechanism.ok() ? std::string() : mechanism.error().Text();
+  };
+  EXPECT_THAT(refusal("way, way"), HasSubstr("bar.yaml:6: an anti-roll bar joins two different coordinates"));
+  EXPECT_THAT(refusal("way, turn"), HasSubstr("distances or angles"));
 }
 
 TEST(MechanismFile, WhatCannotBeAssembledNamesTheConstraintFarthestOff) {

@@ -1,0 +1,170 @@
+#include "common/scene/road_paint.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "common/geometry/angle.hpp"
+#include "common/scene/stencils.hpp"
+
+namespace rodeira::scene {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kFlatSign_m = 0.05;
+constexpr double kCrossing_m = 4.0;
+
+// A place on a road from which shapes are laid out: x ahead, y to the left of it, in the plane of the road's surface there.
+struct Spot {
+  Vector3d p_W;
+  Vector3d normal_W;
+  Vector2d ahead_W;
+
+  static Spot At(const network::Road& road, double s_m, double t_m, double heading_rad) {
+    const network::SurfaceSample sample = road.Surface(s_m, t_m);
+    return {sample.p_W, sample.ds_W.cross(sample.dt_W).normalized(), {std::cos(heading_rad), std::sin(heading_rad)}};
+  }
+  Vector3d ToWorld(const Vector2d& p) const {
+    const Vector2d off = p.x() * ahead_W + p.y() * Vector2d(-ahead_W.y(), ahead_W.x());
+    return {p_W.x() + off.x(), p_W.y() + off.y(), p_W.z() - normal_W.head<2>().dot(off) / normal_W.z()};
+  }
+  Vector2d ToLocal(const Vector2d& q_W) const {
+    const Vector2d off = q_W - p_W.head<2>();
+    return {off.dot(ahead_W), off.dot(Vector2d(-ahead_W.y(), ahead_W.x()))};
+  }
+};
+
+void Lay(const std::vector<Polygon2>& shape, const Spot& spot, TilePaint& paint) {
+  const Colour white = PaintColour("white");
+  for (const Polygon2& polygon : shape) {
+    // In quadrangles from its first corner; the last may be a triangle, whose third corner stands twice.
+    for (std::size_t i = 1; i + 1 < polygon.size(); i += 2) {
+      const std::size_t last = std::min(i + 2, polygon.size() - 1);
+      AddPaint({{spot.ToWorld(polygon[0]), spot.ToWorld(polygon[i]), spot.ToWorld(polygon[i + 1]), spot.ToWorld(polygon[last])}, white}, paint);
+    }
+  }
+}
+
+Polygon2 Rectangle(double length_m, double right_m, double left_m) {
+  return {{-0.5 * length_m, right_m}, {0.5 * length_m, right_m}, {0.5 * length_m, left_m}, {-0.5 * length_m, left_m}};
+}
+
+// The edges of the lanes that are driven on at s, from right to left; those of `sign` alone where that is not 0.
+std::vector<std::pair<double, double>> Driven(const network::Road& road, double s_m, int sign) {
+  std::vector<std::pair<double, double>> spans;
+  const network::LaneSection& section = road.SectionAt(s_m);
+  for (const auto* side : {&section.right, &section.left}) {
+    for (const network::Lane& lane : *side) {
+      if (!network::IsDrivable(lane.type) || lane.id * sign < 0) continue;
+      const auto span = road.SpanAt(road.SectionIndex(s_m), lane.id, s_m);
+      if (span) spans.emplace_back(std::min(span->inner_t_m, span->outer_t_m), std::max(span->inner_t_m, span->outer_t_m));
+    }
+  }
+  return spans;
+}
+
+void PaintCrossing(const network::Road& road, const network::Signal& signal, TilePaint& paint) {
+  const double length = std::min(signal.value.value_or(kCrossing_m) > 0.0 ? signal.value.value_or(kCrossing_m) : kCrossing_m, road.length_m());
+  const double s = std::clamp(signal.s_m, 0.5 * length, road.length_m() - 0.5 * length);
+  double right = 1e9, left = -1e9;
+  for (const auto& [low, high] : Driven(road, s, 0)) right = std::min(right, low), left = std::max(left, high);
+  if (signal.width_m > 0.0) right = std::max(right, signal.t_m - 0.5 * signal.width_m), left = std::min(left, signal.t_m + 0.5 * signal.width_m);
+  if (!(left > right)) return;
+  const double middle = 0.5 * (left + right), half = 0.5 * (left - right);
+  Lay(ZebraShape(Rectangle(length, -half, half)), Spot::At(road, s, middle, road.axis().Evaluate(s).heading_rad), paint);
+}
+
+void PaintStopLine(const network::Road& road, const network::Placed& placed, TilePaint& paint) {
+  const network::Signal& signal = *placed.signal;
+  const bool against = signal.orientation == "-";
+  const bool on_left = against != road.spec().left_hand;  // of the axis: where its traffic drives
+  const auto lanes = Driven(road, signal.s_m, on_left ? 1 : -1);
+  double width = signal.width_m, from = signal.t_m, to = signal.t_m;
+  if (!(width > 0.0)) {
+    for (const auto& [low, high] : lanes) from = std::min(from, low), to = std::max(to, high);
+  } else {
+    const auto covered = [&](double low, double high) {
+      double sum = 0.0;
+      for (const auto& [right, left] : lanes) sum += std::max(0.0, std::min(high, left) - std::max(low, right));
+      return sum;
+    };
+    const double aside = against ? signal.t_m : signal.t_m - width;  // to the right of who reads it
+    const bool about = covered(signal.t_m - 0.5 * width, signal.t_m + 0.5 * width) >= covered(aside, aside + width);
+    from = about ? signal.t_m - 0.5 * width : aside;
+    to = from + width;
+  }
+  if (!(to > from)) return;
+  const double middle = 0.5 * (from + to);
+  Lay({Rectangle(kStopLine_m, from - middle, to - middle)}, Spot::At(road, signal.s_m, middle, road.axis().Evaluate(signal.s_m).heading_rad), paint);
+}
+
+void PaintArrow(const network::Road& road, const network::Placed& placed, const ArrowWays& ways, double heading_rad, double length_m, TilePaint& paint) {
+  const double usual = ways.left || ways.right ? 1.0 : 0.45;
+  Lay(ArrowShape(ways, length_m > 0.0 ? length_m : kArrow_m, placed.width_m > 0.0 ? placed.width_m : usual), Spot::At(road, placed.s_m, placed.t_m, heading_rad), paint);
+}
+
+// Where a signal that is an arrow points.
+ArrowWays ArrowOf(const network::Signal& signal) {
+  ArrowWays ways = WaysOf(signal.name);
+  if (signal.type == "297" && !ways.any()) ways.straight = true;
+  if (signal.type != "297" && signal.height_m > kFlatSign_m) return {};
+  return ways;
+}
+
+bool IsCrossing(const network::Signal& signal) { return signal.type == "293" || signal.type == "1000003"; }
+
+void PaintSignal(const network::Road& road, const network::Placed& placed, TilePaint& paint) {
+  const network::Signal& signal = *placed.signal;
+  if (!IsPaint(signal) || signal.s_m < 0.0 || signal.s_m > road.length_m()) return;
+  if (IsCrossing(signal)) return PaintCrossing(road, signal, paint);
+  if (signal.type == "294") return PaintStopLine(road, placed, paint);
+  const ArrowWays ways = ArrowOf(signal);
+  PaintArrow(road, placed, ways, placed.heading_rad + geometry::kPi, 0.0, paint);
+}
+
+// The outline's corners, or the rectangle that the object says, in the road's direction at its place.
+Polygon2 OutlineOf(const network::Road& road, const network::Placed& placed, const Spot& along) {
+  const network::Object& object = *placed.object;
+  const Spot own = Spot::At(road, placed.s_m, placed.t_m, placed.heading_rad);
+  Polygon2 corners;
+  const auto add = [&](const Vector2d& local) { corners.push_back(along.ToLocal(own.ToWorld(local).head<2>())); };
+  if (object.outlines.empty()) {
+    for (const Vector2d& p : Rectangle(placed.length_m, -0.5 * placed.width_m, 0.5 * placed.width_m)) add(p);
+  } else {
+    for (const network::Corner& corner : object.outlines.front().corners) {
+      if (corner.local) add({corner.first_m, corner.second_m});
+      else corners.push_back(along.ToLocal(road.Surface(corner.first_m, corner.second_m).p_W.head<2>()));
+    }
+  }
+  return HullOf(corners);
+}
+
+void PaintObject(const network::Road& road, const network::Placed& placed, TilePaint& paint) {
+  const network::Object& object = *placed.object;
+  if (placed.s_m < 0.0 || placed.s_m > road.length_m()) return;
+  const double along = road.axis().Evaluate(placed.s_m).heading_rad;
+  if (object.type == "crosswalk" && object.subtype != "virtual") {
+    const Spot spot = Spot::At(road, placed.s_m, placed.t_m, along);
+    Lay(ZebraShape(OutlineOf(road, placed, spot)), spot, paint);
+  } else if (object.type == "roadMark") {
+    const ArrowWays ways = WaysOf(object.subtype.empty() ? object.name : object.subtype);
+    const bool turned = object.hdg_rad == 0.0 && object.orientation == "-";
+    if (ways.any()) PaintArrow(road, placed, ways, placed.heading_rad + (turned ? geometry::kPi : 0.0), placed.length_m, paint);
+  }
+}
+
+}  // namespace
+
+bool IsPaint(const network::Signal& signal) { return !signal.dynamic && (IsCrossing(signal) || signal.type == "294" || ArrowOf(signal).any()); }
+
+bool IsPaint(const network::Object& object) { return object.type == "crosswalk" || object.type == "roadMark"; }
+
+void PaintThing(const network::Network& network, const network::Placed& placed, TilePaint& paint) {
+  const network::Road& road = network.roads()[placed.road];
+  if (placed.signal != nullptr) PaintSignal(road, placed, paint);
+  else PaintObject(road, placed, paint);
+}
+
+}  // namespace rodeira::scene

@@ -1,0 +1,150 @@
+// World files of version 2, mutated by bytes and by structure (tests/property/fuzz.hpp): what is taken is a world that answers
+// finite numbers, the same ones by index and without it; what is refused is a sentence.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "common/base/files.hpp"
+#include "common/network/placing.hpp"
+#include "common/road/network_world.hpp"
+#include "common/road/world.hpp"
+#include "common/road/world_report.hpp"
+#include "tests/property/fuzz.hpp"
+#include "tests/property/mutate_structure.hpp"
+
+namespace rodeira::property {
+namespace {
+
+const std::filesystem::path kExample = std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/example";
+
+// Small, with most of what a file may say; the files beside the example are beside this one too.
+constexpr const char* kHills = R"(rodeira: world/2
+name: small
+rule: right
+friction: {asphalt: 0.9}
+materials: {worn: {surface: asphalt, friction: 0.85, texture: worn.png}}
+terrain:
+  generate: {seed: 9, columns: 12, rows: 10, spacing_m: 40, west_m: -220, south_m: -180, relief: [{wavelength_m: 200, amplitude_m: 5}]}
+start: {road: main, lane: -1, s_m: 20}
+templates: {lane: {lanes: [{id: -1, width_m: 3}], verge: {width_m: 1}}}
+roads:
+  - id: main
+    start: {x_m: -150, y_m: 0, heading_deg: 5}
+    axis:
+      - line: {length_m: 160}
+      - clothoid: {a_m: 60, radius_end_m: -120}
+      - arc: {length_m: 40, radius_m: -120}
+    vertical: [{s_m: 0, z_m: 2}, {s_m: 100, z_m: 4, parabola_m: 60}, {s_m: 200, z_m: 3}]
+    superelevation: [{s_m: 150, slope: 0}, {s_m: 190, slope: 0.04}]
+    speed_limits: [{s_m: 0, speed_kmh: 90}, {s_m: 120, speed_kmh: 70}]
+    section:
+      template: rural
+      lanes:
+        - {id: -2, type: sidewalk, width_m: 1.5, kerb_m: 0.12}
+        - {id: -1, widths: [{s_m: 0, width_m: 3.5}, {s_m: 90, width_m: 4}], material: worn, fall: 0.03}
+        - {id: 1, width_m: 3.5, direction: against, speed_limit_kmh: 80}
+      crossfalls: [{s_m: 100, left: 0.025, right: 0.025}, {s_m: 150, left: 0, right: 0}]
+      offsets: [{s_m: 0, t_m: 0}, {s_m: 150, t_m: 0.25}]
+      slopes: {cut: 1.5, fill: 2, reach_m: 30}
+    lines:
+      - {lane: 0, kind: mixed, left: dashed, right: continuous, to_s_m: 120}
+      - {ts: [{s_m: 100, t_m: 3.4}, {s_m: 160, t_m: 3}], kind: dashed_warn, colour: yellow}
+    signs: [{type: speed_limit, value: 70, s_m: 100}, {type: chevron, t_m: 6, from_s_m: 170, every_m: 10}]
+    objects: [{type: tree, t_m: 14, from_s_m: 50, every_m: 15, to_s_m: 150}, {type: guard_rail, side: left, from_s_m: 160}]
+    bridges: [{from_s_m: 170, to_s_m: 180}]
+    surfaces: [{iso_8608: B, seed: 7, from_s_m: 10, to_s_m: 30}, {crg: bumps.crg, from_s_m: 120, to_s_m: 140}]
+  - id: street
+    place: {road: main, s_m: 80, turn_deg: 80, own_s_m: 0}
+    axis: [line: {length_m: 90}]
+    section: {template: lane}
+junctions:
+  - {id: corner, roads: [{road: main, s_m: 80}, {road: street, end: start}], radius_m: 6, fit_m: 40}
+)";
+
+constexpr const char* kPlane = R"(rodeira: world/2
+name: plane
+ground: {kind: plane, z_m: 1, slope_x: 0.01}
+rule: left
+roads:
+  - id: a
+    points: {file: track.csv, smooth: true}
+    section: {template: bypass, crossfall: {kind: left, fall: 0.03}}
+  - id: b
+    z_m: 24
+    points: {list: [[180, -215], [240, -215], [330, -208]], smooth: false, within_m: 0.1}
+    section: {template: motorway, offset_m: 0.2}
+    signs: [{type: town, text: "A", s_m: 60}]
+  - id: c
+    start: {x_m: -350, y_m: -320}
+    axis: [line: {length_m: 80}]
+    section: {template: rural}
+    successor: {road: d, end: start}
+  - id: d
+    start: {x_m: -270, y_m: -320}
+    axis: [line: {length_m: 60}, arc: {turn_deg: 20, radius_m: 50}]
+    section: {template: rural}
+    predecessor: {road: c, end: end}
+)";
+
+constexpr const char* kIncluding = R"(rodeira: world/2
+name: two files
+ground: {kind: plane}
+include: [village.yaml]
+roads:
+  - id: main
+    start: {x_m: -160, y_m: 3, heading_deg: 2}
+    axis: [line: {length_m: 250}]
+    section: {template: rural}
+)";
+
+// Everything of a world that stands at a point, and at the places that its own network names.
+void AskWorld(const road::World& world) {
+  std::vector<terrain::GroundQuery> queries;
+  const auto ask = [&](double x, double y) { queries.push_back({x, y, 3.0}); };
+  for (const double x : {-140.0, -71.0, -40.25, 37.5, 1e6, -1e300}) {
+    for (const double y : {0.0, 6.5, 40.0}) ask(x, y);
+  }
+  const network::Network* roads = world.network();
+  if (roads != nullptr) {
+    for (const network::Road& one : roads->roads()) {
+      for (const double share : {0.0, 0.31, 1.0}) {
+        const network::SurfaceSample at = one.Surface(share * one.length_m(), 0.7);
+        EXPECT_TRUE(at.p_W.allFinite());
+        ask(at.p_W.x(), at.p_W.y());
+      }
+    }
+  }
+  const auto ground = world.MakeGround();
+  std::vector<terrain::GroundPoint> points(queries.size());
+  ground->Query(queries, points);
+  for (const auto& point : points) {
+    EXPECT_TRUE(!point.inside || (std::isfinite(point.z_m) && std::isfinite(point.normal_W.x()) && point.friction > 0.0)) << point.z_m;
+  }
+  EXPECT_FALSE(road::DescribePoint(world, queries[0].x_m, queries[0].y_m).empty());
+  if (roads == nullptr) return;
+  for (const auto& query : queries) {
+    const auto place = roads->Locate(query.x_m, query.y_m, 0.5), slow = roads->LocateSlowly(query.x_m, query.y_m, 0.5);
+    ASSERT_EQ(place.has_value(), slow.has_value());
+    if (place) {
+      EXPECT_LE(place->distance_m, slow->distance_m);
+    }
+  }
+  for (const network::LaneKey& key : roads->Lanes()) EXPECT_TRUE(roads->Centre(key, roads->Section(key).s_m).allFinite());
+  const network::Furniture furniture = network::PlaceFurniture(*roads);
+  for (const auto& thing : furniture.things) EXPECT_TRUE(thing.foot_W.allFinite());
+}
+
+std::optional<base::Error> ReadWorld(const std::string& text) {
+  const auto world = road::World::Parse(text, kExample / "fuzz.yaml");
+  if (!world) return world.error();
+  AskWorld(*world.value());
+  return std::nullopt;
+}
+
+TEST(WorldFiles, ChangedByBytes) { Fuzz("world of version 2", {kHills, kPlane, kIncluding}, ReadWorld); }
+
+TEST(WorldFiles, ChangedByStructure) { Fuzz("world of version 2, structure", {kHills, kPlane, kIncluding}, ReadWorld, MutateStructure); }
+
+}  // namespace
+}  // namespace rodeira::property
