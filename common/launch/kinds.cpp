@@ -12,7 +12,7 @@ const std::vector<NodeKind>& NodeKinds() {
   static const std::vector<NodeKind> kKinds = {
       {"road", Role::kService, 0.0, {}, {}, "rodeira-road"},
       {"vehicle", Role::kStepped, 0.001, {topics::kVehicleState}, {{topics::kControls, PortKind::kState, false, true}}, "rodeira-vehicle"},
-      {"traffic", Role::kStepped, 0.01, {topics::kTrafficState, topics::kSignalsState},
+      {"traffic", Role::kStepped, 0.01, {topics::kTrafficState}, 
        {{topics::kVehicleState, PortKind::kState, true, false}, {topics::kScenarioEvents, PortKind::kEvent, true, false}}, "rodeira-traffic"},
       {"input", Role::kStepped, 0.01, {topics::kControls},
        {{topics::kVehicleState, PortKind::kState, false, false}, {topics::kTrafficState, PortKind::kState, true, false}}, "rodeira-input"},
@@ -23,7 +23,6 @@ const std::vector<NodeKind>& NodeKinds() {
        {{topics::kControls, PortKind::kEvent, true, false},
         {topics::kVehicleState, PortKind::kEvent, true, false},
         {topics::kTrafficState, PortKind::kEvent, true, false},
-        {topics::kSignalsState, PortKind::kEvent, true, false},
         {topics::kScenarioEvents, PortKind::kEvent, true, false},
         {topics::kPulse, PortKind::kEvent, true, false},
         {topics::kSnapshot, PortKind::kEvent, true, false}},

@@ -128,17 +128,6 @@ class TrafficNode final : public lockstep::Node {
     state.agents().reserve(model_.poses().size());
     for (const traffic::AgentPose& pose : model_.poses()) state.agents().push_back(ToWire(pose, model_.traits(pose.id)));
     outbox.Put(topics::kTrafficState, idl::Encode(state));
-    msg::SignalsState signals;
-    const auto controllers = model_.graph().network().controllers();
-    for (std::size_t i = 0; i < controllers.size(); ++i) {
-      if (!controllers[i].times) continue;
-      msg::SignalGroup group;
-      group.controller(controllers[i].id);
-      group.name(controllers[i].name);
-      group.colour(static_cast<std::uint32_t>(model_.colours()[i]));
-      signals.groups().push_back(std::move(group));
-    }
-    outbox.Put(topics::kSignalsState, idl::Encode(signals));
   }
 
   std::string name_;
