@@ -94,6 +94,7 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
       command->add_option("X", options.x_m, "metres east")->required();
       command->add_option("Y", options.y_m, "metres north")->required();
       command->add_option("Z", options.z_hint_m, "near which height, where surfaces lie over one another");
+      command->add_flag("--earth", options.earth, "X and Y are longitude and latitude (WGS 84, degrees) by the world's projection");
     }
     if (std::string(name) == "build") {
       command->add_option("-o,--out", options.out, "folder")->required();

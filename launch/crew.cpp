@@ -16,7 +16,7 @@ using WallClock = std::chrono::steady_clock;
 
 base::Status MakeSureItIsDead(Child& child) {
   child.Signal(SIGKILL);
-  for (int i = 0; i < 2000 && !child.ended(); ++i) {
+  for (int i = 0; i < 20'000 && !child.ended(); ++i) {
     child.Poll();
     if (!child.ended()) ::usleep(1000);
   }

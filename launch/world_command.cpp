@@ -119,7 +119,13 @@ int World(const WorldOptions& options) {
   }
   if (!world) return Complain(world.error());
   if (options.command == "query") {
-    fmt::print("{}", road::DescribePoint(*world.value(), options.x_m, options.y_m, options.z_hint_m));
+    Eigen::Vector2d at(options.x_m, options.y_m);
+    if (options.earth) {
+      const auto place = road::PlaceOnMap(*world.value(), options.x_m, options.y_m);
+      if (!place) return Complain(place.error());
+      at = place.value();
+    }
+    fmt::print("{}", road::DescribePoint(*world.value(), at.x(), at.y(), options.z_hint_m));
     return 0;
   }
   fmt::print("{}", road::DescribeWorld(*world.value()));

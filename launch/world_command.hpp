@@ -12,6 +12,7 @@ struct WorldOptions {
   double x_m = 0.0;
   double y_m = 0.0;
   std::optional<double> z_hint_m;
+  bool earth = false;  // X and Y are longitude and latitude
   std::string out;
   bool strict = false;
   unsigned threads = 0;  // 0: as many as the machine has

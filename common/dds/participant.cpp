@@ -19,6 +19,7 @@
 
 #include "common/dds/participant_qos.hpp"
 #include "common/dds/raw_type.hpp"
+#include "common/dds/robust_mutexes.hpp"
 #include "common/dds/udp_port.hpp"
 #include "idl/topics.hpp"
 
@@ -153,6 +154,7 @@ class FastParticipant final : public Participant {
 
 base::Result<std::unique_ptr<Participant>> Participant::Open(const DomainSettings& settings) {
   RODEIRA_ASSERT(!settings.run.empty());
+  RODEIRA_ASSERT(SharedMutexesAreRobust());
   const launch::Discovery& discovery = settings.discovery;
   if (settings.serves_discovery && discovery.kind == launch::DiscoveryKind::kServer && !UdpPortIsFree(discovery.port)) {
     return base::WrongInput(fmt::format("UDP port {} of the discovery server is in use by another program; end that one, or name another 'discovery.port'",

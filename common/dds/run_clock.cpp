@@ -193,7 +193,7 @@ class ClockProcess {
     const lockstep::NodeIndex node = roster_.Find(lost.substr(0, space));
     if (node == roster_.nodes().size()) return std::nullopt;
     const std::string what = space < lost.size() ? lost.substr(space + 1) : "was lost";
-    return Lose(node, fmt::format("node '{}' {} at about step {}", roster_.node(node).name, what, clock_.report(node).progress), 1);
+    return Lose(node, fmt::format("node '{}' {} at about step {}", roster_.node(node).name, what, clock_.reached(node)), 1);
   }
 
   void FlushLog() {

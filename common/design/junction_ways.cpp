@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/design/cut.hpp"
@@ -17,11 +18,35 @@ namespace {
 using geometry::Cubic;
 using geometry::CubicTable;
 
-constexpr double kStep_m = 1.0;
+constexpr double kStep_m = 0.5;
 constexpr double kSideways_mps2 = 2.5;  // at which bends of a junction are driven
 
+// The powers of u of the cubic through four heights, evenly spread over a width; constant where there is hardly any.
+std::array<double, 4> CubicThrough(const std::array<double, 4>& z, double width_m) {
+  if (width_m < 1e-3) return {z[0], 0.0, 0.0, 0.0};
+  const double first = z[1] - z[0], second = z[2] - 2.0 * z[1] + z[0], third = z[3] - 3.0 * z[2] + 3.0 * z[1] - z[0];
+  const double h = width_m / 3.0;  // Newton's form, multiplied out
+  return {z[0], (first - second / 2.0 + third / 3.0) / h, (second / 2.0 - third / 2.0) / (h * h), third / 6.0 / (h * h * h)};
+}
+
+// Cubics through evenly spaced values, with the slopes of the values beside them.
+CubicTable Followed(const std::vector<double>& s, const std::vector<double>& value) {
+  const std::size_t last = s.size() - 1;
+  const auto slope = [&](std::size_t i) {
+    if (i == 0) return (value[1] - value[0]) / (s[1] - s[0]);
+    if (i == last) return (value[last] - value[last - 1]) / (s[last] - s[last - 1]);
+    return (value[i + 1] - value[i - 1]) / (s[i + 1] - s[i - 1]);
+  };
+  std::vector<Cubic> records;
+  for (std::size_t i = 0; i < last; ++i) {
+    const double h = s[i + 1] - s[i], mean = (value[i + 1] - value[i]) / h, g0 = slope(i), g1 = slope(i + 1);
+    records.push_back({s[i], value[i], g0, (3.0 * mean - 2.0 * g0 - g1) / h, (g0 + g1 - 2.0 * mean) / (h * h)});
+  }
+  return CubicTable(std::move(records));
+}
+
 // The heights of the junction's surface as the road's own: along its axis as cubics with the surface's slopes, across each
-// lane from edge to edge.
+// lane as a cubic through its edges and two points between them.
 void LayOn(const JunctionSurface& surface, const geometry::PlanAxis& axis, network::RoadSpec& spec) {
   network::LaneSection& section = spec.sections[0];
   const int steps = std::max(2, static_cast<int>(std::ceil(axis.length_m() / kStep_m)));
@@ -56,20 +81,15 @@ void LayOn(const JunctionSurface& surface, const geometry::PlanAxis& axis, netwo
       strip.has_width = true;
       strip.width = lane.width;
       const CubicTable outer = EdgeOf(spec, lane.id), inner = EdgeOf(spec, left ? lane.id - 1 : lane.id + 1);
-      std::vector<Cubic> base, slope;
-      std::vector<double> at_inner, across;
+      std::array<std::vector<double>, 4> across;  // by power of u, at each station
       for (const double s : stations) {
         const double axis_z = height(s, 0.0).z_m, from = inner.Value(s), to = outer.Value(s);
-        at_inner.push_back(height(s, from).z_m - axis_z);
-        across.push_back(to != from ? (height(s, to).z_m - height(s, from).z_m) / std::fabs(to - from) : 0.0);
+        std::array<double, 4> z_at;
+        for (int k = 0; k < 4; ++k) z_at[k] = height(s, from + (to - from) * k / 3.0).z_m - axis_z;
+        const std::array<double, 4> powers = CubicThrough(z_at, std::fabs(to - from));
+        for (int n = 0; n < 4; ++n) across[n].push_back(powers[n]);
       }
-      for (int i = 0; i < steps; ++i) {
-        const double h = stations[i + 1] - stations[i];
-        base.push_back({stations[i], at_inner[i], (at_inner[i + 1] - at_inner[i]) / h, 0.0, 0.0});
-        slope.push_back({stations[i], across[i], (across[i + 1] - across[i]) / h, 0.0, 0.0});
-      }
-      strip.coefficients[0] = CubicTable(std::move(base));
-      strip.coefficients[1] = CubicTable(std::move(slope));
+      for (int n = 0; n < 4; ++n) strip.coefficients[n] = Followed(stations, across[n]);
       (left ? spec.lateral.surface.left : spec.lateral.surface.right).push_back(std::move(strip));
     }
   }

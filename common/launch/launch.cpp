@@ -162,6 +162,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   launch.name_ = root.Text("name", launch.file_->path().stem().string());
   if (const auto world = root.OptionalPath("world")) launch.world_ = *world;
   if (const auto lab = root.OptionalPath("lab")) launch.lab_ = *lab;
+  launch.vehicle_model_ = root.OptionalChild("vehicle").Text("model", "");
   launch.seed_ = static_cast<std::uint64_t>(root.Integer("seed", 0, INT64_MAX, 1));
   if (root.Has("duration_s")) launch.duration_s_ = root.Number("duration_s", config::Range::Positive());
   launch.transport_ = root.Choice("transport", {"shared_memory", "udp"}, "shared_memory") == "udp" ? Transport::kUdp : Transport::kSharedMemory;

@@ -49,6 +49,7 @@ class Launch {
   const std::string& name() const { return name_; }
   const std::filesystem::path& lab() const { return lab_; }  // laboratory file; empty: none is named
   const std::filesystem::path& world() const { return world_; }  // empty: the run has none
+  const std::string& vehicle_model() const { return vehicle_model_; }  // of cars, in place of their files' own; empty: those
   std::uint64_t seed() const { return seed_; }
   std::optional<double> duration_s() const { return duration_s_; }
   Transport transport() const { return transport_; }
@@ -74,6 +75,7 @@ class Launch {
   std::string name_;
   std::filesystem::path lab_;
   std::filesystem::path world_;
+  std::string vehicle_model_;
   std::uint64_t seed_ = 0;
   std::optional<double> duration_s_;
   Transport transport_ = Transport::kSharedMemory;

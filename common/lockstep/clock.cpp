@@ -55,8 +55,12 @@ void Clock::SetLife(NodeIndex node, std::uint32_t incarnation) {
   grant_.lives[node] = incarnation;
 }
 
+Step Clock::reached(NodeIndex node) const {
+  return roster_.node(node).role == Role::kService ? std::max<Step>(grant_.through, 0) : reports_[node].progress;
+}
+
 Recovery::Decision Clock::Lose(NodeIndex node) {
-  auto decision = recovery_.Lost(node, reports_[node].progress);
+  auto decision = recovery_.Lost(node, reached(node));
   if (decision.policy == Policy::kRestart) ExpectNextLife(node);
   grant_.resume = recovery_.resume();
   return decision;

@@ -45,6 +45,8 @@ class Clock {
   void Stop();
   void Abort(std::string reason);
 
+  // The next activation of a node; a server has none, it is where the run is (never less than before).
+  Step reached(NodeIndex node) const;
   // A node is lost: what its policy says. Where that is kRestart, its next life is expected already.
   Recovery::Decision Lose(NodeIndex node);
   // Another life of the node takes its place; nobody is granted anything new before it is ready.

@@ -34,7 +34,8 @@ Recovery::Recovery(const Roster& roster, std::vector<Policy> policies)
 
 void Recovery::Heard(const Report& report) {
   Life& life = lives_[report.node];
-  if (report.phase >= Phase::kReady && report.phase < Phase::kFailed && report.progress >= life.farthest) life.back = true;
+  const bool is_there = roster_.node(report.node).role == Role::kService || report.progress >= life.farthest;
+  if (report.phase >= Phase::kReady && report.phase < Phase::kFailed && is_there) life.back = true;
   if (!roster_.node(report.node).keeps_snapshots()) return;
   Step& own = safe_of_[report.node];
   own = std::max(own, report.safe);

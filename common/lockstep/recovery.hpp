@@ -49,7 +49,7 @@ class Recovery {
     Policy policy = Policy::kStop;
     std::string why;  // of a stop that the policy did not ask for
   };
-  // The node was lost before its activation at `progress`. Who is lost four times without having got further than before will
+  // The node was lost before its activation at `progress`, a server when the run was there. Who is lost four times without having got further than before will
   // be lost there every time.
   Decision Lost(NodeIndex node, Step progress);
 

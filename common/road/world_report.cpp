@@ -11,6 +11,7 @@
 #include "common/road/network_world.hpp"
 #include "common/road/road_chains.hpp"
 #include "common/road/world_reader.hpp"
+#include "common/terrain/geographic.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -102,6 +103,21 @@ std::string DescribeChains(const network::Network& network) {
   return text;
 }
 
+// What the world says about where it lies on the earth; empty: nothing.
+std::string ProjectionOf(const World& world) {
+  if (world.grid() != nullptr && !world.grid()->projection_wkt().empty()) return world.grid()->projection_wkt();
+  return world.network() != nullptr ? world.network()->geo_reference() : "";
+}
+
+std::string DescribeEarth(const World& world, double x_m, double y_m) {
+  const std::string projection = ProjectionOf(world);
+  if (projection.empty()) return "";
+  const auto map = terrain::Geographic::Make(projection);
+  if (!map) return "";
+  const auto place = map.value().ToEarth(x_m, y_m);
+  return place ? fmt::format("longitude_deg: {:.9f}\nlatitude_deg: {:.9f}\n", place->longitude_deg, place->latitude_deg) : "";
+}
+
 }  // namespace
 
 std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) {
@@ -149,7 +165,7 @@ std::string DescribeWorld(const World& world) {
 
 std::string DescribePoint(const World& world, double x_m, double y_m, std::optional<double> z_hint_m) {
   const terrain::GroundPoint at = world.MakeGround()->At(x_m, y_m, z_hint_m.value_or(std::numeric_limits<double>::quiet_NaN()));
-  std::string text = fmt::format("x_m: {}\ny_m: {}\n", x_m, y_m);
+  std::string text = fmt::format("x_m: {}\ny_m: {}\n", x_m, y_m) + DescribeEarth(world, x_m, y_m);
   if (!at.inside) {
     const Extents extents = world.extents();
     return text + fmt::format("inside: false\nextents_m: x {:.3f} to {:.3f}, y {:.3f} to {:.3f}\n", extents.west_m, extents.east_m,
@@ -166,6 +182,16 @@ std::string DescribePoint(const World& world, double x_m, double y_m, std::optio
     text += fmt::format("road: {}\ns_m: {:.6f}\nt_m: {:.6f}\nlane: {}\n", road.id(), place->s_m, place->t_m, lane == nullptr ? "none" : std::to_string(lane->id));
   }
   return text;
+}
+
+base::Result<Eigen::Vector2d> PlaceOnMap(const World& world, double longitude_deg, double latitude_deg) {
+  const std::string projection = ProjectionOf(world);
+  if (projection.empty()) return base::WrongInput("the world does not say where on the earth it lies: its terrain has no projection, its roads have no geoReference", world.name());
+  const auto map = terrain::Geographic::Make(projection);
+  if (!map) return map.error();
+  const auto place = map.value().ToMap({longitude_deg, latitude_deg});
+  if (!place) return base::WrongInput(fmt::format("longitude {} and latitude {} are no place of the world's projection", longitude_deg, latitude_deg), world.name());
+  return *place;
 }
 
 }  // namespace rodeira::road

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -19,8 +20,13 @@ std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml);
 // Name, content hash, extents, start; each road's length, bends, grades, lanes, marks, earthwork.
 std::string DescribeWorld(const World& world);
 
-// SUELO's answer at (x, y) and, where a road is near, the place on it.
+// SUELO's answer at (x, y), where a road is near the place on it, and the longitude and latitude where the world has a projection
+// (its terrain's, or an OpenDRIVE file's geoReference) that PROJ knows.
 std::string DescribePoint(const World& world, double x_m, double y_m, std::optional<double> z_hint_m = std::nullopt);
+
+// The place on a world's map that has this longitude and latitude (WGS 84). Wrong input where the world has no projection, or PROJ does
+// not know it, or the projection has no such place.
+base::Result<Eigen::Vector2d> PlaceOnMap(const World& world, double longitude_deg, double latitude_deg);
 
 // Whether a world file's terrain is generated, so that there is something for BuildWorld to write. False for what cannot be read.
 bool IsGenerated(const std::filesystem::path& world_file);

@@ -22,6 +22,17 @@ double Nearest(const Eigen::Vector2d& low, const Eigen::Vector2d& box_low, const
 
 }  // namespace
 
+base::Digest PaintDigest(const TilePaint& paint) {
+  base::Digest digest = 0;
+  for (const auto& [key, pieces] : paint) {
+    for (const PaintPiece& piece : pieces) {
+      digest = base::Combine(digest, base::Hash(std::as_bytes(std::span(piece.p_W[0].data(), 12))));
+      digest = base::Combine(digest, static_cast<base::Digest>(piece.colour.red) << 16 | static_cast<base::Digest>(piece.colour.green) << 8 | piece.colour.blue);
+    }
+  }
+  return digest;
+}
+
 base::Digest RoadDigest(const network::Road& road, std::span<const Line3> lines, const TilePaint& paint) {
   base::Digest digest = base::Hash(road.id());
   for (const Line3& line : lines) {
@@ -41,12 +52,7 @@ base::Digest RoadDigest(const network::Road& road, std::span<const Line3> lines,
   if (const auto& earthwork = road.spec().earthwork) lanes += fmt::format("slopes {} {} {} {}\n", earthwork->blend_m, earthwork->cut, earthwork->fill, earthwork->reach_m);
   for (const network::Structure& structure : road.spec().structures) lanes += fmt::format("{} {} {}\n", structure.bridge ? "bridge" : "tunnel", structure.s_m, structure.length_m);
   digest = base::Combine(digest, base::Hash(lanes));
-  for (const auto& [key, pieces] : paint) {
-    for (const PaintPiece& piece : pieces) {
-      digest = base::Combine(digest, base::Hash(std::as_bytes(std::span(piece.p_W[0].data(), 12))));
-      digest = base::Combine(digest, static_cast<base::Digest>(piece.colour.red) << 16 | static_cast<base::Digest>(piece.colour.green) << 8 | piece.colour.blue);
-    }
-  }
+  digest = base::Combine(digest, PaintDigest(paint));
   return digest;
 }
 
@@ -69,7 +75,7 @@ base::Digest GroundPlan::SourceDigest(const TileKey& tile) const {
     for (const Eigen::Vector2d& p : trace.points_W) reach = std::min(reach, Farthest(low, p));
   }
   reach = std::max(reach, slopes_reach_m_);
-  base::Digest digest = base::Combine(base::Hash(fmt::format("ground 2 {} {}", tile.column, tile.row)), terrain_digest_);
+  base::Digest digest = base::Combine(base::Hash(fmt::format("{} {} {}", kGroundVersion, tile.column, tile.row)), terrain_digest_);
   for (const RoadTrace& trace : traces_) {
     if (Nearest(low, trace.low_W, trace.high_W) <= reach) digest = base::Combine(digest, trace.digest);
   }

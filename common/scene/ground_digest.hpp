@@ -10,6 +10,10 @@
 
 namespace rodeira::scene {
 
+// Changes whenever the same world is drawn otherwise than before.
+inline constexpr const char* kGroundVersion = "ground 3";
+
+base::Digest PaintDigest(const TilePaint& paint);
 // Of all of a road that is seen or that heights follow from: its lines, lanes, heights, materials, and its paint.
 base::Digest RoadDigest(const network::Road& road, std::span<const Line3> lines, const TilePaint& paint);
 // Of the terrain under the roads.

@@ -14,8 +14,8 @@ double BicycleModel::SteeringTorque() const {
   double torque = 0.0;
   for (const std::size_t i : {kFrontLeft, kFrontRight}) {
     const double load = wheels_[i].corner.load_N();
-    const double peak = LateralPeak(settings_.tyre[0].formula, load, wheels_[i].friction);
-    const double stiffness = std::max(1.0, CorneringStiffness(settings_.tyre[0].formula, load));
+    const double peak = LateralPeak(settings_.tyre[0], load, wheels_[i].friction);
+    const double stiffness = std::max(1.0, CorneringStiffness(settings_.tyre[0], load));
     const double sliding = peak > 0.0 ? std::min(1.0, std::fabs(wheels_[i].tyre.slip_angle_tan()) * stiffness / (3.0 * peak)) : 1.0;
     const double trail = steering.mechanical_trail_m + steering.pneumatic_trail_m * (1.0 - sliding);
     torque -= trail * contacts_[i].forces.lateral_N / steering.ratio;

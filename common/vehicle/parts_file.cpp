@@ -105,6 +105,17 @@ AutomaticSettings ReadAutomatic(const Map& map) {
   return automatic;
 }
 
+SlipCurve ReadSlipCurve(const Map& map) {
+  SlipCurve curve;
+  curve.extremum_slip = map.Number("extremum_slip", {0.005, 2.0});
+  curve.extremum_value = map.Number("extremum_value", {0.05, 5.0});
+  curve.asymptote_slip = map.Number("asymptote_slip", {0.005, 10.0});
+  curve.asymptote_value = map.Number("asymptote_value", {0.0, 5.0});
+  if (curve.asymptote_slip <= curve.extremum_slip) map.Problem("asymptote_slip", "'asymptote_slip' is not above 'extremum_slip'");
+  if (curve.asymptote_value > curve.extremum_value) map.Problem("asymptote_value", "'asymptote_value' is above 'extremum_value', the largest");
+  return curve;
+}
+
 }  // namespace
 
 PowertrainSettings ReadPowertrain(const Map& root) {
@@ -152,6 +163,14 @@ TyreSettings ReadTyre(const Map& map) {
   tyre.relaxation_lateral_m = map.Number("relaxation_lateral_m", {0.05, 5.0});
   tyre.low_speed_mps = map.Number("low_speed_mps", {0.1, 20.0}, tyre.low_speed_mps);
   tyre.low_speed_damping_Nspm = map.Number("low_speed_damping_Nspm", {0.0, 8000.0}, tyre.low_speed_damping_Nspm);
+  if (map.Has("slip_curve")) {
+    for (const char* other : {"tir", "magic_formula"}) {
+      if (map.Has(other)) map.Problem(other, fmt::format("'{}' stands beside 'slip_curve'; one of the two was expected", other));
+    }
+    const Map curve = map.Child("slip_curve");
+    tyre.slip_curve = SlipCurveSettings{ReadSlipCurve(curve.Child("longitudinal")), ReadSlipCurve(curve.Child("lateral"))};
+    return tyre;
+  }
   // From a file of its maker, by coefficients that stand here, or by both: what stands here counts.
   if (const auto tir = map.OptionalPath("tir")) {
     auto formula = LoadTir(*tir);

@@ -24,6 +24,22 @@ double SlipBound(double peak_N, double stiffness_N, double motion_mps, double lo
 
 }  // namespace
 
+TyreForces SteadyForces(const TyreSettings& tyre, const TyreSlip& slip, double load_N, double friction) {
+  return tyre.slip_curve ? SteadyForces(*tyre.slip_curve, slip, load_N, friction) : SteadyForces(tyre.formula, slip, load_N, friction);
+}
+double LongitudinalStiffness(const TyreSettings& tyre, double load_N) {
+  return tyre.slip_curve ? LongitudinalStiffness(*tyre.slip_curve, load_N) : LongitudinalStiffness(tyre.formula, load_N);
+}
+double CorneringStiffness(const TyreSettings& tyre, double load_N) {
+  return tyre.slip_curve ? CorneringStiffness(*tyre.slip_curve, load_N) : CorneringStiffness(tyre.formula, load_N);
+}
+double LongitudinalPeak(const TyreSettings& tyre, double load_N, double friction) {
+  return tyre.slip_curve ? LongitudinalPeak(*tyre.slip_curve, load_N, friction) : LongitudinalPeak(tyre.formula, load_N, friction);
+}
+double LateralPeak(const TyreSettings& tyre, double load_N, double friction) {
+  return tyre.slip_curve ? LateralPeak(*tyre.slip_curve, load_N, friction) : LateralPeak(tyre.formula, load_N, friction);
+}
+
 TyreForces Tyre::Forces(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction) {
   if (!(load_N > 0.0)) {
     slip_ = 0.0;
@@ -31,11 +47,11 @@ TyreForces Tyre::Forces(const TyreSettings& tyre, const TyreMotion& motion, doub
     return {};
   }
   const double damping = tyre.low_speed_damping_Nspm * LowSpeedShare(tyre, motion.vx_mps);
-  const double along = std::max(LongitudinalStiffness(tyre.formula, load_N), kTiny_N);
-  const double across = std::max(CorneringStiffness(tyre.formula, load_N), kTiny_N);
+  const double along = std::max(LongitudinalStiffness(tyre, load_N), kTiny_N);
+  const double across = std::max(CorneringStiffness(tyre, load_N), kTiny_N);
   slip_ = u_m_ / tyre.relaxation_longitudinal_m - damping / along * motion.vsx_mps;
   slip_angle_tan_ = v_m_ / tyre.relaxation_lateral_m + damping / across * motion.vsy_mps;
-  return SteadyForces(tyre.formula, {slip_, slip_angle_tan_, motion.camber_rad}, load_N, friction);
+  return SteadyForces(tyre, {slip_, slip_angle_tan_, motion.camber_rad}, load_N, friction);
 }
 
 void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction, double dt_s) {
@@ -51,10 +67,10 @@ void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& motion, double lo
   u_m_ = (u_m_ - dt_s * motion.vsx_mps) / (1.0 + travel / sigma_k);
   v_m_ = (v_m_ + dt_s * motion.vsy_mps) / (1.0 + travel / sigma_a);
   const double moving = std::max({std::fabs(motion.vx_mps), std::fabs(motion.vsx_mps), std::fabs(motion.vsy_mps)});
-  const double u_most = sigma_k * SlipBound(LongitudinalPeak(tyre.formula, load_N, friction),
-                                            LongitudinalStiffness(tyre.formula, load_N), moving, tyre.low_speed_mps);
-  const double v_most = sigma_a * SlipBound(LateralPeak(tyre.formula, load_N, friction),
-                                            CorneringStiffness(tyre.formula, load_N), moving, tyre.low_speed_mps);
+  const double u_most = sigma_k * SlipBound(LongitudinalPeak(tyre, load_N, friction),
+                                            LongitudinalStiffness(tyre, load_N), moving, tyre.low_speed_mps);
+  const double v_most = sigma_a * SlipBound(LateralPeak(tyre, load_N, friction),
+                                            CorneringStiffness(tyre, load_N), moving, tyre.low_speed_mps);
   u_m_ = std::clamp(u_m_, -u_most, u_most);
   v_m_ = std::clamp(v_m_, -v_most, v_most);
 }
@@ -62,15 +78,15 @@ void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& motion, double lo
 void Tyre::SetToBear(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction, double camber_rad) {
   Reset();
   if (!(load_N > 0.0)) return;
-  const double along = std::max(LongitudinalStiffness(tyre.formula, load_N), kTiny_N);
-  const double across = std::max(CorneringStiffness(tyre.formula, load_N), kTiny_N);
-  const double kappa_most = kPeakReach * LongitudinalPeak(tyre.formula, load_N, friction) / along;
-  const double alpha_most = kPeakReach * LateralPeak(tyre.formula, load_N, friction) / across;
+  const double along = std::max(LongitudinalStiffness(tyre, load_N), kTiny_N);
+  const double across = std::max(CorneringStiffness(tyre, load_N), kTiny_N);
+  const double kappa_most = kPeakReach * LongitudinalPeak(tyre, load_N, friction) / along;
+  const double alpha_most = kPeakReach * LateralPeak(tyre, load_N, friction) / across;
   double kappa = 0.0;
   double alpha = 0.0;
   // The initial slope is the steepest, so each correction falls short and the iteration approaches from one side.
   for (int i = 0; i < 60; ++i) {
-    const TyreForces now = SteadyForces(tyre.formula, {kappa, alpha, camber_rad}, load_N, friction);
+    const TyreForces now = SteadyForces(tyre, {kappa, alpha, camber_rad}, load_N, friction);
     kappa = std::clamp(kappa + (forces.longitudinal_N - now.longitudinal_N) / along, -kappa_most, kappa_most);
     alpha = std::clamp(alpha - (forces.lateral_N - now.lateral_N) / across, -alpha_most, alpha_most);
   }

@@ -1,17 +1,28 @@
 #pragma once
 
+#include <optional>
+
 #include "common/base/state.hpp"
 #include "common/vehicle/magic_formula.hpp"
+#include "common/vehicle/slip_curve.hpp"
 
 namespace rodeira::vehicle {
 
 struct TyreSettings {
   MagicFormulaSettings formula;
+  std::optional<SlipCurveSettings> slip_curve = std::nullopt;  // where it is there, in the formula's place
   double relaxation_longitudinal_m = 0.2;  // sigma_kappa
   double relaxation_lateral_m = 0.4;       // sigma_alpha
   double low_speed_mps = 2.5;              // below it the damping fades in and the deflection is held to what friction bears
   double low_speed_damping_Nspm = 3000.0;  // force a slip speed at standstill, while the tyre does not slide
 };
+
+// Of the formula or of the slip curve, as in magic_formula.hpp.
+TyreForces SteadyForces(const TyreSettings& tyre, const TyreSlip& slip, double load_N, double friction);
+double LongitudinalStiffness(const TyreSettings& tyre, double load_N);
+double CorneringStiffness(const TyreSettings& tyre, double load_N);
+double LongitudinalPeak(const TyreSettings& tyre, double load_N, double friction);
+double LateralPeak(const TyreSettings& tyre, double load_N, double friction);
 
 // How the wheel moves over the ground, in its contact frame.
 struct TyreMotion {
@@ -21,7 +32,7 @@ struct TyreMotion {
   double camber_rad = 0.0;  // about the contact's x axis: positive when the wheel leans to the right
 };
 
-// The Magic Formula's transient by relaxation of the contact patch's deflections u and v:
+// The transient of the formula (or curve) by relaxation of the contact patch's deflections u and v:
 //   sigma_k du/dt + |vx| u = -sigma_k vsx,   sigma_a dv/dt + |vx| v = sigma_a vsy,   kappa' = u/sigma_k, tan alpha' = v/sigma_a.
 // The steady state is the static table. At standstill the patch is a spring, so that a braked car rests on a slope without
 // creeping; below low_speed a damper is added inside of the formula (so friction bounds it too), and the deflections are

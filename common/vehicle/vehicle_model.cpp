@@ -1,10 +1,15 @@
 #include "common/vehicle/vehicle_model.hpp"
 
+#include <fmt/format.h>
+
+#include <map>
 #include <vector>
 
 #include "common/base/suggest.hpp"
 #include "common/vehicle/bicycle_model.hpp"
+#include "common/vehicle/fmu_model.hpp"
 #include "common/vehicle/multibody_model.hpp"
+#include "common/vehicle/ode_model.hpp"
 
 namespace rodeira::vehicle {
 
@@ -28,13 +33,24 @@ std::vector<ModelKind> AllKinds(std::span<const ModelKind> more) {
   kinds.push_back({"bicycle", [](const config::Map& root) { return std::make_unique<BicycleModel>(ReadBicycle(root)); }});
   kinds.push_back({"multibody", [](const config::Map& root) { return std::make_unique<MultibodyModel>(ReadMultibody(root)); },
                    [](VehicleModel& model) { return static_cast<MultibodyModel&>(model).Build(); }});
+  kinds.push_back({"fmu", [](const config::Map& root) { return std::make_unique<FmuModel>(ReadFmu(root)); },
+                   [](VehicleModel& model) { return static_cast<FmuModel&>(model).Build(); }});
+  kinds.push_back({"ode", [](const config::Map& root) { return std::make_unique<OdeModel>(ReadOde(root)); },
+                   [](VehicleModel& model) { return static_cast<OdeModel&>(model).Build(); }});
   kinds.insert(kinds.end(), more.begin(), more.end());
   return kinds;
 }
 
-}  // namespace
+// The files that have the same car in other models, by their names.
+std::map<std::string, std::filesystem::path> ReadModels(const config::Map& models) {
+  std::map<std::string, std::filesystem::path> files;
+  for (const std::string& name : models.Keys()) files[name] = models.Path(name);
+  return files;
+}
 
-base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::path& path, std::span<const ModelKind> more) {
+// `named`: another file has sent us here for this model.
+base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& path, std::string_view wanted, bool named,
+                                                 std::span<const ModelKind> more) {
   auto file = config::File::Load(path);
   if (!file) return file.error();
   const config::Map root = file.value().root();
@@ -43,9 +59,20 @@ base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::p
   for (const ModelKind& kind : kinds) names.push_back(kind.name);
   (void)root.Choice("rodeira", {"vehicle/1"});
   (void)root.Text("name", "");
-  const std::string wanted = root.Choice("model", names);
+  const std::string own = root.Choice("model", names);
+  const auto models = ReadModels(root.OptionalChild("models"));
+  if (!wanted.empty() && wanted != own) {
+    if (named) return base::WrongInput(fmt::format("'model' is '{}'; '{}' was expected of a file that another one names for it", own, wanted), root.Place("model"));
+    const auto other = models.find(std::string(wanted));
+    if (other == models.end()) {
+      std::vector<std::string> known{own};
+      for (const auto& [name, where] : models) known.push_back(name);
+      return base::WrongInput(fmt::format("this car is wanted as model '{}'{}", wanted, base::DidYouMean(wanted, known)), path.string());
+    }
+    return Load(other->second, wanted, true, more);
+  }
   for (const ModelKind& kind : kinds) {
-    if (kind.name != wanted) continue;
+    if (kind.name != own) continue;
     std::unique_ptr<VehicleModel> model = kind.make(root);
     // Keys that a broken file keeps the reader from asking for are no news to the user: his first problem is.
     if (const base::Status status = file.value().Finish(); !status) return status.error();
@@ -61,6 +88,13 @@ base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::p
     if (problem.message.find("'rodeira'") != std::string::npos || problem.message.find("'model'") != std::string::npos) return problem;
   }
   return base::WrongInput("'model' is not known", root.Place("model"));
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::path& path, std::string_view wanted,
+                                                        std::span<const ModelKind> more) {
+  return Load(path, wanted, false, more);
 }
 
 }  // namespace rodeira::vehicle

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "common/base/result.hpp"
 #include "common/base/state.hpp"
@@ -68,6 +69,11 @@ class VehicleModel {
   // The whole state; Restore is meant for a model of the same file. Problems are the reader's (StateReader::Finish).
   virtual void Save(base::StateWriter& writer) const = 0;
   virtual void Restore(base::StateReader& reader) = 0;
+  // False: the state cannot be read out. Save then writes what is known of it, Restore is never called, and a run with this car is
+  // computed again from its first step only.
+  virtual bool can_save() const { return true; }
+  // Why the last Step was not made (a laboratory's own model has failed): the car stays where it is. Ok otherwise.
+  virtual base::Status problem() const { return {}; }
 };
 
 // A kind of model that a vehicle file may name, and what makes one of it from the file's mapping. Problems of the file
@@ -79,9 +85,10 @@ struct ModelKind {
   std::function<base::Status(VehicleModel& model)> complete = nullptr;
 };
 
-// Reads a vehicle file (`rodeira: vehicle/1`, `model: bicycle`). Wrong input, with file:line, where it cannot be read, a
-// key is unknown or out of range, or the model's name is unknown (the nearest is given). `more`: kinds beyond this
-// library's own.
-base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::path& path, std::span<const ModelKind> more = {});
+// Reads a vehicle file (`rodeira: vehicle/1`, `model: bicycle`). `wanted`: another model than the file's own; the file names the one
+// in which that is, `models: {ode: FILE}`. Wrong input, with file:line, where it cannot be read, a key is unknown or out of range,
+// or the model's name is unknown (the nearest is given). `more`: kinds beyond this library's own.
+base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::path& path, std::string_view wanted = {},
+                                                        std::span<const ModelKind> more = {});
 
 }  // namespace rodeira::vehicle

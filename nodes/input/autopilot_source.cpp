@@ -107,7 +107,7 @@ base::Result<std::unique_ptr<Source>> MakeAutopilotSource(const config::Map& con
                             config.Place());
   const auto settings = driver::LoadDriver(driver_file);
   if (!settings) return settings.error();
-  const auto model = vehicle::LoadVehicle(vehicle_file);
+  const auto model = vehicle::LoadVehicle(vehicle_file, context.launch().vehicle_model());
   if (!model) return model.error();
   auto world = road::World::Load(context.launch().world());
   if (!world) return world.error();

@@ -33,6 +33,7 @@ class VehicleNode final : public lockstep::Node {
     const auto controls = idl::Decode<msg::Controls>(*inbox.Latest(topics::kControls).payload);
     if (!controls) return controls.error();
     model_->Step(FromWire(controls.value()), ground_, step.dt_s);  // CALCULO
+    if (auto problem = model_->problem(); !problem) return problem;
     Publish(outbox);
     return {};
   }
@@ -85,7 +86,7 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContex
   initial.speed_mps = start.Number("speed_mps", {-20.0, 100.0}, 0.0);
   const bool asks = config.Choice("ground", {"local", "remote"}, "local") == "remote";
   if (auto status = context.launch().file().Finish(); !status) return status.error();
-  auto model = vehicle::LoadVehicle(file);
+  auto model = vehicle::LoadVehicle(file, context.launch().vehicle_model());
   if (!model) return model.error();
   const auto world = context.World();
   if (!world) return world.error();

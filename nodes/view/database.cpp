@@ -15,6 +15,7 @@
 
 #include "common/base/files.hpp"
 #include "common/scene/ground_tile.hpp"
+#include "common/scene/seen_digest.hpp"
 #include "nodes/view/face_texture.hpp"
 #include "nodes/view/model_file.hpp"
 
@@ -23,25 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kManifest = "visual.txt";
-
 struct Known {
   base::Digest hash = 0;    // of the file
   base::Digest source = 0;  // of what it was made from
 };
 using Manifest = std::map<std::string, Known>;
-
-const char* NameOf(scene::Material material) {
-  switch (material) {
-    case scene::Material::kGround: return "ground";
-    case scene::Material::kRoad: return "road";
-    case scene::Material::kMark: return "mark";
-    case scene::Material::kSign: return "sign";
-    case scene::Material::kFoliage: return "foliage";
-    case scene::Material::kMatt: return "thing";
-    default: return "other";
-  }
-}
 
 osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh) {
   osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array, normals = new osg::Vec3Array;
@@ -54,7 +41,7 @@ osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh) {
   }
   colours->setNormalize(true);
   osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-  geometry->setName(NameOf(mesh.material));
+  geometry->setName(kGeometryName + std::to_string(static_cast<int>(mesh.material)));
   geometry->setUseDisplayList(false);
   geometry->setUseVertexBufferObjects(true);
   geometry->setVertexArray(positions);
@@ -135,12 +122,11 @@ osg::ref_ptr<osg::Node> RootNode(const scene::GroundPlan& plan, const std::map<s
     lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
     lod->setCenter(osg::Vec3d(ball.centre_W.x(), ball.centre_W.y(), ball.centre_W.z()));
     lod->setRadius(static_cast<float>(ball.radius_m));
-    float from = 0.0F;
+    // The coarsest first: files are read in this order, and what is there already is shown until the next one is.
     for (int level = 0; level < scene::kGroundLevels; ++level) {
-      const float to = scene::kGroundSeen_m[static_cast<std::size_t>(level)];
-      lod->setFileName(static_cast<unsigned>(level), TileName(key, level));
-      lod->setRange(static_cast<unsigned>(level), from, to);
-      from = to;
+      const auto child = static_cast<unsigned>(scene::kGroundLevels - 1 - level);
+      lod->setFileName(child, TileName(key, level));
+      lod->setRange(child, level == 0 ? 0.0F : scene::kGroundSeen_m[static_cast<std::size_t>(level - 1)], scene::kGroundSeen_m[static_cast<std::size_t>(level)]);
     }
     root->addChild(lod);
   }
@@ -203,8 +189,8 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
   const auto root = Serialise(*RootNode(plan, balls));
   if (!root) return root.error();
   if (auto written = base::WriteWhole(options.folder / "world.osgb", root.value()); !written) return written.error();
-  std::string manifest = fmt::format("# The world {} as it is seen: hash of each file, hash of what it was made from, file\n# content_hash: {}\n{} {} world.osgb\n",
-                                     world.name(), base::Hex(world.content_hash()), base::Hex(base::Hash(root.value())), base::Hex(world.content_hash()));
+  std::string manifest = fmt::format("# The world {} as it is seen: hash of each file, hash of what it was made from, file\n# content_hash: {}\n# seen: {}\n{} {} world.osgb\n",
+                                     world.name(), base::Hex(world.content_hash()), base::Hex(scene::SeenDigest(world)), base::Hex(base::Hash(root.value())), base::Hex(world.content_hash()));
   for (const auto& [name, known] : after) manifest += fmt::format("{} {} {}\n", base::Hex(known.hash), base::Hex(known.source), name);
   if (auto written = base::WriteWhole(options.folder / kManifest, manifest); !written) return written.error();
   for (const auto& [name, known] : before) {

@@ -22,6 +22,11 @@ struct DatabaseReport {
   std::size_t removed = 0;  // files of tiles that are no more
 };
 
+// The file that says what a database was written from, and what it consists of.
+inline constexpr const char* kManifest = "visual.txt";
+// The names of geometries begin so; what follows is their scene::Material's number.
+inline constexpr const char* kGeometryName = "rodeira ";
+
 // Writes the world as it is seen: `world.osgb` with a PagedLOD a tile, `tiles/COLUMN_ROW_LEVEL.osgb`, and `visual.txt`, which
 // names every file with its hash and what it was made from. Tiles whose sources did not change, and whose files are as they
 // were written, stay. The bytes are the same for any number of threads and whatever was there before. Wrong input where

@@ -86,13 +86,16 @@ osg::StateSet* Look::StateOf(scene::Material material) {
   return state;
 }
 
-osg::StateSet* Look::StateOfFace(const std::string& face) {
+osg::ref_ptr<osg::StateSet> Look::StateOfFace(osg::Texture2D& picture) {
+  osg::ref_ptr<osg::StateSet> state = new osg::StateSet(*StateOf(scene::Material::kSign), osg::CopyOp::SHALLOW_COPY);
+  state->setTextureAttribute(1, &picture);
+  state->addUniform(new osg::Uniform("face", 1));
+  return state;
+}
+
+osg::StateSet* Look::KnownFace(const std::string& face) {
   auto& state = faces_[face];
-  if (!state) {
-    state = new osg::StateSet(*StateOf(scene::Material::kSign), osg::CopyOp::SHALLOW_COPY);
-    state->setTextureAttribute(1, MakeFaceTexture(face));
-    state->addUniform(new osg::Uniform("face", 1));
-  }
+  if (!state) state = StateOfFace(*MakeFaceTexture(face));
   return state;
 }
 
@@ -118,7 +121,7 @@ osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
   colours->setNormalize(true);
   geometry->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
   geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.triangles.begin(), mesh.triangles.end()));
-  geometry->setStateSet(mesh.material == scene::Material::kSign ? StateOfFace(mesh.face) : StateOf(mesh.material));
+  geometry->setStateSet(mesh.material == scene::Material::kSign ? KnownFace(mesh.face) : StateOf(mesh.material));
   if (mesh.material == scene::Material::kSign) geometry->setTexCoordArray(1, PlacesOnFace(mesh));
   return geometry;
 }

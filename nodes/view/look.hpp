@@ -23,6 +23,8 @@ class Look {
 
   // How a material is drawn; one shared state for each.
   osg::StateSet* StateOf(scene::Material material);
+  // The same for a sign whose picture this is; a new one.
+  osg::ref_ptr<osg::StateSet> StateOfFace(osg::Texture2D& picture);
   // The mesh without its origin.
   osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh);
   // The meshes at their places in the world. They must have the same origin, and at least one there must be.
@@ -33,7 +35,7 @@ class Look {
 
  private:
   osg::ref_ptr<osg::StateSet> MakeState(scene::Material material);
-  osg::StateSet* StateOfFace(const std::string& face);
+  osg::StateSet* KnownFace(const std::string& face);
 
   osg::Vec3f sun_W_;
   osg::ref_ptr<osg::Texture2D> noise_;  // repeats: fine in its red part, coarse in its green one

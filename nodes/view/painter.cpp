@@ -4,10 +4,14 @@
 #include <osg/CullFace>
 #include <osg/LOD>
 #include <osg/Uniform>
+#include <osgDB/DatabasePager>
 #include <osgViewer/Viewer>
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 
+#include "nodes/view/built_world.hpp"
 #include "nodes/view/car_node.hpp"
 #include "nodes/view/instruments.hpp"
 #include "nodes/view/look.hpp"
@@ -92,11 +96,13 @@ struct Painter::Parts {
   osg::ref_ptr<osg::Group> root = new osg::Group;
   osg::ref_ptr<osg::Uniform> sun_eye = new osg::Uniform("sun_eye", osg::Vec3f(0.0F, 0.0F, 1.0F));
   osg::ref_ptr<osg::Uniform> up_eye = new osg::Uniform("up_eye", osg::Vec3f(0.0F, 0.0F, 1.0F));
+  unsigned built_tiles = 0;  // 0: the ground is in memory
   osgViewer::Viewer viewer;
 };
 
-Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing)
-    : surface_(surface), world_(world), parts_(std::make_unique<Parts>()) {
+Painter::Painter(Surface& surface, const road::World& world) : surface_(surface), world_(world), parts_(std::make_unique<Parts>()) {}
+
+Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing) : Painter(surface, world) {
   Look& look = parts_->look;
   osg::Group& root = *parts_->root;
   for (const scene::GroundTile& tile : standing.ground) root.addChild(GroundNode(look, tile));
@@ -108,6 +114,24 @@ Painter::Painter(Surface& surface, const road::World& world, const scene::WorldS
     lod->addChild(look.Placed({&mesh, 1}), 0.0F, kTreesSeen_m);
     root.addChild(lod);
   }
+  SetUp();
+}
+
+base::Result<std::unique_ptr<Painter>> Painter::Make(Surface& surface, const road::World& world, const std::filesystem::path& built) {
+  std::unique_ptr<Painter> painter(new Painter(surface, world));
+  auto ground = ReadBuilt(built, painter->parts_->look);
+  if (!ground) return ground.error();
+  painter->parts_->root->addChild(ground.value().root);
+  painter->parts_->built_tiles = ground.value().tiles;
+  painter->SetUp();
+  return painter;
+}
+
+// What moves, sky and texts, and the viewer.
+void Painter::SetUp() {
+  Surface& surface = surface_;
+  Look& look = parts_->look;
+  osg::Group& root = *parts_->root;
   root.addChild(parts_->fleet.node());
   root.addChild(look.MakeSky());
   root.addChild(parts_->overlay);
@@ -127,6 +151,8 @@ Painter::Painter(Surface& surface, const road::World& world, const scene::WorldS
   camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
   camera.setClearColor({0.8F, 0.86F, 0.91F, 1.0F});
   viewer.setSceneData(&root);
+  // Tiles that were read stay, as they do in memory: turning round shows no gaps.
+  if (parts_->built_tiles > 0) viewer.getDatabasePager()->setTargetMaximumNumberOfPageLOD(parts_->built_tiles);
   viewer.realize();
 }
 
@@ -157,6 +183,16 @@ void Painter::Draw(const Picture& picture) {
   parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);
 }
 
+void Painter::DrawWhole(const Picture& picture) {
+  Draw(picture);
+  if (parts_->built_tiles == 0) return;
+  // Each level of a tile is asked for when the one before it is there.
+  while (parts_->viewer.getDatabasePager()->getRequestsInProgress()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    Draw(picture);
+  }
+}
+
 Image Painter::Read() const {
   Image image;
   image.width_px = surface_.width_px();
@@ -182,14 +218,20 @@ base::Status CheckModels(const scene::WorldScene& standing) {
   return {};
 }
 
-base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px) {
+base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built) {
+  if (!built.empty()) return Painter::Make(surface, world, built);
+  const scene::WorldScene standing = scene::BuildWorldScene(world);  // the painter has its own copy
+  if (auto status = CheckModels(standing); !status) return status.error();
+  return std::make_unique<Painter>(surface, world, standing);
+}
+
+base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px, const std::filesystem::path& built) {
   auto surface = Surface::Open(SurfaceKind::kOffscreen, width_px, height_px, "Rodeira");
   if (!surface) return surface.error();
-  const scene::WorldScene standing = scene::BuildWorldScene(world);
-  if (auto status = CheckModels(standing); !status) return status.error();
-  Painter painter(*surface.value(), world, standing);
-  painter.Draw(picture);
-  return painter.Read();
+  auto painter = PainterOf(*surface.value(), world, built);
+  if (!painter) return painter.error();
+  painter.value()->DrawWhole(picture);
+  return painter.value()->Read();
 }
 
 }  // namespace rodeira::view

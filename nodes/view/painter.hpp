@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 
 #include "common/base/result.hpp"
@@ -15,15 +16,21 @@ class Painter {
  public:
   // Both must outlive it.
   Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing);
+  // With the ground of a built database (FindBuilt). A failure where OpenSceneGraph cannot read it.
+  static base::Result<std::unique_ptr<Painter>> Make(Surface& surface, const road::World& world, const std::filesystem::path& built);
   ~Painter();
 
-  // Draws; nothing is shown yet.
+  // Draws; nothing is shown yet. Of a built database what has been read so far; the rest is asked for.
   void Draw(const Picture& picture);
+  // Draws, and waits for all that is to be seen: a pure function of the world and the picture, built or not.
+  void DrawWhole(const Picture& picture);
   // What was drawn last, from before any Surface::Swap.
   Image Read() const;
 
  private:
   struct Parts;
+  Painter(Surface& surface, const road::World& world);
+  void SetUp();
   Surface& surface_;
   const road::World& world_;
   std::unique_ptr<Parts> parts_;
@@ -32,7 +39,11 @@ class Painter {
 // Whether every model that a world names can be read. Wrong input otherwise.
 base::Status CheckModels(const scene::WorldScene& standing);
 
+// A painter of the world with the ground of a built database, or, where `built` is empty, with ground that is built in memory.
+base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built);
+
 // One picture of a world, without a window and without a run.
-base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px);
+// `built`: the folder of a database whose ground is shown; empty: the ground is built in memory.
+base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px, const std::filesystem::path& built = {});
 
 }  // namespace rodeira::view

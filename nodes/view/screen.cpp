@@ -7,7 +7,6 @@
 
 #include "common/hands/key_names.hpp"
 #include "common/launch/live_keys.hpp"
-#include "common/scene/world_scene.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -41,12 +40,10 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   if (!surface) return surface.error();
   std::unique_ptr<Screen> screen(new Screen());
   screen->surface_ = std::move(surface).value();
-  {
-    const scene::WorldScene standing = scene::BuildWorldScene(world);  // the painter has its own copy
-    if (auto status = CheckModels(standing); !status) return status.error();
-    screen->painter_ = std::make_unique<Painter>(*screen->surface_, world, standing);
-  }
-  screen->painter_->Draw(FirstPicture(world));
+  auto painter = PainterOf(*screen->surface_, world, settings.built);
+  if (!painter) return painter.error();
+  screen->painter_ = std::move(painter).value();
+  screen->painter_->DrawWhole(FirstPicture(world));
   (void)screen->painter_->Read();
   screen->help_text_ = std::move(help);
   screen->live_ = PictureOf(settings, {});

@@ -126,7 +126,7 @@ void Stage::Loop(Hand& hand) {
 void Stage::ServeOrder(Hand& hand, std::unique_lock<std::mutex>& lock) {
   const Ordered& order = orders_.front();  // others are only added behind it
   lock.unlock();
-  hand.screen->painter().Draw(order.picture);
+  hand.screen->painter().DrawWhole(order.picture);
   base::Status status = WritePng(order.file, hand.screen->painter().Read());
   lock.lock();
   if (written_) written_ = std::move(status);

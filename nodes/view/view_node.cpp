@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "idl/topics.hpp"
+#include "nodes/view/find_built.hpp"
 #include "nodes/view/from_wire.hpp"
 #include "nodes/view/stage.hpp"
 #include "nodes/view/view_settings.hpp"
@@ -117,6 +118,9 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeViewNode(launch::NodeContext& 
   auto world = view::WorldOf(context.launch());
   if (!world) return world.error();
   if (!context.launch().world().empty()) context.set_world_hash(world.value()->content_hash());
+  view::FoundBuilt built = view::FindBuilt(context.launch().world(), *world.value());
+  if (!built.remark.empty()) fmt::print(stderr, "rodeira: node '{}': {}\n", context.spec().name, built.remark);
+  settings.value().built = std::move(built.folder);
   auto stage = view::Stage::Open(settings.value(), world.value(), settings.value().drives ? context.KeysSender() : nullptr);
   if (!stage) return stage.error();
   return std::unique_ptr<lockstep::Node>(

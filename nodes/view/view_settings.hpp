@@ -24,6 +24,7 @@ struct ViewSettings {
   std::size_t followed = 0;                  // which of the cars wired to the view, in the roster's order
   std::vector<lockstep::Step> frame_steps;   // ascending, each once
   std::filesystem::path folder;              // of the frames
+  std::filesystem::path built;               // the folder of a database of the world; empty: its ground is built in memory
   bool drives = false;                       // somebody in this run drives by the keys of its windows …
   std::string driving_help;                  // … by these
 };

@@ -96,7 +96,7 @@ TEST(Junction, LanesGoOnWithoutAStep) {
   EXPECT_GT(joints, 60);
 }
 
-// The ways through lie on the one surface, as well as a height and a crossfall along a way can follow it (docs/roads.md says how
+// The ways through lie on the one surface, as well as cubics along a way and across its lanes can follow it (docs/roads.md says how
 // far off they are; SUELO answers by the surface itself).
 TEST(Junction, WaysLieOnTheSurface) {
   const network::Network& network = *Made().network;
@@ -110,7 +110,7 @@ TEST(Junction, WaysLieOnTheSurface) {
       const auto span = *lanes.Span(lane.id, way.CentreAt(s), s);
       const double t = base::RandomUniform({i, 2}, std::min(span.inner_t_m, span.outer_t_m), std::max(span.inner_t_m, span.outer_t_m));
       const Eigen::Vector3d p = way.Surface(s, t).p_W;
-      EXPECT_NEAR(p.z(), surface.At(p.head<2>()).z_m, 0.05) << way.id() << " " << s << " " << t;
+      EXPECT_NEAR(p.z(), surface.At(p.head<2>()).z_m, 0.01) << way.id() << " " << s << " " << t;
       EXPECT_TRUE(surface.Contains(p.head<2>()) || s < 0.01 || s > way.length_m() - 0.01) << way.id() << " " << s << " " << t;
     }
   }

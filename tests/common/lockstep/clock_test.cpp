@@ -36,6 +36,39 @@ TEST_F(ClockTest, GrantsNothingBeforeEverybodyIsReady) {
   EXPECT_EQ(clock_.Update(kFree).through, 8);
 }
 
+// A server has no steps of its own: that it died before says nothing, as long as the run gets on.
+TEST_F(ClockTest, AServerMayBeLostAgainAndAgainWhereTheRunGetsOn) {
+  std::vector<NodeWish> wishes{{"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {}, 10},
+                               {"recorder", "t", Role::kStepped, 5, 5, 0, {}, {{"a", PortKind::kEvent, {"car"}}, {std::string(kSnapshotTopic), PortKind::kEvent, {"car"}}}, 0},
+                               {"road", "road", Role::kService, 1, 0, 0, {}, {}, 0}};
+  const Roster roster = Roster::Create(1'000'000, 20, wishes).value();
+  Clock clock(roster, 1000, 0, std::vector<Policy>(3, Policy::kRestart));
+  const auto all_at = [&](Step step) {
+    for (const NodeIndex n : {0u, 1u, 2u}) {
+      Report report = Make(n, step == 0 ? Phase::kReady : Phase::kRunning, n == 2 ? 0 : step, clock.life(n));
+      report.safe = n == 1 ? step : -1;
+      ASSERT_TRUE(clock.Take(report).ok());
+    }
+    clock.Update(kFree);
+  };
+  all_at(0);
+  EXPECT_EQ(clock.reached(2), 20);
+  Step before = -1;
+  for (Step step = 20; step <= 200; step += 20) {
+    all_at(step);
+    EXPECT_EQ(clock.reached(0), step);
+    EXPECT_EQ(clock.reached(2), step + 20);
+    EXPECT_EQ(clock.Lose(2).policy, Policy::kRestart) << step;
+    EXPECT_GT(clock.grant().resume, before) << "one that is back holds nothing up";
+    before = clock.grant().resume;
+  }
+  all_at(220);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(clock.Lose(2).policy, Policy::kRestart);
+  const auto fourth = clock.Lose(2);
+  EXPECT_EQ(fourth.policy, Policy::kStop);
+  EXPECT_EQ(fourth.why, "it was lost 4 times without getting beyond step 240");
+}
+
 TEST_F(ClockTest, TheSlowestNodeHoldsTheWindowAndThePaceHoldsTheRest) {
   for (const NodeIndex n : {0u, 1u, 2u}) Take(Make(n, Phase::kReady, 0));
   (void)clock_.Update(kFree);

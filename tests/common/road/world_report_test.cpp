@@ -53,6 +53,22 @@ TEST_F(WorldReport, QueryTellsThePlaceOnTheRoad) {
   EXPECT_THAT(DescribePoint(*Sample(), 1e6, 0.0), HasSubstr("inside: false\nextents_m: x -100.000 to 410.000"));
 }
 
+// Hills in UTM zone 29, around its meridian 9 degrees west: x = 500 000 m lies on it, whatever y is.
+TEST_F(WorldReport, TellsWhereOnTheEarthAPointLies) {
+  const auto world = World::Parse(
+      "rodeira: world/2\nname: zone 29\nterrain:\n  generate: {seed: 1, columns: 5, rows: 5, spacing_m: 50, west_m: 499900, south_m: 4553000, relief: [], projection: "
+      "\"+proj=utm +zone=29 +datum=WGS84 +units=m\"}\n", "zone.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  const std::string text = DescribePoint(*world.value(), 500000.0, 4553100.0);
+  EXPECT_THAT(text, HasSubstr("longitude_deg: -9.000000000\nlatitude_deg: 41.1"));
+  const auto back = PlaceOnMap(*world.value(), -9.0, std::stod(text.substr(text.find("latitude_deg: ") + 14)));
+  ASSERT_TRUE(back.ok()) << back.error().Text();
+  EXPECT_NEAR(back.value().x(), 500000.0, 1e-6);
+  EXPECT_NEAR(back.value().y(), 4553100.0, 1e-4);  // nine digits of a degree
+  EXPECT_THAT(DescribePoint(*Sample(), 0.0, 0.0), Not(HasSubstr("longitude")));
+  EXPECT_THAT(PlaceOnMap(*Sample(), -9.0, 41.0).error().Text(), HasSubstr("does not say where on the earth it lies"));
+}
+
 TEST_F(WorldReport, InfoTellsWhatTheWorldHolds) {
   const std::string text = DescribeWorld(*Sample());
   for (const char* part : {"world sample\n", "61 x 51 heights every 8.5 m", "length_m: 305.500", "bends: 2 ", "smallest_radius_m: 45",

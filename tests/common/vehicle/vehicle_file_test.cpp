@@ -88,7 +88,7 @@ TEST(VehicleFile, AFurtherKindOfModelIsFound) {
   const ModelKind more[] = {{"other", [](const config::Map&) -> std::unique_ptr<VehicleModel> { return std::make_unique<BicycleModel>(DefaultSettings()); }}};
   const auto path = std::filesystem::temp_directory_path() / ("rodeira-vehicle-kind-" + std::to_string(::getpid()) + ".yaml");
   std::ofstream(path) << "rodeira: vehicle/1\nmodel: other\n";
-  EXPECT_TRUE(LoadVehicle(path, more).ok());
+  EXPECT_TRUE(LoadVehicle(path, {}, more).ok());
   EXPECT_FALSE(LoadVehicle(path).ok());
   std::filesystem::remove(path);
 }

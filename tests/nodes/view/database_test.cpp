@@ -14,7 +14,9 @@
 #include <sstream>
 
 #include "common/scene/ground_tile.hpp"
+#include "nodes/view/find_built.hpp"
 #include "tests/common/scene/ground_worlds.hpp"
+#include "tests/nodes/view/pictures.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -253,6 +255,46 @@ TEST_F(Database, OpenSceneGraphReadsIt) {
   const auto* lod = dynamic_cast<const osg::PagedLOD*>(group->getChild(0));
   ASSERT_NE(lod, nullptr);
   EXPECT_EQ(lod->getNumFileNames(), static_cast<unsigned>(scene::kGroundLevels));
+}
+
+// The pager, the files and the look that is put on them against the ground that is built in memory: pixel by pixel.
+TEST_F(Database, TheViewShowsWhatItWouldShowFromMemory) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = scene::OpenDriveWorld(BendWithThings());
+  ASSERT_NE(world, nullptr);
+  Write(*world, "world");
+  const network::Road& road = world->network()->roads()[0];
+  for (const double s : {25.0, 70.0, 300.0}) {  // near the rail, before the signs; other tiles are near and far
+    Picture picture;
+    picture.show_instruments = false;
+    picture.moment.cars.push_back(CarAt(road.Surface(s, -1.75).p_W, road.axis().Evaluate(s).heading_rad));
+    const auto memory = RenderStill(*world, picture, 640, 360), built = RenderStill(*world, picture, 640, 360, folder_ / "world");
+    ASSERT_TRUE(memory.ok() && built.ok()) << (built.ok() ? "" : built.error().Text());
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < memory.value().rgb.size(); ++i) other += memory.value().rgb[i] != built.value().rgb[i];
+    EXPECT_EQ(other, 0u) << "at s = " << s;
+  }
+}
+
+TEST_F(Database, OnlyThatOfTheWorldAsItIsIsFound) {
+  const auto world = scene::OpenDriveWorld(BendWithThings(30.0)), moved = scene::OpenDriveWorld(BendWithThings(31.0));
+  ASSERT_TRUE(world != nullptr && moved != nullptr);
+  const auto file = folder_ / "bend.xodr";
+  EXPECT_TRUE(FindBuilt(file, *world).folder.empty());
+  EXPECT_EQ(FindBuilt(file, *world).remark, "");
+  EXPECT_TRUE(FindBuilt("", *world).folder.empty());
+  Write(*world, "bend");  // named as the file is
+  EXPECT_EQ(FindBuilt(file, *world).folder, folder_ / "bend");
+  EXPECT_EQ(FindBuilt(file, *world).remark, "");
+  EXPECT_EQ(FindBuilt(folder_ / "bend" / "world.xodr", *world).folder, folder_ / "bend");  // in one folder with it
+  const FoundBuilt other = FindBuilt(file, *moved);
+  EXPECT_TRUE(other.folder.empty());
+  EXPECT_EQ(other.remark, (folder_ / "bend" / "visual.txt").string() + ": the built database is not shown: it was built from another world, or by another version of "
+                                                                       "the program; `rodeira world build` renews it");
+  std::ofstream(folder_ / "bend" / "tiles" / "0_0_1.osgb", std::ios::app) << "more";
+  const FoundBuilt changed = FindBuilt(file, *world);
+  EXPECT_TRUE(changed.folder.empty());
+  EXPECT_NE(changed.remark.find("its file 'tiles/0_0_1.osgb' is not as it was written"), std::string::npos) << changed.remark;
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+#include "common/scene/seen_digest.hpp"
+
+#include <fmt/format.h>
+
+#include "common/network/marking.hpp"
+#include "common/scene/ground_digest.hpp"
+#include "common/scene/road_paint.hpp"
+#include "common/scene/things.hpp"
+
+namespace rodeira::scene {
+
+base::Digest SeenDigest(const road::World& world) {
+  base::Digest digest = base::Combine(base::Hash(kGroundVersion), world.content_hash());
+  std::vector<TilePaint> paint(world.network()->roads().size());
+  for (const network::Placed& placed : network::PlaceFurniture(*world.network()).things) PaintThing(*world.network(), placed, paint[placed.road]);
+  std::size_t index = 0;
+  for (const network::Road& road : world.network()->roads()) {
+    std::string marks;
+    for (const network::Marking& mark : network::MarkingsOf(road)) {
+      fmt::format_to(std::back_inserter(marks), "{} {} {} {} {} {} {} {} {} {}\n", mark.section, mark.lane, mark.from_s_m, mark.to_s_m, mark.t_offset_m, mark.width_m, mark.stroke_m,
+                     mark.gap_m, mark.first_m, mark.colour);
+      if (mark.sway == nullptr) continue;
+      for (const geometry::Cubic& cubic : mark.sway->records()) fmt::format_to(std::back_inserter(marks), "{} {} {} {} {}\n", cubic.from, cubic.a, cubic.b, cubic.c, cubic.d);
+    }
+    digest = base::Combine(digest, base::Hash(marks));
+    digest = base::Combine(digest, PaintDigest(paint[index++]));
+  }
+  const Things things(world);
+  for (const auto& [key, tile] : things.tiles()) digest = base::Combine(digest, base::Combine(base::Hash(fmt::format("{} {}", key.column, key.row)), things.DigestOf(key)));
+  return digest;
+}
+
+}  // namespace rodeira::scene

@@ -1,0 +1,83 @@
+#include "nodes/view/built_world.hpp"
+
+#include <osg/Geometry>
+#include <osg/NodeVisitor>
+#include <osg/PagedLOD>
+#include <osgDB/ReadFile>
+
+#include <charconv>
+#include <string_view>
+
+#include "nodes/view/database.hpp"
+
+namespace rodeira::view {
+namespace {
+
+// Gives geometries of the database the look of those that are built in memory.
+class Dress : public osg::NodeVisitor {
+ public:
+  explicit Dress(Look& look) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), look_(look) {}
+
+  void apply(osg::Geometry& geometry) override {
+    const std::string_view name = geometry.getName(), begin = kGeometryName;
+    if (!name.starts_with(begin)) return;  // of a model's file
+    int number = -1;
+    std::from_chars(name.data() + begin.size(), name.data() + name.size(), number);
+    if (number < 0 || number > static_cast<int>(scene::Material::kSign)) return;
+    const auto material = static_cast<scene::Material>(number);
+    if (material == scene::Material::kSign) {
+      osg::StateSet* own = geometry.getStateSet();
+      auto* face = own == nullptr ? nullptr : dynamic_cast<osg::Texture2D*>(own->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+      if (face == nullptr) return;
+      geometry.setTexCoordArray(1, geometry.getTexCoordArray(0));
+      geometry.setTexCoordArray(0, nullptr);
+      geometry.setStateSet(look_.StateOfFace(*face));
+    } else {
+      geometry.setStateSet(look_.StateOf(material));
+    }
+  }
+
+ private:
+  Look& look_;
+};
+
+class DressWhatIsRead : public osgDB::ReadFileCallback {
+ public:
+  explicit DressWhatIsRead(Look& look) : look_(look) {}
+
+  osgDB::ReaderWriter::ReadResult readNode(const std::string& file, const osgDB::Options* options) override {
+    osgDB::ReaderWriter::ReadResult result = osgDB::ReadFileCallback::readNode(file, options);
+    if (result.validNode()) {
+      Dress dress(look_);
+      result.getNode()->accept(dress);
+    }
+    return result;
+  }
+
+ private:
+  Look& look_;
+};
+
+}  // namespace
+
+base::Result<BuiltWorld> ReadBuilt(const std::filesystem::path& folder, Look& look) {
+  // The states are made here, not by the pager's threads.
+  for (int number = 0; number <= static_cast<int>(scene::Material::kSign); ++number) (void)look.StateOf(static_cast<scene::Material>(number));
+  const std::string file = (folder / "world.osgb").string();
+  const osg::ref_ptr<osg::Node> read = osgDB::readRefNodeFile(file);
+  BuiltWorld built;
+  built.root = read.valid() ? read->asGroup() : nullptr;
+  if (!built.root.valid()) return base::Failed("OpenSceneGraph cannot read this file", file);
+  const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+  options->setReadFileCallback(new DressWhatIsRead(look));
+  for (unsigned i = 0; i < built.root->getNumChildren(); ++i) {
+    auto* tile = dynamic_cast<osg::PagedLOD*>(built.root->getChild(i));
+    if (tile == nullptr) return base::Failed("this is no database of tiles", file);
+    tile->setDatabasePath(folder.string() + "/");
+    tile->setDatabaseOptions(options);
+    ++built.tiles;
+  }
+  return built;
+}
+
+}  // namespace rodeira::view
