@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+
+#include "common/vehicle/ode_library.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -16,18 +17,6 @@ constexpr double kMostTurn_radps = 20.0;  // of the chassis
 constexpr double kMostSpin_radps = 1000.0;
 constexpr int kMostContacts = 8;
 constexpr double kSoft = 1e-6;  // speed at which a contact gives way, m/s a newton: four contacts of a box are more than it needs
-
-// ODE's tables are made once a process, its collision buffers once a thread.
-void Prepare() {
-  static std::once_flag once;
-  std::call_once(once, [] { (void)dInitODE2(0); });
-  struct Thread {
-    Thread() { (void)dAllocateODEDataForThread(dAllocateMaskAll); }
-    ~Thread() { dCleanupODEAllDataForThread(); }
-  };
-  static thread_local const Thread thread;
-  (void)thread;
-}
 
 void Limit(Eigen::Vector3d& v, double most) {
   const double size = v.norm();
@@ -57,7 +46,7 @@ struct OdeCar::World {
 // Made at the origin as the car rests: the joints' own frames are then the same for every car of the file. ODE lets a joint's reaction
 // act on the chassis where the wheel was when it was made, so that place is the middle of the travel.
 OdeCar::World::World(const OdeSettings& of) : settings(of) {
-  Prepare();
+  PrepareOde();
   world = dWorldCreate();
   contacts = dJointGroupCreate(0);
   dWorldSetGravity(world, 0.0, 0.0, -kGravity_mps2);

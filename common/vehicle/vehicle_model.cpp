@@ -7,6 +7,7 @@
 
 #include "common/base/suggest.hpp"
 #include "common/vehicle/bicycle_model.hpp"
+#include "common/vehicle/fmu_model.hpp"
 #include "common/vehicle/multibody_model.hpp"
 #include "common/vehicle/ode_model.hpp"
 
@@ -32,6 +33,8 @@ std::vector<ModelKind> AllKinds(std::span<const ModelKind> more) {
   kinds.push_back({"bicycle", [](const config::Map& root) { return std::make_unique<BicycleModel>(ReadBicycle(root)); }});
   kinds.push_back({"multibody", [](const config::Map& root) { return std::make_unique<MultibodyModel>(ReadMultibody(root)); },
                    [](VehicleModel& model) { return static_cast<MultibodyModel&>(model).Build(); }});
+  kinds.push_back({"fmu", [](const config::Map& root) { return std::make_unique<FmuModel>(ReadFmu(root)); },
+                   [](VehicleModel& model) { return static_cast<FmuModel&>(model).Build(); }});
   kinds.push_back({"ode", [](const config::Map& root) { return std::make_unique<OdeModel>(ReadOde(root)); },
                    [](VehicleModel& model) { return static_cast<OdeModel&>(model).Build(); }});
   kinds.insert(kinds.end(), more.begin(), more.end());

@@ -72,6 +72,8 @@ class VehicleModel {
   // False: the state cannot be read out. Save then writes what is known of it, Restore is never called, and a run with this car is
   // computed again from its first step only.
   virtual bool can_save() const { return true; }
+  // Why the last Step was not made (a laboratory's own model has failed): the car stays where it is. Ok otherwise.
+  virtual base::Status problem() const { return {}; }
 };
 
 // A kind of model that a vehicle file may name, and what makes one of it from the file's mapping. Problems of the file

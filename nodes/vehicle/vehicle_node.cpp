@@ -33,6 +33,7 @@ class VehicleNode final : public lockstep::Node {
     const auto controls = idl::Decode<msg::Controls>(*inbox.Latest(topics::kControls).payload);
     if (!controls) return controls.error();
     model_->Step(FromWire(controls.value()), ground_, step.dt_s);  // CALCULO
+    if (auto problem = model_->problem(); !problem) return problem;
     Publish(outbox);
     return {};
   }
