@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -61,7 +62,8 @@ std::string Ask(int file, const std::string& line) {
 }  // namespace
 
 int Ctl(const CtlOptions& options) {
-  const std::string line = fmt::format("{}", fmt::join(options.words, " "));
+  std::string line = fmt::format("{}", fmt::join(options.words, " "));
+  std::ranges::replace_if(line, [](unsigned char c) { return c < 0x20; }, ' ');  // a line is a command
   // Nonsense is refused whether there is a run or not.
   if (const auto command = launch::ParseCommand(line); !command) return Complain(base::WrongInput(command.error().Text(), "ctl"));
   const auto socket = FindRun(options.run);

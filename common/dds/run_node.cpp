@@ -81,6 +81,11 @@ class ProcessContext final : public launch::NodeContext {
     return std::move(receiver).value();
   }
   bool is_another_life() const override { return incarnation_ > 0; }
+  base::Result<lockstep::Step> SafeStep() override {
+    const auto grant = bus_.AwaitGrant(std::chrono::milliseconds(launch().watchdog().start_ms));
+    if (!grant) return base::Failed("the clock says nothing to a node that is started again");
+    return grant->safe;
+  }
   std::function<void(lockstep::Step)> SafeTeller() override {
     return [&bus = bus_](lockstep::Step through) { bus.SetSafe(through); };
   }

@@ -50,6 +50,8 @@ class NodeContext {
   virtual std::unique_ptr<RunLogReceiver> RunLog() { return nullptr; }
   // Recovery, as it concerns a recorder. An earlier life of this node has begun the work: its file is gone on with.
   virtual bool is_another_life() const { return false; }
+  // What an earlier life has said of its file (see SafeTeller), as the clock knows it; -1: nothing. Failed where the clock is silent.
+  virtual base::Result<lockstep::Step> SafeStep() { return lockstep::Step{-1}; }
   // To be told: samples valid through the step lie in the file, nobody needs to keep them for another life of this recorder.
   // Null where the host has no use for it. It outlives this.
   virtual std::function<void(lockstep::Step)> SafeTeller() { return nullptr; }

@@ -29,12 +29,15 @@ bool CountsFromOne(const Numbered& numbered) {
   return std::ranges::all_of(numbered, [&](const auto& entry) { return entry.first == expected++; });
 }
 
-// The first byte behind the last whole chunk: that chunk counts only with all of its indexes.
-std::uint64_t EndOfWhole(const Scan& scan) {
+// The last whole chunk, which counts only with all of its indexes; null where there is none.
+const ChunkInfo* LastWhole(const Scan& scan) {
   const auto& chunks = scan.contents.chunks;
-  const bool cut = !chunks.empty() && chunks.back().index_offsets.size() != chunks.back().channels->size();
-  return cut ? chunks.back().offset : scan.good_bytes;
+  for (auto chunk = chunks.rbegin(); chunk != chunks.rend(); ++chunk) {
+    if (chunk->index_offsets.size() == chunk->channels->size()) return &*chunk;
+  }
+  return nullptr;
 }
+std::uint64_t EndOf(const ChunkInfo& chunk) { return chunk.offset + chunk.record_bytes + chunk.index_bytes; }
 
 base::Status HandInTail(const Source& source, const Contents& contents, const McapWriter::Tail& tail) {
   const std::uint64_t end_ns = contents.statistics.last_log_time_ns;
@@ -55,24 +58,30 @@ base::Status HandInTail(const Source& source, const Contents& contents, const Mc
 
 }  // namespace
 
-base::Result<McapWriter> McapWriter::GoOn(const std::filesystem::path& path, const WriterSettings& settings, const Tail& tail) {
+base::Result<std::optional<McapWriter>> McapWriter::GoOn(const std::filesystem::path& path, const WriterSettings& settings, const Tail& tail) {
   std::unique_ptr<Sink> sink;
   std::unique_ptr<Source> source;
   Scan scan;
-  do {  // a second time only where a chunk without all of its indexes was dropped
+  while (true) {  // a second time where something was cut off
     auto opened = OpenFileSource(path);
     if (!opened) return opened.error();
     source = std::move(opened).value();
     auto scanned = ScanFile(*source);
     if (!scanned) return scanned.error();
     scan = std::move(scanned).value();
-    if (scan.ended) return base::WrongInput("the recording was closed in good order; nothing can be added to it", path.string());
-    if (scan.contents.chunks.empty()) return base::WrongInput("the recording holds no whole chunk yet", path.string());
+    const ChunkInfo* last = LastWhole(scan);
+    if (const std::uint64_t end_ns = last == nullptr ? 0 : last->last_log_time_ns; end_ns < tail.least_end_ns) {
+      return base::Failed(fmt::format("the recording can be read up to {} only, though it held more than {}: it was damaged meanwhile{}{}; it is left as it is",
+                                      Seconds(end_ns), Seconds(tail.least_end_ns), scan.findings.empty() ? "" : ", ", scan.findings.empty() ? "" : scan.findings.front()),
+                          path.string());
+    }
+    if (last == nullptr) return std::optional<McapWriter>();
     sink.reset();  // its lock
-    auto writable = OpenFileSinkBehind(path, EndOfWhole(scan));
+    auto writable = OpenFileSinkBehind(path, EndOf(*last));
     if (!writable) return writable.error();
     sink = std::move(writable).value();
-  } while (EndOfWhole(scan) != scan.good_bytes);
+    if (EndOf(*last) == scan.good_bytes) break;
+  }
   Contents& contents = scan.contents;
   if (!CountsFromOne(contents.definitions.schemas) || !CountsFromOne(contents.definitions.channels)) {
     return base::WrongInput("the recording was written by another program; nothing can be added to it", path.string());
@@ -82,7 +91,7 @@ base::Result<McapWriter> McapWriter::GoOn(const std::filesystem::path& path, con
   if (auto status = HandInTail(*source, contents, tail); !status) return status.error();
   auto work = std::make_unique<Work>(std::move(sink), settings);
   work->GoOn(std::move(contents), scan.good_bytes, crc.value());
-  return McapWriter(std::move(work));
+  return std::optional<McapWriter>(McapWriter(std::move(work)));
 }
 
 }  // namespace rodeira::record

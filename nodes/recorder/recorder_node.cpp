@@ -43,8 +43,9 @@ class RecorderNode final : public lockstep::Node {
     settings.chunk_span_ns = kChunkSpanNs;
     tell_safe_ = context.SafeTeller();
     if (context.is_another_life() && std::filesystem::exists(file_)) {
-      if (GoOn(context, settings).ok()) {
-        complete_ = false;
+      const auto gone_on = GoOn(context, settings);
+      if (!gone_on) return gone_on.error();
+      if (gone_on.value()) {
         has_samples_ = true;
         if (auto status = AddChannels(context.index()); !status) return status;
         context.BeginBehind(last_step_ - 1);
@@ -52,7 +53,7 @@ class RecorderNode final : public lockstep::Node {
         if (tell_safe_) tell_safe_(last_step_ - 1);
         return {};
       }
-      settings.overwrite = true;  // nothing of it was said to be safe
+      settings.overwrite = true;  // it has no chunk yet, and nothing of it was said to be safe
     }
     auto writer = record::McapWriter::Open(file_, settings);
     if (!writer) return writer.error();
@@ -70,8 +71,9 @@ class RecorderNode final : public lockstep::Node {
     return {};
   }
 
-  // Called while the writer is being opened: the samples of the file's end, which others may ask for.
-  base::Status GoOn(launch::NodeContext& context, const record::WriterSettings& settings) {
+  // Called while the writer is being opened: the samples of the file's end, which others may ask for. False where the file holds
+  // none yet.
+  base::Result<bool> GoOn(launch::NodeContext& context, const record::WriterSettings& settings) {
     const auto take = [&](const record::Channel& channel, const record::Message& message) -> base::Status {
       const auto number = channel.metadata.find("source_number");
       if (number == channel.metadata.end()) {
@@ -84,10 +86,22 @@ class RecorderNode final : public lockstep::Node {
       last_source_ = sample.source();
       return context.Remember(sample);
     };
-    auto writer = record::McapWriter::GoOn(file_, settings, {TailNs(), take});
+    const auto safe = context.SafeStep();
+    if (!safe) return safe.error();
+    auto writer = record::McapWriter::GoOn(file_, settings, {TailNs(), EndOfSafeNs(context.index(), safe.value()), take});
     if (!writer) return writer.error();
-    writer_.emplace(std::move(writer).value());
-    return {};
+    if (!writer.value()) return false;
+    writer_ = std::move(writer).value();
+    return true;
+  }
+  // What is said to be safe ends with a sample of the fastest recorded source, at the latest.
+  std::uint64_t EndOfSafeNs(lockstep::NodeIndex self, lockstep::Step safe) const {
+    if (safe < 0) return 0;
+    lockstep::Step period = safe + 1;
+    for (const lockstep::Port& port : roster_.node(self).inputs) {
+      for (const lockstep::SourceIndex source : port.sources) period = std::min(period, roster_.source(source).period);
+    }
+    return static_cast<std::uint64_t>(safe / period * period * roster_.base_step_ns());
   }
   // What a lost node goes on from is at most two snapshots old.
   std::uint64_t TailNs() const {
