@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <set>
 
 #include "common/replay/recorded_node.hpp"
 #include "common/replay/splice.hpp"
+#include "launch/continued_node.hpp"
 #include "launch/local_nodes.hpp"
+#include "launch/recording_text.hpp"
 #include "launch/verify.hpp"
 
 namespace rodeira::front {
@@ -18,7 +22,7 @@ using lockstep::Snapshot;
 using lockstep::Step;
 
 // The parent's nodes at `at`: computed again from the snapshot before, each sample compared.
-base::Result<std::vector<Snapshot>> StatesAt(const replay::RecordedRun& parent, const BranchWish& wish, BranchOutcome& outcome) {
+base::Result<Recomputed> StatesAt(const replay::RecordedRun& parent, const BranchWish& wish, BranchOutcome& outcome) {
   Recomputation again;
   again.from = wish.at;
   again.last_step = wish.at;
@@ -28,7 +32,8 @@ base::Result<std::vector<Snapshot>> StatesAt(const replay::RecordedRun& parent, 
   if (!done) return done.error();
   outcome.recomputed_from = done.value().verdict.first_step;
   outcome.difference = done.value().verdict.difference;
-  return std::move(done.value().snapshots);
+  outcome.without_state = done.value().verdict.without_state;
+  return done;
 }
 
 base::Status CheckStep(const replay::RecordedRun& parent, Step at) {
@@ -56,29 +61,53 @@ base::Status CheckStep(const replay::RecordedRun& parent, Step at) {
   return {};
 }
 
-// Each node's state for its new model; the names of those that had to take over.
-base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, const std::vector<lockstep::Node*>& nodes, std::vector<Snapshot>& snapshots) {
+using GoingOn = std::map<NodeIndex, ContinuedNode*>;
+
+// Each node's state for its new model, but for those that go on themselves; the names of those that had to take over.
+base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, const std::vector<lockstep::Node*>& nodes, const GoingOn& go_on,
+                                             std::vector<Snapshot>& snapshots) {
   std::vector<std::string> taken_over;
   for (NodeIndex n = 0; n < nodes.size(); ++n) {
-    if (nodes[n] == nullptr) continue;
+    if (nodes[n] == nullptr || go_on.contains(n)) continue;
     if (roster.node(n).is_sink()) {  // begins anew
       base::StateWriter out;
       nodes[n]->Save(out);
       snapshots[n].state = out.bytes();
       continue;
     }
-    base::StateReader in(snapshots[n].state);
-    nodes[n]->Restore(in);
-    if (in.Finish().ok()) continue;
+    if (snapshots[n].has_state && nodes[n]->can_save()) {
+      base::StateReader in(snapshots[n].state);
+      nodes[n]->Restore(in);
+      if (in.Finish().ok()) continue;
+    }
     if (auto status = nodes[n]->TakeOver(snapshots[n].samples); !status) {
       return base::Error{status.error().code, status.error().Text(), fmt::format("node '{}'", roster.node(n).name)};
     }
+    taken_over.push_back(roster.node(n).name);
+    snapshots[n].has_state = nodes[n]->can_save();
+    snapshots[n].state.clear();
+    if (!snapshots[n].has_state) continue;
     base::StateWriter out;
     nodes[n]->Save(out);
     snapshots[n].state = out.bytes();
-    taken_over.push_back(roster.node(n).name);
   }
   return taken_over;
+}
+
+// The changes name the node, or one of its keys.
+bool IsNamed(const std::string& node, const launch::Overrides& changes) {
+  const std::string own = "nodes." + node;
+  return std::any_of(changes.begin(), changes.end(), [&](const auto& change) { return change.first == own || change.first.starts_with(own + "."); });
+}
+
+// Those without a state that the changes leave as they are.
+std::set<NodeIndex> Unchanged(const std::vector<NodeIndex>& without_state, const lockstep::Roster& roster, const launch::Overrides& changes) {
+  std::set<NodeIndex> unchanged;
+  if (std::any_of(changes.begin(), changes.end(), [](const auto& change) { return change.first == "world"; })) return unchanged;
+  for (const NodeIndex n : without_state) {
+    if (!IsNamed(roster.node(n).name, changes)) unchanged.insert(n);
+  }
+  return unchanged;
 }
 
 // The first node of a kind; empty where there is none.
@@ -93,11 +122,7 @@ std::string NodeOfKind(const launch::Launch& launch, std::string_view kind) {
 std::vector<bool> Persons(const launch::Launch& launch, const launch::Overrides& changes) {
   std::vector<bool> persons;
   for (const launch::LaunchNode& node : launch.nodes()) {
-    const std::string own = "nodes." + node.name;
-    const bool named = std::any_of(changes.begin(), changes.end(), [&](const auto& change) {
-      return change.first == own || change.first.starts_with(own + ".");
-    });
-    persons.push_back(node.is_live() && named);
+    persons.push_back(node.is_live() && IsNamed(node.name, changes));
   }
   return persons;
 }
@@ -128,6 +153,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   outcome.at = wish.at;
   auto parent = replay::RecordedRun::Open(wish.parent);
   if (!parent) return parent.error();
+  outcome.recorded_by_another = RecordedByAnother(parent.value().version(), parent.value().commit());
   const auto& roster = parent.value().roster();
   if (auto status = CheckStep(parent.value(), wish.at); !status) return status.error();
   auto folder = replay::TemporaryFolder::Make();
@@ -145,33 +171,44 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   const std::vector<bool> persons = Persons(launch, wish.changes);
   outcome.live = NamesOf(launch, persons);
   const auto is_replayed = [&](NodeIndex n) { return launch.node(n).is_live() && !persons[n]; };
+  const auto without_state = parent.value().WithoutState();
+  if (!without_state) return without_state.error();
+  const std::set<NodeIndex> unchanged = Unchanged(without_state.value(), roster, wish.changes);
+  GoingOn go_on;
   auto nodes = LocalNodes::Make(launch, [&](NodeIndex n) -> std::unique_ptr<lockstep::Node> {
+    if (unchanged.contains(n)) {
+      auto continued = std::make_unique<ContinuedNode>();
+      go_on[n] = continued.get();
+      return continued;
+    }
     if (is_replayed(n)) return replay::MakeRecordedNode(parent.value(), n, wish.at);
     const std::string_view kind = launch.node(n).kind->name;
     if (roster.node(n).is_sink() && kind != "recorder" && !(wish.with_view && kind == "view")) return replay::MakeNullSink();
     return nullptr;
   });
-  if (!nodes) return nodes.error();
+  if (!nodes) return changed.value().Named(nodes.error());
 
-  auto snapshots = StatesAt(parent.value(), wish, outcome);
-  if (!snapshots) return snapshots.error();
+  auto states = StatesAt(parent.value(), wish, outcome);
+  if (!states) return states.error();
   if (outcome.difference) return outcome;
+  std::vector<Snapshot>& snapshots = states.value().snapshots;
   for (NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    if (is_replayed(n)) snapshots.value()[n].state.clear();
+    if (is_replayed(n)) snapshots[n].state.clear();
   }
-  auto taken_over = Adapt(roster, nodes.value().nodes(), snapshots.value());
-  if (!taken_over) return taken_over.error();
+  for (const auto& [n, continued] : go_on) continued->Follow(*states.value().nodes->nodes()[n], states.value().last_published[n], roster);
+  auto taken_over = Adapt(roster, nodes.value().nodes(), go_on, snapshots);
+  if (!taken_over) return changed.value().Named(taken_over.error());
   outcome.taken_over = std::move(taken_over).value();
 
   lockstep::InProcessSettings settings;
   settings.first_step = wish.at;
   settings.last_step = wish.last_step.value_or(parent.value().last_step());
-  settings.resume = std::move(snapshots).value();
+  settings.resume = std::move(snapshots);
   settings.stop_requested = wish.stop_requested;
   settings.pace = wish.pace;
   settings.next_command = wish.next_command;
   const lockstep::RunOutcome ran = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
-  if (!ran.ok) return base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault), wish.parent);
+  if (!ran.ok) return changed.value().Named(base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault)));
   const auto stopped = [&] { return wish.stop_requested && wish.stop_requested(); };
   // What a person has driven cannot be driven again: it is kept.
   if (stopped() && outcome.live.empty()) {

@@ -12,6 +12,7 @@
 #include "launch/branch.hpp"
 #include "launch/interrupt.hpp"
 #include "launch/operator.hpp"
+#include "launch/recording_text.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -73,6 +74,7 @@ void Tell(const ReplayOptions& options, const BranchOutcome& outcome) {
                                                                   : fmt::format("repeated from step {} to {}, identical", outcome.recomputed_from, outcome.at);
   fmt::print("parent    {} ({})\nbranch    steps {} to {}\n", options.file, basis, outcome.at, outcome.last_step);
   for (const auto& [key, value] : options.changes) fmt::print("changed   {} = {}\n", key, value);
+  if (!outcome.without_state.empty()) fmt::print("{}", ComputedFromTheStart(outcome.without_state));
   if (!outcome.live.empty()) fmt::print("driven by a person: {}\n", fmt::join(outcome.live, ", "));
   if (!outcome.taken_over.empty()) fmt::print("began from what was published: {}\n", fmt::join(outcome.taken_over, ", "));
   fmt::print("wrote     {}\n", options.record);
@@ -92,7 +94,8 @@ int MakeBranch(const ReplayOptions& options) {
   desk.reset();  // the terminal is a terminal again
   if (!outcome) return Complain(outcome.error());
   if (outcome.value().difference) {
-    fmt::print(stderr, "rodeira: {}: the parent could not be repeated up to the branch; {}\n", options.file, outcome.value().difference->Text());
+    fmt::print(stderr, "rodeira: {}: the parent could not be repeated up to the branch; {}\n{}", options.file, outcome.value().difference->Text(),
+               outcome.value().recorded_by_another);
     return 1;
   }
   Tell(options, outcome.value());

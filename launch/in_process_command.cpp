@@ -34,7 +34,7 @@ RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& 
   for (const lockstep::Report& node : outcome.reports) {
     const double mean_us = node.steps == 0 ? 0.0 : static_cast<double>(node.busy_ns) * 1e-3 / static_cast<double>(node.steps);
     report.nodes.push_back({roster.node(node.node).name, node.steps, mean_us, static_cast<double>(node.worst_ns) * 1e-3,
-                            static_cast<double>(node.median_interval_ns) * 1e-3, static_cast<double>(node.p99_interval_ns) * 1e-3, node.server_calls});
+                            static_cast<double>(node.median_interval_ns) * 1e-3, static_cast<double>(node.p99_interval_ns) * 1e-3, node.server_calls, node.cannot_save});
   }
   return report;
 }

@@ -57,6 +57,9 @@ int Info(const std::string& file) {
   PrintWhatItIs(in, file);
   PrintSources(audit);
   PrintWhatIsEmbedded(in);
+  for (const RecordedSource& source : audit.sources) {
+    if (source.without_state) fmt::print("{}", WithoutStateLine(source.source));
+  }
   for (const std::string& damage : audit.damages) fmt::print("damage    {}\n", damage);
   const bool whole = in.condition().whole && audit.damages.empty();
   if (!whole) fmt::print("what to do: rodeira repair {} --out REPAIRED.mcap\n", file);

@@ -81,7 +81,7 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
   Seen seen;
   if (const auto view = ViewOf(roster)) {
     auto settings = view::ReadWindowSettings(run.launch(), *view);
-    if (!settings) return settings.error();
+    if (!settings) return run.Named(settings.error());
     seen.settings = std::move(settings).value();
     seen.period = roster.node(*view).period;
     for (const lockstep::Port& port : roster.node(*view).inputs) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/lockstep/sample.hpp"
+#include "common/lockstep/snapshot.hpp"
 #include "common/record/text_number.hpp"
 
 namespace rodeira::front {
@@ -77,6 +78,10 @@ RecordingAudit Audit(const record::McapReader& reader) {
     RecordedSource& source = sources[message.value()->channel];
     ++source.samples;
     source.bytes += message.value()->data.size();
+    if (source.topic == lockstep::kSnapshotTopic && source.samples == 1) {
+      const auto snapshot = lockstep::Snapshot::FromSample(message.value()->data);
+      source.without_state = snapshot && !snapshot.value().has_state;
+    }
     if (!periods.contains(message.value()->channel) || !lockstep::SampleHeader::HasHeader(message.value()->data)) continue;
     const auto step = lockstep::SampleHeader::Read(message.value()->data).step;
     if (step >= 0) steps.Add(source.topic, message.value()->channel, static_cast<std::uint64_t>(step));

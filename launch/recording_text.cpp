@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "common/record/mcap_reader.hpp"
+#include "nodes/recorder/program.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -54,6 +55,22 @@ std::string WrittenFile(const std::string& recording, double reached_s) {
   if (!reader) return text + fmt::format("lost    {}\n", reader.error().Text());
   if (reader.value().condition().whole) return text + AuditLine(reader.value());
   return text + fmt::format("lost    its end: it holds {:.3f} s of {:.3f} s; what to do: rodeira repair {} --out REPAIRED.mcap\n", LastSample(reader.value()), reached_s, recording);
+}
+
+std::string WithoutStateLine(const std::string& node) {
+  return fmt::format("state   node '{}' cannot save its state: replayed from the first step, and not to be started again\n", node);
+}
+
+std::string ComputedFromTheStart(const std::vector<std::string>& nodes) {
+  std::string text;
+  for (const std::string& node : nodes) text += fmt::format("node '{}' cannot save its state: all is computed again from step 0\n", node);
+  return text;
+}
+
+std::string RecordedByAnother(const std::string& version, const std::string& commit) {
+  if (version == nodes::ProgramVersion() && commit == nodes::ProgramCommit()) return {};
+  return fmt::format("recorded by another program (version {}, commit {}; this one is version {}, commit {}): other sources may give other bits\n", version, commit,
+                     nodes::ProgramVersion(), nodes::ProgramCommit());
 }
 
 }  // namespace rodeira::front

@@ -10,6 +10,7 @@
 
 #include "launch/branch_command.hpp"
 #include "launch/interrupt.hpp"
+#include "launch/recording_text.hpp"
 #include "launch/verify.hpp"
 
 namespace rodeira::front {
@@ -76,8 +77,9 @@ int Replay(const ReplayOptions& options) {
   if (!verdict) return Complain(verdict.error());
   const Verdict& found = verdict.value();
   if (!found.substituted.empty()) fmt::print("live input taken from the recording: {}\n", fmt::join(found.substituted, ", "));
+  if (!found.without_state.empty()) fmt::print("{}", ComputedFromTheStart(found.without_state));
   if (found.difference) {
-    fmt::print("{}\n", found.difference->Text());
+    fmt::print("{}\n{}", found.difference->Text(), RecordedByAnother(run.value().version(), run.value().commit()));
     return 1;
   }
   fmt::print("identical: {} steps, {} nodes ({} samples, {} snapshots; from {:.3f} s; {:.1f} s of wall time)\n", found.last_step - found.first_step, found.nodes,

@@ -76,6 +76,7 @@ void RunReport::Take(std::string_view line) {
     node.apart_us = Number<double>(line, "apart_us");
     node.apart_p99_us = Number<double>(line, "apart_p99_us");
     node.server_calls = Number<std::uint64_t>(line, "server_calls");
+    node.cannot_save = Word(line, "saves") == "0";
     nodes.push_back(node);
   } else if (line.starts_with("end ")) {
     ended = true;
@@ -109,6 +110,9 @@ std::string RunReport::Table(double base_step_s, const std::string& recording) c
   for (const Node& node : nodes) {
     text += fmt::format("{:<{}}  {:>9}  {:>9.2f}  {:>9.1f}  {:>9.1f}  {:>9.1f}  {:>12}\n", node.name, width, node.steps, node.mean_us, node.worst_us,
                         node.apart_us, node.apart_p99_us, node.server_calls);
+  }
+  for (const Node& node : nodes) {
+    if (node.cannot_save) text += WithoutStateLine(node.name);
   }
   if (faults.empty() && recovered.empty()) text += "faults  none\n";
   for (const std::string& again : recovered) text += fmt::format("again   {}\n", again);

@@ -17,6 +17,7 @@ struct RunReport {
     double apart_us = 0.0;  // wall time from step to step: the median,
     double apart_p99_us = 0.0;
     std::uint64_t server_calls = 0;
+    bool cannot_save = false;  // its state
   };
   bool met = false;            // said by who follows a clock on another PC
   bool ready = false;

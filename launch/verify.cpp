@@ -7,7 +7,6 @@
 
 #include "common/lockstep/in_process.hpp"
 #include "common/replay/recorded_node.hpp"
-#include "launch/local_nodes.hpp"
 
 namespace rodeira::front {
 
@@ -26,8 +25,18 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   const auto& roster = run.roster();
   if (auto status = run.CheckBytes(); !status) return status.error();
   if (auto status = run.CheckMathematics(); !status) return status.error();
-  const auto at = run.SnapshotAtOrBefore(wish.from);
+  const auto without_state = run.WithoutState();
+  if (!without_state) return without_state.error();
+  // The recording ends with its last step; what is published ahead of it is there only where it is computed again.
+  lockstep::Step ahead = 0;
+  for (const lockstep::NodeSpec& node : roster.nodes()) {
+    if (!node.outputs.empty()) ahead = std::max(ahead, node.delay - node.period);
+  }
+  const auto at = run.SnapshotAtOrBefore(wish.snapshot_at ? std::min(wish.from, std::max<lockstep::Step>(run.last_step() - ahead, 0)) : wish.from);
   if (!at) return at.error();
+  if (wish.snapshot_at && *wish.snapshot_at == at.value() && at.value() + ahead > run.last_step()) {
+    return base::WrongInput(fmt::format("the run ends at step {}; what its nodes publish ahead of step {} is not in it", run.last_step(), at.value()), run.path().string());
+  }
   if (wish.snapshot_at && *wish.snapshot_at < at.value()) {
     return base::WrongInput(fmt::format("the states of step {} are wanted, but the first snapshots of this run's own are at step {}", *wish.snapshot_at, at.value()),
                             run.path().string());
@@ -35,6 +44,10 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   Recomputed recomputed;
   Verdict& verdict = recomputed.verdict;
   verdict.first_step = at.value();
+  for (const lockstep::NodeIndex n : without_state.value()) {
+    verdict.without_state.push_back(roster.node(n).name);
+    if (wish.snapshot_at) recomputed.last_published[n] = {};
+  }
   std::vector<bool> trusted(roster.nodes().size(), false);
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
     trusted[n] = run.launch().node(n).is_live();
@@ -46,7 +59,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
     if (trusted[n]) return replay::MakeRecordedNode(run, n, at.value());
     return nullptr;
   });
-  if (!nodes) return nodes.error();
+  if (!nodes) return run.Named(nodes.error());
 
   lockstep::InProcessSettings settings;
   settings.first_step = at.value();
@@ -72,6 +85,9 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   settings.on_sample = [&](const lockstep::Sample& sample) {
     comparison.Take(sample);
     if (comparison.differs()) stop = true;
+    const auto last = recomputed.last_published.find(roster.source(sample.source()).node);
+    if (last == recomputed.last_published.end() || sample.source() == roster.node(last->first).snapshots) return;
+    if (sample.valid() == *wish.snapshot_at + roster.node(last->first).delay) last->second.push_back(sample);
   };
   const auto interrupted = [&wish] { return wish.stop_requested && wish.stop_requested(); };
   settings.stop_requested = [&] { return stop.load() || interrupted(); };
@@ -84,11 +100,12 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
     recomputed.snapshots[n].at = *wish.snapshot_at;
   }
   if (comparison.problem()) return *comparison.problem();
-  if (!outcome.ok && !comparison.first()) return base::Failed(fmt::format("the run could not be computed again: {}", outcome.fault), run.path().string());
+  if (!outcome.ok && !comparison.first()) return run.Named(base::Failed(fmt::format("the run could not be computed again: {}", outcome.fault)));
   verdict.last_step = outcome.last_step;
   verdict.samples = comparison.compared();
   verdict.snapshots = comparison.snapshots_compared();
   verdict.difference = comparison.first();
+  if (wish.snapshot_at) recomputed.nodes = std::make_shared<LocalNodes>(std::move(nodes).value());
   return recomputed;
 }
 

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/replay/comparison.hpp"
 #include "common/replay/recorded_run.hpp"
+#include "launch/local_nodes.hpp"
 
 namespace rodeira::front {
 
@@ -16,6 +19,7 @@ struct Verdict {
   std::size_t nodes = 0;          // computed again
   std::uint64_t samples = 0;      // compared
   std::uint64_t snapshots = 0;
+  std::vector<std::string> without_state;  // cannot save it: everything is computed from the first step on
   std::vector<std::string> substituted;  // live input: their samples were taken from the recording
   std::optional<replay::Difference> difference;
 };
@@ -31,6 +35,10 @@ struct Recomputation {
 struct Recomputed {
   Verdict verdict;
   std::vector<lockstep::Snapshot> snapshots;  // one for each node where they were asked for
+  // The nodes, as they stand behind their activation at the step of those snapshots, and what that activation of those without a
+  // state published; for a branch, in which only they can go on.
+  std::shared_ptr<LocalNodes> nodes;
+  std::map<lockstep::NodeIndex, std::vector<lockstep::Sample>> last_published;
 };
 base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish);
 

@@ -48,7 +48,7 @@ base::Status Watch(const WatchOptions& options) {
         "--view");
   }
   const auto world = view::WorldOf(run.value().launch());
-  if (!world) return world.error();
+  if (!world) return run.value().Named(world.error());
   auto window = view::ReplayWindow::Open(seen.value().settings, *world.value());
   if (!window) return window.error();
   const std::int64_t base_step_ns = run.value().roster().base_step_ns();
@@ -88,7 +88,7 @@ base::Status WriteFrames(const WatchOptions& options) {
   settings.window = view::WindowWish::kNever;
   if (auto status = view::PrepareFolder(settings.folder); !status) return base::WrongInput(status.error().message, "--frames");
   auto world = view::WorldOf(run.value().launch());
-  if (!world) return world.error();
+  if (!world) return run.value().Named(world.error());
   auto stage = view::Stage::Open(settings, std::move(world).value());
   if (!stage) return stage.error();
   RecordedMoments moments(run.value(), seen.value().sources, seen.value().period);

@@ -46,7 +46,7 @@ def text(number):
 class Map:
     def __init__(self, name):
         self.name, self.curves, self.lanes, self.connections, self.heights = name, {}, [], [], {}
-        self.picture, self.scale = b"", 10
+        self.picture, self.scale, self.lights = b"", 10, []
 
     def curve(self, points, z):
         for inverted in (False, True):
@@ -86,10 +86,15 @@ class Map:
         out += [f"s,{text(self.scale)}", "i", ""]
         (folder / f"{self.name}.motors").write_bytes("\n".join(out).encode() + self.picture)
         companion = folder / f"{self.name}.motors.yaml"
+        rows = ["rodeira: motors/1"]
         if self.heights:
-            rows = [f"  {n}: [{', '.join(text(v) for v in z)}]" for n, z in self.heights.items()]
-            head = ["rodeira: motors/1", "heights_m:  # of a curve: z at its four control points"]
-            companion.write_text("\n".join(head + rows + [""]))
+            rows.append("heights_m:  # of a curve: z at its four control points")
+            rows += [f"  {n}: [{', '.join(text(v) for v in z)}]" for n, z in self.heights.items()]
+        if self.lights:
+            rows += ["lights:  # of each junction; who is green: lanes, at whose end a light stands", "  - phases:"]
+            rows += [f"      - {{green: [{', '.join(map(str, lanes))}], for_s: {seconds}}}" for lanes, seconds in self.lights]
+        if len(rows) > 1:
+            companion.write_text("\n".join(rows + [""]))
 
 
 def meadow(width, height):
@@ -258,8 +263,18 @@ def overpass():
     return plan
 
 
+def lights():
+    """A crossing with traffic lights: east and west, then north and south."""
+    plan = Map("lights")
+    arms = four_arms(plan, 12, 160)
+    crossing_turns(plan, 0, 0, arms, 12)
+    plan.lights = [([arms[0][1], arms[2][1]], 25), ([arms[1][1], arms[3][1]], 20)]
+    plan.picture, plan.scale = meadow(96, 96), 34
+    return plan
+
+
 if __name__ == "__main__":
     target = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent / "configs/maps")
     target.mkdir(parents=True, exist_ok=True)
-    for make in (crossing, roundabout, ramp, town, overpass):
+    for make in (crossing, roundabout, ramp, town, overpass, lights):
         make().write(target)

@@ -153,7 +153,8 @@ class ClockProcess {
       return base::Failed("in this run nobody keeps what a node needs that is started again; a recorder and 'recovery: pause' or 'restart' in its launch file do");
     }
     if (launch_.node(node).is_live()) return base::Failed(fmt::format("node '{}' is driven by a person, whose input cannot be computed again", name));
-    Restart(node, "asked for by the operator");
+    if (clock_.report(node).cannot_save) return base::Failed(fmt::format("node '{}' cannot save its state, so it cannot be started again", name));
+    Restart(node, fmt::format("node '{}' at about step {}: asked for by the operator", name, clock_.report(node).progress));
     return fmt::format("'{}' is started again", name);
   }
 
@@ -326,6 +327,10 @@ class ClockProcess {
     }
     if (named.report.phase < lockstep::Phase::kFailed && IsTwice(node, named)) return;
     named.report.node = node;
+    if (auto status = clock_.recovery().CheckState(named.report); !status) {
+      refusal_ = status.error().Text();
+      return;
+    }
     watchdog_.Heard(named.report, NowNs() / 1'000'000);
     missed_.Heard(node, NowNs());
     if (auto status = clock_.Take(named.report); !status) Say("refused {}", OneLine(status.error().Text()));
@@ -361,10 +366,10 @@ class ClockProcess {
     for (lockstep::NodeIndex n = 0; n < roster_.nodes().size(); ++n) {
       const lockstep::Report& report = clock_.report(n);
       const double mean_us = report.steps == 0 ? 0.0 : static_cast<double>(report.busy_ns) * 1e-3 / static_cast<double>(report.steps);
-      lines += fmt::format("node {} steps={} mean_us={:.2f} worst_us={:.1f} apart_us={:.1f} apart_p99_us={:.1f} server_calls={} digest={}\n",
+      lines += fmt::format("node {} steps={} mean_us={:.2f} worst_us={:.1f} apart_us={:.1f} apart_p99_us={:.1f} server_calls={} saves={} digest={}\n",
                            roster_.node(n).name, report.steps, mean_us, static_cast<double>(report.worst_ns) * 1e-3,
                            static_cast<double>(report.median_interval_ns) * 1e-3, static_cast<double>(report.p99_interval_ns) * 1e-3,
-                           report.server_calls, base::Hex(report.digest));
+                           report.server_calls, report.cannot_save ? 0 : 1, base::Hex(report.digest));
     }
     return lines;
   }

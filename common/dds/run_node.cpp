@@ -107,6 +107,7 @@ base::Status FindBeginning(ProcessContext& context, NodeBus& bus, lockstep::Mail
   if (beginning.snapshot > 0) {
     settings.resume = bus.FetchSnapshot(beginning.snapshot, limit);
     if (!settings.resume) return base::Failed(fmt::format("nobody has its snapshot at step {}", beginning.snapshot));
+    if (!settings.resume->has_state) return base::Failed("it cannot save its state, so it cannot be started again");
   }
   mailbox.StartAt(settings.resume ? settings.resume->at : settings.sink_from);
   bus.Listen();

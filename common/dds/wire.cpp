@@ -75,6 +75,7 @@ base::Bytes EncodeReport(const NamedReport& in) {
   out.safe_step(report.safe);
   out.granted_step(report.granted);
   out.granted_final(report.granted_final);
+  out.cannot_save(report.cannot_save);
   out.message(report.message);
   return idl::Encode(out);
 }
@@ -106,6 +107,7 @@ base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
   out.report.safe = in.safe_step();
   out.report.granted = in.granted_step();
   out.report.granted_final = in.granted_final();
+  out.report.cannot_save = in.cannot_save();
   out.report.message = in.message();
   return out;
 }

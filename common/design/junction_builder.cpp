@@ -8,6 +8,7 @@
 
 #include "common/design/cut.hpp"
 #include "common/design/junction_arms.hpp"
+#include "common/design/junction_lights.hpp"
 #include "common/design/junction_outline.hpp"
 #include "common/design/junction_ways.hpp"
 
@@ -135,7 +136,24 @@ class Builder {
     AddThrough(wish, arms, pieces, *surface, junction);
     AddTurns(wish, arms, pieces, *surface, junction);
     for (const Arm& arm : arms) MarkArm(specs_[arm.piece], arm.end, wish.control, arm.meeting == 0);
+    if (wish.lights) AddLights(wish, arms, junction);
     layout_.network.junctions.push_back(std::move(junction));
+  }
+
+  // A light before each arm that traffic comes from, a controller a road.
+  void AddLights(const JunctionWish& wish, const std::vector<Arm>& arms, network::Junction& junction) {
+    for (const std::string& name : wish.lights->Names()) {
+      network::Controller controller;
+      controller.id = fmt::format("{}-{}", wish.id, name);
+      controller.name = fmt::format("{}: {}", wish.name, name);
+      controller.times = lights::TimesOf(*wish.lights, name);
+      for (const Arm& arm : arms) {
+        if (designs_[wish.meetings[arm.meeting].road].spec.id != name) continue;
+        if (const auto id = PutLight(specs_[arm.piece], arm.end)) controller.controls.push_back({*id, "0"});
+      }
+      junction.controllers.push_back(controller.id);
+      layout_.network.controllers.push_back(std::move(controller));
+    }
   }
 
   // Straight on along roads that pass.

@@ -42,6 +42,23 @@ Meeting ReadMeeting(const Map& item, const std::vector<RoadDesign>& designs, con
   return meeting;
 }
 
+// The phases of a junction's lights: every road that meets it is green in one of them.
+void ReadLights(const Map& item, const std::vector<RoadDesign>& designs, JunctionWish& junction) {
+  const Map map = item.Child("lights");
+  junction.lights = lights::ReadLightPlan(map);
+  const std::vector<std::string> names = junction.lights->Names();
+  std::vector<std::string> roads;
+  for (const Meeting& meeting : junction.meetings) roads.push_back(designs[meeting.road].spec.id);
+  for (const std::string& name : names) {
+    if (std::find(roads.begin(), roads.end(), name) == roads.end())
+      map.Problem("phases", fmt::format("no road '{}' meets junction '{}'{}", name, junction.id, base::DidYouMean(name, roads)));
+  }
+  for (const std::string& road : roads) {
+    if (std::find(names.begin(), names.end(), road) == names.end())
+      map.Problem("phases", fmt::format("road '{}' is green in no phase of junction '{}'", road, junction.id));
+  }
+}
+
 // How much lower than its axis a road's outermost edges lie, in the mean. Other roads come to the height of these.
 double EdgeDrop(const network::Road& road, double s_m) {
   const network::LaneSection& section = road.SectionAt(s_m);
@@ -84,7 +101,7 @@ std::vector<JunctionWish> ReadJunctions(const Map& file, const std::vector<RoadD
   const config::List list = file.OptionalItems("junctions");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Map item = list.At(i);
-    JunctionWish junction{{}, {}, {}, Control::kGiveWay, 8.0, 60.0, item};
+    JunctionWish junction{{}, {}, {}, Control::kGiveWay, 8.0, 60.0, item, {}};
     junction.id = item.Text("id");
     junction.name = item.Text("name", junction.id);
     for (const JunctionWish& other : junctions) {
@@ -93,8 +110,12 @@ std::vector<JunctionWish> ReadJunctions(const Map& file, const std::vector<RoadD
     if (junction.id.find('/') != std::string::npos) item.Problem("id", "a junction's id holds no '/': the ways through it are named with it");
     const config::List meetings = item.Items("roads");
     for (std::size_t k = 0; k < meetings.size(); ++k) junction.meetings.push_back(ReadMeeting(meetings.At(k), designs, roads));
-    const std::string control = item.Choice("control", {"give_way", "stop", "none"}, "give_way");
-    junction.control = control == "stop" ? Control::kStop : control == "none" ? Control::kNone : Control::kGiveWay;
+    const std::string control = item.Choice("control", {"give_way", "stop", "none", "lights"}, "give_way");
+    junction.control = control == "stop"     ? Control::kStop
+                       : control == "none"   ? Control::kNone
+                       : control == "lights" ? Control::kLights
+                                             : Control::kGiveWay;
+    if (junction.control == Control::kLights) ReadLights(item, designs, junction);
     junction.radius_m = item.Number("radius_m", {1.0, 100.0}, 8.0);
     junction.fit_m = item.Number("fit_m", {1.0, 1000.0}, 60.0);
     if (junction.meetings.size() < 2) item.Problem("roads", "a junction has two roads or more");

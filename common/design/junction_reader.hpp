@@ -5,11 +5,12 @@
 
 #include "common/config/config.hpp"
 #include "common/design/road_reader.hpp"
+#include "common/lights/light_plan.hpp"
 
 namespace rodeira::design {
 
-// What a minor road's traffic does.
-enum class Control { kNone, kGiveWay, kStop };
+// What a minor road's traffic does; lights hold for all.
+enum class Control { kNone, kGiveWay, kStop, kLights };
 
 // A road that meets a junction: it passes, or it begins or ends there.
 struct Meeting {
@@ -26,6 +27,7 @@ struct JunctionWish {
   double radius_m = 8.0;  // how far the corners stand back from where the roads' edges would meet
   double fit_m = 60.0;    // over which minor roads come to the height of the first one
   config::Map map;
+  std::optional<lights::LightPlan> lights;  // names are roads
 };
 
 // Reads 'junctions' of a file. Roads must be built already (`roads`, beside the designs).

@@ -178,7 +178,7 @@ void MarkArm(network::RoadSpec& spec, network::End end, Control control, bool ma
     signal.orientation.assign(1, starts ? '-' : '+');
     spec.signals.push_back(std::move(signal));
   };
-  if (control == Control::kNone) return;
+  if (control == Control::kNone || control == Control::kLights) return;
   if (major) return put("priority", 100.0);
   put(control == Control::kStop ? "stop" : "give_way", 1.5);
   const double length = control == Control::kStop ? 0.5 : 0.4;

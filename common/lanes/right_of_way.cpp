@@ -5,6 +5,7 @@
 
 #include "common/geometry/angle.hpp"
 #include "common/geometry/plane.hpp"
+#include "common/lanes/lights.hpp"
 #include "common/lanes/ring.hpp"
 #include "common/lanes/signs.hpp"
 
@@ -65,6 +66,10 @@ void Decide(const Graph& graph, Zone& zone) {
   const int sign_a = static_cast<int>(SignFor(graph, zone.track[0], zone.in_m[0]));
   const int sign_b = static_cast<int>(SignFor(graph, zone.track[1], zone.in_m[1]));
   zone.signed_ = true;
+  if (LightFor(graph, zone.track[0], zone.in_m[0]) && LightFor(graph, zone.track[1], zone.in_m[1])) {  // signs hold where lights are dark
+    zone.first = FirstByRule(graph, zone), zone.signed_ = false;
+    return;
+  }
   if (sign_a != sign_b) zone.first = sign_a > sign_b ? 0 : 1;
   else if (const int named = NamedFirst(graph, zone); named >= 0) zone.first = named;
   else zone.first = FirstByRule(graph, zone), zone.signed_ = false;

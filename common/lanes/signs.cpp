@@ -19,6 +19,8 @@ std::optional<Sign> SignOf(const network::Signal& signal) {
   return std::nullopt;
 }
 
+}  // namespace
+
 bool HoldsFor(const Track& track, std::string_view orientation, const std::vector<network::LaneValidity>& validity) {
   if (orientation == "+" && !track.along) return false;
   if (orientation == "-" && track.along) return false;
@@ -26,8 +28,6 @@ bool HoldsFor(const Track& track, std::string_view orientation, const std::vecto
            return track.lane.lane >= std::min(lanes.from_lane, lanes.to_lane) && track.lane.lane <= std::max(lanes.from_lane, lanes.to_lane);
          });
 }
-
-}  // namespace
 
 std::vector<SignPlace> SignsOf(const Graph& graph, std::uint32_t track) {
   const Track& t = graph[track];

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "common/lanes/graph.hpp"
@@ -15,6 +16,9 @@ struct SignPlace {
   double d_m = 0.0;  // along the track
   Sign sign = Sign::kNone;
 };
+
+// Whether something beside the road is for the traffic of a track, by its orientation ("+", "-", "none") and lanes.
+bool HoldsFor(const Track& track, std::string_view orientation, const std::vector<network::LaneValidity>& validity);
 
 // STOP, give-way and priority signs (206, 205, 301, 306 and 307, which ends a priority road) for the traffic of a track, by
 // the Vienna Convention's German numbers, which OpenDRIVE files and this project use; ascending.

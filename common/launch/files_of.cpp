@@ -15,6 +15,13 @@ constexpr std::uintmax_t kMostBytes = 64u << 20;
 const std::string kAbsolute = "absolute";
 constexpr std::size_t kMostUp = 8;  // how often a name may go up from the launch file's folder
 
+// Where the launch file lies among files that were laid out: deep enough for names that go up.
+fs::path HomeIn(const fs::path& root) {
+  fs::path home = root;
+  for (std::size_t i = 0; i < kMostUp; ++i) home /= "d";
+  return home;
+}
+
 class Collector {
  public:
   explicit Collector(const Launch& launch) : home_(fs::absolute(launch.path()).parent_path().lexically_normal()) {
@@ -83,8 +90,7 @@ base::Result<std::vector<NamedFile>> FilesOf(const Launch& launch) {
 base::Result<fs::path> LayOut(const std::vector<NamedFile>& files, const fs::path& folder) {
   if (files.empty()) return base::WrongInput("there is no launch file");
   const fs::path root = folder.lexically_normal();
-  fs::path home = root;
-  for (std::size_t i = 0; i < kMostUp; ++i) home /= "d";
+  const fs::path home = HomeIn(root);
   for (const NamedFile& file : files) {
     const fs::path name(file.name);
     const fs::path target = (home / name).lexically_normal();
@@ -107,6 +113,16 @@ std::string LaidOut(const std::string& value, const fs::path& launch_file) {
   const fs::path copy = launch_file.parent_path() / (kAbsolute + path.generic_string());
   std::error_code problem;
   return fs::is_regular_file(copy, problem) ? "\"" + copy.string() + "\"" : value;
+}
+
+std::string WithNames(std::string text, const fs::path& folder) {
+  const fs::path root = folder.lexically_normal();
+  std::string up;
+  for (fs::path level = HomeIn(root);; level = level.parent_path(), up += "../") {
+    const std::string start = level.string() + "/";
+    for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at + up.size())) text.replace(at, start.size(), up);
+    if (level == root) return text;
+  }
 }
 
 }  // namespace rodeira::launch

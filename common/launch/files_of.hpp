@@ -28,4 +28,7 @@ base::Result<std::filesystem::path> LayOut(const std::vector<NamedFile>& files, 
 // The value of an override, in a launch file that was laid out: where it names a file by its whole path, the laid out copy.
 std::string LaidOut(const std::string& value, const std::filesystem::path& launch_file);
 
+// A sentence about files that were laid out below `folder`: each path is said by its name, as it stands in NamedFile.
+std::string WithNames(std::string text, const std::filesystem::path& folder);
+
 }  // namespace rodeira::launch

@@ -52,7 +52,8 @@ void SetSnapshots(const config::Map& root, std::int64_t base_step_ns, std::vecto
   if (std::none_of(wishes.begin(), wishes.end(), [](const NodeWish& wish) { return wish.kind == "recorder"; })) return;
   Step common = 1;
   for (const NodeWish& wish : wishes) {
-    if (has_state(wish)) common = std::lcm(common, wish.period);
+    // Recorders too: one that begins at a snapshot waits for none that lies before.
+    if (has_state(wish) || wish.kind == "recorder") common = std::lcm(common, wish.period);
   }
   every = lockstep::CeilTo(every, common);
   for (NodeWish& wish : wishes) {

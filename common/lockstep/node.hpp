@@ -26,6 +26,10 @@ class Node {
   virtual void Save(base::StateWriter& out) const = 0;
   virtual void Restore(base::StateReader& in) = 0;
 
+  // False: the state lies where nobody can read it out (a model of another maker). Save then writes what the node knows of it, for
+  // the digests; its snapshots are without a state, Restore is never called, and it is computed again from its first step only.
+  virtual bool can_save() const { return true; }
+
   // A branch (X4): begins where another model of this node stood, from its own newest published samples. Called instead of
   // Initialise where the other's state does not fit. Refused unless a node knows how.
   virtual base::Status TakeOver(const std::vector<Sample>& /*published*/) {

@@ -32,6 +32,12 @@ Recovery::Recovery(const Roster& roster, std::vector<Policy> policies)
   }
 }
 
+base::Status Recovery::CheckState(const Report& report) const {
+  if (!report.cannot_save || policies_[report.node] != Policy::kRestart) return {};
+  const std::string& name = roster_.node(report.node).name;
+  return base::WrongInput(fmt::format("node '{}' cannot save its state, so it cannot be started again; 'stop' or 'pause' was expected as nodes.{}.recovery", name, name));
+}
+
 void Recovery::Heard(const Report& report) {
   Life& life = lives_[report.node];
   const bool is_there = roster_.node(report.node).role == Role::kService || report.progress >= life.farthest;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/result.hpp"
 #include "common/lockstep/report.hpp"
 #include "common/lockstep/roster.hpp"
 
@@ -40,6 +41,9 @@ class Recovery {
   // Somebody may be started again, by policy or by a person, and there is a recorder: nodes keep what it could lose.
   bool restarts() const { return restarts_; }
 
+  // Wrong input: the node is to be started again, and says that it cannot save its state. There is no snapshot to begin at, and
+  // nobody keeps the samples of a whole run, to compute it again from its first step.
+  base::Status CheckState(const Report& report) const;
   void Heard(const Report& report);
   // For the grant: kNever where nobody is started again.
   Step safe() const { return restarts_ ? safe_ : kNever; }

@@ -43,6 +43,7 @@ struct Report {
   Step safe = -1;                         // of who keeps snapshots (a recorder): samples valid through it are in its file
   Step granted = -1;                      // the newest grant that the node knows …
   bool granted_final = false;             // … and whether that is the last of the run
+  bool cannot_save = false;               // its state: it has no snapshots to begin at (Node::can_save)
   std::string message;                    // why it failed; what it refused
 };
 

@@ -18,6 +18,7 @@ Runner::Runner(const Roster& roster, NodeIndex index, Node& node, Bus& bus, Mail
       settings_(std::move(settings)), outbox_(roster, index), since_(WallClock::now()) {
   report_.node = index;
   report_.incarnation = settings_.incarnation;
+  report_.cannot_save = !node.can_save();
 }
 
 Runner::Outcome Runner::Run() {
@@ -46,9 +47,12 @@ Runner::Outcome Runner::Begin() {
   std::vector<Sample> first;
   if (settings_.resume) {
     const Snapshot& snapshot = *settings_.resume;
-    base::StateReader in(snapshot.state);
-    node_.Restore(in);
-    if (auto status = in.Finish(); !status) return Fail(status.error());
+    if (snapshot.has_state) {
+      if (!node_.can_save()) return Fail(base::WrongInput("its snapshot holds a state, which this node can neither save nor take"));
+      base::StateReader in(snapshot.state);
+      node_.Restore(in);
+      if (auto status = in.Finish(); !status) return Fail(status.error());
+    }
     next_ = CeilTo(snapshot.at, spec_.period);
     first = snapshot.samples;
     for (Sample& sample : first) {
@@ -87,9 +91,7 @@ Runner::Outcome Runner::Begin() {
   // The first snapshot is, like every first sample, there before anybody is ready.
   begun_at_ = settings_.resume ? settings_.resume->at : next_;
   if (spec_.snapshots && begun_at_ % roster_.source(*spec_.snapshots).period == 0) {
-    base::StateWriter out;
-    node_.Save(out);
-    if (auto status = PublishSnapshot({index_, begun_at_, out.bytes(), {}, report_.steps, report_.digest}); !status) return Fail(status.error());
+    if (auto status = PublishSnapshot(SnapshotAt(begun_at_)); !status) return Fail(status.error());
   }
   stage_ = Stage::kInputs;
   return Outcome::kWorking;
@@ -216,6 +218,16 @@ void Runner::AskAgain() {
   for (const Gap& gap : gaps) bus_.Ask(gap);
 }
 
+// Of the state as it is, without samples.
+Snapshot Runner::SnapshotAt(Step step) const {
+  Snapshot snapshot{index_, step, {}, {}, report_.steps, report_.digest, node_.can_save()};
+  if (!snapshot.has_state) return snapshot;
+  base::StateWriter out;
+  node_.Save(out);
+  snapshot.state = out.bytes();
+  return snapshot;
+}
+
 base::Status Runner::PublishSnapshot(const Snapshot& snapshot) { return bus_.Publish(snapshot.ToSample(roster_, settings_.incarnation)); }
 
 base::Status Runner::TakeSnapshotIfDue(Step step) {
@@ -223,9 +235,7 @@ base::Status Runner::TakeSnapshotIfDue(Step step) {
   Step at = settings_.snapshot_every > 0 ? FloorTo(step, settings_.snapshot_every) : 0;
   const bool keep = at > step - spec_.period && at != 0;  // one lies between the last activation and this one
   if (!publish && !keep) return {};
-  base::StateWriter out;
-  node_.Save(out);
-  Snapshot snapshot{index_, step, out.bytes(), {}, report_.steps, report_.digest};
+  Snapshot snapshot = SnapshotAt(step);
   if (publish) {
     if (auto status = PublishSnapshot(snapshot); !status) return status;
   }

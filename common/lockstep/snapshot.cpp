@@ -5,10 +5,18 @@
 #include "common/base/assert.hpp"
 
 namespace rodeira::lockstep {
+namespace {
+
+constexpr std::size_t kContentAt = SampleHeader::kEncapsulation + SampleHeader::kSize;
+// The first words of a snapshot, by which it says whether it holds a state.
+constexpr std::string_view kWithState = "rodeira-snapshot/1";
+constexpr std::string_view kWithoutState = "rodeira-snapshot/1 none";
+
+}  // namespace
 
 base::Bytes Snapshot::Encode() const {
   base::ByteWriter out;
-  out.PutString("rodeira-snapshot/1");
+  out.PutString(std::string(has_state ? kWithState : kWithoutState));
   out.Put(node);
   out.Put(at);
   out.Put(steps);
@@ -26,8 +34,11 @@ base::Bytes Snapshot::Encode() const {
 base::Result<Snapshot> Snapshot::Decode(std::span<const std::byte> bytes) {
   base::ByteReader in(bytes);
   const std::string magic = in.GetString();
-  if (magic != "rodeira-snapshot/1") return base::WrongInput("this is no snapshot of this version: 'rodeira-snapshot/1' was expected at its start");
+  if (magic != kWithState && magic != kWithoutState) {
+    return base::WrongInput(fmt::format("this is no snapshot of this version: '{}' was expected at its start", kWithState));
+  }
   Snapshot snapshot;
+  snapshot.has_state = magic == kWithState;
   snapshot.node = in.Get<NodeIndex>();
   snapshot.at = in.Get<Step>();
   snapshot.steps = in.Get<std::uint64_t>();
@@ -41,12 +52,9 @@ base::Result<Snapshot> Snapshot::Decode(std::span<const std::byte> bytes) {
     snapshot.samples.push_back({SampleHeader::Read(payload), std::make_shared<const base::Bytes>(payload.begin(), payload.end())});
   }
   if (!in.ok()) return base::WrongInput("the snapshot is cut short");
+  if (!snapshot.has_state && !snapshot.state.empty()) return base::WrongInput("the snapshot says that it has no state, and holds one");
   if (in.remaining() != 0) return base::WrongInput("bytes are left over behind the snapshot");
   return snapshot;
-}
-
-namespace {
-constexpr std::size_t kContentAt = SampleHeader::kEncapsulation + SampleHeader::kSize;
 }
 
 Sample Snapshot::ToSample(const Roster& roster, std::uint32_t incarnation) const {

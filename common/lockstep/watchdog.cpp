@@ -52,14 +52,17 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
   }
   if (recovering_ && missing.empty()) {
     recovering_ = false;
-    for (Life& life : lives_) life.last_ms = now_ms;
+    for (Life& life : lives_) {
+      life.last_ms = now_ms;
+      life.held_up = true;
+    }
   }
   for (NodeIndex n = 0; n < lives_.size() && !recovering_; ++n) {
     const Life& life = lives_[n];
     const NodeSpec& spec = roster_.node(n);
     if (!life.heard || life.excused || life.report.phase == Phase::kFinished) continue;
     const std::int64_t silence_ms = now_ms - life.last_ms;
-    if (silence_ms > settings_.silence_ms) {
+    if (silence_ms > (life.held_up ? kHeldUp : 1) * settings_.silence_ms) {
       return Fault{n, fmt::format("node '{}' has said nothing for {:.2f} s at step {}: it was killed, stopped or cut off", spec.name,
                                   static_cast<double>(silence_ms) / 1e3, life.report.progress)};
     }

@@ -32,7 +32,8 @@ class Watchdog {
   std::optional<Fault> Check(std::int64_t now_ms);
   // The node is started again and has as long as at the start. Until everybody is ready again nobody's silence or slowness
   // counts: who speaks to a process that was killed may be held up for a second (Fast DDS, shared memory). A process that dies
-  // meanwhile is seen by who has started it.
+  // meanwhile is seen by who has started it. Who was held up may be so still when the new life is there already: until it has
+  // spoken again, its silence may last kHeldUp times as long.
   void ExpectNextLife(NodeIndex node, std::int64_t now_ms);
   // Its fault is known and a person looks after it: it is named no more until it goes on.
   void Excuse(NodeIndex node);
@@ -43,7 +44,10 @@ class Watchdog {
     std::int64_t last_ms = 0;
     Report report;
     bool excused = false;
+    bool held_up = false;  // it has not spoken since somebody was started again
   };
+  static constexpr std::int64_t kHeldUp = 5;
+
   const Roster& roster_;
   Settings settings_;
   std::vector<Life> lives_;

@@ -13,6 +13,7 @@ std::string NameOf(const Finding& finding) {
     case Element::kLane: return fmt::format("lane {}", finding.number);
     case Element::kConnection: return fmt::format("connection {} to {}", finding.number, finding.to);
     case Element::kHeights: return fmt::format("heights of curve {}", finding.number);
+    case Element::kLights: return "lights";
     case Element::kMap: break;
   }
   return "map";
@@ -23,7 +24,7 @@ std::string NameOf(const Finding& finding) {
 std::string Finding::Text() const { return NameOf(*this) + ": " + sentence; }
 
 std::string Finding::Place(const std::string& file) const {
-  const std::string name = element == Element::kHeights ? file + ".yaml" : file;
+  const std::string name = element == Element::kHeights || element == Element::kLights ? file + ".yaml" : file;
   return line == 0 ? name : fmt::format("{}:{}", name, line);
 }
 

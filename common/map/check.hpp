@@ -10,7 +10,7 @@
 namespace rodeira::map {
 
 enum class Severity { kError, kWarning };  // an error: no traffic can use the map; a warning: it can, but is that meant?
-enum class Element { kMap, kCurve, kLane, kConnection, kHeights };
+enum class Element { kMap, kCurve, kLane, kConnection, kHeights, kLights };
 
 // Something that is wrong with one element of a map.
 struct Finding {

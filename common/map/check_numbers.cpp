@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <set>
 
 #include "common/map/check_rules.hpp"
 #include "common/map/lane_map.hpp"
@@ -60,6 +62,24 @@ void CheckConnections(const MapFile& map, Findings& findings) {
   }
 }
 
+// Lanes that are there, and each in the lights of one junction.
+void CheckLights(const MapFile& map, const Heights& heights, Findings& findings) {
+  const NumberIndex lanes(map.lanes);
+  std::set<std::string> lit;
+  for (const lights::LightPlan& plan : heights.lights) {
+    for (const std::string& name : plan.Names()) {
+      const auto phase = std::find_if(plan.phases.begin(), plan.phases.end(), [&](const lights::Phase& p) {
+        return std::find(p.green.begin(), p.green.end(), name) != p.green.end();
+      });
+      std::int32_t number = 0;
+      const auto [end, problem] = std::from_chars(name.data(), name.data() + name.size(), number);
+      if (problem != std::errc() || end != name.data() + name.size() || !lanes.Find(number))
+        findings.Add(Severity::kError, *phase, fmt::format("the map has no lane {}", name));
+      if (!lit.insert(name).second) findings.Add(Severity::kError, *phase, fmt::format("lane {} has other lights already", name));
+    }
+  }
+}
+
 }  // namespace
 
 void CheckNumbers(const MapFile& map, const Heights& heights, Findings& findings) {
@@ -78,6 +98,7 @@ void CheckNumbers(const MapFile& map, const Heights& heights, Findings& findings
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!used[i] && curves.Find(map.curves[i].value.id) == i) findings.Add(Severity::kWarning, map.curves[i], "no lane uses it");
   }
+  CheckLights(map, heights, findings);
   for (const CurveHeights& one : heights.curves) {
     if (!curves.Find(one.curve)) findings.Add(Severity::kError, one, "the map has no such curve");
   }

@@ -24,6 +24,9 @@ class Findings {
   void Add(Severity severity, const CurveHeights& heights, std::string sentence) {
     all_.push_back({severity, Element::kHeights, heights.curve, 0, heights.line, std::move(sentence)});
   }
+  void Add(Severity severity, const lights::Phase& phase, std::string sentence) {
+    all_.push_back({severity, Element::kLights, 0, 0, LineOf(phase.place), std::move(sentence)});
+  }
   void AddToMap(Severity severity, std::string sentence) {
     all_.push_back({severity, Element::kMap, 0, 0, 0, std::move(sentence)});
   }

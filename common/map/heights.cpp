@@ -14,19 +14,13 @@ constexpr double kMostHeight_m = 1e4;
 
 bool Below(const CurveHeights& heights, std::int32_t curve) { return heights.curve < curve; }
 
-// The number at the end of "FILE:12"; 0 where there is none.
-std::size_t LineOf(const std::string& place) {
-  std::size_t line = 0;
-  const std::size_t colon = place.rfind(':');
-  if (colon != std::string::npos) std::from_chars(place.data() + colon + 1, place.data() + place.size(), line);
-  return line;
-}
-
 base::Result<Heights> Read(config::File& file) {
   const config::Map root = file.root();
   (void)root.Choice("rodeira", {"motors/1"});
-  const config::Map all = root.Child("heights_m");
+  const config::Map all = root.OptionalChild("heights_m");
   Heights heights;
+  const config::List lights = root.OptionalItems("lights");
+  for (std::size_t i = 0; i < lights.size(); ++i) heights.lights.push_back(lights::ReadLightPlan(lights.At(i)));
   for (const std::string& key : all.Keys()) {
     CurveHeights one;
     const auto [end, problem] = std::from_chars(key.data(), key.data() + key.size(), one.curve);
@@ -49,6 +43,13 @@ base::Result<Heights> Read(config::File& file) {
 }
 
 }  // namespace
+
+std::size_t LineOf(const std::string& place) {
+  std::size_t line = 0;
+  const std::size_t colon = place.rfind(':');
+  if (colon != std::string::npos) std::from_chars(place.data() + colon + 1, place.data() + place.size(), line);
+  return line;
+}
 
 std::array<double, 4> Heights::Of(std::int32_t curve) const {
   const auto at = std::lower_bound(curves.begin(), curves.end(), curve, Below);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/result.hpp"
+#include "common/lights/light_plan.hpp"
 
 namespace rodeira::map {
 
@@ -20,10 +21,14 @@ struct CurveHeights {
 
 // What a `.motors` file has no place for: the companion FILE.motors.yaml beside it. Curves that it does not name lie at 0.
 struct Heights {
-  std::vector<CurveHeights> curves;  // by ascending number, each once
+  std::vector<CurveHeights> curves;       // by ascending number, each once
+  std::vector<lights::LightPlan> lights;  // of each junction; names are numbers of lanes, at whose end a light stands
 
   std::array<double, 4> Of(std::int32_t curve) const;
 };
+
+// The number at the end of "FILE:12"; 0 where there is none.
+std::size_t LineOf(const std::string& place);
 
 base::Result<Heights> ParseHeights(std::string_view text, const std::filesystem::path& name);
 // The companion of a map; none of it where there is no such file.

@@ -50,6 +50,9 @@ base::Result<LaneMap> MakeLaneMap(const MapFile& file, const Heights& heights, c
     map.lanes[to].arriving.push_back(map.connections.size());
     map.connections.push_back({from, to, connection.stop});
   }
+  for (const lights::LightPlan& plan : heights.lights) {
+    for (const std::string& lane : plan.Names()) map.lights.push_back({*lanes.Find(std::stoi(lane)), *lights::TimesOf(plan, lane)});
+  }
   if (const auto picture = ReadPictureInfo(file.picture)) {
     map.picture_height_m = 10.0 * static_cast<double>(file.scale.value.value);
     map.picture_width_m = map.picture_height_m * picture->width_px / picture->height_px;

@@ -48,6 +48,12 @@ struct MapConnection {
   bool stop = false;
 };
 
+// A light at the end of a lane.
+struct MapLight {
+  std::size_t lane = 0;
+  network::LightTimes times;
+};
+
 // A map as traffic uses it: every number resolved, every lane with its shape. Lanes and connections stand in the file's
 // order. Immutable after it is made.
 struct LaneMap {
@@ -55,6 +61,7 @@ struct LaneMap {
   std::vector<MapConnection> connections;
   std::vector<std::size_t> start_lanes;
   std::vector<std::size_t> end_lanes;
+  std::vector<MapLight> lights;  // at most one a lane
   // The picture on the ground, centred on the origin; no size where there is none that can be read.
   double picture_width_m = 0.0;
   double picture_height_m = 0.0;

@@ -65,6 +65,7 @@ class Writer {
       drive_.pieces += pieces.value().size();
       WriteRoad(lane, pieces.value());
     }
+    for (std::size_t i = 0; i < map_.lights.size(); ++i) WriteController(map_.lights[i], i);
     for (std::size_t i = 0; i < drive_.junctions; ++i) WriteJunction(i);
     drive_.roads = map_.lanes.size();
     drive_.middle_error_m = error_.middle_m;
@@ -89,7 +90,12 @@ class Writer {
     const bool to_road = WriteLink(link, "successor", lane.onward);
     WriteGeometry(road, pieces);
     WriteLanes(road.append_child("lanes"), lane, pieces, from_road, to_road);
-    WriteStop(road, lane);
+    const bool lit = std::any_of(map_.lights.begin(), map_.lights.end(), [&](const MapLight& l) { return &map_.lanes[l.lane] == &lane; });
+    const bool stop = std::any_of(lane.onward.begin(), lane.onward.end(), [&](std::size_t i) { return map_.connections[i].stop; });
+    if (!lit && !stop) return;
+    pugi::xml_node signals = road.append_child("signals");
+    if (stop) WriteSignal(signals, lane, fmt::format("{}", lane.id), "STOP", "206");
+    if (lit) WriteSignal(signals, lane, fmt::format("light {}", lane.id), "light", "1000001");
   }
 
   // Whether it is a road, and not a junction, that lies there.
@@ -168,19 +174,35 @@ class Writer {
     WriteMark(right, lane.right_type);
   }
 
-  void WriteStop(pugi::xml_node road, const MapLane& lane) {
-    if (std::none_of(lane.onward.begin(), lane.onward.end(), [&](std::size_t i) { return map_.connections[i].stop; })) return;
-    pugi::xml_node signal = road.append_child("signals").append_child("signal");
+  static void WriteSignal(pugi::xml_node signals, const MapLane& lane, const std::string& id, const char* name, const char* type) {
+    const bool light = std::string_view(name) == "light";
+    pugi::xml_node signal = signals.append_child("signal");
     Set(signal, "s", lane.shape.length_m());
     Set(signal, "t", lane.shape.AtParameter(1.0).right_m - 0.6);
-    Set(signal, "id", fmt::format("{}", lane.id));
-    Set(signal, "name", "STOP");
-    Set(signal, "dynamic", "no");
+    Set(signal, "id", id);
+    Set(signal, "name", name);
+    Set(signal, "dynamic", light ? "yes" : "no");
     Set(signal, "orientation", "+");
     Set(signal, "zOffset", 2.0);
-    Set(signal, "country", "DE");
-    Set(signal, "type", "206");
+    Set(signal, "country", light ? "OpenDRIVE" : "DE");
+    Set(signal, "type", type);
     Set(signal, "subtype", "-1");
+    if (light) Set(signal, "height", 0.9), Set(signal, "width", 0.3);
+  }
+
+  // OpenDRIVE has no times of lights: they stand in the data of users.
+  void WriteController(const MapLight& light, std::size_t number) {
+    const std::int32_t id = map_.lanes[light.lane].id;
+    pugi::xml_node controller = root_.append_child("controller");
+    Set(controller, "id", fmt::format("{}", number + 1));
+    Set(controller, "name", fmt::format("lane {}", id));
+    pugi::xml_node control = controller.append_child("control");
+    Set(control, "signalId", fmt::format("light {}", id));
+    Set(control, "type", "0");
+    pugi::xml_node data = controller.append_child("userData");
+    Set(data, "code", "rodeira:times");
+    const network::LightTimes& times = light.times;
+    Set(data, "value", fmt::format("{} {} {} {} {}", times.cycle_s, times.green_from_s, times.green_s, times.amber_s, times.red_amber_s));
   }
 
   void WriteJunction(std::size_t number) {

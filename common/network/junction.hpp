@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/network/lights.hpp"
 #include "common/network/road.hpp"
 
 namespace rodeira::network {
@@ -39,9 +41,11 @@ struct ControllerEntry {
   std::string signal_id, type;
 };
 
+// Signals that show the same. Without times their lights are dark.
 struct Controller {
   std::string id, name;
   std::vector<ControllerEntry> controls;
+  std::optional<LightTimes> times;
 };
 
 }  // namespace rodeira::network

@@ -76,6 +76,7 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
     spec.roads.emplace_back(std::move(road.spec), std::move(*axis));
     lines.push_back(std::move(road.lines));
   }
+  TakeTurns(spec);
   import.network = std::make_shared<const network::Network>(std::move(spec));
   CheckRoadLinks(*import.network, lines, tolerance, findings);
   CheckLaneLinks(*import.network, lines, tolerance, findings);

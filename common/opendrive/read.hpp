@@ -31,6 +31,9 @@ void ReadSignals(const Node& road, network::RoadSpec& spec);
 void ReadObjects(const Node& road, network::RoadSpec& spec);
 network::Junction ReadJunction(const Node& junction);
 network::Controller ReadController(const Node& controller);
+// Controllers that a junction names and that say no times take turns, in the junction's order: 20 s of green, 3 s of amber,
+// 2 s of red for all. Those of lights for people on foot alone stay dark.
+void TakeTurns(network::NetworkSpec& spec);
 // In m/s from the attributes 'max' or 'speed' and 'unit'; infinite: no limit; nothing: not said.
 std::optional<double> ReadSpeed(const Node& speed, const char* attribute);
 

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "common/opendrive/read.hpp"
 
 namespace rodeira::opendrive {
@@ -74,16 +77,10 @@ network::Junction ReadJunction(const Node& junction) {
     read.connections.push_back(std::move(connection));
   }
   for (const Node& node : junction.Children("priority")) read.priorities.push_back({node.Text("high", ""), node.Text("low", "")});
-  for (const Node& node : junction.Children("controller")) read.controllers.push_back(node.Text("id", ""));
-  return read;
-}
-
-network::Controller ReadController(const Node& controller) {
-  network::Controller read;
-  read.id = controller.Text("id");
-  read.name = controller.Text("name", "");
-  for (const Node& control : controller.Children("control"))
-    read.controls.push_back({control.Text("signalId"), control.Text("type", "")});
+  std::vector<std::pair<double, std::string>> controllers;
+  for (const Node& node : junction.Children("controller")) controllers.emplace_back(node.Number("sequence", 0.0), node.Text("id", ""));
+  std::stable_sort(controllers.begin(), controllers.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (auto& [sequence, id] : controllers) read.controllers.push_back(std::move(id));
   return read;
 }
 

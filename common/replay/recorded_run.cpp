@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <limits>
 #include <system_error>
 
@@ -82,12 +83,18 @@ base::Result<RecordedRun> RecordedRun::Open(const fs::path& path, const launch::
   if (!folder) return folder.error();
   RecordedRun run(std::move(reader).value(), std::move(folder).value());
   run.path_ = path;
-  if (auto status = run.Read(extra); !status) return base::Error{status.error().code, status.error().Text(), path.string()};
+  if (auto status = run.Read(extra); !status) return run.Named(status.error());
   return run;
+}
+
+base::Error RecordedRun::Named(const base::Error& error) const {
+  const std::string text = error.context == path_.string() ? error.message : error.Text();
+  return {error.code, launch::WithNames(text, folder_.path()), path_.string()};
 }
 
 base::Result<std::vector<launch::NamedFile>> RecordedRun::Files(const record::TextMap& about) const {
   std::vector<launch::NamedFile> files;
+  bool has_launch = false;
   for (const record::AttachmentInfo& info : reader_.attachments()) {
     const bool is_launch = info.name == "launch.yaml";
     if (!is_launch && !info.name.starts_with("files/")) continue;
@@ -97,11 +104,13 @@ base::Result<std::vector<launch::NamedFile>> RecordedRun::Files(const record::Te
     if (!bytes) return bytes.error();
     const std::string launch_file = Entry(about, "launch_file");
     if (is_launch) {
+      has_launch = true;
       files.insert(files.begin(), {launch_file.empty() ? "launch.yaml" : launch_file, std::move(bytes).value()});
     } else {
       files.push_back({info.name.substr(6), std::move(bytes).value()});
     }
   }
+  if (!has_launch) return base::WrongInput("the embedded file 'launch.yaml' is missing; without it nobody knows who took part");
   return files;
 }
 
@@ -116,6 +125,8 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
                                         protocol, base::Hex(idl::ProtocolHash()), Entry(about, "version")));
   }
   mathematics_ = Entry(about, "mathematics_hash");
+  version_ = Entry(about, "version");
+  commit_ = Entry(about, "commit");
   const auto files = Files(about);
   if (!files) return files.error();
   const auto launch_file = launch::LayOut(files.value(), folder_.path());
@@ -196,7 +207,36 @@ SampleStream RecordedRun::Samples(Step from) const {
   return SampleStream(reader_.Messages(query), sources_, last_step_);
 }
 
+base::Result<std::vector<lockstep::NodeIndex>> RecordedRun::WithoutState() const {
+  std::vector<lockstep::NodeIndex> without;
+  std::size_t missing = 0;  // first snapshots that have not been seen
+  for (const lockstep::NodeSpec& node : roster().nodes()) missing += node.snapshots.has_value() ? 1 : 0;
+  if (missing == 0) return without;
+  std::vector<bool> seen(roster().nodes().size(), false);
+  SampleStream samples = Samples(branched_at_);
+  while (missing > 0) {
+    const auto sample = samples.Next();
+    if (!sample) return sample.error();
+    if (!sample.value()) break;
+    const lockstep::NodeIndex n = roster().source(sample.value()->source()).node;
+    if (roster().node(n).snapshots != sample.value()->source() || seen[n]) continue;
+    seen[n] = true;
+    --missing;
+    const auto snapshot = lockstep::Snapshot::FromSample(*sample.value()->payload);
+    if (!snapshot) return snapshot.error();
+    if (!snapshot.value().has_state && !launch().node(n).is_live()) without.push_back(n);
+  }
+  return without;
+}
+
 base::Result<Step> RecordedRun::SnapshotAtOrBefore(Step step) const {
+  const auto without = WithoutState();
+  if (!without) return without.error();
+  if (!without.value().empty()) {
+    if (branched_at_ == 0) return Step{0};
+    return base::WrongInput(fmt::format("node '{}' cannot save its state, and up to step {} its parent's nodes computed: the branch cannot be computed again",
+                                        roster().node(without.value().front()).name, branched_at_), path_.string());
+  }
   for (const lockstep::NodeSpec& node : roster().nodes()) {
     if (!node.snapshots) continue;
     const Step period = roster().source(*node.snapshots).period;
@@ -205,6 +245,21 @@ base::Result<Step> RecordedRun::SnapshotAtOrBefore(Step step) const {
     return std::max(own, lockstep::FloorTo(std::min(step, last_step_), period));
   }
   return Step{0};
+}
+
+// Somebody would wait for one that is missing, for ever.
+base::Status RecordedRun::CheckSamples(const lockstep::Snapshot& snapshot) const {
+  const lockstep::NodeSpec& spec = roster().node(snapshot.node);
+  for (const lockstep::SourceIndex source : spec.outputs) {
+    const Step newest = std::min(last_step_, lockstep::CeilTo(snapshot.at, spec.period) - spec.period + spec.delay);
+    for (Step valid = lockstep::CeilTo(roster().OldestNeeded(source, snapshot.at), spec.period); valid <= newest; valid += spec.period) {
+      const auto is_it = [&](const lockstep::Sample& sample) { return sample.source() == source && sample.valid() == valid; };
+      if (std::ranges::count_if(snapshot.samples, is_it) == 1) continue;
+      return base::WrongInput(fmt::format("one sample of {} valid at step {} was expected, which the run goes on with from step {}", roster().SourceName(source), valid, snapshot.at),
+                              path_.string());
+    }
+  }
+  return {};
 }
 
 base::Result<std::vector<lockstep::Snapshot>> RecordedRun::Snapshots(Step at) const {
@@ -232,6 +287,10 @@ base::Result<std::vector<lockstep::Snapshot>> RecordedRun::Snapshots(Step at) co
       if (valid != at) continue;
       auto snapshot = lockstep::Snapshot::FromSample(*sample.value()->payload);
       if (!snapshot) return snapshot.error();
+      if (snapshot.value().node != n || snapshot.value().at != at) {
+        return base::WrongInput(fmt::format("the snapshot of node '{}' at step {} says that it is of node number {} at step {}", spec.name, at, snapshot.value().node,
+                                            snapshot.value().at), path_.string());
+      }
       auto samples_so_far = std::move(snapshots[n].samples);
       snapshots[n] = std::move(snapshot).value();
       snapshots[n].samples = std::move(samples_so_far);
@@ -241,6 +300,7 @@ base::Result<std::vector<lockstep::Snapshot>> RecordedRun::Snapshots(Step at) co
     }
   }
   for (lockstep::NodeIndex n = 0; n < snapshots.size(); ++n) {
+    if (auto status = CheckSamples(snapshots[n]); !status) return status.error();
     if (roster().node(n).snapshots && !found[n]) {
       return base::WrongInput(fmt::format("the snapshot of node '{}' at step {} is missing", roster().node(n).name, at), path_.string());
     }

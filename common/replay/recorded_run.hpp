@@ -60,6 +60,11 @@ class RecordedRun {
   const lockstep::Roster& roster() const { return launch_->roster(); }
   lockstep::Step last_step() const { return last_step_; }
   bool complete() const { return complete_; }  // false: the run was aborted
+  // Which program recorded: its release and commit.
+  const std::string& version() const { return version_; }
+  const std::string& commit() const { return commit_; }
+  // What is wrong with an embedded file, or with what follows from one: said with this recording's name and the file's in it.
+  base::Error Named(const base::Error& error) const;
   // Wrong input where a byte of the file is not as it was written. Reads all of it.
   base::Status CheckBytes() const;
   // Wrong input where this process would compute other bits than the one that recorded (law L7).
@@ -72,14 +77,19 @@ class RecordedRun {
   const record::McapReader& reader() const { return reader_; }
   // Where a source's samples are recorded; nothing where they are not.
   std::optional<record::ChannelId> ChannelOf(lockstep::SourceIndex source) const;
+  // The nodes, but live input, whose snapshots say that they could not save their state: what they did can be computed again only
+  // from the first step on.
+  base::Result<std::vector<lockstep::NodeIndex>> WithoutState() const;
   // The newest step at or before `step` at which every node's snapshot was taken (of a branch: the first of its own, at
-  // least); 0 where there is only the beginning. Wrong input where a branch has none.
+  // least); 0 where there is only the beginning, or a node without a state. Wrong input where a branch has none, or such a node.
   base::Result<lockstep::Step> SnapshotAtOrBefore(lockstep::Step step) const;
-  // Of every node of the roster, in its order, at such a step; sinks' and services' are without a state.
+  // Of every node of the roster, in its order, at such a step; sinks' and services' are without a state. Wrong input where one is missing,
+  // or a sample that somebody may ask for behind it.
   base::Result<std::vector<lockstep::Snapshot>> Snapshots(lockstep::Step at) const;
 
  private:
   explicit RecordedRun(record::McapReader reader, TemporaryFolder folder) : reader_(std::move(reader)), folder_(std::move(folder)) {}
+  base::Status CheckSamples(const lockstep::Snapshot& snapshot) const;
   base::Status Read(const launch::Overrides& extra);
   base::Result<std::vector<launch::NamedFile>> Files(const record::TextMap& about) const;
 
@@ -91,6 +101,8 @@ class RecordedRun {
   lockstep::Step last_step_ = 0;
   lockstep::Step branched_at_ = 0;
   std::string mathematics_;
+  std::string version_;
+  std::string commit_;
   bool complete_ = false;
 };
 

@@ -114,10 +114,10 @@ std::string Furniture(const network::RoadSpec& spec) {
                            Escaped(structure.id), Escaped(structure.name), structure.type, structure.s_m, structure.length_m);
   }
   for (const network::Signal& signal : spec.signals) {
-    signals += fmt::format("<signal id=\"{}\" name=\"{}\" s=\"{}\" t=\"{}\" zOffset=\"{}\" orientation=\"{}\" dynamic=\"no\" country=\"{}\" "
+    signals += fmt::format("<signal id=\"{}\" name=\"{}\" s=\"{}\" t=\"{}\" zOffset=\"{}\" orientation=\"{}\" dynamic=\"{}\" country=\"{}\" "
                            "type=\"{}\" subtype=\"{}\" hOffset=\"{}\" height=\"{}\" width=\"{}\"",
                            Escaped(signal.id), Escaped(signal.name), signal.s_m, signal.t_m, signal.z_offset_m, signal.orientation,
-                           signal.country, signal.type, signal.subtype, signal.h_offset_rad, signal.height_m, signal.width_m);
+                           signal.dynamic ? "yes" : "no", signal.country, signal.type, signal.subtype, signal.h_offset_rad, signal.height_m, signal.width_m);
     if (signal.value) signals += fmt::format(" value=\"{}\" unit=\"{}\"", *signal.value, signal.unit);
     if (!signal.text.empty()) signals += fmt::format(" text=\"{}\"", Escaped(signal.text));
     signals += "/>\n";
@@ -148,7 +148,22 @@ std::string JunctionText(const network::Junction& junction) {
   for (const network::JunctionPriority& priority : junction.priorities) {
     text += fmt::format("<priority high=\"{}\" low=\"{}\"/>\n", Escaped(priority.high), Escaped(priority.low));
   }
+  for (std::size_t i = 0; i < junction.controllers.size(); ++i)
+    text += fmt::format("<controller id=\"{}\" sequence=\"{}\"/>\n", Escaped(junction.controllers[i]), i);
   return text + "</junction>\n";
+}
+
+// OpenDRIVE has no times of lights: they stand in the data of users.
+std::string ControllerText(const network::Controller& controller) {
+  std::string text = fmt::format("<controller id=\"{}\" name=\"{}\">\n", Escaped(controller.id), Escaped(controller.name));
+  for (const network::ControllerEntry& entry : controller.controls)
+    text += fmt::format("<control signalId=\"{}\" type=\"{}\"/>\n", Escaped(entry.signal_id), Escaped(entry.type));
+  if (controller.times) {
+    const network::LightTimes& t = *controller.times;
+    text += fmt::format("<userData code=\"rodeira:times\" value=\"{} {} {} {} {}\"/>\n", t.cycle_s, t.green_from_s, t.green_s, t.amber_s,
+                        t.red_amber_s);
+  }
+  return text + "</controller>\n";
 }
 
 }  // namespace
@@ -183,6 +198,7 @@ base::Result<std::string> ExportOpenDrive(const World& world) {
   if (!network.geo_reference().empty()) text += fmt::format("<geoReference>{}</geoReference>\n", Escaped(network.geo_reference()));
   text += "</header>\n";
   for (const network::Road& road : network.roads()) text += RoadText(road);
+  for (const network::Controller& controller : network.controllers()) text += ControllerText(controller);
   for (const network::Junction& junction : network.junctions()) text += JunctionText(junction);
   return text + "</OpenDRIVE>\n";
 }

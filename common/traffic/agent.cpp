@@ -27,14 +27,16 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("brake_mps2", brake_mps2);
   writer.Put("cap_mps", cap_mps);
   writer.Put("granted_m", granted_m);
-  std::vector<double> grants_to;
+  std::vector<double> grants_to, grants_light;
   std::vector<std::uint64_t> grants_told;
   for (const ZoneGrant& grant : grants) {
     grants_to.push_back(grant.to_m);
     grants_told.insert(grants_told.end(), {grant.number, grant.sure ? 1u : 0u});
+    grants_light.push_back(grant.light_m);
   }
   writer.Put("grants_to", grants_to);
   writer.Put("grants_told", grants_told);
+  writer.Put("grants_light", grants_light);
   writer.Put("stopped_m", stopped_m);
   writer.Put("waited_s", waited_s);
   std::vector<std::uint32_t> tracks;
@@ -59,13 +61,14 @@ void Agent::Restore(base::StateReader& reader) {
   reader.Get("brake_mps2", brake_mps2);
   reader.Get("cap_mps", cap_mps);
   reader.Get("granted_m", granted_m);
-  std::vector<double> grants_to;
+  std::vector<double> grants_to, grants_light;
   std::vector<std::uint64_t> grants_told;
   reader.Get("grants_to", grants_to);
   reader.Get("grants_told", grants_told);
+  reader.Get("grants_light", grants_light);
   grants.clear();
-  for (std::size_t i = 0; i < grants_to.size() && 2 * i + 1 < grants_told.size(); ++i) {
-    grants.push_back({grants_to[i], grants_told[2 * i], grants_told[2 * i + 1] != 0});
+  for (std::size_t i = 0; i < grants_to.size() && 2 * i + 1 < grants_told.size() && i < grants_light.size(); ++i) {
+    grants.push_back({grants_to[i], grants_told[2 * i], grants_told[2 * i + 1] != 0, grants_light[i]});
   }
   reader.Get("stopped_m", stopped_m);
   reader.Get("waited_s", waited_s);

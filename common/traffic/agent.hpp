@@ -46,6 +46,7 @@ struct ZoneGrant {
   double to_m = 0.0;         // odometer at their end
   std::uint64_t number = 0;  // of two who hold a zone the lower one goes first
   bool sure = false;         // there is room behind the zones, so that nothing keeps the agent in them
+  double light_m = -1.0;     // odometer of the line of a light before them; below 0: none
 };
 
 // What changes about one agent.

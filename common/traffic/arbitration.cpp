@@ -79,7 +79,7 @@ bool TrafficModel::Grant(std::uint32_t id, bool yields) {
   for (const Crossing& crossing : passage.crossings) {
     if (yields && crossing.zone >= 0 && Yields(id, crossing)) return false;
   }
-  const ZoneGrant grant{passage.end_m, next_grant_++, passage.able};
+  const ZoneGrant grant{passage.end_m, next_grant_++, passage.able, passage.lit ? passage.line_m : -1.0};
   agents_[id].granted_m = passage.end_m;
   agents_[id].grants.push_back(grant);
   for (const Crossing& crossing : passage.crossings) {
@@ -101,6 +101,7 @@ void TrafficModel::Arbitrate(double dt_s) {
     if (!agent.on_road) continue;
     const double rear = agent.o_m - 0.5 * traits_[id].length_m;
     std::erase_if(agent.grants, [&](const ZoneGrant& grant) { return grant.to_m <= rear; });
+    ObeyLights(id);
     FindPassage(id);
     HoldZones(id);
     Passage& passage = passages_[id];
@@ -110,13 +111,15 @@ void TrafficModel::Arbitrate(double dt_s) {
       passage.must_stop = false;
     }
     if (!passage.any || agent.speed_mps > 1.0) agent.waited_s = 0.0;
-    else if (agent.speed_mps < kAtRest_mps) agent.waited_s += dt_s;
+    else if (agent.speed_mps < kAtRest_mps && !passage.red) agent.waited_s += dt_s;
   }
   std::fill(reaches_.begin(), reaches_.end(), -1.0);
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     if (!agents_[id].on_road || !passages_[id].any) continue;
     FindRoom(id);
-    if (passages_[id].due && passages_[id].head && !passages_[id].must_stop) order.push_back(id);
+    Passage& passage = passages_[id];
+    if (passage.red) passage.waits_for = -1;
+    else if (passage.due && passage.head && !passage.must_stop) order.push_back(id);
   }
   ComeToZones();
   OthersAtZones();
@@ -174,7 +177,7 @@ void TrafficModel::ResolveDeadlocks() {
     });
     for (const std::uint32_t id : circle) {
       Passage& passage = passages_[id];
-      if (passage.any && passage.head && passage.due && !passage.must_stop && Grant(id, false)) break;
+      if (passage.any && passage.head && passage.due && !passage.must_stop && !passage.red && Grant(id, false)) break;
     }
   }
 }

@@ -44,11 +44,19 @@ void TrafficModel::Leave(std::uint32_t id) {
 // At each entry the first who waits there.
 void TrafficModel::Enter() {
   if (waiting_.empty()) return;
+  for (auto& present : present_) present.clear();
+  const auto appear = [&](std::uint32_t id) {
+    for (const Piece& piece : agents_[id].path) present_[piece.track].push_back(id);
+  };
+  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+    if (agents_[id].on_road) appear(id);
+  }
   std::vector<bool> tried(graph().tracks().size(), false);
   std::vector<std::uint32_t> left;
   for (const std::uint32_t id : waiting_) {
     const std::uint32_t entry = agents_[id].entry;
     if (tried[entry] || !TryEnter(id)) left.push_back(id);
+    else appear(id);
     tried[entry] = true;
   }
   waiting_ = std::move(left);
@@ -95,8 +103,7 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
   }
   speed = std::min(speed, AtMostForLine(id));
   // Nobody may stand where it enters, not even with its rear; agents have moved since they were last seen.
-  for (std::uint32_t other = 0; other < agents_.size(); ++other) {
-    if (other == id || !agents_[other].on_road) continue;
+  for (const std::uint32_t other : present_[agent.entry]) {
     for (const Piece& piece : agents_[other].path) {
       if (piece.track == agent.entry && agents_[other].o_m - 0.5 * traits_[other].length_m - piece.zero_m < traits.length_m + 2.0 * traits.idm.standing_gap_m) return wait();
     }

@@ -8,11 +8,12 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kLine_m = 0.6;         // before the first zone the front stops
+constexpr double kLine_m = 0.6;         // before the first zone, and before a light's line, the front stops
 constexpr double kStand_m = 2.5;        // more than its length a car needs to stand between two zones
 constexpr double kReaction_s = 1.0;
 constexpr double kEarly_m = 4.0;
 constexpr double kStopped_m = 2.0;      // at most so far before a STOP line
+constexpr double kOverLine_m = 0.3;     // a front so far beyond a light's line has passed it
 
 }  // namespace
 
@@ -33,7 +34,7 @@ void TrafficModel::FindPassage(std::uint32_t id) {
   passage = Passage();
   const double stand = traits_[id].length_m + kStand_m;
   const auto take = [&](const Crossing& crossing) {
-    if (!passage.any) passage.line_m = crossing.zone < 0 ? crossing.in_m : std::max(front, crossing.in_m - kLine_m);
+    if (!passage.any) passage.line_m = crossing.zone < 0 && !passage.lit ? crossing.in_m : std::max(front, crossing.in_m - kLine_m);
     passage.any = true;
     passage.end_m = std::max(passage.end_m, crossing.out_m);
     crossings.push_back(crossing);
@@ -42,15 +43,23 @@ void TrafficModel::FindPassage(std::uint32_t id) {
     if (stretch.end_m < rear || stretch.end_m < agent.granted_m) continue;
     if (passage.any && stretch.begin_m > passage.end_m + stand) break;
     const auto& sides = zones().Of(stretch.track);
-    const auto& stops = map_->plans[stretch.track].stops_m;
-    std::size_t stop = 0;
-    const auto take_stops = [&](double before_m) {
-      for (; stop < stops.size() && stretch.zero_m + stops[stop] <= before_m; ++stop) {
-        const double at = stretch.zero_m + stops[stop];
-        if (at < front - kStopped_m || at < agent.granted_m || at < stretch.begin_m) continue;
+    const auto& lines = map_->plans[stretch.track].lines;
+    std::size_t next = 0;
+    const auto take_lines = [&](double before_m) {
+      for (; next < lines.size() && stretch.zero_m + lines[next].d_m <= before_m; ++next) {
+        const double at = stretch.zero_m + lines[next].d_m;
+        const bool light = lines[next].light >= 0;
+        if (at < front - (light ? kOverLine_m : kStopped_m) || at < agent.granted_m || at < stretch.begin_m) continue;
+        if (light && at <= agent.granted_m) continue;
+        if (light) {
+          if (passage.any && at > passage.end_m + stand) break;
+          passage.lit = true;
+          passage.red = passage.red || !IsGreen(lines[next].light);
+          passage.end_m = std::max(passage.end_m, at);
+        }
         if (passage.any) continue;  // the line of an earlier one holds
         take({-1, 0, at, at});
-        passage.must_stop = agent.stopped_m != at;
+        passage.must_stop = !light && agent.stopped_m != at;
       }
     };
     for (const lanes::ZoneSide& part : sides) {
@@ -58,11 +67,11 @@ void TrafficModel::FindPassage(std::uint32_t id) {
       const auto mine = static_cast<std::size_t>(part.side);
       const double in = stretch.zero_m + zone.in_m[mine], out = stretch.zero_m + zone.out_m[mine];
       if (zone.kind == lanes::ZoneKind::kDiverge || out <= rear || out <= agent.granted_m || in < front - 0.5 * kLine_m) continue;
-      take_stops(in + kLine_m);
+      take_lines(in + kLine_m);
       if (passage.any && in > passage.end_m + stand) break;
       take({part.zone, part.side, in, out});
     }
-    if (!passage.any || passage.end_m + stand > stretch.end_m) take_stops(stretch.end_m + kLine_m);
+    if (!passage.any || passage.end_m + stand > stretch.end_m) take_lines(stretch.end_m + kLine_m);
   }
   passage.crossings = std::move(crossings);
   if (!passage.any) return;

@@ -54,8 +54,8 @@ void TrafficModel::PlaceAll(std::span<const driver::Footprint> others) {
         const auto mine = static_cast<std::size_t>(part.side);
         if (zone.in_m[mine] < d + half + kZoneClear_m && zone.out_m[mine] > d - half - kZoneClear_m) room = false;
       }
-      for (const double stop : map_->plans[tracks[place]].stops_m) {
-        if (std::fabs(stop - d) < half + kZoneClear_m) room = false;
+      for (const StopLine& line : map_->plans[tracks[place]].lines) {
+        if (std::fabs(line.d_m - d) < half + kZoneClear_m) room = false;
       }
       const lanes::CurvePoint p = track->curve.At(d);
       driver::Footprint own{id, p.p_W.x(), p.p_W.y(), std::atan2(p.ahead_W.y(), p.ahead_W.x()), 0.0, traits.length_m, traits.width_m + 0.2};

@@ -32,7 +32,13 @@ void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tel
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.begin_m > to_m) break;
     if (stretch.end_m < agent.o_m) continue;
-    for (const Occupant& other : occupants_[stretch.track]) told(other, stretch.zero_m, kNever_m);
+    std::vector<Occupant> near;
+    for (const Occupant& other : Beyond(stretch.track, agent.o_m - stretch.zero_m)) {
+      if (stretch.zero_m + other.middle_m() - longest_half_m_ > to_m) break;
+      if (other.id != id) near.push_back(other);
+    }
+    std::sort(near.begin(), near.end(), [](const Occupant& a, const Occupant& b) { return a.id < b.id; });
+    for (const Occupant& other : near) told(other, stretch.zero_m, kNever_m);
     for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
       const lanes::Zone& zone = zones()[part.zone];
       const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;

@@ -1,6 +1,7 @@
 // Who is where on the tracks, and who is ahead of whom.
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "common/lanes/swath.hpp"
@@ -73,9 +74,21 @@ void TrafficModel::See(std::span<const driver::Footprint> others) {
       from = stretch.track;
     }
   }
+  for (auto& occupants : occupants_) {
+    std::sort(occupants.begin(), occupants.end(), [](const Occupant& a, const Occupant& b) {
+      return a.middle_m() != b.middle_m() ? a.middle_m() < b.middle_m() : a.id < b.id;
+    });
+  }
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     if (agents_[id].on_road) ahead_[id] = FindAhead(id);
   }
+}
+
+// Those on a track whose middles lie beyond d, and perhaps a few more.
+std::span<const TrafficModel::Occupant> TrafficModel::Beyond(std::uint32_t track, double d_m) const {
+  const auto& all = occupants_[track];
+  const auto from = std::lower_bound(all.begin(), all.end(), d_m - 1e-6, [](const Occupant& occupant, double d) { return occupant.middle_m() < d; });
+  return {from, all.end()};
 }
 
 // The nearest of: agents on the tracks of the way; agents on tracks that part from them, as long as they are not clear; what
@@ -95,7 +108,8 @@ TrafficModel::Ahead TrafficModel::FindAhead(std::uint32_t id) const {
     const std::int64_t from = std::exchange(before, stretch.track);
     if (stretch.end_m < agent.o_m) continue;
     if (ahead.any && stretch.begin_m > front + ahead.gap_m + 10.0) break;
-    for (Occupant other : occupants_[stretch.track]) {
+    for (Occupant other : Beyond(stretch.track, agent.o_m - stretch.zero_m)) {
+      if (ahead.any && stretch.zero_m + other.middle_m() - longest_half_m_ - front >= ahead.gap_m) break;
       // Who comes in from beside has his rear in the zone where the ways merge, which its own line keeps it out of.
       if (from >= 0 && other.from >= 0 && other.from != from) other.rear_m = std::max(other.rear_m, stretch.begin_m - stretch.zero_m);
       consider(other, stretch.zero_m);

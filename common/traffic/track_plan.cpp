@@ -48,8 +48,10 @@ std::optional<driver::Way::Place> TrackWay::Locate(double x_m, double y_m, std::
 
 TrackPlan::TrackPlan(const lanes::Graph& graph, std::uint32_t track, const driver::SpeedPlanSettings& settings)
     : plan(TrackWay(graph, track), settings), limit_mps(graph.SpeedLimit_mps(track, 0.0)) {
+  for (const lanes::LightPlace& light : lanes::LightsOf(graph, track)) lines.push_back({light.d_m, light.controller});
+  if (!lines.empty()) return;
   for (const lanes::SignPlace& sign : lanes::SignsOf(graph, track)) {
-    if (sign.sign == lanes::Sign::kStop) stops_m.push_back(sign.d_m);
+    if (sign.sign == lanes::Sign::kStop) lines.push_back({sign.d_m, -1});
   }
 }
 

@@ -5,6 +5,7 @@
 #include "common/driver/speed_plan.hpp"
 #include "common/driver/way.hpp"
 #include "common/lanes/graph.hpp"
+#include "common/lanes/lights.hpp"
 #include "common/lanes/signs.hpp"
 
 namespace rodeira::traffic {
@@ -28,11 +29,18 @@ class TrackWay final : public driver::Way {
   std::uint32_t track_;
 };
 
-// What is known of a track beforehand: the speed that it allows, its limit, and its STOP lines.
+// A line at which traffic may have to come to rest.
+struct StopLine {
+  double d_m = 0.0;
+  std::int64_t light = -1;  // index of a controller; below 0: a STOP sign
+};
+
+// What is known of a track beforehand: the speed that it allows, its limit, and its lines. Where there are lights STOP signs
+// say nothing.
 struct TrackPlan {
   driver::SpeedPlan plan;
   double limit_mps;            // at its beginning
-  std::vector<double> stops_m;  // of STOP signs
+  std::vector<StopLine> lines;   // ascending
 
   TrackPlan(const lanes::Graph& graph, std::uint32_t track, const driver::SpeedPlanSettings& settings);
 };

@@ -33,12 +33,14 @@ TrafficModel::Map::Map(std::shared_ptr<const network::Network> of, const driver:
 TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<const Map> map)
     : settings_(settings), map_(std::move(map)), agents_(settings.vehicles) {
   for (std::uint32_t id = 0; id < settings_.vehicles; ++id) traits_.push_back(TraitsOf(settings_, id));
+  for (const AgentTraits& traits : traits_) longest_half_m_ = std::max(longest_half_m_, 0.5 * traits.length_m);
   stretches_.resize(agents_.size());
   ahead_.resize(agents_.size());
   passages_.resize(agents_.size());
   reaches_.resize(agents_.size());
   barriers_.resize(agents_.size());
   occupants_.resize(graph().tracks().size());
+  present_.resize(graph().tracks().size());
   blocks_.resize(graph().tracks().size());
   holders_.resize(zones().zones().size());
   comers_.resize(zones().zones().size());
@@ -48,8 +50,9 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
 base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, std::shared_ptr<const road::World> world,
                                               std::span<const driver::Footprint> others) {
   RODEIRA_ASSERT(world != nullptr);
-  auto model = Make(settings, NetworkOf(world), others);
-  if (!model) {
+  const auto network = NetworkOf(world);
+  auto model = Make(settings, network, others);
+  if (!model && network->roads().empty()) {
     return base::WrongInput("the world '" + world->name() + "' has no lane to put traffic on; a world with a road, or 0 vehicles, was expected");
   }
   return model;
@@ -62,6 +65,8 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
   if (settings.vehicles > 0 && model.map_->entries.empty()) {
     return base::WrongInput("the network '" + model.map_->network->name() + "' has no lane to put traffic on; drivable lanes, or 0 vehicles, were expected");
   }
+  if (const auto status = lanes::CheckLights(model.map_->graph, model.map_->zones); !status) return status.error();
+  model.FindColours();
   if (settings.vehicles > 0) model.PlaceAll(others);
   model.FindPoses();
   return model;
@@ -89,6 +94,8 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
     if (AtTheEnd(id)) Leave(id);
   }
   Enter();
+  time_ns_ += std::llround(dt_s * 1e9);
+  FindColours();
   FindPoses();
 }
 
@@ -160,6 +167,7 @@ void TrafficModel::Save(base::StateWriter& writer) const {
   for (const Agent& agent : agents_) writer.Put("agent", agent);
   writer.Put("waiting", waiting_);
   writer.Put("next_grant", next_grant_);
+  writer.Put("time_ns", time_ns_);
 }
 
 // A snapshot comes from outside: whatever it says, nothing is read beside the arrays.
@@ -167,11 +175,13 @@ void TrafficModel::Restore(base::StateReader& reader) {
   for (Agent& agent : agents_) reader.Get("agent", agent);
   reader.Get("waiting", waiting_);
   reader.Get("next_grant", next_grant_);
+  reader.Get("time_ns", time_ns_);
   for (Agent& agent : agents_) {
     const auto tracks = graph().tracks().size();
     if (agent.entry >= tracks || std::any_of(agent.path.begin(), agent.path.end(), [&](const Piece& p) { return p.track >= tracks; })) agent = Agent();
   }
   std::erase_if(waiting_, [&](std::uint32_t id) { return id >= agents_.size(); });
+  FindColours();
   FindPoses();
 }
 

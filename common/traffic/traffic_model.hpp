@@ -54,6 +54,8 @@ class TrafficModel {
   std::size_t waiting() const { return agents_.size() - poses_.size(); }
   // From its front bumper to who is ahead, as it was seen in the last step; 1e9 where nobody is in sight.
   double GapAhead(std::uint32_t id) const { return ahead_[id].gap_m; }
+  // By the network's controllers: what their lights show. Those without times are dark, and show red here.
+  const std::vector<network::LightColour>& colours() const { return colours_; }
   const lanes::Graph& graph() const { return map_->graph; }
   const lanes::Zones& zones() const { return map_->zones; }
 
@@ -107,6 +109,8 @@ class TrafficModel {
     bool head = false;       // nobody stands between it and the line who waits himself
     bool able = false;       // there is room for it behind the zones
     bool must_stop = false;  // a STOP sign
+    bool lit = false;        // there is a light in it
+    bool red = false;        // … that shows something else than green
     double line_m = 0.0;     // odometer at which its front stops
     double end_m = 0.0;
     double room_m = 0.0;  // odometer up to which who is ahead must have left
@@ -135,6 +139,7 @@ class TrafficModel {
   void See(std::span<const driver::Footprint> others);
   void FindStretches(std::uint32_t id, double range_m);
   void SeeOthers(std::span<const driver::Footprint> others);
+  std::span<const Occupant> Beyond(std::uint32_t track, double d_m) const;
   Ahead FindAhead(std::uint32_t id) const;
   std::size_t DrawLink(const Agent& agent, std::uint32_t id, std::uint32_t track, std::uint32_t link) const;
   double SightOf(const Agent& agent) const;
@@ -156,6 +161,9 @@ class TrafficModel {
   bool Grant(std::uint32_t id, bool yields);
   void FindBarrier(std::uint32_t id);
   void ResolveDeadlocks();
+  bool IsGreen(std::int64_t light) const { return colours_[static_cast<std::size_t>(light)] == network::LightColour::kGreen; }
+  bool AllGreen(std::uint32_t id, double from_m, double to_m) const;
+  void ObeyLights(std::uint32_t id);
   bool Urgent(std::uint32_t id) const;
   double AllowedAt(std::uint32_t id, double odometer_m) const;
 
@@ -177,6 +185,7 @@ class TrafficModel {
   double AtMostForLine(std::uint32_t id);
   void Enter();
   bool TryEnter(std::uint32_t id);
+  void FindColours();
   void FindPoses();
   AgentPose PoseOf(std::uint32_t id) const;
 
@@ -184,13 +193,16 @@ class TrafficModel {
   std::shared_ptr<const Map> map_;
   std::vector<AgentTraits> traits_;
   std::vector<Agent> agents_;
+  double longest_half_m_ = 0.0;  // of all agents
   std::vector<std::uint32_t> waiting_;  // to enter, first come first
   std::uint64_t next_grant_ = 1;
+  std::int64_t time_ns_ = 0;  // since the beginning
   std::vector<AgentPose> poses_;
 
   // Found anew each step.
+  std::vector<network::LightColour> colours_;          // by controller
   std::vector<std::vector<Stretch>> stretches_;        // by agent
-  std::vector<std::vector<Occupant>> occupants_;       // by track
+  std::vector<std::vector<Occupant>> occupants_;       // by track, ascending by their middles
   std::vector<std::vector<Block>> blocks_;             // by track
   std::vector<Ahead> ahead_;                           // by agent
   std::vector<Passage> passages_;                      // by agent
@@ -198,6 +210,7 @@ class TrafficModel {
   std::vector<double> barriers_;                       // by agent: odometer at which it waits for who holds a zone before it
   std::vector<std::array<std::vector<Holder>, 2>> holders_;         // by zone
   std::vector<std::array<std::vector<Claim>, 2>> comers_;           // by zone
+  std::vector<std::vector<std::uint32_t>> present_;                 // by track: agents on it while others enter
   std::vector<std::array<bool, 2>> awaited_;                        // by zone: an urgent agent waits for that side to end
 };
 

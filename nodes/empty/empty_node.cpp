@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "common/base/assert.hpp"
 #include "common/base/random.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -19,8 +20,8 @@ namespace topics = idl::topics;
 
 class EmptyNode final : public lockstep::Node {
  public:
-  EmptyNode(std::uint64_t seed, lockstep::NodeIndex index, std::int64_t fail_at, std::int64_t hang_at, const std::string& broken)
-      : value_(base::RandomBits({seed, index})), fail_at_(fail_at), hang_at_(hang_at), broken_(broken) {}
+  EmptyNode(std::uint64_t seed, lockstep::NodeIndex index, std::int64_t fail_at, std::int64_t hang_at, const std::string& broken, bool saves)
+      : value_(base::RandomBits({seed, index})), fail_at_(fail_at), hang_at_(hang_at), broken_(broken), saves_(saves) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     Publish(outbox);
@@ -42,8 +43,20 @@ class EmptyNode final : public lockstep::Node {
   }
 
   bool is_brief() const override { return true; }
-  void Save(base::StateWriter& out) const override { out.Put("value", value_); }
-  void Restore(base::StateReader& in) override { in.Get("value", value_); }
+  // Where it cannot be saved, something of it is known all the same.
+  void Save(base::StateWriter& out) const override { out.Put("value", saves_ ? value_ : value_ % 1000); }
+  void Restore(base::StateReader& in) override {
+    RODEIRA_ASSERT(saves_);
+    in.Get("value", value_);
+  }
+  bool can_save() const override { return saves_; }
+  base::Status TakeOver(const std::vector<lockstep::Sample>& published) override {
+    if (published.empty()) return base::WrongInput("no published value was found");
+    const auto pulse = idl::Decode<msg::Pulse>(*published.back().payload);
+    if (!pulse) return pulse.error();
+    value_ = pulse.value().value();
+    return {};
+  }
 
  private:
   // The order of a hash table over addresses: another one in each process.
@@ -60,13 +73,14 @@ class EmptyNode final : public lockstep::Node {
   }
   void Publish(lockstep::Outbox& outbox) const {
     msg::Pulse pulse;
-    pulse.value(value_);
+    pulse.value(saves_ ? value_ : base::RandomBits({value_}));  // what cannot be saved cannot be told from outside
     outbox.Put(topics::kPulse, idl::Encode(pulse));
   }
   std::uint64_t value_;
   std::int64_t fail_at_;
   std::int64_t hang_at_;
   std::string broken_;
+  bool saves_;
 };
 
 }  // namespace
@@ -76,7 +90,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeEmptyNode(launch::NodeContext&
   const std::int64_t fail_at = config.Integer("fail_at_step", -1, INT64_MAX, -1);
   const std::int64_t hang_at = config.Integer("hang_at_step", -1, INT64_MAX, -1);
   const std::string broken = config.Choice("broken", {"no", "clock", "order"}, "no");
-  return std::unique_ptr<lockstep::Node>(std::make_unique<EmptyNode>(context.seed(), context.index(), fail_at, hang_at, broken));
+  const bool saves = config.Flag("saves", true);
+  return std::unique_ptr<lockstep::Node>(std::make_unique<EmptyNode>(context.seed(), context.index(), fail_at, hang_at, broken, saves));
 }
 
 }  // namespace rodeira::nodes

@@ -20,7 +20,7 @@ base::Result<record::ChannelId> AddChannel(record::McapWriter& writer, std::stri
   RODEIRA_ASSERT(info != nullptr);
   const auto schema = writer.AddSchema(info->type, "omgidl", idl::IdlTextOf(info->subject));
   if (!schema) return schema.error();
-  return writer.AddChannel(topic, schema.value(), "cdr");
+  return writer.AddChannel(topic, schema.value(), "cdr", {{"source", "clock"}});
 }
 
 }  // namespace

@@ -47,6 +47,7 @@ class VehicleNode final : public lockstep::Node {
 
   void Save(base::StateWriter& out) const override { out.Put("model", *model_); }
   void Restore(base::StateReader& in) override { in.Get("model", *model_); }
+  bool can_save() const override { return model_->can_save(); }
 
  private:
   void Publish(lockstep::Outbox& outbox) const { outbox.Put(topics::kVehicleState, idl::Encode(ToWire(model_->state(), model_->dimensions()))); }

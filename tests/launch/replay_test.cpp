@@ -17,6 +17,7 @@
 #include "idl/topics.hpp"
 #include "launch/branch.hpp"
 #include "launch/verify.hpp"
+#include "tests/launch/copied_recording.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 
@@ -47,37 +48,9 @@ class ReplayTest : public ::testing::Test {
   }
 
   // A copy of the recording, its metadata and messages changed on the way; a message for which `keep` says no is left out.
-  using Entries = std::function<void(const std::string& name, record::TextMap& entries)>;
-  using Keep = std::function<bool(const std::string& topic, const record::Message& message, base::Bytes& data)>;
-  std::string Copied(const std::string& file, const Entries& change, const Keep& keep) {
+  std::string Copied(const std::string& file, const Entries& change, const Keep& keep, const KeepFile& keep_file = [](const std::string&) { return true; }) {
     const std::string copy = (folder_.path() / "copied.mcap").string();
-    std::filesystem::remove(copy);
-    auto reader = record::McapReader::Open(file);
-    auto writer = record::McapWriter::Open(copy);
-    const auto& in = reader.value();
-    for (const auto& info : in.metadata()) {
-      record::TextMap entries = in.ReadMetadata(info).value().entries;
-      change(info.name, entries);
-      EXPECT_TRUE(writer.value().AddMetadata(info.name, entries).ok());
-    }
-    for (const auto& info : in.attachments()) {
-      const auto attachment = in.ReadAttachment(info);
-      EXPECT_TRUE(writer.value().AddAttachment(info.name, info.media_type, attachment.value().data, 0, 0).ok());
-    }
-    std::map<record::ChannelId, record::ChannelId> ids;
-    for (const auto& [id, channel] : in.channels()) {
-      const auto& schema = in.schemas().at(channel.schema);
-      const auto made = writer.value().AddSchema(schema.name, schema.encoding, schema.text);
-      ids[id] = writer.value().AddChannel(channel.topic, made.value(), channel.message_encoding, channel.metadata).value();
-    }
-    auto cursor = in.Messages();
-    for (auto message = cursor.Next(); message.value(); message = cursor.Next()) {
-      const auto& m = *message.value();
-      base::Bytes data(m.data.begin(), m.data.end());
-      if (!keep(in.channels().at(m.channel).topic, m, data)) continue;
-      EXPECT_TRUE(writer.value().Write(ids[m.channel], m.sequence, m.log_time_ns, m.publish_time_ns, data).ok());
-    }
-    EXPECT_TRUE(writer.value().Close().ok());
+    CopyRecording(file, copy, change, keep, keep_file);
     return copy;
   }
   // With one bit of one message turned.
@@ -139,6 +112,33 @@ TEST_F(ReplayTest, ATurnedBitOfAStateIsFoundAndTheFieldNamed) {
   EXPECT_EQ(verdict.value().difference->step, 1000);
   EXPECT_EQ(verdict.value().difference->topic, "rodeira/snapshot");
   EXPECT_THAT(verdict.value().difference->field, ::testing::StartsWith("state."));
+}
+
+// Outputs and states are digested separately: a state that differs is found at its step, though the output is the same.
+TEST_F(ReplayTest, AChangedStateDigestIsFoundThoughTheOutputIsTheSame) {
+  constexpr std::size_t kStateDigestAt = lockstep::SampleHeader::kEncapsulation + lockstep::SampleHeader::kSize - sizeof(base::Digest);
+  const std::string file = Drive();
+  const auto original = replay::RecordedRun::Open(file), changed = replay::RecordedRun::Open(WithABitTurned(file, "rodeira/vehicle_state", 777, kStateDigestAt));
+  EXPECT_EQ(CarAt(original.value(), 777).header().state_digest() ^ 1u, CarAt(changed.value(), 777).header().state_digest());
+  EXPECT_EQ(CarAt(original.value(), 777).position_w_m().x(), CarAt(changed.value(), 777).position_w_m().x());
+  const auto verdict = Verify(changed.value(), 0);
+  ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
+  ASSERT_TRUE(verdict.value().difference.has_value());
+  EXPECT_EQ(verdict.value().difference->step, 777);
+  EXPECT_EQ(verdict.value().difference->node, "ego");
+  EXPECT_EQ(verdict.value().difference->field, "header.state_digest");
+  EXPECT_NE(verdict.value().difference->recorded, verdict.value().difference->computed);
+}
+
+// What a person reads, with the numbers of the law: steps, nodes that compute, samples of all sources, snapshots of both nodes.
+TEST_F(ReplayTest, WhatIsIdenticalIsSaidInNumbers) {
+  const std::string file = Drive();
+  const auto whole = RunCommand({Bin("rodeira"), "replay", file, "--verify"});
+  EXPECT_EQ(whole.status, 0) << whole.out;
+  EXPECT_THAT(whole.out, ::testing::StartsWith("identical: 3000 steps, 2 nodes (3310 samples, 8 snapshots; from 0.000 s; "));
+  const auto late = RunCommand({Bin("rodeira"), "replay", file, "--verify", "--from", "2.5"});
+  EXPECT_EQ(late.status, 0) << late.out;
+  EXPECT_THAT(late.out, ::testing::StartsWith("identical: 1000 steps, 2 nodes (1106 samples, 4 snapshots; from 2.000 s; "));
 }
 
 TEST_F(ReplayTest, AChangedConstantIsFound) {
@@ -316,6 +316,123 @@ TEST_F(ReplayTest, ABranchMayHaveAnotherTrafficSeed) {
   const auto verdict = Verify(branch.value(), 0);
   ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
   EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
+}
+
+// What cannot save its state is computed from the first step, wherever one asks it to begin.
+TEST_F(ReplayTest, ANodeWithoutAStateIsComputedFromTheStart) {
+  const std::string file = Record("without.mcap", LaunchFile("empty.yaml"), {"--for", "1.5", "--set", "nodes.c.config.saves=false", "--set", "snapshot_every_s=0.5"});
+  const auto late = VerifyFile(file, 1200);
+  ASSERT_TRUE(late.ok()) << late.error().Text();
+  EXPECT_FALSE(late.value().difference.has_value()) << late.value().difference->Text();
+  EXPECT_EQ(late.value().first_step, 0);
+  EXPECT_EQ(late.value().without_state, std::vector<std::string>{"c"});
+  EXPECT_EQ(late.value().samples, 4u * 1501u + 4u * 4u);
+  const auto said = RunCommand({Bin("rodeira"), "replay", file, "--verify", "--from", "1.2"});
+  EXPECT_EQ(said.status, 0) << said.out;
+  EXPECT_THAT(said.out, HasSubstr("node 'c' cannot save its state: all is computed again from step 0\nidentical: 1500 steps, 4 nodes"));
+  EXPECT_THAT(RunCommand({Bin("rodeira"), "info", file}).out, HasSubstr("state   node 'c' cannot save its state: replayed from the first step"));
+  // Its digests are compared like everybody's: a change of another node reaches it.
+  const auto changed = VerifyFile(file, 1200, {{"nodes.c.config.broken", "clock"}});
+  ASSERT_TRUE(changed.ok()) << changed.error().Text();
+  ASSERT_TRUE(changed.value().difference.has_value());
+  EXPECT_EQ(changed.value().difference->node, "c");
+  EXPECT_EQ(changed.value().difference->step, 1);
+}
+
+// Unchanged, it goes on itself, to the bit: nobody could make another one that stands where it stood.
+TEST_F(ReplayTest, ANodeWithoutAStateGoesOnInABranch) {
+  const std::string file = Record("without.mcap", LaunchFile("empty.yaml"), {"--for", "1.5", "--set", "nodes.c.config.saves=false", "--set", "nodes.c.delay_s=0.003"});
+  for (const lockstep::Step at : {0, 700}) {
+    const BranchWish wish{file, at, {}, std::nullopt, (folder_.path() / ("branch" + std::to_string(at) + ".mcap")).string()};
+    const auto outcome = Branch(wish);
+    ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
+    EXPECT_EQ(outcome.value().recomputed_from, 0);
+    EXPECT_EQ(outcome.value().without_state, std::vector<std::string>{"c"});
+    EXPECT_TRUE(outcome.value().taken_over.empty());
+    const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(wish.recording);
+    ASSERT_TRUE(branch.ok()) << branch.error().Text();
+    auto of_a = parent.value().Samples(), of_b = branch.value().Samples();
+    std::size_t count = 0;
+    for (;;) {
+      const auto x = of_a.Next(), y = of_b.Next();
+      ASSERT_EQ(x.value().has_value(), y.value().has_value());
+      if (!x.value()) break;
+      ++count;
+      ASSERT_EQ(*x.value()->payload, *y.value()->payload) << "at step " << x.value()->valid();
+    }
+    EXPECT_EQ(count, 4u * 1501u + 4u * 2u);
+    const auto verdict = Verify(branch.value(), 0);
+    if (at == 0) {
+      ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
+      EXPECT_FALSE(verdict.value().difference.has_value());
+      continue;
+    }
+    ASSERT_FALSE(verdict.ok());
+    EXPECT_EQ(verdict.error().exit_status(), 2);
+    EXPECT_THAT(verdict.error().Text(), HasSubstr("node 'c' cannot save its state, and up to step 700 its parent's nodes computed"));
+  }
+  // Another node's change reaches it one step later; one of its own lets it begin from what it had published.
+  const std::string other = (folder_.path() / "other.mcap").string(), own = (folder_.path() / "own.mcap").string();
+  ASSERT_TRUE(Branch({file, 700, {{"nodes.a.config.broken", "order"}}, 1000, other}).ok());
+  const auto fresh = Branch({file, 700, {{"nodes.c.config.saves", "true"}}, 1000, own});
+  ASSERT_TRUE(fresh.ok()) << fresh.error().Text();
+  EXPECT_EQ(fresh.value().taken_over, std::vector<std::string>{"c"});
+  const auto first_other_value = [&](const std::string& name, const std::string& node) {
+    const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(name);
+    auto of_a = parent.value().Samples(), of_b = branch.value().Samples();
+    for (;;) {
+      const auto x = of_a.Next(), y = of_b.Next();
+      if (!x.value() || !y.value()) return lockstep::Step{-1};
+      const auto& source = parent.value().roster().source(x.value()->source());
+      if (parent.value().roster().node(source.node).name == node && source.topic == "rodeira/pulse" && *x.value()->payload != *y.value()->payload) return x.value()->valid();
+    }
+  };
+  EXPECT_EQ(first_other_value(other, "a"), 701);
+  EXPECT_EQ(first_other_value(other, "c"), 704) << "activated at 701, valid three steps later";
+  EXPECT_EQ(first_other_value(own, "c"), 703);
+}
+
+// Embedded files are unpacked to be read; what is wrong with one is said by its name in the recording, not by where it was unpacked.
+TEST_F(ReplayTest, AnEmbeddedFileIsNamedAsItIsEmbedded) {
+  const std::string file = Drive(1.0);
+  const auto all = [](const std::string&, const record::Message&, base::Bytes&) { return true; };
+  const auto nothing = [](const std::string&, record::TextMap&) {};
+  const auto without = [&](const std::string& name) {
+    const std::string copy = Copied(file, nothing, all, [&](const std::string& other) { return other != name; });
+    const auto verdict = VerifyFile(copy);
+    EXPECT_FALSE(verdict.ok()) << name;
+    if (verdict.ok()) return std::string();
+    EXPECT_EQ(verdict.error().exit_status(), 2) << name;
+    EXPECT_THAT(verdict.error().Text(), ::testing::StartsWith(copy + ": ")) << name;
+    EXPECT_THAT(verdict.error().Text(), ::testing::Not(HasSubstr("rodeira-replay"))) << name;
+    return verdict.error().Text().substr(copy.size() + 2);
+  };
+  EXPECT_EQ(without("launch.yaml"), "the embedded file 'launch.yaml' is missing; without it nobody knows who took part");
+  EXPECT_THAT(without("files/../configs/vehicles/default.yaml"), HasSubstr("../configs/vehicles/default.yaml: there is no such file"));
+  EXPECT_THAT(without("files/../configs/worlds/plane.yaml"), HasSubstr("../configs/worlds/plane.yaml: there is no such file"));
+  const auto wrong_change = Branch({file, 500, {{"nodes.ego.config.vehicel", "2"}}, std::nullopt, (folder_.path() / "branch.mcap").string()});
+  ASSERT_FALSE(wrong_change.ok());
+  EXPECT_THAT(wrong_change.error().Text(), ::testing::StartsWith(file + ": "));
+  EXPECT_THAT(wrong_change.error().Text(), HasSubstr(": first_drive.yaml: unknown key 'nodes.ego.config.vehicel'"));
+}
+
+TEST_F(ReplayTest, ADifferenceIsSaidWithTheProgramThatRecorded) {
+  const std::string file = Drive(1.0);
+  const auto otherwise = [](const std::string& topic, const record::Message& message, base::Bytes& data) {
+    if (topic == "rodeira/vehicle_state" && message.log_time_ns == 500'000'000) data[100] ^= std::byte{1};
+    return true;
+  };
+  const auto verify = [](const std::string& recording) {
+    const auto ended = RunCommand({Bin("rodeira"), "replay", recording, "--verify"});
+    EXPECT_EQ(ended.status, 1) << ended.out;
+    EXPECT_THAT(ended.out, HasSubstr("first difference at step 500"));
+    return ended.out;
+  };
+  EXPECT_THAT(verify(Copied(file, [](const std::string&, record::TextMap&) {}, otherwise)), ::testing::Not(HasSubstr("recorded by another program")));
+  const auto by_another = [](const std::string& name, record::TextMap& entries) {
+    if (name == "rodeira") entries["commit"] = "0123456";
+  };
+  EXPECT_THAT(verify(Copied(file, by_another, otherwise)), HasSubstr("recorded by another program (version 0.1.0, commit 0123456; this one is version 0.1.0, commit "));
 }
 
 TEST_F(ReplayTest, AnotherProtocolAndAMissingSnapshotAreNamed) {

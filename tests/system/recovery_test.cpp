@@ -133,6 +133,24 @@ TEST_F(Recovery, AKilledNodeIsBackInStepWithinTwoSecondsOfBeingNamed) {
   EXPECT_TRUE(remarked);
 }
 
+// Whoever had wanted to say something to it is held up by its memory for a while: that is nobody's fault.
+TEST_F(Recovery, AStoppedRecorderAloneIsNamed) {
+  Undisturbed("20");
+  const std::string run_name = "recovery-recorder-" + std::to_string(::getpid());
+  Started run(Command(run_name, File("stopped.mcap"), "20", "restart"));
+  ASSERT_TRUE(Runs(run_name));
+  std::this_thread::sleep_for(500ms);
+  const pid_t recorder = Find(run_name, "recorder");
+  ASSERT_GT(recorder, 0);
+  ::kill(recorder, SIGSTOP);
+  const Ended ended = run.Wait(60s);
+  ExpectUndisturbed(ended, File("stopped.mcap"));
+  std::size_t again = 0;
+  for (auto at = ended.out.find("again   "); at != std::string::npos; at = ended.out.find("again   ", at + 1)) ++again;
+  EXPECT_EQ(again, 1u) << ended.out;
+  EXPECT_NE(ended.out.find("again   node 'recorder' was stopped by signal 19"), std::string::npos) << ended.out;
+}
+
 TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
   Undisturbed("20");
   const std::string run_name = "recovery-pause-" + std::to_string(::getpid());
@@ -158,7 +176,10 @@ TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
   const Ended restart = RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "restart", "traffic"});
   EXPECT_EQ(restart.status, 0) << restart.out;
   EXPECT_NE(restart.out.find("'traffic' is started again"), std::string::npos) << restart.out;
-  ExpectUndisturbed(run.Wait(60s), File("pause.mcap"));
+  const Ended ended = run.Wait(60s);
+  ExpectUndisturbed(ended, File("pause.mcap"));
+  EXPECT_NE(ended.out.find("again   node 'traffic' at about step "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find(": asked for by the operator; started again"), std::string::npos) << ended.out;
   const Ended verified = RunCommand({Bin("rodeira"), "replay", File("pause.mcap"), "--verify"});
   EXPECT_EQ(verified.status, 0) << "computed again, it is the same: " << verified.out;
 }

@@ -101,6 +101,11 @@ TEST_F(Refusal, AnElevationFileCutShort) {
   EXPECT_THAT(Of({"--set", "world=" + whole}, LaunchFile("first_drive.yaml")), HasSubstr(elevation.filename().string() + ": the file is cut short: 4610 bytes, and 33 x 33 heights of 4 bytes need 4612"));
 }
 
+TEST_F(Refusal, ANodeToBeStartedAgainThatCannotSaveItsState) {
+  EXPECT_THAT(Of({"--set", "recovery=restart", "--set", "nodes.c.config.saves=false"}, LaunchFile("empty.yaml")),
+              HasSubstr("node 'c' cannot save its state, so it cannot be started again; 'stop' or 'pause' was expected as nodes.c.recovery"));
+}
+
 TEST_F(Refusal, AWindowWithoutADisplay) {
   const std::string said = Set("nodes.view.config.window", "always");
   EXPECT_THAT(said, HasSubstr("a window is wanted, but there is no display; set DISPLAY, or 'window: never'"));

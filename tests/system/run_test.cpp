@@ -40,6 +40,19 @@ TEST(Run, TheSameDigestAtEveryRunUnderLoadOverUdpAndInOneProcess) {
   EXPECT_NE(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--seed", "2"}).out), digest);
 }
 
+TEST(Run, ANodeThatCannotSaveItsStateSaysSo) {
+  const std::vector<std::string> command{Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "0.5", "--set", "nodes.c.config.saves=false"};
+  const auto processes = RunCommand(command);
+  EXPECT_EQ(processes.status, 0) << processes.out;
+  EXPECT_NE(processes.out.find("state   node 'c' cannot save its state: replayed from the first step, and not to be started again\n"), std::string::npos) << processes.out;
+  EXPECT_EQ(processes.out.find("node 'b' cannot"), std::string::npos) << processes.out;
+  auto in_process = command;
+  in_process.push_back("--in-process");
+  const auto one = RunCommand(in_process);
+  EXPECT_NE(one.out.find("state   node 'c' cannot save its state"), std::string::npos) << one.out;
+  EXPECT_EQ(DigestIn(one.out), DigestIn(processes.out));
+}
+
 TEST(Run, RealPaceTakesRealTime) {
   // Not a measurement: a bound from below, which load can only raise.
   const auto begin = std::chrono::steady_clock::now();

@@ -1,11 +1,13 @@
 // SUELO in the library: at most 50 ns a point on terrain alone (513 x 513, random), 150 ns on 8193 x 8193, 1 µs on the road.
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <vector>
 
 #include "common/base/random.hpp"
 #include "common/geometry/clothoid.hpp"
+#include "common/network/network.hpp"
 #include "common/road/world.hpp"
 
 namespace rodeira::road {
@@ -73,6 +75,35 @@ void N222Patch(benchmark::State& state) {
   }
 }
 BENCHMARK(N222Patch)->Unit(benchmark::kMicrosecond);
+
+// The same on one element: of a road of a world file of version 2 on a plane (0), of a version 1's (1).
+void PatchOn(benchmark::State& state, const char* element) {
+  const std::string road = fmt::format("    axis: [{}]\n", element);
+  const std::string text =
+      state.range(0) == 0
+          ? "rodeira: world/2\nname: one\nground: {kind: plane}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 20}\n" + road + "    section: {template: rural}\n"
+          : "rodeira: world/1\nname: one\nground: {kind: plane}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 20}\n" + road +
+                "    vertical: [{s_m: 0, z_m: 0}]\n    section: {lanes: [{id: -1, width_m: 3.5, speed_limit_kmh: 80}, {id: 1, width_m: 3.5, speed_limit_kmh: 80}]}\n";
+  const auto world = World::Parse(text, "one.yaml");
+  if (!world) return state.SkipWithError(world.error().Text().c_str());
+  const network::Road& on = world.value()->network()->roads()[0];
+  std::vector<terrain::GroundPatch> patches;
+  for (std::uint64_t i = 0; i < 1024; ++i) {
+    const double s = base::RandomUniform({i, 1}, 1.0, on.length_m() - 1.0);
+    const Eigen::Vector3d p = on.Surface(s, base::RandomUniform({i, 2}, -2.5, 2.5)).p_W;
+    patches.push_back({p.x(), p.y(), on.axis().Evaluate(s).heading_rad, 0.2, 0.18, 20, 20, p.z()});
+  }
+  const auto ground = world.value()->MakeGround();
+  std::vector<terrain::GroundPoint> points(400);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    ground->Patch(patches[i++ & 1023], points);
+    benchmark::DoNotOptimize(points.data());
+  }
+}
+BENCHMARK_CAPTURE(PatchOn, Straight, "line: {length_m: 400}")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(PatchOn, Arc, "arc: {length_m: 400, radius_m: 200}")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(PatchOn, Clothoid, "clothoid: {length_m: 400, radius_end_m: 200}")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
 void N222TerrainRandom(benchmark::State& state) {
   std::vector<terrain::GroundQuery> queries;

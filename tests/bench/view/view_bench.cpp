@@ -6,6 +6,8 @@
 
 #include "common/road/world.hpp"
 #include "common/scene/world_scene.hpp"
+#include "nodes/view/database.hpp"
+#include "nodes/view/find_built.hpp"
 #include "nodes/view/painter.hpp"
 #include "nodes/view/png.hpp"
 
@@ -50,6 +52,35 @@ void Frame(benchmark::State& state) {
   state.SetLabel(surface.value()->renderer() + (state.range(0) == 0 ? ", chase" : ", driver"));
 }
 BENCHMARK(Frame)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+
+// From a loaded HASTE to its first picture: the ground built in memory (0), or the built database found, checked and read (1).
+void FirstPictureOfHaste(benchmark::State& state) {
+  static const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/haste.yaml").value();
+  const auto folder = std::filesystem::temp_directory_path() / "rodeira-view-bench-haste";
+  DatabaseOptions options;
+  options.folder = folder;
+  if (state.range(0) == 1) {
+    if (auto written = WriteDatabase(*world, options); !written) return state.SkipWithError(written.error().Text().c_str());
+  }
+  Picture picture;
+  scene::CarPose car;
+  const road::StartPose& start = world->start();
+  car.p_WB_W = {start.x_m, start.y_m, world->At(start.x_m, start.y_m).z_m};
+  car.q_WB = scene::Attitude(start.heading_rad, 0.0, 0.0);
+  picture.moment.cars.push_back(car);
+  for (auto _ : state) {
+    auto surface = Surface::Open(SurfaceKind::kOffscreen, 1280, 720, "bench");
+    if (!surface) return state.SkipWithError(surface.error().Text().c_str());
+    const FoundBuilt found = state.range(0) == 1 ? FindBuilt(folder / "haste.yaml", *world) : FoundBuilt{};
+    if (!found.remark.empty()) return state.SkipWithError(found.remark.c_str());
+    auto painter = PainterOf(*surface.value(), *world, found.folder);
+    if (!painter) return state.SkipWithError(painter.error().Text().c_str());
+    painter.value()->DrawWhole(picture);
+    benchmark::DoNotOptimize(painter.value()->Read());
+  }
+  std::filesystem::remove_all(folder);
+}
+BENCHMARK(FirstPictureOfHaste)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(2);
 
 void Png(benchmark::State& state) {
   const auto image = RenderStill(N222(), AlongTheRoad(300.0, scene::CameraKind::kChase), 1280, 720);

@@ -174,6 +174,56 @@ TEST(Junction, HasStopLinesAndSigns) {
   }
 }
 
+// Lights before all four arms, a group a road; stop lines, and no signs.
+TEST(Junction, HasLightsWithTheirTimes) {
+  std::string text = kRoads;
+  const std::string stop = "control: stop}";
+  text.replace(text.find(stop), stop.size(),
+               "control: lights, lights: {phases: [{green: [main], for_s: 25}, {green: [cross], for_s: 20}]}}");
+  const Design design = SoundDesign(text);
+  const network::Network& network = *design.network;
+  ASSERT_EQ(network.controllers().size(), 2u);
+  const auto& main = network.controllers()[0];
+  const auto& cross = network.controllers()[1];
+  EXPECT_EQ(network.junctions()[0].controllers, (std::vector<std::string>{"j1-main", "j1-cross"}));
+  ASSERT_TRUE(main.times && cross.times);
+  EXPECT_DOUBLE_EQ(main.times->cycle_s, 55.0);
+  EXPECT_DOUBLE_EQ(main.times->green_from_s, 0.0);
+  EXPECT_DOUBLE_EQ(main.times->green_s, 25.0);
+  EXPECT_DOUBLE_EQ(cross.times->green_from_s, 30.0);
+  EXPECT_DOUBLE_EQ(cross.times->green_s, 20.0);
+  for (const auto* controller : {&main, &cross}) {
+    ASSERT_EQ(controller->controls.size(), 2u);
+    for (const auto& entry : controller->controls) {
+      int found = 0;
+      for (const network::Road& road : network.roads()) {
+        for (const network::Signal& signal : road.spec().signals) {
+          if (signal.id != entry.signal_id) continue;
+          ++found;
+          EXPECT_TRUE(signal.dynamic);
+          EXPECT_EQ(signal.type, "1000001");
+          const bool starts = signal.s_m < 0.5 * road.length_m();  // the end at the junction: traffic comes against s
+          EXPECT_EQ(signal.orientation, starts ? "-" : "+");
+          EXPECT_EQ(signal.t_m < 0.0, !starts) << "on the right of those who come";
+        }
+      }
+      EXPECT_EQ(found, 1) << entry.signal_id;
+    }
+  }
+  for (const network::Road& road : network.roads()) {
+    if (road.id() != "main/1" && road.id() != "cross/1") continue;
+    EXPECT_TRUE(std::all_of(road.spec().signals.begin(), road.spec().signals.end(), [](const auto& signal) { return signal.dynamic; }));
+  }
+  const auto told = [&](const std::string& phases) {
+    std::string wrong = kRoads;
+    wrong.replace(wrong.find(stop), stop.size(), "control: lights, lights: {phases: " + phases + "}}");
+    return FirstProblem(wrong);
+  };
+  EXPECT_THAT(told("[{green: [main], for_s: 9}]"), HasSubstr("road 'cross' is green in no phase of junction 'j1'"));
+  EXPECT_THAT(told("[{green: [main], for_s: 9}, {green: [cros], for_s: 9}]"), HasSubstr("no road 'cros' meets junction 'j1'"));
+  EXPECT_THAT(told("[{green: [main], for_s: 9}, {green: [cross]}]"), HasSubstr("for_s"));
+}
+
 TEST(Junction, WhatDoesNotMeetIsTold) {
   const std::string text = kRoads;
   const auto with = [&](const std::string& from, const std::string& to) {

@@ -19,7 +19,7 @@ inline std::shared_ptr<const network::Network> MapNetwork(const std::string& nam
   return made.value();
 }
 
-inline std::vector<std::string> MapNames() { return {"crossing", "roundabout", "ramp", "town", "overpass"}; }
+inline std::vector<std::string> MapNames() { return {"crossing", "roundabout", "ramp", "town", "overpass", "lights"}; }
 
 inline std::filesystem::path RealFolder() { return std::filesystem::path(RODEIRA_SOURCE_DIR) / "../shared/data/road/xodr"; }
 

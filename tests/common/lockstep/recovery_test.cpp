@@ -204,6 +204,19 @@ TEST_F(RecoveryOfOne, NobodyKeepsAnythingWhereNobodyCanComeBack) {
   EXPECT_EQ(Recovery(Make(true), {Policy::kPause, Policy::kStop}).safe(), -1) << "a person may start it again";
 }
 
+TEST_F(RecoveryOfOne, WhoCannotSaveItsStateIsNotStartedAgain) {
+  const Roster roster = Make(true);
+  Report car = Running(0, 0);
+  EXPECT_TRUE(Recovery(roster, {Policy::kRestart, Policy::kRestart}).CheckState(car).ok());
+  car.cannot_save = true;
+  const auto status = Recovery(roster, {Policy::kRestart, Policy::kRestart}).CheckState(car);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().Text(), "node 'car' cannot save its state, so it cannot be started again; 'stop' or 'pause' was expected as nodes.car.recovery");
+  EXPECT_EQ(status.error().exit_status(), 2);
+  EXPECT_TRUE(Recovery(roster, {Policy::kPause, Policy::kRestart}).CheckState(car).ok());
+  EXPECT_TRUE(Recovery(roster, {Policy::kStop, Policy::kRestart}).CheckState(car).ok());
+}
+
 TEST_F(RecoveryOfOne, EachKindBeginsWhereItCan) {
   const Roster roster = Make(true);
   Grant grant;

@@ -64,5 +64,21 @@ TEST(Snapshot, CutAnywhereItIsRefused) {
   EXPECT_FALSE(Snapshot::Decode(longer).ok());
 }
 
+TEST(Snapshot, WithoutAStateItSaysSo) {
+  Snapshot snapshot;
+  snapshot.at = 12;
+  snapshot.steps = 3;
+  snapshot.has_state = false;
+  const auto read = Snapshot::Decode(snapshot.Encode());
+  ASSERT_TRUE(read.ok()) << read.error().Text();
+  EXPECT_FALSE(read.value().has_state);
+  EXPECT_EQ(read.value().steps, 3u);
+  snapshot.has_state = true;  // an empty state is one
+  EXPECT_TRUE(Snapshot::Decode(snapshot.Encode()).value().has_state);
+  snapshot.has_state = false;
+  snapshot.state.resize(1);
+  EXPECT_FALSE(Snapshot::Decode(snapshot.Encode()).ok());
+}
+
 }  // namespace
 }  // namespace rodeira::lockstep

@@ -106,10 +106,57 @@ TEST_F(WatchdogTest, NobodysSilenceCountsWhileSomebodyIsStartedAgain) {
   back.phase = Phase::kRunning;
   back.waiting = Waiting::kGrant;
   dog_.Heard(back, 3000);
-  for (std::int64_t now = 3000; now <= 3600; now += 50) EXPECT_FALSE(dog_.Check(now)) << now;
-  const auto fault = dog_.Check(3650);
+  EXPECT_FALSE(dog_.Check(3000));
+  dog_.Heard(back, 3050);
+  for (std::int64_t now = 3050; now <= 3650; now += 50) EXPECT_FALSE(dog_.Check(now)) << now;
+  const auto fault = dog_.Check(3700);
   ASSERT_TRUE(fault) << "from then on it counts anew";
   EXPECT_EQ(fault->node, 0u);
+}
+
+// A recorder was stopped and killed, and its next life is ready in half a second; the car hangs for two in what it had wanted to say
+// to the old one.
+TEST_F(WatchdogTest, WhoWasHeldUpByADeadProcessIsNotNamedForIt) {
+  Hear(0, 0);
+  Hear(1, 0);
+  EXPECT_FALSE(dog_.Check(0));
+  dog_.ExpectNextLife(1, 0);
+  Report back;
+  back.node = 1;
+  back.incarnation = 1;
+  back.phase = Phase::kReady;
+  back.waiting = Waiting::kGrant;
+  for (std::int64_t now = 50; now <= 2000; now += 50) {
+    if (now >= 500) dog_.Heard(back, now);
+    EXPECT_FALSE(dog_.Check(now)) << now;
+  }
+  Hear(0, 2050);
+  for (std::int64_t now = 2050; now <= 2650; now += 50) {
+    dog_.Heard(back, now);
+    EXPECT_FALSE(dog_.Check(now)) << now;
+  }
+  dog_.Heard(back, 2700);
+  ASSERT_TRUE(dog_.Check(2700)) << "once it has spoken, its silence is like anybody's";
+  EXPECT_EQ(dog_.Check(2700)->node, 0u);
+}
+
+TEST_F(WatchdogTest, WhoNeverSpeaksAgainIsNamedAtLast) {
+  Hear(0, 0);
+  Hear(1, 0);
+  EXPECT_FALSE(dog_.Check(0));
+  dog_.ExpectNextLife(1, 0);
+  Report back;
+  back.node = 1;
+  back.incarnation = 1;
+  back.phase = Phase::kReady;
+  std::int64_t now = 500;
+  for (; now <= 500 + 5 * 600; now += 50) {
+    dog_.Heard(back, now);
+    EXPECT_FALSE(dog_.Check(now)) << now;
+  }
+  dog_.Heard(back, now);
+  ASSERT_TRUE(dog_.Check(now));
+  EXPECT_EQ(dog_.Check(now)->reason, "node 'car' has said nothing for 3.05 s at step 7: it was killed, stopped or cut off");
 }
 
 TEST_F(WatchdogTest, ALifeThatDoesNotBecomeReadyIsNamed) {

@@ -63,7 +63,7 @@ TEST_P(OwnMap, IsDrawn) {
   EXPECT_THAT(svg, testing::Not(testing::AnyOf(testing::HasSubstr("nan"), testing::HasSubstr("inf\""))));
 }
 
-INSTANTIATE_TEST_SUITE_P(Maps, OwnMap, testing::Values("crossing", "roundabout", "ramp", "town", "overpass"),
+INSTANTIATE_TEST_SUITE_P(Maps, OwnMap, testing::Values("crossing", "roundabout", "ramp", "town", "overpass", "lights"),
                          [](const auto& made) { return made.param; });
 
 struct Passed {

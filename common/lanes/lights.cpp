@@ -1,0 +1,102 @@
+#include "common/lanes/lights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/geometry/plane.hpp"
+#include "common/lanes/signs.hpp"
+
+namespace rodeira::lanes {
+namespace {
+
+constexpr double kBack_m = 60.0;
+constexpr double kBehind_m = 1.0;     // a light at the end of a track may stand a little beyond where a zone begins
+constexpr double kAlike_rad = 0.45;   // approaches that point as nearly the same way share a light
+constexpr double kHeadOn_rad = 2.5;   // approaches farther apart than this meet head-on
+constexpr const char* kOnFoot = "1000002";
+
+// The controller with times that a signal obeys.
+std::optional<std::uint32_t> ControllerOf(const network::Network& network, const std::string& signal) {
+  for (std::uint32_t i = 0; i < network.controllers().size(); ++i) {
+    const network::Controller& controller = network.controllers()[i];
+    if (!controller.times) continue;
+    for (const network::ControllerEntry& entry : controller.controls) {
+      if (entry.signal_id == signal) return i;
+    }
+  }
+  return std::nullopt;
+}
+
+bool OnFoot(const network::Network& network, const std::string& id) {
+  for (const network::Road& road : network.roads()) {
+    for (const network::Signal& signal : road.spec().signals) {
+      if (signal.id == id) return signal.type == kOnFoot;
+    }
+  }
+  return false;
+}
+
+std::string Named(const Graph& graph, const LightPlace& light) {
+  const network::Controller& controller = graph.network().controllers()[light.controller];
+  const network::LaneKey& lane = graph[light.track].lane;
+  return "'" + (controller.name.empty() ? controller.id : controller.name) + "' (signal " + light.signal + ", road '" +
+         graph.network().roads()[lane.road].id() + "', lane " + std::to_string(lane.lane) + ")";
+}
+
+}  // namespace
+
+std::vector<LightPlace> LightsOf(const Graph& graph, std::uint32_t track) {
+  std::vector<LightPlace> lights;
+  if (graph.network().controllers().empty()) return lights;
+  const Track& t = graph[track];
+  const network::RoadSpec& road = graph.network().roads()[t.lane.road].spec();
+  const auto& nodes = t.curve.nodes();
+  const double low = std::min(nodes.front().s_m, nodes.back().s_m), high = std::max(nodes.front().s_m, nodes.back().s_m);
+  const auto add = [&](const std::string& id, double s_m) {
+    const auto controller = ControllerOf(graph.network(), id);
+    if (!controller || s_m < low || s_m > high) return;
+    const double share = (s_m - nodes.front().s_m) / (nodes.back().s_m - nodes.front().s_m);
+    lights.push_back({share * t.length_m(), *controller, id, track});
+  };
+  for (const network::Signal& signal : road.signals) {
+    if (signal.type != kOnFoot && HoldsFor(t, signal.orientation, signal.validity)) add(signal.id, signal.s_m);
+  }
+  for (const network::SignalReference& reference : road.signal_references) {
+    if (HoldsFor(t, reference.orientation, reference.validity) && !OnFoot(graph.network(), reference.id)) add(reference.id, reference.s_m);
+  }
+  std::stable_sort(lights.begin(), lights.end(), [](const LightPlace& a, const LightPlace& b) { return a.d_m < b.d_m; });
+  return lights;
+}
+
+std::optional<LightPlace> LightFor(const Graph& graph, std::uint32_t track, double d_m) {
+  double back = 0.0;
+  while (true) {
+    const auto lights = LightsOf(graph, track);
+    for (auto light = lights.rbegin(); light != lights.rend(); ++light) {
+      if (light->d_m <= d_m + kBehind_m) return *light;
+    }
+    back += d_m;
+    if (back > kBack_m || graph[track].before.size() != 1) return std::nullopt;
+    track = graph[track].before.front();
+    d_m = graph[track].length_m();
+  }
+}
+
+base::Status CheckLights(const Graph& graph, const Zones& zones) {
+  for (const Zone& zone : zones.zones()) {
+    if (zone.kind == ZoneKind::kDiverge) continue;
+    const auto a = LightFor(graph, zone.track[0], zone.in_m[0]), b = LightFor(graph, zone.track[1], zone.in_m[1]);
+    if (!a || !b) continue;
+    const auto& controllers = graph.network().controllers();
+    if (!network::MeetGreen(*controllers[a->controller].times, *controllers[b->controller].times)) continue;
+    const Eigen::Vector2d from_a = graph[a->track].curve.At(a->d_m).ahead_W, from_b = graph[b->track].curve.At(b->d_m).ahead_W;
+    const double turned = std::fabs(std::atan2(geometry::Cross(from_a, from_b), from_a.dot(from_b)));
+    if (turned < kAlike_rad || turned > kHeadOn_rad) continue;
+    return base::WrongInput("the lights " + Named(graph, *a) + " and " + Named(graph, *b) +
+                            " are green or amber together, and their ways " +
+                            (zone.kind == ZoneKind::kMerge ? "merge" : "cross") + "; phases that do not meet were expected");
+  }
+  return {};
+}
+
+}  // namespace rodeira::lanes

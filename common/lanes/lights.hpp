@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/lanes/zones.hpp"
+
+namespace rodeira::lanes {
+
+// A light for the traffic of a track: the line at which who may not go stands.
+struct LightPlace {
+  double d_m = 0.0;
+  std::uint32_t controller = 0;  // index into the network's controllers; it has times
+  std::string signal;            // its id
+  std::uint32_t track = 0;
+};
+
+// The lights of a track: signals, and references to signals elsewhere, that a controller with times controls; ascending.
+// Lights for people on foot alone are none.
+std::vector<LightPlace> LightsOf(const Graph& graph, std::uint32_t track);
+
+// The light that holds at d of a track: the last one before it, or, going back over tracks that are the only way here,
+// within 60 m.
+std::optional<LightPlace> LightFor(const Graph& graph, std::uint32_t track, double d_m);
+
+// Wrong input where two lights are green or amber together whose ways come from different sides and cross or merge. Who turns
+// across the way of those who come towards him may be green with them: he yields. The two are named.
+base::Status CheckLights(const Graph& graph, const Zones& zones);
+
+}  // namespace rodeira::lanes

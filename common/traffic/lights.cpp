@@ -1,0 +1,51 @@
+// What agents make of traffic lights.
+#include <algorithm>
+
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+// Who can stop at the line by braking so hard, stops at amber. At 50 km/h three seconds of amber are as long as
+// v/(2 b), so that nobody comes to the line at red (Gazis, Herman, Maradudin 1960).
+constexpr double kForAmber_mps2 = 2.8;
+constexpr double kSame_m = 0.01;
+
+}  // namespace
+
+void TrafficModel::FindColours() {
+  const auto controllers = map_->network->controllers();
+  colours_.assign(controllers.size(), network::LightColour::kRed);
+  for (std::size_t i = 0; i < controllers.size(); ++i) {
+    if (controllers[i].times) colours_[i] = network::ColourAt(*controllers[i].times, time_ns_);
+  }
+}
+
+// Whether all lights on its way between two odometers show green.
+bool TrafficModel::AllGreen(std::uint32_t id, double from_m, double to_m) const {
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.begin_m > to_m) break;
+    for (const StopLine& line : map_->plans[stretch.track].lines) {
+      const double at = stretch.zero_m + line.d_m;
+      if (line.light >= 0 && at >= from_m - kSame_m && at <= to_m + kSame_m && at >= stretch.begin_m && !IsGreen(line.light)) return false;
+    }
+  }
+  return true;
+}
+
+// Who has been granted a way past a light that is green no more, and can stop before it, gives it back. It stands where it would
+// have waited: nobody who holds a zone of that way counts on it.
+void TrafficModel::ObeyLights(std::uint32_t id) {
+  Agent& agent = agents_[id];
+  const double front = agent.o_m + 0.5 * traits_[id].length_m;
+  for (std::size_t i = 0; i < agent.grants.size(); ++i) {
+    const ZoneGrant& grant = agent.grants[i];
+    const double gap = grant.light_m - front;
+    if (grant.light_m < 0.0 || gap < 0.0 || agent.speed_mps * agent.speed_mps > 2.0 * kForAmber_mps2 * gap) continue;
+    if (AllGreen(id, grant.light_m, grant.to_m)) continue;
+    agent.granted_m = std::min(agent.granted_m, grant.light_m - kSame_m);
+    agent.grants.resize(i);
+  }
+}
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,65 @@
+// What a step of traffic costs: planar mode on closed-meshed grids of streets, by the number of vehicles. The grids are maps that
+// tools/make_grid.py writes; RODEIRA_GRIDS is the folder with grid4.motors, grid10.motors and grid32.motors.
+#include <benchmark/benchmark.h>
+#include <malloc.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "common/base/state.hpp"
+#include "common/map/map_network.hpp"
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+double HeapBytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd);
+}
+
+std::string Grid(std::int64_t nodes) {
+  const char* folder = std::getenv("RODEIRA_GRIDS");
+  return folder == nullptr ? "" : std::string(folder) + "/grid" + std::to_string(nodes) + ".motors";
+}
+
+// Arguments: streets each way, vehicles. After 20 simulated seconds a step of 10 ms: decision and motion of every vehicle.
+void BM_PlanarStep(benchmark::State& state) {
+  const auto network = map::LoadNetwork(Grid(state.range(0)));
+  if (!network) return state.SkipWithError("RODEIRA_GRIDS names no folder with the grids of tools/make_grid.py");
+  TrafficSettings settings;
+  settings.vehicles = static_cast<std::uint32_t>(state.range(1));
+  TrafficModel model = TrafficModel::Make(settings, network.value(), {}).value();
+  for (int i = 0; i < 200; ++i) model.Step(0.1, {});
+  double updates = 0.0, on_road = 0.0, steps = 0.0;
+  for (auto _ : state) {
+    model.Step(0.01, {});
+    updates += static_cast<double>(model.on_road());
+    on_road += static_cast<double>(model.on_road());
+    steps += 1.0;
+  }
+  state.counters["updates"] = benchmark::Counter(updates, benchmark::Counter::kIsRate);
+  state.counters["on_road"] = on_road / steps;
+}
+BENCHMARK(BM_PlanarStep)->Args({4, 100})->Args({10, 1000})->Args({32, 10000})->Unit(benchmark::kMillisecond)->MinTime(4.0);
+
+// The heap that vehicles take beyond the map, a vehicle.
+void BM_Memory(benchmark::State& state) {
+  const auto network = map::LoadNetwork(Grid(10));
+  if (!network) return state.SkipWithError("RODEIRA_GRIDS names no folder with the grids of tools/make_grid.py");
+  const auto bytes = [&](std::uint32_t vehicles) {
+    TrafficSettings settings;
+    settings.vehicles = vehicles;
+    const double before = HeapBytes();
+    TrafficModel model = TrafficModel::Make(settings, network.value(), {}).value();
+    for (int i = 0; i < 200; ++i) model.Step(0.1, {});
+    return HeapBytes() - before;
+  };
+  double a_vehicle = 0.0;
+  for (auto _ : state) a_vehicle = (bytes(2000) - bytes(0)) / 2000.0;
+  state.counters["bytes_a_vehicle"] = a_vehicle;
+}
+BENCHMARK(BM_Memory)->Iterations(1);
+
+}  // namespace
+}  // namespace rodeira::traffic
