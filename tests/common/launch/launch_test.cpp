@@ -45,6 +45,19 @@ TEST(Launch, TheSameFileGivesTheSameHashAndAnOverrideAnother) {
   EXPECT_NE(hash({}), hash({{"nodes.traffic.period_s", "0.01"}}));
 }
 
+// Who begins at a snapshot must find the recorder beginning there too: otherwise it waits for an earlier one, for ever.
+TEST(Launch, SnapshotsAreTakenWhereAllPeriodsMeetTheRecordersToo) {
+  const auto every = [](const Overrides& overrides) {
+    const Launch launch = Launch::Parse(kDrive, "x.yaml", overrides).value();
+    const auto& roster = launch.roster();
+    return roster.source(*roster.node(roster.Find("ego")).snapshots).period;
+  };
+  EXPECT_EQ(every({}), 1000);
+  EXPECT_EQ(every({{"snapshot_every_s", "0.01"}, {"nodes.recorder.period_s", "0.05"}}), 100) << "of 1, 20, 50 and the driver's 10 steps";
+  EXPECT_EQ(every({{"snapshot_every_s", "0.01"}, {"nodes.recorder.period_s", "0.03"}}), 60);
+  EXPECT_EQ(every({{"snapshot_every_s", "1"}, {"nodes.recorder.period_s", "0.03"}}), 1020);
+}
+
 TEST(Launch, ANodeOfNoKindIsNotThere) {
   std::string without = kDrive;
   without.resize(without.find("  recorder:"));
