@@ -183,6 +183,8 @@ base::Status System::FindVelocities() {
 
 bool System::FindAccelerations() {
   constexpr int kMostTurns = 50;
+  earlier_s_ = 0.0;
+  newton_ = {};
   constraints_.Evaluate(q_.data(), time_s_);
   std::copy(constant_.begin(), constant_.end(), matrix_.values().begin());
   constraints_.AddRows(weight_, matrix_.values().data());

@@ -12,8 +12,30 @@ namespace {
 constexpr double kRounding = 5e-16;     // far from the world's origin a length is not known better
 constexpr double kSettledShare = 0.01;  // a projection ends when its next turn would be this small against its first
 constexpr double kNearer = 0.3;         // a turn that leaves more than this has got no nearer
+constexpr double kDoubt = 1.05;         // a contraction that was not measured is trusted that much less a step
+constexpr double kCarried = 0.1;        // of what a change may be, where its contraction was measured in an earlier step
+constexpr double kLeast = 1e-6;         // and none below this, which would be rounding
 
 }  // namespace
+
+void Contraction::Learn(int turns, double changed, double changed_before) {
+  if (turns > 1 && changed_before > 0.0)
+    rate = std::clamp(changed / changed_before, kLeast, 1.0);
+  else
+    rate = std::min(1.0, kDoubt * rate);
+}
+
+// Where the accelerations lead that go on as they did over the last step.
+void System::Predict(double dt_s) {
+  const double ahead = earlier_s_ > 0.0 ? 0.25 * dt_s / earlier_s_ : 0.0;
+  for (std::size_t i = 0; i < way_.size(); ++i)
+    way_[i] = dt_s * (qd0_[i] + dt_s * (0.5 * qdd0_[i] + ahead * (qdd0_[i] - earlier_[i])));
+  earlier_.swap(earlier0_);
+  std::copy(qdd0_.begin(), qdd0_.end(), earlier_.begin());
+  earlier0_s_ = earlier_s_;
+  earlier_s_ = dt_s;
+  newton0_ = newton_;
+}
 
 // Expects constraints evaluated; the matrix then holds what K and C the loads gave.
 bool System::Factorise(double dt_s) {
@@ -37,7 +59,7 @@ StepReport System::Step(double dt_s) {
   std::copy(qdd_.begin(), qdd_.end(), qdd0_.begin());
   std::copy(lambda_.begin(), lambda_.end(), lambda0_.begin());
   time0_s_ = time_s_;
-  for (std::size_t i = 0; i < size; ++i) way_[i] = dt_s * (qd0_[i] + 0.5 * dt_s * qdd0_[i]);
+  Predict(dt_s);
   time_s_ += dt_s;
   report.converged = false;
   double changed = 0.0;
@@ -56,10 +78,14 @@ StepReport System::Step(double dt_s) {
       for (std::size_t i = 0; i < lambda_.size(); ++i) lambda_[i] += alpha * values[i];
       const double violation = LargestOf(values);
       const bool nearer = changed < kNearer * changed_before || violation < kNearer * violation_before;
-      const double next = turn > 1 ? changed * std::min(1.0, changed / changed_before) : changed;
-      report.converged = (next <= change_m && violation <= violation_m) ||
+      const double next = newton_.Next(turn, changed, changed_before);
+      if (turn == 2) newton_.Learn(turn, changed, changed_before);
+      report.converged = (next <= (turn == 1 ? kCarried * change_m : change_m) && violation <= violation_m) ||
                          (!nearer && changed <= settings_.accepted_m && violation <= settings_.accepted_m);
-      if (report.converged) break;
+      if (report.converged) {
+        if (turn == 1) newton_.Learn(turn, changed, changed_before);
+        break;
+      }
       changed_before = changed;
       violation_before = violation;
     }
@@ -96,7 +122,10 @@ void System::Undo() {
   std::copy(qd0_.begin(), qd0_.end(), qd_.begin());
   std::copy(qdd0_.begin(), qdd0_.end(), qdd_.begin());
   std::copy(lambda0_.begin(), lambda0_.end(), lambda_.begin());
+  std::copy(earlier0_.begin(), earlier0_.end(), earlier_.begin());
   time_s_ = time0_s_;
+  earlier_s_ = earlier0_s_;
+  newton_ = newton0_;
 }
 
 bool System::Refresh(double dt_s, StepReport& report) {

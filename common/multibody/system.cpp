@@ -119,7 +119,7 @@ base::Status System::Compile() {
   constraints_ = Constraints(different, ties, free_);
 
   const std::size_t size = q_.size();
-  for (auto* each : {&qd_, &qdd_, &q0_, &qd0_, &qdd0_, &way_, &forces_, &residual_, &change_, &weight_force_})
+  for (auto* each : {&qd_, &qdd_, &q0_, &qd0_, &qdd0_, &earlier_, &earlier0_, &way_, &forces_, &residual_, &change_, &weight_force_})
     each->assign(size, 0.0);
   lambda_.assign(static_cast<std::size_t>(constraints_.count()), 0.0);
   mu_.assign(lambda_.size(), 0.0);
@@ -278,6 +278,9 @@ void System::Save(base::StateWriter& writer) const {
   writer.Put("qd", qd_);
   writer.Put("qdd", qdd_);
   writer.Put("lambda", lambda_);
+  writer.Put("earlier", earlier_);
+  writer.Put("earlier_s", earlier_s_);
+  writer.Put("contraction", newton_.rate);
 }
 
 void System::Restore(base::StateReader& reader) {
@@ -286,6 +289,9 @@ void System::Restore(base::StateReader& reader) {
   reader.Get("qd", std::span<double>(qd_));
   reader.Get("qdd", std::span<double>(qdd_));
   reader.Get("lambda", std::span<double>(lambda_));
+  reader.Get("earlier", std::span<double>(earlier_));
+  reader.Get("earlier_s", earlier_s_);
+  reader.Get("contraction", newton_.rate);
 }
 
 }  // namespace rodeira::multibody

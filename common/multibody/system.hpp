@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -38,6 +39,20 @@ struct StepReport {
   int iterations = 0;   // of Newton
   int projections = 0;  // solutions for velocities and accelerations together
   int factorisations = 0;
+};
+
+// How much of the error a turn of Newton's method leaves: measured where two changes of one step are known, carried along to
+// steps that have one as yet, where its product with the change says whether a second turn would bring anything. What is
+// not measured anew is trusted less from step to step.
+struct Contraction {
+  double rate = 1.0;
+
+  // Expected change of the next turn.
+  double Next(int turns, double changed, double changed_before) const {
+    if (turns > 1) return changed * std::min(1.0, changed / changed_before);
+    return changed * rate;
+  }
+  void Learn(int turns, double changed, double changed_before);
 };
 
 // A mechanism in natural coordinates. Equations of motion by the index-3 augmented Lagrangian with projections of
@@ -114,6 +129,7 @@ class System {
   void MultiplyMass(const double* v, double* out) const;
   void Mask(double* v) const;
   double FreeMaximum(const double* v) const;
+  void Predict(double dt_s);
   bool Project(std::vector<double>& v, double wanted, double accepted, StepReport& report);
   bool ProjectVelocities(StepReport& report);
   bool ProjectAccelerations(StepReport& report);
@@ -135,9 +151,15 @@ class System {
 
   double time_s_ = 0.0;
   std::vector<double> q_, qd_, qdd_, lambda_;
+  // Accelerations at the beginning of the last step, and its length; 0 where there was none.
+  std::vector<double> earlier_;
+  double earlier_s_ = 0.0;
+  Contraction newton_;
   double time0_s_ = 0.0;
+  double earlier0_s_ = 0.0;
+  Contraction newton0_;
   // Scratch, of no meaning between calls.
-  std::vector<double> q0_, qd0_, qdd0_, lambda0_, way_, forces_, residual_, change_, mu_, nu_, bias_;
+  std::vector<double> q0_, qd0_, qdd0_, lambda0_, earlier0_, way_, forces_, residual_, change_, mu_, nu_, bias_;
 };
 
 }  // namespace rodeira::multibody
