@@ -40,7 +40,7 @@ void Fields(V& v, msg::Report& m) {
   v("since_ms", m.since_ms()), v("digest", m.digest()), v("steps", m.steps()), v("busy_ns", m.busy_ns()), v("worst_ns", m.worst_ns());
   v("server_calls", m.server_calls()), v("median_interval_ns", m.median_interval_ns()),
       v("p99_interval_ns", m.p99_interval_ns()), v("safe_step", m.safe_step()), v("granted_step", m.granted_step());
-  v("granted_final", m.granted_final()), v("message", m.message()), v("end", m.end());
+  v("granted_final", m.granted_final()), v("cannot_save", m.cannot_save()), v("message", m.message()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Controls& m) {
