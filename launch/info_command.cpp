@@ -64,7 +64,7 @@ int Info(const std::string& file) {
   const bool whole = in.condition().whole && audit.damages.empty();
   if (!whole) fmt::print("what to do: rodeira repair {} --out REPAIRED.mcap\n", file);
   if (!audit.lossless()) {
-    fmt::print("not lossless: samples of the run are missing\n");
+    fmt::print("{}\n", audit.last_step && audit.has_every_sample() ? "damaged, though no source lacks a sample" : "not lossless: samples of the run are missing");
   } else if (whole && audit.broken_off) {
     fmt::print("no gaps; the run was broken off at step {}\n", audit.last_step.value_or(0));
   } else if (whole && audit.last_step) {

@@ -35,9 +35,10 @@ std::string RecordedSource::Verdict() const {
   return text;
 }
 
-bool RecordingAudit::lossless() const {
-  return damages.empty() && std::ranges::all_of(sources, [](const RecordedSource& source) { return source.lossless(); });
+bool RecordingAudit::has_every_sample() const {
+  return std::ranges::all_of(sources, [](const RecordedSource& source) { return source.lossless(); });
 }
+bool RecordingAudit::lossless() const { return damages.empty() && has_every_sample(); }
 
 RecordingAudit Audit(const record::McapReader& reader) {
   RecordingAudit result;

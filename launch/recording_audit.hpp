@@ -32,7 +32,8 @@ struct RecordingAudit {
   std::vector<std::string> damages;     // sentences
   std::optional<std::int64_t> last_step;  // of the run, as the recorder wrote it at its end
   bool broken_off = false;                // the run came to its end by a fault: what was due last need not be there
-  bool lossless() const;
+  bool has_every_sample() const;  // up to its end, wherever that is
+  bool lossless() const;          // and nothing is damaged
 };
 
 // Reads every message once. Messages whose channel says a period are samples of the lockstep: one a period was expected,

@@ -74,6 +74,8 @@ struct Scan {
   std::uint64_t good_bytes = 0;  // up to the end of the last record that was taken
   std::vector<std::string> findings;
 };
+// Wrong input where a file does not begin as an MCAP file of the version that this program reads.
+base::Status CheckMark(const Source& source);
 // Wrong input where not even the header is there.
 base::Result<Scan> ScanFile(const Source& source);
 

@@ -14,6 +14,7 @@ base::Result<std::shared_ptr<McapReader::Shared>> OpenSource(std::unique_ptr<Sou
   auto shared = std::make_shared<McapReader::Shared>();
   shared->source = std::move(source);
   shared->settings = settings;
+  if (auto status = CheckMark(*shared->source); !status) return status.error();
   Condition& condition = shared->condition;
   condition.file_bytes = shared->source->size();
   auto summary = ReadSummary(*shared->source);

@@ -152,11 +152,7 @@ void Scanner::Count() {
 }
 
 base::Result<Scan> Scanner::Run() {
-  const auto magic = source_.Read(0, std::min<std::uint64_t>(kMagic.size(), source_.size()));
-  if (!magic) return magic.error();
-  if (!std::ranges::equal(magic.value(), MagicBytes())) {
-    return WrongInput("this is no MCAP recording: it does not begin with MCAP's mark", source_.name());
-  }
+  if (auto status = CheckMark(source_); !status) return status.error();
   auto first = ReadRecord(source_, kMagic.size(), source_.size());
   auto header = first ? ParseHeader(first.value().content()) : std::nullopt;
   if (!header || first.value().opcode != Opcode::kHeader) {
@@ -164,7 +160,7 @@ base::Result<Scan> Scanner::Run() {
   }
   scan_.contents.header = std::move(*header);
   at_ = kMagic.size() + first.value().bytes.size();
-  crc_ = Crc32(first.value().bytes, Crc32(magic.value()));
+  crc_ = Crc32(first.value().bytes, Crc32(MagicBytes()));
 
   while (!scan_.ended && at_ < source_.size()) {
     auto record = ReadRecord(source_, at_, source_.size());
@@ -183,6 +179,18 @@ base::Result<Scan> Scanner::Run() {
 }
 
 }  // namespace
+
+Status CheckMark(const Source& source) {
+  const auto mark = source.Read(0, std::min<std::uint64_t>(kMagic.size(), source.size()));
+  if (!mark) return mark.error();
+  if (std::ranges::equal(mark.value(), MagicBytes())) return {};
+  constexpr std::size_t kVersionAt = 5;
+  if (mark.value().size() == kMagic.size() && std::ranges::equal(std::span(mark.value()).first(kVersionAt), MagicBytes().first(kVersionAt))) {
+    return WrongInput(fmt::format("a recording of MCAP's version {} was found, version {} was expected", std::string(1, static_cast<char>(mark.value()[kVersionAt])),
+                                  static_cast<char>(kMagic[kVersionAt])), source.name());
+  }
+  return WrongInput("this is no MCAP recording: it does not begin with MCAP's mark", source.name());
+}
 
 base::Result<Scan> ScanFile(const Source& source) { return Scanner(source).Run(); }
 

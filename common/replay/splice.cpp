@@ -1,12 +1,15 @@
 #include "common/replay/splice.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <map>
 #include <system_error>
 
 #include "common/record/mcap_reader.hpp"
 #include "common/record/mcap_writer.hpp"
+#include "common/record/text_number.hpp"
 
 namespace rodeira::replay {
 namespace {
@@ -38,7 +41,7 @@ class Splicer {
     const auto end = branch_.FindMetadata("rodeira.end");
     if (!end) return end.error();
     if (end.value()) {
-      if (auto status = writer_.AddMetadata("rodeira.end", end.value()->entries); !status) return status;
+      if (auto status = writer_.AddMetadata("rodeira.end", WithAllCounted(end.value()->entries)); !status) return status;
     }
     return writer_.Close();
   }
@@ -71,6 +74,7 @@ class Splicer {
       const auto time_ns = static_cast<std::uint64_t>(sample.value()->header.time_ns);
       const auto sequence = static_cast<std::uint32_t>(sample.value()->valid() / source.period);
       if (auto status = writer_.Write(channel->second, sequence, time_ns, time_ns, *sample.value()->payload); !status) return status;
+      ++written_[channel->second];
     }
   }
   base::Status CopyBranch() {
@@ -87,7 +91,26 @@ class Splicer {
         if (valid < at_ || (valid == at_ && channel.topic != lockstep::kSnapshotTopic)) continue;
       }
       if (auto status = writer_.Write(of_branch_.at(in.channel), in.sequence, in.log_time_ns, in.publish_time_ns, in.data); !status) return status;
+      ++written_[of_branch_.at(in.channel)];
     }
+  }
+
+  // The branch's recorder has counted its own samples only; one a period was expected from each source, from step 0.
+  record::TextMap WithAllCounted(record::TextMap end) const {
+    const auto last_step = record::WholeNumber(end, "last_step");
+    if (!last_step || !end.contains("samples")) return end;
+    std::int64_t samples = 0, missing = 0;
+    for (const auto& [id, channel] : branch_.channels()) {
+      const auto period = record::WholeNumber(channel.metadata, "period_steps");
+      if (!period || *period <= 0) continue;
+      const auto counted = written_.find(of_branch_.at(id));
+      const std::int64_t found = counted == written_.end() ? 0 : counted->second;
+      samples += found;
+      missing += std::max<std::int64_t>(*last_step / *period + 1 - found, 0);
+    }
+    end["samples"] = std::to_string(samples);
+    end["missing"] = std::to_string(missing);
+    return end;
   }
 
   bool stopped() const { return stop_requested_ && stop_requested_(); }
@@ -100,6 +123,7 @@ class Splicer {
   const std::function<bool()>& stop_requested_;
   std::map<record::ChannelId, record::ChannelId> of_branch_;
   std::map<std::string, record::ChannelId> of_source_;
+  std::map<record::ChannelId, std::int64_t> written_;  // messages
 };
 
 }  // namespace
@@ -110,8 +134,7 @@ base::Status Splice(const RecordedRun& parent, const fs::path& branch, lockstep:
   if (fs::exists(target, problem)) return base::WrongInput("the file exists; a recording is never overwritten", target.string());
   const auto reader = record::McapReader::Open(branch);
   if (!reader) return reader.error();
-  const fs::path part = target.string() + ".part";
-  fs::remove(part, problem);
+  const fs::path part = target.string() + fmt::format(".{}.part", ::getpid());
   record::WriterSettings settings;
   settings.profile = reader.value().header().profile;
   auto writer = record::McapWriter::Open(part, settings);

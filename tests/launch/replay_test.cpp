@@ -184,6 +184,19 @@ TEST_F(ReplayTest, ABranchWithoutAChangeIsItsParent) {
     ASSERT_EQ(*x.value()->payload, *y.value()->payload) << "at step " << x.value()->valid();
   }
   EXPECT_EQ(count, 3001u + 301u + 8u);
+  const auto reader = record::McapReader::Open(wish.recording);
+  const auto end = reader.value().FindMetadata("rodeira.end").value()->entries;
+  EXPECT_EQ(end.at("samples"), std::to_string(count)) << "the parent's are counted too";
+  EXPECT_EQ(end.at("missing"), "0");
+}
+
+// What a user keeps beside it is not the branch's.
+TEST_F(ReplayTest, ABranchTouchesNoOtherFile) {
+  const std::string file = Drive();
+  const auto precious = folder_.Write("branch.mcap.part", "precious");
+  BranchWish wish{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
+  ASSERT_TRUE(Branch(wish).ok());
+  EXPECT_EQ(base::ReadText(precious).value(), "precious");
 }
 
 TEST_F(ReplayTest, ABranchHasItsParentsPastAndItsOwnFuture) {

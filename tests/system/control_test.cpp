@@ -85,7 +85,7 @@ TEST_F(Control, WhatAnOperatorDoesChangesNoSampleAndIsRecorded) {
     std::this_thread::sleep_for(1200ms);
     EXPECT_EQ(ask({"state"}), paused) << "time stands still";
     EXPECT_NE(ask({"step", "7"}).find("7 steps from step "), std::string::npos);
-    EXPECT_NE(ask({"mark", "second", "lap"}).find("marked step "), std::string::npos);
+    EXPECT_NE(ask({"mark", "second\nlap"}).find("marked step "), std::string::npos);
     EXPECT_NE(ask({"pace", "0.2"}).find("paused"), std::string::npos) << "a new pace does not end a pause";
     EXPECT_NE(ask({"resume"}).find("runs at 0.2 × real time at step "), std::string::npos);
     EXPECT_NE(ask({"pace", "max"}).find("runs as fast as it can"), std::string::npos);

@@ -144,6 +144,9 @@ TEST(Reader, RefusesWhatIsNoRecording) {
   EXPECT_EQ(text_of(""), "memory: this is no MCAP recording: it does not begin with MCAP's mark");
   EXPECT_EQ(text_of("PK and something else that is long enough"),
             "memory: this is no MCAP recording: it does not begin with MCAP's mark");
+  base::Bytes other = Record(SmallPlan(), SmallSettings(Compression::kZstd));
+  other[5] = std::byte{'7'};
+  EXPECT_EQ(McapReader::OpenBytes(other).error().Text(), "memory: a recording of MCAP's version 7 was found, version 0 was expected");
   EXPECT_EQ(McapReader::Open("/nowhere/at/all.mcap").error().Text(),
             "/nowhere/at/all.mcap: the recording cannot be opened: No such file or directory");
   EXPECT_EQ(McapReader::Open("/tmp").error().Text(), "/tmp: this is not a file, a recording was expected");
