@@ -101,11 +101,13 @@ bool IsNamed(const std::string& node, const launch::Overrides& changes) {
 }
 
 // Those without a state that the changes leave as they are.
-std::set<NodeIndex> Unchanged(const std::vector<NodeIndex>& without_state, const lockstep::Roster& roster, const launch::Overrides& changes) {
+std::set<NodeIndex> Unchanged(const std::vector<NodeIndex>& without_state, const launch::Launch& launch, const launch::Overrides& changes) {
   std::set<NodeIndex> unchanged;
+  const bool other_model = std::any_of(changes.begin(), changes.end(), [](const auto& change) { return change.first.starts_with("vehicle"); });
   if (std::any_of(changes.begin(), changes.end(), [](const auto& change) { return change.first == "world"; })) return unchanged;
   for (const NodeIndex n : without_state) {
-    if (!IsNamed(roster.node(n).name, changes)) unchanged.insert(n);
+    if (other_model && launch.node(n).kind->name == "vehicle") continue;
+    if (!IsNamed(launch.node(n).name, changes)) unchanged.insert(n);
   }
   return unchanged;
 }
@@ -173,8 +175,9 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   const auto is_replayed = [&](NodeIndex n) { return launch.node(n).is_live() && !persons[n]; };
   const auto without_state = parent.value().WithoutState();
   if (!without_state) return without_state.error();
-  const std::set<NodeIndex> unchanged = Unchanged(without_state.value(), roster, wish.changes);
+  const std::set<NodeIndex> unchanged = Unchanged(without_state.value(), launch, wish.changes);
   GoingOn go_on;
+  launch::RunLogBoard log;
   auto nodes = LocalNodes::Make(launch, [&](NodeIndex n) -> std::unique_ptr<lockstep::Node> {
     if (unchanged.contains(n)) {
       auto continued = std::make_unique<ContinuedNode>();
@@ -185,7 +188,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
     const std::string_view kind = launch.node(n).kind->name;
     if (roster.node(n).is_sink() && kind != "recorder" && !(wish.with_view && kind == "view")) return replay::MakeNullSink();
     return nullptr;
-  });
+  }, &log);
   if (!nodes) return changed.value().Named(nodes.error());
 
   auto states = StatesAt(parent.value(), wish, outcome);
@@ -207,6 +210,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   settings.stop_requested = wish.stop_requested;
   settings.pace = wish.pace;
   settings.next_command = wish.next_command;
+  settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
   const lockstep::RunOutcome ran = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   if (!ran.ok) return changed.value().Named(base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault)));
   const auto stopped = [&] { return wish.stop_requested && wish.stop_requested(); };

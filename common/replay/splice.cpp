@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <system_error>
+#include <vector>
 
 #include "common/record/mcap_reader.hpp"
 #include "common/record/mcap_writer.hpp"
@@ -60,13 +62,49 @@ class Splicer {
     }
     return {};
   }
+  // What the parent says of the wall's clock, its operator's marks among it, has no place in the order of samples.
+  base::Status LoadParentsLog() {
+    const auto reader = record::McapReader::Open(parent_.path());
+    if (!reader) return reader.error();
+    std::map<record::ChannelId, record::ChannelId> of_parent;
+    for (const auto& [id, channel] : reader.value().channels()) {
+      if (channel.metadata.contains("source_number")) continue;
+      for (const auto& [own, same] : branch_.channels()) {
+        if (same.topic == channel.topic && !same.metadata.contains("source_number")) of_parent[id] = of_branch_.at(own);
+      }
+    }
+    if (of_parent.empty()) return {};
+    record::Query query;
+    query.through_ns = static_cast<std::uint64_t>(at_ * parent_.roster().base_step_ns());
+    query.channels.emplace();
+    for (const auto& [id, channel] : of_parent) query.channels->insert(id);
+    auto cursor = reader.value().Messages(query);
+    for (;;) {
+      const auto message = cursor.Next();
+      if (!message) return message.error();
+      if (!message.value()) return {};
+      const record::Message& in = *message.value();
+      parents_log_.push_back({of_parent.at(in.channel), in.sequence, in.log_time_ns, in.publish_time_ns, base::Bytes(in.data.begin(), in.data.end())});
+    }
+  }
+  base::Status CopyParentsLogThrough(std::uint64_t time_ns) {
+    for (; next_in_log_ < parents_log_.size() && parents_log_[next_in_log_].log_time_ns <= time_ns; ++next_in_log_) {
+      const Logged& entry = parents_log_[next_in_log_];
+      if (auto status = writer_.Write(entry.channel, entry.sequence, entry.log_time_ns, entry.publish_time_ns, entry.data); !status) return status;
+    }
+    return {};
+  }
   base::Status CopyParent() {
+    if (auto status = LoadParentsLog(); !status) return status;
     SampleStream samples = parent_.Samples();
     for (;;) {
       const auto sample = samples.Next();
       if (!sample) return sample.error();
       if (stopped()) return Stopped();
-      if (!sample.value() || sample.value()->valid() > at_) return {};
+      const bool is_over = !sample.value() || sample.value()->valid() > at_;
+      const std::uint64_t until_ns = is_over ? std::numeric_limits<std::uint64_t>::max() : static_cast<std::uint64_t>(sample.value()->header.time_ns);
+      if (auto status = CopyParentsLogThrough(until_ns); !status) return status;
+      if (is_over) return {};
       const auto& source = parent_.roster().source(sample.value()->source());
       if (source.topic == lockstep::kSnapshotTopic && sample.value()->valid() == at_) continue;
       const auto channel = of_source_.find(std::to_string(sample.value()->source()));
@@ -116,6 +154,14 @@ class Splicer {
   bool stopped() const { return stop_requested_ && stop_requested_(); }
   base::Error Stopped() const { return base::Failed("interrupted while the branch was written; there is no new file", parent_.path().string()); }
 
+  struct Logged {
+    record::ChannelId channel = 0;  // the new file's
+    std::uint32_t sequence = 0;
+    std::uint64_t log_time_ns = 0;
+    std::uint64_t publish_time_ns = 0;
+    base::Bytes data;
+  };
+
   const RecordedRun& parent_;
   const record::McapReader& branch_;
   lockstep::Step at_;
@@ -124,6 +170,8 @@ class Splicer {
   std::map<record::ChannelId, record::ChannelId> of_branch_;
   std::map<std::string, record::ChannelId> of_source_;
   std::map<record::ChannelId, std::int64_t> written_;  // messages
+  std::vector<Logged> parents_log_;                    // up to at_, by log time
+  std::size_t next_in_log_ = 0;
 };
 
 }  // namespace

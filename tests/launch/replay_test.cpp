@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <thread>
 
 #include "common/base/files.hpp"
@@ -20,6 +21,7 @@
 #include "tests/launch/copied_recording.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/system/command.hpp"
+#include "tests/system/recording.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -190,6 +192,41 @@ TEST_F(ReplayTest, ABranchWithoutAChangeIsItsParent) {
   EXPECT_EQ(end.at("missing"), "0");
 }
 
+// What the parent's clock and operator said up to there, and the branch's own from there on.
+TEST_F(ReplayTest, ABranchHasMarksAndWallTimesOfBothItsLives) {
+  const std::string file = Drive();
+  BranchWish wish{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
+  int asked = 0;
+  std::string marked;
+  wish.next_command = [&]() -> std::optional<lockstep::Asked> {
+    if (++asked != 3) return std::nullopt;  // it has begun
+    lockstep::Command mark;
+    mark.kind = lockstep::Command::Kind::kMark;
+    mark.text = "hello";
+    return lockstep::Asked{mark, [&](const base::Result<std::string>& done) { marked = done ? done.value() : done.error().Text(); }};
+  };
+  wish.pace = 5;
+  ASSERT_TRUE(Branch(wish).ok());
+  const auto of_parent = system_test::MessagesOf<msg::WallTime>(file, idl::topics::kWall);
+  const auto of_branch = system_test::MessagesOf<msg::WallTime>(wish.recording, idl::topics::kWall);
+  std::size_t same = 0;
+  while (same < of_parent.size() && of_parent[same].through_step() <= 1500) ++same;
+  ASSERT_GT(same, 0u);
+  ASSERT_GT(of_branch.size(), same);
+  for (std::size_t i = 0; i < same; ++i) EXPECT_EQ(of_branch[i].utc_ns(), of_parent[i].utc_ns()) << i;
+  for (std::size_t i = same; i < of_branch.size(); ++i) EXPECT_GE(of_branch[i].through_step(), 1500) << i;
+  EXPECT_EQ(of_branch.back().through_step(), 3000);
+  std::string kinds;
+  for (const auto& remark : system_test::MessagesOf<msg::Remark>(wish.recording, idl::topics::kRemarks)) {
+    kinds += remark.kind() + " ";
+    if (remark.kind() == "mark") {
+      EXPECT_EQ(remark.text(), "hello");
+    }
+  }
+  EXPECT_THAT(marked, HasSubstr("marked step "));
+  EXPECT_EQ(kinds, "start start mark end ");
+}
+
 // What a user keeps beside it is not the branch's.
 TEST_F(ReplayTest, ABranchTouchesNoOtherFile) {
   const std::string file = Drive();
@@ -296,6 +333,27 @@ TEST_F(ReplayTest, AChangedByteOutsideOfTheSamplesIsFoundToo) {
   }
 }
 
+// The demo with another model of its car: a word on the command line, the same nodes, recorded and computed again.
+TEST_F(ReplayTest, TheDemoMayBeDrivenByAnyModel) {
+  std::map<std::string, double> driven_m;
+  for (const std::string model : {"bicycle", "multibody", "ode"}) {
+    const std::string file = Record(model + ".mcap", LaunchFile("demo.yaml"),
+                                    {"--for", "3", "--headless", "--set", "nodes.view.config.frames=~", "--set", "vehicle.model=" + model});
+    const auto verdict = VerifyFile(file);
+    ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
+    EXPECT_FALSE(verdict.value().difference.has_value()) << model << ": " << verdict.value().difference->Text();
+    const auto run = replay::RecordedRun::Open(file);
+    ASSERT_TRUE(run.ok()) << run.error().Text();
+    driven_m[model] = CarAt(run.value(), 3000).odometer_m();
+    EXPECT_GT(driven_m[model], 1.0) << model;
+  }
+  EXPECT_NE(driven_m["ode"], driven_m["bicycle"]);
+  EXPECT_NE(driven_m["multibody"], driven_m["bicycle"]);
+  const auto unknown = RunCommand({Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--in-process", "--headless", "--no-record", "--set", "vehicle.model=bycicle"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.out, HasSubstr("this car is wanted as model 'bycicle'; did you mean 'bicycle'?"));
+}
+
 // The car of another model goes on where the other one was: pose, speed and yaw rate at the next published step.
 TEST_F(ReplayTest, ABranchMayHaveAnotherVehicleModel) {
   const std::string file = Drive(4.0);
@@ -304,6 +362,12 @@ TEST_F(ReplayTest, ABranchMayHaveAnotherVehicleModel) {
   const auto outcome = Branch(wish);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   EXPECT_EQ(outcome.value().taken_over, std::vector<std::string>{"ego"});
+  // A word does the same where the car's file names the other one.
+  const BranchWish by_word{file, 3000, {{"vehicle.model", "multibody"}}, 4000, (folder_.path() / "by_word.mcap").string()};
+  const auto worded = Branch(by_word);
+  ASSERT_TRUE(worded.ok()) << worded.error().Text();
+  EXPECT_EQ(worded.value().taken_over, std::vector<std::string>{"ego"});
+  EXPECT_EQ(CarAt(replay::RecordedRun::Open(by_word.recording).value(), 4000), CarAt(replay::RecordedRun::Open(wish.recording).value(), 4000));
   const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(wish.recording);
   ASSERT_TRUE(branch.ok()) << branch.error().Text();
   const auto was = CarAt(parent.value(), 3005), is = CarAt(branch.value(), 3005), later = CarAt(branch.value(), 4000), otherwise = CarAt(parent.value(), 4000);
