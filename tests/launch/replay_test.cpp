@@ -199,13 +199,14 @@ TEST_F(ReplayTest, ABranchHasMarksAndWallTimesOfBothItsLives) {
   int asked = 0;
   std::string marked;
   wish.next_command = [&]() -> std::optional<lockstep::Asked> {
-    if (++asked != 3) return std::nullopt;  // it has begun
+    // Again and again until the branch has begun; it is asked until nothing comes.
+    if (++asked % 2 == 0 || marked.starts_with("marked step ")) return std::nullopt;
     lockstep::Command mark;
     mark.kind = lockstep::Command::Kind::kMark;
     mark.text = "hello";
     return lockstep::Asked{mark, [&](const base::Result<std::string>& done) { marked = done ? done.value() : done.error().Text(); }};
   };
-  wish.pace = 5;
+  wish.pace = 2;
   ASSERT_TRUE(Branch(wish).ok());
   const auto of_parent = system_test::MessagesOf<msg::WallTime>(file, idl::topics::kWall);
   const auto of_branch = system_test::MessagesOf<msg::WallTime>(wish.recording, idl::topics::kWall);
