@@ -158,7 +158,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   outcome.recorded_by_another = RecordedByAnother(parent.value().version(), parent.value().commit());
   const auto& roster = parent.value().roster();
   if (auto status = CheckStep(parent.value(), wish.at); !status) return status.error();
-  auto folder = replay::TemporaryFolder::Make();
+  auto folder = base::TemporaryFolder::Make("branch");
   if (!folder) return folder.error();
   const std::filesystem::path own = folder.value().path() / "branch.mcap";
   const auto changes = ChangesOf(parent.value(), wish, own);

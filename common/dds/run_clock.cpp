@@ -154,7 +154,7 @@ class ClockProcess {
     }
     if (launch_.node(node).is_live()) return base::Failed(fmt::format("node '{}' is driven by a person, whose input cannot be computed again", name));
     if (clock_.report(node).cannot_save) return base::Failed(fmt::format("node '{}' cannot save its state, so it cannot be started again", name));
-    Restart(node, fmt::format("node '{}' at about step {}: asked for by the operator", name, clock_.report(node).progress));
+    Restart(node, fmt::format("node '{}' at about step {}: asked for by the operator", name, clock_.reached(node)));
     return fmt::format("'{}' is started again", name);
   }
 

@@ -1,7 +1,6 @@
 #include "common/fmi/archive.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <unzip.h>
 
 #include <array>
@@ -46,24 +45,12 @@ bool Write(unzFile archive, const fs::path& to, std::uint64_t& left) {
 
 }  // namespace
 
-base::Result<Folder> Folder::Make() {
-  std::error_code problem;
-  std::string pattern = (fs::temp_directory_path(problem) / "rodeira-fmu-XXXXXX").string();
-  if (problem || ::mkdtemp(pattern.data()) == nullptr) return base::Failed("no temporary folder can be made", pattern);
-  return Folder(pattern);
-}
-
-Folder::~Folder() {
-  std::error_code ignored;
-  if (!path_.empty()) fs::remove_all(path_, ignored);
-}
-
-base::Result<Folder> Unpack(const fs::path& path) {
+base::Result<base::TemporaryFolder> Unpack(const fs::path& path) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) return base::WrongInput("there is no such file", path.string());
   const std::unique_ptr<void, Closer> archive(unzOpen64(path.c_str()));
   if (archive == nullptr) return base::WrongInput("this is no FMU: a ZIP archive was expected", path.string());
-  auto folder = Folder::Make();
+  auto folder = base::TemporaryFolder::Make("fmu");
   if (!folder) return folder;
   std::uint64_t left = kMostBytes;
   for (int more = unzGoToFirstFile(archive.get()); more != UNZ_END_OF_LIST_OF_FILE; more = unzGoToNextFile(archive.get())) {

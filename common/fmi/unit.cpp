@@ -154,7 +154,7 @@ std::string Platforms(const fs::path& folder) {
 
 class LoadedUnit final : public Unit {
  public:
-  LoadedUnit(Folder folder, Description description, std::string file)
+  LoadedUnit(base::TemporaryFolder folder, Description description, std::string file)
       : folder_(std::move(folder)), description_(std::move(description)), file_(std::move(file)) {}
   ~LoadedUnit() override {
     if (library_ != nullptr) (void)::dlclose(library_);
@@ -210,7 +210,7 @@ class LoadedUnit final : public Unit {
     if (function == nullptr && missing_.empty()) missing_ = name;
   }
 
-  Folder folder_;
+  base::TemporaryFolder folder_;
   Description description_;
   std::string file_;
   void* library_ = nullptr;

@@ -37,18 +37,6 @@ base::Result<base::Bytes> Unpacked(const record::Attachment& attachment) {
 
 }  // namespace
 
-base::Result<TemporaryFolder> TemporaryFolder::Make() {
-  std::string pattern = (fs::temp_directory_path() / "rodeira-replay-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) return base::Failed("no temporary folder can be made", pattern);
-  return TemporaryFolder(pattern);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  if (path_.empty()) return;
-  std::error_code problem;
-  fs::remove_all(path_, problem);
-}
-
 base::Result<lockstep::SampleHeader> HeaderOf(std::span<const std::byte> payload, lockstep::SourceIndex source) {
   if (!lockstep::SampleHeader::HasHeader(payload)) return base::WrongInput(fmt::format("a sample of {} bytes was found, which has no header", payload.size()));
   const auto header = lockstep::SampleHeader::Read(payload);
@@ -79,7 +67,7 @@ base::Result<RecordedRun> RecordedRun::Open(const fs::path& path, const launch::
     return base::WrongInput(fmt::format("the recording is not whole{}; `rodeira repair` saves what can be saved", findings.empty() ? "" : " (" + findings.front() + ")"),
                             path.string());
   }
-  auto folder = TemporaryFolder::Make();
+  auto folder = base::TemporaryFolder::Make("replay");
   if (!folder) return folder.error();
   RecordedRun run(std::move(reader).value(), std::move(folder).value());
   run.path_ = path;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/temporary_folder.hpp"
 #include "common/base/result.hpp"
 #include "common/launch/files_of.hpp"
 #include "common/launch/launch.hpp"
@@ -15,20 +16,6 @@
 #include "common/record/mcap_reader.hpp"
 
 namespace rodeira::replay {
-
-// A folder of its own below the system's temporary one, removed with everything in it at the end.
-class TemporaryFolder {
- public:
-  static base::Result<TemporaryFolder> Make();
-  TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::move(other.path_)) { other.path_.clear(); }
-  TemporaryFolder& operator=(TemporaryFolder&&) = delete;
-  ~TemporaryFolder();
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  explicit TemporaryFolder(std::filesystem::path path) : path_(std::move(path)) {}
-  std::filesystem::path path_;
-};
 
 // The header of a recorded payload that must be a sample of `source`; wrong input where it is none.
 base::Result<lockstep::SampleHeader> HeaderOf(std::span<const std::byte> payload, lockstep::SourceIndex source);
@@ -88,14 +75,14 @@ class RecordedRun {
   base::Result<std::vector<lockstep::Snapshot>> Snapshots(lockstep::Step at) const;
 
  private:
-  explicit RecordedRun(record::McapReader reader, TemporaryFolder folder) : reader_(std::move(reader)), folder_(std::move(folder)) {}
+  explicit RecordedRun(record::McapReader reader, base::TemporaryFolder folder) : reader_(std::move(reader)), folder_(std::move(folder)) {}
   base::Status CheckSamples(const lockstep::Snapshot& snapshot) const;
   base::Status Read(const launch::Overrides& extra);
   base::Result<std::vector<launch::NamedFile>> Files(const record::TextMap& about) const;
 
   std::filesystem::path path_;
   record::McapReader reader_;
-  TemporaryFolder folder_;
+  base::TemporaryFolder folder_;
   std::shared_ptr<launch::Launch> launch_;
   std::map<record::ChannelId, lockstep::SourceIndex> sources_;
   lockstep::Step last_step_ = 0;

@@ -64,10 +64,9 @@ class Splicer {
   }
   // What the parent says of the wall's clock, its operator's marks among it, has no place in the order of samples.
   base::Status LoadParentsLog() {
-    const auto reader = record::McapReader::Open(parent_.path());
-    if (!reader) return reader.error();
+    const record::McapReader& reader = parent_.reader();
     std::map<record::ChannelId, record::ChannelId> of_parent;
-    for (const auto& [id, channel] : reader.value().channels()) {
+    for (const auto& [id, channel] : reader.channels()) {
       if (channel.metadata.contains("source_number")) continue;
       for (const auto& [own, same] : branch_.channels()) {
         if (same.topic == channel.topic && !same.metadata.contains("source_number")) of_parent[id] = of_branch_.at(own);
@@ -78,7 +77,7 @@ class Splicer {
     query.through_ns = static_cast<std::uint64_t>(at_ * parent_.roster().base_step_ns());
     query.channels.emplace();
     for (const auto& [id, channel] : of_parent) query.channels->insert(id);
-    auto cursor = reader.value().Messages(query);
+    auto cursor = reader.Messages(query);
     for (;;) {
       const auto message = cursor.Next();
       if (!message) return message.error();

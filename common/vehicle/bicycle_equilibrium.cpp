@@ -18,11 +18,6 @@ constexpr int kBarTurns = 12;        // an anti-roll bar ties two wheels; each t
 constexpr double kSettled_m = 1e-13;
 constexpr double kStandstill_mps = 1e-6;
 
-bool Finite(const InitialCondition& i) {
-  return std::isfinite(i.x_m) && std::isfinite(i.y_m) && std::isfinite(i.heading_rad) && std::isfinite(i.speed_mps) &&
-         std::isfinite(i.lateral_speed_mps) && std::isfinite(i.yaw_rate_radps) && !std::isinf(i.z_hint_m);
-}
-
 }  // namespace
 
 // Works on a model that is being initialised. The unknowns are height of B, pitch and roll.
@@ -194,7 +189,7 @@ void BicycleEquilibrium::SetInMotion() {
 }
 
 base::Status BicycleModel::Initialise(const InitialCondition& initial, terrain::Ground& ground) {
-  if (!Finite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
+  if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
   BicycleModel trial(settings_);
   BicycleEquilibrium equilibrium(trial, initial);
   if (const base::Status status = equilibrium.Find(ground); !status) return status;

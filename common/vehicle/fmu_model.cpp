@@ -14,11 +14,6 @@ namespace {
 
 constexpr double kMostStep_s = 0.1;
 
-bool Finite(const InitialCondition& i) {
-  return std::isfinite(i.x_m) && std::isfinite(i.y_m) && std::isfinite(i.heading_rad) && std::isfinite(i.speed_mps) &&
-         std::isfinite(i.lateral_speed_mps) && std::isfinite(i.yaw_rate_radps) && !std::isinf(i.z_hint_m);
-}
-
 Eigen::Quaterniond Attitude(double roll, double pitch, double heading) {
   return Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
@@ -149,7 +144,7 @@ base::Status FmuModel::Begin(const InitialCondition& initial, terrain::Ground& g
 }
 
 base::Status FmuModel::Initialise(const InitialCondition& initial, terrain::Ground& ground) {
-  if (!Finite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
+  if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
   auto instance = std::move(instance_);
   const auto wheels = wheels_;
   const VehicleState state = state_;

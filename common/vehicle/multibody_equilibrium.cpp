@@ -16,11 +16,6 @@ constexpr double kResidual_mps2 = 1e-9;
 constexpr double kAnchor_Npm = 1e6;
 constexpr double kStandstill_mps = 1e-6;
 
-bool Finite(const InitialCondition& i) {
-  return std::isfinite(i.x_m) && std::isfinite(i.y_m) && std::isfinite(i.heading_rad) && std::isfinite(i.speed_mps) &&
-         std::isfinite(i.lateral_speed_mps) && std::isfinite(i.yaw_rate_radps) && !std::isinf(i.z_hint_m);
-}
-
 Eigen::Isometry3d Standing(const InitialCondition& initial, double z_m, const Eigen::Vector3d& up) {
   const Eigen::Vector3d ahead(std::cos(initial.heading_rad), std::sin(initial.heading_rad), 0.0);
   const Eigen::Vector3d forward = (ahead - ahead.dot(up) / up.z() * Eigen::Vector3d::UnitZ()).normalized();
@@ -143,7 +138,7 @@ void MultibodyModel::SetInMotion(const InitialCondition& initial) {
 }
 
 base::Status MultibodyModel::Initialise(const InitialCondition& initial, terrain::Ground& ground) {
-  if (!Finite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
+  if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
   base::StateWriter before;
   Save(before);
   system_->set_time_s(0.0);

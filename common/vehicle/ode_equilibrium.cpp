@@ -16,11 +16,6 @@ constexpr int kNewtonTurns = 60;
 constexpr double kSettled_m = 1e-13;
 constexpr double kStandstill_mps = 1e-6;
 
-bool Finite(const InitialCondition& i) {
-  return std::isfinite(i.x_m) && std::isfinite(i.y_m) && std::isfinite(i.heading_rad) && std::isfinite(i.speed_mps) &&
-         std::isfinite(i.lateral_speed_mps) && std::isfinite(i.yaw_rate_radps) && !std::isinf(i.z_hint_m);
-}
-
 }  // namespace
 
 // Works on a model whose motion is to be found. Unknowns: height of B, pitch, roll, travel of each wheel.
@@ -204,7 +199,7 @@ void OdeEquilibrium::SetInMotion() {
 }
 
 base::Status OdeModel::Initialise(const InitialCondition& initial, terrain::Ground& ground) {
-  if (!Finite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
+  if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
   const Motion before = now_;
   const Contacts contacts_before = contacts_;
   now_ = Motion();

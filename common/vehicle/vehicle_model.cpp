@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -12,6 +13,11 @@
 #include "common/vehicle/ode_model.hpp"
 
 namespace rodeira::vehicle {
+
+bool IsFinite(const InitialCondition& initial) {
+  return std::isfinite(initial.x_m) && std::isfinite(initial.y_m) && std::isfinite(initial.heading_rad) && std::isfinite(initial.speed_mps) &&
+         std::isfinite(initial.lateral_speed_mps) && std::isfinite(initial.yaw_rate_radps) && !std::isinf(initial.z_hint_m);
+}
 
 InitialCondition FromState(const VehicleState& state) {
   const Eigen::Vector3d v_WB_B = state.v_WB_B();

@@ -28,6 +28,8 @@ struct InitialCondition {
   double yaw_rate_radps = 0.0;                                 // counter-clockwise seen from above
 };
 
+// Of the height NaN says something; all else is a number.
+bool IsFinite(const InitialCondition& initial);
 // What a moving car of another model, or of a recording, hands over.
 InitialCondition FromState(const VehicleState& state);
 

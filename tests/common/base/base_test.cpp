@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <set>
 
@@ -15,6 +16,7 @@
 #include "common/base/state.hpp"
 #include "common/base/state_fields.hpp"
 #include "common/base/suggest.hpp"
+#include "common/base/temporary_folder.hpp"
 
 namespace rodeira::base {
 namespace {
@@ -203,6 +205,22 @@ TEST(Mathematics, TheFixedChoiceDiffersFromTheProcessorsOwn) {
   const std::string flags((std::istreambuf_iterator<char>(cpuinfo)), {});
   if (flags.find(" fma ") == std::string::npos) GTEST_SKIP() << "this processor has no FMA: there is but one choice";
   EXPECT_NE(fixed, ask("env -u GLIBC_TUNABLES RODEIRA_TEST_KEEP_MATHEMATICS=1"));
+}
+
+TEST(TemporaryFolder, IsItsOwnAndGoneAtTheEnd) {
+  std::filesystem::path first;
+  {
+    auto one = TemporaryFolder::Make("test");
+    auto other = TemporaryFolder::Make("test");
+    ASSERT_TRUE(one.ok() && other.ok());
+    first = one.value().path();
+    EXPECT_NE(first, other.value().path());
+    EXPECT_TRUE(first.filename().string().starts_with("rodeira-test-")) << first;
+    std::filesystem::create_directories(first / "a/b");
+    const TemporaryFolder moved = std::move(one).value();
+    EXPECT_TRUE(std::filesystem::exists(moved.path() / "a/b"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(first));
 }
 
 }  // namespace
