@@ -115,7 +115,6 @@ class ClockProcess {
     serial_ = options_.incarnation << 24;
     if (options_.begun_ns < 0) return;
     run_.conductor.GoOn(options_.begun_ns - std::chrono::nanoseconds(run_.start.time_since_epoch()).count(), options_.paused, run_.Now());
-    run_.conductor.NoteFault(fmt::format("the clock was lost; this is its life {}", options_.incarnation + 1), run_.Now());
   }
 
   int Loop() {
