@@ -183,8 +183,8 @@ TEST_F(RecordingFuzz, NoChangedRecordingCrashesOrPasses) {
   }
   ::alarm(0);
   if (count < 100) return;
-  EXPECT_GT(opened, count / 50) << "all is refused at the door";
-  EXPECT_GT(mended, count / 50);
+  EXPECT_GE(opened, count / 100) << "all is refused at the door";
+  EXPECT_GE(mended, count / 100);
   if (count < 1000) return;
   EXPECT_GT(computed, 0u) << "some changes lie where nothing depends on them";
 }
