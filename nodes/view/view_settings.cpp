@@ -56,7 +56,8 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& 
   ViewSettings settings;
   settings.width_px = static_cast<int>(map.Integer("width_px", 64, 7680, 1280));
   settings.height_px = static_cast<int>(map.Integer("height_px", 64, 4320, 720));
-  settings.camera = map.Choice("camera", {"chase", "driver"}, "chase") == "driver" ? scene::CameraKind::kDriver : scene::CameraKind::kChase;
+  const auto cameras = scene::CameraNames();
+  settings.camera = scene::CameraOf(map.Choice("camera", {cameras.begin(), cameras.end()}, "chase")).value_or(scene::CameraKind::kChase);
   const std::string window = map.Choice("window", {"auto", "always", "never"}, "auto");
   settings.window = window == "always" ? WindowWish::kAlways : window == "never" ? WindowWish::kNever : WindowWish::kAuto;
   settings.instruments = map.Flag("instruments", true);
