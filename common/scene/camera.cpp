@@ -33,6 +33,8 @@ Vector2d NoseInPlan(const Body& car) {
   return length > 1e-3 ? Vector2d(nose.x() / length, nose.y() / length) : Vector2d::UnitX();
 }
 
+Vector3d DriversEye_B(const Body& car) { return {0.10, 0.22 * car.width_m, 1.20}; }
+
 Vector3d AboveGround(Vector3d eye_W, const road::World& world) {
   const road::SurfacePoint below = world.At(eye_W.x(), eye_W.y(), eye_W.z());
   if (below.inside) eye_W.z() = std::max(eye_W.z(), below.z_m + kClearance_m);
@@ -55,6 +57,10 @@ std::optional<Vector2d> Camera::Project(const Vector3d& p_W, int width_px, int h
   const double depth = d.dot(forward_W);
   if (depth <= 1e-6) return std::nullopt;
   const Vector3d right = forward_W.cross(up_W);
+  if (window) {
+    return Vector2d(width_px * (d.dot(right) / depth - window->left) / (window->right - window->left),
+                    height_px * (window->high - d.dot(up_W) / depth) / (window->high - window->low));
+  }
   const double scale = parallel_height_m > 0.0 ? height_px / parallel_height_m : 0.5 * height_px / (std::tan(0.5 * vertical_view_rad) * depth);  // pixels a metre
   return Vector2d(0.5 * width_px + scale * d.dot(right), 0.5 * height_px - scale * d.dot(up_W));
 }
@@ -90,9 +96,18 @@ Camera ChaseCamera(const Body& car, const road::World& world) {
 }
 
 Camera DriverCamera(const Body& car) {
-  const Vector3d eye_B(0.10, 0.22 * car.width_m, 1.20);
   const Vector3d forward_B(1.0, 0.0, -0.015);
-  return Look(car.p_WB_W + car.q_WB * eye_B, car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 52.0 * kDegree);
+  return Look(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 52.0 * kDegree);
+}
+
+Camera ScreenCamera(const Body& car, const ScreenPlane& screen) {
+  const Vector3d forward_B(std::cos(screen.angle_rad), std::sin(screen.angle_rad), 0.0);
+  Camera camera = Look(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 0.0);
+  const double half_m = 0.5 * screen.width_m;
+  camera.window = Camera::Window{(screen.aside_m - half_m) / screen.distance_m, (screen.aside_m + half_m) / screen.distance_m,
+                                 -screen.eye_height_m / screen.distance_m, (screen.height_m - screen.eye_height_m) / screen.distance_m};
+  camera.vertical_view_rad = std::atan(camera.window->high) - std::atan(camera.window->low);
+  return camera;
 }
 
 Camera BonnetCamera(const Body& car) {

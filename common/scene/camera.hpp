@@ -27,6 +27,11 @@ struct Camera {
   Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();       // unit, square to forward
   double vertical_view_rad = 0.8;
   double parallel_height_m = 0.0;  // > 0: parallel rays, and so much of the world from the lower to the upper edge
+  // Where the picture's edges lie at a unit of depth, right and up positive, for an eye that does not sit before its middle.
+  struct Window {
+    double left = -1.0, right = 1.0, low = -1.0, high = 1.0;
+  };
+  std::optional<Window> window;  // none: as the vertical view says, whatever the picture's shape
 
   // Pixels from the left and from the top of a picture of that size; nothing for points behind the eye.
   std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& p_W, int width_px, int height_px) const;
@@ -56,10 +61,21 @@ struct Aim {
   void Zoom(double factor);  // above 1: farther
 };
 
+// A flat screen in a laboratory, as its eye sees it: a rectangle square to a level direction.
+struct ScreenPlane {
+  double width_m = 0.6, height_m = 0.34;
+  double distance_m = 0.7;     // of the eye from its plane
+  double angle_rad = 0.0;      // of that direction from straight ahead, positive to the left
+  double eye_height_m = 0.17;  // of the eye over the screen's lower edge
+  double aside_m = 0.0;        // of the screen's middle from the foot of the eye's distance, positive to the right
+};
+
 // Behind and above the car, without its roll.
 Camera ChaseCamera(const Body& car, const road::World& world);
 // In the driver's seat, on the left.
 Camera DriverCamera(const Body& car);
+// From the driver's eye through a screen: what is seen there lies where it would be without the screen.
+Camera ScreenCamera(const Body& car, const ScreenPlane& screen);
 // In the middle, before the windscreen: the bonnet is the lower edge of the picture.
 Camera BonnetCamera(const Body& car);
 // About the car, without its roll and pitch, above the ground.

@@ -24,6 +24,7 @@ struct Picture {
   scene::Moment moment;
   scene::CameraKind camera = scene::CameraKind::kChase;
   scene::Aim aim;                   // of the cameras that a hand moves
+  std::optional<scene::ScreenPlane> screen;  // through which the driver's camera looks
   std::size_t followed = 0;         // whom the camera goes with: the moment's cars, then its traffic
   bool show_instruments = true;     // speed, gear, time
   std::string text;                 // more lines for a person: help, statistics

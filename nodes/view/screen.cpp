@@ -40,8 +40,9 @@ std::string WindowHelp() {
 base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
                                                    bool resizable, std::string help) {
   const std::string title = world.name().empty() ? "Rodeira" : fmt::format("Rodeira: {}", world.name());
-  auto surface = Surface::Open(kind, settings.width_px, settings.height_px, title, resizable);
+  auto surface = Surface::Open(kind, settings.width_px, settings.height_px, title, resizable, settings.display);
   if (!surface) return surface.error();
+  if (settings.full_screen) surface.value()->ToggleFullScreen();
   std::unique_ptr<Screen> screen(new Screen());
   screen->surface_ = std::move(surface).value();
   auto painter = PainterOf(*screen->surface_, world, settings.built);

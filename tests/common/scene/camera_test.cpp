@@ -161,5 +161,53 @@ TEST(Camera, FollowsTheTrafficToo) {
   EXPECT_FALSE(BodyAt(moment, 2));
 }
 
+// Straight ahead and as high over as under the eye, a screen shows what a pinhole camera of that angle does.
+TEST(Camera, AScreenBeforeTheEyeIsAPinholesPicture) {
+  const CarPose car = CarAt(100.0, 50.0, 7.0, 0.5);
+  const Camera screen = ScreenCamera(car, {0.8, 0.6, 0.5, 0.0, 0.3, 0.0});
+  Camera pinhole = screen;
+  pinhole.window.reset();
+  pinhole.vertical_view_rad = 2.0 * std::atan(0.3 / 0.5);
+  for (const auto& ahead : {Eigen::Vector3d(12.0, 3.0, 1.0), Eigen::Vector3d(5.0, -2.0, 0.0)}) {
+    const Eigen::Vector3d p = car.p_WB_W + car.q_WB * ahead;
+    EXPECT_LT((*screen.Project(p, 800, 600) - *pinhole.Project(p, 800, 600)).norm(), 1e-9);
+  }
+}
+
+// Lay a ruler from the eye through a point of the screen: what lies behind is drawn there, wherever the screen stands.
+TEST(Camera, WhatIsSeenThroughAScreenLiesOnTheRayThroughIt) {
+  const CarPose car = CarAt(-20.0, 5.0, 1.0, 1.2);
+  const Eigen::Vector3d eye_B = car.q_WB.conjugate() * (DriverCamera(car).eye_W - car.p_WB_W);
+  for (const ScreenPlane& plane : {ScreenPlane{1.2, 0.7, 0.9, 0.0, 0.2, 0.1}, ScreenPlane{0.6, 0.34, 0.7, 0.8, 0.17, -0.2}, ScreenPlane{2.0, 1.5, 1.4, -1.3, 1.0, 0.0}}) {
+    const Camera camera = ScreenCamera(car, plane);
+    const Eigen::AngleAxisd turn(plane.angle_rad, Eigen::Vector3d::UnitZ());
+    for (const double u : {0.0, 0.3, 1.0}) {    // from the screen's left edge
+      for (const double v : {0.0, 0.6, 1.0}) {  // from its upper edge
+        const Eigen::Vector3d on_screen = turn * Eigen::Vector3d(plane.distance_m, -(plane.aside_m + (u - 0.5) * plane.width_m), (1.0 - v) * plane.height_m - plane.eye_height_m);
+        const auto at = camera.Project(car.p_WB_W + car.q_WB * (eye_B + 37.0 * on_screen), 1600, 900);
+        ASSERT_TRUE(at);
+        EXPECT_NEAR(at->x(), 1600.0 * u, 1e-6);
+        EXPECT_NEAR(at->y(), 900.0 * v, 1e-6);
+      }
+    }
+  }
+}
+
+// Three screens whose edges touch: what is cut by the seam leaves one where it enters the other.
+TEST(Camera, ThreeScreensHaveNoSeam) {
+  const CarPose car = CarAt(0.0, 0.0, 0.0, 0.3);
+  const double width = 1.2, distance = 0.9, angle = 2.0 * std::atan(0.5 * width / distance);
+  const Camera left = ScreenCamera(car, {width, 0.7, distance, angle, 0.3, 0.0}), middle = ScreenCamera(car, {width, 0.7, distance, 0.0, 0.3, 0.0});
+  for (const double away_m : {3.0, 20.0, 400.0}) {
+    for (const double up_m : {-0.5, 0.0, 2.0}) {
+      const Eigen::Vector3d ray_B(distance, 0.5 * width, 0.0);
+      const Eigen::Vector3d p = middle.eye_W + car.q_WB * Eigen::Vector3d(away_m * ray_B + Eigen::Vector3d(0.0, 0.0, up_m));
+      EXPECT_NEAR(middle.Project(p, 1920, 1080)->x(), 0.0, 1e-6);
+      EXPECT_NEAR(left.Project(p, 1920, 1080)->x(), 1920.0, 1e-6);
+      EXPECT_NEAR(left.Project(p, 1920, 1080)->y(), middle.Project(p, 1920, 1080)->y(), 1e-6);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rodeira::scene
