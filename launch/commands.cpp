@@ -239,7 +239,7 @@ CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::stri
   CLI::Option* frames = replay->add_option("--frames", options.watch.frames, "folder: write pictures (PNG) as the run's view would have");
   CLI::Option* at = replay->add_option("--at", options.watch.at_s, "simulated seconds of the pictures")->needs(frames);
   frames->needs(at);
-  replay->add_option("--camera", options.watch.camera, "chase or driver; otherwise as the run's view");
+  replay->add_option("--camera", options.watch.camera, "chase, driver, bonnet, orbit, top or trackside; otherwise as the run's view");
   replay->add_option("--follow", options.watch.follow, "name of a vehicle node; otherwise as the run's view");
   replay->add_option("--size", options.watch.size, "WIDTHxHEIGHT in pixels; otherwise as the run's view");
   replay->add_flag("--verify", options.verify, "compute everything again and compare every sample and state");

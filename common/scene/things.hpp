@@ -14,6 +14,9 @@
 
 namespace rodeira::scene {
 
+// What is lower lies: it is not drawn as a thing.
+inline constexpr double kFlatThing_m = 0.02;
+
 enum class ThingKind { kTree, kBush, kHouse, kFillingStation, kPost, kLamp, kPlain, kOutline, kSign, kTrafficLight, kModel };
 
 // Something that stands, as it is to be drawn.

@@ -86,6 +86,11 @@ void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group) {
   group.addChild(lod);
 }
 
+scene::Camera CameraFor(const Picture& picture, const scene::Body& body, const road::World& world) {
+  if (picture.screen && picture.camera == scene::CameraKind::kDriver) return scene::ScreenCamera(body, *picture.screen);
+  return scene::MakeCamera(picture.camera, body, picture.aim, world);
+}
+
 }  // namespace
 
 struct Painter::Parts {
@@ -168,8 +173,8 @@ Painter::~Painter() {
 void Painter::Draw(const Picture& picture) {
   const int width = surface_.width_px(), height = surface_.height_px();
   scene::Camera camera;
-  const bool follows = picture.followed < picture.moment.cars.size();
-  if (follows) camera = scene::MakeCamera(picture.camera, picture.moment.cars[picture.followed], world_);
+  const bool is_car = picture.followed < picture.moment.cars.size();
+  if (const auto body = scene::BodyAt(picture.moment, picture.followed)) camera = CameraFor(picture, *body, world_);
   osg::Camera& eye = *parts_->viewer.getCamera();
   if (eye.getViewport() == nullptr || static_cast<int>(eye.getViewport()->width()) != width || static_cast<int>(eye.getViewport()->height()) != height) {
     eye.getGraphicsContext()->resized(0, 0, width, height);
@@ -177,11 +182,19 @@ void Painter::Draw(const Picture& picture) {
   }
   const osg::Vec3d forward = ToOsg(camera.forward_W), up = ToOsg(camera.up_W), at = ToOsg(camera.eye_W);
   eye.setViewMatrixAsLookAt(at, at + forward, up);
-  eye.setProjectionMatrixAsPerspective(camera.vertical_view_rad * 180.0 / 3.14159265358979323846, static_cast<double>(width) / height, kNear_m, kFar_m);
+  const double aspect = static_cast<double>(width) / height, half_m = 0.5 * camera.parallel_height_m;
+  if (camera.window) {
+    const auto& [left, right, low, high] = *camera.window;
+    eye.setProjectionMatrixAsFrustum(kNear_m * left, kNear_m * right, kNear_m * low, kNear_m * high, kNear_m, kFar_m);
+  } else if (half_m > 0.0) {
+    eye.setProjectionMatrixAsOrtho(-half_m * aspect, half_m * aspect, -half_m, half_m, kNear_m, kFar_m);
+  } else {
+    eye.setProjectionMatrixAsPerspective(camera.vertical_view_rad * 180.0 / 3.14159265358979323846, aspect, kNear_m, kFar_m);
+  }
   const osg::Matrixd view = eye.getViewMatrix();
   parts_->sun_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(kSun_W), view)));
   parts_->up_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, 1.0), view)));
-  parts_->fleet.Show(picture.moment, follows && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt);
+  parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt);
   parts_->lights.Show(picture.moment.lights);
   FitOverlay(*parts_->overlay, width, height);
   parts_->instruments.Show(picture, width, height, picture.timeline ? TimelinePlace::kHeight_px : 0.0F);
