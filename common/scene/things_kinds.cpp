@@ -72,6 +72,7 @@ void Things::AddSignal(const network::Road& road, const network::Placed& placed,
   thing.on_post = placed.z_offset_m < kOverhead_m || !OverLane(road, placed.s_m, placed.t_m);
   if (placed.signal->dynamic) {
     thing.kind = ThingKind::kTrafficLight;
+    thing.signal = placed.signal->id;
     if (!(thing.height_m > 0.1)) thing.height_m = kHousing_m;
     if (thing.height_m > 1.5 * kHousing_m) {  // some files count the post: its lights are at its upper end
       thing.above_m += thing.height_m - kHousing_m;

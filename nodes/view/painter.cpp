@@ -14,6 +14,7 @@
 #include "nodes/view/built_world.hpp"
 #include "nodes/view/car_node.hpp"
 #include "nodes/view/instruments.hpp"
+#include "nodes/view/lights_node.hpp"
 #include "nodes/view/look.hpp"
 #include "nodes/view/model_file.hpp"
 #include "nodes/view/overlay.hpp"
@@ -93,8 +94,11 @@ scene::Camera CameraFor(const Picture& picture, const scene::Body& body, const r
 }  // namespace
 
 struct Painter::Parts {
+  explicit Parts(const road::World& world) : lights(look, world) {}
+
   Look look{kSun_W};
   Fleet fleet{look};
+  LightsNode lights;
   osg::ref_ptr<osg::Camera> overlay = MakeOverlay();
   Instruments instruments{*overlay};
   TimelineBar timeline{*overlay};
@@ -105,7 +109,7 @@ struct Painter::Parts {
   osgViewer::Viewer viewer;
 };
 
-Painter::Painter(Surface& surface, const road::World& world) : surface_(surface), world_(world), parts_(std::make_unique<Parts>()) {}
+Painter::Painter(Surface& surface, const road::World& world) : surface_(surface), world_(world), parts_(std::make_unique<Parts>(world)) {}
 
 Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing) : Painter(surface, world) {
   Look& look = parts_->look;
@@ -138,6 +142,7 @@ void Painter::SetUp() {
   Look& look = parts_->look;
   osg::Group& root = *parts_->root;
   root.addChild(parts_->fleet.node());
+  root.addChild(parts_->lights.node());
   root.addChild(look.MakeSky());
   root.addChild(parts_->overlay);
   osg::StateSet* state = root.getOrCreateStateSet();
@@ -190,6 +195,7 @@ void Painter::Draw(const Picture& picture) {
   parts_->sun_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(kSun_W), view)));
   parts_->up_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, 1.0), view)));
   parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt);
+  parts_->lights.Show(picture.moment.lights);
   FitOverlay(*parts_->overlay, width, height);
   parts_->instruments.Show(picture, width, height, picture.timeline ? TimelinePlace::kHeight_px : 0.0F);
   parts_->timeline.Show(picture.timeline, width);

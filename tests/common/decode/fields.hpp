@@ -127,6 +127,14 @@ void Fields(V& v, msg::TrafficState& m) {
   v("header", m.header()), v("agents", m.agents()), v("end", m.end());
 }
 template <class V>
+void Fields(V& v, msg::SignalGroup& m) {
+  v("controller", m.controller()), v("colour", m.colour());
+}
+template <class V>
+void Fields(V& v, msg::SignalsState& m) {
+  v("header", m.header()), v("groups", m.groups()), v("end", m.end());
+}
+template <class V>
 void Fields(V& v, msg::Vector3& m) {
   v("x", m.x()), v("y", m.y()), v("z", m.z());
 }
@@ -279,6 +287,7 @@ void ForEveryTopicType(const Use& use) {
   use(TypeTag<msg::Controls>(), "rodeira::msg::Controls");
   use(TypeTag<msg::VehicleState>(), "rodeira::msg::VehicleState");
   use(TypeTag<msg::TrafficState>(), "rodeira::msg::TrafficState");
+  use(TypeTag<msg::SignalsState>(), "rodeira::msg::SignalsState");
   use(TypeTag<msg::ScenarioEvents>(), "rodeira::msg::ScenarioEvents");
   use(TypeTag<msg::Snapshot>(), "rodeira::msg::Snapshot");
   use(TypeTag<msg::Parcel>(), "rodeira::msg::Parcel");
