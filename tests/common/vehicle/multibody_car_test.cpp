@@ -76,73 +76,6 @@ TEST(PrototypeAtRest, StandsInEquilibrium) {
   }
 }
 
-TEST(PrototypeAtRest, RefusesPlacesOutsideAndStaysAsItWas) {
-  auto car = Prototype();
-  HillGround::Kind kind;
-  kind.edge_m = 50.0;
-  HillGround ground(1, kind);
-  base::StateWriter before, after;
-  car->Save(before);
-  const auto refused = car->Initialise({.x_m = 1000.0}, ground);
-  ASSERT_FALSE(refused.ok());
-  EXPECT_NE(refused.error().message.find("outside of the world"), std::string::npos);
-  car->Save(after);
-  EXPECT_EQ(before.bytes(), after.bytes());
-  EXPECT_FALSE(car->Initialise({.x_m = std::nan("")}, ground).ok());
-}
-
-// Handbrake on a 20 % slope: at most 1 mm a minute.
-TEST(PrototypeAtRest, TheHandbrakeHoldsOnASlope) {
-  auto car = Prototype();
-  PlaneGround ground(Eigen::Vector3d::Zero(), 0.2, 0.0);
-  ASSERT_TRUE(car->Initialise({}, ground).ok());
-  Controls controls;
-  controls.gearbox = GearboxMode::kManual;
-  controls.gear = 0;
-  controls.handbrake = 1.0;
-  DriveFor(*car, ground, controls, 10.0);
-  const Eigen::Vector3d settled = car->state().p_WB_W;
-  DriveFor(*car, ground, controls, 60.0);
-  EXPECT_LT((car->state().p_WB_W - settled).norm(), 1e-3);
-}
-
-// Dropped, settles, drives off, shifts, brakes, stops, reverses.
-TEST(PrototypeStory, DrivesOffShiftsBrakesStopsAndReverses) {
-  auto car = Prototype();
-  PlaneGround ground;
-  ASSERT_TRUE(car->Initialise({}, ground).ok());
-  Controls controls;
-  controls.throttle = 0.7;
-  int gear = 0;
-  double worst_m = 0.0, worst_mps = 0.0;
-  int iterations = 0;
-  multibody::System& system = Multibody(*car).system();
-  for (int i = 0; i < 12000; ++i) {
-    car->Step(controls, ground, kStep);
-    gear = std::max(gear, static_cast<int>(car->state().gear));
-    ASSERT_TRUE(Multibody(*car).report().converged) << i;
-    iterations = std::max(iterations, Multibody(*car).report().iterations);
-    worst_m = std::max(worst_m, system.Violation());
-    worst_mps = std::max(worst_mps, system.RateViolation());
-  }
-  EXPECT_GT(car->state().speed_mps(), 20.0);
-  EXPECT_GE(gear, 3);
-  EXPECT_LE(worst_m, 1e-8);
-  EXPECT_LE(worst_mps, 1e-6);
-  EXPECT_LE(iterations, 4);
-  EXPECT_LT(std::fabs(car->state().p_WB_W.y()), 1e-3);
-  controls.throttle = 0.0;
-  controls.brake = 0.8;
-  DriveFor(*car, ground, controls, 8.0);
-  EXPECT_LT(std::fabs(car->state().speed_mps()), 1e-3);
-  controls.brake = 0.0;
-  controls.gear = -1;
-  controls.throttle = 0.3;
-  DriveFor(*car, ground, controls, 4.0);
-  EXPECT_LT(car->state().speed_mps(), -1.0);
-  EXPECT_EQ(car->state().gear, -1);
-}
-
 // Braking: the body pitches nose down, and what the front axle gains is m a h / L.
 TEST(PrototypeDynamics, LoadTransferOfBraking) {
   auto car = Prototype();
@@ -204,25 +137,6 @@ TEST(PrototypeDynamics, TurnsTowardsTheWheelAndLeansOut) {
   // The steering ratio that the file names is that of rack and steering arms.
   const double steer = 0.5 * (s.wheels[kFrontLeft].steer_rad + s.wheels[kFrontRight].steer_rad);
   EXPECT_NEAR(0.5 / steer, settings.steering.ratio, 0.15 * settings.steering.ratio);
-}
-
-TEST(PrototypeDynamics, LeftAndRightAreMirrorImages) {
-  auto left = Prototype();
-  auto right = Prototype();
-  PlaneGround ground;
-  ASSERT_TRUE(left->Initialise({.speed_mps = 15.0}, ground).ok());
-  ASSERT_TRUE(right->Initialise({.speed_mps = 15.0}, ground).ok());
-  for (int i = 0; i < 2000; ++i) {
-    Controls controls;
-    controls.throttle = 0.2;
-    controls.steering_wheel_rad = 0.8 * std::sin(0.003 * i);
-    left->Step(controls, ground, kStep);
-    controls.steering_wheel_rad = -controls.steering_wheel_rad;
-    right->Step(controls, ground, kStep);
-  }
-  EXPECT_NEAR(left->state().p_WB_W.y(), -right->state().p_WB_W.y(), 1e-6);
-  EXPECT_NEAR(left->state().p_WB_W.x(), right->state().p_WB_W.x(), 1e-6);
-  EXPECT_NEAR(left->state().wheels[kFrontLeft].load_N, right->state().wheels[kFrontRight].load_N, 1e-3);
 }
 
 // Ten milliseconds against a tenth of one, steering a function of time: yaw rate within 1 % RMS, path within 2 cm.
@@ -294,64 +208,6 @@ TEST(ASecondCar, WrongFilesAreRefused) {
   EXPECT_NE(refusal("  constraints:\n", "  constraints:\n    more: {kind: distance, points: [fl_lower_front, fl_lower_rear]}\n").find("redundant"),
             std::string::npos);
   std::filesystem::remove(path);
-}
-
-TEST(PrototypeBits, RestoredItGoesOnWithTheSameBits) {
-  auto first = Prototype();
-  auto second = Prototype();
-  HillGround ground(3, {});
-  ASSERT_TRUE(first->Initialise({.speed_mps = 10.0}, ground).ok());
-  Controls controls;
-  controls.throttle = 0.5;
-  for (int i = 0; i < 700; ++i) {
-    controls.steering_wheel_rad = 0.01 * (i % 90);
-    first->Step(controls, ground, kStep);
-  }
-  base::StateWriter snapshot;
-  first->Save(snapshot);
-  base::StateReader reader(snapshot.bytes());
-  second->Restore(reader);
-  ASSERT_TRUE(reader.Finish().ok());
-  for (int i = 0; i < 1000; ++i) {
-    controls.steering_wheel_rad = 0.01 * (i % 70);
-    first->Step(controls, ground, kStep);
-    second->Step(controls, ground, kStep);
-    base::StateWriter a, b;
-    first->Save(a);
-    second->Save(b);
-    ASSERT_EQ(a.bytes(), b.bytes()) << "step " << i;
-  }
-}
-
-// Whatever the driver does on whatever hills: finite numbers, loads at least 0.
-TEST(PrototypeBits, AnythingAnywhereStaysFinite) {
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    const auto draw = [&](std::uint64_t what, int i, double low, double high) {
-      return base::RandomUniform({seed, what, static_cast<std::uint64_t>(i / 200)}, low, high);
-    };
-    HillGround::Kind kind;
-    kind.amplitude_m = 2.0 * static_cast<double>(seed);
-    kind.wave_m = 60.0;
-    kind.terrace_m = seed == 5 ? 1.0 : 0.0;
-    HillGround ground(seed, kind);
-    auto car = Prototype();
-    if (!car->Initialise({.speed_mps = 5.0 * static_cast<double>(seed)}, ground).ok()) continue;
-    for (int i = 0; i < 4000; ++i) {
-      Controls c;
-      c.steering_wheel_rad = draw(0, i, -9.0, 9.0);
-      c.throttle = draw(1, i, 0.0, 1.0);
-      c.brake = std::max(0.0, draw(2, i, -2.0, 1.0));
-      c.handbrake = std::max(0.0, draw(3, i, -4.0, 1.0));
-      c.gear = draw(4, i, 0.0, 1.0) < 0.2 ? -1 : 1;
-      car->Step(c, ground, kStep);
-      const VehicleState& s = car->state();
-      ASSERT_TRUE(s.p_WB_W.allFinite() && s.q_WB.coeffs().allFinite() && s.v_WB_W.allFinite() && s.w_WB_B.allFinite())
-          << seed << " " << i;
-      ASSERT_LT(s.v_WB_W.norm(), 150.0) << seed << " " << i;
-      for (const WheelState& wheel : s.wheels)
-        ASSERT_TRUE(std::isfinite(wheel.load_N) && wheel.load_N >= 0.0) << seed << " " << i;
-    }
-  }
 }
 
 }  // namespace
