@@ -60,7 +60,11 @@ int Info(const std::string& file) {
   for (const RecordedSource& source : audit.sources) {
     if (source.without_state) fmt::print("{}", WithoutStateLine(source.source));
   }
+  fmt::print("content   {}  (of all samples: recordings with the same one are identical)\n", base::Hex(audit.content));
   for (const std::string& damage : audit.damages) fmt::print("damage    {}\n", damage);
+  if (audit.steps_without_wall_time.value_or(0) > 0) {
+    fmt::print("wall      the wall times of {} steps are missing: a clock that was lost had not said them yet\n", *audit.steps_without_wall_time);
+  }
   const bool whole = in.condition().whole && audit.damages.empty();
   if (!whole) fmt::print("what to do: rodeira repair {} --out REPAIRED.mcap\n", file);
   if (!audit.lossless()) {

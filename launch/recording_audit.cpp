@@ -7,6 +7,9 @@
 #include "common/lockstep/sample.hpp"
 #include "common/lockstep/snapshot.hpp"
 #include "common/record/text_number.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -16,6 +19,22 @@ record::TextMap EntriesOf(const record::McapReader& reader, const char* name) {
   const auto metadata = reader.FindMetadata(name);
   return metadata && metadata.value() ? metadata.value()->entries : record::TextMap();
 }
+
+// Which steps the wall times cover. They come in the order of their steps.
+class WallCover {
+ public:
+  void Add(const record::Message& message) {
+    const auto wall = idl::Decode<msg::WallTime>(message.data);
+    if (!wall) return;
+    uncovered_ += std::max<std::int64_t>(wall.value().after_step() - covered_, 0);
+    covered_ = std::max<std::int64_t>(covered_, wall.value().through_step());
+  }
+  std::int64_t UncoveredThrough(std::int64_t last_step) const { return uncovered_ + std::max<std::int64_t>(last_step - covered_, 0); }
+
+ private:
+  std::int64_t covered_ = -1;
+  std::int64_t uncovered_ = 0;
+};
 
 }  // namespace
 
@@ -66,6 +85,8 @@ RecordingAudit Audit(const record::McapReader& reader) {
     if (!base_step_ns || *base_step_ns <= 0) continue;
     source.rate_hz = 1e9 / (static_cast<double>(*period) * static_cast<double>(*base_step_ns));
   }
+  std::optional<WallCover> walls;
+  std::map<record::ChannelId, base::Digest> names;  // of topic and source
   record::Query query;
   query.order = record::Query::Order::kFile;
   auto cursor = reader.Messages(query);
@@ -79,11 +100,17 @@ RecordingAudit Audit(const record::McapReader& reader) {
     RecordedSource& source = sources[message.value()->channel];
     ++source.samples;
     source.bytes += message.value()->data.size();
+    if (source.topic == idl::topics::kWall) {
+      if (!walls) walls.emplace();
+      walls->Add(*message.value());
+    }
     if (source.topic == lockstep::kSnapshotTopic && source.samples == 1) {
       const auto snapshot = lockstep::Snapshot::FromSample(message.value()->data);
       source.without_state = snapshot && !snapshot.value().has_state;
     }
     if (!periods.contains(message.value()->channel) || !lockstep::SampleHeader::HasHeader(message.value()->data)) continue;
+    const auto name = names.try_emplace(message.value()->channel, base::Hash(source.topic + '\n' + source.source)).first->second;
+    result.content = base::Combine(result.content, base::Combine(name, lockstep::PayloadDigest(message.value()->data)));
     const auto step = lockstep::SampleHeader::Read(message.value()->data).step;
     if (step >= 0) steps.Add(source.topic, message.value()->channel, static_cast<std::uint64_t>(step));
   }
@@ -94,6 +121,7 @@ RecordingAudit Audit(const record::McapReader& reader) {
     const bool ended = result.last_step && !result.broken_off;
     source.ends_early = ended && static_cast<std::int64_t>(audit.last_step) < *result.last_step / period * period;
   }
+  if (walls) result.steps_without_wall_time = walls->UncoveredThrough(result.last_step.value_or(-1));
   for (auto& [id, source] : sources) result.sources.push_back(std::move(source));
   return result;
 }

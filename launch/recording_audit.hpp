@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/hash.hpp"
 #include "common/record/audit.hpp"
 #include "common/record/mcap_reader.hpp"
 
@@ -30,8 +31,10 @@ struct RecordedSource {
 struct RecordingAudit {
   std::vector<RecordedSource> sources;  // by channel
   std::vector<std::string> damages;     // sentences
+  base::Digest content = 0;  // of all samples of the lockstep: recordings with the same one are identical
   std::optional<std::int64_t> last_step;  // of the run, as the recorder wrote it at its end
   bool broken_off = false;                // the run came to its end by a fault: what was due last need not be there
+  std::optional<std::int64_t> steps_without_wall_time;  // of the run; none where the file has no wall times at all
   bool has_every_sample() const;  // up to its end, wherever that is
   bool lossless() const;          // and nothing is damaged
 };

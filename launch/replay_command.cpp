@@ -61,6 +61,7 @@ int Replay(const ReplayOptions& options) {
   }
   if (!options.changes.empty() || options.verify) CatchInterrupts();
   if (!options.changes.empty()) return MakeBranch(options);
+  if (!options.record.empty()) return Complain(base::WrongInput("--record is of a branch: nothing else makes a new recording", "rodeira replay"));
   if (options.pace) return Complain(base::WrongInput("--pace is of a branch; --speed is --view's", "rodeira replay"));
   if (!options.verify) return Watch(options);
   const auto run = replay::RecordedRun::Open(options.file);

@@ -30,6 +30,12 @@ base::Status Answers::Remember(const lockstep::Sample& sample) {
   return archive_ ? archive_->Add(sample) : base::Status();
 }
 
+std::optional<lockstep::Sample> Answers::Kept(lockstep::SourceIndex source, lockstep::Step step) {
+  const std::lock_guard lock(mutex_);
+  auto found = Found({source, step});
+  return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
+}
+
 void Answers::Granted(const lockstep::Grant& grant) {
   const std::lock_guard lock(mutex_);
   kept_.Granted(grant);

@@ -29,6 +29,8 @@ class Answers {
   void Keep(const lockstep::Sample& own);
   // Of anybody; kept where `keeps_all`. Wrong input where another content is valid at the same step.
   base::Status Remember(const lockstep::Sample& sample);
+  // One of those that it has.
+  std::optional<lockstep::Sample> Kept(lockstep::SourceIndex source, lockstep::Step step);
   // Drops what nobody can lack any more.
   void Granted(const lockstep::Grant& grant);
   // Is answered soon, or passed over where this node has nothing of it.

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <utility>
 
+#include "common/launch/sample_difference.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::dds {
@@ -240,9 +241,14 @@ void NodeBus::OnSample(std::string_view topic, base::Bytes&& payload) {
     return Abort(fmt::format("topic {}: a sample of source number {} was found, which does not publish it", topic, header.source));
   }
   lockstep::Sample sample{header, std::make_shared<const base::Bytes>(std::move(payload))};
-  if (auto status = Remember(sample); !status) return Abort(status.error().Text());
-  auto status = mailbox_.Deliver(std::move(sample));
-  if (!status) Abort(status.error().Text());
+  if (auto status = Remember(sample); !status) return AbortBy(status.error(), sample);
+  if (auto status = mailbox_.Deliver(sample); !status) AbortBy(status.error(), sample);
+}
+
+void NodeBus::AbortBy(const base::Error& error, const lockstep::Sample& came) {
+  auto kept = answers_->Kept(came.source(), came.valid());
+  if (!kept) kept = mailbox_.Kept(came.source(), came.valid());
+  Abort(kept && kept->valid() == came.valid() && !lockstep::SameContent(*kept, came) ? launch::ContradictionText(roster_, *kept, came) : error.Text());
 }
 
 void NodeBus::OnGrant(base::Bytes&& payload) {

@@ -78,6 +78,8 @@ class NodeBus final : public lockstep::Bus {
   void OnAsk(const base::Bytes& payload);
   Writer& WriterOf(lockstep::SourceIndex output);
   void Abort(std::string reason);
+  // A sample was refused: where it contradicts one that is here, the reason is the node that said both.
+  void AbortBy(const base::Error& error, const lockstep::Sample& came);
   void Heartbeat();
   std::uint64_t clock_id() const;  // 0 before the clock was heard
 

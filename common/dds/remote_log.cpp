@@ -131,7 +131,7 @@ base::Result<HeardLog> DecodeLog(const base::Bytes& payload) {
   const msg::RunLog& in = decoded.value();
   HeardLog heard{in.clock_id(), {in.number(), {}, {}, in.last() != 0}};
   for (const msg::WallTime& wall : in.walls()) {
-    heard.batch.walls.push_back({wall.through_step(), wall.utc_ns(), wall.monotonic_ns(), wall.late_ns(), wall.pace(), wall.paused() != 0});
+    heard.batch.walls.push_back({wall.after_step(), wall.through_step(), wall.utc_ns(), wall.monotonic_ns(), wall.late_ns(), wall.pace(), wall.paused() != 0});
   }
   for (const msg::Remark& remark : in.remarks()) {
     heard.batch.remarks.push_back({remark.step(), remark.utc_ns(), remark.monotonic_ns(), remark.pace(), KindOf(remark.kind()), remark.text(), remark.number()});

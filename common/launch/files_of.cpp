@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <set>
+#include <span>
+#include <string_view>
 #include <system_error>
 
 #include "common/base/files.hpp"
@@ -20,6 +23,30 @@ fs::path HomeIn(const fs::path& root) {
   fs::path home = root;
   for (std::size_t i = 0; i < kMostUp; ++i) home /= "d";
   return home;
+}
+
+bool IsPartOfAPath(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("/._-~+").find(c) != std::string_view::npos; }
+
+// Each whole path that is `path` becomes `name`.
+void Rename(std::string& text, const std::string& path, const std::string& name) {
+  for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path, at)) {
+    const std::size_t end = at + path.size();
+    const bool is_whole = (at == 0 || !IsPartOfAPath(text[at - 1])) && (end == text.size() || !IsPartOfAPath(text[end]));
+    if (is_whole) text.replace(at, path.size(), name);
+    at += is_whole ? name.size() : path.size();
+  }
+}
+
+// The launch file, with files that it names by their whole path named where they are laid out: what lies on the disk may be
+// another one by now.
+base::Bytes Led(const std::vector<NamedFile>& files) {
+  const base::Bytes& bytes = files.front().bytes;
+  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  for (const NamedFile& file : files) {
+    if (file.name.starts_with(kAbsolute + "/")) Rename(text, file.name.substr(kAbsolute.size()), file.name);
+  }
+  const auto as_bytes = std::as_bytes(std::span(text));
+  return {as_bytes.begin(), as_bytes.end()};
 }
 
 class Collector {
@@ -91,6 +118,7 @@ base::Result<fs::path> LayOut(const std::vector<NamedFile>& files, const fs::pat
   if (files.empty()) return base::WrongInput("there is no launch file");
   const fs::path root = folder.lexically_normal();
   const fs::path home = HomeIn(root);
+  const base::Bytes launch_file = Led(files);
   for (const NamedFile& file : files) {
     const fs::path name(file.name);
     const fs::path target = (home / name).lexically_normal();
@@ -101,7 +129,7 @@ base::Result<fs::path> LayOut(const std::vector<NamedFile>& files, const fs::pat
     std::error_code problem;
     fs::create_directories(target.parent_path(), problem);
     if (problem) return base::Failed(fmt::format("the folder cannot be made: {}", problem.message()), target.parent_path().string());
-    if (auto status = base::WriteWhole(target, file.bytes); !status) return status.error();
+    if (auto status = base::WriteWhole(target, &file == &files.front() ? launch_file : file.bytes); !status) return status.error();
   }
   return (home / files.front().name).lexically_normal();
 }

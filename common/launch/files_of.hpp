@@ -21,8 +21,8 @@ struct NamedFile {
 // named by its whole path is "absolute/…". What a recorder writes to, and files of more than 64 MiB, are left out.
 base::Result<std::vector<NamedFile>> FilesOf(const Launch& launch);
 
-// Lays the files out below `folder` as they lay around the launch file, which is the first; returns its path. Wrong input
-// where a name would lead out of the folder.
+// Lays the files out below `folder` as they lay around the launch file, which is the first, and names those by their place there
+// that the launch file names by their whole path; returns its path. Wrong input where a name would lead out of the folder.
 base::Result<std::filesystem::path> LayOut(const std::vector<NamedFile>& files, const std::filesystem::path& folder);
 
 // The value of an override, in a launch file that was laid out: where it names a file by its whole path, the laid out copy.

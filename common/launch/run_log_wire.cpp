@@ -6,6 +6,7 @@ namespace rodeira::launch {
 
 msg::WallTime ToWire(const lockstep::WallTime& wall) {
   msg::WallTime out;
+  out.after_step(wall.after);
   out.through_step(wall.through);
   out.utc_ns(wall.utc_ns);
   out.monotonic_ns(wall.monotonic_ns);

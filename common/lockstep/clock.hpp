@@ -53,6 +53,8 @@ class Clock {
   void ExpectNextLife(NodeIndex node);
   std::uint32_t life(NodeIndex node) const { return node < grant_.lives.size() ? grant_.lives[node] : 0; }
 
+  // Where the nodes begin.
+  Step first_step() const { return first_step_; }
   const Recovery& recovery() const { return recovery_; }
   const Report& report(NodeIndex node) const { return reports_[node]; }
   const std::vector<Report>& reports() const { return reports_; }

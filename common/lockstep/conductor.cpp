@@ -42,12 +42,13 @@ Grant Conductor::Move(const Wall& now) {
   if (goes_on_) {  // time begins where it stood
     goes_on_ = false;
     pacer_.GoOn(now.monotonic_ns, clock_.grant().through);
+    NoteFault(fmt::format("the clock was lost; this is its life {}", life_ + 1), now);
   }
   const Step before = clock_.grant().through;
   const Grant grant = clock_.Update(pacer_.Limit(now.monotonic_ns, clock_.window_limit()));
   if (grant.through > before) {
     pacer_.Granted(now.monotonic_ns, grant.through);
-    log_.Add(WallTime{grant.through, now.utc_ns, RunNs(now), pacer_.late_ns(), pacer_.pace(), pacer_.paused()});
+    log_.Add(WallTime{std::max(before, clock_.first_step() - 1), grant.through, now.utc_ns, RunNs(now), pacer_.late_ns(), pacer_.pace(), pacer_.paused()});
   }
   return grant;
 }

@@ -21,9 +21,9 @@ struct Wall {
 class Conductor {
  public:
   // The clock outlives it.
-  Conductor(Clock& clock, const Pacer& pacer, std::uint32_t life = 0) : clock_(clock), pacer_(pacer), log_(life) {}
+  Conductor(Clock& clock, const Pacer& pacer, std::uint32_t life = 0) : clock_(clock), pacer_(pacer), log_(life), life_(life) {}
 
-  // Another life of a clock goes on with a run that began at `begin_ns` of the monotonic wall.
+  // Another life of a clock goes on with a run that began at `begin_ns` of the monotonic wall; the log says so where it goes on.
   void GoOn(std::int64_t begin_ns, bool paused, const Wall& now);
 
   // The grant that holds now. The run begins at the first call with everybody ready.
@@ -57,6 +57,7 @@ class Conductor {
   Clock& clock_;
   Pacer pacer_;
   RunLog log_;
+  std::uint32_t life_;
   bool begun_ = false;
   bool goes_on_ = false;
   std::int64_t begin_ns_ = 0;

@@ -79,6 +79,13 @@ base::Status Mailbox::Keep(Sample sample, bool& wake) {
   return {};
 }
 
+std::optional<Sample> Mailbox::Kept(SourceIndex source, Step step) const {
+  const std::lock_guard lock(mutex_);
+  const Track* track = TrackOf(source);
+  const Sample* sample = track == nullptr ? nullptr : track->Find(step);
+  return sample == nullptr ? std::nullopt : std::optional(*sample);
+}
+
 void Mailbox::DeliverGrant(const Grant& grant) {
   bool wake = false;
   {

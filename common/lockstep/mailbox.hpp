@@ -48,6 +48,8 @@ class Mailbox {
   // the last wait timed out for is there, or the run ends. Null: nobody is called any more.
   void OnReady(std::shared_ptr<const std::function<void()>> on_ready);
 
+  // What has been delivered and not forgotten.
+  std::optional<Sample> Kept(SourceIndex source, Step step) const;
   bool IsGranted(Step step) const;
   Grant grant() const;
   // What WaitForInputs(step) still lacks.

@@ -17,9 +17,11 @@
 // of the lockstep: nothing of it is in a digest, and two runs with different logs are identical.
 namespace rodeira::lockstep {
 
-// One grant: all steps behind the grant before it, through this one. At a pace step k was due (through - k) base steps,
-// divided by the pace, before through was: before monotonic_ns - late_ns.
+// One grant: all steps behind `after`, through `through`. At a pace step k was due (through - k) base steps, divided by the
+// pace, before through was: before monotonic_ns - late_ns. Steps that no entry covers were granted by a clock that died before it
+// could say when.
 struct WallTime {
+  Step after = -1;                // the newest granted step before
   Step through = 0;
   std::int64_t utc_ns = 0;        // since 1970
   std::int64_t monotonic_ns = 0;  // since the first grant

@@ -2,24 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <utility>
 
-#include "common/base/state_fields.hpp"
-#include "common/decode/difference.hpp"
-#include "common/decode/idl_reader.hpp"
-#include "idl/topics.hpp"
+#include "common/lockstep/snapshot.hpp"
 
 namespace rodeira::replay {
 
 using lockstep::Sample;
-using lockstep::SampleHeader;
 
 std::string Difference::Text() const {
   return fmt::format("first difference at step {}: node '{}', topic {}, field '{}': recorded {}, computed {}", step, node, topic, field, recorded, computed);
 }
 
 Comparison::Comparison(const RecordedRun& run, lockstep::Step from, const std::vector<bool>& trusted)
-    : run_(run), from_(from), trusted_(trusted), stream_(run.Samples(from)), waiting_(run.roster().sources().size()) {}
+    : run_(run), from_(from), trusted_(trusted), stream_(run.Samples(from)), waiting_(run.roster().sources().size()), differences_(run.roster()) {}
 
 bool Comparison::ReadOne() {
   if (over_ || problem_) return false;
@@ -63,37 +59,8 @@ void Comparison::Compare(const Sample& recorded, const Sample& computed) {
   const bool is_snapshot = run_.roster().source(computed.source()).topic == lockstep::kSnapshotTopic;
   if (is_snapshot) ++snapshots_;
   if (lockstep::SameContent(recorded, computed)) return;
-  if (is_snapshot) {
-    const auto a = lockstep::Snapshot::FromSample(*recorded.payload);
-    const auto b = lockstep::Snapshot::FromSample(*computed.payload);
-    if (a.ok() && b.ok()) {
-      const auto field = base::FirstStateDifference(a.value().state, b.value().state);
-      if (field.ok() && field.value()) return Note(computed, "state." + field.value()->path, field.value()->first, field.value()->second);
-    }
-    return Note(computed, "(snapshot)", base::Hex(lockstep::PayloadDigest(*recorded.payload)), base::Hex(lockstep::PayloadDigest(*computed.payload)));
-  }
-  // The digest of the state comes in the header and differs with every value: the value says more.
-  constexpr std::size_t kContent = SampleHeader::kEncapsulation + SampleHeader::kSize;
-  const auto& a = *recorded.payload;
-  const auto& b = *computed.payload;
-  if (std::equal(a.begin() + kContent, a.end(), b.begin() + kContent, b.end())) {
-    return Note(computed, "header.state_digest", base::Hex(recorded.header.state_digest), base::Hex(computed.header.state_digest));
-  }
-  base::Bytes alike = a;
-  std::copy(b.begin(), b.begin() + kContent, alike.begin());
-  const auto* type = TypeOf(computed.source());
-  const auto field = type == nullptr ? std::nullopt : decode::FirstDifference(*type, alike, b);
-  if (field) return Note(computed, field->path, field->a, field->b);
-  Note(computed, "(sample)", base::Hex(lockstep::PayloadDigest(a)), base::Hex(lockstep::PayloadDigest(b)));
-}
-
-const decode::Type* Comparison::TypeOf(lockstep::SourceIndex source) {
-  const std::string& topic = run_.roster().source(source).topic;
-  const auto known = types_.find(topic);
-  if (known != types_.end()) return known->second.get();
-  const idl::TopicInfo* info = idl::FindTopic(topic);
-  const auto type = info == nullptr ? base::Result<decode::TypePtr>(base::WrongInput("")) : decode::ReadType(idl::IdlTextOf(info->subject), std::string(info->type));
-  return (types_[topic] = type.ok() ? type.value() : nullptr).get();
+  auto field = differences_.Between(recorded, computed);
+  Note(computed, std::move(field.path), std::move(field.a), std::move(field.b));
 }
 
 void Comparison::Note(const Sample& sample, std::string field, std::string recorded, std::string computed) {

@@ -2,12 +2,11 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "common/decode/type.hpp"
+#include "common/launch/sample_difference.hpp"
 #include "common/replay/recorded_run.hpp"
 
 namespace rodeira::replay {
@@ -46,7 +45,6 @@ class Comparison {
   std::optional<lockstep::Sample> Recorded(lockstep::SourceIndex source, lockstep::Step valid);
   bool ReadOne();
   void Note(const lockstep::Sample& sample, std::string field, std::string recorded, std::string computed);
-  const decode::Type* TypeOf(lockstep::SourceIndex source);  // null where the topic is not known
   void Compare(const lockstep::Sample& recorded, const lockstep::Sample& computed);
 
   const RecordedRun& run_;
@@ -54,10 +52,10 @@ class Comparison {
   std::vector<bool> trusted_;  // by node
   SampleStream stream_;
   std::vector<std::deque<lockstep::Sample>> waiting_;  // of each source, read and not yet compared
+  launch::SampleDifference differences_;
   std::optional<Difference> first_;
   std::pair<lockstep::Step, lockstep::SourceIndex> first_at_;
   std::optional<base::Error> problem_;
-  std::map<std::string, decode::TypePtr> types_;  // by topic, as they are needed
   std::uint64_t compared_ = 0;
   std::uint64_t snapshots_ = 0;
   bool over_ = false;

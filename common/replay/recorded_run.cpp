@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <system_error>
 
 #include "common/base/mathematics.hpp"
@@ -151,6 +152,7 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
     }
     sources_[id] = static_cast<lockstep::SourceIndex>(*number);
   }
+  if (auto status = CheckChannels(); !status) return status;
   const auto branch = reader_.FindMetadata(kBranchMetadata);
   if (!branch) return branch.error();
   if (branch.value()) {
@@ -167,6 +169,23 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   }
   last_step_ = *last;
   complete_ = Entry(end.value()->entries, "complete") == "true";
+  return {};
+}
+
+// What the recorder listened to has a channel each: where one is missing, all samples of its source went with it.
+base::Status RecordedRun::CheckChannels() const {
+  std::set<lockstep::SourceIndex> known;
+  for (const auto& [channel, source] : sources_) known.insert(source);
+  for (lockstep::NodeIndex n = 0; n < roster().nodes().size(); ++n) {
+    if (launch_->node(n).kind->name != "recorder") continue;
+    for (const lockstep::Port& port : roster().node(n).inputs) {
+      for (const lockstep::SourceIndex source : port.sources) {
+        if (known.contains(source)) continue;
+        return base::WrongInput(fmt::format("the recording holds nothing that node '{}' said on topic {}; it was lost with what was damaged",
+                                            roster().node(roster().source(source).node).name, port.topic));
+      }
+    }
+  }
   return {};
 }
 

@@ -76,6 +76,7 @@ class RecordedRun {
 
  private:
   explicit RecordedRun(record::McapReader reader, base::TemporaryFolder folder) : reader_(std::move(reader)), folder_(std::move(folder)) {}
+  base::Status CheckChannels() const;
   base::Status CheckSamples(const lockstep::Snapshot& snapshot) const;
   base::Status Read(const launch::Overrides& extra);
   base::Result<std::vector<launch::NamedFile>> Files(const record::TextMap& about) const;

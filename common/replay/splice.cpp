@@ -12,6 +12,7 @@
 #include "common/record/mcap_reader.hpp"
 #include "common/record/mcap_writer.hpp"
 #include "common/record/text_number.hpp"
+#include "idl/topics.hpp"
 
 namespace rodeira::replay {
 namespace {
@@ -62,7 +63,8 @@ class Splicer {
     }
     return {};
   }
-  // What the parent says of the wall's clock, its operator's marks among it, has no place in the order of samples.
+  // What the parent says of the wall's clock, its operator's marks among it, has no place in the order of samples. A grant
+  // across the branch's first step belongs to it: it covers the parent's last steps.
   base::Status LoadParentsLog() {
     const record::McapReader& reader = parent_.reader();
     std::map<record::ChannelId, record::ChannelId> of_parent;
@@ -74,15 +76,20 @@ class Splicer {
     }
     if (of_parent.empty()) return {};
     record::Query query;
-    query.through_ns = static_cast<std::uint64_t>(at_ * parent_.roster().base_step_ns());
     query.channels.emplace();
     for (const auto& [id, channel] : of_parent) query.channels->insert(id);
+    const auto at_ns = static_cast<std::uint64_t>(at_ * parent_.roster().base_step_ns());
+    bool covered = false;
     auto cursor = reader.Messages(query);
     for (;;) {
       const auto message = cursor.Next();
       if (!message) return message.error();
       if (!message.value()) return {};
       const record::Message& in = *message.value();
+      const bool is_wall = reader.channels().at(in.channel).topic == idl::topics::kWall;
+      if (in.log_time_ns > at_ns && !is_wall) continue;
+      if (covered && is_wall) return {};
+      covered = covered || (is_wall && in.log_time_ns >= at_ns);
       parents_log_.push_back({of_parent.at(in.channel), in.sequence, in.log_time_ns, in.publish_time_ns, base::Bytes(in.data.begin(), in.data.end())});
     }
   }

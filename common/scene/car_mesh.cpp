@@ -10,7 +10,6 @@ namespace {
 using Eigen::Vector3d;
 using Ring = std::vector<Vector3d>;
 
-constexpr double kUsualHeight_m = 1.42;
 constexpr double kCrease_rad = 0.6;
 constexpr Colour kGlassColour = Colour::Of(0x20272c);
 constexpr Colour kTrimColour = Colour::Of(0x191a1c);
@@ -111,14 +110,13 @@ CarShape CarShape::Of(const CarPose& car) {
   shape.front_m = car.front_m;
   shape.length_m = car.length_m;
   shape.width_m = car.width_m;
-  shape.height_m = kUsualHeight_m;
-  double low = 1.0;
+  shape.height_m = car.height_m;
+  // B's origin stands on the ground at rest, so a hub is as high as the tyre is thick. Where the wheels are now says nothing of how
+  // the car is built: pictures would depend on which one came first.
+  shape.wheel_radius_m = std::clamp(car.wheel_radius_m, 0.2, 0.6);
   for (std::size_t i = 0; i < 4; ++i) {
-    shape.hubs_B[i] = car.wheels[i].hub_B;
-    low = std::min(low, car.wheels[i].hub_B.z());
+    shape.hubs_B[i] = {(i < 2 ? 0.5 : -0.5) * car.wheelbase_m, (i % 2 == 0 ? 0.5 : -0.5) * car.track_m[i / 2], shape.wheel_radius_m};
   }
-  // B's origin stands on the ground at rest, so a hub is as high as the tyre is thick.
-  shape.wheel_radius_m = std::clamp(low, 0.2, 0.6);
   shape.wheel_width_m = 0.6 * shape.wheel_radius_m;
   shape.tread_out_m = std::max(0.0, 0.5 * shape.width_m + 0.012 - 0.5 * shape.wheel_width_m - std::abs(shape.hubs_B[0].y()));
   return shape;

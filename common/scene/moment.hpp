@@ -29,6 +29,8 @@ struct CarPose {
   double brake = 0.0;               // 0 … 1
   std::int32_t gear = 0;
   double length_m = 3.85, front_m = 2.01, width_m = 1.65;  // front bumper from B's origin
+  double height_m = 1.42, wheelbase_m = 2.46, wheel_radius_m = 0.2915;       // at rest
+  std::array<double, 2> track_m = {1.42, 1.42};             // front, rear
 };
 
 // A car of the traffic: B's origin is the middle of its footprint, between the axles, on the ground.

@@ -100,6 +100,11 @@ msg::VehicleState ToWire(const vehicle::VehicleState& state, const vehicle::Vehi
   out.length_m(Single(dimensions.front_m + dimensions.rear_m));
   out.front_m(Single(dimensions.front_m));
   out.width_m(Single(dimensions.width_m));
+  out.height_m(Single(dimensions.height_m));
+  out.wheelbase_m(Single(dimensions.wheelbase_m));
+  out.track_front_m(Single(dimensions.track_front_m));
+  out.track_rear_m(Single(dimensions.track_rear_m));
+  out.wheel_radius_m(Single(dimensions.wheel_radius_m));
   out.gear(state.gear);
   out.engine_running(state.engine_running ? 1 : 0);
   out.inside_world(state.inside_world ? 1 : 0);

@@ -36,6 +36,12 @@ scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, 
     car.front_m = Double(message.front_m());
     car.width_m = Double(message.width_m());
   }
+  if (message.wheelbase_m() > 0.0F && message.wheel_radius_m() > 0.0F) {
+    car.height_m = Double(message.height_m());
+    car.wheelbase_m = Double(message.wheelbase_m());
+    car.track_m = {Double(message.track_front_m()), Double(message.track_rear_m())};
+    car.wheel_radius_m = Double(message.wheel_radius_m());
+  }
   return car;
 }
 

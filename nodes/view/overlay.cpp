@@ -2,10 +2,21 @@
 
 #include <osg/BlendFunc>
 
+#include <string>
+
 namespace rodeira::view {
 namespace {
 
 constexpr int kTextLayer = 10;
+
+// Letters get their places in the font's picture as they are needed; where a letter lies there shows in the last bit of its
+// pixels. So all get theirs beforehand, in one order, whatever is written first.
+void GiveLettersTheirPlaces(osgText::Text& text) {
+  std::string all;
+  for (char c = ' '; c <= '~'; ++c) all.push_back(c);
+  text.setText(all + "×·°µ−", osgText::String::ENCODING_UTF8);
+  text.setText("");
+}
 
 }  // namespace
 
@@ -35,6 +46,7 @@ osg::ref_ptr<osgText::Text> AddText(osg::Group& overlay, float size_px, osgText:
   osg::ref_ptr<osgText::Text> text = new osgText::Text;
   text->setDataVariance(osg::Object::DYNAMIC);
   text->setCharacterSize(size_px);
+  GiveLettersTheirPlaces(*text);
   text->setAlignment(alignment);
   text->setColor({0.96F, 0.97F, 0.98F, 1.0F});
   text->setCullingActive(false);

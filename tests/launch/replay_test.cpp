@@ -215,6 +215,27 @@ TEST_F(ReplayTest, AnEmbeddedFileIsNamedAsItIsEmbedded) {
   EXPECT_THAT(wrong_change.error().Text(), HasSubstr(": first_drive.yaml: unknown key 'nodes.ego.config.vehicel'"));
 }
 
+// What counts is the file as it was, wherever the launch file says that it lies.
+TEST_F(ReplayTest, AFileNamedByItsWholePathIsTheEmbeddedOne) {
+  const std::string root = RODEIRA_SOURCE_DIR;
+  const auto vehicle = folder_.Write("car.yaml", base::ReadText(root + "/configs/vehicles/default.yaml").value());
+  const auto launch = folder_.Write("launch/whole.yaml", "rodeira: launch/1\nworld: " + root + "/configs/worlds/plane.yaml\nnodes:\n  road: {kind: road}\n"
+                                                         "  driver: {kind: input, config: {source: script, script: " + root + "/tests/data/standing.csv}}\n"
+                                                         "  ego: {kind: vehicle, config: {vehicle: \"" + vehicle.string() + "\"}}\n  recorder: {kind: recorder}\n");
+  const std::string file = Record("whole.mcap", launch.string(), {"--for", "1"});
+  ASSERT_TRUE(base::WriteWhole(vehicle, std::string_view("another car")).ok());
+  const auto verdict = VerifyFile(file);
+  ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
+  EXPECT_FALSE(verdict.value().difference) << verdict.value().difference->Text();
+  // And of a branch, which is laid out again.
+  const std::string branch = (folder_.path() / "branch.mcap").string();
+  const auto made = Branch({file, 500, {{"seed", "7"}}, std::nullopt, branch});
+  ASSERT_TRUE(made.ok()) << made.error().Text();
+  const auto again = VerifyFile(branch, 600);
+  ASSERT_TRUE(again.ok()) << again.error().Text();
+  EXPECT_FALSE(again.value().difference) << again.value().difference->Text();
+}
+
 TEST_F(ReplayTest, ADifferenceIsSaidWithTheProgramThatRecorded) {
   const std::string file = Drive(1.0);
   const auto otherwise = [](const std::string& topic, const record::Message& message, base::Bytes& data) {
@@ -289,6 +310,7 @@ TEST_F(ReplayTest, WhatCannotBeReplayedIsRefusedInOneSentence) {
     return ended.out;
   };
   EXPECT_THAT(complaint({file}), HasSubstr("nothing to do was named; --view, --frames, --verify or --branch was expected"));
+  EXPECT_THAT(complaint({file, "--verify", "--record", "x.mcap"}), HasSubstr("--record is of a branch"));
   EXPECT_THAT(complaint({file, "--verify", "--from", "7"}), HasSubstr("the run ends at 1.000 s"));
   EXPECT_THAT(complaint({file, "--verify", "--from", "-1"}), HasSubstr("--from -1 s was found; a time from 0 s to the run's end was expected"));
   EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "nan", "--record", "x.mcap"}), HasSubstr("--from nan s was found"));

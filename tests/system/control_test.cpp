@@ -49,6 +49,7 @@ void ExpectAWallTimeForEveryStep(const std::string& recording, std::int64_t last
   ASSERT_FALSE(walls.empty());
   std::int64_t through = -1, monotonic_ns = 0;
   for (const msg::WallTime& wall : walls) {
+    ASSERT_EQ(wall.after_step(), through);
     ASSERT_GT(wall.through_step(), through);
     ASSERT_GE(wall.monotonic_ns(), monotonic_ns);
     ASSERT_GE(wall.late_ns(), 0);

@@ -4,11 +4,13 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <random>
 #include <thread>
 
+#include "common/base/files.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "tests/launch/temporary_folder.hpp"
@@ -147,6 +149,67 @@ TEST_F(Recovery, AKilledNodeIsBackInStepWithinTwoSecondsOfBeingNamed) {
   EXPECT_TRUE(remarked);
 }
 
+// Steps that a dead clock granted before it could say when: they are counted, and no other wall time stands for them.
+TEST_F(Recovery, OfAKilledClockTheWallTimesThatWentWithItAreCounted) {
+  Undisturbed("20");
+  const std::string run_name = "recovery-clock-" + std::to_string(::getpid());
+  Started run(Command(run_name, File("clock.mcap"), "20", "restart"));
+  ASSERT_TRUE(Runs(run_name));
+  std::this_thread::sleep_for(700ms);
+  const pid_t clock = Find(run_name, "clock");
+  ASSERT_GT(clock, 0);
+  ::kill(clock, SIGKILL);
+  ExpectUndisturbed(run.Wait(60s), File("clock.mcap"));
+  std::vector<int> said(20'001, 0);
+  for (const auto& wall : MessagesOf<msg::WallTime>(File("clock.mcap"), idl::topics::kWall)) {
+    ASSERT_LT(wall.through_step(), std::ssize(said));
+    for (auto step = wall.after_step() + 1; step <= wall.through_step(); ++step) ++said[static_cast<std::size_t>(step)];
+  }
+  const auto missing = std::count(said.begin(), said.end(), 0);
+  EXPECT_EQ(std::count(said.begin(), said.end(), 1), std::ssize(said) - missing) << "no step was granted twice";
+  EXPECT_LE(missing, 1000) << "what is not said yet is a twentieth of a second old, at five times real time";
+  const Ended info = RunCommand({Bin("rodeira"), "info", File("clock.mcap")});
+  const std::string sentence = "the wall times of " + std::to_string(missing) + " steps are missing";
+  EXPECT_EQ(info.out.find(sentence) != std::string::npos, missing > 0) << sentence << "\n" << info.out;
+  std::int64_t lost_at = -1;
+  for (const auto& remark : MessagesOf<msg::Remark>(File("clock.mcap"), idl::topics::kRemarks)) {
+    if (remark.text().find("the clock was lost") != std::string::npos) lost_at = remark.step();
+  }
+  EXPECT_GT(lost_at, 0);
+}
+
+// It writes its pictures again, as an undisturbed one does.
+TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
+  const auto command = [&](const std::string& name) {
+    return std::vector<std::string>{Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--headless", "--run", name, "--for", "20", "--pace", "5", "--record", File(name + ".mcap"),
+                                    "--set", "recovery=restart", "--set", "nodes.view.config.width_px=160", "--set", "nodes.view.config.height_px=96",
+                                    "--set", "nodes.view.config.frames.times_s=[1, 7, 13, 19]", "--set", "nodes.view.config.frames.folder=" + File(name)};
+  };
+  const std::string calm = "view-calm-" + std::to_string(::getpid()), struck = "view-struck-" + std::to_string(::getpid());
+  const Ended undisturbed = RunCommand(command(calm));
+  ASSERT_EQ(undisturbed.status, 0) << undisturbed.out;
+  digest_ = DigestIn(undisturbed.out);
+  samples_ = SamplesOf(File(calm + ".mcap"));
+  Started run(command(struck));
+  ASSERT_TRUE(Runs(struck));
+  for (const int signal : {SIGKILL, SIGSTOP}) {
+    std::this_thread::sleep_for(500ms);
+    const pid_t view = Find(struck, "view");
+    ASSERT_GT(view, 0);
+    ::kill(view, signal);
+    ASSERT_GE(run.WaitFor(signal == SIGKILL ? "node 'view' was killed by signal 9" : "node 'view' was stopped by signal 19", 5s), 0ms);
+  }
+  ExpectUndisturbed(run.Wait(120s), File(struck + ".mcap"));
+  std::size_t pictures = 0;
+  for (const auto& picture : std::filesystem::directory_iterator(File(calm))) {
+    ++pictures;
+    const auto same = base::ReadBytes(File(struck) + "/" + picture.path().filename().string());
+    ASSERT_TRUE(same.ok()) << same.error().Text();
+    EXPECT_EQ(same.value(), base::ReadBytes(picture.path()).value()) << picture.path();
+  }
+  EXPECT_EQ(pictures, 4u);
+}
+
 // Whoever had wanted to say something to it is held up by its memory for a while: that is nobody's fault.
 TEST_F(Recovery, AStoppedRecorderAloneIsNamed) {
   Undisturbed("20");
@@ -216,6 +279,27 @@ TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
   EXPECT_EQ(verified.status, 0) << "computed again, it is the same: " << verified.out;
 }
 
+// The whole run restarts whom it loses; only without its traffic it is to end.
+TEST_F(Recovery, EachNodeMayHaveAPolicyOfItsOwn) {
+  const std::string run_name = "recovery-own-" + std::to_string(::getpid());
+  std::vector<std::string> command = Command(run_name, File("own.mcap"), "1000", "restart");
+  command.insert(command.end(), {"--set", "nodes.traffic.recovery=stop"});
+  Started run(command);
+  ASSERT_TRUE(Runs(run_name));
+  const pid_t ego = Find(run_name, "ego");
+  ASSERT_GT(ego, 0);
+  ::kill(ego, SIGKILL);
+  ASSERT_GE(run.WaitFor("node 'ego' was killed by signal 9", 5s), 0ms);
+  ASSERT_TRUE(Runs(run_name)) << "it goes on";
+  const pid_t traffic = Find(run_name, "traffic");
+  ASSERT_GT(traffic, 0);
+  ::kill(traffic, SIGKILL);
+  const Ended ended = run.Wait(20s);
+  EXPECT_EQ(ended.status, 1) << ended.out;
+  EXPECT_NE(ended.out.find("again   node 'ego' was killed by signal 9"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("node 'traffic' was killed by signal 9"), std::string::npos) << ended.out;
+}
+
 // Nobody has to restart a dead node only to be able to stop.
 TEST_F(Recovery, ARunThatWaitsForADeadNodeCanBeStopped) {
   const std::string run_name = "recovery-stop-" + std::to_string(::getpid());
@@ -249,6 +333,24 @@ TEST_F(Recovery, WhoDiesAgainAndAgainWithoutGettingOnEndsTheRun) {
   EXPECT_EQ(ended.status, 1) << ended.out;
   EXPECT_NE(ended.out.find("it was lost 4 times without getting beyond step"), std::string::npos) << ended.out;
   EXPECT_TRUE(ProcessesWith("--run " + run_name).empty());
+}
+
+// Its other life computes what it has said already: whoever kept that notices, and the node is named, not who noticed.
+TEST_F(Recovery, WhoReadsAClockIsFoundOutWhenItIsStartedAgain) {
+  const auto launch = folder_.Write("broken.yaml", "rodeira: launch/1\nrecovery: restart\nnodes:\n  a: {kind: empty}\n  b: {kind: empty, config: {broken: clock}}\n"
+                                                   "  recorder: {kind: recorder}\n");
+  const std::string run_name = "recovery-broken-" + std::to_string(::getpid());
+  Started run({Bin("rodeira"), "run", launch.string(), "--run", run_name, "--for", "60", "--pace", "real", "--record", File("broken.mcap")});
+  ASSERT_TRUE(Runs(run_name));
+  std::this_thread::sleep_for(1500ms);
+  const pid_t broken = Find(run_name, "b");
+  ASSERT_GT(broken, 0);
+  ::kill(broken, SIGKILL);
+  const Ended ended = run.Wait(20s);
+  EXPECT_EQ(ended.status, 1) << ended.out;
+  EXPECT_NE(ended.out.find("node 'b' contradicts itself at step "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("field 'value': "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("depends on more than its inputs and its state"), std::string::npos) << ended.out;
 }
 
 TEST_F(Recovery, WhatCannotBeIsRefused) {

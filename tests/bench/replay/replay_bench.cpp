@@ -13,6 +13,7 @@
 #include "idl/messages.hpp"
 #include "launch/recorded_moments.hpp"
 #include "launch/recorded_view.hpp"
+#include "nodes/view/painter.hpp"
 #include "tests/common/replay/made_recording.hpp"
 
 namespace rodeira::front {
@@ -143,6 +144,31 @@ void Seek(benchmark::State& state) {
   state.counters["file_GB"] = static_cast<double>(run.reader().condition().file_bytes) * 1e-9;
 }
 BENCHMARK(Seek)->ArgName("cold")->Arg(0)->Arg(1)->Iterations(200)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// The same until it is seen: drawn at 1280 x 720 and read back, in the real recording's world.
+void SeekAndDraw(benchmark::State& state) {
+  const char* real = std::getenv("RODEIRA_RECORDING");
+  if (real == nullptr) return state.SkipWithError("a world is needed: RODEIRA_RECORDING=FILE");
+  RecordedMoments moments = MomentsOf(TheHour());
+  const auto recorded = replay::Must(replay::RecordedRun::Open(real));
+  const auto world = replay::Must(view::WorldOf(recorded.launch()));
+  auto settings = replay::Must(LookAt(recorded, {})).settings;
+  auto surface = replay::Must(view::Surface::Open(view::SurfaceKind::kOffscreen, 1280, 720, "bench"));
+  const auto painter = replay::Must(view::PainterOf(*surface, *world, {}));
+  painter->DrawWhole(view::PictureOf(settings, replay::Must(moments.At(0))));
+  std::uint64_t n = 0;
+  double worst_s = 0.0;
+  for (auto _ : state) {
+    const auto time_ns = static_cast<std::int64_t>(base::RandomUniform({7, n++}) * 3.6e12);
+    const auto begin = std::chrono::steady_clock::now();
+    painter->Draw(view::PictureOf(settings, replay::Must(moments.At(time_ns))));
+    benchmark::DoNotOptimize(painter->Read());
+    worst_s = std::max(worst_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
+  state.counters["worst_ms"] = worst_s * 1e3;
+  state.SetLabel(surface->renderer());
+}
+BENCHMARK(SeekAndDraw)->Iterations(200)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 // A picture after the other at 60 a second: speeds in tenths of real time, backward where negative.
 void Play(benchmark::State& state) {

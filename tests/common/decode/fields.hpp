@@ -76,8 +76,8 @@ void Fields(V& v, msg::LiveKeys& m) {
 }
 template <class V>
 void Fields(V& v, msg::WallTime& m) {
-  v("through_step", m.through_step()), v("utc_ns", m.utc_ns()), v("monotonic_ns", m.monotonic_ns()), v("late_ns", m.late_ns());
-  v("pace", m.pace()), v("paused", m.paused()), v("end", m.end());
+  v("after_step", m.after_step()), v("through_step", m.through_step()), v("utc_ns", m.utc_ns()), v("monotonic_ns", m.monotonic_ns());
+  v("late_ns", m.late_ns()), v("pace", m.pace()), v("paused", m.paused()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Remark& m) {
@@ -155,7 +155,9 @@ void Fields(V& v, msg::VehicleState& m) {
   v("angular_acceleration_b_radps2", m.angular_acceleration_b_radps2()), v("engine_torque_nm", m.engine_torque_nm());
   v("clutch", m.clutch()), v("clutch_torque_nm", m.clutch_torque_nm()), v("throttle", m.throttle()), v("brake", m.brake());
   v("steering_torque_nm", m.steering_torque_nm()), v("fuel_rate_kgps", m.fuel_rate_kgps()), v("drag_n", m.drag_n());
-  v("length_m", m.length_m()), v("front_m", m.front_m()), v("width_m", m.width_m()), v("gear", m.gear());
+  v("length_m", m.length_m()), v("front_m", m.front_m()), v("width_m", m.width_m()), v("height_m", m.height_m());
+  v("wheelbase_m", m.wheelbase_m()), v("track_front_m", m.track_front_m()), v("track_rear_m", m.track_rear_m());
+  v("wheel_radius_m", m.wheel_radius_m()), v("gear", m.gear());
   v("engine_running", m.engine_running()), v("inside_world", m.inside_world()), v("end", m.end());
 }
 template <class V>

@@ -121,9 +121,9 @@ TEST_F(ConductorTest, TheLogTellsWhenEachStepWasGrantedAndWhatWasDone) {
   const auto batch = conductor_.log().Take(At(61).monotonic_ns);
   ASSERT_TRUE(batch.has_value());
   EXPECT_TRUE(batch->last);
-  EXPECT_EQ(batch->walls, (std::vector<WallTime>{{0, At(40).utc_ns, 0, 0, 1.0, false},
-                                                 {3, At(43).utc_ns, 3 * kMs, 0, 1.0, false},
-                                                 {4, At(51).utc_ns, 11 * kMs, 0, 1.0, true}}));
+  EXPECT_EQ(batch->walls, (std::vector<WallTime>{{-1, 0, At(40).utc_ns, 0, 0, 1.0, false},
+                                                 {0, 3, At(43).utc_ns, 3 * kMs, 0, 1.0, false},
+                                                 {3, 4, At(51).utc_ns, 11 * kMs, 0, 1.0, true}}));
   std::string told;
   for (const Remark& remark : batch->remarks) told += std::string(RemarkName(remark.kind)) + std::to_string(remark.step) + remark.text + " ";
   EXPECT_EQ(told, "start-1 mark3a deer pause3 step31 stop4 end4 ");

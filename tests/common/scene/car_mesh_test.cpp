@@ -49,6 +49,19 @@ TEST(CarMesh, EveryPartIsClosedAndLooksOutward) {
   }
 }
 
+// Whichever picture comes first: how far the springs give there is no part of the car.
+TEST(CarMesh, IsBuiltTheSameWhereverItsWheelsAre) {
+  CarPose bumping = SmallCar();
+  for (WheelPose& wheel : bumping.wheels) wheel.hub_B += Eigen::Vector3d(0.01, 0.02, 0.05);
+  const CarShape rest = CarShape::Of(SmallCar()), other = CarShape::Of(bumping);
+  EXPECT_EQ(rest.wheel_radius_m, other.wheel_radius_m);
+  EXPECT_EQ(rest.tread_out_m, other.tread_out_m);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(rest.hubs_B[i], other.hubs_B[i]);
+    EXPECT_LT((rest.hubs_B[i] - SmallCar().wheels[i].hub_B).norm(), 1e-12);
+  }
+}
+
 TEST(CarMesh, HasTheCarsMeasures) {
   const CarShape shape = CarShape::Of(SmallCar());
   const CarMeshes car = BuildCar(shape, Colour::Of(0x123456));
