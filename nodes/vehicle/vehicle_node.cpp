@@ -82,61 +82,81 @@ class VehicleNode final : public lockstep::Node {
   std::optional<Collisions> collisions_;  // nothing: the car touches nobody
 };
 
-// The world that the road server has too: what its files answer in this process are the server's bits.
-base::Result<std::shared_ptr<const road::World>> OwnWorld(const launch::NodeContext& context, const launch::WorldSummary& summary, const char* otherwise) {
+// The world that the road server has too: what its files answer in this process are the server's bits. `without`: the key that does
+// without them.
+base::Result<std::shared_ptr<const road::World>> OwnWorld(const launch::NodeContext& context, const launch::WorldSummary& summary, const char* without) {
   const std::filesystem::path& file = context.launch().world();
   auto world = road::World::Load(file);
-  if (!world) return world.error();
+  if (!world) return base::Error{world.error().code, fmt::format("{} (without the world's files: '{}')", world.error().message, without), world.error().context};
   if (world.value()->content_hash() != summary.content_hash) {
     return base::WrongInput(fmt::format("the world's content hash is {} here and {} where the road server is; give both the same files, or '{}'",
-                                        base::Hex(world.value()->content_hash()), base::Hex(summary.content_hash), otherwise), file.string());
+                                        base::Hex(world.value()->content_hash()), base::Hex(summary.content_hash), without), file.string());
   }
   return world;
+}
+
+struct Settings {
+  std::filesystem::path vehicle;
+  vehicle::InitialCondition initial;
+  bool own_place = false, own_heading = false;  // otherwise the world's
+  bool asks = false;                            // for the ground, at each step
+  std::string hits;                             // all, traffic, none
+};
+
+Settings Read(const config::Map& config) {
+  Settings settings;
+  settings.vehicle = config.Path("vehicle");
+  const config::Map start = config.OptionalChild("start");
+  settings.own_place = start.Has("x_m") || start.Has("y_m");
+  settings.own_heading = settings.own_place || start.Has("heading_deg");
+  if (settings.own_place) {
+    settings.initial.x_m = start.Number("x_m");
+    settings.initial.y_m = start.Number("y_m");
+  }
+  settings.initial.heading_rad = start.Number("heading_deg", {-360.0, 360.0}, 0.0) * geometry::kPi / 180.0;
+  settings.initial.speed_mps = start.Number("speed_mps", {-20.0, 100.0}, 0.0);
+  settings.asks = config.Choice("ground", {"local", "remote"}, "local") == "remote";
+  settings.hits = config.Choice("collisions", {"all", "traffic", "none"}, "all");
+  return settings;
+}
+
+std::optional<Collisions> CollisionsOf(const std::string& hits, const vehicle::VehicleModel& model, const road::World* world, const std::string& node) {
+  if (hits == "none") return std::nullopt;
+  if (!model.can_be_pushed()) {
+    fmt::print(stderr, "rodeira: node '{}': the FMU has no inputs push_x_N … push_moment_z_Nm: collisions are told, but do not move the car\n", node);
+  }
+  const vehicle::VehicleDimensions& dimensions = model.dimensions();
+  ObstacleMap map = hits == "all" && world != nullptr ? ObstacleMap(*world, vehicle::BoxOf(dimensions, {}).reach_m()) : ObstacleMap();
+  return std::make_optional<Collisions>(dimensions, std::move(map));
 }
 
 }  // namespace
 
 base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContext& context) {
-  const config::Map config = context.config();
-  const std::filesystem::path file = config.Path("vehicle");
-  const config::Map start = config.OptionalChild("start");
-  vehicle::InitialCondition initial;
-  const bool own_place = start.Has("x_m") || start.Has("y_m");
-  if (own_place) {
-    initial.x_m = start.Number("x_m");
-    initial.y_m = start.Number("y_m");
-  }
-  const double heading_deg = start.Number("heading_deg", {-360.0, 360.0}, 0.0);
-  initial.heading_rad = heading_deg * geometry::kPi / 180.0;
-  initial.speed_mps = start.Number("speed_mps", {-20.0, 100.0}, 0.0);
-  const bool asks = config.Choice("ground", {"local", "remote"}, "local") == "remote";
-  const std::string hits = config.Choice("collisions", {"all", "traffic", "none"}, "all");
+  Settings settings = Read(context.config());
   if (auto status = context.launch().file().Finish(); !status) return status.error();
-  auto model = vehicle::LoadVehicle(file, context.launch().vehicle_model());
+  auto model = vehicle::LoadVehicle(settings.vehicle, context.launch().vehicle_model());
   if (!model) return model.error();
-  const auto world = context.World();
-  if (!world) return world.error();
-  if (!own_place) {
-    initial.x_m = world.value().start_x_m;
-    initial.y_m = world.value().start_y_m;
-    if (!start.Has("heading_deg")) initial.heading_rad = world.value().start_heading_rad;
+  const auto summary = context.World();
+  if (!summary) return summary.error();
+  if (!settings.own_place) {
+    settings.initial.x_m = summary.value().start_x_m;
+    settings.initial.y_m = summary.value().start_y_m;
   }
-  context.set_world_hash(world.value().content_hash);
-  const bool own_ground = !asks && !context.ground_is_here();
-  std::shared_ptr<const road::World> here;
-  if (own_ground || (hits == "all" && !context.launch().world().empty())) {
-    auto made = OwnWorld(context, world.value(), own_ground ? "ground: remote" : "collisions: traffic");
+  if (!settings.own_heading) settings.initial.heading_rad = summary.value().start_heading_rad;
+  context.set_world_hash(summary.value().content_hash);
+  const bool own_ground = !settings.asks && !context.ground_is_here();
+  std::shared_ptr<const road::World> world;
+  if (own_ground || (settings.hits == "all" && !context.launch().world().empty())) {
+    auto made = OwnWorld(context, summary.value(), own_ground ? "ground: remote, collisions: traffic" : "collisions: traffic");
     if (!made) return made.error();
-    here = std::move(made).value();
+    world = std::move(made).value();
   }
-  std::unique_ptr<terrain::Ground> own = own_ground ? here->MakeGround() : nullptr;
-  std::optional<Collisions> collisions;
-  if (hits != "none") collisions.emplace(model.value()->dimensions(), hits == "all" && here ? ObstacleMap(*here, vehicle::BoxOf(model.value()->dimensions(), {}).reach_m()) : ObstacleMap());
-  if (collisions && !model.value()->can_be_pushed()) {
-    fmt::print(stderr, "rodeira: node '{}': the FMU has no inputs push_x_N … push_moment_z_Nm: collisions are told, but do not move the car\n", context.spec().name);
-  }
+  std::unique_ptr<terrain::Ground> own = own_ground ? world->MakeGround() : nullptr;
   terrain::Ground& ground = own != nullptr ? *own : context.Ground();
-  return std::unique_ptr<lockstep::Node>(std::make_unique<VehicleNode>(context.spec().outputs.front(), std::move(model).value(), initial, std::move(own), ground, std::move(collisions)));
+  std::optional<Collisions> collisions = CollisionsOf(settings.hits, *model.value(), world.get(), context.spec().name);
+  return std::unique_ptr<lockstep::Node>(std::make_unique<VehicleNode>(context.spec().outputs.front(), std::move(model).value(), settings.initial,
+                                                                       std::move(own), ground, std::move(collisions)));
 }
 
 }  // namespace rodeira::nodes

@@ -63,7 +63,7 @@ TEST(TirFile, RefusalsNamePlaceAndRemedy) {
   EXPECT_THAT(ProblemAfter("PKY1 = -18", "PKY1 = 18"), HasSubstr("a positive slip angle gives a force to the right"));
   EXPECT_THAT(ProblemAfter("FNOMIN = 4000", "FNOMIN = 0"), HasSubstr("'FNOMIN' is 0; more than 0 was expected"));
   EXPECT_THAT(ProblemAfter("PDY2 = -.1", "PDY22 = -.1"), HasSubstr("'PDY22' is no coefficient of the Magic Formula; did you mean 'PDY2'?"));
-  EXPECT_THAT(ProblemAfter("LMUX = 1", "LMUXX = 1"), HasSubstr("t.tir:19: 'LMUXX' is no coefficient of the Magic Formula; did you mean 'LMUX'?"));
+  EXPECT_THAT(ProblemAfter("LMUX = 1", "LMUXX = 1"), HasSubstr("t.tir:20: 'LMUXX' is no coefficient of the Magic Formula; did you mean 'LMUX'?"));
   EXPECT_EQ(ProblemAfter("LMUX = 1", "LTR = 1"), "") << "of moments, which nobody asks for here";
   EXPECT_EQ(ProblemAfter("MASS = 9.3", "WEIGHT = 9.3"), "") << "nothing of the forces";
   EXPECT_THAT(ProblemAfter("FITTYP = 52", "TYRESIDE = 'UP'\nFITTYP = 52"), HasSubstr("t.tir:11: TYRESIDE is 'UP'; 'LEFT' or 'RIGHT' was expected"));
