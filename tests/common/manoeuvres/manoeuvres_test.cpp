@@ -11,6 +11,7 @@
 #include "common/geometry/angle.hpp"
 #include "common/manoeuvres/proving_ground.hpp"
 #include "common/manoeuvres/trial.hpp"
+#include "common/vehicle/multibody_model.hpp"
 #include "tests/common/vehicle/every_model.hpp"
 #include "tests/common/vehicle/test_car.hpp"
 
@@ -227,6 +228,19 @@ TEST(Manoeuvres, AnFmusFiguresAreThoseOfItsEquations) {
   EXPECT_NEAR(Value(turned, "yaw rate overshoot"), 0.0, 0.5);
   EXPECT_NEAR(Value(Driven(ConstantRadius(*car, kStep_s)), "understeer gradient"), 0.0, 0.01);
   EXPECT_EQ(Value(Driven(Park(*car, kStep_s)), "creep"), 0.0);
+}
+
+// The multibody car with undivided steps of 10 ms: the same drive as at 1 ms, 1 cm nearer to or farther from the cones at most.
+TEST(Manoeuvres, AtTenMillisecondsTheMultibodyCarStillDrivesTheLaneChange) {
+  auto fine = vehicle::MakeModel(vehicle::kMultibody);
+  vehicle::MultibodySettings settings = static_cast<vehicle::MultibodyModel&>(*fine).settings();
+  settings.longest_substep_s = 0.01;
+  vehicle::MultibodyModel coarse(settings);
+  ASSERT_TRUE(coarse.Build().ok());
+  const Outcome expected = Driven(LaneChange(*fine, 0.001)), found = Driven(LaneChange(coarse, 0.01));
+  EXPECT_NEAR(Value(found, "room left to the cones"), Value(expected, "room left to the cones"), 0.01);
+  EXPECT_NEAR(Value(found, "largest lateral acceleration"), Value(expected, "largest lateral acceleration"), 0.2);
+  EXPECT_GT(coarse.state().p_WB_W.x(), 100.0) << "it is through";
 }
 
 TEST(Manoeuvres, AModelThatFailsOnTheWayIsToldInItsOwnWords) {
