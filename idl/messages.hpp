@@ -10,6 +10,7 @@
 #include "parcel.h"
 #include "pulse.h"
 #include "scenario.h"
+#include "signals.h"
 #include "snapshot.h"
 #include "traffic.h"
 #include "trigger.h"

@@ -12,6 +12,7 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kVehicleState, "rodeira::msg::VehicleState", "vehicle", true},
       {topics::kCollisions, "rodeira::msg::Collisions", "collision", true},
       {topics::kTrafficState, "rodeira::msg::TrafficState", "traffic", true},
+      {topics::kSignalsState, "rodeira::msg::SignalsState", "signals", true},
       {topics::kScenarioEvents, "rodeira::msg::ScenarioEvents", "scenario", true},
       {topics::kSnapshot, "rodeira::msg::Snapshot", "snapshot", true},
       {topics::kPulse, "rodeira::msg::Pulse", "pulse", true},

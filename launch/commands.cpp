@@ -136,7 +136,12 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
   run->add_option("--step", options.step_s, "seconds a step, to 0.1")->check(CLI::Range(0.001, 0.1));
   run->add_option("--seed", options.seed, "seed of everything that is drawn");
-  run->add_option("--csv", options.csv, "folder for trajectories.csv");
+  run->add_option("--settings", options.settings, "how they drive: a file of 'rodeira: traffic/1', with the keys of a launch file's traffic");
+  run->add_option("--csv", options.csv, "folder for trajectories.csv, lanes.csv, queues.csv, trips.csv");
+  run->add_option("--heat", options.heat, "mean speed by the metre as a picture (.svg); flow, density, speed and fuel as a GeoTIFF (.tif)");
+  run->add_option("--fcd", options.fcd, "floating car data for SUMO's tools (.xml)");
+  run->add_option("--diagram", options.diagram, "trajectories of a lane over time (.svg)");
+  run->add_option("--lane", options.lane, "which lane, ROAD:LANE; the longest one unless said")->needs("--diagram");
   run->add_flag("--quiet", options.quiet, "no progress, no table");
   run->callback([&options] { options.asked = true; });
 }
@@ -234,7 +239,7 @@ CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::stri
   CLI::Option* frames = replay->add_option("--frames", options.watch.frames, "folder: write pictures (PNG) as the run's view would have");
   CLI::Option* at = replay->add_option("--at", options.watch.at_s, "simulated seconds of the pictures")->needs(frames);
   frames->needs(at);
-  replay->add_option("--camera", options.watch.camera, "chase or driver; otherwise as the run's view");
+  replay->add_option("--camera", options.watch.camera, "chase, driver, bonnet, orbit, top or trackside; otherwise as the run's view");
   replay->add_option("--follow", options.watch.follow, "name of a vehicle node; otherwise as the run's view");
   replay->add_option("--size", options.watch.size, "WIDTHxHEIGHT in pixels; otherwise as the run's view");
   replay->add_flag("--verify", options.verify, "compute everything again and compare every sample and state");

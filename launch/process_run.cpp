@@ -163,14 +163,15 @@ class ProcessRun {
     if (node.recovery == lockstep::Policy::kStop) Fault(fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step));
     crew_.clock().Send(fmt::format("lost {} {}", broken.name(), broken.Fate()));
   }
-  // A clock that is lost again and again without the run getting on has a reason for it.
+  // A clock that is lost again and again without the run getting on has a reason for it. One that had not said its number yet (0) is
+  // known to nobody: another one draws its own.
   bool MayRestartClock() {
     while (ReadClock(0)) {
     }
     const Child& clock = crew_.clock();
     const bool by_itself = clock.ended() && clock.exit_status() && *clock.exit_status() <= 2;
     if (by_itself || report_.ended || !fault_.empty() || g_interrupts > 0) return false;
-    if (!placement_.has_clock() || launch_.recovery() != lockstep::Policy::kRestart || report_.clock_id == 0) return false;
+    if (!placement_.has_clock() || launch_.recovery() != lockstep::Policy::kRestart) return false;
     clocks_losses_ = report_.step > clocks_last_step_ ? 1 : clocks_losses_ + 1;
     clocks_last_step_ = report_.step;
     return clocks_losses_ < 4;

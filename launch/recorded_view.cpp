@@ -1,6 +1,7 @@
 #include "launch/recorded_view.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -31,7 +32,7 @@ std::optional<lockstep::NodeIndex> ViewOf(const lockstep::Roster& roster) {
 void AddSource(const lockstep::Roster& roster, lockstep::SourceIndex source, Seen& seen) {
   const std::string& topic = roster.source(source).topic;
   if (topic == topics::kVehicleState) seen.cars.push_back(source);
-  if (topic == topics::kVehicleState || topic == topics::kTrafficState) seen.sources.push_back(source);
+  if (topic == topics::kVehicleState || topic == topics::kTrafficState || topic == topics::kSignalsState) seen.sources.push_back(source);
 }
 
 // "1280x720"
@@ -50,13 +51,14 @@ base::Status TakeSize(const std::string& text, view::ViewSettings& settings) {
 
 base::Status TakeWishes(const lockstep::Roster& roster, const WatchOptions& options, Seen& seen) {
   if (options.camera) {
-    const std::vector<std::string> cameras = {"chase", "driver"};
-    if (*options.camera != cameras[0] && *options.camera != cameras[1]) {
-      return base::WrongInput(fmt::format("'{}' was found; chase or driver was expected{}", *options.camera,
-                                          base::DidYouMean(*options.camera, cameras)),
+    const auto camera = scene::CameraOf(*options.camera);
+    if (!camera) {
+      const auto names = scene::CameraNames();
+      return base::WrongInput(fmt::format("'{}' was found; {} was expected{}", *options.camera, fmt::join(names, ", "),
+                                          base::DidYouMean(*options.camera, {names.begin(), names.end()})),
                               "--camera");
     }
-    seen.settings.camera = *options.camera == "driver" ? scene::CameraKind::kDriver : scene::CameraKind::kChase;
+    seen.settings.camera = *camera;
   }
   if (options.follow) {
     const auto followed = view::FindFollowed(roster, seen.cars, *options.follow);

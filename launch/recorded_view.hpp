@@ -13,7 +13,7 @@ namespace rodeira::front {
 struct Seen {
   view::ViewSettings settings;
   std::vector<lockstep::SourceIndex> cars;
-  std::vector<lockstep::SourceIndex> sources;  // cars and traffic
+  std::vector<lockstep::SourceIndex> sources;  // cars, traffic, lights
   lockstep::Step period = 1;                   // of the view
 };
 

@@ -7,19 +7,19 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <system_error>
+#include <utility>
 
 #include "common/map/map_network.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
+#include "launch/traffic_files.hpp"
 
 namespace rodeira::front {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kRowEvery_s = 0.5;
+constexpr double kCell_m = 1.0;  // of the statistics of lanes
 
 int Complain(const base::Error& error) {
   fmt::print(stderr, "rodeira: {}\n", error.Text());
@@ -34,43 +34,6 @@ base::Result<std::shared_ptr<const network::Network>> Roads(const std::string& m
   if (!world) return world.error();
   return traffic::NetworkOf(world.value());
 }
-
-// One row a car and half second.
-class Trajectories {
- public:
-  base::Status Open(const std::string& folder) {
-    std::error_code problem;
-    std::filesystem::create_directories(folder, problem);
-    path_ = (std::filesystem::path(folder) / "trajectories.csv").string();
-    out_.open(path_);
-    if (problem || !out_) return base::Failed("the folder cannot be written to", folder);
-    out_ << "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane\n";
-    return {};
-  }
-  void Write(const traffic::StudyMoment& moment) {
-    if (!out_.is_open() || moment.time_s < next_s_ - 1e-9) return;
-    next_s_ += kRowEvery_s;
-    for (const traffic::AgentPose& pose : moment.model.poses()) {
-      const Eigen::Vector3d forward = pose.q_WB * Eigen::Vector3d::UnitX();
-      out_ << fmt::format("{:.2f},{},{},{:.3f},{:.3f},{:.3f},{:.5f},{:.3f},{:.3f},{},{}\n", moment.time_s, pose.id, pose.trip,
-                          pose.p_WB_W.x(), pose.p_WB_W.y(), pose.p_WB_W.z(), std::atan2(forward.y(), forward.x()), pose.speed_mps,
-                          pose.acceleration_mps2, moment.model.graph().network().roads()[static_cast<std::size_t>(pose.road)].id(),
-                          pose.lane);
-    }
-  }
-  base::Status Close() {
-    if (!out_.is_open()) return {};
-    out_.close();
-    if (!out_) return base::Failed("the table could not be written to its end", path_);
-    return {};
-  }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-  std::ofstream out_;
-  double next_s_ = 0.0;
-};
 
 void Describe(const TrafficOptions& options, const traffic::StudyResult& r, double wall_s) {
   fmt::print("vehicles         {} on the road, {} waiting to enter, {} trips ended\n", r.on_road, r.waiting, r.arrivals);
@@ -91,29 +54,36 @@ int TrafficRun(const TrafficOptions& options) {
   const auto roads = Roads(options.map);
   if (!roads) return Complain(roads.error());
   traffic::StudySettings settings;
+  if (!options.settings.empty()) {
+    auto loaded = traffic::LoadTraffic(options.settings, options.seed);
+    if (!loaded) return Complain(loaded.error());
+    settings.traffic = std::move(loaded).value();
+  }
   settings.traffic.vehicles = options.vehicles;
   settings.traffic.seed = options.seed;
   settings.duration_s = options.duration_s;
   settings.step_s = options.step_s;
   settings.watch_s = std::max(0.1, options.step_s);
-  Trajectories trajectories;
-  if (!options.csv.empty()) {
-    if (auto status = trajectories.Open(options.csv); !status) return Complain(status.error());
-  }
+  auto opened = TrafficFiles::Open(options, *roads.value());
+  if (!opened) return Complain(opened.error());
+  TrafficFiles files = std::move(opened).value();
+  if (files.wants_cells()) settings.cell_m = kCell_m;
   const bool terminal = !options.quiet && ::isatty(STDERR_FILENO) == 1;
   const auto begin = Clock::now();
   bool shown = false;
   const auto result = traffic::RunStudy(settings, roads.value(), [&](const traffic::StudyMoment& moment) {
-    trajectories.Write(moment);
+    files.Write(moment);
     if (!terminal || SecondsSince(begin) < 2.0) return;
     fmt::print(stderr, "\r{:3.0f} %", 100.0 * moment.time_s / options.duration_s);
     shown = true;
   });
   if (shown) fmt::print(stderr, "\r     \r");
   if (!result) return Complain(result.error());
-  if (auto status = trajectories.Close(); !status) return Complain(status.error());
-  if (!options.quiet) Describe(options, result.value(), SecondsSince(begin));
-  if (!options.csv.empty() && !options.quiet) fmt::print("wrote            {}\n", trajectories.path());
+  const auto written = files.Close(*roads.value(), result.value());
+  if (!written) return Complain(written.error());
+  if (options.quiet) return 0;
+  Describe(options, result.value(), SecondsSince(begin));
+  for (const std::string& file : written.value()) fmt::print("wrote            {}\n", file);
   return 0;
 }
 

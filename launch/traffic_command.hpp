@@ -5,7 +5,7 @@
 
 namespace rodeira::front {
 
-// `rodeira traffic run MAP --vehicles N --for S [--csv DIR]`
+// `rodeira traffic run MAP --vehicles N --for S [--settings FILE] [--csv DIR] [--heat FILE] [--fcd FILE] [--diagram FILE --lane ROAD:LANE]`
 struct TrafficOptions {
   bool asked = false;
   std::string map;  // a world file, .xodr or .motors
@@ -13,7 +13,12 @@ struct TrafficOptions {
   double duration_s = 60.0;
   double step_s = 0.01;
   std::uint64_t seed = 1;
+  std::string settings;  // a file of `rodeira: traffic/1`; empty: as usual
   std::string csv;  // folder; empty: no tables
+  std::string heat;     // .svg or .tif; empty: none
+  std::string fcd;      // .xml; empty: none
+  std::string diagram;  // .svg; empty: none
+  std::string lane;     // of the diagram, "ROAD:LANE"; empty: the longest one
   bool quiet = false;
 };
 

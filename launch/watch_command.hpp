@@ -13,7 +13,7 @@ struct WatchOptions {
   bool paused = false;
   std::string frames;                 // folder of PNG files
   std::vector<double> at_s;           // their times
-  std::optional<std::string> camera;  // instead of the recorded view's: chase, driver
+  std::optional<std::string> camera;  // instead of the recorded view's; scene::CameraNames()
   std::optional<std::string> follow;  // name of a vehicle node
   std::optional<std::string> size;    // "1280x720"
 };

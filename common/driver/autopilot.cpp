@@ -33,10 +33,12 @@ double Autopilot::WantedAcceleration(const DriverView& view, const Way::Place& p
   }
   double wanted = std::min(settings_.idm.acceleration_mps2, slope * speed + (allowed_mps_ - speed) / settings_.tracking_s);
 
+  const double front = place.d_m + view.dimensions.front_m;
   const double middle = 0.5 * (view.dimensions.front_m - view.dimensions.rear_m);
   const double half_width = 0.5 * view.dimensions.width_m + settings_.side_margin_m;
-  leader_ = FindLeader(*path_, view.others, place.d_m + middle, place.d_m + view.dimensions.front_m, half_width, settings_.range_m);
+  leader_ = FindLeader(*path_, view.others, place.d_m + middle, front, half_width, settings_.range_m);
   if (leader_) wanted = std::min(wanted, IdmAcceleration(settings_.idm, speed, limit, leader_->gap_m, leader_->speed_mps));
+  if (const auto stop = light_stops_.Step(settings_.lights, view.lights, front, speed, settings_.anticipation_s)) wanted = std::min(wanted, *stop);
   return std::max(wanted, -settings_.idm.hardest_mps2);
 }
 
@@ -88,10 +90,12 @@ void Autopilot::TakeOver(const vehicle::Controls& last) {
   steering_wheel_rad_ = last.steering_wheel_rad;
   allowed_mps_ = 0.0;
   leader_.reset();
+  light_stops_ = LightStops();
 }
 
 void Autopilot::Save(base::StateWriter& writer) const {
   writer.Put("pedals", pedals_);
+  writer.Put("light_stops", light_stops_);
   writer.Put("steering_wheel_rad", steering_wheel_rad_);
   writer.Put("allowed_mps", allowed_mps_);
   writer.Put("has_leader", leader_.has_value());
@@ -101,6 +105,7 @@ void Autopilot::Save(base::StateWriter& writer) const {
 
 void Autopilot::Restore(base::StateReader& reader) {
   reader.Get("pedals", pedals_);
+  reader.Get("light_stops", light_stops_);
   reader.Get("steering_wheel_rad", steering_wheel_rad_);
   reader.Get("allowed_mps", allowed_mps_);
   bool has_leader = false;

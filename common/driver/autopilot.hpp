@@ -12,6 +12,7 @@
 #include "common/driver/idm.hpp"
 #include "common/driver/lane_path.hpp"
 #include "common/driver/leader.hpp"
+#include "common/driver/lights_ahead.hpp"
 #include "common/driver/pedals.hpp"
 #include "common/driver/speed_plan.hpp"
 #include "common/driver/steering.hpp"
@@ -25,6 +26,7 @@ struct AutopilotSettings {
   SpeedPlanSettings speed{.stop_at_end = true};
   SteeringSettings steering;
   PedalSettings pedals;
+  LightSettings lights;
   double speed_factor = 0.98;     // of the legal limit: slopes and gear changes leave a little over
   double anticipation_s = 0.5;    // the plan is read so far ahead in time, as pedals and engine take theirs
   double tracking_s = 1.0;        // time in which a deviation from the plan is made good
@@ -43,10 +45,11 @@ struct DriverView {
   const vehicle::VehicleState& own;
   const vehicle::VehicleDimensions& dimensions;
   std::span<const Footprint> others;  // without the own car
+  std::span<const LightAhead> lights = {};  // on its way, ascending; behind it too
 };
 
 // Drives a lane by steering wheel, pedals and selector alone: at the speed that limit, bends, crests and slopes allow,
-// behind a leader by the IDM, to a stop before what blocks the lane and before the road's end.
+// behind a leader by the IDM, to a stop before what blocks the lane, at lights, and before the road's end.
 class Autopilot {
  public:
   // Drives this lane of the road, which must outlive the autopilot.
@@ -75,6 +78,7 @@ class Autopilot {
   std::unique_ptr<const Way> path_;
   SpeedPlan plan_;
   Pedals pedals_;
+  LightStops light_stops_;
   double steering_wheel_rad_ = 0.0;
   double allowed_mps_ = 0.0;
   std::optional<Leader> leader_;

@@ -39,6 +39,17 @@ RoutePath::RoutePath(const network::Network& network, std::vector<RouteLeg> legs
   }
 }
 
+double RoutePath::Distance(std::size_t leg, double s_m) const {
+  const bool along = legs_[leg].along;
+  const auto after = std::partition_point(nodes_.begin(), nodes_.end(), [&](const Node& node) {
+    return node.leg < leg || (node.leg == leg && (along ? node.s_m < s_m : node.s_m > s_m));
+  });
+  if (after == nodes_.begin() || (after - 1)->leg != leg) return after->d_m;
+  const Node& before = *(after - 1);
+  if (after == nodes_.end() || after->leg != leg) return before.d_m;
+  return before.d_m + (s_m - before.s_m) / (after->s_m - before.s_m) * (after->d_m - before.d_m);
+}
+
 RoutePath::Spot RoutePath::SpotAt(double d_m) const {
   const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), d_m, [](double d, const Node& node) { return d < node.d_m; });
   if (after == nodes_.begin()) return {nodes_.front().leg, nodes_.front().s_m};

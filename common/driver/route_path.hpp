@@ -14,6 +14,8 @@ class RoutePath final : public Way {
   RoutePath(const network::Network& network, std::vector<RouteLeg> legs);  // at least one leg
 
   const std::vector<RouteLeg>& legs() const { return legs_; }
+  // The distance at which a leg passes s of its road.
+  double Distance(std::size_t leg, double s_m) const;
   double length_m() const override { return nodes_.back().d_m; }
   double SpeedLimit_mps(double d_m) const override;
   LaneFrame At(double d_m) const override;

@@ -18,17 +18,10 @@ bool CubicTable::zero() const {
                      [](const Cubic& r) { return r.a == 0.0 && r.b == 0.0 && r.c == 0.0 && r.d == 0.0; });
 }
 
-std::size_t CubicTable::Index(double x) const {
-  if (records_.size() < 2 || x < records_[1].from) return 0;
+std::size_t CubicTable::IndexBehind(double x) const {
   const auto after =
       std::upper_bound(records_.begin() + 2, records_.end(), x, [](double value, const Cubic& r) { return value < r.from; });
   return static_cast<std::size_t>(after - records_.begin()) - 1;
-}
-
-CubicPoint CubicTable::Evaluate(double x) const {
-  if (records_.empty()) return {};
-  const Cubic& record = At(x);
-  return {record.Value(x), record.Slope(x), record.Bend(x)};
 }
 
 void CubicTable::Bounds(double low, double high, double& smallest, double& largest) const {

@@ -40,12 +40,17 @@ class CubicTable {
   // The record in force at x. There must be one.
   const Cubic& At(double x) const { return records_[Index(x)]; }
   double Value(double x) const { return records_.empty() ? 0.0 : At(x).Value(x); }
-  CubicPoint Evaluate(double x) const;
+  CubicPoint Evaluate(double x) const {
+    if (records_.empty()) return {};
+    const Cubic& record = At(x);
+    return {record.Value(x), record.Slope(x), record.Bend(x)};
+  }
   // The smallest and the largest value in [low, high], exact but for rounding.
   void Bounds(double low, double high, double& smallest, double& largest) const;
 
  private:
-  std::size_t Index(double x) const;
+  std::size_t Index(double x) const { return records_.size() < 2 || x < records_[1].from ? 0 : IndexBehind(x); }
+  std::size_t IndexBehind(double x) const;  // where the first record is not in force
   std::vector<Cubic> records_;
 };
 

@@ -11,6 +11,15 @@ namespace {
 
 constexpr double kLastStep_m = 1e-7;
 
+// An arc tangent by its power series, to the last bit or the one before it; a panel of an arc turns by half a radian at most.
+constexpr double kSmallTangent = 0.13;
+double SmallArcTangent(double x) {
+  const double q = x * x, q2 = q * q;
+  const double high = (1.0 / 9.0 - q / 11.0) + q2 * ((1.0 / 13.0 - q / 15.0) + q2 * (1.0 / 17.0));
+  const double low = (-1.0 / 3.0 + q / 5.0) + q2 * (-1.0 / 7.0 + q * high);
+  return x + x * q * low;
+}
+
 PlanPoint ArcAt(const AxisPanel& panel, double u_m) {
   const double turned = panel.curvature_1pm * u_m;
   const double sine = std::sin(turned), cosine = std::cos(turned), half_sine = std::sin(0.5 * turned);
@@ -49,32 +58,43 @@ PlanPoint PlanAxis::At(const AxisPanel& panel, double u_m) const {
 }
 
 AxisFoot PlanAxis::Foot(const AxisPanel& panel, const Eigen::Vector2d& p_W) const {
-  const Eigen::Vector2d away = p_W - panel.middle_W;
-  const double along = away.dot(panel.tangent_W);
-  const double aside = Cross(panel.tangent_W, away);
-  if (panel.kind == AxisPanel::Kind::kLine) {
-    const double u = std::clamp(along, -panel.half_m, panel.half_m);
-    return {u, aside, along - u};
-  }
-  if (panel.kind == AxisPanel::Kind::kCubic) return CubicFoot(cubics_[panel.detail], panel.half_m, p_W);
-  if (panel.kind == AxisPanel::Kind::kArc) {
-    // Seen from the centre, the point stands at the angle of (1 - k n, k a): n is its distance to the left, a ahead.
-    const double k = panel.curvature_1pm;
-    const double u = std::atan2(k * along, 1.0 - k * aside) / k;
-    if (std::fabs(u) <= panel.half_m) {
-      const double h = std::hypot(k * along, 1.0 - k * aside);
-      return {u, (2.0 * aside - k * (along * along + aside * aside)) / (1.0 + h), 0.0};
+  switch (panel.kind) {
+    case AxisPanel::Kind::kLine: {
+      const Eigen::Vector2d away = p_W - panel.middle_W;
+      const double along = away.dot(panel.tangent_W);
+      const double u = std::clamp(along, -panel.half_m, panel.half_m);
+      return {u, Cross(panel.tangent_W, away), along - u, At(panel, u)};
     }
-    const double end = u > 0.0 ? panel.half_m : -panel.half_m;
-    const PlanPoint at = ArcAt(panel, end);
-    return {end, Cross(at.tangent_W, p_W - at.p_W), at.tangent_W.dot(p_W - at.p_W)};
+    case AxisPanel::Kind::kArc: return ArcFoot(panel, p_W);
+    case AxisPanel::Kind::kCubic: return CubicFoot(cubics_[panel.detail], panel, p_W);
+    case AxisPanel::Kind::kSeries: break;
   }
   const ClothoidPanel& series = series_[panel.detail];
-  const PanelFoot foot = series.Nearest(p_W);
-  PlanPoint at;
-  series.Point(foot.u_m, at.p_W, at.tangent_W);
-  const bool inside = std::fabs(foot.u_m) < panel.half_m;
-  return {foot.u_m, Cross(at.tangent_W, p_W - at.p_W), inside ? 0.0 : at.tangent_W.dot(p_W - at.p_W)};
+  const double u = series.Nearest(p_W).u_m;
+  const PlanPoint at = series.At(u);
+  const bool inside = std::fabs(u) < panel.half_m;
+  return {u, Cross(at.tangent_W, p_W - at.p_W), inside ? 0.0 : at.tangent_W.dot(p_W - at.p_W), at};
+}
+
+AxisFoot PlanAxis::ArcFoot(const AxisPanel& panel, const Eigen::Vector2d& p_W) const {
+  // Seen from the centre, the point stands at the angle of (1 - k n, k a): n is its distance to the left, a ahead.
+  const Eigen::Vector2d away = p_W - panel.middle_W, left = Left(panel.tangent_W);
+  const double along = away.dot(panel.tangent_W), aside = away.dot(left), k = panel.curvature_1pm;
+  const double x = 1.0 - k * aside, y = k * along, h = std::sqrt(x * x + y * y);
+  const double tangent_of_half = y / (h + x);
+  const double u = (std::fabs(tangent_of_half) <= kSmallTangent ? 2.0 * SmallArcTangent(tangent_of_half) : std::atan2(y, x)) / k;
+  if (std::fabs(u) <= panel.half_m && h > 0.0) {
+    AxisFoot foot{u, (2.0 * aside - k * (along * along + aside * aside)) / (1.0 + h), 0.0, {}};
+    const double inverse = 1.0 / h;
+    foot.at.tangent_W = x * inverse * panel.tangent_W + y * inverse * left;
+    foot.at.p_W = p_W - foot.t_m * foot.at.left_W();
+    foot.at.heading_rad = panel.heading_rad + k * u;
+    foot.at.curvature_1pm = k;
+    return foot;
+  }
+  const double end = u > 0.0 ? panel.half_m : -panel.half_m;
+  const PlanPoint at = ArcAt(panel, end);
+  return {end, Cross(at.tangent_W, p_W - at.p_W), at.tangent_W.dot(p_W - at.p_W), at};
 }
 
 double PlanAxis::Bulge(const AxisPanel& panel) const {
@@ -128,7 +148,7 @@ PlanPoint PlanAxis::CubicAt(const CubicPanel& cubic, double heading_rad, double 
   return point;
 }
 
-AxisFoot PlanAxis::CubicFoot(const CubicPanel& cubic, double half_m, const Eigen::Vector2d& p_W) const {
+AxisFoot PlanAxis::CubicFoot(const CubicPanel& cubic, const AxisPanel& panel, const Eigen::Vector2d& p_W) const {
   Eigen::Vector2d at, first, second;
   double best_m2 = 0.0, best_q = 0.0;
   bool found = false;
@@ -166,11 +186,10 @@ AxisFoot PlanAxis::CubicFoot(const CubicPanel& cubic, double half_m, const Eigen
     ahead(q);
     offer(q);
   }
-  ahead(best_q);
-  const Eigen::Vector2d tangent = first.normalized();
-  const double u = std::clamp(cubic.UAt(best_q), -half_m, half_m);
+  const PlanPoint foot = CubicAt(cubic, panel.heading_rad, best_q);
+  const double u = std::clamp(cubic.UAt(best_q), -panel.half_m, panel.half_m);
   const bool inside = std::fabs(best_q) < cubic.half_q;
-  return {u, Cross(tangent, p_W - at), inside ? 0.0 : tangent.dot(p_W - at)};
+  return {u, Cross(foot.tangent_W, p_W - foot.p_W), inside ? 0.0 : foot.tangent_W.dot(p_W - foot.p_W), foot};
 }
 
 PlanPoint PlanAxis::End(const PlanElement& element) {

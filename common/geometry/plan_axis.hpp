@@ -59,6 +59,7 @@ struct AxisFoot {
   double u_m = 0.0;
   double t_m = 0.0;
   double beyond_m = 0.0;
+  PlanPoint at;  // there, but for rounding what PlanAxis::At says
 };
 
 // A reference line as other programs' files give it: elements that each say where they start, which may leave small
@@ -97,7 +98,8 @@ class PlanAxis {
   };
   bool CutClothoidElement(const PlanElement& element);
   bool CutCubicElement(const PlanElement& element);
-  AxisFoot CubicFoot(const CubicPanel& cubic, double half_m, const Eigen::Vector2d& p_W) const;
+  AxisFoot ArcFoot(const AxisPanel& panel, const Eigen::Vector2d& p_W) const;
+  AxisFoot CubicFoot(const CubicPanel& cubic, const AxisPanel& panel, const Eigen::Vector2d& p_W) const;
   PlanPoint CubicAt(const CubicPanel& cubic, double heading_rad, double q) const;
 
   std::vector<PlanElement> elements_;

@@ -45,24 +45,30 @@ std::string Named(const Graph& graph, const LightPlace& light) {
 
 }  // namespace
 
-std::vector<LightPlace> LightsOf(const Graph& graph, std::uint32_t track) {
-  std::vector<LightPlace> lights;
-  if (graph.network().controllers().empty()) return lights;
-  const Track& t = graph[track];
-  const network::RoadSpec& road = graph.network().roads()[t.lane.road].spec();
-  const auto& nodes = t.curve.nodes();
-  const double low = std::min(nodes.front().s_m, nodes.back().s_m), high = std::max(nodes.front().s_m, nodes.back().s_m);
+std::vector<LaneLight> LightsOfLane(const network::Network& network, const network::LaneKey& lane, bool along, double low_s_m, double high_s_m) {
+  std::vector<LaneLight> lights;
+  if (network.controllers().empty()) return lights;
+  const network::RoadSpec& road = network.roads()[lane.road].spec();
   const auto add = [&](const std::string& id, double s_m) {
-    const auto controller = ControllerOf(graph.network(), id);
-    if (!controller || s_m < low || s_m > high) return;
-    const double share = (s_m - nodes.front().s_m) / (nodes.back().s_m - nodes.front().s_m);
-    lights.push_back({share * t.length_m(), *controller, id, track});
+    const auto controller = ControllerOf(network, id);
+    if (controller && s_m >= low_s_m && s_m <= high_s_m) lights.push_back({s_m, *controller, id});
   };
   for (const network::Signal& signal : road.signals) {
-    if (signal.type != kOnFoot && HoldsFor(t, signal.orientation, signal.validity)) add(signal.id, signal.s_m);
+    if (signal.type != kOnFoot && HoldsFor(lane.lane, along, signal.orientation, signal.validity)) add(signal.id, signal.s_m);
   }
   for (const network::SignalReference& reference : road.signal_references) {
-    if (HoldsFor(t, reference.orientation, reference.validity) && !OnFoot(graph.network(), reference.id)) add(reference.id, reference.s_m);
+    if (HoldsFor(lane.lane, along, reference.orientation, reference.validity) && !OnFoot(network, reference.id)) add(reference.id, reference.s_m);
+  }
+  std::stable_sort(lights.begin(), lights.end(), [](const LaneLight& a, const LaneLight& b) { return a.s_m < b.s_m; });
+  return lights;
+}
+
+std::vector<LightPlace> LightsOf(const Graph& graph, std::uint32_t track) {
+  const Track& t = graph[track];
+  const double begin = t.curve.nodes().front().s_m, end = t.curve.nodes().back().s_m;
+  std::vector<LightPlace> lights;
+  for (LaneLight& light : LightsOfLane(graph.network(), t.lane, t.along, std::min(begin, end), std::max(begin, end))) {
+    lights.push_back({(light.s_m - begin) / (end - begin) * t.length_m(), light.controller, std::move(light.signal), track});
   }
   std::stable_sort(lights.begin(), lights.end(), [](const LightPlace& a, const LightPlace& b) { return a.d_m < b.d_m; });
   return lights;

@@ -9,6 +9,17 @@
 
 namespace rodeira::lanes {
 
+// A light for the traffic of a lane: the line at which who may not go stands.
+struct LaneLight {
+  double s_m = 0.0;              // of the road
+  std::uint32_t controller = 0;  // index into the network's controllers; it has times
+  std::string signal;            // its id
+};
+
+// The lights of a lane within [low_s_m, high_s_m] of its road: signals, and references to signals elsewhere, that a
+// controller with times controls; ascending. Lights for people on foot alone are none. along: its traffic goes with growing s.
+std::vector<LaneLight> LightsOfLane(const network::Network& network, const network::LaneKey& lane, bool along, double low_s_m, double high_s_m);
+
 // A light for the traffic of a track: the line at which who may not go stands.
 struct LightPlace {
   double d_m = 0.0;
@@ -17,8 +28,7 @@ struct LightPlace {
   std::uint32_t track = 0;
 };
 
-// The lights of a track: signals, and references to signals elsewhere, that a controller with times controls; ascending.
-// Lights for people on foot alone are none.
+// The lights of a track, in the order in which its traffic comes to them.
 std::vector<LightPlace> LightsOf(const Graph& graph, std::uint32_t track);
 
 // The light that holds at d of a track: the last one before it, or, going back over tracks that are the only way here,

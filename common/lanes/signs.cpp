@@ -21,11 +21,11 @@ std::optional<Sign> SignOf(const network::Signal& signal) {
 
 }  // namespace
 
-bool HoldsFor(const Track& track, std::string_view orientation, const std::vector<network::LaneValidity>& validity) {
-  if (orientation == "+" && !track.along) return false;
-  if (orientation == "-" && track.along) return false;
+bool HoldsFor(int lane, bool along, std::string_view orientation, const std::vector<network::LaneValidity>& validity) {
+  if (orientation == "+" && !along) return false;
+  if (orientation == "-" && along) return false;
   return validity.empty() || std::any_of(validity.begin(), validity.end(), [&](const network::LaneValidity& lanes) {
-           return track.lane.lane >= std::min(lanes.from_lane, lanes.to_lane) && track.lane.lane <= std::max(lanes.from_lane, lanes.to_lane);
+           return lane >= std::min(lanes.from_lane, lanes.to_lane) && lane <= std::max(lanes.from_lane, lanes.to_lane);
          });
 }
 
@@ -37,7 +37,7 @@ std::vector<SignPlace> SignsOf(const Graph& graph, std::uint32_t track) {
   std::vector<SignPlace> signs;
   for (const network::Signal& signal : road.signals) {
     const auto sign = SignOf(signal);
-    if (!sign || signal.s_m < low || signal.s_m > high || !HoldsFor(t, signal.orientation, signal.validity)) continue;
+    if (!sign || signal.s_m < low || signal.s_m > high || !HoldsFor(t.lane.lane, t.along, signal.orientation, signal.validity)) continue;
     const double share = (signal.s_m - nodes.front().s_m) / (nodes.back().s_m - nodes.front().s_m);
     signs.push_back({share * t.length_m(), *sign});
   }

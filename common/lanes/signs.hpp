@@ -17,8 +17,9 @@ struct SignPlace {
   Sign sign = Sign::kNone;
 };
 
-// Whether something beside the road is for the traffic of a track, by its orientation ("+", "-", "none") and lanes.
-bool HoldsFor(const Track& track, std::string_view orientation, const std::vector<network::LaneValidity>& validity);
+// Whether something beside the road is for the traffic of a lane of it, by its orientation ("+", "-", "none") and lanes.
+// along: the lane's traffic goes with growing s.
+bool HoldsFor(int lane, bool along, std::string_view orientation, const std::vector<network::LaneValidity>& validity);
 
 // STOP, give-way and priority signs (206, 205, 301, 306 and 307, which ends a priority road) for the traffic of a track, by
 // the Vienna Convention's German numbers, which OpenDRIVE files and this project use; ascending.

@@ -8,6 +8,25 @@
 
 namespace rodeira::launch {
 
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+LabScreen ReadScreen(const std::string& name, const config::Map& map) {
+  const auto metres = [&](std::string_view key, double low_cm, double high_cm) { return 0.01 * map.Number(key, {low_cm, high_cm}); };
+  LabScreen screen;
+  screen.name = name;
+  screen.width_m = metres("width_cm", 1.0, 5000.0);
+  screen.height_m = metres("height_cm", 1.0, 5000.0);
+  screen.distance_m = metres("distance_cm", 1.0, 5000.0);
+  screen.angle_rad = kDegree * map.Number("angle_deg", {-180.0, 180.0}, 0.0);
+  screen.eye_height_m = 0.01 * map.Number("eye_height_cm", {-5000.0, 5000.0}, 50.0 * screen.height_m);
+  screen.aside_m = 0.01 * map.Number("aside_cm", {-5000.0, 5000.0}, 0.0);
+  return screen;
+}
+
+}  // namespace
+
 base::Result<Lab> Lab::Load(const std::filesystem::path& path) {
   auto file = config::File::Load(path);
   if (!file) return file.error();
@@ -55,6 +74,8 @@ base::Result<Lab> Lab::Read(const config::File& file) {
   }
   if (lab.discovery_ == DiscoveryKind::kPeers) lab.participants_ = ReadParticipants(discovery);
   if (lab.discovery_ == DiscoveryKind::kServer) lab.port_ = ReadPort(discovery);
+  const config::Map screens = root.OptionalChild("screens");
+  for (const std::string& name : screens.Keys()) lab.screens_.push_back(ReadScreen(name, screens.Child(name)));
   if (auto status = file.Finish(); !status) return status.error();
   return lab;
 }
@@ -71,6 +92,14 @@ base::Result<LabHost> Lab::Host(const std::string& name) const {
     return base::WrongInput(fmt::format("there is no host '{}'{}", name, base::DidYouMean(name, Names())), path_.string());
   }
   return *found;
+}
+
+base::Result<LabScreen> Lab::Screen(const std::string& name) const {
+  const auto found = std::ranges::find(screens_, name, &LabScreen::name);
+  if (found != screens_.end()) return *found;
+  std::vector<std::string> names;
+  for (const LabScreen& screen : screens_) names.push_back(screen.name);
+  return base::WrongInput(fmt::format("there is no screen '{}'{}", name, base::DidYouMean(name, names)), path_.string());
 }
 
 base::Status Lab::Fits(const Launch& launch) const {

@@ -16,6 +16,12 @@ struct LabHost {
   std::string address;  // IPv4, in the network that the PCs share
 };
 
+// A screen, as its eye sees it (scene::ScreenPlane says what the lengths are).
+struct LabScreen {
+  std::string name;
+  double width_m = 0.0, height_m = 0.0, distance_m = 0.0, angle_rad = 0.0, eye_height_m = 0.0, aside_m = 0.0;
+};
+
 // A laboratory file (docs/formats.md): which PCs there are and how their processes meet. Every PC of a run reads the same.
 class Lab {
  public:
@@ -30,6 +36,8 @@ class Lab {
 
   // Wrong input, with the nearest name, where there is no such host.
   base::Result<LabHost> Host(const std::string& name) const;
+  // Wrong input, with the nearest name, where there is no such screen.
+  base::Result<LabScreen> Screen(const std::string& name) const;
   // The host that a node belongs to: the one that the launch file names, otherwise the clock's.
   const std::string& HostOf(const LaunchNode& node) const { return node.host.empty() ? clock_ : node.host; }
   // Wrong input where the launch file places a node on a host that is not in the laboratory.
@@ -50,6 +58,7 @@ class Lab {
   std::uint16_t port_ = 0;
   std::string clock_;
   std::vector<LabHost> hosts_;
+  std::vector<LabScreen> screens_;
 };
 
 }  // namespace rodeira::launch

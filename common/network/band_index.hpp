@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "common/geometry/plane.hpp"
 #include "common/network/road.hpp"
 
 namespace rodeira::network {
@@ -22,6 +24,10 @@ struct Band {
 
   // How far a point lies outside the rectangle: nothing of the band is nearer.
   double Distance(const Eigen::Vector2d& p_W) const;
+  bool Holds(const Eigen::Vector2d& p_W) const {
+    const Eigen::Vector2d away = p_W - centre_W;
+    return std::fabs(away.dot(along_W)) <= half_along_m && std::fabs(geometry::Cross(along_W, away)) <= half_across_m;
+  }
 };
 
 // Where the bands of all roads lie: a grid that tells which may hold a point, and a tree for what is nearest. Static,

@@ -35,10 +35,12 @@ LateralPoint OnStrip(const SurfaceStrip& strip, double s_m, double u_m) {
   LateralPoint point;
   double power = 1.0, slope_power = 0.0;
   for (int n = 0; n < 4; ++n) {
-    const geometry::CubicPoint c = strip.coefficients[n].Evaluate(s_m);
-    point.z_m += c.value * power;
-    point.slope_s += c.slope * power;
-    point.slope_t += n * c.value * slope_power;
+    if (!strip.coefficients[n].empty()) {
+      const geometry::CubicPoint c = strip.coefficients[n].Evaluate(s_m);
+      point.z_m += c.value * power;
+      point.slope_s += c.slope * power;
+      point.slope_t += n * c.value * slope_power;
+    }
     slope_power = power;
     power *= u_m;
   }

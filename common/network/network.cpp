@@ -1,10 +1,21 @@
 #include "common/network/network.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/base/assert.hpp"
 
 namespace rodeira::network {
+
+Eigen::Vector2d GeoOffset::ToMap(const Eigen::Vector2d& p_W) const {
+  const double cosine = std::cos(heading_rad), sine = std::sin(heading_rad);
+  return {p_W.x() * cosine - p_W.y() * sine + x_m, p_W.x() * sine + p_W.y() * cosine + y_m};
+}
+
+Eigen::Vector2d GeoOffset::FromMap(const Eigen::Vector2d& p_map) const {
+  const double cosine = std::cos(heading_rad), sine = std::sin(heading_rad), x = p_map.x() - x_m, y = p_map.y() - y_m;
+  return {x * cosine + y * sine, y * cosine - x * sine};
+}
 
 Network::Network(NetworkSpec spec) : spec_(std::move(spec)), index_(spec_.roads, kClosed_m) {
   for (std::uint32_t i = 0; i < spec_.roads.size(); ++i) road_by_id_.emplace(spec_.roads[i].id(), i);

@@ -47,15 +47,36 @@ struct Hint {
   std::uint32_t band = std::numeric_limits<std::uint32_t>::max();
 };
 
+// What decides between places that hold the same point on one level.
+struct Claim {
+  bool past_end = false;  // in a gap that is closed
+  bool drivable = false;
+  double from_centre_m = 0.0;  // of the lane
+  std::uint32_t band = 0;
+
+  bool Before(const Claim& other) const;  // the better one
+};
+
 // A road's surface over or under a point.
 struct Surfacing {
   Place place;
   SurfaceSample sample;
+  Claim claim;
+};
+
+// How a network's coordinates lie in those of its geo reference: turned by the heading, then moved.
+struct GeoOffset {
+  double x_m = 0.0, y_m = 0.0;
+  double heading_rad = 0.0;
+
+  Eigen::Vector2d ToMap(const Eigen::Vector2d& p_W) const;
+  Eigen::Vector2d FromMap(const Eigen::Vector2d& p_map) const;
 };
 
 struct NetworkSpec {
   std::string name;
   std::string geo_reference;  // PROJ or WKT text; empty: none
+  GeoOffset geo_offset;
   std::vector<Road> roads;
   std::vector<Junction> junctions;
   std::vector<Controller> controllers;
@@ -76,6 +97,7 @@ class Network {
 
   const std::string& name() const { return spec_.name; }
   const std::string& geo_reference() const { return spec_.geo_reference; }
+  const GeoOffset& geo_offset() const { return spec_.geo_offset; }
   std::span<const Road> roads() const { return spec_.roads; }
   std::span<const Junction> junctions() const { return spec_.junctions; }
   std::span<const Controller> controllers() const { return spec_.controllers; }
@@ -115,6 +137,9 @@ class Network {
   std::optional<LaneKey> Right(const LaneKey& key) const;
   // The corners of a box that holds every road's surface.
   std::pair<Eigen::Vector2d, Eigen::Vector2d> Bounds() const { return {index_.low_W(), index_.high_W()}; }
+  // A lane's number, the centres' too: dense, below LaneNumbers().
+  std::size_t Number(const LaneKey& key) const;
+  std::size_t LaneNumbers() const { return ends_.size(); }
   // Every lane but the centres, in ascending order of road, section and id.
   std::vector<LaneKey> Lanes() const;
 
@@ -123,13 +148,14 @@ class Network {
   struct Ends {
     std::vector<LaneEnd> at_start, at_end;
   };
-  Hit Try(const Eigen::Vector2d& p_W, std::optional<double> z_m, std::uint32_t band) const;
+  Hit Try(const Eigen::Vector2d& p_W, std::uint32_t band) const;
+  SurfaceSample SurfaceAt(const Hit& hit) const;
+  void SetHeight(std::optional<double> z_m, Hit& hit) const;
   std::optional<Place> Choose(std::vector<Hit>& hits, bool known_height) const;
   void Link();
   void LinkEnd(const LaneKey& lane, const std::vector<int>& targets, bool at_end);
   void LinkJunctions();
   void Join(const LaneEnd& a, const LaneEnd& b);
-  std::size_t Number(const LaneKey& key) const;
 
   NetworkSpec spec_;
   std::map<std::string, std::uint32_t, std::less<>> road_by_id_, junction_by_id_;

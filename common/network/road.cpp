@@ -95,8 +95,7 @@ SurfaceSample Road::Surface(double s_m, double t_m) const {
   return Surface(s_m, t_m, section, span);
 }
 
-SurfaceSample Road::Surface(double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const {
-  const geometry::PlanPoint at = axis_.Evaluate(s_m);
+SurfaceSample Road::Surface(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const {
   const geometry::CubicPoint z = spec_.elevation.Evaluate(s_m);
   const Eigen::Vector2d& T = at.tangent_W;
   const Eigen::Vector2d N = at.left_W();
@@ -119,9 +118,10 @@ SurfaceSample Road::Surface(double s_m, double t_m, const LaneSection& section, 
   const double flat = t_m - turned;
   SurfaceSample sample;
   if (!rolled_) {
-    sample.p_W << at.p_W + t_m * N, z.value + height.z_m;
-    sample.ds_W << (1.0 - at.curvature_1pm * t_m) * T, z.slope + height.slope_s;
-    sample.dt_W << N, height.slope_t;
+    const double pace = 1.0 - at.curvature_1pm * t_m;
+    sample.p_W = {at.p_W.x() + t_m * N.x(), at.p_W.y() + t_m * N.y(), z.value + height.z_m};
+    sample.ds_W = {pace * T.x(), pace * T.y(), z.slope + height.slope_s};
+    sample.dt_W = {N.x(), N.y(), height.slope_t};
     return sample;
   }
   const geometry::CubicPoint roll = spec_.superelevation.Evaluate(s_m);

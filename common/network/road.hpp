@@ -75,6 +75,8 @@ class Road {
   double length_m() const { return length_m_; }
   // Superelevated somewhere: then (x, y) of a point does not follow from the plan alone.
   bool rolled() const { return rolled_; }
+  // Across it is level everywhere: the elevation is all of its height.
+  bool flat() const { return !rolled_ && !shaped_; }
 
   std::size_t SectionIndex(double s_m) const;
   const LaneSection& SectionAt(double s_m) const { return spec_.sections[SectionIndex(s_m)]; }
@@ -85,12 +87,11 @@ class Road {
   std::optional<LaneSpan> SpanAt(std::size_t section, int lane, double s_m) const;
 
   SurfaceSample Surface(double s_m, double t_m) const;
-  // The same where the lane at (s, t) is known.
-  SurfaceSample Surface(double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const;
-  // The height of Surface(), without the rest.
-  double Height(double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const {
-    return rolled_ || shaped_ ? Surface(s_m, t_m, section, span).p_W.z() : spec_.elevation.Value(s_m);
+  // The same where the lane at (s, t) is known, and the reference line there.
+  SurfaceSample Surface(double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const {
+    return Surface(axis_.Evaluate(s_m), s_m, t_m, section, span);
   }
+  SurfaceSample Surface(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const;
   // On a rolled road: moves (s, t), found in plan, to where the surface stands over (x, y), with s held in [low, high].
   // Returns how far that is from (x, y): 0 but where s is held.
   double Settle(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double& s_m, double& t_m) const;

@@ -35,6 +35,8 @@ void ReadHeader(const Node& root, Import& import, network::NetworkSpec& spec) {
   spec.geo_reference = first == std::string::npos
                            ? ""
                            : spec.geo_reference.substr(first, spec.geo_reference.find_last_not_of(" \t\r\n") - first + 1);
+  const Node offset = header.Child("offset");
+  spec.geo_offset = {offset.Number("x", 0.0), offset.Number("y", 0.0), offset.Number("hdg", 0.0)};
 }
 
 void Finish(Import& import) {

@@ -26,11 +26,14 @@ bool IsExempt(const network::RoadSpec& road, double s_m) {
   });
 }
 
-BuiltGround::BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions, const FrictionTable& friction, SurfaceDetail detail)
+BuiltGround::BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions, const FrictionTable& friction, SurfaceDetail detail,
+                         BareTerrain terrain)
     : network_(std::move(network)),
       junctions_(std::move(junctions)),
       friction_(friction),
       detail_(std::move(detail)),
+      terrain_(std::move(terrain)),
+      grounds_(*network_, friction),
       paint_(*network_),
       earthworks_(network_, junctions_) {
   std::set<std::string> made;
@@ -44,16 +47,14 @@ SurfacePoint BuiltGround::OnRoad(const network::Surfacing& surfacing) const {
   network::SurfaceSample sample = surfacing.sample;
   if (!detail_.empty()) detail_.Add(road, place.lane.road, network_->Section(place.lane), place.s_m, place.t_m, sample);
   const Eigen::Vector3d normal = sample.ds_W.cross(sample.dt_W);
-  const network::Lane& lane = *network_->Find(place.lane);
-  const network::LaneMaterial* material = road.MaterialAt(lane, place.s_m);
-  terrain::Surface surface = SurfaceOf(lane, material);
-  double grip = friction_[static_cast<std::size_t>(surface)];
-  if (material != nullptr && material->friction) grip = *material->friction;
+  LaneGround ground = grounds_.At(*network_, place.lane, place.s_m);
   if (paint_.At(place.lane.road, place.s_m, place.t_m)) {
-    surface = terrain::Surface::kRoadMark;
-    grip = friction_[static_cast<std::size_t>(surface)];
+    ground.surface = terrain::Surface::kRoadMark;
+    ground.friction = friction_[static_cast<std::size_t>(ground.surface)];
   }
-  return {sample.p_W.z(), -normal.x() / normal.z(), -normal.y() / normal.z(), grip, surface, true};
+  if (const auto measured = detail_.FrictionAt(place.lane.road, place.s_m, place.t_m, sample.p_W.head<2>())) ground.friction = *measured;
+  const double down = -1.0 / normal.z();
+  return {sample.p_W.z(), normal.x() * down, normal.y() * down, ground.friction, ground.surface, true};
 }
 
 SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W) const {
@@ -67,34 +68,42 @@ SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, co
   return {height.z_m, height.slope_x, height.slope_y, friction_[static_cast<std::size_t>(surface)], surface, true};
 }
 
-SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m, const SurfacePoint& terrain) const {
+SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
   const Eigen::Vector2d p(x_m, y_m);
   thread_local std::vector<network::Surfacing> surfaces;
-  thread_local std::vector<Layer> layers;
   network_->Surfaces(x_m, y_m, surfaces);
-  layers.clear();
-  bool covered = false;  // by what stands on the ground
-  for (const auto& junction : junctions_) {
-    if (!junction->Contains(p)) continue;
-    layers.push_back({junction->At(p).z_m, nullptr, junction.get()});
-    covered = true;
+  const auto in_junction = [&](const auto& junction) { return junction->Contains(p); };
+  const auto first = std::find_if(junctions_.begin(), junctions_.end(), in_junction);
+  const auto exempt = [&](const network::Place& place) { return IsExempt(network_->roads()[place.lane.road].spec(), place.s_m); };
+  const auto answers = [&](const network::Place& place) { return !in_junction_[place.lane.road] && place.lane.lane != 0; };
+  if (first == junctions_.end() && surfaces.size() == 1 && answers(surfaces[0].place) && !exempt(surfaces[0].place)) {
+    return OnRoad(surfaces[0]);  // nothing else is here, and the hint has nothing to choose
   }
+  thread_local std::vector<Layer> layers;
+  layers.clear();
+  for (auto junction = first; junction != junctions_.end(); ++junction) {
+    if (in_junction(*junction)) layers.push_back({(*junction)->At(p).z_m, nullptr, junction->get()});
+  }
+  bool covered = !layers.empty();  // by what stands on the ground
   for (const network::Surfacing& surfacing : surfaces) {
     const network::Place& place = surfacing.place;
-    if (in_junction_[place.lane.road] || place.lane.lane == 0) continue;
+    if (!answers(place)) continue;
     // Beyond the end of a road at a junction the junction answers.
-    const bool exempt = IsExempt(network_->roads()[place.lane.road].spec(), place.s_m);
-    if (covered && !exempt && !layers.empty() && layers[0].junction != nullptr &&
+    const bool above = exempt(place);
+    if (covered && !above && layers[0].junction != nullptr &&
         std::fabs(layers[0].z_m - surfacing.sample.p_W.z()) < network::Network::kLevel_m) {
       continue;
     }
-    covered = covered || !exempt;
+    covered = covered || !above;
     layers.push_back({surfacing.sample.p_W.z(), &surfacing, nullptr});
   }
-  SurfacePoint ground = terrain;
-  if (!covered && ground.inside) {
-    earthworks_.Shape(p, ground);
-    layers.push_back({ground.z_m, nullptr, nullptr});
+  SurfacePoint ground;
+  if (!covered) {
+    ground = terrain_.At(x_m, y_m);
+    if (ground.inside) {
+      earthworks_.Shape(p, ground);
+      layers.push_back({ground.z_m, nullptr, nullptr});
+    }
   }
   if (layers.empty()) return {};
   std::stable_sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.z_m > b.z_m; });

@@ -5,7 +5,9 @@
 
 #include "common/design/junction_surface.hpp"
 #include "common/network/network.hpp"
+#include "common/road/bare_terrain.hpp"
 #include "common/road/earthworks.hpp"
+#include "common/road/lane_grounds.hpp"
 #include "common/road/paint.hpp"
 #include "common/road/surface_detail.hpp"
 #include "common/road/surface_point.hpp"
@@ -18,10 +20,10 @@ namespace rodeira::road {
 class BuiltGround {
  public:
   using Junctions = std::vector<std::shared_ptr<const design::JunctionSurface>>;
-  BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions, const FrictionTable& friction, SurfaceDetail detail);
+  BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions, const FrictionTable& friction, SurfaceDetail detail,
+              BareTerrain terrain);
 
-  // `terrain` is the terrain there, without any road.
-  SurfacePoint At(double x_m, double y_m, double z_hint_m, const SurfacePoint& terrain) const;
+  SurfacePoint At(double x_m, double y_m, double z_hint_m) const;
 
  private:
   SurfacePoint OnRoad(const network::Surfacing& surfacing) const;
@@ -31,6 +33,8 @@ class BuiltGround {
   Junctions junctions_;
   FrictionTable friction_;
   SurfaceDetail detail_;
+  BareTerrain terrain_;
+  LaneGrounds grounds_;
   Paint paint_;
   Earthworks earthworks_;
   std::vector<bool> in_junction_;  // by road: its surface is a junction's

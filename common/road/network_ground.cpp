@@ -12,21 +12,16 @@ namespace {
 using network::Network;
 using network::Place;
 
-constexpr double kOverHint_m = 0.5;
-
-SurfacePoint OnRoad(const Network& network, const FrictionTable& friction, const network::Surfacing& surfacing, const SurfaceDetail* detail) {
+SurfacePoint OnRoad(const Network& network, const LaneGrounds& grounds, const network::Surfacing& surfacing, const SurfaceDetail* detail) {
   network::SurfaceSample sample = surfacing.sample;
   const network::Place& place = surfacing.place;
   if (detail != nullptr) {
     detail->Add(network.roads()[place.lane.road], place.lane.road, network.Section(place.lane), place.s_m, place.t_m, sample);
   }
   const Eigen::Vector3d normal = sample.ds_W.cross(sample.dt_W);
-  const network::Lane* lane = network.Find(surfacing.place.lane);
-  const network::LaneMaterial* material = network.roads()[surfacing.place.lane.road].MaterialAt(*lane, surfacing.place.s_m);
-  const terrain::Surface surface = SurfaceOf(*lane, material);
-  const double grip =
-      material != nullptr && material->friction ? *material->friction : friction[static_cast<std::size_t>(surface)];
-  return {sample.p_W.z(), -normal.x() / normal.z(), -normal.y() / normal.z(), grip, surface, true};
+  const LaneGround& ground = grounds.At(network, place.lane, place.s_m);
+  const auto measured = detail == nullptr ? std::nullopt : detail->FrictionAt(place.lane.road, place.s_m, place.t_m, sample.p_W.head<2>());
+  return {sample.p_W.z(), -normal.x() / normal.z(), -normal.y() / normal.z(), measured.value_or(ground.friction), ground.surface, true};
 }
 
 SurfacePoint OnVerge(const Network& network, const FrictionTable& friction, const Eigen::Vector2d& p, const Place& place) {
@@ -52,39 +47,21 @@ SurfacePoint OnVerge(const Network& network, const FrictionTable& friction, cons
 
 }  // namespace
 
-terrain::Surface SurfaceOf(const network::Lane& lane, const network::LaneMaterial* material) {
-  if (material != nullptr) {
-    for (const terrain::Surface known : {terrain::Surface::kAsphalt, terrain::Surface::kConcrete, terrain::Surface::kGravel,
-                                         terrain::Surface::kGrass, terrain::Surface::kSoil}) {
-      if (material->surface == SurfaceName(known)) return known;
-    }
-  }
-  switch (lane.type) {
-    case network::LaneType::kNone:
-    case network::LaneType::kMedian: return terrain::Surface::kGrass;
-    case network::LaneType::kSidewalk:
-    case network::LaneType::kWalking:
-    case network::LaneType::kCurb: return terrain::Surface::kConcrete;
-    default: return terrain::Surface::kAsphalt;
-  }
-}
-
-SurfacePoint NetworkGround(const Network& network, const FrictionTable& friction, double x_m, double y_m, double z_hint_m,
-                           const SurfaceDetail* detail) {
+SurfacePoint NetworkGround(const Network& network, const LaneGrounds& grounds, const FrictionTable& friction, double x_m, double y_m,
+                           double z_hint_m, const SurfaceDetail* detail) {
   thread_local std::vector<network::Surfacing> surfaces;
   network.Surfaces(x_m, y_m, surfaces);
-  std::erase_if(surfaces, [&](const network::Surfacing& surfacing) {
-    return network.Find(surfacing.place.lane) == nullptr || surfacing.place.lane.lane == 0;
-  });
+  const network::Surfacing* lowest = nullptr;
   for (const network::Surfacing& surfacing : surfaces) {
-    if (!(surfacing.sample.p_W.z() > z_hint_m + kOverHint_m)) return OnRoad(network, friction, surfacing, detail);  // NaN: the first
+    if (surfacing.place.lane.lane == 0) continue;  // a road without lanes on that side
+    if (!(surfacing.sample.p_W.z() > z_hint_m + terrain::kHintAbove_m)) return OnRoad(network, grounds, surfacing, detail);  // NaN: the first
+    lowest = &surfacing;
   }
   const bool hinted = std::isfinite(z_hint_m);
   const auto place = network.Locate(x_m, y_m, hinted ? std::optional(z_hint_m) : std::nullopt);
-  if (!place || place->distance_m > kVerge_m)
-    return surfaces.empty() ? SurfacePoint{} : OnRoad(network, friction, surfaces.back(), detail);
+  if (!place || place->distance_m > kVerge_m) return lowest == nullptr ? SurfacePoint{} : OnRoad(network, grounds, *lowest, detail);
   const SurfacePoint verge = OnVerge(network, friction, {x_m, y_m}, *place);
-  if (!surfaces.empty() && verge.z_m > z_hint_m + kOverHint_m) return OnRoad(network, friction, surfaces.back(), detail);
+  if (lowest != nullptr && verge.z_m > z_hint_m + terrain::kHintAbove_m) return OnRoad(network, grounds, *lowest, detail);
   return verge;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/network/network.hpp"
+#include "common/road/lane_grounds.hpp"
 #include "common/road/surface_detail.hpp"
 #include "common/road/world.hpp"
 
@@ -11,11 +12,8 @@ inline constexpr double kVerge_m = 100.0;
 
 // SUELO on an OpenDRIVE network: the highest road surface that is not above the hint by more than 0.5 m (without a hint
 // the highest); beside all roads a level verge of grass that goes on from the nearest lane's edge.
-SurfacePoint NetworkGround(const network::Network& network, const FrictionTable& friction, double x_m, double y_m,
+SurfacePoint NetworkGround(const network::Network& network, const LaneGrounds& grounds, const FrictionTable& friction, double x_m, double y_m,
                            double z_hint_m, const SurfaceDetail* detail = nullptr);
-
-// What a lane is made of: what its material is called, if that is one of our surfaces; otherwise by its type.
-terrain::Surface SurfaceOf(const network::Lane& lane, const network::LaneMaterial* material);
 
 // The roads and their verges.
 Extents NetworkExtents(const network::Network& network);

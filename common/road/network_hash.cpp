@@ -69,7 +69,7 @@ void PutFurniture(Canonical& out, const network::RoadSpec& spec) {
   }
   for (const auto& structure : spec.structures) out.PutAll(structure.bridge, structure.s_m, structure.length_m);
   for (const auto& crg : spec.crg) {
-    out.PutAll(crg.s_start_m, crg.s_end_m, crg.s_offset_m, crg.t_offset_m, crg.z_offset_m, crg.z_scale, crg.orientation);
+    out.PutAll(crg.s_start_m, crg.s_end_m, crg.s_offset_m, crg.t_offset_m, crg.z_offset_m, crg.z_scale, crg.h_offset_rad, crg.orientation, crg.mode, crg.purpose);
   }
   for (const auto& made : spec.unevenness) {
     out.PutAll(made.s_start_m, made.s_end_m, made.s_offset_m, made.density_m3, static_cast<std::size_t>(made.seed));

@@ -5,6 +5,7 @@
 
 #include "common/geometry/angle.hpp"
 #include "common/opendrive/import.hpp"
+#include "common/road/surface_detail.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -64,6 +65,9 @@ base::Result<WorldSpec> ReadNetworkWorld(const std::filesystem::path& file) {
   spec.network = import.value().network;
   spec.network_hash = import.value().content_hash;
   spec.start = StartOn(*spec.network);
+  auto detail = SurfaceDetail::Load(*spec.network, file.parent_path());
+  if (!detail) return detail.error();
+  if (!detail.value().empty()) spec.detail = std::make_shared<const SurfaceDetail>(std::move(detail).value());
   return spec;
 }
 

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "common/base/hash.hpp"
 #include "common/base/result.hpp"
 #include "common/network/network.hpp"
 #include "common/surface/crg_surface.hpp"
@@ -12,20 +14,31 @@
 
 namespace rodeira::road {
 
-// What stands on top of a network's roads: measured surfaces (OpenCRG) and made roughness.
+// What stands on top of a network's roads, or takes the place of their heights: measured surfaces (OpenCRG) and made roughness.
 class SurfaceDetail {
  public:
   SurfaceDetail() = default;
-  // Wrong input where a measured surface cannot be read. Relative names are those of files beside `folder`.
+  // Wrong input where a measured surface cannot be read, or is laid in a way that OpenDRIVE does not know. Relative names are those of
+  // files beside `folder`.
   static base::Result<SurfaceDetail> Load(const network::Network& network, const std::filesystem::path& folder);
 
   bool empty() const { return roads_.empty(); }
-  // Height over the road at (s, t) between its outermost edges, added to the sample. Over the first and last metre of a
+  // Of every number of the measured surfaces; how they are laid is the network's. 0: there are none.
+  base::Digest digest() const { return digest_; }
+  // What stands over the road at (s, t) between its outermost edges, added to the sample. Over the first and last metre of a
   // stretch, and the last half metre to the road's edges, it passes into nothing.
   void Add(const network::Road& road, std::uint32_t index, const network::LaneSection& section, double s_m, double t_m,
            network::SurfaceSample& sample) const;
+  // The measured coefficient of friction there; nothing where none is.
+  std::optional<double> FrictionAt(std::uint32_t road, double s_m, double t_m, const Eigen::Vector2d& p_W) const;
 
  private:
+  // How a measured surface lies (OpenDRIVE's `mode`).
+  enum class Lay : std::uint8_t {
+    kOnTop,     // attached: u and v are the road's s and t, heights are added to the road's
+    kInstead,   // attached0: so too, but these heights are the road's
+    kByItself,  // genuine, global: its own reference line holds, and its heights are the road's
+  };
   struct Stretch {
     double begin_m, end_m;
     double s_offset_m;
@@ -33,8 +46,17 @@ class SurfaceDetail {
     std::shared_ptr<const surface::CrgSurface> measured;
     double t_offset_m = 0.0, z_offset_m = 0.0, z_scale = 1.0;
     bool opposite = false;
+    Lay lay = Lay::kOnTop;
+    bool friction = false;  // it says the coefficient of friction instead of a height
+    // By itself: what turns by `turn` and lies at `from_W` in the file, lies at `to_W` here.
+    Eigen::Vector2d turn = Eigen::Vector2d::UnitX(), from_W = Eigen::Vector2d::Zero(), to_W = Eigen::Vector2d::Zero();
   };
+  struct Measured;
+  static base::Result<Stretch> Place(const network::Road& road, const network::CrgSurface& crg, std::shared_ptr<const surface::CrgSurface> file);
+  static Measured Measure(const Stretch& stretch, double s_m, double t_m, const network::SurfaceSample& sample);
+
   std::vector<std::vector<Stretch>> roads_;  // by road; empty: there is none at all
+  base::Digest digest_ = 0;
 };
 
 }  // namespace rodeira::road

@@ -8,6 +8,7 @@
 #include "common/road/built_ground.hpp"
 #include "common/road/network_ground.hpp"
 #include "common/road/road_network.hpp"
+#include "common/road/surface_detail.hpp"
 #include "common/road/world_hash.hpp"
 
 namespace rodeira::road {
@@ -26,9 +27,9 @@ class WorldGround final : public terrain::Ground {
         points[i] = {};
         continue;
       }
-      const double length = std::sqrt(at.slope_x * at.slope_x + at.slope_y * at.slope_y + 1.0);
+      const double up = 1.0 / std::sqrt(at.slope_x * at.slope_x + at.slope_y * at.slope_y + 1.0);
       points[i].z_m = at.z_m;
-      points[i].normal_W = {-at.slope_x / length, -at.slope_y / length, 1.0 / length};
+      points[i].normal_W = {-at.slope_x * up, -at.slope_y * up, up};
       points[i].friction = at.friction;
       points[i].surface = at.surface;
       points[i].inside = true;
@@ -43,29 +44,32 @@ class WorldGround final : public terrain::Ground {
 
 World::World(WorldSpec spec)
     : name_(spec.name),
-      grid_(spec.grid),
-      plane_(spec.plane),
+      terrain_{spec.grid, spec.plane, spec.terrain_surface,
+               spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)])},
       network_(spec.network),
       detail_(spec.detail),
-      terrain_surface_(spec.terrain_surface),
-      terrain_friction_(spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)])),
       friction_(spec.friction),
       start_(spec.start),
       content_hash_(ContentHash(spec)) {
-  RODEIRA_ASSERT(grid_ == nullptr || !plane_);
-  RODEIRA_ASSERT(grid_ != nullptr || plane_ || network_ != nullptr);
+  RODEIRA_ASSERT(grid() == nullptr || !plane());
+  RODEIRA_ASSERT(grid() != nullptr || plane() || network_ != nullptr);
   for (const RoadSpec& road : spec.roads) roads_.emplace_back(road);
   if (!roads_.empty()) {
     network_ = AsNetwork(spec, roads_);
-  } else if (network_ != nullptr && !open_drive()) {
-    built_ = std::make_shared<const BuiltGround>(network_, spec.junctions, friction_, detail_ == nullptr ? SurfaceDetail() : *detail_);
+  } else if (open_drive()) {
+    grounds_ = LaneGrounds(*network_, friction_);
+  } else if (network_ != nullptr) {
+    built_ = std::make_shared<const BuiltGround>(network_, spec.junctions, friction_, detail_ == nullptr ? SurfaceDetail() : *detail_, terrain_);
   }
 }
 
 std::shared_ptr<const World> World::Make(WorldSpec spec) { return std::shared_ptr<const World>(new World(std::move(spec))); }
 
 Extents World::extents() const {
-  if (grid_ != nullptr) return {grid_->frame().west_m, grid_->frame().south_m, grid_->frame().east_m, grid_->frame().north_m};
+  if (grid() != nullptr) {
+    const terrain::ElevationGrid::Frame& frame = grid()->frame();
+    return {frame.west_m, frame.south_m, frame.east_m, frame.north_m};
+  }
   if (open_drive()) return NetworkExtents(*network_);
   const double infinity = std::numeric_limits<double>::infinity();
   return {-infinity, -infinity, infinity, infinity};
@@ -73,22 +77,11 @@ Extents World::extents() const {
 
 std::unique_ptr<terrain::Ground> World::MakeGround() const { return std::make_unique<WorldGround>(shared_from_this()); }
 
-SurfacePoint World::TerrainAt(double x_m, double y_m) const {
-  SurfacePoint point;
-  if (grid_ != nullptr) {
-    const terrain::GridSample sample = grid_->At(x_m, y_m);
-    if (!sample.inside) return point;
-    point = {sample.z_m, sample.slope_x, sample.slope_y, terrain_friction_, terrain_surface_, true};
-  } else if (plane_ && std::isfinite(x_m) && std::isfinite(y_m)) {
-    const double z = plane_->z_m + plane_->slope_x * x_m + plane_->slope_y * y_m;
-    point = {z, plane_->slope_x, plane_->slope_y, terrain_friction_, terrain_surface_, true};
-  }
-  return point;
-}
+base::Digest World::measured_digest() const { return detail_ == nullptr ? 0 : detail_->digest(); }
 
 SurfacePoint World::At(double x_m, double y_m, double z_hint_m) const {
-  if (open_drive()) return NetworkGround(*network_, friction_, x_m, y_m, z_hint_m, detail_.get());
-  if (built_ != nullptr) return built_->At(x_m, y_m, z_hint_m, TerrainAt(x_m, y_m));
+  if (open_drive()) return NetworkGround(*network_, grounds_, friction_, x_m, y_m, z_hint_m, detail_.get());
+  if (built_ != nullptr) return built_->At(x_m, y_m, z_hint_m);
   SurfacePoint point = TerrainAt(x_m, y_m);
   for (const Road& road : roads_) {
     if (road.plan().MayReach(x_m, y_m)) LayRoad(road, x_m, y_m, point);

@@ -11,6 +11,8 @@
 
 #include "common/base/hash.hpp"
 #include "common/base/result.hpp"
+#include "common/road/bare_terrain.hpp"
+#include "common/road/lane_grounds.hpp"
 #include "common/road/road.hpp"
 #include "common/road/world_spec.hpp"
 #include "common/terrain/elevation_grid.hpp"
@@ -47,14 +49,16 @@ class World : public std::enable_shared_from_this<World> {
   std::span<const Road> roads() const { return roads_; }
   // The elevation grid under the roads, for meshes, or null for a plane. Near a road the ground is not the grid's:
   // ask MakeGround() for heights.
-  const terrain::ElevationGrid* grid() const { return grid_.get(); }
-  const std::optional<PlaneSpec>& plane() const { return plane_; }
+  const terrain::ElevationGrid* grid() const { return terrain_.grid.get(); }
+  const std::optional<PlaneSpec>& plane() const { return terrain_.plane; }
   // The world is an OpenDRIVE file: it has no terrain of its own.
-  bool open_drive() const { return grid_ == nullptr && !plane_; }
+  bool open_drive() const { return terrain_.grid == nullptr && !terrain_.plane; }
   Extents extents() const;
   const StartPose& start() const { return start_; }
-  terrain::Surface terrain_surface() const { return terrain_surface_; }
-  double terrain_friction() const { return terrain_friction_; }
+  terrain::Surface terrain_surface() const { return terrain_.surface; }
+  double terrain_friction() const { return terrain_.friction; }
+  // Of the numbers of the measured surfaces on the roads; 0: there are none.
+  base::Digest measured_digest() const;
   double Friction(terrain::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
 
   // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. Where surfaces lie over one
@@ -64,7 +68,7 @@ class World : public std::enable_shared_from_this<World> {
   // a road of version 1, over its blend, both, weighted by 3 u^2 - 2 u^3 of the distance from the verge over the blend's width.
   SurfacePoint At(double x_m, double y_m, double z_hint_m = std::numeric_limits<double>::quiet_NaN()) const;
   // The terrain without any road.
-  SurfacePoint TerrainAt(double x_m, double y_m) const;
+  SurfacePoint TerrainAt(double x_m, double y_m) const { return terrain_.At(x_m, y_m); }
 
   // Of everything that can change an answer (numbers of roads, lanes, marks, terrain, friction, start), and of nothing
   // else: names, comments, paths, the coordinate system's name, the order of keys.
@@ -76,14 +80,12 @@ class World : public std::enable_shared_from_this<World> {
 
   std::string name_;
   std::vector<Road> roads_;
-  std::shared_ptr<const terrain::ElevationGrid> grid_;
-  std::optional<PlaneSpec> plane_;
+  BareTerrain terrain_;
   std::shared_ptr<const network::Network> network_;
   std::shared_ptr<const SurfaceDetail> detail_;
   std::shared_ptr<const BuiltGround> built_;  // of a network in a terrain that is no road of version 1
-  terrain::Surface terrain_surface_;
-  double terrain_friction_;
   FrictionTable friction_;
+  LaneGrounds grounds_;  // of an OpenDRIVE file
   StartPose start_;
   base::Digest content_hash_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include "common/base/bytes.hpp"
 #include "common/road/network_hash.hpp"
+#include "common/road/surface_detail.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -66,6 +67,7 @@ base::Digest ContentHash(const WorldSpec& spec) {
   if (spec.network != nullptr && (spec.grid != nullptr || spec.plane)) {
     canonical.PutAll(4, static_cast<std::size_t>(HashOf(*spec.network)), spec.junctions.size());
   }
+  if (spec.detail != nullptr && spec.detail->digest() != 0) canonical.PutAll(5, static_cast<std::size_t>(spec.detail->digest()));
   canonical.Put(spec.terrain_surface);
   canonical.Put(spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)]));
   for (const double friction : spec.friction) canonical.Put(friction);

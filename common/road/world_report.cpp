@@ -109,12 +109,16 @@ std::string ProjectionOf(const World& world) {
   return world.network() != nullptr ? world.network()->geo_reference() : "";
 }
 
+// Only an OpenDRIVE file has one.
+network::GeoOffset OffsetOf(const World& world) { return world.open_drive() ? world.network()->geo_offset() : network::GeoOffset(); }
+
 std::string DescribeEarth(const World& world, double x_m, double y_m) {
   const std::string projection = ProjectionOf(world);
   if (projection.empty()) return "";
   const auto map = terrain::Geographic::Make(projection);
   if (!map) return "";
-  const auto place = map.value().ToEarth(x_m, y_m);
+  const Eigen::Vector2d on_map = OffsetOf(world).ToMap({x_m, y_m});
+  const auto place = map.value().ToEarth(on_map.x(), on_map.y());
   return place ? fmt::format("longitude_deg: {:.9f}\nlatitude_deg: {:.9f}\n", place->longitude_deg, place->latitude_deg) : "";
 }
 
@@ -191,7 +195,7 @@ base::Result<Eigen::Vector2d> PlaceOnMap(const World& world, double longitude_de
   if (!map) return map.error();
   const auto place = map.value().ToMap({longitude_deg, latitude_deg});
   if (!place) return base::WrongInput(fmt::format("longitude {} and latitude {} are no place of the world's projection", longitude_deg, latitude_deg), world.name());
-  return *place;
+  return OffsetOf(world).FromMap(*place);
 }
 
 }  // namespace rodeira::road

@@ -1,7 +1,7 @@
 #include "common/scene/camera.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/geometry/angle.hpp"
@@ -9,48 +9,140 @@
 namespace rodeira::scene {
 namespace {
 
-constexpr double kDegree = geometry::kPi / 180.0;
-constexpr double kClearance_m = 0.9;  // of the chasing eye over the ground
+using Eigen::Vector2d;
+using Eigen::Vector3d;
 
-Camera Look(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& forward, const Eigen::Vector3d& up, double view_rad) {
+constexpr double kDegree = geometry::kPi / 180.0;
+constexpr double kClearance_m = 0.9;  // of an eye outside of the car over the ground
+constexpr auto kNames = std::to_array<std::string_view>({"chase", "driver", "bonnet", "orbit", "top", "trackside"});
+
+Camera Look(const Vector3d& eye_W, const Vector3d& forward, const Vector3d& up, double view_rad) {
   Camera camera;
   camera.eye_W = eye_W;
   camera.forward_W = forward.normalized();
-  const Eigen::Vector3d right = camera.forward_W.cross(up).normalized();
+  const Vector3d right = camera.forward_W.cross(up).normalized();
   camera.up_W = right.cross(camera.forward_W);
   camera.vertical_view_rad = view_rad;
   return camera;
 }
 
+// The car's nose in plan, a unit vector; east for a car that stands on it.
+Vector2d NoseInPlan(const Body& car) {
+  const Vector3d nose = car.q_WB * Vector3d::UnitX();
+  const double length = std::hypot(nose.x(), nose.y());
+  return length > 1e-3 ? Vector2d(nose.x() / length, nose.y() / length) : Vector2d::UnitX();
+}
+
+Vector3d DriversEye_B(const Body& car) { return {0.10, 0.22 * car.width_m, 1.20}; }
+
+Vector3d AboveGround(Vector3d eye_W, const road::World& world) {
+  const road::SurfacePoint below = world.At(eye_W.x(), eye_W.y(), eye_W.z());
+  if (below.inside) eye_W.z() = std::max(eye_W.z(), below.z_m + kClearance_m);
+  return eye_W;
+}
+
 }  // namespace
 
-std::optional<Eigen::Vector2d> Camera::Project(const Eigen::Vector3d& p_W, int width_px, int height_px) const {
-  const Eigen::Vector3d d = p_W - eye_W;
+std::span<const std::string_view> CameraNames() { return kNames; }
+
+std::optional<CameraKind> CameraOf(std::string_view name) {
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  return found == kNames.end() ? std::nullopt : std::optional(static_cast<CameraKind>(found - kNames.begin()));
+}
+
+CameraKind NextCamera(CameraKind kind) { return static_cast<CameraKind>((static_cast<std::size_t>(kind) + 1) % kNames.size()); }
+
+std::optional<Vector2d> Camera::Project(const Vector3d& p_W, int width_px, int height_px) const {
+  const Vector3d d = p_W - eye_W;
   const double depth = d.dot(forward_W);
   if (depth <= 1e-6) return std::nullopt;
-  const Eigen::Vector3d right = forward_W.cross(up_W);
-  const double scale = 0.5 * height_px / std::tan(0.5 * vertical_view_rad);  // pixels a unit of slope
-  return Eigen::Vector2d(0.5 * width_px + scale * d.dot(right) / depth, 0.5 * height_px - scale * d.dot(up_W) / depth);
+  const Vector3d right = forward_W.cross(up_W);
+  if (window) {
+    return Vector2d(width_px * (d.dot(right) / depth - window->left) / (window->right - window->left),
+                    height_px * (window->high - d.dot(up_W) / depth) / (window->high - window->low));
+  }
+  const double scale = parallel_height_m > 0.0 ? height_px / parallel_height_m : 0.5 * height_px / (std::tan(0.5 * vertical_view_rad) * depth);  // pixels a metre
+  return Vector2d(0.5 * width_px + scale * d.dot(right), 0.5 * height_px - scale * d.dot(up_W));
 }
 
-Camera ChaseCamera(const CarPose& car, const road::World& world) {
-  const Eigen::Vector3d nose = car.q_WB * Eigen::Vector3d::UnitX();
-  const Eigen::Vector3d ahead = std::hypot(nose.x(), nose.y()) > 1e-3 ? Eigen::Vector3d(nose.x(), nose.y(), 0.7 * nose.z()).normalized() : Eigen::Vector3d::UnitX();
-  Eigen::Vector3d eye = car.p_WB_W - 7.2 * ahead + Eigen::Vector3d(0.0, 0.0, 2.45);
-  const road::SurfacePoint below = world.At(eye.x(), eye.y());
-  if (below.inside) eye.z() = std::max(eye.z(), below.z_m + kClearance_m);
-  const Eigen::Vector3d target = car.p_WB_W + 9.0 * ahead + Eigen::Vector3d(0.0, 0.0, 0.75);
-  return Look(eye, target - eye, Eigen::Vector3d::UnitZ(), 48.0 * kDegree);
+Body::Body(const CarPose& car)
+    : p_WB_W(car.p_WB_W), q_WB(car.q_WB), length_m(car.length_m), front_m(car.front_m), width_m(car.width_m), height_m(car.height_m) {}
+
+Body::Body(const AgentPose& agent)
+    : p_WB_W(agent.p_WB_W), q_WB(agent.q_WB), length_m(agent.length_m), front_m(0.5 * agent.length_m), width_m(agent.width_m), height_m(agent.height_m) {}
+
+std::optional<Body> BodyAt(const Moment& moment, std::size_t number) {
+  if (number < moment.cars.size()) return Body(moment.cars[number]);
+  number -= moment.cars.size();
+  return number < moment.agents.size() ? std::optional(Body(moment.agents[number])) : std::nullopt;
 }
 
-Camera DriverCamera(const CarPose& car) {
-  const Eigen::Vector3d eye_B(0.10, 0.22 * car.width_m, 1.20);
-  const Eigen::Vector3d forward_B(1.0, 0.0, -0.015);
-  return Look(car.p_WB_W + car.q_WB * eye_B, car.q_WB * forward_B, car.q_WB * Eigen::Vector3d::UnitZ(), 52.0 * kDegree);
+void Aim::Turn(double by_azimuth_rad, double by_elevation_rad) {
+  azimuth_rad = std::remainder(azimuth_rad + by_azimuth_rad, 2.0 * geometry::kPi);
+  elevation_rad = std::clamp(elevation_rad + by_elevation_rad, -5.0 * kDegree, 85.0 * kDegree);
 }
 
-Camera MakeCamera(CameraKind kind, const CarPose& car, const road::World& world) {
-  return kind == CameraKind::kDriver ? DriverCamera(car) : ChaseCamera(car, world);
+void Aim::Zoom(double factor) {
+  distance_m = std::clamp(distance_m * factor, 2.5, 400.0);
+  map_height_m = std::clamp(map_height_m * factor, 8.0, 5000.0);
+}
+
+Camera ChaseCamera(const Body& car, const road::World& world) {
+  const Vector3d nose = car.q_WB * Vector3d::UnitX();
+  const Vector3d ahead = std::hypot(nose.x(), nose.y()) > 1e-3 ? Vector3d(nose.x(), nose.y(), 0.7 * nose.z()).normalized() : Vector3d::UnitX();
+  const Vector3d eye = AboveGround(car.p_WB_W - 7.2 * ahead + Vector3d(0.0, 0.0, 2.45), world);
+  const Vector3d target = car.p_WB_W + 9.0 * ahead + Vector3d(0.0, 0.0, 0.75);
+  return Look(eye, target - eye, Vector3d::UnitZ(), 48.0 * kDegree);
+}
+
+Camera DriverCamera(const Body& car) {
+  const Vector3d forward_B(1.0, 0.0, -0.015);
+  return Look(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 52.0 * kDegree);
+}
+
+Camera ScreenCamera(const Body& car, const ScreenPlane& screen) {
+  const Vector3d forward_B(std::cos(screen.angle_rad), std::sin(screen.angle_rad), 0.0);
+  Camera camera = Look(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 0.0);
+  const double half_m = 0.5 * screen.width_m;
+  camera.window = Camera::Window{(screen.aside_m - half_m) / screen.distance_m, (screen.aside_m + half_m) / screen.distance_m,
+                                 -screen.eye_height_m / screen.distance_m, (screen.height_m - screen.eye_height_m) / screen.distance_m};
+  camera.vertical_view_rad = std::atan(camera.window->high) - std::atan(camera.window->low);
+  return camera;
+}
+
+Camera BonnetCamera(const Body& car) {
+  const Vector3d eye_B(car.front_m - 0.30 * car.length_m, 0.0, 0.74 * car.height_m);  // before the windscreen
+  const Vector3d forward_B(1.0, 0.0, -0.03);
+  return Look(car.p_WB_W + car.q_WB * eye_B, car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 52.0 * kDegree);
+}
+
+Camera OrbitCamera(const Body& car, const Aim& aim, const road::World& world) {
+  const Vector2d nose = NoseInPlan(car), right(nose.y(), -nose.x());
+  const Vector2d out = -std::cos(aim.azimuth_rad) * nose + std::sin(aim.azimuth_rad) * right;
+  const Vector3d middle = car.p_WB_W + Vector3d(0.0, 0.0, 0.5 * car.height_m);
+  const double level_m = aim.distance_m * std::cos(aim.elevation_rad);
+  const Vector3d eye = AboveGround(middle + Vector3d(level_m * out.x(), level_m * out.y(), aim.distance_m * std::sin(aim.elevation_rad)), world);
+  return Look(eye, middle - eye, Vector3d::UnitZ(), 48.0 * kDegree);
+}
+
+Camera TopCamera(const Body& car, const Aim& aim) {
+  // As high as the eye of a pinhole camera would be that shows as much: what is left out far away is the same.
+  const double above_m = std::max(60.0, 1.2 * aim.map_height_m);
+  Camera camera = Look(car.p_WB_W + Vector3d(0.0, 0.0, above_m), -Vector3d::UnitZ(), Vector3d::UnitY(), 48.0 * kDegree);
+  camera.parallel_height_m = aim.map_height_m;
+  return camera;
+}
+
+Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::World& world) {
+  switch (kind) {
+    case CameraKind::kChase: return ChaseCamera(car, world);
+    case CameraKind::kDriver: return DriverCamera(car);
+    case CameraKind::kBonnet: return BonnetCamera(car);
+    case CameraKind::kOrbit: return OrbitCamera(car, aim, world);
+    case CameraKind::kTop: return TopCamera(car, aim);
+    case CameraKind::kTrackside: return TracksideCamera(car, world);
+  }
+  return ChaseCamera(car, world);
 }
 
 }  // namespace rodeira::scene

@@ -3,6 +3,7 @@
 
 #include "common/base/random.hpp"
 #include "common/geometry/angle.hpp"
+#include "common/scene/light_heads.hpp"
 #include "common/scene/models.hpp"
 #include "common/scene/sign_face.hpp"
 #include "common/scene/things.hpp"
@@ -14,7 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kPost_m = 0.038;   // radius of a sign's post
 constexpr double kPlate_m = 0.004;  // thickness
 constexpr double kTwoPosts_m = 1.0;  // plates as wide as this have two
 
@@ -80,13 +80,8 @@ void AddSign(const Thing& thing, int level, Drawing& drawing) {
   AddPosts(thing, level, drawing);
   for (const double side : {1.0, -1.0}) {
     if (side < 0.0 && !thing.both_sides) break;
-    const Stand stand{thing.stand.foot_W, side * thing.stand.x_W};
-    if (thing.kind == ThingKind::kSign) {
-      AddPlate(thing, stand, drawing);
-    } else {
-      const Stand before{stand.ToWorld({kPost_m + 0.17 * thing.height_m, 0.0, thing.above_m}), stand.x_W};
-      AddPlaced(TrafficLightModel(thing.height_m, level), before, drawing.solid);
-    }
+    if (thing.kind == ThingKind::kSign) AddPlate(thing, {thing.stand.foot_W, side * thing.stand.x_W}, drawing);
+    else AddPlaced(TrafficLightModel(thing.height_m, level), StandOfLight(thing.stand, thing.above_m, thing.height_m, side), drawing.solid);
   }
 }
 

@@ -51,13 +51,20 @@ base::Digest RoadDigest(const network::Road& road, std::span<const Line3> lines,
   }
   if (const auto& earthwork = road.spec().earthwork) lanes += fmt::format("slopes {} {} {} {}\n", earthwork->blend_m, earthwork->cut, earthwork->fill, earthwork->reach_m);
   for (const network::Structure& structure : road.spec().structures) lanes += fmt::format("{} {} {}\n", structure.bridge ? "bridge" : "tunnel", structure.s_m, structure.length_m);
+  for (const network::CrgSurface& crg : road.spec().crg) {
+    lanes += fmt::format("crg {} {} {} {} {} {} {} {} {} {}\n", crg.s_start_m, crg.s_end_m, crg.s_offset_m, crg.t_offset_m, crg.z_offset_m, crg.z_scale, crg.h_offset_rad,
+                         crg.orientation, crg.mode, crg.purpose);
+  }
+  for (const network::Unevenness& made : road.spec().unevenness) {
+    lanes += fmt::format("made {} {} {} {} {}\n", made.s_start_m, made.s_end_m, made.s_offset_m, made.density_m3, made.seed);
+  }
   digest = base::Combine(digest, base::Hash(lanes));
   digest = base::Combine(digest, PaintDigest(paint));
   return digest;
 }
 
 base::Digest TerrainDigest(const road::World& world) {
-  base::Digest digest = base::Hash(fmt::format("{}", static_cast<int>(world.terrain_surface())));
+  base::Digest digest = base::Combine(base::Hash(fmt::format("{}", static_cast<int>(world.terrain_surface()))), world.measured_digest());
   if (world.grid() != nullptr) {
     const auto& frame = world.grid()->frame();
     digest = base::Combine(digest, base::Hash(fmt::format("{} {} {} {} {} {}", frame.columns, frame.rows, frame.west_m, frame.south_m, frame.east_m, frame.north_m)));

@@ -47,6 +47,16 @@ void AddOpenings(Mesh& mesh, const ModelSize& size, double eaves_m) {
   }
 }
 
+// One of a traffic light's three, counted from below, so far before its housing.
+std::array<Vector3d, 8> LightDisc(double height_m, std::size_t which, double before_m) {
+  std::array<Vector3d, 8> round;
+  for (std::size_t i = 0; i < round.size(); ++i) {
+    const double angle = 0.785398163397448 * static_cast<double>(i);
+    round[i] = {kLightHousing * height_m + before_m, 0.13 * height_m * std::cos(angle), height_m * (static_cast<double>(which) + 0.5) / 3.0 + 0.13 * height_m * std::sin(angle)};
+  }
+  return round;
+}
+
 }  // namespace
 
 Mesh HouseModel(const ModelSize& size, std::uint64_t seed, int level) {
@@ -129,19 +139,20 @@ Mesh PlainModel(const ModelSize& size, double radius_m, Colour colour, int level
 Mesh TrafficLightModel(double height_m, int level) {
   Mesh mesh = Empty();
   if (level > 1) return mesh;
-  const double half = 0.17 * height_m;
+  const double half = kLightHousing * height_m;
   Put(mesh, Block({-half, -half, 0.0}, {half, half, height_m}, Colour::Of(0x23272a)));
   AddFlat(mesh, std::array<Vector3d, 4>{Vector3d{-half, half, 0.0}, {half, half, 0.0}, {half, -half, 0.0}, {-half, -half, 0.0}}, Colour::Of(0x23272a));  // seen from below
   if (level > 0) return mesh;
   constexpr std::array<std::uint32_t, 3> kLights = {0x3d6b45, 0x8b6a22, 0x7c2520};  // from below
-  for (std::size_t k = 0; k < kLights.size(); ++k) {
-    std::array<Vector3d, 8> round;
-    for (std::size_t i = 0; i < round.size(); ++i) {
-      const double angle = 0.785398163397448 * static_cast<double>(i);
-      round[i] = {half + 0.004, 0.13 * height_m * std::cos(angle), height_m * (static_cast<double>(k) + 0.5) / 3.0 + 0.13 * height_m * std::sin(angle)};
-    }
-    AddFlat(mesh, round, Colour::Of(kLights[k]));
-  }
+  for (std::size_t k = 0; k < kLights.size(); ++k) AddFlat(mesh, LightDisc(height_m, k, 0.004), Colour::Of(kLights[k]));
+  return mesh;
+}
+
+Mesh LitLightModel(double height_m, std::size_t which) {
+  constexpr std::array<std::uint32_t, 3> kLit = {0x2cf07a, 0xffb21e, 0xff3220};  // from below
+  Mesh mesh = Empty();
+  mesh.material = Material::kLamp;
+  AddFlat(mesh, LightDisc(height_m, which, 0.03), Colour::Of(kLit[which]));
   return mesh;
 }
 

@@ -8,6 +8,9 @@
 // the ground. `level`: of detail, 0 the finest; from 3 on only what is as large as a house is there.
 namespace rodeira::scene {
 
+constexpr double kPost_m = 0.038;        // radius of a sign's post
+constexpr double kLightHousing = 0.17;  // half the width of a traffic light, of its height
+
 struct ModelSize {
   double length_m = 0.0;  // along x
   double width_m = 0.0;   // along y
@@ -26,5 +29,7 @@ Mesh LampModel(const ModelSize& size, int level);
 Mesh PlainModel(const ModelSize& size, double radius_m, Colour colour, int level);
 // A signal with three lights, dark, which faces x; from its lower edge on.
 Mesh TrafficLightModel(double height_m, int level);
+// One of its lights, lit: a disc before the dark one. which: 0 green, 1 amber, 2 red.
+Mesh LitLightModel(double height_m, std::size_t which);
 
 }  // namespace rodeira::scene

@@ -7,6 +7,7 @@
 #include <deque>
 #include <vector>
 
+#include "common/network/lights.hpp"
 #include "common/scene/mesh.hpp"
 
 namespace rodeira::scene {
@@ -49,15 +50,22 @@ struct AgentPose {
 // Heading from east counter-clockwise, pitch positive nose down, roll positive left side up (ISO 8855).
 Eigen::Quaterniond Attitude(double heading_rad, double pitch_rad, double roll_rad);
 
-// All that moves, at one time of the simulation.
+// What the lights of one of the network's controllers show.
+struct LightShown {
+  std::uint32_t controller = 0;  // its index
+  network::LightColour colour = network::LightColour::kRed;
+};
+
+// All that moves and changes, at one time of the simulation.
 struct Moment {
   std::int64_t time_ns = 0;
   std::vector<CarPose> cars;      // ascending ids
   std::vector<AgentPose> agents;  // ascending ids
+  std::vector<LightShown> lights;  // ascending controllers; the others are dark
 };
 
 // (1 - alpha) a + alpha b with the same alpha for everything; alpha in [0, 1], 0 is exactly a and 1 exactly b. Attitudes
-// turn on the shortest way, wheels turn on as fast as they did. Who is only in one of the two is not in the result, unless
+// turn on the shortest way, wheels turn on as fast as they did; lights are a's below 0.5. Who is only in one of the two is not in the result, unless
 // alpha is 0 or 1.
 Moment Interpolate(const Moment& a, const Moment& b, double alpha);
 

@@ -1,18 +1,12 @@
+// What stands where, and rails and walls along the road.
 #include "common/scene/things.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <set>
 
 #include "common/base/assert.hpp"
-#include "common/base/files.hpp"
 #include "common/network/network.hpp"
 #include "common/scene/levels_at.hpp"
-#include "common/scene/road_paint.hpp"
-#include "common/scene/sign_face.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -20,13 +14,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFlat_m = 0.02;     // what is lower lies
-constexpr double kFlatSign_m = 0.05;
-constexpr double kHousing_m = 0.9;   // of three lights
-constexpr double kOverhead_m = 3.5;  // signs this high over a lane hang
-constexpr double kPiece_m = 4.0;     // of rails, at most
-constexpr double kChord_m = 0.02;    // how far a rail's piece may leave its bend
-constexpr double kAhead_m = 40.0;    // over which a chevron's bend is looked for
+constexpr double kPiece_m = 4.0;   // of rails, at most
+constexpr double kChord_m = 0.02;  // how far a rail's piece may leave its bend
 constexpr std::size_t kMostLevels = 4;
 
 // SUELO's ground nearest to a height; that height itself where there is none.
@@ -43,52 +32,6 @@ double GroundAt(const road::World& world, const Vector3d& p_W) {
 TileKey TileAt(const Vector2d& p_W) {
   const WorldStep at = ToSteps(p_W);
   return {TileOf(at.x), TileOf(at.y)};
-}
-
-bool OverLane(const network::Road& road, double s_m, double t_m) {
-  const network::LaneSection& section = road.SectionAt(s_m);
-  double outside = 0.0;
-  const network::LaneSpan span = section.At(t_m, road.CentreAt(s_m), s_m, outside);
-  return span.lane != nullptr && outside == 0.0 && network::IsDrivable(span.lane->type);
-}
-
-// Whether the road bends to the left of those who read a sign at s, over what lies before them.
-bool BendsLeft(const network::Road& road, const network::Placed& placed) {
-  const double way = placed.signal->orientation == "-" ? -1.0 : 1.0;
-  const double end = std::clamp(placed.s_m + way * kAhead_m, 0.0, road.length_m());
-  double turn = 0.0;
-  for (int i = 0; i <= 8; ++i) turn += way * road.axis().Evaluate(placed.s_m + (end - placed.s_m) * i / 8.0).curvature_1pm;
-  return turn > 0.0;
-}
-
-bool IsOneOf(std::string_view word, std::initializer_list<std::string_view> words) { return std::find(words.begin(), words.end(), word) != words.end(); }
-
-Colour ColourOf(std::string_view type) {
-  if (type == "building") return Colour::Of(0xb9b2a6);
-  if (IsOneOf(type, {"pole", "rail-pole", "streetLamp", "gantry"})) return Colour::Of(0x8d9396);
-  if (IsOneOf(type, {"barrier", "soundBarrier", "wall"})) return Colour::Of(0xa9a69f);
-  if (type == "trafficIsland") return Colour::Of(0xb4b1a9);
-  if (type == "vegetation" || type == "tree") return Colour::Of(0x56703a);
-  return Colour::Of(0x9d9a94);
-}
-
-// An object's name may be the absolute path of a model (world files write it so). Pictures are none.
-bool IsModelFile(const std::string& name) {
-  const std::filesystem::path path(name);
-  const std::string ending = path.extension().string();
-  return path.is_absolute() && IsOneOf(ending, {".osgb", ".osgt", ".osg", ".ive", ".obj", ".3ds", ".dae", ".stl", ".ac", ".lwo", ".flt", ".dxf"});
-}
-
-ThingKind KindOf(const network::Object& object) {
-  const std::string_view type = object.type, subtype = object.subtype;
-  if (subtype == "bush" || type == "bush") return ThingKind::kBush;
-  if (type == "tree" || subtype == "tree") return ThingKind::kTree;
-  if (type == "vegetation") return IsOneOf(subtype, {"forest"}) ? ThingKind::kTree : ThingKind::kBush;
-  if (subtype == "filling_station") return ThingKind::kFillingStation;
-  if (subtype == "house") return ThingKind::kHouse;
-  if (subtype == "lamp" || subtype == "streetLight" || type == "streetLamp") return ThingKind::kLamp;
-  if (subtype == "post" || subtype == "permanentDelineator" || type == "guide-post") return ThingKind::kPost;
-  return ThingKind::kPlain;
 }
 
 }  // namespace
@@ -115,84 +58,11 @@ void Things::AddThing(const road::World& world, const network::Placed& placed) {
   else AddObject(road, placed, std::move(thing));
 }
 
-void Things::AddSignal(const network::Road& road, const network::Placed& placed, Thing thing) {
-  thing.both_sides = placed.both_sides;
-  thing.on_post = placed.z_offset_m < kOverhead_m || !OverLane(road, placed.s_m, placed.t_m);
-  if (placed.signal->dynamic) {
-    thing.kind = ThingKind::kTrafficLight;
-    if (!(thing.height_m > 0.1)) thing.height_m = kHousing_m;
-    if (thing.height_m > 1.5 * kHousing_m) {  // some files count the post: its lights are at its upper end
-      thing.above_m += thing.height_m - kHousing_m;
-      thing.height_m = kHousing_m;
-    }
-    return Keep(std::move(thing));
-  }
-  if (IsPaint(*placed.signal) || (thing.height_m > 0.0 && thing.height_m <= kFlatSign_m)) return;  // on the road
-  thing.kind = ThingKind::kSign;
-  thing.face = FaceOf(*placed.signal, BendsLeft(road, placed));
-  if (thing.face.empty()) return;
-  const Vector2d usual = UsualPlate_m(thing.face);
-  if (!(thing.width_m > 0.05)) thing.width_m = usual.x();
-  if (!(thing.height_m > 0.0)) thing.height_m = usual.y();
-  Keep(std::move(thing));
-}
-
-void Things::AddObject(const network::Road& road, const network::Placed& placed, Thing thing) {
-  const network::Object& object = *placed.object;
-  thing.kind = KindOf(object);
-  thing.colour = ColourOf(object.type);
-  if (IsModelFile(object.name)) {
-    thing.kind = ThingKind::kModel;
-    thing.file = object.name;
-    return Keep(std::move(thing));
-  }
-  if (IsPaint(object)) return;
-  for (const network::Outline& outline : object.outlines) {
-    Thing part = thing;
-    part.kind = ThingKind::kOutline;
-    part.closed = outline.closed;
-    double highest = 0.0;
-    for (const network::Corner& corner : outline.corners) {
-      Vector3d foot = thing.stand.ToWorld({corner.first_m, corner.second_m, placed.z_offset_m + corner.dz_m});
-      if (!corner.local) foot = road.Surface(corner.first_m, corner.second_m).p_W + corner.dz_m * Vector3d::UnitZ();
-      part.feet_W.push_back(foot);
-      part.heights_m.push_back(corner.height_m);
-      highest = std::max(highest, corner.height_m);
-    }
-    if (highest <= kFlat_m) part.heights_m.assign(part.feet_W.size(), highest = placed.height_m);
-    if (highest > kFlat_m && part.feet_W.size() >= 2) Keep(std::move(part));
-  }
-  if (!object.outlines.empty()) return;
-  const auto usual = [&](double length, double width, double height) {
-    if (!(thing.height_m > kFlat_m)) thing.height_m = height;
-    if (!(thing.width_m > 0.0)) thing.width_m = thing.radius_m > 0.0 ? 2.0 * thing.radius_m : width;
-    if (!(thing.length_m > 0.0)) thing.length_m = thing.radius_m > 0.0 ? 2.0 * thing.radius_m : length;
-  };
-  // These turn to the road, which lies on the left of what stands to the right of it.
-  const bool turned = placed.t_m > 0.0;
-  switch (thing.kind) {
-    case ThingKind::kTree: usual(0.0, 0.0, 8.0); break;
-    case ThingKind::kBush: usual(0.0, 0.0, 1.5); break;
-    case ThingKind::kHouse: usual(12.0, 9.0, 7.0); break;
-    case ThingKind::kFillingStation: usual(24.0, 14.0, 6.0); break;
-    case ThingKind::kPost: usual(0.12, 0.12, 1.0); break;
-    case ThingKind::kLamp: usual(0.2, 0.2, 8.0); break;
-    default:
-      if (!(thing.height_m > kFlat_m) && !IsOneOf(object.type, {"pole", "rail-pole", "barrier", "building", "obstacle"})) return;
-      usual(0.12, 0.12, object.type == "building" ? 6.0 : 1.0);
-      if (object.type == "pole" && !(thing.radius_m > 0.0) && placed.length_m == 0.0) thing.radius_m = 0.5 * thing.width_m;
-      return Keep(std::move(thing));
-  }
-  if (!(thing.radius_m > 0.0)) thing.radius_m = 0.3 * thing.height_m;
-  if (turned && thing.kind != ThingKind::kTree && thing.kind != ThingKind::kBush) thing.stand.x_W = -thing.stand.x_W;
-  Keep(std::move(thing));
-}
-
 void Things::AddRun(const road::World& world, const network::PlacedRun& run) {
   const network::Road& road = world.network()->roads()[run.road];
   const double length = run.to_s_m - run.from_s_m;
   const network::Object& object = *run.object;
-  const bool rail = IsOneOf(object.subtype, {"guard_rail", "guardRail", "railing"}) || object.type == "railing";
+  const bool rail = object.subtype == "guard_rail" || object.subtype == "guardRail" || object.subtype == "railing" || object.type == "railing";
   const auto t_at = [&](double share) { return run.t_start_m + share * (run.t_end_m - run.t_start_m); };
   double step = kPiece_m;
   const int looks = std::max(2, static_cast<int>(length));
@@ -212,38 +82,10 @@ void Things::AddRun(const road::World& world, const network::PlacedRun& run) {
     piece.foot_W[1] = {on_road.x(), on_road.y(), GroundAt(world, on_road) + mix(run.z_start_m, run.z_end_m)};
     piece.left_W[1] = road.axis().Evaluate(s).left_W();
     const double height = mix(run.height_start_m, run.height_end_m), width = mix(run.width_start_m, run.width_end_m);
-    piece.height_m[1] = height > kFlat_m ? height : rail ? 0.75 : 1.0;
+    piece.height_m[1] = height > kFlatThing_m ? height : rail ? 0.75 : 1.0;
     piece.width_m[1] = width > 0.0 ? width : 0.3;
     if (i > 0) tiles_[TileAt(0.5 * (piece.foot_W[0] + piece.foot_W[1]).head<2>())].rails.push_back(piece);
   }
-}
-
-base::Digest Things::DigestOf(const TileKey& key) const {
-  const auto found = tiles_.find(key);
-  if (found == tiles_.end()) return 0;
-  std::string text = "things 1\n";
-  std::set<std::string> files;
-  const auto put = [&text](const Vector3d& p) { fmt::format_to(std::back_inserter(text), "{} {} {} ", p.x(), p.y(), p.z()); };
-  for (const Thing& thing : found->second.things) {
-    if (!thing.file.empty() && files.insert(thing.file).second) {
-      const auto bytes = base::ReadText(thing.file);
-      text += thing.file + (bytes ? base::Hex(base::Hash(bytes.value())) : "missing") + "\n";
-    }
-    if (!thing.file.empty()) text += thing.file;
-    put(thing.stand.foot_W);
-    fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {} {} {} {} {} {} {}-{}-{} {}", static_cast<int>(thing.kind), thing.stand.x_W.x(), thing.stand.x_W.y(), thing.above_m,
-                   thing.length_m, thing.width_m, thing.height_m, thing.radius_m, thing.face, thing.both_sides, thing.on_post, thing.closed, thing.colour.red, thing.colour.green,
-                   thing.colour.blue, thing.feet_W.size());
-    for (std::size_t i = 0; i < thing.feet_W.size(); ++i) put(thing.feet_W[i]), fmt::format_to(std::back_inserter(text), "{} ", thing.heights_m[i]);
-    text += '\n';
-  }
-  for (const RailPiece& piece : found->second.rails) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      put(piece.foot_W[k]);
-      fmt::format_to(std::back_inserter(text), "{} {} {} {} {}\n", piece.left_W[k].x(), piece.left_W[k].y(), piece.height_m[k], piece.width_m[k], piece.wall);
-    }
-  }
-  return base::Hash(text);
 }
 
 }  // namespace rodeira::scene

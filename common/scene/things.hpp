@@ -14,6 +14,9 @@
 
 namespace rodeira::scene {
 
+// What is lower lies: it is not drawn as a thing.
+inline constexpr double kFlatThing_m = 0.02;
+
 enum class ThingKind { kTree, kBush, kHouse, kFillingStation, kPost, kLamp, kPlain, kOutline, kSign, kTrafficLight, kModel };
 
 // Something that stands, as it is to be drawn.
@@ -24,6 +27,7 @@ struct Thing {
   double length_m = 0.0, width_m = 0.0, height_m = 0.0, radius_m = 0.0;
   std::string face;            // of a sign
   std::string file;            // of a model: a graphics library reads it
+  std::string signal;          // of a traffic light: the signal's id
   bool both_sides = false;
   bool on_post = false;        // of signs and traffic lights; what hangs over a lane has none
   Colour colour;               // of plain ones and outlines

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/scene/levels_at.hpp"
 
@@ -11,8 +12,9 @@ namespace {
 using partition::GridPoint;
 using partition::Triangulation;
 
+constexpr double kLongSide = 8.0;  // times as long as the thinnest triangle is thick: such a side of a thin one is looked at
 constexpr int kRounds = 5;  // of points put in where the ground is not met
-// Thinner triangles are not divided: on roads, and on land.
+// In the middle of thinner triangles nothing is put: on roads, and on land.
 constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.15, 0.5, 1.5, 4.0}, kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
 
 class Planner {
@@ -105,7 +107,7 @@ class Planner {
     return levels_.empty() ? 0.0 : levels_.front().z_m;
   }
 
-  // Puts points where a triangle, in its middle or in the middle of a side, is too far from the ground. False where none is.
+  // Puts points where a triangle, in its middle or at a quarter of a side, is too far from the ground. False where none is.
   bool MeetGround() {
     std::vector<GridPoint> fresh;
     const auto triangles = plan_.triangles.triangles();
@@ -114,32 +116,55 @@ class Planner {
       if (tried_[i] == triangles[i].corner) continue;
       tried_[i] = triangles[i].corner;
       const bool land = plan_.faces[plan_.face_of[i]].land;
-      if (ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < (land ? kThinnestLand_m : kThinnestRoad_m)[level_]) continue;
-      Check(triangles[i], land ? kLandTolerances_m[level_] : 0.8 * kRoadTolerances[level_].height_m, land, fresh);
+      const bool thin = ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < (land ? kThinnestLand_m : kThinnestRoad_m)[level_];
+      if (!land) CheckSides(triangles[i], thin ? kLongSide * kThinnestRoad_m[level_] : 0.0, fresh);
+      if (!thin) CheckMiddle(triangles[i], land ? kLandTolerances_m[level_] : RoadTolerance(), fresh);
     }
     for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
     if (!fresh.empty()) CarryFaces();
     return !fresh.empty();
   }
 
-  void Check(const Triangulation::Triangle& t, double tolerance, bool land, std::vector<GridPoint>& fresh) {
-    const auto points = plan_.triangles.points();
-    const GridPoint middle = Middle(t);
-    const Eigen::Vector2d middle_W = ToWorld(plan_.key, middle);
+  double RoadTolerance() const { return 0.8 * kRoadTolerances[level_].height_m; }
+
+  // The triangle's corners, and their heights as they are seen from its middle.
+  struct Corners {
+    Eigen::Vector2d middle_W;
     std::array<Eigen::Vector2d, 3> at;
     std::array<double, 3> z{};
+  };
+  Corners CornersOf(const Triangulation::Triangle& t) {
+    Corners corners;
+    corners.middle_W = ToWorld(plan_.key, Middle(t));
     for (std::size_t k = 0; k < 3; ++k) {
-      at[k] = ToWorld(plan_.key, points[t.corner[k]]);
-      z[k] = HeightWithin(at[k], middle_W);
+      corners.at[k] = ToWorld(plan_.key, plan_.triangles.points()[t.corner[k]]);
+      corners.z[k] = HeightWithin(corners.at[k], corners.middle_W);
     }
-    if (std::fabs(Height(middle_W) - (z[0] + z[1] + z[2]) / 3.0) > tolerance) fresh.push_back(middle);
-    if (land) return;
+    return corners;
+  }
+
+  void CheckMiddle(const Triangulation::Triangle& t, double tolerance, std::vector<GridPoint>& fresh) {
+    const Corners c = CornersOf(t);
+    if (std::fabs(Height(c.middle_W) - (c.z[0] + c.z[1] + c.z[2]) / 3.0) > tolerance) fresh.push_back(Middle(t));
+  }
+
+  // An S, as two vertical curves make it, is met in its middle: its quarters are looked at too.
+  void CheckSides(const Triangulation::Triangle& t, double longer_m, std::vector<GridPoint>& fresh) {
+    const auto points = plan_.triangles.points();
+    std::optional<Corners> c;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t n = (k + 1) % 3;
       if (t.fixed[k] || t.across[k] == Triangulation::kNone || t.corner[k] > t.corner[n]) continue;
       const GridPoint &p = points[t.corner[k]], &q = points[t.corner[n]];
-      const GridPoint half{p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2};
-      if (std::fabs(HeightWithin(0.5 * (at[k] + at[n]), middle_W) - 0.5 * (z[k] + z[n])) > tolerance) fresh.push_back(half);
+      if (std::hypot(static_cast<double>(q.x - p.x), static_cast<double>(q.y - p.y)) * kStep_m <= longer_m) continue;
+      if (!c) c = CornersOf(t);
+      for (const int quarter : {2, 1, 3}) {
+        const double part = 0.25 * quarter;
+        const double z = HeightWithin(c->at[k] + part * (c->at[n] - c->at[k]), c->middle_W);
+        if (std::fabs(z - (c->z[k] + part * (c->z[n] - c->z[k]))) <= RoadTolerance()) continue;
+        fresh.push_back({p.x + (q.x - p.x) * quarter / 4, p.y + (q.y - p.y) * quarter / 4});
+        if (quarter == 2) break;
+      }
     }
   }
 

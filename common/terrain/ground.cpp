@@ -9,6 +9,14 @@ namespace {
 
 constexpr double kSameLayer_m = 1e-6;
 
+GroundQuery PointOf(const GroundPatch& patch, const Eigen::Vector2d& ahead, int row, int column) {
+  const auto place = [](double size_m, int index, int count) {
+    return count > 1 ? size_m * (static_cast<double>(index) / (count - 1) - 0.5) : 0.0;
+  };
+  const double forward = place(patch.length_m, row, patch.along), left = place(patch.width_m, column, patch.across);
+  return {patch.x_m + ahead.x() * forward - ahead.y() * left, patch.y_m + ahead.y() * forward + ahead.x() * left, patch.z_hint_m};
+}
+
 }  // namespace
 
 std::string_view SurfaceName(Surface surface) {
@@ -32,20 +40,16 @@ GroundPoint Ground::At(double x_m, double y_m, double z_hint_m) {
 }
 
 GroundQuery PatchPoint(const GroundPatch& patch, int row, int column) {
-  const auto place = [](double size_m, int index, int count) {
-    return count > 1 ? size_m * (static_cast<double>(index) / (count - 1) - 0.5) : 0.0;
-  };
-  const double forward = place(patch.length_m, row, patch.along), left = place(patch.width_m, column, patch.across);
-  const double cosine = std::cos(patch.heading_rad), sine = std::sin(patch.heading_rad);
-  return {patch.x_m + cosine * forward - sine * left, patch.y_m + sine * forward + cosine * left, patch.z_hint_m};
+  return PointOf(patch, {std::cos(patch.heading_rad), std::sin(patch.heading_rad)}, row, column);
 }
 
 void Ground::Patch(const GroundPatch& patch, std::span<GroundPoint> points) {
   RODEIRA_ASSERT(patch.along >= 1 && patch.across >= 1 && points.size() == patch.size());
+  const Eigen::Vector2d ahead(std::cos(patch.heading_rad), std::sin(patch.heading_rad));
   std::vector<GroundQuery> queries;
   queries.reserve(patch.size());
   for (int row = 0; row < patch.along; ++row) {
-    for (int column = 0; column < patch.across; ++column) queries.push_back(PatchPoint(patch, row, column));
+    for (int column = 0; column < patch.across; ++column) queries.push_back(PointOf(patch, ahead, row, column));
   }
   Query(queries, points);
 }

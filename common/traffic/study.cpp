@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
-
+#include <utility>
 
 namespace rodeira::traffic {
 namespace {
@@ -126,15 +126,22 @@ base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_pt
   Watcher watcher(model.graph().network(), settings);
   const auto steps = static_cast<std::int64_t>(std::llround(settings.duration_s / settings.step_s));
   const auto every = std::max<std::int64_t>(1, std::llround(settings.watch_s / settings.step_s));
+  std::optional<LaneStatistics> lanes;
+  if (settings.cell_m > 0.0) lanes.emplace(model, settings.cell_m);
   for (std::int64_t k = 0; k <= steps; ++k) {
-    if (k > 0) model.Step(settings.step_s, {});
+    if (k > 0) {
+      model.Step(settings.step_s, {});
+      if (lanes) lanes->Add(model, settings.step_s);
+    }
     watcher.Compare(model, static_cast<double>(k) * settings.step_s);
     if (k % every != 0) continue;
     watcher.Look(model);
+    if (lanes) lanes->LookAtQueues(model);
     if (watch) watch({static_cast<double>(k) * settings.step_s, model});
   }
   StudyResult result = watcher.result();
   result.steps = steps;
+  result.lanes = std::move(lanes);
   result.on_road = model.on_road();
   result.waiting = model.waiting();
   for (std::uint32_t id = 0; id < model.vehicles(); ++id) result.arrivals += model.agent(id).trip;

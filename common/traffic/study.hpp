@@ -3,10 +3,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "common/traffic/traffic_model.hpp"
+#include "common/traffic/lane_statistics.hpp"
 
 namespace rodeira::traffic {
 
@@ -15,6 +16,7 @@ struct StudySettings {
   double duration_s = 60.0;
   double step_s = 0.01;
   double watch_s = 0.1;  // how often contacts, lanes and speeds are looked at; a multiple of the step
+  double cell_m = 0.0;   // length of the cells of lanes that are summed up in; 0: none
 };
 
 // What came out of a run of the model alone. Everything is counted from the published poses.
@@ -33,6 +35,7 @@ struct StudyResult {
   std::int64_t arrivals = 0;         // trips that ended
   std::size_t on_road = 0, waiting = 0;
   std::vector<std::string> incidents;  // the first ones, as sentences
+  std::optional<LaneStatistics> lanes;
 
   double mean_speed_mps() const { return vehicle_s > 0.0 ? 1000.0 * driven_km / vehicle_s : 0.0; }
 };

@@ -68,4 +68,13 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   return t;
 }
 
+base::Result<TrafficSettings> LoadTraffic(const std::filesystem::path& path, std::uint64_t seed) {
+  auto file = config::File::Load(path);
+  if (!file) return file.error();
+  (void)file.value().root().Choice("rodeira", {"traffic/1"});
+  const TrafficSettings settings = ReadTraffic(file.value().root(), seed);
+  if (auto status = file.value().Finish(); !status) return status.error();
+  return settings;
+}
+
 }  // namespace rodeira::traffic

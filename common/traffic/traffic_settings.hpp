@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 
+#include "common/base/result.hpp"
 #include "common/config/config.hpp"
 #include "common/driver/idm.hpp"
 #include "common/driver/speed_plan.hpp"
@@ -24,6 +26,9 @@ struct TrafficSettings {
 
 // Reads `vehicles`, `following`, `comfort` … of a mapping; the seed is the run's. Problems stay in the file's collection.
 TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed);
+
+// The same from a file of its own (`rodeira: traffic/1`).
+base::Result<TrafficSettings> LoadTraffic(const std::filesystem::path& path, std::uint64_t seed);
 
 // What does not change about one agent: a pure function of settings and number.
 struct AgentTraits {

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <utility>
 
 #include "common/driver/autopilot.hpp"
+#include "common/driver/lights_ahead.hpp"
 #include "common/driver/route_path.hpp"
 #include "common/road/world.hpp"
 #include "idl/codec.hpp"
@@ -29,12 +31,18 @@ vehicle::VehicleState FromWire(const msg::VehicleState& in) {
   return out;
 }
 
+// What it follows, and the lights on it.
+struct WayAndLights {
+  std::unique_ptr<const driver::Way> way;
+  std::vector<driver::LightLine> lines;
+};
+
 class AutopilotSource final : public Source {
  public:
   // The way belongs to the world, which is kept alive.
   AutopilotSource(std::shared_ptr<const road::World> world, const driver::AutopilotSettings& settings,
-                  const vehicle::VehicleDimensions& dimensions, std::unique_ptr<const driver::Way> way)
-      : world_(std::move(world)), dimensions_(dimensions), autopilot_(settings, std::move(way)) {}
+                  const vehicle::VehicleDimensions& dimensions, WayAndLights way)
+      : world_(std::move(world)), dimensions_(dimensions), lines_(std::move(way.lines)), autopilot_(settings, std::move(way.way)) {}
 
   vehicle::Controls First() override { return {}; }
 
@@ -50,8 +58,9 @@ class AutopilotSource final : public Source {
                            agent.speed_mps(), static_cast<double>(agent.length_m()), static_cast<double>(agent.width_m())});
       }
     }
+    if (auto status = SeeLights(inbox); !status) return status.error();
     const vehicle::VehicleState state = FromWire(own.value());
-    return autopilot_.Step({state, dimensions_, others_}, step.dt_s);
+    return autopilot_.Step({state, dimensions_, others_, lights_}, step.dt_s);
   }
 
   void Save(base::StateWriter& out) const override { out.Put("autopilot", autopilot_); }
@@ -59,16 +68,35 @@ class AutopilotSource final : public Source {
   void TakeOver(const vehicle::Controls& last) override { autopilot_.TakeOver(last); }
 
  private:
+  // Lights that nobody tells of are dark.
+  base::Status SeeLights(const lockstep::Inbox& inbox) {
+    lights_.clear();
+    std::map<std::uint32_t, network::LightColour> colours;
+    for (const lockstep::Sample& sample : inbox.All(topics::kSignalsState)) {
+      const auto signals = idl::Decode<msg::SignalsState>(*sample.payload);
+      if (!signals) return signals.error();
+      for (const msg::SignalGroup& group : signals.value().groups())
+        colours[group.controller()] = static_cast<network::LightColour>(group.colour());
+    }
+    for (const driver::LightLine& line : lines_) {
+      const auto colour = colours.find(line.controller);
+      if (colour != colours.end()) lights_.push_back({line.d_m, colour->second});
+    }
+    return {};
+  }
+
   std::shared_ptr<const road::World> world_;
   vehicle::VehicleDimensions dimensions_;
+  std::vector<driver::LightLine> lines_;
   driver::Autopilot autopilot_;
   std::vector<driver::Footprint> others_;
+  std::vector<driver::LightAhead> lights_;
 };
 
 constexpr double kRoute_m = 20'000.0;
 
 // The lane that the car starts in, or another one of that road. In a network: straight on from there.
-base::Result<std::unique_ptr<const driver::Way>> WayOf(const road::World& world, std::optional<int> lane_wish,
+base::Result<WayAndLights> WayOf(const road::World& world, std::optional<int> lane_wish,
                                                        const std::string& place) {
   const road::StartPose& start = world.start();
   if (world.network() != nullptr && world.roads().empty()) {
@@ -81,15 +109,16 @@ base::Result<std::unique_ptr<const driver::Way>> WayOf(const road::World& world,
                                           network.roads()[at->lane.road].id()),
                               place);
     }
-    return std::unique_ptr<const driver::Way>(
-        std::make_unique<driver::RoutePath>(network, driver::StraightOn(network, at->lane, kRoute_m)));
+    auto route = std::make_unique<driver::RoutePath>(network, driver::StraightOn(network, at->lane, kRoute_m));
+    std::vector<driver::LightLine> lines = driver::LightLines(network, *route);
+    return WayAndLights{std::move(route), std::move(lines)};
   }
   if (start.road < 0) return base::WrongInput("this world has no road to start on; the autopilot needs one", place);
   const road::Road& road = world.roads()[static_cast<std::size_t>(start.road)];
   const int lane = lane_wish.value_or(start.lane);
   if (road.section().FindLane(lane) == nullptr)
     return base::WrongInput(fmt::format("road '{}' has no lane {}", road.id(), lane), place);
-  return std::unique_ptr<const driver::Way>(std::make_unique<driver::LanePath>(road, lane));
+  return WayAndLights{std::make_unique<driver::LanePath>(road, lane), {}};
 }
 
 }  // namespace

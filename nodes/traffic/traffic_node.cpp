@@ -128,6 +128,19 @@ class TrafficNode final : public lockstep::Node {
     state.agents().reserve(model_.poses().size());
     for (const traffic::AgentPose& pose : model_.poses()) state.agents().push_back(ToWire(pose, model_.traits(pose.id)));
     outbox.Put(topics::kTrafficState, idl::Encode(state));
+    outbox.Put(topics::kSignalsState, idl::Encode(Lights()));
+  }
+
+  msg::SignalsState Lights() const {
+    msg::SignalsState state;
+    const auto controllers = model_.graph().network().controllers();
+    for (std::uint32_t i = 0; i < controllers.size(); ++i) {
+      if (!controllers[i].times) continue;
+      state.groups().emplace_back();
+      state.groups().back().controller(i);
+      state.groups().back().colour(static_cast<std::uint32_t>(model_.colours()[i]));
+    }
+    return state;
   }
 
   std::string name_;

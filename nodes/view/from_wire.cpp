@@ -67,6 +67,12 @@ void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::v
   std::sort(agents.begin() + first, agents.end(), [](const scene::AgentPose& a, const scene::AgentPose& b) { return a.id < b.id; });
 }
 
+void AddLights(const msg::SignalsState& message, std::vector<scene::LightShown>& lights) {
+  const auto colour_of = [](std::uint32_t colour) { return static_cast<network::LightColour>(std::min(colour, static_cast<std::uint32_t>(network::LightColour::kAmber))); };
+  for (const msg::SignalGroup& group : message.groups()) lights.push_back({group.controller(), colour_of(group.colour())});
+  std::stable_sort(lights.begin(), lights.end(), [](const scene::LightShown& a, const scene::LightShown& b) { return a.controller < b.controller; });
+}
+
 base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep::Step step, const NewestSamples& newest) {
   scene::Moment moment;
   moment.time_ns = step * roster.base_step_ns();
@@ -75,6 +81,10 @@ base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep:
       const auto message = idl::Decode<msg::VehicleState>(*payload);
       if (!message) return message.error();
       moment.cars.push_back(FromWire(message.value(), source, moment.cars.size()));
+    } else if (roster.source(source).topic == idl::topics::kSignalsState) {
+      const auto message = idl::Decode<msg::SignalsState>(*payload);
+      if (!message) return message.error();
+      AddLights(message.value(), moment.lights);
     } else {
       const auto message = idl::Decode<msg::TrafficState>(*payload);
       if (!message) return message.error();

@@ -16,7 +16,10 @@ scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, 
 // Adds the agents of one source's message, in ascending ids.
 void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::vector<scene::AgentPose>& agents);
 
-// The newest sample of each source that a view looks at: cars and traffic.
+// Adds what one source says of the lights; they stay ascending.
+void AddLights(const msg::SignalsState& message, std::vector<scene::LightShown>& lights);
+
+// The newest sample of each source that a view looks at: cars, traffic, lights.
 using NewestSamples = std::map<lockstep::SourceIndex, std::shared_ptr<const base::Bytes>>;
 // Everything as they tell it, at a step. Wrong input where one of them cannot be read.
 base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep::Step step, const NewestSamples& newest);

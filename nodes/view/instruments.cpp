@@ -27,7 +27,9 @@ Instruments::Instruments(osg::Group& overlay) : panel_(overlay, {0.04F, 0.05F, 0
 }
 
 void Instruments::Show(const Picture& picture, int width_px, int height_px, float low_px) {
-  const bool show = picture.show_instruments && picture.followed < picture.moment.cars.size();
+  const std::size_t cars = picture.moment.cars.size();
+  const bool is_car = picture.followed < cars;
+  const bool show = picture.show_instruments && picture.followed < cars + picture.moment.agents.size();
   for (osgText::Text* text : {speed_.get(), unit_.get(), gear_.get(), time_.get()}) text->setNodeMask(show ? ~0U : 0U);
   lines_->setNodeMask(picture.text.empty() ? 0U : ~0U);
   lines_->setText(picture.text);
@@ -37,12 +39,12 @@ void Instruments::Show(const Picture& picture, int width_px, int height_px, floa
   const float left = static_cast<float>(width_px) - kMargin_px - kPanelWidth_px, low = low_px + kMargin_px;
   const float right = left + kPanelWidth_px, high = low + kPanelHeight_px;
   panel_.Set({{left, low, right, high}});
-  const scene::CarPose& car = picture.moment.cars[picture.followed];
-  speed_->setText(fmt::format("{:.0f}", std::fabs(car.speed_mps) * 3.6));
+  const double speed_mps = is_car ? picture.moment.cars[picture.followed].speed_mps : picture.moment.agents[picture.followed - cars].speed_mps;
+  speed_->setText(fmt::format("{:.0f}", std::fabs(speed_mps) * 3.6));
   speed_->setPosition({left + 112.0F, low + 40.0F, 0.0F});
   unit_->setText("km/h");
   unit_->setPosition({left + 120.0F, low + 40.0F, 0.0F});
-  gear_->setText(GearName(car.gear));
+  gear_->setText(is_car ? GearName(picture.moment.cars[picture.followed].gear) : "");  // the traffic's is not published
   gear_->setPosition({right - 14.0F, low + 44.0F, 0.0F});
   time_->setText(fmt::format("{:.2f} s", static_cast<double>(picture.moment.time_ns) * 1e-9));
   time_->setPosition({right - 14.0F, low + 12.0F, 0.0F});

@@ -14,6 +14,7 @@
 #include "nodes/view/built_world.hpp"
 #include "nodes/view/car_node.hpp"
 #include "nodes/view/instruments.hpp"
+#include "nodes/view/lights_node.hpp"
 #include "nodes/view/look.hpp"
 #include "nodes/view/model_file.hpp"
 #include "nodes/view/overlay.hpp"
@@ -85,11 +86,19 @@ void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group) {
   group.addChild(lod);
 }
 
+scene::Camera CameraFor(const Picture& picture, const scene::Body& body, const road::World& world) {
+  if (picture.screen && picture.camera == scene::CameraKind::kDriver) return scene::ScreenCamera(body, *picture.screen);
+  return scene::MakeCamera(picture.camera, body, picture.aim, world);
+}
+
 }  // namespace
 
 struct Painter::Parts {
+  explicit Parts(const road::World& world) : lights(look, world) {}
+
   Look look{kSun_W};
   Fleet fleet{look};
+  LightsNode lights;
   osg::ref_ptr<osg::Camera> overlay = MakeOverlay();
   Instruments instruments{*overlay};
   TimelineBar timeline{*overlay};
@@ -100,7 +109,7 @@ struct Painter::Parts {
   osgViewer::Viewer viewer;
 };
 
-Painter::Painter(Surface& surface, const road::World& world) : surface_(surface), world_(world), parts_(std::make_unique<Parts>()) {}
+Painter::Painter(Surface& surface, const road::World& world) : surface_(surface), world_(world), parts_(std::make_unique<Parts>(world)) {}
 
 Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing) : Painter(surface, world) {
   Look& look = parts_->look;
@@ -133,6 +142,7 @@ void Painter::SetUp() {
   Look& look = parts_->look;
   osg::Group& root = *parts_->root;
   root.addChild(parts_->fleet.node());
+  root.addChild(parts_->lights.node());
   root.addChild(look.MakeSky());
   root.addChild(parts_->overlay);
   osg::StateSet* state = root.getOrCreateStateSet();
@@ -163,8 +173,8 @@ Painter::~Painter() {
 void Painter::Draw(const Picture& picture) {
   const int width = surface_.width_px(), height = surface_.height_px();
   scene::Camera camera;
-  const bool follows = picture.followed < picture.moment.cars.size();
-  if (follows) camera = scene::MakeCamera(picture.camera, picture.moment.cars[picture.followed], world_);
+  const bool is_car = picture.followed < picture.moment.cars.size();
+  if (const auto body = scene::BodyAt(picture.moment, picture.followed)) camera = CameraFor(picture, *body, world_);
   osg::Camera& eye = *parts_->viewer.getCamera();
   if (eye.getViewport() == nullptr || static_cast<int>(eye.getViewport()->width()) != width || static_cast<int>(eye.getViewport()->height()) != height) {
     eye.getGraphicsContext()->resized(0, 0, width, height);
@@ -172,11 +182,20 @@ void Painter::Draw(const Picture& picture) {
   }
   const osg::Vec3d forward = ToOsg(camera.forward_W), up = ToOsg(camera.up_W), at = ToOsg(camera.eye_W);
   eye.setViewMatrixAsLookAt(at, at + forward, up);
-  eye.setProjectionMatrixAsPerspective(camera.vertical_view_rad * 180.0 / 3.14159265358979323846, static_cast<double>(width) / height, kNear_m, kFar_m);
+  const double aspect = static_cast<double>(width) / height, half_m = 0.5 * camera.parallel_height_m;
+  if (camera.window) {
+    const auto& [left, right, low, high] = *camera.window;
+    eye.setProjectionMatrixAsFrustum(kNear_m * left, kNear_m * right, kNear_m * low, kNear_m * high, kNear_m, kFar_m);
+  } else if (half_m > 0.0) {
+    eye.setProjectionMatrixAsOrtho(-half_m * aspect, half_m * aspect, -half_m, half_m, kNear_m, kFar_m);
+  } else {
+    eye.setProjectionMatrixAsPerspective(camera.vertical_view_rad * 180.0 / 3.14159265358979323846, aspect, kNear_m, kFar_m);
+  }
   const osg::Matrixd view = eye.getViewMatrix();
   parts_->sun_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(kSun_W), view)));
   parts_->up_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, 1.0), view)));
-  parts_->fleet.Show(picture.moment, follows && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt);
+  parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt);
+  parts_->lights.Show(picture.moment.lights);
   FitOverlay(*parts_->overlay, width, height);
   parts_->instruments.Show(picture, width, height, picture.timeline ? TimelinePlace::kHeight_px : 0.0F);
   parts_->timeline.Show(picture.timeline, width);

@@ -23,7 +23,9 @@ struct Timeline {
 struct Picture {
   scene::Moment moment;
   scene::CameraKind camera = scene::CameraKind::kChase;
-  std::size_t followed = 0;         // which of the moment's cars the camera goes with
+  scene::Aim aim;                   // of the cameras that a hand moves
+  std::optional<scene::ScreenPlane> screen;  // through which the driver's camera looks
+  std::size_t followed = 0;         // whom the camera goes with: the moment's cars, then its traffic
   bool show_instruments = true;     // speed, gear, time
   std::string text;                 // more lines for a person: help, statistics
   std::optional<Timeline> timeline;  // of a recording that is watched

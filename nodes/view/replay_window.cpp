@@ -118,7 +118,9 @@ void ReplayWindow::Take(const SDL_Event& event, scene::Player& player, const std
       break;
     case SDL_MOUSEMOTION:
       if (drags_) Drag(event.motion.x, player);
+      else (void)screen_->TakeMouse(event, false);
       break;
+    case SDL_MOUSEWHEEL: (void)screen_->TakeMouse(event, false); break;
     case SDL_MOUSEBUTTONUP: drags_ = false; break;
     case SDL_WINDOWEVENT:
       if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) drags_ = false;

@@ -4,12 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/hands/key_names.hpp"
 #include "common/launch/live_keys.hpp"
 
 namespace rodeira::view {
 namespace {
+
+constexpr double kZoom = 1.15;       // a notch of the mouse's wheel
+constexpr double kTurn_rad = 0.006;  // a pixel that it is drawn
 
 // A car where the world's start is: what the first picture is drawn with, so that everything is loaded before it counts.
 Picture FirstPicture(const road::World& world) {
@@ -36,8 +40,9 @@ std::string WindowHelp() {
 base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
                                                    bool resizable, std::string help) {
   const std::string title = world.name().empty() ? "Rodeira" : fmt::format("Rodeira: {}", world.name());
-  auto surface = Surface::Open(kind, settings.width_px, settings.height_px, title, resizable);
+  auto surface = Surface::Open(kind, settings.width_px, settings.height_px, title, resizable, settings.display);
   if (!surface) return surface.error();
+  if (settings.full_screen) surface.value()->ToggleFullScreen();
   std::unique_ptr<Screen> screen(new Screen());
   screen->surface_ = std::move(surface).value();
   auto painter = PainterOf(*screen->surface_, world, settings.built);
@@ -53,9 +58,14 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
 bool Screen::TakeKey(int symbol, bool driven) {
   switch (symbol) {
     case SDLK_k:
-      live_.camera = live_.camera == scene::CameraKind::kChase ? scene::CameraKind::kDriver : scene::CameraKind::kChase;
+      live_.camera = scene::NextCamera(live_.camera);
       return true;
-    case SDLK_TAB: ++live_.followed; return true;
+    case SDLK_TAB: {
+      const std::size_t cars = live_.moment.cars.size(), all = cars + live_.moment.agents.size();
+      live_.followed = all == 0 ? 0 : (live_.followed + 1) % all;
+      chosen_agent_ = live_.followed < cars || all == 0 ? std::nullopt : std::optional(live_.moment.agents[live_.followed - cars].id);
+      return true;
+    }
     case SDLK_h: help_ = !help_; return true;
     case SDLK_F3: statistics_ = !statistics_; return true;
     case SDLK_s:
@@ -67,11 +77,38 @@ bool Screen::TakeKey(int symbol, bool driven) {
   }
 }
 
+bool Screen::TakeMouse(const SDL_Event& event, bool driven) {
+  if (event.type == SDL_MOUSEWHEEL) {
+    live_.aim.Zoom(std::pow(kZoom, -event.wheel.y));
+    return true;
+  }
+  const bool turns = event.type == SDL_MOUSEMOTION && !driven && (event.motion.state & SDL_BUTTON_LMASK) != 0;
+  if (!turns) return false;
+  live_.aim.Turn(kTurn_rad * event.motion.xrel, kTurn_rad * event.motion.yrel);
+  return true;
+}
+
+// A car of the traffic that has left is followed no more.
+void Screen::Follow() {
+  const std::size_t cars = live_.moment.cars.size();
+  if (chosen_agent_) {
+    const auto& agents = live_.moment.agents;
+    const auto found = std::find_if(agents.begin(), agents.end(), [&](const scene::AgentPose& agent) { return agent.id == *chosen_agent_; });
+    if (found != agents.end()) {
+      live_.followed = cars + static_cast<std::size_t>(found - agents.begin());
+      return;
+    }
+    chosen_agent_.reset();
+    live_.followed = 0;
+  }
+  if (live_.followed >= cars) live_.followed = 0;
+}
+
 void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> timeline) {
   const double begin_s = launch::WallSeconds();
   live_.moment = std::move(moment);
   live_.timeline = std::move(timeline);
-  if (live_.followed >= live_.moment.cars.size()) live_.followed = 0;
+  Follow();
   live_.text = help_ ? help_text_ : "";
   if (statistics_) {
     live_.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", help_ ? "\n\n" : "", 1.0 / interval_s_,

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/base/result.hpp"
 #include "nodes/view/painter.hpp"
 #include "nodes/view/surface.hpp"
 #include "nodes/view/view_settings.hpp"
+
+union SDL_Event;
 
 namespace rodeira::view {
 
@@ -23,6 +27,9 @@ class Screen {
   // The picture changes without the world's time going on: camera, car, texts. False where the key is not the window's own.
   // `driven`: somebody drives by this window, and s is the brake.
   bool TakeKey(int symbol, bool driven);
+  // The wheel brings free cameras nearer and farther; the left button, held, turns the one about the car, where the mouse's
+  // buttons do not drive. False where nothing changed.
+  bool TakeMouse(const SDL_Event& event, bool driven);
   // Draws the moment as the person wishes to see it, and shows it. `rate`: simulated seconds a second, for the statistics.
   void Show(scene::Moment moment, double rate, std::optional<Timeline> timeline = std::nullopt);
 
@@ -32,7 +39,10 @@ class Screen {
   std::unique_ptr<Surface> surface_;
   std::unique_ptr<Painter> painter_;  // before its surface in dying
   std::string help_text_;
+  void Follow();  // whom the person chose, wherever it stands among the others now
+
   Picture live_;  // camera, followed car as the person chose
+  std::optional<std::uint64_t> chosen_agent_;  // of the traffic
   bool help_ = false;
   bool statistics_ = false;
   double frame_s_ = 0.0;      // smoothed time of drawing

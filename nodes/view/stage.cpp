@@ -157,6 +157,7 @@ bool Stage::ReadKeys(Hand& hand) {
     if (event.type == SDL_KEYDOWN && event.key.repeat == 0 && event.key.keysym.sym == SDLK_ESCAPE) open = false;
     const bool own = event.type == SDL_KEYDOWN && event.key.repeat == 0 &&
                      (event.key.keysym.sym == SDLK_ESCAPE || hand.screen->TakeKey(event.key.keysym.sym, hand.keys != nullptr));
+    if (hand.screen->TakeMouse(event, hand.keys != nullptr)) continue;
     if (!own && hand.keys != nullptr) hand.keys->Take(event);
   }
   if (hand.keys != nullptr) {

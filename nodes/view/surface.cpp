@@ -60,7 +60,7 @@ bool HasDisplay() {
   return display;
 }
 
-base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable) {
+base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable, int display) {
   std::unique_ptr<Surface> surface(new Surface());
   surface->kind_ = kind;
   if (kind == SurfaceKind::kWindow && !NamesDisplay()) return base::WrongInput(kNoDisplay);
@@ -72,18 +72,19 @@ base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width
   if (kind == SurfaceKind::kWindow && !IsDisplay(SDL_GetCurrentVideoDriver())) {
     return base::WrongInput(kNoDisplay);
   }
-  if (auto status = surface->MakeWindow(width_px, height_px, title, resizable); !status) return status.error();
+  if (auto status = surface->MakeWindow(width_px, height_px, title, resizable, display); !status) return status.error();
   return surface;
 }
 
-base::Status Surface::MakeWindow(int width_px, int height_px, const std::string& title, bool resizable) {
+base::Status Surface::MakeWindow(int width_px, int height_px, const std::string& title, bool resizable, int display) {
   resizable_ = resizable;
   Uint32 flags = SDL_WINDOW_OPENGL;
   if (kind_ == SurfaceKind::kWindow) flags |= SDL_WINDOW_SHOWN;
   if (resizable) flags |= SDL_WINDOW_RESIZABLE;
+  const int place = static_cast<int>(SDL_WINDOWPOS_CENTERED_DISPLAY(display < SDL_GetNumVideoDisplays() ? display : 0));
   for (const int samples : {4, 0}) {  // smooth edges where they are to be had
     AskForContext(samples);
-    window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width_px, height_px, flags);
+    window_ = SDL_CreateWindow(title.c_str(), place, place, width_px, height_px, flags);
     if (window_ != nullptr) context_ = SDL_GL_CreateContext(window_);
     // A window drawn by the processor needs its time for more pictures a second, not for smooth edges.
     const bool too_dear = samples > 0 && kind_ == SurfaceKind::kWindow && context_ != nullptr && IsSoftware(RendererName());

@@ -15,9 +15,9 @@ enum class SurfaceKind { kWindow, kOffscreen };
 // its OpenGL context is current there all the while. At most one a process.
 class Surface {
  public:
-  // A window that is not resizable keeps its size, full screen included: frames are read from it.
+  // A window appears on the display of that number, on the first one where the PC has fewer. One that is not resizable keeps its size, full screen included: frames are read from it.
   // Wrong input where there is no display (kWindow) or no OpenGL: a sentence that says what is missing.
-  static base::Result<std::unique_ptr<Surface>> Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable = false);
+  static base::Result<std::unique_ptr<Surface>> Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable = false, int display = 0);
   ~Surface();
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
@@ -35,7 +35,7 @@ class Surface {
 
  private:
   Surface() = default;
-  base::Status MakeWindow(int width_px, int height_px, const std::string& title, bool resizable);
+  base::Status MakeWindow(int width_px, int height_px, const std::string& title, bool resizable, int display);
 
   SurfaceKind kind_ = SurfaceKind::kOffscreen;
   SDL_Window* window_ = nullptr;

@@ -8,6 +8,7 @@
 
 #include "common/base/suggest.hpp"
 #include "common/hands/keyboard_driver.hpp"
+#include "common/launch/lab.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::view {
@@ -26,6 +27,18 @@ void ReadFollowed(const lockstep::Roster& roster, const lockstep::NodeSpec& view
   const auto followed = FindFollowed(roster, CarSources(view), map.Text("follow"));
   if (followed) settings.followed = followed.value();
   else map.Problem("follow", followed.error().message);
+}
+
+void ReadScreen(const launch::Launch& launch, const config::Map& map, ViewSettings& settings) {
+  if (!map.Has("screen")) return;
+  const std::string name = map.Text("screen");
+  if (launch.lab().empty()) return map.Problem("screen", "'screen' names one of a laboratory, but the launch file names no 'lab'");
+  const auto lab = launch::Lab::Load(launch.lab());
+  if (!lab) return map.Problem("screen", lab.error().Text());
+  const auto screen = lab.value().Screen(name);
+  if (!screen) return map.Problem("screen", screen.error().Text());
+  const launch::LabScreen& s = screen.value();
+  settings.screen = scene::ScreenPlane{s.width_m, s.height_m, s.distance_m, s.angle_rad, s.eye_height_m, s.aside_m};
 }
 
 void ReadTimes(const launch::NodeContext& context, const config::Map& frames, ViewSettings& settings) {
@@ -56,7 +69,11 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& 
   ViewSettings settings;
   settings.width_px = static_cast<int>(map.Integer("width_px", 64, 7680, 1280));
   settings.height_px = static_cast<int>(map.Integer("height_px", 64, 4320, 720));
-  settings.camera = map.Choice("camera", {"chase", "driver"}, "chase") == "driver" ? scene::CameraKind::kDriver : scene::CameraKind::kChase;
+  const auto cameras = scene::CameraNames();
+  ReadScreen(launch, map, settings);
+  settings.camera = scene::CameraOf(map.Choice("camera", {cameras.begin(), cameras.end()}, settings.screen ? "driver" : "chase")).value_or(scene::CameraKind::kChase);
+  settings.full_screen = map.Flag("full_screen", false);
+  settings.display = static_cast<int>(map.Integer("display", 0, 15, 0));
   const std::string window = map.Choice("window", {"auto", "always", "never"}, "auto");
   settings.window = window == "always" ? WindowWish::kAlways : window == "never" ? WindowWish::kNever : WindowWish::kAuto;
   settings.instruments = map.Flag("instruments", true);
@@ -131,6 +148,7 @@ Picture PictureOf(const ViewSettings& settings, scene::Moment moment) {
   Picture picture;
   picture.moment = std::move(moment);
   picture.camera = settings.camera;
+  picture.screen = settings.screen;
   picture.followed = settings.followed;
   picture.show_instruments = settings.instruments;
   return picture;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct ViewSettings {
   int width_px = 1280;
   int height_px = 720;
   scene::CameraKind camera = scene::CameraKind::kChase;
+  std::optional<scene::ScreenPlane> screen;  // of the laboratory, for the driver's camera
+  bool full_screen = false;
+  int display = 0;                           // of the PC, for the window
   WindowWish window = WindowWish::kAuto;
   bool instruments = true;
   std::size_t followed = 0;                  // which of the cars wired to the view, in the roster's order

@@ -49,6 +49,7 @@ base::Bytes Payload(const lockstep::Source& source, Step step) {
     }
     return idl::Encode(car);
   }
+  if (source.topic == idl::topics::kSignalsState) return idl::Encode(msg::SignalsState());
   msg::TrafficState traffic;
   for (const std::uint32_t id : {4U, 9U}) {
     msg::TrafficAgent agent;
@@ -169,7 +170,7 @@ TEST_F(WatchTest, LooksAsTheRecordedViewDid) {
   EXPECT_EQ(seen.value().settings.camera, scene::CameraKind::kDriver);
   EXPECT_FALSE(seen.value().settings.instruments);
   EXPECT_EQ(seen.value().period, 20);
-  EXPECT_EQ(seen.value().sources.size(), 2u) << "a car and traffic, no hands";
+  EXPECT_EQ(seen.value().sources.size(), 3u) << "a car, traffic and lights, no hands";
   WatchOptions wishes;
   wishes.camera = "chase";
   wishes.size = "800x600";
@@ -186,7 +187,7 @@ TEST_F(WatchTest, ARunWithoutAViewIsSeenWhole) {
   ASSERT_TRUE(run.ok()) << run.error().Text();
   const auto seen = LookAt(run.value(), {});
   ASSERT_TRUE(seen.ok()) << seen.error().Text();
-  EXPECT_EQ(seen.value().sources.size(), 2u);
+  EXPECT_EQ(seen.value().sources.size(), 3u);
   EXPECT_EQ(seen.value().period, 20);
   EXPECT_EQ(seen.value().settings.width_px, 1280);
 }

@@ -178,6 +178,24 @@ TEST_F(Recovery, OfAKilledClockTheWallTimesThatWentWithItAreCounted) {
   EXPECT_GT(lost_at, 0);
 }
 
+// It may die before anybody has heard of it: in its first moment, while it looks for other clocks, while the nodes start.
+TEST_F(Recovery, AClockThatDiesWhileTheRunStartsIsStartedAgain) {
+  Undisturbed("2");
+  for (const auto after : {0ms, 100ms, 350ms, 600ms}) {
+    SCOPED_TRACE(after.count());
+    const std::string run_name = "recovery-start-" + std::to_string(::getpid()) + "-" + std::to_string(after.count());
+    Started run(Command(run_name, File(run_name + ".mcap"), "2", "restart"));
+    const pid_t clock = Find(run_name, "clock");
+    ASSERT_GT(clock, 0);
+    std::this_thread::sleep_for(after);
+    ::kill(clock, SIGKILL);
+    const Ended ended = run.Wait(60s);
+    ExpectUndisturbed(ended, File(run_name + ".mcap"));
+    EXPECT_NE(ended.out.find("again   the clock was killed by signal 9"), std::string::npos) << ended.out;
+    if (HasFailure()) return;
+  }
+}
+
 // It writes its pictures again, as an undisturbed one does.
 TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
   const auto command = [&](const std::string& name) {

@@ -42,6 +42,7 @@ base::Bytes Payload(const lockstep::Source& source, Step step) {
     }
     return idl::Encode(car);
   }
+  if (source.topic == idl::topics::kSignalsState) return idl::Encode(msg::SignalsState());
   msg::TrafficState traffic;
   for (std::uint32_t id = 0; id < 20; ++id) {
     msg::TrafficAgent agent;

@@ -53,6 +53,23 @@ TEST(Lab, SaysWhereEverybodyIs) {
   EXPECT_EQ(Lab::Parse(Changed("clock: right\n", ""), "rig.yaml").value().clock(), "left") << "the first one";
 }
 
+TEST(Lab, MeasuresItsScreens) {
+  const std::string text = std::string(kLab) + "screens:\n  left: {width_cm: 120, height_cm: 70, distance_cm: 90, angle_deg: 60, eye_height_cm: 30, aside_cm: -5}\n"
+                                               "  centre: {width_cm: 120, height_cm: 70, distance_cm: 90}\n";
+  const Lab lab = Lab::Parse(text, "rig.yaml").value();
+  const LabScreen left = lab.Screen("left").value();
+  EXPECT_DOUBLE_EQ(left.width_m, 1.2);
+  EXPECT_DOUBLE_EQ(left.height_m, 0.7);
+  EXPECT_DOUBLE_EQ(left.distance_m, 0.9);
+  EXPECT_NEAR(left.angle_rad, 1.0471975511965976, 1e-15);
+  EXPECT_DOUBLE_EQ(left.eye_height_m, 0.3);
+  EXPECT_DOUBLE_EQ(left.aside_m, -0.05);
+  EXPECT_DOUBLE_EQ(lab.Screen("centre").value().eye_height_m, 0.35) << "before its middle, where nobody says";
+  EXPECT_EQ(lab.Screen("center").error().Text(), "rig.yaml: there is no screen 'center'; did you mean 'centre'?");
+  EXPECT_EQ(Refusal(std::string(kLab) + "screens:\n  left: {width_cm: 0, height_cm: 70, distance_cm: 90}\n"),
+            "dir/rig.yaml:10: 'screens.left.width_cm' is 0; a number from 1 to 5000 was expected");
+}
+
 TEST(Lab, TellsEveryProcessHowToMeetTheOthers) {
   const Discovery peers = On("left", kLab);
   EXPECT_EQ(peers.kind, DiscoveryKind::kPeers);

@@ -28,6 +28,7 @@ base::Bytes Payload(const lockstep::Source& source, Step step) {
   if (source.topic == idl::topics::kControls) return idl::Encode(msg::Controls());
   if (source.topic == idl::topics::kTrafficState) return idl::Encode(msg::TrafficState());
   if (source.topic == idl::topics::kCollisions) return idl::Encode(msg::Collisions());
+  if (source.topic == idl::topics::kSignalsState) return idl::Encode(msg::SignalsState());
   msg::VehicleState car;
   car.position_w_m().x(0.02 * static_cast<double>(step));
   return idl::Encode(car);
@@ -52,7 +53,7 @@ class TapeTest : public testing::Test {
   static std::vector<SourceIndex> Seen(const RecordedRun& run) {
     std::vector<SourceIndex> seen;
     for (SourceIndex s = 0; s < run.roster().sources().size(); ++s) {
-      const auto& topic = run.roster().source(s).topic;
+      const std::string& topic = run.roster().source(s).topic;
       if (topic == idl::topics::kVehicleState || topic == idl::topics::kTrafficState) seen.push_back(s);
     }
     return seen;

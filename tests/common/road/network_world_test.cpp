@@ -122,6 +122,24 @@ TEST_F(NetworkWorld, StartsOnTheLongestLaneInItsDirection) {
   EXPECT_EQ(world->start().road, -1);
 }
 
+// UTM zone 29: x = 500 000 m lies on its meridian, 9 degrees west. Turned by a right angle, what lies ahead in the file lies north of there.
+TEST_F(NetworkWorld, AHeadersOffsetMovesItOnTheEarth) {
+  std::string text = Document(RoadText().Text());
+  text.replace(text.find("revMinor=\"8\"/>"), 14,
+               "revMinor=\"8\"><geoReference>+proj=utm +zone=29 +datum=WGS84</geoReference><offset x=\"500000\" y=\"4553000\" z=\"0\" hdg=\"1.5707963267948966\"/></header>");
+  const auto world = MustLoad(text);
+  const std::string ahead = DescribePoint(*world, 100.0, 0.0), aside = DescribePoint(*world, 100.0, -3.0);
+  EXPECT_THAT(ahead, HasSubstr("longitude_deg: -9.000000000\n"));
+  const auto number = [](const std::string& said, const std::string& key) { return std::stod(said.substr(said.find(key) + key.size())); };
+  // A degree of latitude has 111.05 km at 41 degrees (WGS 84), the map's scale is 0.9996.
+  const double north = number(ahead, "latitude_deg: "), at_origin = number(DescribePoint(*world, 0.0, 0.0), "latitude_deg: ");
+  EXPECT_NEAR((north - at_origin) * 111050.0 * 0.9996, 100.0, 0.1);
+  EXPECT_GT(number(aside, "longitude_deg: "), -9.0);  // to the right: east
+  const auto back = PlaceOnMap(*world, -9.0, north);
+  ASSERT_TRUE(back.ok()) << back.error().Text();
+  EXPECT_NEAR((back.value() - Eigen::Vector2d(100.0, 0.0)).norm(), 0.0, 1e-3);  // nine digits of a degree
+}
+
 TEST_F(NetworkWorld, IsDescribedCheckedAndDrawn) {
   const auto path = Put(TwoLevels());
   const auto world = World::Load(path).value();

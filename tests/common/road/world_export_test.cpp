@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 #include "common/base/files.hpp"
 #include "common/base/random.hpp"
@@ -30,6 +31,7 @@ void ExpectTheSameRoad(const World& world) {
   for (const auto& warning : import.value().warnings) ADD_FAILURE() << warning.Text();
   ASSERT_NE(import.value().network, nullptr);
   const network::Network& network = *import.value().network;
+  const LaneGrounds grounds(network, kUsualFriction);
   const Road& road = world.roads()[0];
   const network::Road& again = network.roads()[0];
   EXPECT_NEAR(again.length_m(), road.length_m(), 1e-9);
@@ -38,7 +40,7 @@ void ExpectTheSameRoad(const World& world) {
     const double t = base::RandomUniform({i, 2}, road.section().verge_right_m() + 0.01, road.section().verge_left_m() - 0.01);
     const Eigen::Vector3d p = road.Position(s, t);
     EXPECT_NEAR((again.Surface(s, t).p_W - p).norm(), 0.0, 1e-8) << s << " " << t;
-    const SurfacePoint ours = world.At(p.x(), p.y()), theirs = NetworkGround(network, kUsualFriction, p.x(), p.y(), p.z());
+    const SurfacePoint ours = world.At(p.x(), p.y()), theirs = NetworkGround(network, grounds, kUsualFriction, p.x(), p.y(), p.z());
     EXPECT_NEAR(ours.z_m, theirs.z_m, 1e-8);
     EXPECT_NEAR(ours.slope_x, theirs.slope_x, 1e-8);
     EXPECT_NEAR(ours.slope_y, theirs.slope_y, 1e-8);
@@ -83,16 +85,61 @@ TEST(WorldExport, NothingToExportIsSaid) {
               testing::HasSubstr("this world has no road; OpenDRIVE needs one"));
 }
 
-TEST(WorldExport, NetconvertReadsIt) {
+// The lanes of a side that SUMO keeps, and their mean length in space: SUMO has one length for all lanes of an edge.
+double MeanLength(const network::Network& network, std::uint32_t road, bool left) {
+  constexpr double kStep_m = 0.5;
+  const network::LaneSection& section = network.roads()[road].spec().sections[0];
+  double sum = 0.0;
+  int lanes = 0;
+  for (const network::Lane& lane : left ? section.left : section.right) {
+    if (!network::IsDrivable(lane.type)) continue;
+    ++lanes;
+    const double steps = std::ceil(network.roads()[road].length_m() / kStep_m);
+    Eigen::Vector3d before = network.Centre({road, 0, lane.id}, 0.0);
+    for (double i = 1.0; i <= steps; i += 1.0) {
+      const Eigen::Vector3d next = network.Centre({road, 0, lane.id}, network.roads()[road].length_m() * i / steps);
+      sum += (next - before).norm();
+      before = next;
+    }
+  }
+  return lanes == 0 ? 0.0 : sum / lanes;
+}
+
+// By SUMO's edge, `-ROAD` along s and `ROAD` against it: what its first lane's text says as length.
+std::map<std::string, double> LengthsIn(const std::string& net) {
+  std::map<std::string, double> lengths;
+  for (std::size_t at = net.find("<lane id=\""); at != std::string::npos; at = net.find("<lane id=\"", at + 1)) {
+    const std::string id = net.substr(at + 10, net.find('"', at + 10) - at - 10);
+    const std::size_t length = net.find("length=\"", at) + 8;
+    if (id[0] != ':') lengths[id.substr(0, id.rfind('_'))] = std::strtod(net.c_str() + length, nullptr);
+  }
+  return lengths;
+}
+
+// Roads without junctions: at junctions SUMO cuts its lanes by a shape of its own.
+TEST(WorldExport, NetconvertReadsItWithTheSameLanes) {
   if (std::system("command -v netconvert > /dev/null 2>&1") != 0) GTEST_SKIP() << "SUMO's netconvert is not installed";
   const auto folder = std::filesystem::temp_directory_path() / ("rodeira-export-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
-  ASSERT_TRUE(base::WriteWhole(folder / "n222.xodr", std::string_view(ExportOpenDrive(*Of("n222.yaml")).value())).ok());
-  const std::string command =
-      "cd " + folder.string() + " && { [ -n \"$SUMO_HOME\" ] || [ ! -d /usr/share/sumo ] || export SUMO_HOME=/usr/share/sumo; } && netconvert --opendrive-files n222.xodr --output-file n222.net.xml > log 2>&1";
-  EXPECT_EQ(std::system(command.c_str()), 0) << base::ReadText(folder / "log").value();
-  const std::string net = base::ReadText(folder / "n222.net.xml").value();
-  EXPECT_NE(net.find("<lane "), std::string::npos);
+  for (const char* name : {"n222.yaml", "motorway.yaml"}) {
+    const auto world = Of(name);
+    ASSERT_TRUE(base::WriteWhole(folder / "it.xodr", std::string_view(ExportOpenDrive(*world).value())).ok());
+    const std::string command =
+        "cd " + folder.string() + " && { [ -n \"$SUMO_HOME\" ] || [ ! -d /usr/share/sumo ] || export SUMO_HOME=/usr/share/sumo; } && netconvert --opendrive-files it.xodr --output-file it.net.xml > log 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << base::ReadText(folder / "log").value();
+    const auto lengths = LengthsIn(base::ReadText(folder / "it.net.xml").value());
+    const network::Network& network = *world->network();
+    for (std::uint32_t road = 0; road < network.roads().size(); ++road) {
+      for (const bool left : {false, true}) {
+        const double ours = MeanLength(network, road, left);
+        if (ours == 0.0) continue;
+        const std::string edge = (left ? "" : "-") + network.roads()[road].id();
+        ASSERT_TRUE(lengths.contains(edge)) << edge;
+        // Chords of 2 m on bends of 30 m are 2e-4 shorter than the bend.
+        EXPECT_NEAR(lengths.at(edge), ours, 2e-4 * ours) << edge;
+      }
+    }
+  }
   std::filesystem::remove_all(folder);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "tests/common/scene/worlds.hpp"
 
@@ -56,6 +57,156 @@ TEST(Camera, TheDriverSitsOnTheLeftAndRollsWithTheCar) {
   EXPECT_GT(eye_B.y(), 0.2);
   EXPECT_NEAR(eye_B.z(), 1.20, 1e-9);
   EXPECT_NEAR((car.q_WB.conjugate() * camera.up_W).y(), 0.0, 1e-12);
+}
+
+TEST(Camera, KindsGoRoundAndHaveNames) {
+  CameraKind kind = CameraKind::kChase;
+  for (const std::string_view name : CameraNames()) {
+    EXPECT_EQ(CameraOf(name), kind) << name;
+    kind = NextCamera(kind);
+  }
+  EXPECT_EQ(kind, CameraKind::kChase);
+  EXPECT_FALSE(CameraOf("chaise"));
+}
+
+CarPose CarAt(double x_m, double y_m, double z_m, double heading_rad) {
+  CarPose car;
+  car.p_WB_W = {x_m, y_m, z_m};
+  car.q_WB = Attitude(heading_rad, 0.0, 0.0);
+  return car;
+}
+
+TEST(Camera, OnTheBonnetTheCarIsBehindTheEye) {
+  const CarPose car = CarAt(100.0, 50.0, 7.0, 0.5);
+  const Eigen::Vector3d eye_B = car.q_WB.conjugate() * (BonnetCamera(car).eye_W - car.p_WB_W);
+  EXPECT_GT(eye_B.x(), 0.5);
+  EXPECT_LT(eye_B.x(), car.front_m);
+  EXPECT_NEAR(eye_B.y(), 0.0, 1e-12);
+}
+
+// Parallel rays: a metre is as many pixels wherever it lies, up is north, right is east.
+TEST(Camera, TheMapIsToScale) {
+  const CarPose car = CarAt(100.0, 50.0, 7.0, 2.5);
+  Aim aim;
+  aim.map_height_m = 60.0;
+  const Camera map = TopCamera(car, aim);
+  for (const double above_m : {-3.0, 0.0, 12.0}) {
+    const auto at = map.Project(car.p_WB_W + Eigen::Vector3d(10.0, 5.0, above_m), 800, 600);
+    ASSERT_TRUE(at);
+    EXPECT_NEAR(at->x(), 400.0 + 100.0, 1e-9);
+    EXPECT_NEAR(at->y(), 300.0 - 50.0, 1e-9);
+  }
+}
+
+TEST(Camera, AFreeEyeTurnsAboutTheCarAndStaysOverTheGround) {
+  const auto world = PlaneWithRoad();
+  const CarPose car = CarAt(60.0, 0.0, world->At(60.0, 0.0).z_m, 0.4);
+  Aim aim;
+  aim.azimuth_rad = 0.0;
+  aim.elevation_rad = 0.5;
+  aim.distance_m = 10.0;
+  const auto eye_B = [&] { return Eigen::Vector3d(car.q_WB.conjugate() * (OrbitCamera(car, aim, *world).eye_W - car.p_WB_W)); };
+  EXPECT_LT((eye_B() - Eigen::Vector3d(-10.0 * std::cos(0.5), 0.0, 0.5 * car.height_m + 10.0 * std::sin(0.5))).norm(), 1e-9) << "behind";
+  aim.Turn(0.5 * 3.14159265358979323846, 0.0);
+  EXPECT_LT((eye_B() - Eigen::Vector3d(0.0, -10.0 * std::cos(0.5), 0.5 * car.height_m + 10.0 * std::sin(0.5))).norm(), 1e-9) << "over its right side";
+  aim.Turn(0.0, -3.0);
+  const Camera low = OrbitCamera(car, aim, *world);
+  EXPECT_GE(low.eye_W.z(), world->At(low.eye_W.x(), low.eye_W.y()).z_m + 0.89);
+  const auto middle = low.Project(car.p_WB_W + Eigen::Vector3d(0.0, 0.0, 0.5 * car.height_m), 800, 600);
+  ASSERT_TRUE(middle);
+  EXPECT_NEAR(middle->x(), 400.0, 1e-6);
+  EXPECT_NEAR(middle->y(), 300.0, 1e-6);
+  for (int i = 0; i < 100; ++i) aim.Zoom(1.5);
+  EXPECT_EQ(aim.distance_m, 400.0);
+  for (int i = 0; i < 100; ++i) aim.Zoom(0.5);
+  EXPECT_EQ(aim.distance_m, 2.5);
+}
+
+// Along all of N222 a car in its lane is in the middle of the picture, seen from beside the road, never from within 1 m of it; the eye
+// stands still for as long as the car is on its part of the road.
+TEST(Camera, BesideTheRoadPostsTakeTurns) {
+  const auto world = N222();
+  const road::Road& road = world->roads()[0];
+  std::vector<Eigen::Vector3d> posts;
+  for (double s = 2.0; s < road.length_m(); s += 5.0) {
+    const road::RoadFrame frame = road.Evaluate(s);
+    CarPose car;
+    car.p_WB_W = road.Position(s, -1.6);
+    car.q_WB = Attitude(frame.heading_rad, 0.0, 0.0);
+    const Camera camera = TracksideCamera(car, *world);
+    if (posts.empty() || camera.eye_W != posts.back()) posts.push_back(camera.eye_W);
+    const auto place = world->network()->Locate(camera.eye_W.x(), camera.eye_W.y(), camera.eye_W.z());
+    ASSERT_TRUE(place);
+    EXPECT_GT(std::fabs(place->t_m), 4.0) << s;
+    EXPECT_NEAR(camera.eye_W.z(), world->At(camera.eye_W.x(), camera.eye_W.y()).z_m + 1.9, 1e-9) << s;
+    const auto at = camera.Project(car.p_WB_W + Eigen::Vector3d(0.0, 0.0, 0.5 * car.height_m), 1280, 720);
+    ASSERT_TRUE(at) << s;
+    EXPECT_NEAR(at->x(), 640.0, 1e-6) << s;
+    EXPECT_NEAR(at->y(), 360.0, 1e-6) << s;
+  }
+  EXPECT_NEAR(static_cast<double>(posts.size()), road.length_m() / 120.0, 1.0);
+}
+
+TEST(Camera, FollowsTheTrafficToo) {
+  Moment moment;
+  moment.cars.push_back(CarAt(0.0, 0.0, 0.0, 0.0));
+  AgentPose van;
+  van.p_WB_W = {30.0, 4.0, 1.0};
+  van.length_m = 5.2;
+  moment.agents.push_back(van);
+  ASSERT_TRUE(BodyAt(moment, 1));
+  EXPECT_EQ(BodyAt(moment, 0)->p_WB_W, moment.cars[0].p_WB_W);
+  EXPECT_EQ(BodyAt(moment, 1)->p_WB_W, van.p_WB_W);
+  EXPECT_EQ(BodyAt(moment, 1)->front_m, 2.6);
+  EXPECT_FALSE(BodyAt(moment, 2));
+}
+
+// Straight ahead and as high over as under the eye, a screen shows what a pinhole camera of that angle does.
+TEST(Camera, AScreenBeforeTheEyeIsAPinholesPicture) {
+  const CarPose car = CarAt(100.0, 50.0, 7.0, 0.5);
+  const Camera screen = ScreenCamera(car, {0.8, 0.6, 0.5, 0.0, 0.3, 0.0});
+  Camera pinhole = screen;
+  pinhole.window.reset();
+  pinhole.vertical_view_rad = 2.0 * std::atan(0.3 / 0.5);
+  for (const auto& ahead : {Eigen::Vector3d(12.0, 3.0, 1.0), Eigen::Vector3d(5.0, -2.0, 0.0)}) {
+    const Eigen::Vector3d p = car.p_WB_W + car.q_WB * ahead;
+    EXPECT_LT((*screen.Project(p, 800, 600) - *pinhole.Project(p, 800, 600)).norm(), 1e-9);
+  }
+}
+
+// Lay a ruler from the eye through a point of the screen: what lies behind is drawn there, wherever the screen stands.
+TEST(Camera, WhatIsSeenThroughAScreenLiesOnTheRayThroughIt) {
+  const CarPose car = CarAt(-20.0, 5.0, 1.0, 1.2);
+  const Eigen::Vector3d eye_B = car.q_WB.conjugate() * (DriverCamera(car).eye_W - car.p_WB_W);
+  for (const ScreenPlane& plane : {ScreenPlane{1.2, 0.7, 0.9, 0.0, 0.2, 0.1}, ScreenPlane{0.6, 0.34, 0.7, 0.8, 0.17, -0.2}, ScreenPlane{2.0, 1.5, 1.4, -1.3, 1.0, 0.0}}) {
+    const Camera camera = ScreenCamera(car, plane);
+    const Eigen::AngleAxisd turn(plane.angle_rad, Eigen::Vector3d::UnitZ());
+    for (const double u : {0.0, 0.3, 1.0}) {    // from the screen's left edge
+      for (const double v : {0.0, 0.6, 1.0}) {  // from its upper edge
+        const Eigen::Vector3d on_screen = turn * Eigen::Vector3d(plane.distance_m, -(plane.aside_m + (u - 0.5) * plane.width_m), (1.0 - v) * plane.height_m - plane.eye_height_m);
+        const auto at = camera.Project(car.p_WB_W + car.q_WB * (eye_B + 37.0 * on_screen), 1600, 900);
+        ASSERT_TRUE(at);
+        EXPECT_NEAR(at->x(), 1600.0 * u, 1e-6);
+        EXPECT_NEAR(at->y(), 900.0 * v, 1e-6);
+      }
+    }
+  }
+}
+
+// Three screens whose edges touch: what is cut by the seam leaves one where it enters the other.
+TEST(Camera, ThreeScreensHaveNoSeam) {
+  const CarPose car = CarAt(0.0, 0.0, 0.0, 0.3);
+  const double width = 1.2, distance = 0.9, angle = 2.0 * std::atan(0.5 * width / distance);
+  const Camera left = ScreenCamera(car, {width, 0.7, distance, angle, 0.3, 0.0}), middle = ScreenCamera(car, {width, 0.7, distance, 0.0, 0.3, 0.0});
+  for (const double away_m : {3.0, 20.0, 400.0}) {
+    for (const double up_m : {-0.5, 0.0, 2.0}) {
+      const Eigen::Vector3d ray_B(distance, 0.5 * width, 0.0);
+      const Eigen::Vector3d p = middle.eye_W + car.q_WB * Eigen::Vector3d(away_m * ray_B + Eigen::Vector3d(0.0, 0.0, up_m));
+      EXPECT_NEAR(middle.Project(p, 1920, 1080)->x(), 0.0, 1e-6);
+      EXPECT_NEAR(left.Project(p, 1920, 1080)->x(), 1920.0, 1e-6);
+      EXPECT_NEAR(left.Project(p, 1920, 1080)->y(), middle.Project(p, 1920, 1080)->y(), 1e-6);
+    }
+  }
 }
 
 }  // namespace

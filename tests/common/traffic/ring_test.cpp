@@ -7,30 +7,13 @@
 #include <numbers>
 
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/opendrive/sample.hpp"
 #include "tests/common/traffic/identical.hpp"
+#include "tests/common/traffic/ring.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 using driver::IdmSettings;
-
-constexpr double kRing_m = 1000.0;
-constexpr double kRingLimit_mps = 15.0;
-
-// One lane around a circle, going on into itself.
-std::shared_ptr<const network::Network> Ring() {
-  opendrive::RoadText road;
-  road.length = kRing_m;
-  road.link = "<predecessor elementType=\"road\" elementId=\"1\" contactPoint=\"end\"/>"
-              "<successor elementType=\"road\" elementId=\"1\" contactPoint=\"start\"/>";
-  road.geometry = fmt::format("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"{0}\"><arc curvature=\"{1:.17g}\"/></geometry>", kRing_m,
-                              2.0 * std::numbers::pi / kRing_m);
-  road.left = "";
-  road.right = fmt::format("<lane id=\"-1\" type=\"driving\"><link><predecessor id=\"-1\"/><successor id=\"-1\"/></link>"
-                           "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" max=\"{}\" unit=\"m/s\"/></lane>", kRingLimit_mps);
-  return opendrive::MustRead(opendrive::Document(road.Text()));
-}
 
 struct Spread {
   double mean_mps = 0.0, deviation_mps = 0.0;
@@ -41,23 +24,6 @@ Spread SpreadOf(const TrafficModel& model) {
   for (const AgentPose& pose : model.poses()) spread.deviation_mps += std::pow(pose.speed_mps - spread.mean_mps, 2);
   spread.deviation_mps = std::sqrt(spread.deviation_mps / static_cast<double>(model.on_road()));
   return spread;
-}
-
-// The gap that is left to each car, and the speed at which (s0 + v T) / sqrt(1 - (v/v0)^4) is that gap.
-struct Equilibrium {
-  double gap_m = 0.0, speed_mps = 0.0;
-};
-Equilibrium EquilibriumOf(const TrafficModel& model, const IdmSettings& idm) {
-  double length = model.graph()[0].length_m();
-  for (const AgentPose& pose : model.poses()) length -= model.traits(pose.id).length_m;
-  Equilibrium at{length / static_cast<double>(model.on_road()), 0.0};
-  double low = 0.0, high = kRingLimit_mps;
-  for (int i = 0; i < 60; ++i) {
-    at.speed_mps = 0.5 * (low + high);
-    const double gap = (idm.standing_gap_m + at.speed_mps * idm.time_gap_s) / std::sqrt(1.0 - std::pow(at.speed_mps / kRingLimit_mps, 4));
-    (gap < at.gap_m ? low : high) = at.speed_mps;
-  }
-  return at;
 }
 
 // The fastest growth of a small disturbance: f(s, v, v_l) of the IDM linearised at equilibrium, every car n waves
@@ -78,7 +44,7 @@ double GrowthRate(const IdmSettings& idm, const Equilibrium& at, std::size_t car
 }
 
 TEST(Ring, CarsOnARingComeToTheEquilibriumSpeedOfTheIdm) {
-  const auto network = Ring();
+  const auto network = Ring(1000.0);
   for (const std::uint32_t cars : {20u, 35u, 60u}) {
     const TrafficSettings settings = Identical(cars, 2.0);
     TrafficModel model = TrafficModel::Make(settings, network, {}).value();
@@ -94,7 +60,7 @@ TEST(Ring, CarsOnARingComeToTheEquilibriumSpeedOfTheIdm) {
 
 // How fast a small disturbance dies away, against the linear theory.
 TEST(Ring, ADisturbanceOnARingDiesAwayAsTheLinearTheorySays) {
-  const auto network = Ring();
+  const auto network = Ring(1000.0);
   for (const std::uint32_t cars : {25u, 40u}) {
     const TrafficSettings settings = Identical(cars, 2.0);
     TrafficModel model = TrafficModel::Make(settings, network, {}).value();
@@ -112,7 +78,7 @@ TEST(Ring, ADisturbanceOnARingDiesAwayAsTheLinearTheorySays) {
 
 // Stop and go arises where, and only where, the criterion says so.
 TEST(Ring, StopAndGoArisesWhereTheIdmIsUnstable) {
-  const auto network = Ring();
+  const auto network = Ring(1000.0);
   int stable = 0, unstable = 0;
   for (const double acceleration : {0.4, 0.8, 1.4, 2.0}) {
     for (const std::uint32_t cars : {20u, 40u, 60u}) {
@@ -129,6 +95,29 @@ TEST(Ring, StopAndGoArisesWhereTheIdmIsUnstable) {
   }
   EXPECT_GE(stable, 2);
   EXPECT_GE(unstable, 2);
+}
+
+// Sugiyama's experiment (New Journal of Physics 10, 2008): 22 cars on 230 m jam. Where the linear theory says that a disturbance grows a jam
+// arises in which cars stand; where it says that it dies away there is none.
+TEST(Ring, SugiyamasRingJamsWhereTheTheorySaysSo) {
+  const auto network = Ring(230.0 - 2.0 * std::numbers::pi * 1.75);  // its lane lies 1.75 m outside the axis
+  for (const double acceleration : {0.5, 0.8, 3.0}) {
+    TrafficSettings settings = Identical(22, acceleration);
+    TrafficModel model = TrafficModel::Make(settings, network, {}).value();
+    while (model.on_road() < 22 && settings.seed < 100) {  // drawn places for all of them
+      ++settings.seed;
+      model = TrafficModel::Make(settings, network, {}).value();
+    }
+    ASSERT_EQ(model.on_road(), 22u);
+    ASSERT_NEAR(model.graph()[0].length_m(), 230.0, 0.01);
+    const double growth = GrowthRate(settings.idm, EquilibriumOf(model, settings.idm), 22);
+    ASSERT_GT(std::fabs(growth), 0.004) << acceleration;
+    for (int i = 0; i < 60000; ++i) model.Step(0.02, {});
+    const Spread spread = SpreadOf(model);
+    if (growth < 0.0) EXPECT_LT(spread.deviation_mps, 0.02) << acceleration;
+    else EXPECT_GT(spread.deviation_mps, 0.25 * spread.mean_mps) << acceleration;
+    RecordProperty("growth_" + std::to_string(acceleration), std::to_string(growth));
+  }
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <cmath>
 
+#include "common/scene/light_heads.hpp"
 #include "tests/common/scene/ground_worlds.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
@@ -63,6 +66,54 @@ TEST(NetworkStill, ASignIsReadByThoseWhomItIsForAndGreyFromBehind) {
   EXPECT_LT(std::max({back.red, back.green, back.blue}) - std::min({back.red, back.green, back.blue}), 30.0) << back;
   EXPECT_GT(back.red, 60.0) << back;
   EXPECT_LT(back.red, 200.0) << back;
+}
+
+// Above green, amber and red the same place is dark or shines, as the moment says; who comes from behind sees none of it.
+TEST(NetworkStill, LightsShineAsTheMomentSays) {
+  RODEIRA_NEEDS_PICTURES();
+  using network::LightColour;
+  const auto world = scene::OpenDriveWorld(
+      "<road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><line/></geometry></planView>"
+      "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" "
+      "d=\"0\"/></lane></right></laneSection></lanes><signals>"
+      "<signal id=\"a\" s=\"22\" t=\"-4\" zOffset=\"1\" orientation=\"+\" dynamic=\"yes\" type=\"1000001\" subtype=\"-1\" country=\"OpenDRIVE\" height=\"1.2\"/>"
+      "</signals></road><controller id=\"1\" name=\"only\"><control signalId=\"a\" type=\"0\"/><userData code=\"rodeira:times\" value=\"60 0 20 3 1\"/></controller>\n");
+  ASSERT_NE(world, nullptr);
+  const auto heads = scene::LightHeads(*world);
+  ASSERT_EQ(heads.size(), 1u);
+  EXPECT_EQ(heads[0].controller, 0u);
+  EXPECT_NEAR(heads[0].height_m, 1.2, 1e-9);
+  Picture picture;
+  picture.show_instruments = false;
+  picture.moment.cars.push_back(CarAt({10.0, -1.75, 0.0}, 0.0));
+  const scene::Camera camera = scene::ChaseCamera(picture.moment.cars[0], *world);
+  // How bright the three are, from below.
+  const auto seen = [&](std::optional<LightColour> colour) {
+    picture.moment.lights.clear();
+    if (colour) picture.moment.lights.push_back({0, *colour});
+    const auto image = RenderStill(*world, picture, kWidth, kHeight);
+    EXPECT_TRUE(image.ok()) << image.error().Text();
+    std::array<Probe, 3> probes;
+    for (std::size_t which = 0; which < 3; ++which) {
+      const Eigen::Vector3d at = heads[0].stand.ToWorld({0.17 * 1.2, 0.0, 1.2 * (static_cast<double>(which) + 0.5) / 3.0});
+      probes[which] = ProbeAt(image.value(), camera, at);
+    }
+    return probes;
+  };
+  const auto bright = [](const Probe& p) { return std::max({p.red, p.green, p.blue}) > 200.0; };
+  const auto is_lit = [&](std::optional<LightColour> colour) {
+    const auto probes = seen(colour);
+    return std::array<bool, 3>{bright(probes[0]), bright(probes[1]), bright(probes[2])};
+  };
+  EXPECT_EQ(is_lit(std::nullopt), (std::array<bool, 3>{false, false, false}));
+  EXPECT_EQ(is_lit(LightColour::kGreen), (std::array<bool, 3>{true, false, false}));
+  EXPECT_EQ(is_lit(LightColour::kAmber), (std::array<bool, 3>{false, true, false}));
+  EXPECT_EQ(is_lit(LightColour::kRed), (std::array<bool, 3>{false, false, true}));
+  EXPECT_EQ(is_lit(LightColour::kRedAmber), (std::array<bool, 3>{false, true, true}));
+  const auto red = seen(LightColour::kRed)[2], green = seen(LightColour::kGreen)[0], amber = seen(LightColour::kAmber)[1];
+  EXPECT_TRUE(red.IsRed()) << red;
+  EXPECT_TRUE(amber.IsYellow()) << amber;
+  EXPECT_GT(green.green, 1.5 * green.red) << green;
 }
 
 }  // namespace

@@ -123,6 +123,38 @@ TEST(Still, OnN222) {
   EXPECT_GE(sky.right, sky.asked - 2) << "a hill may stand before it";
 }
 
+// Screens around a seat: the picture goes on from one into the next, row by row.
+TEST(Still, ThreeScreensAreOnePicture) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = Load("n222.yaml");
+  Picture picture;
+  picture.camera = scene::CameraKind::kDriver;
+  picture.show_instruments = false;
+  picture.moment.cars.push_back(CarOn(world->roads()[0], 40.0, -1.45));
+  const double width = 0.708, distance = 0.7, angle = 2.0 * std::atan(0.5 * width / distance);
+  const auto seen = [&](double angle_rad) {
+    picture.screen = scene::ScreenPlane{width, 0.398, distance, angle_rad, 0.22, 0.0};
+    return Still(*world, picture);
+  };
+  const Image left = seen(angle), centre = seen(0.0), right = seen(-angle);
+  // How far the rows of two columns differ, one of them drawn down by `shift`.
+  const auto difference = [](const Image& a, int a_x, const Image& b, int b_x, int shift) {
+    int sum = 0;
+    for (int y = 10; y < kHeight - 10; ++y) {
+      for (int c = 0; c < 3; ++c) sum += std::abs(a.At(a_x, y)[c] - b.At(b_x, y + shift)[c]);
+    }
+    return sum;
+  };
+  for (const auto& [a, b] : {std::pair(&left, &centre), std::pair(&centre, &right)}) {
+    int best = -10;
+    for (int shift = -10; shift <= 10; ++shift) {
+      if (difference(*a, kWidth - 1, *b, 0, shift) < difference(*a, kWidth - 1, *b, 0, best)) best = shift;
+    }
+    EXPECT_LE(std::abs(best), 1);
+    EXPECT_LT(difference(*a, kWidth - 1, *b, 0, 0), difference(*a, kWidth - 30, *b, 0, 0)) << "what is 30 columns away is more unlike it";
+  }
+}
+
 TEST(Still, TheDriverSeesTheRoadAndNotTheCabin) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = Load("n222.yaml");

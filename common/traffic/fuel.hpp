@@ -1,0 +1,12 @@
+#pragma once
+
+namespace rodeira::traffic {
+
+// Fuel of a petrol car (Euro 4) in mg/s: f0 + f1 v + f3 v² + f4 v³ + (f2 + f5 v + f6 v²) a, as the coefficients of the Handbook of
+// Emission Factors are given in polynomial form (HBEFA 4); never below 0. Idling takes 2.4 l/h, 50 km/h 6.5 l/100 km. In overrun (rolling at
+// 1.5 m/s and more, slowing down harder than rolling and air resistance do) it is exactly 0.
+double FuelFlow_mgps(double speed_mps, double acceleration_mps2);
+
+constexpr double kFuelDensity_mgpl = 742e3;  // petrol
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,101 @@
+#include "common/traffic/lane_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/assert.hpp"
+#include "common/traffic/fuel.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kQueuing_mps = 5.0 / 3.6;
+
+}  // namespace
+
+LaneStatistics::LaneStatistics(const TrafficModel& model, double cell_m) : seen_(model.vehicles()), fuel_mg_(model.vehicles(), 0.0) {
+  RODEIRA_ASSERT(cell_m > 0.0);
+  queues_.resize(model.graph().tracks().size());
+  for (const lanes::Track& track : model.graph().tracks()) {
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::round(track.length_m() / cell_m)));
+    cells_.emplace_back(count);
+    lengths_m_.push_back(track.length_m() / static_cast<double>(count));
+  }
+  for (std::uint32_t id = 0; id < model.vehicles(); ++id) {
+    const Agent& agent = model.agent(id);
+    seen_[id] = {agent.on_road, agent.trip, agent.o_m, -1.0};
+    if (agent.on_road) ++began_;
+  }
+  there_ = began_;
+}
+
+// The way from one odometer to another, piece by piece and cell by cell. What lies before the path that is still known counts to
+// its first piece.
+void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double from_m, double to_m, const LaneCell& sum) {
+  const auto& path = model.agent(id).path;
+  const double way = to_m - from_m;
+  double at = from_m;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool last = i + 1 == path.size();
+    if (!last && path[i + 1].begin_m <= at && path[i + 1].begin_m < to_m) continue;
+    const double end = last ? to_m : std::min(to_m, path[i + 1].begin_m);
+    auto& cells = cells_[path[i].track];
+    const double length = lengths_m_[path[i].track];
+    const auto cell_at = [&](double o_m) {
+      const double cell = std::floor((o_m - path[i].zero_m) / length);
+      return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(cells.size() - 1)));
+    };
+    if (way <= 0.0) {
+      LaneCell& cell = cells[cell_at(at)];
+      cell.time_s += sum.time_s, cell.fuel_mg += sum.fuel_mg;
+      return;
+    }
+    for (std::size_t cell = cell_at(at); at < end; ++cell) {
+      const double to = cell + 1 >= cells.size() ? end : std::min(end, path[i].zero_m + static_cast<double>(cell + 1) * length);
+      const double share = std::max(0.0, to - at) / way;
+      cells[cell].distance_m += share * sum.distance_m;
+      cells[cell].time_s += share * sum.time_s;
+      cells[cell].fuel_mg += share * sum.fuel_mg;
+      at = std::max(at, to);
+    }
+    if (at >= to_m) return;
+  }
+}
+
+void LaneStatistics::LookAtQueues(const TrafficModel& model) {
+  for (Queue& queue : queues_) queue.now = 0;
+  for (const AgentPose& pose : model.poses()) {
+    const Agent& agent = model.agent(pose.id);
+    if (agent.speed_mps >= kQueuing_mps) continue;
+    std::size_t i = agent.path.size() - 1;
+    while (i > 0 && agent.path[i].begin_m > agent.o_m) --i;
+    ++queues_[agent.path[i].track].now;
+  }
+  for (Queue& queue : queues_) queue.sum += queue.now, queue.longest = std::max(queue.longest, queue.now);
+  ++looks_;
+}
+
+void LaneStatistics::Add(const TrafficModel& model, double dt_s) {
+  watched_s_ += dt_s;
+  for (std::uint32_t id = 0; id < seen_.size(); ++id) {
+    const Agent& agent = model.agent(id);
+    Seen& seen = seen_[id];
+    const bool same = seen.on_road && agent.on_road && seen.trip == agent.trip;
+    if (seen.on_road && !same) {
+      ++left_, --there_;
+      if (seen.entered_s >= 0.0) travel_times_s_.push_back(watched_s_ - seen.entered_s);
+    }
+    if (agent.on_road && !same) ++entered_, ++there_, seen.entered_s = watched_s_;
+    if (same) {
+      const double flow = FuelFlow_mgps(agent.speed_mps - 0.5 * agent.acceleration_mps2 * dt_s, agent.acceleration_mps2);
+      const double way = agent.o_m - seen.o_m;
+      fuel_mg_[id] += flow * dt_s;
+      Share(model, id, seen.o_m, agent.o_m, {way, dt_s, flow * dt_s});
+    }
+    seen.on_road = agent.on_road;
+    seen.trip = agent.trip;
+    seen.o_m = agent.o_m;
+  }
+}
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+
+// What a stretch of a lane has seen: sums over all vehicles' middles (Edie 1963).
+struct LaneCell {
+  double distance_m = 0.0;  // driven in it
+  double time_s = 0.0;      // spent in it
+  double fuel_mg = 0.0;     // burnt in it
+
+  // Of a stretch of a length, watched for a time: flow q = distance/(length · time), density k = time/(length · time), mean speed
+  // v = distance/time; so q = k v. A stretch that nobody was in has the speed 0.
+  double Flow_vehps(double length_m, double watched_s) const { return distance_m / (length_m * watched_s); }
+  double Density_vehpm(double length_m, double watched_s) const { return time_s / (length_m * watched_s); }
+  double Speed_mps() const { return time_s > 0.0 ? distance_m / time_s : 0.0; }
+};
+
+// Sums for every metre (or so) of every lane, by watching a model after each step. The way of a step is shared out exactly among
+// the cells that it crosses, its time and fuel in the same shares.
+class LaneStatistics {
+ public:
+  // As many cells a track as make them nearly cell_m (over 0) long. The model is as it begins.
+  LaneStatistics(const TrafficModel& model, double cell_m = 1.0);
+
+  // After each step of dt_s.
+  void Add(const TrafficModel& model, double dt_s);
+
+  // Now and then: how many on each track are slower than 5 km/h.
+  void LookAtQueues(const TrafficModel& model);
+
+  double watched_s() const { return watched_s_; }
+  const std::vector<LaneCell>& CellsOf(std::uint32_t track) const { return cells_[track]; }
+  double CellLength_m(std::uint32_t track) const { return lengths_m_[track]; }
+
+  // Of a track, over all looks: the longest and the mean queue, vehicles.
+  std::int64_t LongestQueue(std::uint32_t track) const { return queues_[track].longest; }
+  double MeanQueue(std::uint32_t track) const { return looks_ > 0 ? static_cast<double>(queues_[track].sum) / static_cast<double>(looks_) : 0.0; }
+
+  // Since the beginning: who came, who left; and who is there. began + entered - left = there, always.
+  std::int64_t began() const { return began_; }
+  std::int64_t entered() const { return entered_; }
+  std::int64_t left() const { return left_; }
+  std::int64_t there() const { return there_; }
+  // Of ended trips that began while watched: seconds from entering to leaving.
+  const std::vector<double>& travel_times_s() const { return travel_times_s_; }
+  // Of each vehicle, over all its trips.
+  const std::vector<double>& fuel_mg() const { return fuel_mg_; }
+
+ private:
+  struct Seen {
+    bool on_road = false;
+    std::uint32_t trip = 0;
+    double o_m = 0.0;
+    double entered_s = -1.0;  // below 0: was there from the beginning
+  };
+  struct Queue {
+    std::int64_t now = 0, sum = 0, longest = 0;
+  };
+  void Share(const TrafficModel& model, std::uint32_t id, double from_m, double to_m, const LaneCell& sum);
+
+  std::vector<std::vector<LaneCell>> cells_;  // by track
+  std::vector<double> lengths_m_;             // of a cell, by track
+  std::vector<Queue> queues_;                 // by track
+  std::int64_t looks_ = 0;
+  std::vector<Seen> seen_;                    // by vehicle
+  std::vector<double> fuel_mg_;
+  std::vector<double> travel_times_s_;
+  double watched_s_ = 0.0;
+  std::int64_t began_ = 0, entered_ = 0, left_ = 0, there_ = 0;
+};
+
+}  // namespace rodeira::traffic

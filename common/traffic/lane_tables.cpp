@@ -1,0 +1,107 @@
+#include "common/traffic/lane_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "common/traffic/fuel.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kWide_px = 1000.0, kRim_px = 20.0, kTop_px = 40.0, kLane_m = 3.0;
+constexpr int kShades = 20;
+
+// From red over yellow to green.
+std::string ShadeOf(int shade) {
+  const double u = static_cast<double>(shade) / (kShades - 1);
+  const int red = static_cast<int>(std::lround(u < 0.5 ? 205.0 : 205.0 - 350.0 * (u - 0.5))), green = static_cast<int>(std::lround(u < 0.5 ? 340.0 * u : 170.0));
+  return fmt::format("#{:02x}{:02x}28", red, green);
+}
+
+struct Frame {
+  double west_m = 1e18, south_m = 1e18, east_m = -1e18, north_m = -1e18;
+};
+
+Frame FrameOf(const lanes::Graph& graph) {
+  Frame frame;
+  for (const lanes::Track& track : graph.tracks()) {
+    for (const auto& node : track.curve.nodes()) {
+      frame.west_m = std::min(frame.west_m, node.p_W.x()), frame.east_m = std::max(frame.east_m, node.p_W.x());
+      frame.south_m = std::min(frame.south_m, node.p_W.y()), frame.north_m = std::max(frame.north_m, node.p_W.y());
+    }
+  }
+  return frame;
+}
+
+}  // namespace
+
+std::string LaneTable(const lanes::Graph& graph, const LaneStatistics& statistics) {
+  std::string table = "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm\n";
+  const double watched = statistics.watched_s();
+  if (!(watched > 0.0)) return table;
+  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
+    const lanes::Track& lane = graph[track];
+    const double length = statistics.CellLength_m(track);
+    for (std::size_t i = 0; i < statistics.CellsOf(track).size(); ++i) {
+      const LaneCell& cell = statistics.CellsOf(track)[i];
+      const double d = (static_cast<double>(i) + 0.5) * length;
+      const lanes::CurvePoint at = lane.curve.At(d);
+      fmt::format_to(std::back_inserter(table), "{},{},{:.2f},{:.2f},{:.2f},{:.4f},{:.3f},{:.3f},{:.3f},{:.2f}\n", graph.network().roads()[lane.lane.road].id(), lane.lane.lane,
+                     lane.curve.StationAt(d), at.p_W.x(), at.p_W.y(), length, 3600.0 * cell.Flow_vehps(length, watched), 1000.0 * cell.Density_vehpm(length, watched),
+                     cell.Speed_mps(), cell.distance_m > 0.0 ? 1e6 * cell.fuel_mg / kFuelDensity_mgpl / cell.distance_m : 0.0);
+    }
+  }
+  return table;
+}
+
+std::string QueueTable(const lanes::Graph& graph, const LaneStatistics& statistics) {
+  std::string table = "road,lane,length_m,queue_longest,queue_mean\n";
+  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
+    const lanes::Track& lane = graph[track];
+    fmt::format_to(std::back_inserter(table), "{},{},{:.2f},{},{:.4f}\n", graph.network().roads()[lane.lane.road].id(), lane.lane.lane, lane.length_m(),
+                   statistics.LongestQueue(track), statistics.MeanQueue(track));
+  }
+  return table;
+}
+
+std::string SpeedMap(const lanes::Graph& graph, const LaneStatistics& statistics, const std::string& title) {
+  const Frame frame = FrameOf(graph);
+  const double scale = kWide_px / std::max({frame.east_m - frame.west_m, frame.north_m - frame.south_m, 1.0});
+  const double wide = 2.0 * kRim_px + scale * std::max(0.0, frame.east_m - frame.west_m), high = kTop_px + kRim_px + scale * std::max(0.0, frame.north_m - frame.south_m);
+  std::string svg = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} {1:.0f}' font-family='sans-serif' font-size='12'>\n"
+      "<rect width='{0:.0f}' height='{1:.0f}' fill='white'/>\n<text x='{2}' y='20' font-size='14'>{3}</text>\n<g fill='none' stroke-linejoin='round' stroke-width='{4:.2f}'>\n",
+      std::max(wide, 420.0), high, kRim_px, title, std::max(1.5, 0.8 * kLane_m * scale));
+  const auto shade_of = [&](std::uint32_t track, std::size_t i) {
+    const LaneCell& cell = statistics.CellsOf(track)[i];
+    if (!(cell.time_s > 0.0)) return -1;
+    const double limit = graph.SpeedLimit_mps(track, (static_cast<double>(i) + 0.5) * statistics.CellLength_m(track));
+    return std::clamp(static_cast<int>(cell.Speed_mps() / limit * kShades), 0, kShades - 1);
+  };
+  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
+    const std::size_t count = statistics.CellsOf(track).size();
+    for (std::size_t i = 0; i < count;) {  // cells of one shade are one line
+      const int shade = shade_of(track, i);
+      std::size_t end = i;
+      while (end < count && shade_of(track, end) == shade) ++end;
+      fmt::format_to(std::back_inserter(svg), "<polyline stroke='{}' points='", shade < 0 ? "#d0d0d0" : ShadeOf(shade));
+      for (std::size_t k = i; k <= end; ++k) {
+        const Eigen::Vector3d p = graph[track].curve.At(static_cast<double>(k) * statistics.CellLength_m(track)).p_W;
+        fmt::format_to(std::back_inserter(svg), "{:.1f},{:.1f} ", kRim_px + scale * (p.x() - frame.west_m), kTop_px + scale * (frame.north_m - p.y()));
+      }
+      svg += "'/>\n";
+      i = end;
+    }
+  }
+  svg += "</g>\n";
+  for (int shade = 0; shade < kShades; ++shade) {
+    fmt::format_to(std::back_inserter(svg), "<rect x='{}' y='26' width='6' height='8' fill='{}'/>", kRim_px + 6.0 * shade, ShadeOf(shade));
+  }
+  fmt::format_to(std::back_inserter(svg), "<text x='{}' y='34'>mean speed, from standing to the limit; grey: nobody</text>\n</svg>\n", kRim_px + 6.0 * kShades + 8.0);
+  return svg;
+}
+
+}  // namespace rodeira::traffic

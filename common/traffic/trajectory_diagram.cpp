@@ -1,0 +1,61 @@
+#include "common/traffic/trajectory_diagram.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kWide_px = 900.0, kHigh_px = 460.0, kLeft_px = 60.0, kTop_px = 40.0;
+constexpr std::array<const char*, 5> kShades = {"#b2182b", "#ef8a62", "#d9c24c", "#67a9cf", "#2166ac"};  // from standing to the limit
+
+int ShadeAt(double speed_mps, double limit_mps) {
+  return std::clamp(static_cast<int>(speed_mps / limit_mps * static_cast<double>(kShades.size())), 0, static_cast<int>(kShades.size()) - 1);
+}
+
+}  // namespace
+
+void TrajectoryDiagram::Add(double time_s, const TrafficModel& model) {
+  last_s_ = time_s;
+  for (const AgentPose& pose : model.poses()) {
+    const Agent& agent = model.agent(pose.id);
+    std::size_t i = agent.path.size() - 1;
+    while (i > 0 && agent.path[i].begin_m > agent.o_m) --i;
+    if (agent.path[i].track == track_) ways_[{pose.id, pose.trip}].push_back({time_s, agent.o_m - agent.path[i].zero_m, pose.speed_mps});
+  }
+}
+
+std::string TrajectoryDiagram::ToSvg(const lanes::Graph& graph, const std::string& title) const {
+  const double length = graph[track_].length_m(), limit = graph.SpeedLimit_mps(track_, 0.5 * length);
+  const auto x = [&](double t) { return kLeft_px + kWide_px * t / std::max(last_s_, 1e-9); };
+  const auto y = [&](double d) { return kTop_px + kHigh_px * (1.0 - d / length); };
+  std::string svg = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} {1:.0f}' font-family='sans-serif' font-size='12'>\n"
+      "<rect width='{0:.0f}' height='{1:.0f}' fill='white'/>\n<text x='{2}' y='20' font-size='14'>{3}</text>\n"
+      "<rect x='{2}' y='{4}' width='{5}' height='{6}' fill='none' stroke='#bbb'/>\n",
+      kLeft_px + kWide_px + 20.0, kTop_px + kHigh_px + 40.0, kLeft_px, title, kTop_px, kWide_px, kHigh_px);
+  for (int k = 0; k <= 4; ++k) {
+    fmt::format_to(std::back_inserter(svg), "<text x='{:.0f}' y='{:.0f}' text-anchor='middle'>{:.5g} s</text><text x='{:.0f}' y='{:.0f}' text-anchor='end'>{:.4g} m</text>\n",
+                   x(0.25 * k * last_s_), kTop_px + kHigh_px + 18.0, 0.25 * k * last_s_, kLeft_px - 6.0, y(0.25 * k * length) + 4.0, 0.25 * k * length);
+  }
+  svg += "<g fill='none' stroke-width='1'>\n";
+  for (const auto& [who, points] : ways_) {
+    for (std::size_t i = 0; i + 1 < points.size();) {
+      const int shade = ShadeAt(points[i].speed_mps, limit);
+      const auto goes_on = [&](std::size_t k) { return k + 1 < points.size() && points[k + 1].d_m >= points[k].d_m - 1e-9; };
+      std::string line;
+      std::size_t end = i;
+      while (goes_on(end) && (end == i || ShadeAt(points[end].speed_mps, limit) == shade)) ++end;
+      for (std::size_t k = i; k <= end; ++k) fmt::format_to(std::back_inserter(line), "{:.1f},{:.1f} ", x(points[k].time_s), y(points[k].d_m));
+      if (end > i) fmt::format_to(std::back_inserter(svg), "<polyline stroke='{}' points='{}'/>\n", kShades[static_cast<std::size_t>(shade)], line);
+      i = std::max(end, i + 1);
+    }
+  }
+  return svg + "</g>\n</svg>\n";
+}
+
+}  // namespace rodeira::traffic

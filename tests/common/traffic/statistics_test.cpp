@@ -1,0 +1,223 @@
+// Statistics of lanes: Edie's identity, what is conserved, steady flow in closed form, fuel, and what is written.
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "common/traffic/floating_cars.hpp"
+#include "common/traffic/fuel.hpp"
+#include "common/traffic/lane_tables.hpp"
+#include "common/traffic/study.hpp"
+#include "common/traffic/trajectory_diagram.hpp"
+#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/traffic/identical.hpp"
+#include "tests/common/traffic/ring.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+// In a town where cars come, go and queue: q = k v in every cell to 1e-9; all cells together have the vehicle seconds and the way that
+// were there; and nobody comes or goes uncounted.
+TEST(LaneStatistics, SumsAreWhatWasDriven) {
+  TrafficSettings settings;
+  settings.vehicles = 90;
+  settings.seed = 7;
+  TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("town"), {}).value();
+  LaneStatistics statistics(model);
+  constexpr double kStep_s = 0.02;
+  double vehicle_s = 0.0, way_m = 0.0, fuel_mg = 0.0;
+  std::vector<double> before(settings.vehicles), before_mps(settings.vehicles);
+  std::vector<std::uint32_t> trips(settings.vehicles);
+  std::vector<bool> there(settings.vehicles);
+  std::int64_t left = 0, entered = 0, began = static_cast<std::int64_t>(model.on_road());
+  for (int i = 0; i <= 9000; ++i) {
+    if (i > 0) {
+      model.Step(kStep_s, {});
+      statistics.Add(model, kStep_s);
+      if (i % 10 == 0) statistics.LookAtQueues(model);
+    }
+    for (std::uint32_t id = 0; id < settings.vehicles; ++id) {
+      const Agent& agent = model.agent(id);
+      const bool same = there[id] && agent.on_road && trips[id] == agent.trip;
+      if (i > 0 && there[id] && !same) ++left;
+      if (i > 0 && agent.on_road && !same) ++entered;
+      if (same) {
+        vehicle_s += kStep_s, way_m += agent.o_m - before[id];
+        fuel_mg += FuelFlow_mgps(0.5 * (agent.speed_mps + before_mps[id]), (agent.speed_mps - before_mps[id]) / kStep_s) * kStep_s;
+      }
+      there[id] = agent.on_road, trips[id] = agent.trip, before[id] = agent.o_m, before_mps[id] = agent.speed_mps;
+    }
+    ASSERT_EQ(statistics.began() + statistics.entered() - statistics.left(), static_cast<std::int64_t>(model.on_road())) << i;
+  }
+  EXPECT_EQ(statistics.began(), began);
+  EXPECT_EQ(statistics.entered(), entered);
+  EXPECT_EQ(statistics.left(), left);
+  EXPECT_EQ(statistics.there(), static_cast<std::int64_t>(model.on_road()));
+  EXPECT_GT(left, 20);
+  LaneCell sum;
+  int visited = 0;
+  for (std::uint32_t track = 0; track < model.graph().tracks().size(); ++track) {
+    const double length = statistics.CellLength_m(track);
+    for (const LaneCell& cell : statistics.CellsOf(track)) {
+      sum.distance_m += cell.distance_m, sum.time_s += cell.time_s, sum.fuel_mg += cell.fuel_mg;
+      ASSERT_GE(cell.distance_m, 0.0);
+      ASSERT_GE(cell.time_s, 0.0);
+      const double q = cell.Flow_vehps(length, 180.0), k = cell.Density_vehpm(length, 180.0);
+      ASSERT_NEAR(q, k * cell.Speed_mps(), 1e-9);
+      if (cell.time_s > 0.0) ++visited;
+    }
+  }
+  EXPECT_NEAR(sum.time_s, vehicle_s, 1e-9 * vehicle_s);
+  EXPECT_NEAR(sum.distance_m, way_m, 1e-9 * way_m);
+  EXPECT_NEAR(sum.fuel_mg, fuel_mg, 1e-9 * fuel_mg);
+  EXPECT_NEAR(std::accumulate(statistics.fuel_mg().begin(), statistics.fuel_mg().end(), 0.0), fuel_mg, 1e-9 * fuel_mg);
+  EXPECT_GT(visited, 1000);
+  for (const double seconds : statistics.travel_times_s()) EXPECT_GT(seconds, 3.0);
+}
+
+// Thirty cars in equilibrium on a ring: everywhere the density N / L, the speed of the IDM, and their product the flow.
+TEST(LaneStatistics, SteadyFlowIsThatOfTheEquilibrium) {
+  const TrafficSettings settings = Identical(30, 2.0);
+  TrafficModel model = TrafficModel::Make(settings, Ring(1000.0), {}).value();
+  for (int i = 0; i < 60000; ++i) model.Step(0.02, {});
+  const double speed = EquilibriumOf(model, settings.idm).speed_mps, length_m = model.graph()[0].length_m();
+  LaneStatistics statistics(model, 10.0);
+  const double round_s = length_m / speed;  // each car comes through each cell as often
+  const int steps = static_cast<int>(std::lround(20.0 * round_s / 0.02));
+  for (int i = 0; i < steps; ++i) model.Step(0.02, {}), statistics.Add(model, 0.02);
+  ASSERT_EQ(statistics.CellsOf(0).size(), static_cast<std::size_t>(std::lround(0.1 * length_m)));
+  for (const LaneCell& cell : statistics.CellsOf(0)) {
+    const double k = cell.Density_vehpm(statistics.CellLength_m(0), statistics.watched_s()), q = cell.Flow_vehps(statistics.CellLength_m(0), statistics.watched_s());
+    EXPECT_NEAR(k, 30.0 / length_m, 0.002 * k);
+    EXPECT_NEAR(cell.Speed_mps(), speed, 0.01);
+    EXPECT_NEAR(q, 30.0 / length_m * speed, 0.002 * q);
+  }
+  EXPECT_EQ(statistics.entered(), 0);
+  EXPECT_EQ(statistics.left(), 0);
+}
+
+// The published curve: 2.4 l/h idling, 6.5 l/100 km at 50 km/h; nothing in overrun, and never less than nothing.
+TEST(Fuel, IsThatOfThePublishedCurve) {
+  const auto per_100_km = [](double kmh) { return 100e3 / (kmh / 3.6) * FuelFlow_mgps(kmh / 3.6, 0.0) / kFuelDensity_mgpl; };
+  EXPECT_NEAR(3600.0 * FuelFlow_mgps(0.0, 0.0) / kFuelDensity_mgpl, 2.4, 0.05);
+  EXPECT_NEAR(per_100_km(50.0), 6.5, 0.05);
+  EXPECT_GT(FuelFlow_mgps(10.0, 1.0), 2.0 * FuelFlow_mgps(10.0, 0.0));
+  for (double v = 2.0; v < 40.0; v += 1.0) {
+    EXPECT_EQ(FuelFlow_mgps(v, -1.0), 0.0) << v;
+    for (double a = -8.0; a < 3.0; a += 0.1) EXPECT_GE(FuelFlow_mgps(v, a), 0.0);
+  }
+  EXPECT_GT(FuelFlow_mgps(0.5, -1.0), 0.0);  // the engine idles
+}
+
+// A jam behind a car that stands: cells before it are slow and dense, and the queue is counted.
+TEST(LaneStatistics, AQueueIsCounted) {
+  TrafficSettings settings = Identical(20, 1.4);
+  TrafficModel model = TrafficModel::Make(settings, Ring(600.0), {}).value();
+  LaneStatistics statistics(model);
+  model.Brake(7, 2.0);
+  for (int i = 0; i < 12000; ++i) {
+    model.Step(0.01, {});
+    statistics.Add(model, 0.01);
+    if (i > 11000) statistics.LookAtQueues(model);
+  }
+  EXPECT_EQ(statistics.LongestQueue(0), 20);
+  EXPECT_NEAR(statistics.MeanQueue(0), 20.0, 0.01);
+}
+
+class Written : public testing::Test {
+ protected:
+  Written() : model_(TrafficModel::Make(Settings(), lanes::MapNetwork("roundabout"), {}).value()), statistics_(model_) {
+    for (int i = 0; i < 3000; ++i) model_.Step(0.02, {}), statistics_.Add(model_, 0.02);
+  }
+  static TrafficSettings Settings() {
+    TrafficSettings settings;
+    settings.vehicles = 25;
+    return settings;
+  }
+  TrafficModel model_;
+  LaneStatistics statistics_;
+};
+
+TEST_F(Written, TheTableHasARowACell) {
+  std::istringstream table(LaneTable(model_.graph(), statistics_));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm");
+  std::size_t rows = 0, cells = 0;
+  while (std::getline(table, line)) ++rows;
+  for (std::uint32_t track = 0; track < model_.graph().tracks().size(); ++track) cells += statistics_.CellsOf(track).size();
+  EXPECT_EQ(rows, cells);
+}
+
+// Read back by GDAL: where it lies, and the vehicle seconds of the whole map.
+TEST_F(Written, TheRasterHoldsWhatWasSummed) {
+  const auto file = std::filesystem::temp_directory_path() / ("rodeira-heat-" + std::to_string(::getpid()) + ".tif");
+  ASSERT_TRUE(WriteHeatRaster(model_.graph(), statistics_, 5.0, file.string()).ok());
+  {
+    GDALAllRegister();
+    const std::unique_ptr<GDALDataset> set(static_cast<GDALDataset*>(GDALOpen(file.c_str(), GA_ReadOnly)));
+    ASSERT_NE(set, nullptr);
+    ASSERT_EQ(set->GetRasterCount(), 4);
+    EXPECT_STREQ(set->GetRasterBand(2)->GetDescription(), "density_vehpkm");
+    std::array<double, 6> transform{};
+    ASSERT_EQ(set->GetGeoTransform(transform.data()), CE_None);
+    EXPECT_EQ(transform[1], 5.0);
+    const int columns = set->GetRasterXSize(), rows = set->GetRasterYSize();
+    const auto read = [&](int band) {
+      std::vector<double> values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+      EXPECT_EQ(set->GetRasterBand(band)->RasterIO(GF_Read, 0, 0, columns, rows, values.data(), columns, rows, GDT_Float64, 0, 0), CE_None);
+      return values;
+    };
+    const auto flow = read(1), density = read(2), speed = read(3);
+    int told = 0;
+    for (std::size_t i = 0; i < flow.size(); ++i) {
+      if (std::isnan(density[i])) continue;
+      ++told;
+      EXPECT_NEAR(flow[i], 3.6 * density[i] * speed[i], 1e-3 + 1e-5 * flow[i]);  // vehicles an hour, a kilometre, m/s
+    }
+    EXPECT_GT(told, 50);
+    EXPECT_LT(told, static_cast<int>(flow.size()));
+  }
+  std::filesystem::remove(file);
+  EXPECT_EQ(WriteHeatRaster(model_.graph(), statistics_, 5.0, "/nowhere/x.tif").error().exit_status(), 1);
+  EXPECT_EQ(WriteHeatRaster(model_.graph(), statistics_, 1e-3, file.string()).error().exit_status(), 2);
+}
+
+TEST_F(Written, FloatingCarsAreThoseOfTheModel) {
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string((FloatingCarsBegin() + FloatingCarsAt(60.0, model_) + FloatingCarsEnd()).c_str()));
+  const pugi::xml_node moment = document.child("fcd-export").child("timestep");
+  EXPECT_DOUBLE_EQ(moment.attribute("time").as_double(), 60.0);
+  auto pose = model_.poses().begin();
+  for (const pugi::xml_node vehicle : moment.children("vehicle")) {
+    ASSERT_NE(pose, model_.poses().end());
+    EXPECT_EQ(std::string(vehicle.attribute("id").value()), std::to_string(pose->id) + "." + std::to_string(pose->trip));
+    const double heading = std::atan2(2.0 * (pose->q_WB.w() * pose->q_WB.z() + pose->q_WB.x() * pose->q_WB.y()), 1.0 - 2.0 * (std::pow(pose->q_WB.y(), 2) + std::pow(pose->q_WB.z(), 2)));
+    const double angle = vehicle.attribute("angle").as_double() * 3.14159265358979323846 / 180.0;
+    EXPECT_NEAR(std::sin(angle), std::cos(heading), 1e-3);  // from north, clockwise
+    EXPECT_NEAR(std::cos(angle), std::sin(heading), 1e-3);
+    const double half = 0.5 * model_.traits(pose->id).length_m;
+    EXPECT_NEAR(vehicle.attribute("x").as_double() - half * std::cos(heading), pose->p_WB_W.x(), 0.02);
+    EXPECT_NEAR(vehicle.attribute("speed").as_double(), pose->speed_mps, 0.01);
+    ++pose;
+  }
+  EXPECT_EQ(pose, model_.poses().end());
+}
+
+TEST_F(Written, PicturesAreSoundXml) {
+  TrajectoryDiagram diagram(0);
+  for (int i = 0; i < 50; ++i) model_.Step(0.02, {}), diagram.Add(0.02 * i, model_);
+  pugi::xml_document document;
+  for (const std::string& svg : {SpeedMap(model_.graph(), statistics_, "a"), diagram.ToSvg(model_.graph(), "b")}) {
+    ASSERT_TRUE(document.load_string(svg.c_str()));
+    EXPECT_GT(document.child("svg").attribute("width").as_double(), 100.0);
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::traffic
