@@ -32,13 +32,13 @@ TEST_F(ReplayTest, ComputedAgainIsTheSame) {
   ASSERT_TRUE(whole.ok()) << whole.error().Text();
   EXPECT_FALSE(whole.value().difference.has_value()) << whole.value().difference->Text();
   EXPECT_EQ(whole.value().nodes, 2u);
-  EXPECT_EQ(whole.value().samples, 3001u + 301u + 2u * 4u);
+  EXPECT_EQ(whole.value().samples, 2u * 3001u + 301u + 2u * 4u) << "the car's state and what it hits, the controls, snapshots";
   EXPECT_EQ(whole.value().snapshots, 8u);
   const auto late = VerifyFile(file, 2500);
   ASSERT_TRUE(late.ok()) << late.error().Text();
   EXPECT_EQ(late.value().first_step, 2000);
   EXPECT_FALSE(late.value().difference.has_value()) << late.value().difference->Text();
-  EXPECT_EQ(late.value().samples, 1001u + 101u + 2u * 2u);
+  EXPECT_EQ(late.value().samples, 2u * 1001u + 101u + 2u * 2u);
 }
 
 TEST_F(ReplayTest, ATurnedBitIsFound) {
@@ -86,10 +86,10 @@ TEST_F(ReplayTest, WhatIsIdenticalIsSaidInNumbers) {
   const std::string file = Drive();
   const auto whole = RunCommand({Bin("rodeira"), "replay", file, "--verify"});
   EXPECT_EQ(whole.status, 0) << whole.out;
-  EXPECT_THAT(whole.out, ::testing::StartsWith("identical: 3000 steps, 2 nodes (3310 samples, 8 snapshots; from 0.000 s; "));
+  EXPECT_THAT(whole.out, ::testing::StartsWith("identical: 3000 steps, 2 nodes (6311 samples, 8 snapshots; from 0.000 s; "));
   const auto late = RunCommand({Bin("rodeira"), "replay", file, "--verify", "--from", "2.5"});
   EXPECT_EQ(late.status, 0) << late.out;
-  EXPECT_THAT(late.out, ::testing::StartsWith("identical: 1000 steps, 2 nodes (1106 samples, 4 snapshots; from 2.000 s; "));
+  EXPECT_THAT(late.out, ::testing::StartsWith("identical: 1000 steps, 2 nodes (2107 samples, 4 snapshots; from 2.000 s; "));
 }
 
 TEST_F(ReplayTest, AChangedConstantIsFound) {
