@@ -2,6 +2,7 @@
 
 // All message types of the IDL (namespace rodeira::msg), as fastddsgen makes them.
 #include "clock.h"
+#include "collision.h"
 #include "driving.h"
 #include "ground.h"
 #include "live.h"

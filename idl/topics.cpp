@@ -10,6 +10,7 @@ const std::vector<TopicInfo>& Topics() {
   static const std::vector<TopicInfo> kTopics = {
       {topics::kControls, "rodeira::msg::Controls", "driving", true},
       {topics::kVehicleState, "rodeira::msg::VehicleState", "vehicle", true},
+      {topics::kCollisions, "rodeira::msg::Collisions", "collision", true},
       {topics::kTrafficState, "rodeira::msg::TrafficState", "traffic", true},
       {topics::kSignalsState, "rodeira::msg::SignalsState", "signals", true},
       {topics::kScenarioEvents, "rodeira::msg::ScenarioEvents", "scenario", true},

@@ -12,6 +12,7 @@ namespace rodeira::idl {
 namespace topics {
 inline constexpr std::string_view kControls = "rodeira/controls";
 inline constexpr std::string_view kVehicleState = "rodeira/vehicle_state";
+inline constexpr std::string_view kCollisions = "rodeira/collisions";
 inline constexpr std::string_view kTrafficState = "rodeira/traffic_state";
 inline constexpr std::string_view kSignalsState = "rodeira/signals_state";
 inline constexpr std::string_view kScenarioEvents = "rodeira/scenario_events";

@@ -64,7 +64,7 @@ int TestVehicle(const VehicleOptions& options) {
   int status = 0;
   for (const manoeuvres::Manoeuvre* manoeuvre : chosen.value()) {
     if (shown) fmt::print(stderr, "\r\033[K{} …", manoeuvre->name);
-    const auto outcome = manoeuvre->drive(*car.value(), options.step_s);
+    const auto outcome = manoeuvres::Drive(*manoeuvre, *car.value(), options.step_s);
     if (shown) fmt::print(stderr, "\r\033[K");
     if (!options.quiet) fmt::print("{}: {}\n", manoeuvre->name, manoeuvre->what);
     if (!outcome) {

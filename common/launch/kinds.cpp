@@ -11,7 +11,8 @@ using lockstep::Role;
 const std::vector<NodeKind>& NodeKinds() {
   static const std::vector<NodeKind> kKinds = {
       {"road", Role::kService, 0.0, {}, {}, "rodeira-road"},
-      {"vehicle", Role::kStepped, 0.001, {topics::kVehicleState}, {{topics::kControls, PortKind::kState, false, true}}, "rodeira-vehicle"},
+      {"vehicle", Role::kStepped, 0.001, {topics::kVehicleState, topics::kCollisions},
+       {{topics::kControls, PortKind::kState, false, true}, {topics::kTrafficState, PortKind::kState, true, false}}, "rodeira-vehicle"},
       {"traffic", Role::kStepped, 0.01, {topics::kTrafficState, topics::kSignalsState},
        {{topics::kVehicleState, PortKind::kState, true, false}, {topics::kScenarioEvents, PortKind::kEvent, true, false}}, "rodeira-traffic"},
       {"input", Role::kStepped, 0.01, {topics::kControls},
@@ -24,6 +25,7 @@ const std::vector<NodeKind>& NodeKinds() {
       {"recorder", Role::kStepped, 0.05, {},
        {{topics::kControls, PortKind::kEvent, true, false},
         {topics::kVehicleState, PortKind::kEvent, true, false},
+        {topics::kCollisions, PortKind::kEvent, true, false},
         {topics::kTrafficState, PortKind::kEvent, true, false},
         {topics::kSignalsState, PortKind::kEvent, true, false},
         {topics::kScenarioEvents, PortKind::kEvent, true, false},

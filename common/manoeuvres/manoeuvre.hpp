@@ -39,6 +39,9 @@ const std::vector<Manoeuvre>& Manoeuvres();
 // Wrong input that names the nearest one.
 base::Result<const Manoeuvre*> FindManoeuvre(const std::string& name);
 
+// Drives it. Failed, with the model's own word, where the model has failed on the way (VehicleModel::problem).
+base::Result<Outcome> Drive(const Manoeuvre& manoeuvre, vehicle::VehicleModel& car, double step_s);
+
 // Acceleration from rest with the throttle on the floor, in automatic mode: 0-100 km/h, 0-400 m, top speed.
 base::Result<Outcome> Acceleration(vehicle::VehicleModel& car, double step_s);
 // From 100 km/h to rest with the brake on the floor: distance, mean deceleration v²/2d, drift.

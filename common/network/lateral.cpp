@@ -30,20 +30,20 @@ LateralPoint OnShapes(const std::vector<Shape>& shapes, double s_m, double t_m) 
   return point;
 }
 
-// Height of a strip at u outward, and its derivatives by s (at fixed u) and by u.
+// Height of a strip at u outward, and its derivatives by s (at fixed u) and by u. Most strips have a slope alone.
 LateralPoint OnStrip(const SurfaceStrip& strip, double s_m, double u_m) {
   LateralPoint point;
-  double power = 1.0, slope_power = 0.0;
-  for (int n = 0; n < 4; ++n) {
-    if (!strip.coefficients[n].empty()) {
-      const geometry::CubicPoint c = strip.coefficients[n].Evaluate(s_m);
-      point.z_m += c.value * power;
-      point.slope_s += c.slope * power;
-      point.slope_t += n * c.value * slope_power;
-    }
-    slope_power = power;
-    power *= u_m;
-  }
+  const auto add = [&](int n, double power, double power_slope) {
+    if (strip.coefficients[n].empty()) return;
+    const geometry::CubicPoint c = strip.coefficients[n].Evaluate(s_m);
+    point.z_m += c.value * power;
+    point.slope_s += c.slope * power;
+    point.slope_t += c.value * power_slope;
+  };
+  add(0, 1.0, 0.0);
+  add(1, u_m, 1.0);
+  add(2, u_m * u_m, 2.0 * u_m);
+  add(3, u_m * u_m * u_m, 3.0 * u_m * u_m);
   return point;
 }
 

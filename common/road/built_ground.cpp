@@ -45,14 +45,16 @@ SurfacePoint BuiltGround::OnRoad(const network::Surfacing& surfacing) const {
   const network::Place& place = surfacing.place;
   const network::Road& road = network_->roads()[place.lane.road];
   network::SurfaceSample sample = surfacing.sample;
-  if (!detail_.empty()) detail_.Add(road, place.lane.road, network_->Section(place.lane), place.s_m, place.t_m, sample);
-  const Eigen::Vector3d normal = sample.ds_W.cross(sample.dt_W);
   LaneGround ground = grounds_.At(*network_, place.lane, place.s_m);
   if (paint_.At(place.lane.road, place.s_m, place.t_m)) {
     ground.surface = terrain::Surface::kRoadMark;
     ground.friction = friction_[static_cast<std::size_t>(ground.surface)];
   }
-  if (const auto measured = detail_.FrictionAt(place.lane.road, place.s_m, place.t_m, sample.p_W.head<2>())) ground.friction = *measured;
+  if (!detail_.empty()) {
+    detail_.Add(road, place.lane.road, network_->Section(place.lane), place.s_m, place.t_m, sample);
+    ground.friction = detail_.FrictionAt(place.lane.road, place.s_m, place.t_m, sample.p_W.head<2>()).value_or(ground.friction);
+  }
+  const Eigen::Vector3d normal = sample.ds_W.cross(sample.dt_W);
   const double down = -1.0 / normal.z();
   return {sample.p_W.z(), normal.x() * down, normal.y() * down, ground.friction, ground.surface, true};
 }

@@ -9,6 +9,7 @@ namespace rodeira::road {
 namespace {
 
 constexpr double kStretch_m = 32.0;
+constexpr double kRounding_m = 1e-6;  // far above all of it
 
 }  // namespace
 
@@ -18,7 +19,10 @@ Paint::Paint(const network::Network& network) {
     const auto stretches = static_cast<std::size_t>(road.length_m() / kStretch_m) + 1;
     if (!road.spec().lines.empty()) lines.by_stretch.resize(stretches);
     for (const network::PaintedLine& painted : road.spec().lines) {
-      Line line{painted.from_s_m, painted.to_s_m, 0.5 * painted.width_m, &painted.t, {}};
+      Line line{painted.from_s_m, painted.to_s_m, 0.5 * painted.width_m, 0.0, 0.0, &painted.t, {}};
+      painted.t.Bounds(painted.from_s_m, painted.to_s_m, line.low_t_m, line.high_t_m);
+      line.low_t_m -= line.half_width_m + kRounding_m;
+      line.high_t_m += line.half_width_m + kRounding_m;
       if (painted.gap_m > 0.0) {
         for (const network::Stroke& stroke : network::Strokes(road, painted)) {
           line.edges_s_m.push_back(stroke.from_s_m);
@@ -40,6 +44,7 @@ bool Paint::At(std::uint32_t road, double s_m, double t_m) const {
   const auto stretch = std::min(static_cast<std::size_t>(std::max(0.0, s_m / kStretch_m)), lines.by_stretch.size() - 1);
   for (const std::uint32_t number : lines.by_stretch[stretch]) {
     const Line& line = lines.lines[number];
+    if (t_m < line.low_t_m || t_m > line.high_t_m) continue;
     if (s_m < line.from_s_m || s_m > line.to_s_m || std::fabs(t_m - line.t->Value(s_m)) > line.half_width_m) continue;
     if (line.edges_s_m.empty()) return true;
     const auto after = std::upper_bound(line.edges_s_m.begin(), line.edges_s_m.end(), s_m);

@@ -18,6 +18,7 @@ class Paint {
  private:
   struct Line {
     double from_s_m, to_s_m, half_width_m;
+    double low_t_m, high_t_m;  // no paint of it lies beyond
     const geometry::CubicTable* t;
     std::vector<double> edges_s_m;  // where the paint begins and ends, in turn
   };

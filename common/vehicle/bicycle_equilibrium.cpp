@@ -36,6 +36,7 @@ class BicycleEquilibrium {
   void SettleCorners();
   BicycleModel::Contacts FindContacts() const;
   Eigen::Vector3d HoldingForce(const Eigen::Vector3d& normal) const;
+  std::array<Eigen::Vector3d, kWheels> HoldingForces(const BicycleModel::Contacts& contacts, const Eigen::Vector3d& normal) const;
   Eigen::Vector3d Residual(const Unknowns& unknowns);
   Unknowns Balance(Unknowns unknowns);
 
@@ -85,25 +86,48 @@ Eigen::Vector3d BicycleEquilibrium::HoldingForce(const Eigen::Vector3d& normal) 
   return force.dot(normal) * normal - force;
 }
 
+// Of each wheel. Along the car by load; across it the axles share so that nothing yaws (both forces of an axle act at its middle), and an
+// axle's wheels by load.
+std::array<Eigen::Vector3d, kWheels> BicycleEquilibrium::HoldingForces(const BicycleModel::Contacts& contacts, const Eigen::Vector3d& normal) const {
+  std::array<Eigen::Vector3d, kWheels> forces;
+  forces.fill(Eigen::Vector3d::Zero());
+  std::array<double, 2> load{};
+  for (std::size_t i = 0; i < kWheels; ++i) load[i / 2] += model_.wheels_[i].corner.load_N();
+  if (!(load[0] > 0.0 && load[1] > 0.0)) return forces;
+  const Eigen::Vector3d holding = HoldingForce(normal);
+  const Eigen::Vector3d forward = model_.body_.q_WG * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d along = (forward - forward.dot(normal) * normal).normalized();
+  const Eigen::Vector3d lengthwise = holding.dot(along) * along, across = holding - lengthwise;
+  const auto yaws = [&](std::size_t axle, const Eigen::Vector3d& force) {
+    return (0.5 * (contacts[2 * axle].point_W + contacts[2 * axle + 1].point_W) - model_.body_.p_WG_W).cross(force).dot(normal);
+  };
+  const double by_load = load[0] / (load[0] + load[1]);
+  const double lengthwise_yaws = by_load * yaws(0, lengthwise) + (1.0 - by_load) * yaws(1, lengthwise);
+  const double apart = yaws(0, across) - yaws(1, across);
+  const double front = std::fabs(apart) > 1e-9 ? std::clamp(-(lengthwise_yaws + yaws(1, across)) / apart, 0.0, 1.0) : by_load;
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const double of_axle = model_.wheels_[i].corner.load_N() / load[i / 2];
+    forces[i] = of_axle * ((i < 2 ? by_load : 1.0 - by_load) * lengthwise + (i < 2 ? front : 1.0 - front) * across);
+  }
+  return forces;
+}
+
 // Force along the road's normal, pitching and rolling moment about the centre of gravity.
 Eigen::Vector3d BicycleEquilibrium::Residual(const Unknowns& unknowns) {
   Place(unknowns);
   SettleCorners();
   const BicycleModel::Contacts contacts = FindContacts();
   const Eigen::Vector3d normal = model_.RoadNormal(contacts);
-  const Eigen::Vector3d holding = HoldingForce(normal);
-  double load = 0.0;
-  for (const auto& wheel : model_.wheels_) load += wheel.corner.load_N();
-  Eigen::Vector3d force = holding;
+  const std::array<Eigen::Vector3d, kWheels> holding = HoldingForces(contacts, normal);
+  Eigen::Vector3d force = HoldingForce(normal);
   force.z() -= model_.settings_.body.mass_kg * kGravity_mps2;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < kWheels; ++i) {
     const Eigen::Vector3d bearing = model_.wheels_[i].corner.load_N() * model_.wheels_[i].normal_W;
     const Eigen::Vector3d middle = 0.5 * (contacts[i & 2u].point_W + contacts[(i & 2u) + 1].point_W);
-    const double share = load > 0.0 ? model_.wheels_[i].corner.load_N() / load : 0.25;
     force += bearing;
     moment += (contacts[i].point_W - model_.body_.p_WG_W).cross(bearing);
-    moment += (middle - model_.body_.p_WG_W).cross(share * holding);
+    moment += (middle - model_.body_.p_WG_W).cross(holding[i]);
   }
   const Eigen::Vector3d moment_B = model_.body_.q_WG.conjugate() * moment;
   return {force.dot(normal), moment_B.y(), moment_B.x()};
@@ -165,19 +189,16 @@ void BicycleEquilibrium::SetInMotion() {
   body.v_WG_W = v_WB_W + body.w_WG_W().cross(body.q_WG * model_.p_BG_B_);
 
   const bool rests = v_WB_W.norm() < kStandstill_mps && std::fabs(initial_.yaw_rate_radps) < kStandstill_mps;
-  const Eigen::Vector3d holding = HoldingForce(normal);
-  double load = 0.0;
-  for (const auto& wheel : model_.wheels_) load += wheel.corner.load_N();
+  const std::array<Eigen::Vector3d, kWheels> holding = HoldingForces(model_.contacts_, normal);
   for (std::size_t i = 0; i < kWheels; ++i) {
     BicycleModel::Wheel& wheel = model_.wheels_[i];
     BicycleModel::Contact& contact = model_.contacts_[i];
-    const TyreSettings& tyre = model_.settings_.tyre[i / 2];
+    const TyreSettings& tyre = model_.tyres_[i];
     const double bears = wheel.corner.load_N();
     wheel.spin_radps = rests ? 0.0 : model_.MotionOf(model_.contacts_, i).vx_mps / model_.settings_.wheel.rolling_radius_m;
     const TyreMotion motion = model_.MotionOf(model_.contacts_, i);
     if (rests && bears > 0.0) {
-      const Eigen::Vector3d share = bears / load * holding;
-      wheel.tyre.SetToBear(tyre, {share.dot(contact.along_W), share.dot(contact.across_W)}, bears, wheel.friction);
+      wheel.tyre.SetToBear(tyre, {holding[i].dot(contact.along_W), holding[i].dot(contact.across_W)}, bears, wheel.friction);
     } else {
       wheel.tyre.SetToRoll(tyre, motion, bears, wheel.friction);
     }

@@ -26,7 +26,7 @@ std::size_t PartnerOf(std::size_t wheel) { return wheel ^ 1u; }
 
 }  // namespace
 
-BicycleModel::BicycleModel(const BicycleSettings& settings) : settings_(settings) {
+BicycleModel::BicycleModel(const BicycleSettings& settings) : settings_(settings), tyres_(OnWheels(settings.tyre)) {
   const BodySettings& body = settings_.body;
   p_BG_B_ = {0.5 * body.wheelbase_m - body.cg_to_front_axle_m, 0.0, body.cg_height_m};
   const double weight = body.mass_kg * kGravity_mps2;
@@ -99,6 +99,7 @@ void BicycleModel::Step(const Controls& controls, terrain::Ground& ground, doubl
   AskGround(ground);
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestSubstep_s - 1e-6)));
   for (int i = 0; i < substeps; ++i) Substep(cut, dt_s / substeps);
+  push_ = {};
   Publish(cut, dt_s);
 }
 
@@ -111,13 +112,13 @@ void BicycleModel::Substep(const Controls& controls, double dt_s) {
   }
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = wheels_[i];
-    contacts_[i].forces = wheel.tyre.Forces(settings_.tyre[AxleOf(i)], MotionOf(contacts_, i), wheel.corner.load_N(), wheel.friction);
+    contacts_[i].forces = wheel.tyre.Forces(tyres_[i], MotionOf(contacts_, i), wheel.corner.load_N(), wheel.friction);
   }
   torques_ = TurnWheels(controls, contacts_, dt_s);
   PushBody(contacts_, dt_s);
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = wheels_[i];
-    wheel.tyre.Advance(settings_.tyre[AxleOf(i)], MotionOf(contacts_, i), wheel.corner.load_N(), wheel.friction, dt_s);
+    wheel.tyre.Advance(tyres_[i], MotionOf(contacts_, i), wheel.corner.load_N(), wheel.friction, dt_s);
     wheel.spin_rad = geometry::WrapAngle(wheel.spin_rad + dt_s * wheel.spin_radps);
   }
   body_.Move(dt_s);
@@ -161,7 +162,8 @@ void BicycleModel::PushBody(const Contacts& contacts, double dt_s) {
   drag_N_ = AirDrag(body.air_density_kgpm3, body.drag_area_m2, speed);
   Eigen::Vector3d force(0.0, 0.0, -body.mass_kg * kGravity_mps2);
   if (speed > 0.0) force -= drag_N_ / speed * body_.v_WG_W;
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  force += push_.force_W;
+  Eigen::Vector3d moment = push_.moment_WB_W + (p_WB_W() - body_.p_WG_W).cross(push_.force_W);
   for (std::size_t axle = 0; axle < 2; ++axle) {
     const Contact& left = contacts[2 * axle];
     const Contact& right = contacts[2 * axle + 1];

@@ -24,6 +24,8 @@ class BicycleModel final : public VehicleModel {
 
   base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) override;
   void Step(const Controls& controls, terrain::Ground& ground, double dt_s) override;
+  void SetPush(const Wrench& push) override { push_ = push; }
+  bool can_be_pushed() const override { return true; }
   const VehicleState& state() const override { return state_; }
   const VehicleDimensions& dimensions() const override { return settings_.dimensions; }
   void Save(base::StateWriter& writer) const override;
@@ -77,6 +79,7 @@ class BicycleModel final : public VehicleModel {
   double SteeringTorque() const;
 
   BicycleSettings settings_;
+  std::array<TyreSettings, kWheels> tyres_;
   Eigen::Vector3d p_BG_B_;  // centre of gravity in the body frame
   std::array<double, kWheels> static_load_N_{};
 
@@ -87,6 +90,7 @@ class BicycleModel final : public VehicleModel {
   Contacts contacts_;          // of the last substep
   WheelTorques torques_;
   double drag_N_ = 0.0;
+  Wrench push_;  // of the next step
   VehicleState state_;
 };
 

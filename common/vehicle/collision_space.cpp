@@ -35,23 +35,22 @@ struct CollisionSpace::Boxes {
   dGeomID other;
 };
 
-CollisionSpace::CollisionSpace(const VehicleDimensions& d, const CollisionSettings& settings)
-    : settings_(settings), p_BC_B_(0.5 * (d.front_m - d.rear_m), 0.0, 0.5 * (d.height_m + settings.clearance_m)) {
+CollisionSpace::CollisionSpace(const VehicleDimensions& dimensions, const CollisionSettings& settings)
+    : settings_(settings), box_(BoxOf(dimensions, settings)) {
   PrepareOde();
-  const Eigen::Vector3d size(d.front_m + d.rear_m, d.width_m, std::max(0.1, d.height_m - settings.clearance_m));
-  reach_m_ = p_BC_B_.norm() + 0.5 * size.norm();
-  boxes_ = std::make_unique<Boxes>(size);
+  boxes_ = std::make_unique<Boxes>(2.0 * box_.half_m);
 }
 
 CollisionSpace::~CollisionSpace() = default;
+CollisionSpace::CollisionSpace(CollisionSpace&&) noexcept = default;
 
 std::vector<Impact> CollisionSpace::Touch(const VehicleState& car, std::span<const Obstacle> obstacles) const {
   PrepareOde();
   std::vector<Impact> impacts;
-  Put(boxes_->car, car.p_WB_W + car.q_WB * p_BC_B_, car.q_WB);
+  Put(boxes_->car, car.p_WB_W + car.q_WB * box_.centre_B, car.q_WB);
   const Eigen::Vector3d w_WB_W = car.q_WB * car.w_WB_B;
   for (const Obstacle& obstacle : obstacles) {
-    if ((obstacle.centre_W - car.p_WB_W).norm() > reach_m_ + obstacle.half_m.norm()) continue;
+    if ((obstacle.centre_W - car.p_WB_W).norm() > box_.reach_m() + obstacle.half_m.norm()) continue;
     dGeomBoxSetLengths(boxes_->other, 2.0 * obstacle.half_m.x(), 2.0 * obstacle.half_m.y(), 2.0 * obstacle.half_m.z());
     Put(boxes_->other, obstacle.centre_W, obstacle.q_WO);
     std::array<dContactGeom, kMostContacts> contacts;
@@ -65,17 +64,16 @@ std::vector<Impact> CollisionSpace::Touch(const VehicleState& car, std::span<con
       const dContactGeom& contact = contacts[static_cast<std::size_t>(i)];
       const Eigen::Vector3d at = Vector(contact.pos), normal = Vector(contact.normal);
       const Eigen::Vector3d v = car.v_WB_W + w_WB_W.cross(at - car.p_WB_W) - obstacle.v_WO_W - obstacle.w_WO_W.cross(at - obstacle.centre_W);
-      const double closing = -v.dot(normal);
-      const double bears = std::max(0.0, settings_.stiffness_Npm * contact.depth + settings_.damping_Nspm * closing) / count;
-      const Eigen::Vector3d sliding = v + closing * normal;
-      const double grip = settings_.friction * bears / std::max(sliding.norm(), settings_.sticking_mps);
-      impact.force_W += bears * normal - grip * sliding;
+      const Eigen::Vector3d force = ContactForce(settings_, normal, contact.depth, v, 1.0 / count);
+      const double bears = force.dot(normal);
+      impact.force_W += force;
+      impact.moment_WB_W += (at - car.p_WB_W).cross(force);
       moment += bears * at;
       pressed += bears;
       if (contact.depth > impact.depth_m || i == 0) {
         impact.depth_m = contact.depth;
         impact.normal_W = normal;
-        impact.closing_mps = closing;
+        impact.closing_mps = -v.dot(normal);
         impact.point_W = at;
       }
     }
@@ -83,6 +81,15 @@ std::vector<Impact> CollisionSpace::Touch(const VehicleState& car, std::span<con
     impacts.push_back(impact);
   }
   return impacts;
+}
+
+Wrench WrenchOf(std::span<const Impact> impacts) {
+  Wrench sum;
+  for (const Impact& impact : impacts) {
+    sum.force_W += impact.force_W;
+    sum.moment_WB_W += impact.moment_WB_W;
+  }
+  return sum;
 }
 
 }  // namespace rodeira::vehicle

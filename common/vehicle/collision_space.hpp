@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "common/vehicle/collision_settings.hpp"
 #include "common/vehicle/vehicle_model.hpp"
 
 namespace rodeira::vehicle {
@@ -21,14 +22,6 @@ struct Obstacle {
   Eigen::Vector3d w_WO_W = Eigen::Vector3d::Zero();
 };
 
-struct CollisionSettings {
-  double clearance_m = 0.15;         // from the road to the underside of the car's box
-  double stiffness_Npm = 1.0e6;      // of the bodies that are pressed in, both together
-  double damping_Nspm = 2.0e4;       // along the normal, while they touch
-  double friction = 0.4;             // of body on body
-  double sticking_mps = 0.1;         // below it friction falls linearly to 0 with the sliding speed
-};
-
 // One obstacle that the car's box touches: the force on the car, N, in W, at a point; the obstacle gets the opposite.
 struct Impact {
   std::uint64_t id = 0;
@@ -37,6 +30,7 @@ struct Impact {
   double depth_m = 0.0;                                 // the deepest contact's
   double closing_mps = 0.0;                             // along the normal, positive coming nearer
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment_WB_W = Eigen::Vector3d::Zero();  // on the car, about B's origin
 };
 
 // The car's box (its outline, from the clearance to its height) among obstacles. Contacts are found by the Open Dynamics Engine, box on
@@ -46,6 +40,7 @@ class CollisionSpace {
  public:
   CollisionSpace(const VehicleDimensions& dimensions, const CollisionSettings& settings);
   ~CollisionSpace();
+  CollisionSpace(CollisionSpace&&) noexcept;
 
   // In the order of the obstacles; those not touched are left out.
   std::vector<Impact> Touch(const VehicleState& car, std::span<const Obstacle> obstacles) const;
@@ -54,9 +49,11 @@ class CollisionSpace {
   struct Boxes;
 
   CollisionSettings settings_;
-  double reach_m_ = 0.0;            // of the car's box from B's origin
-  Eigen::Vector3d p_BC_B_;          // its centre
+  BodyBox box_;
   std::unique_ptr<Boxes> boxes_;
 };
+
+// What all of them do to the car.
+Wrench WrenchOf(std::span<const Impact> impacts);
 
 }  // namespace rodeira::vehicle

@@ -6,13 +6,16 @@
 
 namespace rodeira::vehicle {
 
+inline constexpr double kPetrol_kgpl = 0.745;
+
 struct TorqueSample {
   double speed_radps = 0.0;
   double torque_Nm = 0.0;
 };
 
 struct EngineSettings {
-  std::vector<TorqueSample> full_load;  // ascending in speed, net torque at full throttle, linear between
+  std::vector<TorqueSample> full_load;  // ascending in speed, net torque at full throttle
+  std::vector<double> full_load_Nmspr;  // slopes at the samples (SmoothSlopes): cubic between them; empty: linear
   double inertia_kgm2 = 0.2;            // with the flywheel
   double drag_Nm = 14.0;                // torque to turn it without combustion: drag + drag_Nmspr · speed
   double drag_Nmspr = 0.012;
@@ -23,9 +26,14 @@ struct EngineSettings {
   double starter_Nm = 45.0;
   double indicated_efficiency = 0.35;      // of combustion, for the fuel
   double heating_value_Jpkg = 42.7e6;      // of the fuel
+  double throttle_fuel_kgps = 0.0;         // over 0: what full throttle burns, in proportion to the throttle, instead of Willans' line
 };
 
-// Full-load torque: linear between samples; below the first linear to 0 at 0; above the last it keeps the last value.
+// Slopes of a smooth curve through the samples that rises and falls only where they do (F. N. Fritsch, R. E. Carlson, SIAM Journal on
+// Numerical Analysis 17 (1980) 238-246).
+std::vector<double> SmoothSlopes(const std::vector<TorqueSample>& samples);
+
+// Full-load torque: linear, or smooth, between samples; below the first linear to 0 at 0; above the last it keeps the last value.
 double FullLoadTorque(const EngineSettings& engine, double speed_radps);
 // Drag torque, at least 0, the same for either direction.
 double DragTorque(const EngineSettings& engine, double speed_radps);

@@ -79,6 +79,15 @@ base::Status FmuModel::SetGround() {
   return {};
 }
 
+base::Status FmuModel::SetPushInputs() {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (auto status = Set(variables_.push_force[i], push_.force_W[k]); !status) return status;
+    if (auto status = Set(variables_.push_moment[i], push_.moment_WB_W[k]); !status) return status;
+  }
+  return {};
+}
+
 base::Status FmuModel::SetControls(const Controls& c) {
   const FmuVariables& v = variables_;
   const double limit = settings_.dimensions.steering_wheel_limit_rad;
@@ -221,6 +230,7 @@ base::Status FmuModel::Publish(const Controls& controls, double dt_s) {
 base::Status FmuModel::Advance(const Controls& controls, double dt_s) {
   if (auto status = SetControls(controls); !status) return status;
   if (auto status = SetGround(); !status) return status;
+  if (auto status = SetPushInputs(); !status) return status;
   if (auto status = instance_->DoStep(time_s_, dt_s); !status) return status;
   time_s_ += dt_s;
   return Publish(controls, dt_s);
@@ -230,6 +240,7 @@ void FmuModel::Step(const Controls& controls, terrain::Ground& ground, double dt
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
   AskGround(ground);
   if (problem_) problem_ = Advance(Cut(controls), dt_s);
+  push_ = {};
 }
 
 void FmuModel::Save(base::StateWriter& writer) const {

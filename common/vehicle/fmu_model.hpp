@@ -35,6 +35,9 @@ class FmuModel final : public VehicleModel {
   base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) override;
   void Step(const Controls& controls, terrain::Ground& ground, double dt_s) override;
   base::Status problem() const override { return problem_; }
+  void SetPush(const Wrench& push) override { push_ = push; }
+  // It has all inputs push_….
+  bool can_be_pushed() const override { return variables_.takes_pushes(); }
   const VehicleState& state() const override { return state_; }
   const VehicleDimensions& dimensions() const override { return settings_.dimensions; }
   void Save(base::StateWriter& writer) const override;
@@ -46,6 +49,7 @@ class FmuModel final : public VehicleModel {
   void AskGround(terrain::Ground& ground);
   base::Status Set(const fmi::Variable* variable, double value);
   base::Status SetGround();
+  base::Status SetPushInputs();
   base::Status SetControls(const Controls& controls);
   base::Status SetStart(const InitialCondition& initial);
   base::Status Begin(const InitialCondition& initial, terrain::Ground& ground);
@@ -59,6 +63,7 @@ class FmuModel final : public VehicleModel {
   std::unique_ptr<fmi::Instance> instance_;  // dies before the unit
   double time_s_ = 0.0;
   std::array<WheelGround, kWheels> wheels_;
+  Wrench push_;  // of the next step
   VehicleState state_;
   base::Status problem_;
 };

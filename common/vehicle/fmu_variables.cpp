@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "common/base/suggest.hpp"
@@ -62,6 +63,11 @@ struct Finder {
 
 }  // namespace
 
+bool FmuVariables::takes_pushes() const {
+  const auto is_there = [](Variable variable) { return variable != nullptr; };
+  return std::ranges::all_of(push_force, is_there) && std::ranges::all_of(push_moment, is_there);
+}
+
 base::Result<FmuVariables> FindVariables(const fmi::Description& description, const std::map<std::string, std::string>& names,
                                          const std::string& context) {
   FmuVariables v;
@@ -85,6 +91,8 @@ base::Result<FmuVariables> FindVariables(const fmi::Description& description, co
   find(v.starter, "starter", Way::kInput, "1");
   const std::array<std::string, 3> axes = {"x", "y", "z"}, angles = {"roll", "pitch", "heading"}, rates = {"roll", "pitch", "yaw"};
   for (std::size_t i = 0; i < 3; ++i) {
+    find(v.push_force[i], "push_" + axes[i] + "_N", Way::kInput, "N");
+    find(v.push_moment[i], "push_moment_" + axes[i] + "_Nm", Way::kInput, "N.m");
     find(v.position[i], axes[i] + "_m", Way::kOutput, "m", true);
     find(v.angle[i], angles[i] + "_rad", Way::kOutput, "rad", true);
     find(v.velocity[i], "velocity_" + axes[i] + "_mps", Way::kOutput, "m/s", true);

@@ -28,10 +28,13 @@ struct FmuVariables {
   // Inputs of each step.
   Variable steering_wheel = nullptr, throttle = nullptr, brake = nullptr, clutch = nullptr, handbrake = nullptr, gear_wish = nullptr,
            automatic = nullptr, starter = nullptr;
+  std::array<Variable, 3> push_force{}, push_moment{};  // of collisions, in W, about B's origin: all six or none count
   // Outputs: motion of B, asked for.
   std::array<Variable, 3> position{}, angle{}, velocity{}, rate{};  // angle, rate: roll, pitch, heading
   Variable engine_speed = nullptr, engine_torque = nullptr, gear = nullptr, steering_torque = nullptr, fuel_rate = nullptr;
   std::array<Wheel, kWheels> wheels;
+
+  bool takes_pushes() const;
 };
 
 // Finds them in an FMU. `names`: ours to the FMU's own, where they differ. Wrong input, behind `context`, where one that is asked for is

@@ -136,11 +136,13 @@ double InducedLateral(const S& t, const Operating& o, const TyreSlip& slip, doub
 
 std::span<const MagicFormulaCoefficient> MagicFormulaCoefficients() { return kCoefficients; }
 
-TyreForces SteadyForces(const MagicFormulaSettings& tyre, const TyreSlip& slip, double load_N, double friction) {
+TyreForces SteadyForces(const MagicFormulaSettings& tyre, const TyreSlip& mounted, double load_N, double friction) {
   if (!(load_N > 0.0)) return {};
+  const double side = tyre.mirrored ? -1.0 : 1.0;
+  const TyreSlip slip{mounted.kappa, side * mounted.tan_alpha, side * mounted.camber_rad};
   const Operating o = At(tyre, load_N);
   return {PureLongitudinal(tyre, o, slip, friction) * WeightLongitudinal(tyre, o, slip),
-          PureLateral(tyre, o, slip, friction) * WeightLateral(tyre, o, slip) + InducedLateral(tyre, o, slip, friction)};
+          side * (PureLateral(tyre, o, slip, friction) * WeightLateral(tyre, o, slip) + InducedLateral(tyre, o, slip, friction))};
 }
 
 double LongitudinalStiffness(const MagicFormulaSettings& tyre, double load_N) {

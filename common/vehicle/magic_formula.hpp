@@ -12,8 +12,13 @@ namespace rodeira::vehicle {
 // Fy is scaled with friction itself. Names are those of the .tir files in lower case.
 enum class MagicFormulaVersion { k61, k52 };
 
+// The side of a car on which a tyre was measured: mounted on the other one it is its mirror image. kEither: nobody says.
+enum class TyreSide { kEither, kLeft, kRight };
+
 struct MagicFormulaSettings {
   MagicFormulaVersion version = MagicFormulaVersion::k61;
+  TyreSide measured_on = TyreSide::kEither;
+  bool mirrored = false;      // it is mounted on the other side
   double fnomin = 4000.0;     // nominal load, N
   double fzmax = 20000.0;     // above it the formula is evaluated at this load, N
   double nompres = 220000.0;  // Pa

@@ -13,7 +13,7 @@ namespace {
 constexpr int kGroundTurns = 40;  // the wheels move a little as the car settles, and with them the ground's answers
 constexpr double kSettled_m = 1e-10;
 constexpr double kResidual_mps2 = 1e-9;
-constexpr double kAnchor_Npm = 1e6;
+constexpr double kAnchor_Npm = 3e5;  // as a tyre: what a stiffer one does to the carrier by its lever is not in Newton's matrix
 constexpr double kStandstill_mps = 1e-6;
 
 Eigen::Isometry3d Standing(const InitialCondition& initial, double z_m, const Eigen::Vector3d& up) {
@@ -54,6 +54,8 @@ base::Status MultibodyModel::Settle(const InitialCondition& initial, terrain::Gr
   Place(wanted * X_CB_.inverse());
   column_load_->SetHands(0.0, 0.0);
   chassis_load_->SetDrive(0.0);
+  body_load_->LeaveGround();
+  body_load_->SetPush({});
   // The springs that hold the hubs are stretched on a slope: they go with the car when it is moved.
   std::array<Eigen::Vector3d, kWheels> anchors;
   for (std::size_t i = 0; i < kWheels; ++i) anchors[i] = Hub_W(i);
@@ -106,7 +108,7 @@ void MultibodyModel::SetInMotion(const InitialCondition& initial) {
   }
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = wheels_[i];
-    const TyreSettings& tyre = settings_.tyre[i / 2];
+    const TyreSettings& tyre = tyres_[i];
     const Eigen::Vector2d bears = wheel.load->Tangential(system_->motion(), contacts[i]);
     wheel.spin_rad = 0.0;
     wheel.spin_radps = 0.0;

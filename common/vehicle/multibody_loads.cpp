@@ -8,8 +8,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastLean = 0.2;  // of a wheel that lies nearly flat
-
 }  // namespace
 
 void WheelLoad::SetStep(double longitudinal_N, double lateral_N, double brake_on_wheel_Nm, double spin_radps) {
@@ -27,20 +25,10 @@ void WheelLoad::Anchor(const Vector3d& hub_W, double stiffness_Npm) {
   anchor_Npm_ = stiffness_Npm;
 }
 
-// The lowest point of a thin disc: from the centre along the plane's normal, as it lies in the wheel's plane.
 WheelLoad::Contact WheelLoad::ContactAt(const multibody::Motion& motion) const {
-  const Vector3d hub = motion.At(settings_.centre);
-  const Vector3d axle = motion.At(settings_.axle);
-  const double tilt = std::clamp(axle.dot(normal_W_), -1.0, 1.0);
   Contact contact;
-  contact.camber_rad = std::asin(tilt);
-  contact.lean = std::max(kLeastLean, std::sqrt(1.0 - tilt * tilt));
-  const Vector3d down = (tilt * axle - normal_W_) / contact.lean;
-  const double reach = (hub - plane_W_).dot(normal_W_) / contact.lean;
-  contact.point_W = hub + reach * down;
-  contact.along_W = axle.cross(normal_W_) / contact.lean;
-  contact.across_W = normal_W_.cross(contact.along_W);
-  contact.deflection_m = std::min(settings_.radius_m - reach, settings_.bottom_m);
+  static_cast<DiscContact&>(contact) = MeetPlane(motion.At(settings_.centre), motion.At(settings_.axle), settings_.radius_m, plane_W_, normal_W_);
+  contact.deflection_m = std::min(contact.deflection_m, settings_.bottom_m);
   if (contact.deflection_m > 0.0) {
     const double closing = -motion.RateOf(settings_.centre).dot(normal_W_) / contact.lean;
     contact.load_N = std::max(0.0, settings_.vertical_Npm * contact.deflection_m + settings_.damping_Nspm * closing);

@@ -2,6 +2,7 @@
 
 #include "common/multibody/body.hpp"
 #include "common/multibody/load.hpp"
+#include "common/vehicle/disc_contact.hpp"
 
 namespace rodeira::vehicle {
 
@@ -19,12 +20,8 @@ class WheelLoad final : public multibody::Load {
     double bottom_m = 0.15;  // deflection at which the rim bears; the load grows no further
     double spin_inertia_kgm2 = 1.0;
   };
-  // Where wheel and plane meet.
-  struct Contact {
-    Eigen::Vector3d point_W, along_W, across_W;
-    double camber_rad = 0.0;  // asin(axle · normal)
-    double lean = 1.0;        // cosine between wheel plane and normal
-    double deflection_m = 0.0;
+  // Where wheel and plane meet; the deflection at most as far as the rim.
+  struct Contact : DiscContact {
     double load_N = 0.0;
   };
   explicit WheelLoad(const Settings& settings) : settings_(settings) {}

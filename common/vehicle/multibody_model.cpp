@@ -13,8 +13,6 @@ constexpr double kMostStep_s = 0.1;
 constexpr double kBottom = 0.5;  // share of the radius that a tyre can be pressed in
 constexpr int kMostHalvings = 3;
 
-std::size_t AxleOf(std::size_t wheel) { return wheel / 2; }
-
 }  // namespace
 
 base::Status MultibodyModel::Build() {
@@ -39,7 +37,9 @@ base::Status MultibodyModel::Build() {
                                                 0.5 * settings_.air_density_kgpm3 * settings_.drag_area_m2);
   column_load_ =
       std::make_shared<ColumnLoad>(settings_.steering.angle, settings_.steering.column_Nmprad, settings_.steering.column_Nmsprad);
+  body_load_ = std::make_shared<BodyLoad>(chassis, CollisionSettings{});
   drawing.loads.push_back({"chassis", chassis_load_});
+  drawing.loads.push_back({"body", body_load_});
   drawing.loads.push_back({"column", column_load_});
   auto system = multibody::System::Make(drawing);
   if (!system) return system.error();
@@ -50,6 +50,7 @@ base::Status MultibodyModel::Build() {
   if (auto status = Settle({}, level); !status) return status;
   const Eigen::Isometry3d X_WC = X_WB();  // X_CB is the identity as yet
   X_CB_ = X_WC.inverse();
+  body_load_->SetBody(X_CB_, settings_.dimensions);
   for (std::size_t i = 0; i < kWheels; ++i) hub_rest_B_[i] = Hub_W(i);
   SetInMotion({});
   Publish(Controls{}, 0.0);
@@ -96,8 +97,12 @@ void MultibodyModel::Step(const Controls& controls, terrain::Ground& ground, dou
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
   const Controls cut = Cut(controls);
   AskGround(ground);
+  const Plane under = PlaneUnder({&wheels_[0], &wheels_[1], &wheels_[2], &wheels_[3]});
+  body_load_->SetGround(under.point_W, under.normal_W);
+  body_load_->SetPush(push_);
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / settings_.longest_substep_s - 1e-6)));
   for (int i = 0; i < substeps; ++i) Substep(cut, dt_s / substeps);
+  push_ = {};
   Publish(cut, dt_s);
 }
 
@@ -162,7 +167,7 @@ void MultibodyModel::Substep(const Controls& controls, double dt_s) {
   const Contacts before = FindContacts();
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = wheels_[i];
-    forces_[i] = wheel.tyre.Forces(settings_.tyre[AxleOf(i)], MotionOf(i, before[i]), before[i].load_N, wheel.friction);
+    forces_[i] = wheel.tyre.Forces(tyres_[i], MotionOf(i, before[i]), before[i].load_N, wheel.friction);
   }
   torques_ = TurnWheels(controls, before, dt_s);
   double drive_Nm = 0.0;
@@ -181,7 +186,7 @@ void MultibodyModel::Substep(const Controls& controls, double dt_s) {
   const Contacts after = FindContacts();
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = wheels_[i];
-    wheel.tyre.Advance(settings_.tyre[AxleOf(i)], MotionOf(i, after[i]), after[i].load_N, wheel.friction, dt_s);
+    wheel.tyre.Advance(tyres_[i], MotionOf(i, after[i]), after[i].load_N, wheel.friction, dt_s);
     wheel.spin_rad = geometry::WrapAngle(wheel.spin_rad + dt_s * wheel.spin_radps);
   }
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "common/multibody/system.hpp"
+#include "common/vehicle/multibody_body_load.hpp"
 #include "common/vehicle/multibody_loads.hpp"
 #include "common/vehicle/multibody_settings.hpp"
 #include "common/vehicle/wheel_ground.hpp"
@@ -18,12 +19,14 @@ namespace rodeira::vehicle {
 class MultibodyModel final : public VehicleModel {
  public:
   // Nothing but Build may be called before Build has succeeded.
-  explicit MultibodyModel(const MultibodySettings& settings) : settings_(settings) {}
+  explicit MultibodyModel(const MultibodySettings& settings) : settings_(settings), tyres_(OnWheels(settings.tyre)) {}
   // Refused where the mechanism cannot be assembled or cannot stand on level ground.
   base::Status Build();
 
   base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) override;
   void Step(const Controls& controls, terrain::Ground& ground, double dt_s) override;
+  void SetPush(const Wrench& push) override { push_ = push; }
+  bool can_be_pushed() const override { return true; }
   const VehicleState& state() const override { return state_; }
   const VehicleDimensions& dimensions() const override { return settings_.dimensions; }
   void Save(base::StateWriter& writer) const override;
@@ -73,8 +76,10 @@ class MultibodyModel final : public VehicleModel {
   void Publish(const Controls& controls, double dt_s);
 
   MultibodySettings settings_;
+  std::array<TyreSettings, kWheels> tyres_;
   std::unique_ptr<multibody::System> system_;
   std::shared_ptr<ChassisLoad> chassis_load_;
+  std::shared_ptr<BodyLoad> body_load_;
   std::shared_ptr<ColumnLoad> column_load_;
   multibody::Form origin_;                                  // chassis point drawn at the file's origin
   Eigen::Isometry3d X_CB_ = Eigen::Isometry3d::Identity();  // body frame in the chassis as drawn: what rests level on z = 0
@@ -87,6 +92,7 @@ class MultibodyModel final : public VehicleModel {
   std::array<TyreForces, kWheels> forces_;
   WheelTorques torques_;
   multibody::StepReport report_;
+  Wrench push_;  // of the next step
   VehicleState state_;
 };
 

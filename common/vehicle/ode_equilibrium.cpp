@@ -179,7 +179,7 @@ void OdeEquilibrium::SetInMotion() {
   for (std::size_t i = 0; i < kWheels; ++i) {
     OdeModel::Wheel& wheel = model_.now_.wheels[i];
     OdeModel::Contact& contact = model_.contacts_[i];
-    const TyreSettings& tyre = car().tyre[i / 2];
+    const TyreSettings& tyre = model_.tyres_[i];
     wheel.spin_rad = 0.0;
     wheel.spin_radps = 0.0;
     if (rests && load_N_ > 0.0) {

@@ -90,30 +90,19 @@ void OdeModel::Step(const Controls& controls, terrain::Ground& ground, double dt
   car_->Give(now_.bodies);  // what a snapshot knows, and nothing else
   now_.bodies = car_->bodies();
   AskGround(ground);
-  SetBodyGround();
+  const Plane under = PlaneUnder({&now_.wheels[0], &now_.wheels[1], &now_.wheels[2], &now_.wheels[3]});
+  car_->SetGround(under.point_W, under.normal_W);
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / settings_.longest_substep_s - 1e-6)));
   for (int i = 0; i < substeps; ++i) Substep(cut, dt_s / substeps);
+  push_ = {};
   Publish(cut, dt_s);
-}
-
-// The plane under the car for its body: through the middle of the ground under the wheels, parallel to both diagonals of those points.
-void OdeModel::SetBodyGround() {
-  const auto& w = now_.wheels;
-  const Eigen::Vector3d rising = w[kFrontLeft].plane_W - w[kRearRight].plane_W;
-  const Eigen::Vector3d falling = w[kFrontRight].plane_W - w[kRearLeft].plane_W;
-  Eigen::Vector3d normal = falling.cross(rising);
-  if (normal.z() < 0.0) normal = -normal;  // the car lies on its roof
-  normal = normal.norm() > 1e-3 && normal.z() > 0.3 * normal.norm() ? Eigen::Vector3d(normal.normalized()) : Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Wheel& wheel : w) middle += 0.25 * wheel.plane_W;
-  car_->SetGround(middle, normal);
 }
 
 void OdeModel::Substep(const Controls& controls, double dt_s) {
   const BicycleSettings& car = settings_.car;
   for (std::size_t i = 0; i < kWheels; ++i) {
     contacts_[i] = ContactOf(i);
-    contacts_[i].forces = now_.wheels[i].tyre.Forces(car.tyre[AxleOf(i)], MotionOf(i, contacts_[i]), contacts_[i].load_N, now_.wheels[i].friction);
+    contacts_[i].forces = now_.wheels[i].tyre.Forces(tyres_[i], MotionOf(i, contacts_[i]), contacts_[i].load_N, now_.wheels[i].friction);
   }
   torques_ = TurnWheels(controls, contacts_, dt_s);
   for (std::size_t i = 0; i < kWheels; ++i) {
@@ -126,6 +115,10 @@ void OdeModel::Substep(const Controls& controls, double dt_s) {
   const double speed = chassis().v_WG_W.norm();
   drag_N_ = AirDrag(car.body.air_density_kgpm3, car.body.drag_area_m2, speed);
   if (speed > 0.0) car_->Push(OdeCar::kChassis, -drag_N_ / speed * chassis().v_WG_W, chassis().p_WG_W);
+  if (push_.any()) {
+    car_->Push(OdeCar::kChassis, push_.force_W, p_WB_W());
+    car_->Twist(OdeCar::kChassis, push_.moment_WB_W);
+  }
   const Eigen::Vector3d before = chassis().v_WG_W;
   car_->Step(dt_s);
   now_.bodies = car_->bodies();
@@ -133,7 +126,7 @@ void OdeModel::Substep(const Controls& controls, double dt_s) {
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = now_.wheels[i];
     const Contact after = ContactOf(i);
-    wheel.tyre.Advance(car.tyre[AxleOf(i)], MotionOf(i, after), after.load_N, wheel.friction, dt_s);
+    wheel.tyre.Advance(tyres_[i], MotionOf(i, after), after.load_N, wheel.friction, dt_s);
     wheel.spin_rad = geometry::WrapAngle(wheel.spin_rad + dt_s * wheel.spin_radps);
   }
 }

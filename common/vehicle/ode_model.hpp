@@ -20,11 +20,13 @@ namespace rodeira::vehicle {
 class OdeModel final : public VehicleModel {
  public:
   // Nothing but Build may be called before Build.
-  explicit OdeModel(const OdeSettings& settings) : settings_(settings) {}
+  explicit OdeModel(const OdeSettings& settings) : settings_(settings), tyres_(OnWheels(settings.car.tyre)) {}
   base::Status Build();
 
   base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) override;
   void Step(const Controls& controls, terrain::Ground& ground, double dt_s) override;
+  void SetPush(const Wrench& push) override { push_ = push; }
+  bool can_be_pushed() const override { return true; }
   const VehicleState& state() const override { return state_; }
   const VehicleDimensions& dimensions() const override { return settings_.car.dimensions; }
   void Save(base::StateWriter& writer) const override;
@@ -71,17 +73,18 @@ class OdeModel final : public VehicleModel {
   TyreMotion MotionOf(std::size_t wheel, const Contact& contact) const;
   void Substep(const Controls& controls, double dt_s);
   WheelTorques TurnWheels(const Controls& controls, const Contacts& contacts, double dt_s);
-  void SetBodyGround();
   void Publish(const Controls& controls, double dt_s);
   double SteeringTorque() const;
 
   OdeSettings settings_;
+  std::array<TyreSettings, kWheels> tyres_;
   OdeChassis measures_;
   std::unique_ptr<OdeCar> car_;
   Motion now_;
   Contacts contacts_;  // of the last substep
   WheelTorques torques_;
   double drag_N_ = 0.0;
+  Wrench push_;  // of the next step
   VehicleState state_;
 };
 

@@ -47,6 +47,7 @@ std::vector<TorqueSample> ReadCurve(const Map& map) {
 EngineSettings ReadEngine(const Map& map) {
   EngineSettings engine;
   engine.full_load = ReadCurve(map);
+  if (map.Choice("curve", {"linear", "smooth"}, "linear") == "smooth") engine.full_load_Nmspr = SmoothSlopes(engine.full_load);
   engine.inertia_kgm2 = map.Number("inertia_kgm2", Range::Positive());
   engine.drag_Nm = map.Number("drag_Nm", Range::Positive());
   engine.drag_Nmspr = map.Number("drag_Nmspr", Range::NotNegative());
@@ -57,6 +58,7 @@ EngineSettings ReadEngine(const Map& map) {
   engine.starter_Nm = map.Number("starter_Nm", Range::Positive(), engine.starter_Nm);
   engine.indicated_efficiency = map.Number("indicated_efficiency", {0.05, 0.7}, engine.indicated_efficiency);
   engine.heating_value_Jpkg = map.Number("heating_value_Jpkg", {1e6, 2e8}, engine.heating_value_Jpkg);
+  if (map.Has("throttle_fuel_lph")) engine.throttle_fuel_kgps = map.Number("throttle_fuel_lph", {0.1, 1000.0}) * kPetrol_kgpl / 3600.0;
   if (engine.stall_radps >= engine.idle_radps) map.Problem("stall_rpm", "'engine.stall_rpm' is not below 'engine.idle_rpm'");
   if (engine.resume_radps >= engine.cut_radps) map.Problem("resume_rpm", "'engine.resume_rpm' is not below 'engine.cut_rpm'");
   return engine;

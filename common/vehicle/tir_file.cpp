@@ -9,8 +9,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/base/files.hpp"
+#include "common/base/suggest.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -19,6 +21,10 @@ constexpr std::size_t kMostBytes = 1u << 20;
 constexpr auto kNeeded = std::to_array<std::string_view>({"FITTYP", "FNOMIN", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1", "PKY1"});
 constexpr auto kUnits = std::to_array<std::pair<std::string_view, std::string_view>>(
     {{"LENGTH", "meter"}, {"FORCE", "newton"}, {"ANGLE", "radians"}, {"MASS", "kg"}, {"TIME", "second"}});
+
+// Coefficients of the directions and scales that the forces here have no use for: relaxation, moments, turn slip, structure.
+constexpr auto kUnused = std::to_array<std::string_view>({"PTX1", "PTX2", "PTX3", "PTY1", "PTY2", "LCZ", "LGAZ", "LGYR", "LKZC", "LMP", "LMUV", "LMX", "LMY", "LRES", "LS",
+                                                          "LSGAL", "LSGKP", "LTR", "LVMX"});
 
 std::string_view Trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r\f\v";
@@ -99,12 +105,31 @@ class Reader {
 
   base::Status Value(const std::string& key, std::string_view value) {
     const MagicFormulaCoefficient* coefficient = Coefficient(key);
-    if (coefficient == nullptr && key != "FITTYP") return {};
+    if (key == "TYRESIDE") return Side(value);
+    if (coefficient == nullptr && key != "FITTYP") return Unused(key);
     const auto number = Number(value);
     if (!number) return Wrong(fmt::format("'{}' is '{}'; a number was expected", key, value), line_);
     if (const auto [first, is_new] = lines_.emplace(key, line_); !is_new) return Wrong(fmt::format("'{}' stands in line {} already", key, first->second), line_);
     (coefficient != nullptr ? tyre_.*coefficient->member : fit_type_) = *number;
     return {};
+  }
+
+  base::Status Side(std::string_view value) {
+    std::string found = Upper(value);
+    std::erase(found, '\'');
+    std::erase(found, '"');
+    if (found != "LEFT" && found != "RIGHT") return Wrong(fmt::format("TYRESIDE is {}; 'LEFT' or 'RIGHT' was expected", value), line_);
+    tyre_.measured_on = found == "LEFT" ? TyreSide::kLeft : TyreSide::kRight;
+    return {};
+  }
+
+  // Among the coefficients of the two directions and their scales there is none that nobody knows: it would be a slip of the pen.
+  base::Status Unused(const std::string& key) const {
+    const bool strict = section_.starts_with("LONGITUDINAL") || section_.starts_with("LATERAL") || section_.starts_with("SCALING");
+    if (!strict || std::ranges::find(kUnused, key) != kUnused.end()) return {};
+    std::vector<std::string> known(kUnused.begin(), kUnused.end());
+    for (const auto& each : MagicFormulaCoefficients()) known.emplace_back(each.name);
+    return Wrong(fmt::format("'{}' is no coefficient of the Magic Formula{}", key, base::DidYouMean(key, known)), line_);
   }
 
   base::Result<MagicFormulaSettings> Checked() {

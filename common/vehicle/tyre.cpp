@@ -24,6 +24,15 @@ double SlipBound(double peak_N, double stiffness_N, double motion_mps, double lo
 
 }  // namespace
 
+std::array<TyreSettings, 4> OnWheels(const std::array<TyreSettings, 2>& axles) {
+  std::array<TyreSettings, 4> wheels{axles[0], axles[0], axles[1], axles[1]};
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    const bool left = i % 2 == 0;
+    wheels[i].formula.mirrored = wheels[i].formula.measured_on == (left ? TyreSide::kRight : TyreSide::kLeft);
+  }
+  return wheels;
+}
+
 TyreForces SteadyForces(const TyreSettings& tyre, const TyreSlip& slip, double load_N, double friction) {
   return tyre.slip_curve ? SteadyForces(*tyre.slip_curve, slip, load_N, friction) : SteadyForces(tyre.formula, slip, load_N, friction);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "common/base/state.hpp"
@@ -16,6 +17,9 @@ struct TyreSettings {
   double low_speed_mps = 2.5;              // below it the damping fades in and the deflection is held to what friction bears
   double low_speed_damping_Nspm = 3000.0;  // force a slip speed at standstill, while the tyre does not slide
 };
+
+// The tyres of the axles on their wheels, in the order of WheelIndex: one that was measured on the other side of a car is mirrored.
+std::array<TyreSettings, 4> OnWheels(const std::array<TyreSettings, 2>& axles);
 
 // Of the formula or of the slip curve, as in magic_formula.hpp.
 TyreForces SteadyForces(const TyreSettings& tyre, const TyreSlip& slip, double load_N, double friction);

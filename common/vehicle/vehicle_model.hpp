@@ -50,6 +50,14 @@ struct VehicleDimensions {
   int forward_gears = 0;
 };
 
+// A force and its moment about B's origin, both in W: what the body takes from outside (a collision).
+struct Wrench {
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();      // N
+  Eigen::Vector3d moment_WB_W = Eigen::Vector3d::Zero();  // N m
+
+  bool any() const { return !force_W.isZero(0.0) || !moment_WB_W.isZero(0.0); }
+};
+
 // One vehicle. A value that is stepped (law L3): everything that later steps depend on is in Save and Restore, and the
 // same calls give the same bits.
 class VehicleModel {
@@ -64,6 +72,11 @@ class VehicleModel {
   // CALCULO: advances by dt_s (over 0, at most 0.1 s) with the controls held. Asks the ground exactly once, one batch of
   // four wheels (law L4). Outside of the world a wheel goes on upon the last plane that it knew.
   virtual void Step(const Controls& controls, terrain::Ground& ground, double dt_s) = 0;
+
+  // What the next Step holds against the body from outside; a second call replaces the first, and after the step it is gone: no part
+  // of the state. A model that cannot be pushed takes no notice.
+  virtual void SetPush(const Wrench& /*push*/) {}
+  virtual bool can_be_pushed() const { return false; }
 
   virtual const VehicleState& state() const = 0;
   virtual const VehicleDimensions& dimensions() const = 0;

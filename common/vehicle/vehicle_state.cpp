@@ -3,10 +3,10 @@
 #include <cmath>
 #include <span>
 
+#include "common/vehicle/engine.hpp"
+
 namespace rodeira::vehicle {
 namespace {
-
-constexpr double kPetrol_kgpl = 0.745;
 
 // One list of fields for both directions: `visit(name, field)`.
 template <class Wheel, class Visit>

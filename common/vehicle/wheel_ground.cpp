@@ -36,4 +36,15 @@ void AskGround(terrain::Ground& ground, const std::array<Eigen::Vector3d, kWheel
   }
 }
 
+Plane PlaneUnder(const std::array<const WheelGround*, kWheels>& wheels) {
+  const Eigen::Vector3d rising = wheels[kFrontLeft]->plane_W - wheels[kRearRight]->plane_W;
+  const Eigen::Vector3d falling = wheels[kFrontRight]->plane_W - wheels[kRearLeft]->plane_W;
+  Eigen::Vector3d normal = falling.cross(rising);
+  if (normal.z() < 0.0) normal = -normal;  // the car lies on its roof
+  Plane plane;
+  if (normal.norm() > 1e-3 && normal.z() > 0.3 * normal.norm()) plane.normal_W = normal.normalized();
+  for (const WheelGround* wheel : wheels) plane.point_W += 0.25 * wheel->plane_W;
+  return plane;
+}
+
 }  // namespace rodeira::vehicle

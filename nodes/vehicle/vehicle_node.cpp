@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "common/geometry/angle.hpp"
@@ -9,6 +12,8 @@
 #include "common/vehicle/vehicle_model.hpp"
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
+#include "nodes/vehicle/collisions.hpp"
+#include "nodes/vehicle/obstacle_map.hpp"
 #include "nodes/vehicle/vehicle_wire.hpp"
 
 namespace rodeira::nodes {
@@ -19,92 +24,139 @@ namespace topics = idl::topics;
 class VehicleNode final : public lockstep::Node {
  public:
   // `own`: null where the ground is asked for elsewhere.
-  VehicleNode(std::unique_ptr<vehicle::VehicleModel> model, const vehicle::InitialCondition& initial, std::unique_ptr<terrain::Ground> own,
-              terrain::Ground& ground)
-      : model_(std::move(model)), initial_(initial), own_ground_(std::move(own)), ground_(ground) {}
+  VehicleNode(lockstep::SourceIndex state_source, std::unique_ptr<vehicle::VehicleModel> model, const vehicle::InitialCondition& initial, std::unique_ptr<terrain::Ground> own,
+              terrain::Ground& ground, std::optional<Collisions> collisions)
+      : state_source_(state_source), model_(std::move(model)), initial_(initial), own_ground_(std::move(own)), ground_(ground), collisions_(std::move(collisions)) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     if (auto status = model_->Initialise(initial_, ground_); !status) return status;  // INI
-    Publish(outbox);
+    Publish(outbox, {});
     return {};
   }
 
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
     const auto controls = idl::Decode<msg::Controls>(*inbox.Latest(topics::kControls).payload);
     if (!controls) return controls.error();
+    msg::Collisions touched;
+    if (collisions_) {
+      auto found = collisions_->Find(model_->state(), inbox, step);
+      if (!found) return found.error();
+      model_->SetPush(found.value().push);
+      touched = std::move(found.value().event);
+    }
     model_->Step(FromWire(controls.value()), ground_, step.dt_s);  // CALCULO
     if (auto problem = model_->problem(); !problem) return problem;
-    Publish(outbox);
+    Publish(outbox, touched);
     return {};
   }
 
   base::Status TakeOver(const std::vector<lockstep::Sample>& published) override {
-    if (published.empty()) return base::WrongInput("no published state of the car was found");
-    const auto state = idl::Decode<msg::VehicleState>(*published.back().payload);
+    const auto newest = std::find_if(published.rbegin(), published.rend(), [&](const lockstep::Sample& sample) { return sample.source() == state_source_; });
+    if (newest == published.rend()) return base::WrongInput("no published state of the car was found");
+    const auto state = idl::Decode<msg::VehicleState>(*newest->payload);
     if (!state) return state.error();
     return model_->Initialise(vehicle::FromState(FromWire(state.value())), ground_);
   }
 
-  void Save(base::StateWriter& out) const override { out.Put("model", *model_); }
-  void Restore(base::StateReader& in) override { in.Get("model", *model_); }
+  void Save(base::StateWriter& out) const override {
+    out.Put("model", *model_);
+    if (collisions_) out.Put("collisions", *collisions_);
+  }
+  void Restore(base::StateReader& in) override {
+    in.Get("model", *model_);
+    if (collisions_) in.Get("collisions", *collisions_);
+  }
   bool can_save() const override { return model_->can_save(); }
 
  private:
-  void Publish(lockstep::Outbox& outbox) const { outbox.Put(topics::kVehicleState, idl::Encode(ToWire(model_->state(), model_->dimensions()))); }
+  void Publish(lockstep::Outbox& outbox, const msg::Collisions& touched) const {
+    outbox.Put(topics::kVehicleState, idl::Encode(ToWire(model_->state(), model_->dimensions())));
+    outbox.Put(topics::kCollisions, idl::Encode(touched));
+  }
 
+  lockstep::SourceIndex state_source_;
   std::unique_ptr<vehicle::VehicleModel> model_;
   vehicle::InitialCondition initial_;
   std::unique_ptr<terrain::Ground> own_ground_;
   terrain::Ground& ground_;
+  std::optional<Collisions> collisions_;  // nothing: the car touches nobody
 };
 
-// SUELO in this process, of the world that the road server has too: a function, so the bits are the server's.
-base::Result<std::unique_ptr<terrain::Ground>> OwnGround(const launch::NodeContext& context, const launch::WorldSummary& summary) {
+// The world that the road server has too: what its files answer in this process are the server's bits. `without`: the key that does
+// without them.
+base::Result<std::shared_ptr<const road::World>> OwnWorld(const launch::NodeContext& context, const launch::WorldSummary& summary, const char* without) {
   const std::filesystem::path& file = context.launch().world();
-  const auto world = road::World::Load(file);
-  if (!world) return world.error();
+  auto world = road::World::Load(file);
+  if (!world) return base::Error{world.error().code, fmt::format("{} (without the world's files: '{}')", world.error().message, without), world.error().context};
   if (world.value()->content_hash() != summary.content_hash) {
-    return base::WrongInput(fmt::format("the world's content hash is {} here and {} where the road server is; give both the same files, or 'ground: remote'",
-                                        base::Hex(world.value()->content_hash()), base::Hex(summary.content_hash)), file.string());
+    return base::WrongInput(fmt::format("the world's content hash is {} here and {} where the road server is; give both the same files, or '{}'",
+                                        base::Hex(world.value()->content_hash()), base::Hex(summary.content_hash), without), file.string());
   }
-  return world.value()->MakeGround();
+  return world;
+}
+
+struct Settings {
+  std::filesystem::path vehicle;
+  vehicle::InitialCondition initial;
+  bool own_place = false, own_heading = false;  // otherwise the world's
+  bool asks = false;                            // for the ground, at each step
+  std::string hits;                             // all, traffic, none
+};
+
+Settings Read(const config::Map& config) {
+  Settings settings;
+  settings.vehicle = config.Path("vehicle");
+  const config::Map start = config.OptionalChild("start");
+  settings.own_place = start.Has("x_m") || start.Has("y_m");
+  settings.own_heading = settings.own_place || start.Has("heading_deg");
+  if (settings.own_place) {
+    settings.initial.x_m = start.Number("x_m");
+    settings.initial.y_m = start.Number("y_m");
+  }
+  settings.initial.heading_rad = start.Number("heading_deg", {-360.0, 360.0}, 0.0) * geometry::kPi / 180.0;
+  settings.initial.speed_mps = start.Number("speed_mps", {-20.0, 100.0}, 0.0);
+  settings.asks = config.Choice("ground", {"local", "remote"}, "local") == "remote";
+  settings.hits = config.Choice("collisions", {"all", "traffic", "none"}, "all");
+  return settings;
+}
+
+std::optional<Collisions> CollisionsOf(const std::string& hits, const vehicle::VehicleModel& model, const road::World* world, const std::string& node) {
+  if (hits == "none") return std::nullopt;
+  if (!model.can_be_pushed()) {
+    fmt::print(stderr, "rodeira: node '{}': the FMU has no inputs push_x_N … push_moment_z_Nm: collisions are told, but do not move the car\n", node);
+  }
+  const vehicle::VehicleDimensions& dimensions = model.dimensions();
+  ObstacleMap map = hits == "all" && world != nullptr ? ObstacleMap(*world, vehicle::BoxOf(dimensions, {}).reach_m()) : ObstacleMap();
+  return std::make_optional<Collisions>(dimensions, std::move(map));
 }
 
 }  // namespace
 
 base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContext& context) {
-  const config::Map config = context.config();
-  const std::filesystem::path file = config.Path("vehicle");
-  const config::Map start = config.OptionalChild("start");
-  vehicle::InitialCondition initial;
-  const bool own_place = start.Has("x_m") || start.Has("y_m");
-  if (own_place) {
-    initial.x_m = start.Number("x_m");
-    initial.y_m = start.Number("y_m");
-  }
-  const double heading_deg = start.Number("heading_deg", {-360.0, 360.0}, 0.0);
-  initial.heading_rad = heading_deg * geometry::kPi / 180.0;
-  initial.speed_mps = start.Number("speed_mps", {-20.0, 100.0}, 0.0);
-  const bool asks = config.Choice("ground", {"local", "remote"}, "local") == "remote";
+  Settings settings = Read(context.config());
   if (auto status = context.launch().file().Finish(); !status) return status.error();
-  auto model = vehicle::LoadVehicle(file, context.launch().vehicle_model());
+  auto model = vehicle::LoadVehicle(settings.vehicle, context.launch().vehicle_model());
   if (!model) return model.error();
-  const auto world = context.World();
-  if (!world) return world.error();
-  if (!own_place) {
-    initial.x_m = world.value().start_x_m;
-    initial.y_m = world.value().start_y_m;
-    if (!start.Has("heading_deg")) initial.heading_rad = world.value().start_heading_rad;
+  const auto summary = context.World();
+  if (!summary) return summary.error();
+  if (!settings.own_place) {
+    settings.initial.x_m = summary.value().start_x_m;
+    settings.initial.y_m = summary.value().start_y_m;
   }
-  context.set_world_hash(world.value().content_hash);
-  std::unique_ptr<terrain::Ground> own;
-  if (!asks && !context.ground_is_here()) {
-    auto made = OwnGround(context, world.value());
+  if (!settings.own_heading) settings.initial.heading_rad = summary.value().start_heading_rad;
+  context.set_world_hash(summary.value().content_hash);
+  const bool own_ground = !settings.asks && !context.ground_is_here();
+  std::shared_ptr<const road::World> world;
+  if (own_ground || (settings.hits == "all" && !context.launch().world().empty())) {
+    auto made = OwnWorld(context, summary.value(), own_ground ? "ground: remote, collisions: traffic" : "collisions: traffic");
     if (!made) return made.error();
-    own = std::move(made).value();
+    world = std::move(made).value();
   }
+  std::unique_ptr<terrain::Ground> own = own_ground ? world->MakeGround() : nullptr;
   terrain::Ground& ground = own != nullptr ? *own : context.Ground();
-  return std::unique_ptr<lockstep::Node>(std::make_unique<VehicleNode>(std::move(model).value(), initial, std::move(own), ground));
+  std::optional<Collisions> collisions = CollisionsOf(settings.hits, *model.value(), world.get(), context.spec().name);
+  return std::unique_ptr<lockstep::Node>(std::make_unique<VehicleNode>(context.spec().outputs.front(), std::move(model).value(), settings.initial,
+                                                                       std::move(own), ground, std::move(collisions)));
 }
 
 }  // namespace rodeira::nodes

@@ -49,7 +49,7 @@ TEST_F(BranchTest, ABranchWithoutAChangeIsItsParent) {
     ++count;
     ASSERT_EQ(*x.value()->payload, *y.value()->payload) << "at step " << x.value()->valid();
   }
-  EXPECT_EQ(count, 3001u + 301u + 8u);
+  EXPECT_EQ(count, 2u * 3001u + 301u + 8u);
   const auto reader = record::McapReader::Open(wish.recording);
   const auto end = reader.value().FindMetadata("rodeira.end").value()->entries;
   EXPECT_EQ(end.at("samples"), std::to_string(count)) << "the parent's are counted too";
@@ -94,6 +94,17 @@ TEST_F(BranchTest, ABranchHasMarksAndWallTimesOfBothItsLives) {
   }
   EXPECT_THAT(marked, HasSubstr("marked step "));
   EXPECT_EQ(kinds, "start start mark end ");
+}
+
+TEST_F(BranchTest, ABranchLastsAsLongAsItsChangesSayAndTellsWhatItsParentAnswersFor) {
+  const std::string file = Drive();
+  const std::string branch = (folder_.path() / "branch.mcap").string();
+  const auto outcome = Branch({file, 1500, {{"duration_s", "2.5"}}, std::nullopt, branch});
+  ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
+  EXPECT_EQ(outcome.value().last_step, 2500);
+  const auto verified = RunCommand({Bin("rodeira"), "replay", branch, "--verify"});
+  EXPECT_EQ(verified.status, 0) << verified.out;
+  EXPECT_THAT(verified.out, HasSubstr("not computed: what lies before 2.000 s is its parent's; verify that one, drive.mcap"));
 }
 
 // What a user keeps beside it is not the branch's.

@@ -107,7 +107,7 @@ scene::PoseHistory HistoryUpTo(const replay::RecordedRun& run, Step step) {
     view::NewestSamples newest;
     for (lockstep::SourceIndex s = 0; s < run.roster().sources().size(); ++s) {
       const auto& source = run.roster().source(s);
-      if (source.topic == idl::topics::kControls) continue;
+      if (source.topic != idl::topics::kVehicleState && source.topic != idl::topics::kTrafficState) continue;
       newest[s] = std::make_shared<const base::Bytes>(Payload(source, lockstep::FloorTo(at, source.period)));
     }
     history.Add(view::MakeMoment(run.roster(), at, newest).value());

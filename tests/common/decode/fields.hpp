@@ -127,6 +127,18 @@ void Fields(V& v, msg::TrafficState& m) {
   v("header", m.header()), v("agents", m.agents()), v("end", m.end());
 }
 template <class V>
+void Fields(V& v, msg::Collision& m) {
+  v("position_x_m", m.position_x_m()), v("position_y_m", m.position_y_m()), v("position_z_m", m.position_z_m());
+  v("impulse_x_ns", m.impulse_x_ns()), v("impulse_y_ns", m.impulse_y_ns()), v("impulse_z_ns", m.impulse_z_ns());
+  v("normal_x", m.normal_x()), v("normal_y", m.normal_y()), v("normal_z", m.normal_z());
+  v("depth_m", m.depth_m()), v("closing_mps", m.closing_mps()), v("partner", m.partner()), v("partner_source", m.partner_source());
+  v("partner_id", m.partner_id()), v("partner_name", m.partner_name()), v("begins", m.begins()), v("index", m.index()), v("end", m.end());
+}
+template <class V>
+void Fields(V& v, msg::Collisions& m) {
+  v("header", m.header()), v("collisions", m.collisions()), v("end", m.end());
+}
+template <class V>
 void Fields(V& v, msg::SignalGroup& m) {
   v("controller", m.controller()), v("colour", m.colour());
 }
@@ -286,6 +298,7 @@ template <class Use>
 void ForEveryTopicType(const Use& use) {
   use(TypeTag<msg::Controls>(), "rodeira::msg::Controls");
   use(TypeTag<msg::VehicleState>(), "rodeira::msg::VehicleState");
+  use(TypeTag<msg::Collisions>(), "rodeira::msg::Collisions");
   use(TypeTag<msg::TrafficState>(), "rodeira::msg::TrafficState");
   use(TypeTag<msg::SignalsState>(), "rodeira::msg::SignalsState");
   use(TypeTag<msg::ScenarioEvents>(), "rodeira::msg::ScenarioEvents");

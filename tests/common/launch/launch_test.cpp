@@ -29,12 +29,13 @@ TEST(Launch, WiresEverybodyByTopic) {
   EXPECT_EQ(roster.base_step_ns(), 1'000'000);
   const auto& ego = roster.node(roster.Find("ego"));
   EXPECT_EQ(ego.period, 1);
-  ASSERT_EQ(ego.inputs.size(), 1u);
+  ASSERT_EQ(ego.inputs.size(), 2u);
   EXPECT_EQ(roster.SourceName(ego.inputs[0].sources[0]), "driver.rodeira/controls");
+  EXPECT_EQ(roster.SourceName(ego.inputs[1].sources[0]), "traffic.rodeira/traffic_state");
   const auto& traffic = roster.node(roster.Find("traffic"));
   EXPECT_EQ(traffic.period, 20);
   EXPECT_EQ(traffic.delay, 40);
-  EXPECT_EQ(roster.node(roster.Find("recorder")).inputs.size(), 4u) << "three streams of samples, and the snapshots";
+  EXPECT_EQ(roster.node(roster.Find("recorder")).inputs.size(), 6u) << "five streams of samples, and the snapshots";
   EXPECT_EQ(roster.node(roster.Find("road")).role, lockstep::Role::kService);
   EXPECT_EQ(launch.node(1).config->OptionalChild("config").Text("source"), "script");
 }

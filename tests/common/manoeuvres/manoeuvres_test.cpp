@@ -11,6 +11,8 @@
 #include "common/geometry/angle.hpp"
 #include "common/manoeuvres/proving_ground.hpp"
 #include "common/manoeuvres/trial.hpp"
+#include "common/vehicle/multibody_model.hpp"
+#include "tests/common/vehicle/every_model.hpp"
 #include "tests/common/vehicle/test_car.hpp"
 
 namespace rodeira::manoeuvres {
@@ -194,29 +196,60 @@ TEST(Manoeuvres, TheBumpIsSmooth) {
   EXPECT_LT(Value(outcome, "calm again after"), 4.0);
 }
 
-class EveryCar : public ::testing::TestWithParam<const char*> {};
+class EveryCar : public ::testing::TestWithParam<vehicle::ModelCase> {};
 
 TEST_P(EveryCar, GoesThroughEveryManoeuvreTwiceTheSame) {
-  const auto load = [&] { return vehicle::LoadVehicle(std::string(RODEIRA_SOURCE_DIR) + "/configs/vehicles/" + GetParam()); };
-  auto first = load(), second = load();
-  ASSERT_TRUE(first.ok() && second.ok());
+  auto first = vehicle::MakeModel(GetParam()), second = vehicle::MakeModel(GetParam());
   for (const Manoeuvre& manoeuvre : Manoeuvres()) {
     SCOPED_TRACE(manoeuvre.name);
-    const Outcome a = Driven(manoeuvre.drive(*first.value(), 0.002));
+    const Outcome a = Driven(Drive(manoeuvre, *first, 0.002));
     ASSERT_FALSE(a.figures.empty());
     for (const Figure& figure : a.figures) EXPECT_TRUE(std::isfinite(figure.value)) << figure.name;
-    if (manoeuvre.name == "constant_radius") {
+    if (manoeuvre.name == "constant_radius" && GetParam().is_body) {
       EXPECT_GT(Value(a, "understeer gradient"), 0.0);
     }
     if (manoeuvre.name == "step_steer") {
       EXPECT_LT(Value(a, "90 % of lateral acceleration after"), 0.4);
     }
     if (manoeuvre.name == "acceleration" || manoeuvre.name == "constant_radius" || manoeuvre.name == "park") continue;  // long
-    EXPECT_EQ(Driven(manoeuvre.drive(*second.value(), 0.002)).table.values, a.table.values);
+    EXPECT_EQ(Driven(Drive(manoeuvre, *second, 0.002)).table.values, a.table.values);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Configs, EveryCar, ::testing::Values("default.yaml", "prototype.yaml", "double_wishbones.yaml"),
-                         [](const auto& car) { return std::string(car.param).substr(0, std::string(car.param).find('.')); });
+INSTANTIATE_TEST_SUITE_P(Models, EveryCar, ::testing::Values(vehicle::kBicycle, vehicle::kOde, vehicle::kMultibody, vehicle::kSecondMultibody, vehicle::kFmu),
+                         vehicle::NameOf);
+
+// The tests' FMU is a point with dv/dt = 3 - v/20 and the yaw rate v tan(steering wheel / 16) / 2.5: its figures are closed forms.
+TEST(Manoeuvres, AnFmusFiguresAreThoseOfItsEquations) {
+  auto car = vehicle::MakeModel(vehicle::kFmu);
+  const Outcome fast = Driven(Acceleration(*car, kStep_s));
+  EXPECT_NEAR(Value(fast, "0 to 100 km/h"), -20.0 * std::log(1.0 - 100.0 / 3.6 / 60.0), 0.01);
+  const Outcome turned = Driven(StepSteer(*car, kStep_s));
+  EXPECT_NEAR(Value(turned, "yaw rate gain"), 100.0 / 3.6 / 2.5 / 16.0, 0.01);
+  EXPECT_NEAR(Value(turned, "yaw rate overshoot"), 0.0, 0.5);
+  EXPECT_NEAR(Value(Driven(ConstantRadius(*car, kStep_s)), "understeer gradient"), 0.0, 0.01);
+  EXPECT_EQ(Value(Driven(Park(*car, kStep_s)), "creep"), 0.0);
+}
+
+// The multibody car with undivided steps of 10 ms: the same drive as at 1 ms, 1 cm nearer to or farther from the cones at most.
+TEST(Manoeuvres, AtTenMillisecondsTheMultibodyCarStillDrivesTheLaneChange) {
+  auto fine = vehicle::MakeModel(vehicle::kMultibody);
+  vehicle::MultibodySettings settings = static_cast<vehicle::MultibodyModel&>(*fine).settings();
+  settings.longest_substep_s = 0.01;
+  vehicle::MultibodyModel coarse(settings);
+  ASSERT_TRUE(coarse.Build().ok());
+  const Outcome expected = Driven(LaneChange(*fine, 0.001)), found = Driven(LaneChange(coarse, 0.01));
+  EXPECT_NEAR(Value(found, "room left to the cones"), Value(expected, "room left to the cones"), 0.01);
+  EXPECT_NEAR(Value(found, "largest lateral acceleration"), Value(expected, "largest lateral acceleration"), 0.2);
+  EXPECT_GT(coarse.state().p_WB_W.x(), 100.0) << "it is through";
+}
+
+TEST(Manoeuvres, AModelThatFailsOnTheWayIsToldInItsOwnWords) {
+  auto car = vehicle::MakeModel(vehicle::kFmu, "parameters: {fail_at_s: 1.5}\n");
+  const auto outcome = Drive(*FindManoeuvre("acceleration").value(), *car, kStep_s);
+  ASSERT_FALSE(outcome.ok());
+  EXPECT_EQ(outcome.error().exit_status(), 1);
+  EXPECT_THAT(outcome.error().Text(), ::testing::HasSubstr("the tank is empty at 1.5 s"));
+}
 
 TEST(Manoeuvres, AnUnknownOneIsRefusedWithTheNearestName) {
   const auto found = FindManoeuvre("break");

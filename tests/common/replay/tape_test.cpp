@@ -27,6 +27,7 @@ constexpr const char* kLaunch =
 base::Bytes Payload(const lockstep::Source& source, Step step) {
   if (source.topic == idl::topics::kControls) return idl::Encode(msg::Controls());
   if (source.topic == idl::topics::kTrafficState) return idl::Encode(msg::TrafficState());
+  if (source.topic == idl::topics::kCollisions) return idl::Encode(msg::Collisions());
   if (source.topic == idl::topics::kSignalsState) return idl::Encode(msg::SignalsState());
   msg::VehicleState car;
   car.position_w_m().x(0.02 * static_cast<double>(step));

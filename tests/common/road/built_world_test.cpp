@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "common/base/files.hpp"
 #include "common/base/random.hpp"
@@ -18,6 +19,8 @@ namespace rodeira::road {
 namespace {
 
 using testing::HasSubstr;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 constexpr const char* kHilly = R"(rodeira: world/2
 name: hilly
@@ -181,6 +184,28 @@ TEST(BuiltWorld, UnderABridgeThereIsARoadAndAboveItAnother) {
   EXPECT_NEAR(layers[0].z_m, 46.0 - (10.0 / 150.0 * 2.0) * 120.0 / 8.0, 0.01);  // the crest of a parabola
   EXPECT_EQ(ground->At(low.x(), low.y(), low.z()).z_m, layers[1].z_m);
   EXPECT_EQ(ground->At(low.x(), low.y(), layers[0].z_m).z_m, layers[0].z_m);
+}
+
+// On the road, at its edges, in the junction, under and on the bridge, beside; with hints and without, on a ground that was asked before.
+TEST(BuiltWorld, APatchIsItsPointsBitByBit) {
+  const World& world = *Hilly();
+  const RoadChain chain = ChainsOf(*world.network())[0];
+  const auto asked = world.MakeGround(), fresh = world.MakeGround();
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    const double place = i % 3 == 0 ? base::RandomUniform({i, 0}, 125.0, 155.0) : i % 3 == 1 ? base::RandomUniform({i, 0}, 322.0, 338.0) : base::RandomUniform({i, 0}, 1.0, 480.0);
+    const auto [road, s] = chain.At(*world.network(), place);
+    const Eigen::Vector3d p = road->Surface(s, base::RandomUniform({i, 1}, -9.0, 9.0)).p_W;
+    const terrain::GroundPatch patch{p.x(), p.y(), base::RandomUniform({i, 2}, -3.0, 3.0), i % 5 == 0 ? 6.0 : 0.2, 0.18, 11, 9, i % 2 == 0 ? kNone : p.z() + 0.1};
+    std::vector<terrain::GroundPoint> points(patch.size());
+    asked->Patch(patch, points);
+    for (std::size_t k = points.size(); k-- > 0;) {  // backward
+      const terrain::GroundQuery query = terrain::PatchPoint(patch, static_cast<int>(k) / patch.across, static_cast<int>(k) % patch.across);
+      const terrain::GroundPoint alone = fresh->At(query.x_m, query.y_m, query.z_hint_m);
+      ASSERT_EQ(points[k].inside, alone.inside);
+      EXPECT_TRUE(points[k].z_m == alone.z_m && points[k].normal_W == alone.normal_W && points[k].friction == alone.friction && points[k].surface == alone.surface)
+          << "patch " << i << " point " << k;
+    }
+  }
 }
 
 TEST(BuiltWorld, RoughnessStandsOnTheRoadAndFadesAtItsEnds) {

@@ -100,74 +100,6 @@ TEST(OdeCarAtRest, StandsInEquilibrium) {
   }
 }
 
-TEST(OdeCarAtRest, RefusesPlacesOutsideAndStaysAsItWas) {
-  auto car = Car();
-  HillGround::Kind kind;
-  kind.edge_m = 50.0;
-  HillGround ground(1, kind);
-  base::StateWriter before, after;
-  car->Save(before);
-  const auto refused = car->Initialise({.x_m = 1000.0}, ground);
-  ASSERT_FALSE(refused.ok());
-  EXPECT_THAT(refused.error().message, HasSubstr("outside of the world"));
-  EXPECT_FALSE(car->Initialise({.x_m = 48.9}, ground).ok()) << "a wheel outside";
-  EXPECT_FALSE(car->Initialise({.x_m = std::nan("")}, ground).ok());
-  car->Save(after);
-  EXPECT_EQ(before.bytes(), after.bytes());
-}
-
-TEST(OdeCarAtRest, TheHandbrakeHoldsOnASlope) {
-  auto car = Car();
-  PlaneGround ground(Eigen::Vector3d::Zero(), 0.2, 0.0);
-  ASSERT_TRUE(car->Initialise({}, ground).ok());
-  Controls controls = Rolling();
-  controls.handbrake = 1.0;
-  DriveFor(*car, ground, controls, 10.0);
-  const Eigen::Vector3d settled = car->state().p_WB_W;
-  DriveFor(*car, ground, controls, 30.0);
-  EXPECT_LT((car->state().p_WB_W - settled).norm(), 1e-4);
-}
-
-// Dropped (the ground sinks by 20 cm under it), settles, drives off, shifts, brakes, stops, reverses.
-TEST(OdeCarStory, IsDroppedDrivesOffShiftsBrakesStopsAndReverses) {
-  auto car = Car();
-  PlaneGround high(Eigen::Vector3d(0, 0, 0.2), 0.0, 0.0), ground;
-  ASSERT_TRUE(car->Initialise({}, high).ok());
-  Controls controls = Rolling();
-  controls.brake = 1.0;
-  double lowest = 1.0;
-  bool flew = false;
-  for (int i = 0; i < 4000; ++i) {
-    car->Step(controls, ground, kStep);
-    lowest = std::min(lowest, car->state().p_WB_W.z());
-    flew = flew || car->state().wheels[kFrontLeft].load_N + car->state().wheels[kRearRight].load_N == 0.0;
-  }
-  EXPECT_TRUE(flew);
-  EXPECT_LT(lowest, -0.02) << "its springs are pressed in";
-  EXPECT_NEAR(car->state().p_WB_W.z(), 0.0, 1e-3);
-  EXPECT_LT(car->state().v_WB_W.norm(), 1e-2);
-  controls = Controls();
-  controls.throttle = 0.7;
-  int gear = 0;
-  for (int i = 0; i < 14000; ++i) {
-    car->Step(controls, ground, kStep);
-    gear = std::max(gear, static_cast<int>(car->state().gear));
-  }
-  EXPECT_GT(car->state().speed_mps(), 20.0);
-  EXPECT_GE(gear, 3);
-  EXPECT_LT(std::fabs(car->state().p_WB_W.y()), 1e-3);
-  controls.throttle = 0.0;
-  controls.brake = 0.8;
-  DriveFor(*car, ground, controls, 8.0);
-  EXPECT_LT(std::fabs(car->state().speed_mps()), 1e-3);
-  controls.brake = 0.0;
-  controls.gear = -1;
-  controls.throttle = 0.3;
-  DriveFor(*car, ground, controls, 4.0);
-  EXPECT_LT(car->state().speed_mps(), -1.0);
-  EXPECT_EQ(car->state().gear, -1);
-}
-
 // r / delta = V / (L + Kus V²), Kus = (m/L)(b/Cf - a/Cr), stiffness = the curve's slope at the loads at rest.
 TEST(OdeCarDynamics, BelowOneMetrePerSecondSquaredItIsTheClosedForm) {
   OdeSettings settings = Settings();
@@ -235,25 +167,6 @@ TEST(OdeCarDynamics, TurnsTowardsTheWheelAndLeansOut) {
   double side = 0.0;
   for (const auto& wheel : s.wheels) side += wheel.lateral_N * std::cos(wheel.steer_rad) + wheel.longitudinal_N * std::sin(wheel.steer_rad);
   EXPECT_NEAR(side, car->settings().car.body.mass_kg * s.w_WB_B.z() * s.speed_mps(), 0.05 * side);
-}
-
-TEST(OdeCarDynamics, LeftAndRightAreMirrorImages) {
-  auto left = Car();
-  auto right = Car();
-  PlaneGround ground;
-  ASSERT_TRUE(left->Initialise({.speed_mps = 15.0}, ground).ok());
-  ASSERT_TRUE(right->Initialise({.speed_mps = 15.0}, ground).ok());
-  for (int i = 0; i < 2000; ++i) {
-    Controls controls;
-    controls.throttle = 0.2;
-    controls.steering_wheel_rad = 0.8 * std::sin(0.003 * i);
-    left->Step(controls, ground, kStep);
-    controls.steering_wheel_rad = -controls.steering_wheel_rad;
-    right->Step(controls, ground, kStep);
-  }
-  EXPECT_NEAR(left->state().p_WB_W.y(), -right->state().p_WB_W.y(), 1e-6);
-  EXPECT_NEAR(left->state().p_WB_W.x(), right->state().p_WB_W.x(), 1e-6);
-  EXPECT_NEAR(left->state().wheels[kFrontLeft].load_N, right->state().wheels[kFrontRight].load_N, 1e-3);
 }
 
 // The body is a box that the ground bears: on its roof the car comes to rest above the ground.
@@ -340,37 +253,6 @@ TEST(OdeCarBits, RestoredInACrashItGoesOnWithTheSameBits) {
     first->Save(a);
     second->Save(b);
     ASSERT_EQ(a.bytes(), b.bytes()) << "step " << i;
-  }
-}
-
-// Whatever the driver does on whatever hills: finite numbers, loads at least 0, one batch a step.
-TEST(OdeCarBits, AnythingAnywhereStaysFinite) {
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    const auto draw = [&](std::uint64_t what, int i, double low, double high) {
-      return base::RandomUniform({seed, what, static_cast<std::uint64_t>(i / 200)}, low, high);
-    };
-    HillGround::Kind kind;
-    kind.amplitude_m = 2.0 * static_cast<double>(seed);
-    kind.terrace_m = seed == 5 ? 1.0 : 0.0;
-    kind.ice = seed == 2;
-    HillGround ground(seed, kind);
-    auto car = Car();
-    if (!car->Initialise({.speed_mps = 5.0 * static_cast<double>(seed)}, ground).ok()) continue;
-    for (int i = 0; i < 4000; ++i) {
-      Controls c;
-      c.steering_wheel_rad = draw(0, i, -9.0, 9.0);
-      c.throttle = draw(1, i, 0.0, 1.0);
-      c.brake = std::max(0.0, draw(2, i, -2.0, 1.0));
-      c.handbrake = std::max(0.0, draw(3, i, -4.0, 1.0));
-      c.gear = draw(4, i, 0.0, 1.0) < 0.2 ? -1 : 1;
-      const int before = ground.batches;
-      car->Step(c, ground, kStep);
-      ASSERT_EQ(ground.batches, before + 1);
-      const VehicleState& s = car->state();
-      ASSERT_TRUE(s.p_WB_W.allFinite() && s.q_WB.coeffs().allFinite() && s.v_WB_W.allFinite() && s.w_WB_B.allFinite()) << seed << " " << i;
-      ASSERT_LT(s.v_WB_W.norm(), 150.0) << seed << " " << i;
-      for (const WheelState& wheel : s.wheels) ASSERT_TRUE(std::isfinite(wheel.load_N) && wheel.load_N >= 0.0) << seed << " " << i;
-    }
   }
 }
 

@@ -33,6 +33,45 @@ void Spin(Engine& engine, const EngineSettings& settings, double throttle, bool 
   }
 }
 
+// Smooth: through the samples, with one slope from both sides, never beyond its two samples, and straight where they are.
+TEST(Engine, ASmoothCurveGoesThroughItsSamplesWithoutOvershoot) {
+  EngineSettings engine;
+  engine.full_load = {{100.0, 80.0}, {200.0, 110.0}, {300.0, 112.0}, {400.0, 112.0}, {500.0, 90.0}, {650.0, 20.0}};
+  engine.full_load_Nmspr = SmoothSlopes(engine.full_load);
+  for (std::size_t i = 0; i < engine.full_load.size(); ++i) {
+    const auto& [speed, torque] = engine.full_load[i];
+    EXPECT_NEAR(FullLoadTorque(engine, speed), torque, 1e-12);
+    if (i == 0 || i + 1 == engine.full_load.size()) continue;
+    constexpr double kProbe = 1e-5;
+    const double before = (torque - FullLoadTorque(engine, speed - kProbe)) / kProbe, after = (FullLoadTorque(engine, speed + kProbe) - torque) / kProbe;
+    EXPECT_NEAR(before, after, 1e-5) << speed;
+    const auto [low, high] = std::minmax(torque, engine.full_load[i + 1].torque_Nm);
+    for (double share = 0.0; share <= 1.0; share += 0.01) {
+      const double between = FullLoadTorque(engine, speed + share * (engine.full_load[i + 1].speed_radps - speed));
+      EXPECT_GE(between, low - 1e-9);
+      EXPECT_LE(between, high + 1e-9);
+    }
+  }
+  EngineSettings line;
+  line.full_load = {{100.0, 50.0}, {220.0, 62.0}, {500.0, 90.0}};
+  line.full_load_Nmspr = SmoothSlopes(line.full_load);
+  for (double speed = 100.0; speed < 500.0; speed += 7.0) EXPECT_NEAR(FullLoadTorque(line, speed), 40.0 + 0.1 * speed, 1e-9);
+}
+
+// The source's: proportional to the throttle, whatever the engine gives for it.
+TEST(Engine, FuelInProportionToTheThrottleIsAnOption) {
+  EngineSettings settings = DefaultSettings().powertrain.engine;
+  settings.throttle_fuel_kgps = 0.004;
+  Engine engine;
+  engine.Start(300.0);
+  for (const double throttle : {0.5, 1.0}) {
+    engine.Prepare(settings, throttle, false);
+    engine.Finish(settings, 300.0, 0.001);
+    EXPECT_DOUBLE_EQ(engine.fuel_rate_kgps(), 0.004 * throttle);
+  }
+  EXPECT_NEAR(engine.fuel_kg(), 0.001 * 0.006, 1e-15);
+}
+
 TEST(Engine, IdlesAtItsSpeedOnFuelOfWillansLine) {
   const EngineSettings settings = DefaultSettings().powertrain.engine;
   Engine engine;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common/base/random.hpp"
+#include "common/vehicle/tyre.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -61,6 +62,11 @@ TEST(TirFile, RefusalsNamePlaceAndRemedy) {
   EXPECT_THAT(ProblemAfter("PDX1 = 1.1\n", ""), HasSubstr("'PDX1' was expected"));
   EXPECT_THAT(ProblemAfter("PKY1 = -18", "PKY1 = 18"), HasSubstr("a positive slip angle gives a force to the right"));
   EXPECT_THAT(ProblemAfter("FNOMIN = 4000", "FNOMIN = 0"), HasSubstr("'FNOMIN' is 0; more than 0 was expected"));
+  EXPECT_THAT(ProblemAfter("PDY2 = -.1", "PDY22 = -.1"), HasSubstr("'PDY22' is no coefficient of the Magic Formula; did you mean 'PDY2'?"));
+  EXPECT_THAT(ProblemAfter("LMUX = 1", "LMUXX = 1"), HasSubstr("t.tir:20: 'LMUXX' is no coefficient of the Magic Formula; did you mean 'LMUX'?"));
+  EXPECT_EQ(ProblemAfter("LMUX = 1", "LTR = 1"), "") << "of moments, which nobody asks for here";
+  EXPECT_EQ(ProblemAfter("MASS = 9.3", "WEIGHT = 9.3"), "") << "nothing of the forces";
+  EXPECT_THAT(ProblemAfter("FITTYP = 52", "TYRESIDE = 'UP'\nFITTYP = 52"), HasSubstr("t.tir:11: TYRESIDE is 'UP'; 'LEFT' or 'RIGHT' was expected"));
   EXPECT_EQ(ParseTir("", "t.tir").error().exit_status(), 2);
   EXPECT_EQ(LoadTir("/no/such.tir").error().exit_status(), 2);
 }
@@ -112,6 +118,30 @@ RC_GTEST_PROP(TirFile, ARealFileOfVersion52IsReadAndComputed, (std::uint32_t see
   RC_ASSERT(tyre.value().version == MagicFormulaVersion::k52);
   RC_ASSERT(tyre.value().phy3 == 0.006973);
   ExpectVersion52(tyre.value(), seed);
+}
+
+// On the other side of the car than it was measured on a tyre is its mirror image: conicity and ply steer push to the other side. What
+// nobody says the side of is the same on both.
+TEST(TirFile, TheSideThatATyreWasMeasuredOnIsMirroredOnTheOther) {
+  const auto wheels_of = [](const std::string& line) {
+    TyreSettings tyre;
+    tyre.formula = ParseTir(Replaced(kGood, "FITTYP = 52", line + "FITTYP = 52"), "t.tir").value();
+    return OnWheels({tyre, tyre});
+  };
+  const auto force = [](const TyreSettings& tyre, const TyreSlip& slip) { return SteadyForces(tyre, slip, 3500.0, 0.9); };
+  const TyreSlip slip{0.03, 0.04, 0.02}, image{0.03, -0.04, -0.02};
+  const auto either = wheels_of(""), left = wheels_of("TYRESIDE = 'LEFT'\n"), right = wheels_of("TYRESIDE = RIGHT\n");
+  const TyreForces as_measured = force(either[0], slip);
+  EXPECT_GT(std::fabs(force(either[0], {}).lateral_N), 50.0) << "it has conicity";
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(force(either[i], slip).lateral_N, as_measured.lateral_N);
+    const bool is_left = i % 2 == 0;
+    for (const auto& [tyres, same] : {std::pair(&left, is_left), std::pair(&right, !is_left)}) {
+      const TyreForces mounted = force((*tyres)[i], same ? slip : image);
+      EXPECT_EQ(mounted.longitudinal_N, as_measured.longitudinal_N);
+      EXPECT_EQ(mounted.lateral_N, same ? as_measured.lateral_N : -as_measured.lateral_N);
+    }
+  }
 }
 
 // Camber thrust of version 5.2 at no slip, without the other shifts: dFy/dγ = K PHY3 + Fz PVY3, at the nominal load.

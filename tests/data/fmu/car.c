@@ -1,5 +1,6 @@
 /* A car of four numbers as an FMU for co-simulation (FMI 2.0), for tests: place, heading and speed of a point that rolls on its wheels.
- *   dv/dt = 3 throttle - 0.05 v - 6 brake sign(v),  dheading/dt = v tan(steering wheel / 16) / 2.5
+ *   dv/dt = 3 throttle (backward in reverse) - 0.05 v - 6 brake sign(v) + push along the car / 1000 kg,
+ *   dheading/dt = v tan(steering wheel / 16) / 2.5
  * by explicit Euler steps. z is the mean of the ground's four heights. Parameters make it fail, hang, or say what is no number. */
 #include <math.h>
 #include <stddef.h>
@@ -16,7 +17,8 @@ typedef struct {
 } fmi2CallbackFunctions;
 
 enum { kX, kY, kZ, kRoll, kPitch, kHeading, kVx, kVy, kVz, kRollRate, kPitchRate, kYawRate, kSteering, kThrottle, kBrake, kGround0, kGround1, kGround2,
-       kGround3, kStartX, kStartY, kStartZ, kStartHeading, kStartSpeed, kFailAt, kHangAt, kNonsenseAt, kSpeed, kReals };
+       kGround3, kStartX, kStartY, kStartZ, kStartHeading, kStartSpeed, kFailAt, kHangAt, kNonsenseAt, kPushX, kPushY, kPushZ, kMomentX,
+       kMomentY, kMomentZ, kGearLever, kSpeed, kReals };
 
 typedef struct {
   double real[kReals];
@@ -111,7 +113,8 @@ EXPORT fmi2Status fmi2DoStep(void* c, double time, double step, int no_return) {
   v->real[kX] += step * v->real[kSpeed] * cos(v->real[kHeading]);
   v->real[kY] += step * v->real[kSpeed] * sin(v->real[kHeading]);
   v->real[kHeading] += step * v->real[kSpeed] * tan(v->real[kSteering] / 16.0) / 2.5;
-  v->real[kSpeed] += step * (3.0 * v->real[kThrottle] - 0.05 * v->real[kSpeed]);
+  v->real[kSpeed] += step * ((v->real[kGearLever] < 0.0 ? -3.0 : 3.0) * v->real[kThrottle] - 0.05 * v->real[kSpeed]);
+  v->real[kSpeed] += step / 1000.0 * (v->real[kPushX] * cos(v->real[kHeading]) + v->real[kPushY] * sin(v->real[kHeading]));
   v->real[kSpeed] = fabs(v->real[kSpeed]) <= brake ? 0.0 : v->real[kSpeed] - copysign(brake, v->real[kSpeed]);
   publish(v);
   if (time >= v->real[kNonsenseAt] - 1e-9) v->real[kY] = NAN;

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "common/base/state.hpp"
+#include "common/lockstep/inbox.hpp"
+#include "common/lockstep/step.hpp"
+#include "common/vehicle/collision_space.hpp"
+#include "idl/messages.hpp"
+#include "nodes/vehicle/obstacle_map.hpp"
+
+namespace rodeira::nodes {
+
+// What a car hits: the agents of traffic that its node sees and what stands in the world. Of what it returns everything follows from the
+// car's state, the inbox and which partners the step before touched; only these are its state.
+class Collisions {
+ public:
+  Collisions(const vehicle::VehicleDimensions& dimensions, ObstacleMap world);
+
+  struct Touched {
+    vehicle::Wrench push;  // on the car, for the step that begins now
+    msg::Collisions event;  // the same as impulses over that step
+  };
+  // For the step that begins. Agents are where their last published speed has carried them since.
+  base::Result<Touched> Find(const vehicle::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
+
+  void Save(base::StateWriter& writer) const;
+  void Restore(base::StateReader& reader);
+
+ private:
+  struct Partner {
+    std::uint32_t kind = 0;  // as in collision.idl
+    std::uint32_t source = 0;
+    std::uint32_t id = 0;
+
+    std::uint64_t key() const { return (static_cast<std::uint64_t>(kind) << 63) | (static_cast<std::uint64_t>(source) << 32) | id; }
+  };
+
+  // What a stream of traffic has said last, read once.
+  struct Said {
+    std::shared_ptr<const base::Bytes> payload;
+    msg::TrafficState state;
+  };
+
+  base::Status SeeTraffic(const vehicle::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
+  void SeeWorld(const vehicle::VehicleState& car);
+  msg::Collision EventOf(const vehicle::Impact& impact, double dt_s) const;
+
+  ObstacleMap world_;
+  vehicle::CollisionSpace space_;
+  double reach_m_;
+  std::vector<std::uint64_t> touched_;  // partners of the last step
+  std::map<std::uint32_t, Said> said_;  // by stream
+  // Of one step.
+  std::vector<vehicle::Obstacle> obstacles_;
+  std::vector<Partner> partners_;
+};
+
+}  // namespace rodeira::nodes

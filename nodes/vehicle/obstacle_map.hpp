@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/network/placing.hpp"
+#include "common/road/world.hpp"
+#include "common/vehicle/collision_space.hpp"
+
+namespace rodeira::nodes {
+
+// What stands in a world and stops a car, as boxes: barriers, walls and rails, poles and lamps, trunks of trees, buildings, obstacles.
+// Bushes, delineators, signs and all that is lower than 0.3 m are driven over. What stands on the ground reaches from 1 m below it to at
+// least 2 m above, so that no car is lifted over a rail. A pure function of the world.
+class ObstacleMap {
+ public:
+  ObstacleMap() = default;  // nothing stands anywhere
+  // `reach_m`: of the car's body from its B.
+  ObstacleMap(const road::World& world, double reach_m);
+
+  // Their ids are their numbers.
+  std::span<const vehicle::Obstacle> all() const { return obstacles_; }
+  // The object's id in the roads' file.
+  const std::string& NameOf(std::size_t number) const { return names_[number]; }
+  // Numbers, ascending, of all that a car whose B is at p_W may touch, and some around.
+  std::span<const std::uint32_t> Near(const Eigen::Vector3d& p_W) const;
+
+ private:
+  using Cell = std::pair<std::int64_t, std::int64_t>;
+  static Cell CellAt(double x_m, double y_m);
+
+  void AddThing(const road::World& world, const network::Placed& placed);
+  void AddRun(const road::World& world, const network::PlacedRun& run);
+  // A wall of this width between two feet.
+  void AddWall(const std::string& name, const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, double width_m, double height_m);
+  void AddBox(const std::string& name, const Eigen::Vector3d& foot_W, double heading_rad, const Eigen::Vector3d& size_m, bool stands);
+
+  double reach_m_ = 0.0;
+  std::vector<vehicle::Obstacle> obstacles_;
+  std::vector<std::string> names_;
+  std::map<Cell, std::vector<std::uint32_t>> cells_;
+};
+
+}  // namespace rodeira::nodes

@@ -1,0 +1,77 @@
+// What of a world stops a car, against where its file says that it stands; and that who asks near something is told of it.
+#include "nodes/vehicle/obstacle_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rodeira::nodes {
+namespace {
+
+constexpr double kReach_m = 3.0;
+
+ObstacleMap MapOf(const std::string& file) {
+  const auto world = road::World::Load(std::string(RODEIRA_SOURCE_DIR) + "/" + file);
+  EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().Text());
+  return ObstacleMap(*world.value(), kReach_m);
+}
+
+TEST(ObstacleMap, HousesTreesAndRailsStandWhereTheirFileSays) {
+  const ObstacleMap map = MapOf("tests/data/wall_ahead.yaml");
+  double rail_m = 0.0;
+  int houses = 0, trees = 0;
+  for (std::size_t i = 0; i < map.all().size(); ++i) {
+    const vehicle::Obstacle& box = map.all()[i];
+    EXPECT_EQ(box.id, i);
+    EXPECT_LT(box.centre_W.z() - box.half_m.z(), -0.9) << "founded";
+    EXPECT_GT(box.centre_W.z() + box.half_m.z(), 1.5) << "2 m over the ground, which falls beside the road";
+    const std::string& name = map.NameOf(i);
+    if (name == "main-object0") {
+      ++houses;
+      EXPECT_NEAR(box.centre_W.x(), 300.0, 1e-9);
+      EXPECT_NEAR(box.centre_W.y(), -1.75, 1e-9);
+      EXPECT_EQ(box.half_m.x(), 6.0);
+      EXPECT_NEAR(box.centre_W.z() + box.half_m.z(), 5.0, 1e-9);
+    } else if (name == "main-object1") {
+      rail_m += 2.0 * box.half_m.x();
+      EXPECT_NEAR(box.half_m.y(), 0.15, 1e-12);
+      EXPECT_LT(box.centre_W.y(), -3.5);
+      EXPECT_GT(box.centre_W.y(), -5.5);
+    } else {
+      ++trees;
+      EXPECT_EQ(name, "main-object2") << "bushes and delineators are driven over";
+      EXPECT_NEAR(box.centre_W.y(), -10.0, 1e-9);
+      EXPECT_LT(box.half_m.x(), 0.3) << "the trunk, not the crown";
+    }
+  }
+  EXPECT_EQ(houses, 1);
+  EXPECT_EQ(trees, 1);
+  EXPECT_NEAR(rail_m, 500.0, 1e-6);
+}
+
+// In bends and on hills too: whoever is in reach of a box has it among those near.
+TEST(ObstacleMap, WhatIsInReachIsNear) {
+  for (const char* file : {"tests/data/wall_ahead.yaml", "configs/worlds/haste.yaml", "configs/worlds/motorway.yaml"}) {
+    const ObstacleMap map = MapOf(file);
+    ASSERT_FALSE(map.all().empty()) << file;
+    for (std::size_t i = 0; i < map.all().size(); ++i) {
+      const vehicle::Obstacle& box = map.all()[i];
+      for (int k = 0; k < 8; ++k) {
+        const double around = 0.999 * (box.half_m.head<2>().norm() + kReach_m), angle = 0.785 * k;
+        const auto near = map.Near(box.centre_W + around * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0));
+        ASSERT_TRUE(std::ranges::binary_search(near, static_cast<std::uint32_t>(i))) << file << " " << i;
+      }
+    }
+  }
+}
+
+TEST(ObstacleMap, WhereNothingStandsNothingIsNear) {
+  const ObstacleMap map = MapOf("configs/worlds/plane.yaml");
+  EXPECT_TRUE(map.all().empty());
+  EXPECT_TRUE(map.Near({0.0, 0.0, 0.0}).empty());
+  EXPECT_TRUE(ObstacleMap().Near({1e6, -1e6, 0.0}).empty());
+}
+
+}  // namespace
+}  // namespace rodeira::nodes
