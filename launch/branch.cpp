@@ -148,6 +148,17 @@ base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, con
   return changes;
 }
 
+// As long as is wished, or as the changes say; otherwise as long as the parent.
+base::Result<Step> LastStep(const replay::RecordedRun& changed, const BranchWish& wish) {
+  const bool says = std::any_of(wish.changes.begin(), wish.changes.end(), [](const auto& change) { return change.first == "duration_s"; });
+  const auto duration_s = changed.launch().duration_s();
+  if (wish.last_step || !says || !duration_s) return wish.last_step.value_or(changed.last_step());
+  const auto last_step = static_cast<Step>(std::llround(*duration_s * 1e9 / static_cast<double>(changed.roster().base_step_ns())));
+  if (last_step > wish.at) return last_step;
+  return base::WrongInput(fmt::format("duration_s = {} was found; the branch begins at {:.3f} s", *duration_s,
+                                      static_cast<double>(wish.at) * static_cast<double>(changed.roster().base_step_ns()) * 1e-9), wish.parent);
+}
+
 }  // namespace
 
 base::Result<BranchOutcome> Branch(const BranchWish& wish) {
@@ -166,9 +177,8 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   // What is wrong with the changes is said before anything is computed.
   auto changed = replay::RecordedRun::Open(wish.parent, changes.value());
   if (!changed) return changed.error();
-  if (changed.value().roster().hash() != roster.hash()) {
-    return base::WrongInput("the changes give another roster (other nodes, periods or wires); a branch has its parent's", wish.parent);
-  }
+  const auto last_step = LastStep(changed.value(), wish);
+  if (!last_step) return last_step.error();
   const launch::Launch& launch = changed.value().launch();
   const std::vector<bool> persons = Persons(launch, wish.changes);
   outcome.live = NamesOf(launch, persons);
@@ -205,7 +215,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
 
   lockstep::InProcessSettings settings;
   settings.first_step = wish.at;
-  settings.last_step = wish.last_step.value_or(parent.value().last_step());
+  settings.last_step = last_step.value();
   settings.resume = std::move(snapshots);
   settings.stop_requested = wish.stop_requested;
   settings.pace = wish.pace;

@@ -53,6 +53,9 @@ base::Result<BranchWish> WishOf(const ReplayOptions& options) {
   if (!parent) return parent.error();
   const double steps_a_second = 1e9 / static_cast<double>(parent.value().roster().base_step_ns());
   const auto steps = [&](double seconds) { return static_cast<Step>(std::llround(seconds * steps_a_second)); };
+  if (const double from = *options.from_s * steps_a_second; std::fabs(from - std::round(from)) > 1e-6 * std::max(1.0, from)) {
+    return base::WrongInput(fmt::format("--from {} s was found; a multiple of the base step of {} s was expected", *options.from_s, 1.0 / steps_a_second), options.file);
+  }
   BranchWish wish;
   wish.parent = options.file;
   wish.at = steps(*options.from_s);

@@ -22,6 +22,8 @@ class LocalNodes {
 
   // One for each node of the roster; null for services.
   const std::vector<lockstep::Node*>& nodes() const { return nodes_; }
+  // Of the world on which they are; 0 where there is none.
+  base::Digest world_hash() const { return world_hash_; }
   // Where the windows' keys pass.
   launch::LiveKeysBoard& keys() { return *keys_; }
 
@@ -31,6 +33,7 @@ class LocalNodes {
   std::vector<std::unique_ptr<launch::NodeContext>> contexts_;
   std::vector<std::unique_ptr<lockstep::Node>> owned_;
   std::vector<lockstep::Node*> nodes_;
+  base::Digest world_hash_ = 0;
 };
 
 }  // namespace rodeira::front

@@ -114,11 +114,16 @@ RecordingAudit Audit(const record::McapReader& reader) {
     const auto step = lockstep::SampleHeader::Read(message.value()->data).step;
     if (step >= 0) steps.Add(source.topic, message.value()->channel, static_cast<std::uint64_t>(step));
   }
+  if (result.last_step && *result.last_step < 0) result.damages.push_back(fmt::format("its last words say that the run ended at step {}", *result.last_step));
   for (const auto& [key, audit] : steps.Finish()) {
     RecordedSource& source = sources[static_cast<record::ChannelId>(key.second)];
     source.audit = audit;
     const auto period = static_cast<std::int64_t>(periods[static_cast<record::ChannelId>(key.second)]);
     const bool ended = result.last_step && !result.broken_off;
+    const auto delay = static_cast<std::int64_t>(record::WholeNumber(reader.channels().at(static_cast<record::ChannelId>(key.second)).metadata, "delay_steps").value_or(period));
+    if (ended && *result.last_step >= 0 && audit.count > 0 && static_cast<std::int64_t>(audit.last_step) > *result.last_step + delay) {
+      result.damages.push_back(fmt::format("its last words say that the run ended at step {}, but node '{}' has samples through step {}", *result.last_step, source.source, audit.last_step));
+    }
     source.ends_early = ended && static_cast<std::int64_t>(audit.last_step) < *result.last_step / period * period;
   }
   if (walls) result.steps_without_wall_time = walls->UncoveredThrough(result.last_step.value_or(-1));

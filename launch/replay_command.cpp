@@ -86,6 +86,9 @@ int Replay(const ReplayOptions& options) {
   fmt::print("identical: {} steps, {} nodes ({} samples, {} snapshots; from {:.3f} s; {:.1f} s of wall time)\n", found.last_step - found.first_step, found.nodes,
              found.samples, found.snapshots, static_cast<double>(found.first_step) * base_step_s,
              std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  if (found.first_step > from) {
+    fmt::print("not computed: what lies before {:.3f} s is its parent's; verify that one, {}\n", static_cast<double>(found.first_step) * base_step_s, run.value().parent());
+  }
   return 0;
 }
 

@@ -60,6 +60,9 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
     return nullptr;
   });
   if (!nodes) return run.Named(nodes.error());
+  if (!run.world_hash().empty() && run.world_hash() != base::Hex(nodes.value().world_hash())) {
+    return base::WrongInput(fmt::format("the recording says world_hash {}, the embedded world has {}", run.world_hash(), base::Hex(nodes.value().world_hash())), run.path().string());
+  }
 
   lockstep::InProcessSettings settings;
   settings.first_step = at.value();

@@ -66,12 +66,13 @@ Zones::Zones(const Graph& graph) : of_(graph.tracks().size()) {
   for (std::uint32_t z = 0; z < zones_.size(); ++z) {
     Zone& zone = zones_[z];
     Decide(graph, zone);
-    for (int side = 0; side < 2; ++side) of_[zone.track[static_cast<std::size_t>(side)]].push_back({z, side});
+    for (int side = 0; side < 2; ++side) {
+      const auto mine = static_cast<std::size_t>(side);
+      of_[zone.track[mine]].push_back({z, side, zone.in_m[mine], zone.out_m[mine], zone.kind});
+    }
   }
   for (std::uint32_t t = 0; t < of_.size(); ++t) {
-    std::stable_sort(of_[t].begin(), of_[t].end(), [&](const ZoneSide& x, const ZoneSide& y) {
-      return zones_[x.zone].in_m[static_cast<std::size_t>(x.side)] < zones_[y.zone].in_m[static_cast<std::size_t>(y.side)];
-    });
+    std::stable_sort(of_[t].begin(), of_[t].end(), [](const ZoneSide& x, const ZoneSide& y) { return x.in_m < y.in_m; });
   }
 }
 

@@ -24,10 +24,12 @@ struct Zone {
   bool signed_ = false;  // by sign, light or the file's priority, not by the rule of the side
 };
 
-// A track's part in a zone.
+// A track's part in a zone, with what is asked for most (the same as in the zone).
 struct ZoneSide {
   std::uint32_t zone = 0;
   int side = 0;
+  double in_m = 0.0, out_m = 0.0;  // along the track
+  ZoneKind kind = ZoneKind::kCross;
 };
 
 // All conflict zones of a network's tracks, and for each track those that it leads through, by where they begin.

@@ -33,7 +33,7 @@ class Node {
   // A branch (X4): begins where another model of this node stood, from its own newest published samples. Called instead of
   // Initialise where the other's state does not fit. Refused unless a node knows how.
   virtual base::Status TakeOver(const std::vector<Sample>& /*published*/) {
-    return base::WrongInput("this node cannot begin from what another model of it has published");
+    return base::WrongInput("its state does not fit what was changed, and it cannot begin from what was published");
   }
 
   // For sinks: the events after the last activation, through the last step of the run (or, where the run was aborted,

@@ -25,8 +25,10 @@ Step Pacer::Limit(std::int64_t now_ns, Step window_limit) {
   if (paused_) return hold_;
   if (pace_ <= 0.0) return std::numeric_limits<Step>::max();
   const Step due = Due(now_ns);
-  if (due <= window_limit) return due;
-  const auto slip_ns = static_cast<std::int64_t>(static_cast<double>((due - window_limit) * base_step_ns_) / pace_);
+  // A node that was started again computes what had been granted long ago: no time is given up over that.
+  const Step reachable = std::max(window_limit, granted_);
+  if (due <= reachable) return std::min(due, window_limit);
+  const auto slip_ns = static_cast<std::int64_t>(static_cast<double>((due - reachable) * base_step_ns_) / pace_);
   slipped_ns_ += slip_ns;
   slipped_since_grant_ns_ += slip_ns;
   ++slips_;

@@ -22,7 +22,8 @@ class Pacer {
   Pacer(std::int64_t base_step_ns, double pace, Step first_step = 0) : base_step_ns_(base_step_ns), pace_(pace), from_step_(first_step) {}
 
   // The last step that may be granted at wall time `now_ns`. `window_limit` is what the nodes' progress allows: where
-  // the wall has got further than that, time slips (the late part is forgotten, never caught up) and is counted.
+  // the wall has got further than that, time slips (the late part is forgotten, never caught up) and is counted. It may lie
+  // behind what was granted already, while a node that was started again computes that once more: time stands then.
   Step Limit(std::int64_t now_ns, Step window_limit);
   // What was granted then. A pause, a step and a new pace begin there.
   void Granted(std::int64_t now_ns, Step through);

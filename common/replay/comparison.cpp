@@ -49,6 +49,11 @@ void Comparison::Take(const Sample& computed) {
   if (problem_ || computed.valid() < from_ || computed.valid() > run_.last_step() || trusted_[run_.roster().source(source).node]) return;
   const auto recorded = Recorded(source, computed.valid());
   if (problem_) return;
+  if (!recorded && run_.roster().source(source).topic == lockstep::kSnapshotTopic) {
+    problem_ = base::WrongInput(fmt::format("the snapshot of node '{}' at step {} is missing", run_.roster().node(run_.roster().source(source).node).name, computed.valid()),
+                                run_.path().string());
+    return;
+  }
   if (!recorded) return Note(computed, "(sample)", "nothing", "a sample");
   if (recorded->valid() != computed.valid()) return Note(*recorded, "(sample)", "a sample", "nothing");
   Compare(*recorded, computed);

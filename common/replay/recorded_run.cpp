@@ -115,6 +115,7 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   }
   mathematics_ = Entry(about, "mathematics_hash");
   version_ = Entry(about, "version");
+  world_hash_ = Entry(about, "world_hash");
   commit_ = Entry(about, "commit");
   const auto files = Files(about);
   if (!files) return files.error();
@@ -137,10 +138,20 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
     return base::WrongInput(fmt::format("the recorded launch file gives the roster {}, the recording says {}", base::Hex(recorded.value().roster().hash()),
                                         Entry(about, "roster_hash")));
   }
+  const auto said = [&about](const char* key, const std::string& expected) -> base::Status {
+    if (Entry(about, key).empty() || Entry(about, key) == expected) return {};
+    return base::WrongInput(fmt::format("the recording says {} {}, but its launch file {}; it was changed after it was written", key, Entry(about, key), expected));
+  };
+  if (auto status = said("seed", std::to_string(recorded.value().seed())); !status) return status;
+  if (auto status = said("base_step_ns", std::to_string(recorded.value().roster().base_step_ns())); !status) return status;
   overrides.insert(overrides.end(), extra.begin(), extra.end());
   if (!extra.empty()) {
+    const base::Digest roster = recorded.value().roster().hash();
     recorded = launch::Launch::Load(launch_file.value(), overrides);
     if (!recorded) return recorded.error();
+    if (recorded.value().roster().hash() != roster) {
+      return base::WrongInput("the changes give another roster (other nodes, periods or wires); a branch has its parent's");
+    }
   }
   launch_ = std::make_shared<launch::Launch>(std::move(recorded).value());
 
@@ -159,6 +170,7 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
     const auto at = record::WholeNumber(branch.value()->entries, "step");
     if (!at || *at < 0) return base::WrongInput("the recording does not say at which step it left its parent");
     branched_at_ = *at;
+    parent_ = Entry(branch.value()->entries, "parent");
   }
   const auto end = reader_.FindMetadata("rodeira.end");
   if (!end) return end.error();
@@ -172,10 +184,23 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   return {};
 }
 
+// The hash of the protocol is a word about these texts; the texts themselves are what other programs read the file by.
+base::Status RecordedRun::CheckSchema(const record::Channel& channel) const {
+  const idl::TopicInfo* info = idl::FindTopic(channel.topic);
+  const auto schema = reader_.schemas().find(channel.schema);
+  if (info == nullptr || schema == reader_.schemas().end()) return base::WrongInput(fmt::format("the channel of topic {} has no IDL that this program knows", channel.topic));
+  if (schema->second.name == info->type && schema->second.text == idl::IdlTextOf(info->subject)) return {};
+  return base::WrongInput(fmt::format("the recording's IDL of topic {} ({}) is not this program's ({}), though its protocol hash is; it was changed after it was written",
+                                      channel.topic, schema->second.name, info->type));
+}
+
 // What the recorder listened to has a channel each: where one is missing, all samples of its source went with it.
 base::Status RecordedRun::CheckChannels() const {
   std::set<lockstep::SourceIndex> known;
-  for (const auto& [channel, source] : sources_) known.insert(source);
+  for (const auto& [channel, source] : sources_) {
+    known.insert(source);
+    if (auto status = CheckSchema(reader_.channels().at(channel)); !status) return status;
+  }
   for (lockstep::NodeIndex n = 0; n < roster().nodes().size(); ++n) {
     if (launch_->node(n).kind->name != "recorder") continue;
     for (const lockstep::Port& port : roster().node(n).inputs) {

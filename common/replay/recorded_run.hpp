@@ -58,6 +58,9 @@ class RecordedRun {
   base::Status CheckMathematics() const;
   // Where this run left its parent; 0 where it has none. What lies before was computed by the parent's nodes.
   lockstep::Step branched_at() const { return branched_at_; }
+  const std::string& parent() const { return parent_; }  // its file's name; empty where it has none
+  // Of the world that the road server said; empty where there was none.
+  const std::string& world_hash() const { return world_hash_; }
 
   // From the samples valid at or after `from` on. The run must outlive the stream.
   SampleStream Samples(lockstep::Step from = 0) const;
@@ -76,6 +79,7 @@ class RecordedRun {
 
  private:
   explicit RecordedRun(record::McapReader reader, base::TemporaryFolder folder) : reader_(std::move(reader)), folder_(std::move(folder)) {}
+  base::Status CheckSchema(const record::Channel& channel) const;
   base::Status CheckChannels() const;
   base::Status CheckSamples(const lockstep::Snapshot& snapshot) const;
   base::Status Read(const launch::Overrides& extra);
@@ -88,6 +92,8 @@ class RecordedRun {
   std::map<record::ChannelId, lockstep::SourceIndex> sources_;
   lockstep::Step last_step_ = 0;
   lockstep::Step branched_at_ = 0;
+  std::string parent_;
+  std::string world_hash_;
   std::string mathematics_;
   std::string version_;
   std::string commit_;

@@ -84,6 +84,7 @@ bool TrafficModel::Grant(std::uint32_t id, bool yields) {
   agents_[id].grants.push_back(grant);
   for (const Crossing& crossing : passage.crossings) {
     if (crossing.zone < 0) continue;
+    Touch(static_cast<std::uint32_t>(crossing.zone));
     holders_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)].push_back({id, grant, crossing.out_m});
   }
   passage.any = false;
@@ -91,9 +92,11 @@ bool TrafficModel::Grant(std::uint32_t id, bool yields) {
 }
 
 void TrafficModel::Arbitrate(double dt_s) {
-  for (std::size_t zone = 0; zone < holders_.size(); ++zone) {
+  for (const std::uint32_t zone : touched_) {
     for (const int side : {0, 1}) holders_[zone][side].clear(), comers_[zone][side].clear(), awaited_[zone][side] = false;
+    is_touched_[zone] = 0;
   }
+  touched_.clear();
   std::vector<std::uint32_t> order;
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     Agent& agent = agents_[id];
@@ -138,7 +141,9 @@ void TrafficModel::Arbitrate(double dt_s) {
       continue;
     }
     for (const Crossing& crossing : passage.crossings) {  // nobody else takes up what it waits for
-      if (crossing.zone >= 0) awaited_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(1 - crossing.side)] = true;
+      if (crossing.zone < 0) continue;
+      Touch(static_cast<std::uint32_t>(crossing.zone));
+      awaited_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(1 - crossing.side)] = true;
     }
   }
   for (const std::uint32_t id : order) {  // … and now who had to yield to such as cannot come yet

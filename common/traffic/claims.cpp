@@ -21,6 +21,13 @@ ZoneGrant GrantOf(const Agent& agent, double out_m) {
 
 }  // namespace
 
+// Only zones that something was said of are cleared for the next step.
+void TrafficModel::Touch(std::uint32_t zone) {
+  if (is_touched_[zone] != 0) return;
+  is_touched_[zone] = 1;
+  touched_.push_back(zone);
+}
+
 // Its own are the zones that are granted to it and those that it stands in.
 void TrafficModel::HoldZones(std::uint32_t id) {
   const Agent& agent = agents_[id];
@@ -30,12 +37,10 @@ void TrafficModel::HoldZones(std::uint32_t id) {
     if (stretch.begin_m > to) break;
     if (stretch.end_m < rear) continue;
     for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
-      const lanes::Zone& zone = zones()[part.zone];
-      const auto mine = static_cast<std::size_t>(part.side);
-      if (zone.kind == lanes::ZoneKind::kDiverge) continue;
-      const double in = stretch.zero_m + zone.in_m[mine], out = stretch.zero_m + zone.out_m[mine];
-      if (in >= to || out <= rear) continue;
-      holders_[part.zone][mine].push_back({id, GrantOf(agent, out), out});
+      const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
+      if (part.kind == lanes::ZoneKind::kDiverge || in >= to || out <= rear) continue;
+      Touch(part.zone);
+      holders_[part.zone][static_cast<std::size_t>(part.side)].push_back({id, GrantOf(agent, out), out});
     }
   }
 }
@@ -48,12 +53,10 @@ void TrafficModel::FindBarrier(std::uint32_t id) {
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.begin_m > agent.granted_m) break;
     for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
-      const lanes::Zone& zone = zones()[part.zone];
-      const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;
-      const double in = stretch.zero_m + zone.in_m[mine];
-      if (zone.kind == lanes::ZoneKind::kDiverge || in < front || in >= agent.granted_m || in - kLine_m >= barriers_[id]) continue;
-      const std::uint64_t number = GrantOf(agent, stretch.zero_m + zone.out_m[mine]).number;
-      for (const Holder& holder : holders_[part.zone][theirs]) {
+      const double in = stretch.zero_m + part.in_m;
+      if (part.kind == lanes::ZoneKind::kDiverge || in < front || in >= agent.granted_m || in - kLine_m >= barriers_[id]) continue;
+      const std::uint64_t number = GrantOf(agent, stretch.zero_m + part.out_m).number;
+      for (const Holder& holder : holders_[part.zone][static_cast<std::size_t>(1 - part.side)]) {
         if (holder.id < agents_.size() && holder.id != id && holder.grant.number < number) barriers_[id] = in - kLine_m;
       }
     }
@@ -70,6 +73,7 @@ void TrafficModel::ComeToZones() {
     for (const Crossing& crossing : passage.crossings) {
       if (crossing.zone < 0) continue;
       const double most = AllowedAt(id, crossing.in_m);
+      Touch(static_cast<std::uint32_t>(crossing.zone));
       comers_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)].push_back(
           {id, TravelTime(crossing.in_m - front, agents_[id].speed_mps, most),
            TravelTime(crossing.out_m - rear, agents_[id].speed_mps, most)});
@@ -98,7 +102,9 @@ void TrafficModel::OthersAtZones() {
         const lanes::Zone& zone = zones()[part.zone];
         const auto mine = static_cast<std::size_t>(part.side);
         if (zone.kind == lanes::ZoneKind::kDiverge || std::min(std::fabs(block.span.left_m), std::fabs(block.span.right_m)) > 1.2) continue;
-        if (block.span.front_m > zone.in_m[mine] && block.span.rear_m < zone.out_m[mine]) holders_[part.zone][mine].push_back({nobody, {}, 0.0});
+        if (block.span.front_m <= zone.in_m[mine] || block.span.rear_m >= zone.out_m[mine]) continue;
+        Touch(part.zone);
+        holders_[part.zone][mine].push_back({nobody, {}, 0.0});
       }
       if (block.span.speed_mps < 0.5 || block.span.left_m < -1.0 || block.span.right_m > 1.0) continue;
       // Where it goes is not known: it comes to all zones within six seconds, on every way.
@@ -111,6 +117,7 @@ void TrafficModel::OthersAtZones() {
           const auto mine = static_cast<std::size_t>(part.side);
           const double way = at.ahead_m + zone.in_m[mine], length = block.span.front_m - block.span.rear_m;
           if (zone.kind == lanes::ZoneKind::kDiverge || way < 0.0 || way > 6.0 * block.span.speed_mps) continue;
+          Touch(part.zone);
           comers_[part.zone][mine].push_back(
               {nobody, way / block.span.speed_mps, (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
         }

@@ -46,7 +46,9 @@ void TrafficModel::Enter() {
   if (waiting_.empty()) return;
   for (auto& present : present_) present.clear();
   const auto appear = [&](std::uint32_t id) {
-    for (const Piece& piece : agents_[id].path) present_[piece.track].push_back(id);
+    for (const Piece& piece : agents_[id].path) {
+      if (graph()[piece.track].entry) present_[piece.track].push_back(id);
+    }
   };
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     if (agents_[id].on_road) appear(id);

@@ -63,10 +63,8 @@ void TrafficModel::FindPassage(std::uint32_t id) {
       }
     };
     for (const lanes::ZoneSide& part : sides) {
-      const lanes::Zone& zone = zones()[part.zone];
-      const auto mine = static_cast<std::size_t>(part.side);
-      const double in = stretch.zero_m + zone.in_m[mine], out = stretch.zero_m + zone.out_m[mine];
-      if (zone.kind == lanes::ZoneKind::kDiverge || out <= rear || out <= agent.granted_m || in < front - 0.5 * kLine_m) continue;
+      const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
+      if (part.kind == lanes::ZoneKind::kDiverge || out <= rear || out <= agent.granted_m || in < front - 0.5 * kLine_m) continue;
       take_lines(in + kLine_m);
       if (passage.any && in > passage.end_m + stand) break;
       take({part.zone, part.side, in, out});

@@ -40,9 +40,9 @@ void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tel
     std::sort(near.begin(), near.end(), [](const Occupant& a, const Occupant& b) { return a.id < b.id; });
     for (const Occupant& other : near) told(other, stretch.zero_m, kNever_m);
     for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
+      if (part.kind != lanes::ZoneKind::kDiverge || stretch.zero_m + part.out_m < agent.o_m) continue;
       const lanes::Zone& zone = zones()[part.zone];
-      const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;
-      if (zone.kind != lanes::ZoneKind::kDiverge || stretch.zero_m + zone.out_m[mine] < agent.o_m) continue;
+      const auto theirs = static_cast<std::size_t>(1 - part.side);
       for (const Occupant& other : occupants_[zone.track[theirs]]) {
         if (other.rear_m < zone.out_m[theirs] && other.front_m > zone.in_m[theirs]) told(other, stretch.zero_m, zone.out_m[theirs]);
       }

@@ -115,9 +115,9 @@ TrafficModel::Ahead TrafficModel::FindAhead(std::uint32_t id) const {
       consider(other, stretch.zero_m);
     }
     for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
+      if (part.kind != lanes::ZoneKind::kDiverge || agent.o_m - half > stretch.zero_m + part.out_m) continue;
       const lanes::Zone& zone = zones()[part.zone];
-      const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;
-      if (zone.kind != lanes::ZoneKind::kDiverge || agent.o_m - half > stretch.zero_m + zone.out_m[mine]) continue;
+      const auto theirs = static_cast<std::size_t>(1 - part.side);
       for (const Occupant& other : occupants_[zone.track[theirs]]) {
         if (other.rear_m < zone.out_m[theirs] && other.front_m > zone.in_m[theirs]) consider(other, stretch.zero_m);
       }

@@ -45,6 +45,7 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   holders_.resize(zones().zones().size());
   comers_.resize(zones().zones().size());
   awaited_.resize(zones().zones().size());
+  is_touched_.resize(zones().zones().size());
 }
 
 base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, std::shared_ptr<const road::World> world,

@@ -147,6 +147,7 @@ class TrafficModel {
   // Right of way.
   void Arbitrate(double dt_s);
   void FindPassage(std::uint32_t id);
+  void Touch(std::uint32_t zone);
   void HoldZones(std::uint32_t id);
   template <class Tell>
   void EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell);
@@ -211,6 +212,8 @@ class TrafficModel {
   std::vector<std::array<std::vector<Holder>, 2>> holders_;         // by zone
   std::vector<std::array<std::vector<Claim>, 2>> comers_;           // by zone
   std::vector<std::vector<std::uint32_t>> present_;                 // by track: agents on it while others enter
+  std::vector<std::uint32_t> touched_;                              // zones of which anything is said above or below
+  std::vector<std::uint8_t> is_touched_;                            // by zone
   std::vector<std::array<bool, 2>> awaited_;                        // by zone: an urgent agent waits for that side to end
 };
 

@@ -96,6 +96,17 @@ TEST_F(BranchTest, ABranchHasMarksAndWallTimesOfBothItsLives) {
   EXPECT_EQ(kinds, "start start mark end ");
 }
 
+TEST_F(BranchTest, ABranchLastsAsLongAsItsChangesSayAndTellsWhatItsParentAnswersFor) {
+  const std::string file = Drive();
+  const std::string branch = (folder_.path() / "branch.mcap").string();
+  const auto outcome = Branch({file, 1500, {{"duration_s", "2.5"}}, std::nullopt, branch});
+  ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
+  EXPECT_EQ(outcome.value().last_step, 2500);
+  const auto verified = RunCommand({Bin("rodeira"), "replay", branch, "--verify"});
+  EXPECT_EQ(verified.status, 0) << verified.out;
+  EXPECT_THAT(verified.out, HasSubstr("not computed: what lies before 2.000 s is its parent's; verify that one, drive.mcap"));
+}
+
 // What a user keeps beside it is not the branch's.
 TEST_F(BranchTest, ABranchTouchesNoOtherFile) {
   const std::string file = Drive();

@@ -17,9 +17,10 @@ namespace rodeira::front {
 using Entries = std::function<void(const std::string& name, record::TextMap& entries)>;
 using Keep = std::function<bool(const std::string& topic, const record::Message& message, base::Bytes& data)>;
 using KeepFile = std::function<bool(const std::string& name)>;
+using ChangeIdl = std::function<void(const std::string& type, std::string& text)>;
 
 inline void CopyRecording(const std::string& file, const std::string& copy, const Entries& change, const Keep& keep, const KeepFile& keep_file,
-                          const record::WriterSettings& settings = {}) {
+                          const record::WriterSettings& settings = {}, const ChangeIdl& change_idl = [](const std::string&, std::string&) {}) {
   std::filesystem::remove(copy);
   auto reader = record::McapReader::Open(file);
   auto writer = record::McapWriter::Open(copy, settings);
@@ -37,7 +38,9 @@ inline void CopyRecording(const std::string& file, const std::string& copy, cons
   std::map<record::ChannelId, record::ChannelId> ids;
   for (const auto& [id, channel] : in.channels()) {
     const auto& schema = in.schemas().at(channel.schema);
-    const auto made = writer.value().AddSchema(schema.name, schema.encoding, schema.text);
+    std::string text = schema.text;
+    change_idl(schema.name, text);
+    const auto made = writer.value().AddSchema(schema.name, schema.encoding, text);
     ids[id] = writer.value().AddChannel(channel.topic, made.value(), channel.message_encoding, channel.metadata).value();
   }
   auto cursor = in.Messages();

@@ -275,6 +275,42 @@ TEST_F(ReplayTest, AnotherProtocolAndAMissingSnapshotAreNamed) {
   EXPECT_THAT(branch.error().Text(), testing::MatchesRegex(".*the snapshot of node '[a-z]+' at step 1000 is missing.*"));
 }
 
+// Other programs read the file by its IDL, people by what it says of itself: neither may say anything else than the run.
+TEST_F(ReplayTest, WhatTheFileSaysOfItselfMustBeTrue) {
+  const std::string file = Drive(2.0);
+  const auto all = [](const std::string&, const record::Message&, base::Bytes&) { return true; };
+  const auto refusal = [&](const std::string& copy) {
+    const auto verdict = VerifyFile(copy);
+    EXPECT_FALSE(verdict.ok());
+    if (verdict.ok()) return std::string();
+    EXPECT_EQ(verdict.error().exit_status(), 2);
+    return verdict.error().Text();
+  };
+  const std::string copy = (folder_.path() / "idl.mcap").string();
+  CopyRecording(file, copy, [](const std::string&, record::TextMap&) {}, all, [](const std::string&) { return true; }, {}, [](const std::string& type, std::string& text) {
+    if (type == "rodeira::msg::Controls") text.replace(text.find("throttle"), 8, "thrattle");
+  });
+  EXPECT_THAT(refusal(copy), HasSubstr("the recording's IDL of topic rodeira/controls"));
+  for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{{"seed", "7"}, {"base_step_ns", "ten"}, {"world_hash", "0123456789abcdef"}}) {
+    const auto changed = [&key = key, &value = value](const std::string& name, record::TextMap& entries) {
+      if (name == "rodeira") entries[key] = value;
+    };
+    EXPECT_THAT(refusal(Copied(file, changed, all)), testing::AllOf(HasSubstr("the recording says " + key + " " + value))) << key;
+  }
+  const std::string no_snapshot = Copied(file, [](const std::string&, record::TextMap&) {}, [](const std::string& topic, const record::Message& message, base::Bytes&) {
+    return topic != idl::topics::kSnapshot || message.log_time_ns != 1'000'000'000;
+  });
+  EXPECT_THAT(refusal(no_snapshot), testing::MatchesRegex(".*the snapshot of node '[a-z]+' at step 1000 is missing.*"));
+  for (const char* last_step : {"-5", "600"}) {
+    const std::string shorter = Copied(file, [&](const std::string& name, record::TextMap& entries) {
+      if (name == "rodeira.end") entries["last_step"] = last_step;
+    }, all);
+    const auto info = RunCommand({Bin("rodeira"), "info", shorter});
+    EXPECT_EQ(info.status, 1) << info.out;
+    EXPECT_THAT(info.out, HasSubstr(std::string("its last words say that the run ended at step ") + last_step));
+  }
+}
+
 // Ctrl-C while what was recorded is unpacked and while it is computed: a sentence, status 1, and no folder is left.
 TEST_F(ReplayTest, CtrlCEndsInOrderAndLeavesNothing) {
   const std::string file = Drive(100.0);
@@ -318,6 +354,10 @@ TEST_F(ReplayTest, WhatCannotBeReplayedIsRefusedInOneSentence) {
   EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "7", "--record", "x.mcap"}), HasSubstr("the run ends at 1.000 s"));
   EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.503", "--record", "x.mcap"}), HasSubstr("the nearest such time is 0.500 s"));
   EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.5"}), HasSubstr("--record is missing"));
+  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.5004", "--record", "x.mcap"}), HasSubstr("--from 0.5004 s was found; a multiple of the base step of 0.001 s"));
+  EXPECT_THAT(complaint({file, "--branch", "duration_s=0.25", "--from", "0.5", "--record", "x.mcap"}), HasSubstr("duration_s = 0.25 was found; the branch begins at 0.500 s"));
+  EXPECT_THAT(complaint({file, "--branch", "nodes.another.kind=empty", "--from", "0.5", "--record", "x.mcap"}), HasSubstr("another roster"));
+  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.5", "--record", "/nonexistent/x.mcap"}), HasSubstr("/nonexistent/x.mcap: "));
   EXPECT_THAT(complaint({file, "--branch", "nodes.ego.config.vehicel=2", "--from", "0.5", "--record", "x.mcap"}), HasSubstr("unknown key 'nodes.ego.config.vehicel'"));
   EXPECT_THAT(complaint({file, "--branch", "nodes.ego.period_s=0.002", "--from", "0.5", "--record", "x.mcap"}), HasSubstr("another roster"));
   EXPECT_THAT(complaint({(folder_.path() / "none.mcap").string(), "--verify"}), HasSubstr("none.mcap"));

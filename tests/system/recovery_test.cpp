@@ -297,6 +297,27 @@ TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
   EXPECT_EQ(verified.status, 0) << "computed again, it is the same: " << verified.out;
 }
 
+// What was granted before a node began again is no time that the run owes: it goes on from there at its pace.
+TEST_F(Recovery, AtAPaceARestartAfterAPauseCostsItsOwnTimeOnly) {
+  const std::string run_name = "recovery-pace-" + std::to_string(::getpid());
+  const auto launch = folder_.Write("empty.yaml", "rodeira: launch/1\nrecovery: pause\nnodes:\n  a: {kind: empty}\n  b: {kind: empty}\n  recorder: {kind: recorder}\n");
+  Started run({Bin("rodeira"), "run", launch.string(), "--run", run_name, "--for", "8", "--pace", "real", "--record", File("pace.mcap")});
+  ASSERT_TRUE(Runs(run_name));
+  std::this_thread::sleep_for(4s);
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"pause"}, {"step", "10"}, {"resume"}, {"restart", "a"}}) {
+    std::vector<std::string> command{Bin("rodeira"), "ctl", "--run", run_name};
+    command.insert(command.end(), words.begin(), words.end());
+    const Ended done = RunCommand(command);
+    EXPECT_EQ(done.status, 0) << done.out;
+  }
+  const Ended ended = run.Wait(30s);
+  ASSERT_EQ(ended.status, 0) << ended.out;
+  const auto given_up = ended.out.find(" s given up");
+  ASSERT_NE(given_up, std::string::npos) << ended.out;
+  const auto begin = ended.out.rfind(' ', given_up - 1);
+  EXPECT_LT(std::stod(ended.out.substr(begin)), 4.0) << "less than it had run before: " << ended.out;
+}
+
 // The whole run restarts whom it loses; only without its traffic it is to end.
 TEST_F(Recovery, EachNodeMayHaveAPolicyOfItsOwn) {
   const std::string run_name = "recovery-own-" + std::to_string(::getpid());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
 
 namespace rodeira::lockstep {
 namespace {
@@ -123,6 +124,31 @@ TEST(Pacer, StepsThatWaitForSlowNodesAreLateBySoMuch) {
   EXPECT_EQ(pacer.lateness().worst_ns, 20 * kMs);
   EXPECT_EQ(Grant(pacer, 27 * kMs, 10), 7);
   EXPECT_EQ(pacer.late_ns(), 0) << "what is behind is due later by what was given up";
+}
+
+// A node that is started again pulls the window below what was granted. Time stands meanwhile, whatever came before: a pause, a new
+// pace, another life of the clock; and goes on from what was granted at once when everybody is there again.
+TEST(Pacer, WhileANodeComputesAgainTimeStandsAndNoMoreIsGivenUpThanPassed) {
+  for (const char* before : {"nothing", "a pause", "a new pace", "another clock"}) {
+    SCOPED_TRACE(before);
+    Pacer pacer(kMs, 0.5);
+    (void)Grant(pacer, 0, kFar);
+    EXPECT_EQ(Grant(pacer, 1000 * kMs, kFar), 500);
+    if (before == std::string_view("a pause")) {
+      pacer.Pause(1000 * kMs);
+      pacer.Resume(1000 * kMs);
+    }
+    if (before == std::string_view("a new pace")) pacer.SetPace(1000 * kMs, 0.5);
+    if (before == std::string_view("another clock")) {
+      pacer = Pacer(kMs, 0.5);
+      pacer.GoOn(1000 * kMs, 500);
+    }
+    for (std::int64_t t = 1001; t <= 3000; ++t) EXPECT_LE(Grant(pacer, t * kMs, 300), 500);
+    EXPECT_NEAR(static_cast<double>(pacer.slipped_ns()), 2000.0 * kMs, 2.0 * kMs) << "what passed, and that once";
+    EXPECT_NEAR(static_cast<double>(Grant(pacer, 3100 * kMs, kFar)), 550.0, 1.0);
+    EXPECT_NEAR(static_cast<double>(Grant(pacer, 4000 * kMs, kFar)), 1000.0, 1.0);
+    EXPECT_NEAR(static_cast<double>(pacer.slipped_ns()), 2000.0 * kMs, 2.0 * kMs);
+  }
 }
 
 TEST(Pacer, NoStepIsLateAtFullSpeed) {

@@ -51,7 +51,9 @@ inline void Make(const MadeRecording& wish, const std::filesystem::path& file) {
   Must(writer.AddAttachment("launch.yaml", "application/yaml", std::as_bytes(std::span(wish.launch_text)), 0, 0));
   std::vector<record::ChannelId> channels;
   for (lockstep::SourceIndex s = 0; s < roster.sources().size(); ++s) {
-    channels.push_back(Must(writer.AddChannel(roster.source(s).topic, 0, "cdr", {{"source_number", std::to_string(s)}})));
+    const idl::TopicInfo* info = idl::FindTopic(roster.source(s).topic);
+    const record::SchemaId schema = Must(writer.AddSchema(info->type, "omgidl", idl::IdlTextOf(info->subject)));
+    channels.push_back(Must(writer.AddChannel(roster.source(s).topic, schema, "cdr", {{"source_number", std::to_string(s)}})));
   }
   std::vector<std::pair<lockstep::Step, lockstep::SourceIndex>> order;
   for (lockstep::Step step = 0; step <= wish.last_step; ++step) {
