@@ -48,7 +48,10 @@ class FakeSource final : public lockstep::Node {
   void Publish(lockstep::Step valid, lockstep::Outbox& outbox) const {
     const double time_s = static_cast<double>(valid) * base_step_s_;
     if (topic_ == idl::topics::kControls) return outbox.Put(topic_, idl::Encode(msg::Controls()));
-    if (topic_ == idl::topics::kVehicleState) return outbox.Put(topic_, idl::Encode(Car(time_s)));
+    if (topic_ == idl::topics::kVehicleState) {
+      outbox.Put(idl::topics::kCollisions, idl::Encode(msg::Collisions()));
+      return outbox.Put(topic_, idl::Encode(Car(time_s)));
+    }
     outbox.Put(idl::topics::kSignalsState, idl::Encode(msg::SignalsState()));
     msg::TrafficState traffic;
     msg::TrafficAgent agent;
