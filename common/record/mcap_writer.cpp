@@ -26,8 +26,8 @@ Status CheckSettings(const WriterSettings& settings, const std::string& where) {
                                         kMaxChunkBytes),
                             where);
   }
-  if (settings.zstd_level < 1 || settings.zstd_level > 19) {
-    return base::WrongInput(fmt::format("zstd_level is {}, 1 to 19 was expected", settings.zstd_level), where);
+  if (settings.zstd_level < -7 || settings.zstd_level > 19) {
+    return base::WrongInput(fmt::format("zstd_level is {}, -7 (fastest) to 19 was expected", settings.zstd_level), where);
   }
   if (settings.profile.size() + settings.library.size() > kMaxHeaderBytes) {
     return base::WrongInput("profile and library are too long", where);

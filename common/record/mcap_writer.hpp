@@ -17,7 +17,7 @@ namespace rodeira::record {
 
 struct WriterSettings {
   Compression compression = Compression::kZstd;
-  int zstd_level = 1;                           // 1 to 19
+  int zstd_level = -1;                          // -7 (fastest) to 19
   std::uint64_t chunk_span_ns = 1'000'000'000;  // the log times of a chunk span less than this; at most one second
   std::uint64_t chunk_bytes = 1u << 20;         // a chunk is closed before it would grow beyond (4 KiB to 64 MiB)
   bool overwrite = false;                       // an existing file is refused otherwise

@@ -266,7 +266,7 @@ TEST(Writer, SettingsOutOfRangeAreRefused) {
             "memory: chunk_span_ns is 0, 1 to 1000000000 (one second) was expected");
   EXPECT_EQ(text_of([](WriterSettings& s) { s.chunk_bytes = 100; }),
             "memory: chunk_bytes is 100, 4096 to 67108864 was expected");
-  EXPECT_EQ(text_of([](WriterSettings& s) { s.zstd_level = 20; }), "memory: zstd_level is 20, 1 to 19 was expected");
+  EXPECT_EQ(text_of([](WriterSettings& s) { s.zstd_level = 20; }), "memory: zstd_level is 20, -7 (fastest) to 19 was expected");
 }
 
 }  // namespace
