@@ -22,43 +22,99 @@ Eigen::Vector2d Turned(const Eigen::Vector2d& v, const Eigen::Vector2d& directio
   return {v.x() * direction.x() - v.y() * direction.y(), v.x() * direction.y() + v.y() * direction.x()};
 }
 
-// The nearest point with u in [from, to], where the squared distance has one minimum at most.
-void NearestWithin(const ClothoidPanel& panel, const Eigen::Vector2d& p, double from, double to, PanelFoot& best) {
+constexpr double kFlat_m = 1e-9;       // where p is nowhere farther ahead or behind, all points are equally near
+constexpr double kShortest_m = 1e-9;   // of the intervals in which feet are told apart
+
+// p as seen from the curve at u. `ahead_m`, f = (p - at) . tangent, is 0 at a foot and falls through it where the
+// distance has a minimum; `fall`, g = 1 - k t, is -f', for p at t to the left.
+struct Seen {
   Eigen::Vector2d at, tangent;
-  const auto ahead = [&](double u) {  // how far p lies ahead of the point at u; falls through 0 at a foot
-    if (u == -panel.half_m) at = panel.begin_W, tangent = panel.begin_tangent_W;
-    else if (u == panel.half_m) at = panel.end_W, tangent = panel.end_tangent_W;
-    else panel.Point(u, at, tangent);
-    return (p - at).dot(tangent);
-  };
-  const auto offer = [&](double u) {
-    const double squared = (p - at).squaredNorm();
-    if (squared < best.squared_m2) best = {squared, u};
-  };
-  double low = from, high = to;
-  const double ahead_low = ahead(low);
-  offer(low);
-  const double ahead_high = ahead(high);
-  offer(high);
-  if (!(ahead_low > 0.0 && ahead_high < 0.0)) return;
-  double u = low + (high - low) * (ahead_low / (ahead_low - ahead_high));
-  for (int iteration = 0; iteration < 60; ++iteration) {
-    const double value = ahead(u);
-    (value > 0.0 ? low : high) = u;
-    const double curvature = panel.curvature_1pm + panel.curvature_rate_1pm2 * u;
-    const Eigen::Vector2d away = p - at;
-    const double slope = 1.0 - curvature * (tangent.x() * away.y() - tangent.y() * away.x());
-    const double step = value / slope;
-    if (std::fabs(step) <= kLastStep_m) {  // Newton doubles the digits: what is left after it is rounding
-      u = std::clamp(u + step, from, to);
-      break;
-    }
-    const double next = u + step;
-    u = next > low && next < high ? next : 0.5 * (low + high);
+  double ahead_m, left_m, fall;
+};
+
+class Search {
+ public:
+  Search(const ClothoidPanel& panel, const Eigen::Vector2d& p) : panel_(panel), p_(p) {
+    begin_ = Offer(-panel.half_m);
+    end_ = Offer(panel.half_m);
   }
-  ahead(u);
-  offer(u);
-}
+
+  // The whole panel, where the distance has one minimum at most.
+  void One() { Falling(-panel_.half_m, begin_, panel_.half_m, end_); }
+
+  // The whole panel, wherever p lies: cut until f falls, rises, has no zero or is zero throughout.
+  void Every() { Within(-panel_.half_m, begin_, panel_.half_m, end_); }
+
+  const PanelFoot& best() const { return best_; }
+
+ private:
+  Seen At(double u) const {
+    Seen seen;
+    if (u == -panel_.half_m) seen.at = panel_.begin_W, seen.tangent = panel_.begin_tangent_W;
+    else if (u == panel_.half_m) seen.at = panel_.end_W, seen.tangent = panel_.end_tangent_W;
+    else panel_.Point(u, seen.at, seen.tangent);
+    const Eigen::Vector2d away = p_ - seen.at;
+    seen.ahead_m = away.dot(seen.tangent);
+    seen.left_m = seen.tangent.x() * away.y() - seen.tangent.y() * away.x();
+    seen.fall = 1.0 - (panel_.curvature_1pm + panel_.curvature_rate_1pm2 * u) * seen.left_m;
+    return seen;
+  }
+
+  Seen Offer(double u) {
+    const Seen seen = At(u);
+    const double squared = (p_ - seen.at).squaredNorm();
+    if (squared < best_.squared_m2) best_ = {squared, u};
+    return seen;
+  }
+
+  // Between points with f not below zero and not above it, f falling in between: Newton, kept in by halving.
+  void Falling(double low, const Seen& at_low, double high, const Seen& at_high) {
+    if (!(at_low.ahead_m >= 0.0 && at_high.ahead_m <= 0.0)) return;
+    const double from = low, to = high, drop = at_low.ahead_m - at_high.ahead_m;
+    double u = drop > 0.0 ? low + (high - low) * (at_low.ahead_m / drop) : low;
+    for (int iteration = 0; iteration < 60; ++iteration) {
+      const Seen seen = At(u);
+      (seen.ahead_m > 0.0 ? low : high) = u;
+      const double step = seen.ahead_m / seen.fall;
+      if (std::fabs(step) <= kLastStep_m) {  // Newton doubles the digits: what is left after it is rounding
+        u = std::clamp(u + step, from, to);
+        break;
+      }
+      const double next = u + step;
+      u = next > low && next < high ? next : 0.5 * (low + high);
+    }
+    Offer(u);
+  }
+
+  // On an interval of half length h about its middle m, by f' = -g, g' = k^2 f - k' t and t' = -k f:
+  //   |f| <= F = (|f_m| + h |g_m| + h^2 |k' t_m|) / (1 - h^2 (K^2 + |k'| K h)),   |g'| <= L = |k'| (|t_m| + K h F) + K^2 F
+  // with the steepest curvature K. A panel's bounds on k h and k' h^2 keep the denominator above 0.9.
+  void Within(double low, const Seen& at_low, double high, const Seen& at_high) {
+    const double h = 0.5 * (high - low), middle = 0.5 * (low + high);
+    const Seen seen = At(middle);
+    const double rate = std::fabs(panel_.curvature_rate_1pm2);
+    const double steepest = std::fabs(panel_.curvature_1pm + panel_.curvature_rate_1pm2 * middle) + rate * h;
+    const double f = std::fabs(seen.ahead_m), g = std::fabs(seen.fall), t = std::fabs(seen.left_m);
+    const double f_most = (f + h * g + h * h * rate * t) / (1.0 - h * h * (steepest * steepest + rate * steepest * h));
+    const double g_change = h * (rate * (t + steepest * h * f_most) + steepest * steepest * f_most);
+    if (f > h * (g + g_change)) return;  // no zero
+    if (g > g_change) {
+      if (seen.fall > 0.0) Falling(low, at_low, high, at_high);
+      return;  // or f rises: no minimum
+    }
+    if (f_most <= kFlat_m || h <= kShortest_m) {
+      Offer(middle);
+      return;
+    }
+    Within(low, at_low, middle, seen);
+    Within(middle, seen, high, at_high);
+  }
+
+  const ClothoidPanel& panel_;
+  const Eigen::Vector2d& p_;
+  PanelFoot best_{std::numeric_limits<double>::infinity(), 0.0};
+  Seen begin_, end_;
+};
 
 }  // namespace
 
@@ -120,21 +176,12 @@ PlanPoint ClothoidPanel::At(double u_m) const {
 }
 
 PanelFoot ClothoidPanel::Nearest(const Eigen::Vector2d& p_W) const {
-  PanelFoot best{std::numeric_limits<double>::infinity(), 0.0};
+  Search search(*this, p_W);
   const double steepest = std::fabs(curvature_1pm) + std::fabs(curvature_rate_1pm2) * half_m;
-  const double distance = (p_W - middle_W).norm() + half_m;
-  if (steepest * distance < 0.9) {
-    NearestWithin(*this, p_W, -half_m, half_m, best);
-    return best;
-  }
   // Near or beyond a centre of curvature the distance may have more than one minimum on the panel.
-  constexpr int kParts = 8;
-  for (int part = 0; part < kParts; ++part) {
-    const double from = half_m * (2.0 * part / kParts - 1.0);
-    const double to = half_m * (2.0 * (part + 1) / kParts - 1.0);
-    NearestWithin(*this, p_W, from, to, best);
-  }
-  return best;
+  if (steepest * ((p_W - middle_W).norm() + half_m) < 0.9) search.One();
+  else search.Every();
+  return search.best();
 }
 
 }  // namespace rodeira::geometry

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "common/base/suggest.hpp"
 
@@ -10,7 +11,7 @@ namespace rodeira::launch {
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 LabScreen ReadScreen(const std::string& name, const config::Map& map) {
   const auto metres = [&](std::string_view key, double low_cm, double high_cm) { return 0.01 * map.Number(key, {low_cm, high_cm}); };

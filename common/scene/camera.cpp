@@ -16,16 +16,6 @@ constexpr double kDegree = geometry::kPi / 180.0;
 constexpr double kClearance_m = 0.9;  // of an eye outside of the car over the ground
 constexpr auto kNames = std::to_array<std::string_view>({"chase", "driver", "bonnet", "orbit", "top", "trackside"});
 
-Camera Look(const Vector3d& eye_W, const Vector3d& forward, const Vector3d& up, double view_rad) {
-  Camera camera;
-  camera.eye_W = eye_W;
-  camera.forward_W = forward.normalized();
-  const Vector3d right = camera.forward_W.cross(up).normalized();
-  camera.up_W = right.cross(camera.forward_W);
-  camera.vertical_view_rad = view_rad;
-  return camera;
-}
-
 // The car's nose in plan, a unit vector; east for a car that stands on it.
 Vector2d NoseInPlan(const Body& car) {
   const Vector3d nose = car.q_WB * Vector3d::UnitX();
@@ -42,6 +32,16 @@ Vector3d AboveGround(Vector3d eye_W, const road::World& world) {
 }
 
 }  // namespace
+
+Camera LookFrom(const Vector3d& eye_W, const Vector3d& forward, const Vector3d& up, double vertical_view_rad) {
+  Camera camera;
+  camera.eye_W = eye_W;
+  camera.forward_W = forward.normalized();
+  const Vector3d right = camera.forward_W.cross(up).normalized();
+  camera.up_W = right.cross(camera.forward_W);
+  camera.vertical_view_rad = vertical_view_rad;
+  return camera;
+}
 
 std::span<const std::string_view> CameraNames() { return kNames; }
 
@@ -92,17 +92,17 @@ Camera ChaseCamera(const Body& car, const road::World& world) {
   const Vector3d ahead = std::hypot(nose.x(), nose.y()) > 1e-3 ? Vector3d(nose.x(), nose.y(), 0.7 * nose.z()).normalized() : Vector3d::UnitX();
   const Vector3d eye = AboveGround(car.p_WB_W - 7.2 * ahead + Vector3d(0.0, 0.0, 2.45), world);
   const Vector3d target = car.p_WB_W + 9.0 * ahead + Vector3d(0.0, 0.0, 0.75);
-  return Look(eye, target - eye, Vector3d::UnitZ(), 48.0 * kDegree);
+  return LookFrom(eye, target - eye, Vector3d::UnitZ(), 48.0 * kDegree);
 }
 
 Camera DriverCamera(const Body& car) {
   const Vector3d forward_B(1.0, 0.0, -0.015);
-  return Look(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 52.0 * kDegree);
+  return LookFrom(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 52.0 * kDegree);
 }
 
 Camera ScreenCamera(const Body& car, const ScreenPlane& screen) {
   const Vector3d forward_B(std::cos(screen.angle_rad), std::sin(screen.angle_rad), 0.0);
-  Camera camera = Look(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 0.0);
+  Camera camera = LookFrom(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 0.0);
   const double half_m = 0.5 * screen.width_m;
   camera.window = Camera::Window{(screen.aside_m - half_m) / screen.distance_m, (screen.aside_m + half_m) / screen.distance_m,
                                  -screen.eye_height_m / screen.distance_m, (screen.height_m - screen.eye_height_m) / screen.distance_m};
@@ -113,7 +113,7 @@ Camera ScreenCamera(const Body& car, const ScreenPlane& screen) {
 Camera BonnetCamera(const Body& car) {
   const Vector3d eye_B(car.front_m - 0.30 * car.length_m, 0.0, 0.74 * car.height_m);  // before the windscreen
   const Vector3d forward_B(1.0, 0.0, -0.03);
-  return Look(car.p_WB_W + car.q_WB * eye_B, car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 52.0 * kDegree);
+  return LookFrom(car.p_WB_W + car.q_WB * eye_B, car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 52.0 * kDegree);
 }
 
 Camera OrbitCamera(const Body& car, const Aim& aim, const road::World& world) {
@@ -122,13 +122,13 @@ Camera OrbitCamera(const Body& car, const Aim& aim, const road::World& world) {
   const Vector3d middle = car.p_WB_W + Vector3d(0.0, 0.0, 0.5 * car.height_m);
   const double level_m = aim.distance_m * std::cos(aim.elevation_rad);
   const Vector3d eye = AboveGround(middle + Vector3d(level_m * out.x(), level_m * out.y(), aim.distance_m * std::sin(aim.elevation_rad)), world);
-  return Look(eye, middle - eye, Vector3d::UnitZ(), 48.0 * kDegree);
+  return LookFrom(eye, middle - eye, Vector3d::UnitZ(), 48.0 * kDegree);
 }
 
 Camera TopCamera(const Body& car, const Aim& aim) {
   // As high as the eye of a pinhole camera would be that shows as much: what is left out far away is the same.
   const double above_m = std::max(60.0, 1.2 * aim.map_height_m);
-  Camera camera = Look(car.p_WB_W + Vector3d(0.0, 0.0, above_m), -Vector3d::UnitZ(), Vector3d::UnitY(), 48.0 * kDegree);
+  Camera camera = LookFrom(car.p_WB_W + Vector3d(0.0, 0.0, above_m), -Vector3d::UnitZ(), Vector3d::UnitY(), 48.0 * kDegree);
   camera.parallel_height_m = aim.map_height_m;
   return camera;
 }

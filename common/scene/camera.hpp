@@ -37,6 +37,9 @@ struct Camera {
   std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& p_W, int width_px, int height_px) const;
 };
 
+// From an eye along `forward` (any length), level as `up` says, which must not point the same way.
+Camera LookFrom(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& forward, const Eigen::Vector3d& up, double vertical_view_rad);
+
 // Whom a camera goes with: a driver's car, or one of the traffic.
 struct Body {
   Body(const CarPose& car);

@@ -52,15 +52,11 @@ Camera TracksideCamera(const Body& car, const road::World& world) {
   const road::SurfacePoint ground = world.At(post.x(), post.y(), car.p_WB_W.z());
   const Vector3d eye(post.x(), post.y(), (ground.inside ? ground.z_m : car.p_WB_W.z()) + kEye_m);
   const Vector3d towards = target - eye;
-  Camera camera;
-  camera.eye_W = eye;
   // A car that drives over the post is looked down upon from the box.
-  camera.forward_W = towards.norm() > 0.1 ? Vector3d(towards.normalized()) : Vector3d(car.q_WB * Vector3d::UnitX());
-  const Vector3d side = camera.forward_W.cross(Vector3d::UnitZ());
-  const Vector3d right = side.norm() > 1e-3 ? Vector3d(side.normalized()) : Vector3d::UnitX();
-  camera.up_W = right.cross(camera.forward_W);
-  camera.vertical_view_rad = std::clamp(2.0 * std::atan(0.5 * kSeen_m / std::max(towards.norm(), 0.1)), kNarrowest_rad, kWidest_rad);
-  return camera;
+  const Vector3d forward = towards.norm() > 0.1 ? towards : Vector3d(car.q_WB * Vector3d::UnitX());
+  const bool steep = std::hypot(forward.x(), forward.y()) < 1e-3 * forward.norm();
+  return LookFrom(eye, forward, steep ? Vector3d::UnitY() : Vector3d::UnitZ(),
+                  std::clamp(2.0 * std::atan(0.5 * kSeen_m / std::max(towards.norm(), 0.1)), kNarrowest_rad, kWidest_rad));
 }
 
 }  // namespace rodeira::scene

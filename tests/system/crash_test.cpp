@@ -64,7 +64,7 @@ TEST_F(Crash, IntoAHouseIsRecordedAndComputedAgain) {
   EXPECT_NEAR(story.first->position_x_m(), 294.0, 0.1);
   EXPECT_GT(story.speed_before_mps, 15.0);
   const auto model = vehicle::LoadVehicle(std::string(RODEIRA_SOURCE_DIR) + "/configs/vehicles/default.yaml");
-  // It loses at least all of its momentum, and at most as much again.
+  // The house takes all of its momentum; what the engine goes on pushing comes on top.
   const double momentum = model.value()->dimensions().mass_kg * story.speed_before_mps;
   EXPECT_LT(story.impulse_x_Ns, -0.98 * momentum);
   const auto states = MessagesOf<msg::VehicleState>(recording, idl::topics::kVehicleState);

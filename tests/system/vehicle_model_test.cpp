@@ -19,12 +19,7 @@ class FmuRun : public ::testing::Test {
  protected:
   std::vector<std::string> Command(const std::string& parameters, std::vector<std::string> more) const {
     folder_.Pack();
-    const auto file = folder_.path() / "car.yaml";
-    EXPECT_TRUE(base::WriteWhole(file, "rodeira: vehicle/1\nmodel: fmu\nfmu: car.fmu\nnames: {heading_rad: body.yaw}\n" + parameters +
-                                           "dimensions: {wheelbase_m: 2.5, track_front_m: 1.4, track_rear_m: 1.4, wheel_radius_m: 0.3, wheel_width_m: 0.2,\n"
-                                           "  front_m: 2, rear_m: 1.9, width_m: 1.7, height_m: 1.4, mass_kg: 1000, steering_ratio: 16,\n"
-                                           "  steering_wheel_limit_rad: 8, forward_gears: 1}\n").ok());
-    more.insert(more.begin(), {Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--set", "nodes.ego.config.vehicle=" + file.string()});
+    more.insert(more.begin(), {Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--set", "nodes.ego.config.vehicle=" + folder_.WriteCar(parameters).string()});
     return more;
   }
   fmi::FmuFolder folder_;

@@ -185,6 +185,17 @@ TEST(Printable, WhatATerminalWouldObeyBecomesVisible) {
   EXPECT_EQ(WrongInput("'a\nb' was found", "file\n:3").Text(), "file\\n:3: 'a\\nb' was found");
 }
 
+TEST(Files, AMissingFileIsSaidWithTheNearestBesideIt) {
+  auto folder = TemporaryFolder::Make("test");
+  ASSERT_TRUE(folder.ok());
+  const auto in = [&](const char* name) { return folder.value().path() / name; };
+  ASSERT_TRUE(WriteWhole(in("demo.yaml"), std::string_view("x")).ok());
+  ASSERT_TRUE(WriteWhole(in("dmeo.mcap"), std::string_view("x")).ok());
+  EXPECT_EQ(ReadText(in("dmeo.yaml")).error().message, "there is no such file; did you mean 'demo.yaml'?");
+  EXPECT_EQ(ReadText(in("something else.yaml")).error().message, "there is no such file");
+  EXPECT_EQ(ReadText("/no/such/dmeo.yaml").error().message, "there is no such file");
+}
+
 TEST(Mathematics, TheDigestIsTheSameTwice) { EXPECT_EQ(MathematicsDigest(), MathematicsDigest()); }
 
 // Law L7: the fixed choice of code is what makes machines agree. Where this processor has FMA, the library's own

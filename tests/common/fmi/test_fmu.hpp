@@ -51,6 +51,15 @@ class FmuFolder {
     WriteZip(file, {{"modelDescription.xml", Changed(changes)}, {"binaries/" + platform + "/car.so", Binary()}, {"resources/note.txt", "of no use"}});
     return file;
   }
+  // A vehicle file that drives what is packed, beside it; `more`: further lines.
+  std::filesystem::path WriteCar(const std::string& more = "") const {
+    const auto file = path_ / "car.yaml";
+    EXPECT_TRUE(base::WriteWhole(file, "rodeira: vehicle/1\nmodel: fmu\nfmu: car.fmu\nnames: {heading_rad: body.yaw}\n" + more +
+                                           "dimensions: {wheelbase_m: 2.5, track_front_m: 1.4, track_rear_m: 1.4, wheel_radius_m: 0.3, wheel_width_m: 0.2,\n"
+                                           "  front_m: 2, rear_m: 1.9, width_m: 1.7, height_m: 1.4, mass_kg: 1000, steering_ratio: 16,\n"
+                                           "  steering_wheel_limit_rad: 8, forward_gears: 1}\n").ok());
+    return file;
+  }
 
  private:
   std::filesystem::path path_;

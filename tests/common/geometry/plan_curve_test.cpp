@@ -104,6 +104,30 @@ TEST(PlanCurve, FindsTheFootBeforeTheDistanceFallsAgain) {
   EXPECT_NEAR(foot.t_m, 0.9 / at.curvature_1pm, 1e-12);
 }
 
+// About the centre of curvature the distance hardly changes along the curve: two minima lie close together, or a minimum
+// and the end, or all points are equally near. Each foot against the nearest of points 5 mm apart.
+TEST(PlanCurve, AboutTheCentreOfCurvatureNoNearerPointIsMissed) {
+  const auto draw = [](std::uint64_t stream, int i, double low, double high) {
+    return base::RandomUniform({stream, static_cast<std::uint64_t>(i)}, low, high);
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const double k0 = draw(1, i, 0.004, 0.05), k1 = i % 3 == 0 ? k0 : k0 * draw(2, i, 0.7, 1.4);
+    const PlanCurve curve({0.0, 0.0}, 0.0, {{draw(3, i, 1.0, 8.0), k0, k1}}, 25.0);
+    const double s = draw(4, i, 0.0, 1.0) * curve.length_m();
+    const PlanPoint at = curve.Evaluate(s);
+    const double off = std::pow(10.0, draw(5, i, -12.0, -0.7));  // of the radius
+    const double way = draw(6, i, -kPi, kPi);
+    const Eigen::Vector2d p = at.p_W + (at.left_W() * (1.0 + off * std::cos(way)) + off * std::sin(way) * at.tangent_W) / at.curvature_1pm;
+    const Foot foot = curve.Project(p.x(), p.y());
+    double nearest = foot.distance_m;
+    const int count = static_cast<int>(curve.length_m() / 0.005) + 1;
+    for (int k = 0; k <= count; ++k) nearest = std::min(nearest, (curve.Evaluate(curve.length_m() * k / count).p_W - p).norm());
+    ASSERT_LE(foot.distance_m, nearest + 1e-12 / at.curvature_1pm) << i;
+    const bool at_an_end = foot.s_m == 0.0 || foot.s_m == curve.length_m();
+    ASSERT_LT(at_an_end ? 0.0 : std::fabs((p - foot.at.p_W).dot(foot.at.tangent_W)), 1e-8) << i;
+  }
+}
+
 RC_GTEST_PROP(PlanCurve, TheFootIsTheNearestPointOfAll, ()) {
   const PlanCurve curve = AnyCurve();
   for (int i = 0; i < 30; ++i) {

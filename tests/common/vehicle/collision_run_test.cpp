@@ -9,6 +9,7 @@
 #include "common/vehicle/collision_space.hpp"
 #include "common/vehicle/rigid_body.hpp"
 #include "tests/common/vehicle/every_model.hpp"
+#include "tests/common/vehicle/same_bits.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -119,19 +120,7 @@ TEST_P(Struck, RestoredWhileTouchingItGoesOnWithTheSameBits) {
   int touching = 0, steps = 0;
   while (touching < 15 && ++steps < 3000) touching += step(*first) ? 1 : 0;
   ASSERT_EQ(touching, 15);
-  base::StateWriter snapshot;
-  first->Save(snapshot);
-  base::StateReader reader(snapshot.bytes());
-  second->Restore(reader);
-  ASSERT_TRUE(reader.Finish().ok());
-  for (int i = 0; i < 1000; ++i) {
-    (void)step(*first);
-    (void)step(*second);
-    base::StateWriter a, b;
-    first->Save(a);
-    second->Save(b);
-    ASSERT_EQ(a.bytes(), b.bytes()) << "step " << i;
-  }
+  ExpectTheSameBitsFromASnapshot(*first, *second, 1000, [&](VehicleModel& car, int) { (void)step(car); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, Struck, ::testing::Values(kBicycle, kOde, kMultibody, kSecondMultibody), NameOf);

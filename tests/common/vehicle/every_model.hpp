@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 
-#include "common/base/files.hpp"
 #include "common/vehicle/vehicle_model.hpp"
 #include "tests/common/fmi/test_fmu.hpp"
 
@@ -34,12 +33,7 @@ inline std::unique_ptr<VehicleModel> MakeModel(const ModelCase& model, const std
   }
   const fmi::FmuFolder folder;
   folder.Pack();
-  const auto file = folder.path() / "car.yaml";
-  EXPECT_TRUE(base::WriteWhole(file, "rodeira: vehicle/1\nmodel: fmu\nfmu: car.fmu\nnames: {heading_rad: body.yaw}\n" + more +
-                                     "dimensions: {wheelbase_m: 2.5, track_front_m: 1.4, track_rear_m: 1.4, wheel_radius_m: 0.3, wheel_width_m: 0.2,\n"
-                                     "  front_m: 2, rear_m: 1.9, width_m: 1.7, height_m: 1.4, mass_kg: 1000, steering_ratio: 16,\n"
-                                     "  steering_wheel_limit_rad: 8, forward_gears: 1}\n").ok());
-  auto car = LoadVehicle(file);
+  auto car = LoadVehicle(folder.WriteCar(more));
   EXPECT_TRUE(car.ok()) << (car.ok() ? "" : car.error().Text());
   return std::move(car).value();
 }

@@ -18,23 +18,15 @@ constexpr double kStep = 0.001;
 
 class FmuCar : public ::testing::Test {
  protected:
-  std::filesystem::path File(const std::string& more = "") const {
-    const auto file = folder_.path() / "car.yaml";
-    EXPECT_TRUE(base::WriteWhole(file, "rodeira: vehicle/1\nmodel: fmu\nfmu: car.fmu\nnames: {heading_rad: body.yaw}\n" + more +
-                                           "dimensions: {wheelbase_m: 2.5, track_front_m: 1.4, track_rear_m: 1.4, wheel_radius_m: 0.3, wheel_width_m: 0.2,\n"
-                                           "  front_m: 2, rear_m: 1.9, width_m: 1.7, height_m: 1.4, mass_kg: 1000, steering_ratio: 16,\n"
-                                           "  steering_wheel_limit_rad: 8, forward_gears: 1}\n").ok());
-    return file;
-  }
   std::unique_ptr<VehicleModel> Car(const std::string& more = "") const {
     folder_.Pack(changes_);
-    auto car = LoadVehicle(File(more));
+    auto car = LoadVehicle(folder_.WriteCar(more));
     EXPECT_TRUE(car.ok()) << (car.ok() ? "" : car.error().Text());
     return std::move(car).value();
   }
   std::string Refusal(const std::vector<std::pair<std::string, std::string>>& changes, const std::string& more = "") const {
     folder_.Pack(changes);
-    const auto car = LoadVehicle(File(more));
+    const auto car = LoadVehicle(folder_.WriteCar(more));
     EXPECT_FALSE(car.ok());
     if (car.ok()) return "";
     EXPECT_EQ(car.error().exit_status(), 2);
@@ -155,7 +147,7 @@ TEST_F(FmuCar, WrongFilesAreRefused) {
   EXPECT_THAT(Refusal({{"<Real unit=\"rad\"/>", "<String/>"}}), HasSubstr("is no number"));
   EXPECT_THAT(Refusal({}, "parameters: {fail_at: 3}\n"), HasSubstr("no parameter 'fail_at'; did you mean 'fail_at_s'?"));
   folder_.Pack();
-  const auto file = File();
+  const auto file = folder_.WriteCar();
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = base::ReadText(file).value();
     text.replace(text.find(from), from.size(), to);

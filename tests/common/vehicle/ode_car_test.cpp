@@ -10,6 +10,7 @@
 
 #include "common/base/files.hpp"
 #include "common/vehicle/ode_model.hpp"
+#include "tests/common/vehicle/same_bits.hpp"
 #include "tests/common/vehicle/test_ground.hpp"
 
 namespace rodeira::vehicle {
@@ -212,23 +213,12 @@ TEST(OdeCarBits, RestoredItGoesOnWithTheSameBits) {
     first->Step(controls, ground, kStep);
     if (i < 50) second->Step(controls, ground, kStep);
   }
-  base::StateWriter snapshot;
-  first->Save(snapshot);
-  base::StateReader reader(snapshot.bytes());
-  second->Restore(reader);
-  ASSERT_TRUE(reader.Finish().ok());
-  for (int i = 0; i < 1000; ++i) {
+  ExpectTheSameBitsFromASnapshot(*first, *second, 1000, [&](VehicleModel& car, int i) {
     controls.steering_wheel_rad = 0.01 * (i % 70);
-    dRandSetSeed(1);
-    first->Step(controls, ground, kStep);
-    other->Step(controls, ground, kStep);
-    dRandSetSeed(static_cast<unsigned long>(i) + 17);
-    second->Step(controls, ground, kStep);
-    base::StateWriter a, b;
-    first->Save(a);
-    second->Save(b);
-    ASSERT_EQ(a.bytes(), b.bytes()) << "step " << i;
-  }
+    dRandSetSeed(&car == first.get() ? 1UL : static_cast<unsigned long>(i) + 17);
+    car.Step(controls, ground, kStep);
+    if (&car == first.get()) other->Step(controls, ground, kStep);
+  });
 }
 
 // The same where the body lies on the ground: contact joints leave nothing behind.
@@ -241,19 +231,7 @@ TEST(OdeCarBits, RestoredInACrashItGoesOnWithTheSameBits) {
   controls.throttle = 1.0;
   controls.steering_wheel_rad = 3.0;
   for (int i = 0; i < 1200; ++i) first->Step(controls, ground, kStep);
-  base::StateWriter snapshot;
-  first->Save(snapshot);
-  base::StateReader reader(snapshot.bytes());
-  second->Restore(reader);
-  ASSERT_TRUE(reader.Finish().ok());
-  for (int i = 0; i < 1000; ++i) {
-    first->Step(controls, ground, kStep);
-    second->Step(controls, ground, kStep);
-    base::StateWriter a, b;
-    first->Save(a);
-    second->Save(b);
-    ASSERT_EQ(a.bytes(), b.bytes()) << "step " << i;
-  }
+  ExpectTheSameBitsFromASnapshot(*first, *second, 1000, [&](VehicleModel& car, int) { car.Step(controls, ground, kStep); });
 }
 
 TEST(OdeCarFile, RefusalsNamePlaceAndRemedy) {
