@@ -11,6 +11,7 @@
 #include "common/road/road_network.hpp"
 #include "common/road/surface_detail.hpp"
 #include "common/road/world_hash.hpp"
+#include "common/terrain/heights_ahead.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -20,7 +21,7 @@ constexpr std::size_t kFew = 12;  // are asked sooner one by one
 // SUELO on a world: nothing but World::At, a point at a time, or the same faster where many lie together on a built road.
 class WorldGround final : public terrain::Ground {
  public:
-  WorldGround(std::shared_ptr<const World> world, const BuiltGround* built) : world_(std::move(world)), built_(built) {}
+  WorldGround(std::shared_ptr<const World> world, const BuiltGround* built) : world_(std::move(world)), built_(built), ahead_(world_->grid()) {}
 
   void Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) override {
     RODEIRA_ASSERT(queries.size() == points.size());
@@ -34,7 +35,12 @@ class WorldGround final : public terrain::Ground {
 
  private:
   void OneByOne(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) const {
+    const auto fetch = [&](std::size_t i) {
+      if (ahead_.any() && i < queries.size()) ahead_.Fetch(queries[i].x_m, queries[i].y_m);
+    };
+    for (std::size_t i = 0; i < terrain::HeightsAhead::kAhead; ++i) fetch(i);
     for (std::size_t i = 0; i < queries.size(); ++i) {
+      fetch(i + terrain::HeightsAhead::kAhead);
       const SurfacePoint at = world_->At(queries[i].x_m, queries[i].y_m, queries[i].z_hint_m);
       if (!at.inside) {
         points[i] = {};
@@ -51,6 +57,7 @@ class WorldGround final : public terrain::Ground {
 
   std::shared_ptr<const World> world_;
   const BuiltGround* built_;  // the world's, or null
+  terrain::HeightsAhead ahead_;
 };
 
 }  // namespace
