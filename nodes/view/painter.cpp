@@ -11,6 +11,7 @@
 #include <cmath>
 #include <thread>
 
+#include "nodes/view/air_uniforms.hpp"
 #include "nodes/view/built_world.hpp"
 #include "nodes/view/car_node.hpp"
 #include "nodes/view/instruments.hpp"
@@ -28,12 +29,6 @@ constexpr double kFar_m = 15'000.0;
 constexpr float kMarksSeen_m = 650.0F;
 constexpr float kTreesSeen_m = 1'100.0F;
 constexpr std::array<float, scene::kTerrainLevels> kLevelSeen_m = {450.0F, 1'300.0F, 1e9F};  // up to this distance of the tile's centre
-
-const osg::Vec3f kSun_W = [] {
-  osg::Vec3f sun(-0.45F, -0.60F, 0.72F);  // an afternoon's, from the south-west
-  sun.normalize();
-  return sun;
-}();
 
 osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -96,15 +91,15 @@ scene::Camera CameraFor(const Picture& picture, const scene::Body& body, const r
 struct Painter::Parts {
   explicit Parts(const road::World& world) : lights(look, world) {}
 
-  Look look{kSun_W};
+  Look look;
   Fleet fleet{look};
   LightsNode lights;
   osg::ref_ptr<osg::Camera> overlay = MakeOverlay();
   Instruments instruments{*overlay};
   TimelineBar timeline{*overlay};
   osg::ref_ptr<osg::Group> root = new osg::Group;
-  osg::ref_ptr<osg::Uniform> sun_eye = new osg::Uniform("sun_eye", osg::Vec3f(0.0F, 0.0F, 1.0F));
-  osg::ref_ptr<osg::Uniform> up_eye = new osg::Uniform("up_eye", osg::Vec3f(0.0F, 0.0F, 1.0F));
+  AirUniforms air{*root->getOrCreateStateSet()};
+  osg::ref_ptr<osg::Node> rain = look.MakeRain();
   unsigned built_tiles = 0;  // 0: the ground is in memory
   osgViewer::Viewer viewer;
 };
@@ -144,10 +139,9 @@ void Painter::SetUp() {
   root.addChild(parts_->fleet.node());
   root.addChild(parts_->lights.node());
   root.addChild(look.MakeSky());
+  root.addChild(parts_->rain);
   root.addChild(parts_->overlay);
   osg::StateSet* state = root.getOrCreateStateSet();
-  state->addUniform(parts_->sun_eye);
-  state->addUniform(parts_->up_eye);
   state->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
   state->setMode(GL_MULTISAMPLE, osg::StateAttribute::ON);
 
@@ -191,9 +185,11 @@ void Painter::Draw(const Picture& picture) {
   } else {
     eye.setProjectionMatrixAsPerspective(camera.vertical_view_rad * 180.0 / 3.14159265358979323846, aspect, kNear_m, kFar_m);
   }
-  const osg::Matrixd view = eye.getViewMatrix();
-  parts_->sun_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(kSun_W), view)));
-  parts_->up_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, 1.0), view)));
+  const scene::Air air = scene::MakeAir(picture.moment.weather);
+  parts_->air.Set(air, eye.getViewMatrix());
+  parts_->air.SetLamps(is_car ? &picture.moment.cars[picture.followed] : nullptr, air, eye.getViewMatrix());
+  parts_->air.SetRain(picture.moment.time_ns, aspect);
+  parts_->rain->setNodeMask(air.rain > 0.0F ? ~0U : 0U);
   parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt);
   parts_->lights.Show(picture.moment.lights);
   FitOverlay(*parts_->overlay, width, height);
