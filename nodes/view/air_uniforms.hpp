@@ -2,7 +2,6 @@
 
 #include <osg/Matrixd>
 #include <osg/StateSet>
-#include <osg/Uniform>
 
 #include <cstdint>
 
@@ -11,22 +10,13 @@
 
 namespace rodeira::view {
 
-// The uniforms that are the same for all that is drawn: light, sky, fog, wetness, headlights. Vectors with the ending _eye are
-// in the eye's frame.
-class AirUniforms {
- public:
-  explicit AirUniforms(osg::StateSet& root);
+// The shaders' uniforms that are the same for all that is drawn. OpenSceneGraph takes the one of the state nearest to what is drawn.
 
-  void Set(const scene::Air& air, const osg::Matrixd& view);
-  // The headlights of the car that the camera goes with; null: it has none.
-  void SetLamps(const scene::CarPose* car, const scene::Air& air, const osg::Matrixd& view);
-  void SetRain(std::int64_t time_ns, double aspect);
-
- private:
-  void Set(const char* name, float value);
-  void Set(const char* name, const osg::Vec3f& value);
-
-  osg::StateSet& root_;
-};
+// Light, sky, fog and wetness.
+void SetAir(osg::StateSet& state, const scene::Air& air);
+// What depends on who looks: sun, zenith and headlights in the eye's frame, which `view` leads to. `car`: whose headlights; null: nobody's.
+void SetEye(osg::StateSet& state, const scene::Air& air, const scene::CarPose* car, const osg::Matrixd& view);
+// Of the falling rain.
+void SetRain(osg::StateSet& state, std::int64_t time_ns, double aspect);
 
 }  // namespace rodeira::view
