@@ -72,6 +72,7 @@ Moment Interpolate(const Moment& a, const Moment& b, double alpha) {
   ForPairs(a.cars, b.cars, [&](const CarPose& p, const CarPose& q) { moment.cars.push_back(BetweenCars(p, q, alpha, interval_s)); });
   ForPairs(a.agents, b.agents, [&](const AgentPose& p, const AgentPose& q) { moment.agents.push_back(BetweenAgents(p, q, alpha, interval_s)); });
   moment.lights = alpha < 0.5 ? a.lights : b.lights;
+  moment.weather = alpha < 0.5 ? a.weather : b.weather;
   return moment;
 }
 

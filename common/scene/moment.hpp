@@ -9,6 +9,7 @@
 
 #include "common/network/lights.hpp"
 #include "common/scene/mesh.hpp"
+#include "common/weather/weather.hpp"
 
 namespace rodeira::scene {
 
@@ -62,10 +63,11 @@ struct Moment {
   std::vector<CarPose> cars;      // ascending ids
   std::vector<AgentPose> agents;  // ascending ids
   std::vector<LightShown> lights;  // ascending controllers; the others are dark
+  weather::Weather weather;
 };
 
 // (1 - alpha) a + alpha b with the same alpha for everything; alpha in [0, 1], 0 is exactly a and 1 exactly b. Attitudes
-// turn on the shortest way, wheels turn on as fast as they did; lights are a's below 0.5. Who is only in one of the two is not in the result, unless
+// turn on the shortest way, wheels turn on as fast as they did; lights and weather are a's below 0.5. Who is only in one of the two is not in the result, unless
 // alpha is 0 or 1.
 Moment Interpolate(const Moment& a, const Moment& b, double alpha);
 

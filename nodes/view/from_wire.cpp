@@ -15,6 +15,13 @@ double Double(float value) { return static_cast<double>(value); }
 Eigen::Vector3d ToVector(const msg::Vector3& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d ToVector(const msg::Vector3f& v) { return {Double(v.x()), Double(v.y()), Double(v.z())}; }
 
+// What lies outside of what can be (a recording from elsewhere) is cut to it.
+weather::Weather FromWire(const msg::WeatherState& message) {
+  const auto cut = [](double value, double low, double high) { return value >= low ? std::min(value, high) : low; };
+  return {cut(message.wetness(), 0.0, 1.0), cut(message.rain_mmph(), 0.0, 200.0), cut(message.visibility_m(), 10.0, weather::kClear_m),
+          cut(message.clouds(), 0.0, 1.0), cut(message.hour(), 0.0, 24.0)};
+}
+
 }  // namespace
 
 scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, std::size_t order) {
@@ -85,6 +92,10 @@ base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep:
       const auto message = idl::Decode<msg::SignalsState>(*payload);
       if (!message) return message.error();
       AddLights(message.value(), moment.lights);
+    } else if (roster.source(source).topic == idl::topics::kWeatherState) {
+      const auto message = idl::Decode<msg::WeatherState>(*payload);
+      if (!message) return message.error();
+      moment.weather = FromWire(message.value());
     } else {
       const auto message = idl::Decode<msg::TrafficState>(*payload);
       if (!message) return message.error();
