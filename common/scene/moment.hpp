@@ -30,6 +30,8 @@ struct CarPose {
   double speed_mps = 0.0;           // forward
   double brake = 0.0;               // 0 … 1
   std::int32_t gear = 0;
+  double engine_rpm = 0.0, fuel_l = 0.0;
+  double steering_wheel_rad = 0.0;  // positive to the left
   double length_m = 3.85, front_m = 2.01, width_m = 1.65;  // front bumper from B's origin
   double height_m = 1.42, wheelbase_m = 2.46, wheel_radius_m = 0.2915;       // at rest
   std::array<double, 2> track_m = {1.42, 1.42};             // front, rear

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
@@ -10,6 +11,8 @@ namespace rodeira::view {
 namespace {
 
 constexpr std::array<scene::Colour, 4> kPaints = {scene::Colour::Of(0xb01e26), scene::Colour::Of(0x1e4fa0), scene::Colour::Of(0xd9b11e), scene::Colour::Of(0x2b7a3d)};
+
+constexpr double kPetrol_kgpl = 0.745;  // as gauges count it
 
 double Double(float value) { return static_cast<double>(value); }
 Eigen::Vector3d ToVector(const msg::Vector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -38,6 +41,9 @@ scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, 
   car.speed_mps = (car.q_WB.conjugate() * ToVector(message.velocity_w_mps())).x();
   car.brake = Double(message.brake());
   car.gear = message.gear();
+  car.engine_rpm = message.engine_speed_radps() * 30.0 / std::numbers::pi;
+  car.fuel_l = message.fuel_kg() / kPetrol_kgpl;
+  car.steering_wheel_rad = message.steering_wheel_rad();
   if (message.length_m() > 0.0F && message.width_m() > 0.0F) {
     car.length_m = Double(message.length_m());
     car.front_m = Double(message.front_m());
