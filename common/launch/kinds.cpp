@@ -12,7 +12,8 @@ const std::vector<NodeKind>& NodeKinds() {
   static const std::vector<NodeKind> kKinds = {
       {"road", Role::kService, 0.0, {}, {}, "rodeira-road"},
       {"vehicle", Role::kStepped, 0.001, {topics::kVehicleState, topics::kCollisions},
-       {{topics::kControls, PortKind::kState, false, true}, {topics::kTrafficState, PortKind::kState, true, false}}, "rodeira-vehicle"},
+       {{topics::kControls, PortKind::kState, false, true}, {topics::kTrafficState, PortKind::kState, true, false},
+        {topics::kVehicleState, PortKind::kState, true, false}}, "rodeira-vehicle"},
       {"traffic", Role::kStepped, 0.01, {topics::kTrafficState, topics::kSignalsState},
        {{topics::kVehicleState, PortKind::kState, true, false}, {topics::kScenarioEvents, PortKind::kEvent, true, false}}, "rodeira-traffic"},
       {"input", Role::kStepped, 0.01, {topics::kControls},
