@@ -28,9 +28,13 @@ WheelPose BetweenWheels(const WheelPose& a, const WheelPose& b, double alpha, do
 
 CarPose BetweenCars(const CarPose& a, const CarPose& b, double alpha, double interval_s) {
   CarPose car = alpha < 0.5 ? a : b;  // what does not move smoothly
+  car.blow = std::max(a.blow, b.blow);
   car.p_WB_W = a.p_WB_W + alpha * (b.p_WB_W - a.p_WB_W);
   car.q_WB = a.q_WB.slerp(alpha, b.q_WB);
   car.speed_mps = Between(a.speed_mps, b.speed_mps, alpha);
+  car.engine_rpm = Between(a.engine_rpm, b.engine_rpm, alpha);
+  car.fuel_l = Between(a.fuel_l, b.fuel_l, alpha);
+  car.steering_wheel_rad = Between(a.steering_wheel_rad, b.steering_wheel_rad, alpha);
   for (std::size_t i = 0; i < car.wheels.size(); ++i) car.wheels[i] = BetweenWheels(a.wheels[i], b.wheels[i], alpha, interval_s);
   return car;
 }

@@ -99,7 +99,7 @@ osg::StateSet* Look::KnownFace(const std::string& face) {
   return state;
 }
 
-osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
+osg::ref_ptr<osg::Geometry> Look::BareGeometryOf(const scene::Mesh& mesh) {
   osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
   osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
   osg::ref_ptr<osg::Vec4ubArray> colours = new osg::Vec4ubArray;
@@ -121,8 +121,19 @@ osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
   colours->setNormalize(true);
   geometry->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
   geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.triangles.begin(), mesh.triangles.end()));
-  geometry->setStateSet(mesh.material == scene::Material::kSign ? KnownFace(mesh.face) : StateOf(mesh.material));
   if (mesh.material == scene::Material::kSign) geometry->setTexCoordArray(1, PlacesOnFace(mesh));
+  return geometry;
+}
+
+osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
+  osg::ref_ptr<osg::Geometry> geometry = BareGeometryOf(mesh);
+  geometry->setStateSet(mesh.material == scene::Material::kSign ? KnownFace(mesh.face) : StateOf(mesh.material));
+  return geometry;
+}
+
+osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh, osg::ref_ptr<osg::Texture2D> picture) {
+  osg::ref_ptr<osg::Geometry> geometry = BareGeometryOf(mesh);
+  geometry->setStateSet(StateOfFace(*picture));
   return geometry;
 }
 

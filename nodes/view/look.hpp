@@ -27,6 +27,8 @@ class Look {
   osg::ref_ptr<osg::StateSet> StateOfFace(osg::Texture2D& picture);
   // The mesh without its origin.
   osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh);
+  // The same of a sign (kSign) with this picture instead of its face's.
+  osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh, osg::ref_ptr<osg::Texture2D> picture);
   // The meshes at their places in the world. They must have the same origin, and at least one there must be.
   osg::ref_ptr<osg::MatrixTransform> Placed(std::span<const scene::Mesh* const> meshes);
   osg::ref_ptr<osg::Node> MakeSky();
@@ -36,6 +38,7 @@ class Look {
   osg::ref_ptr<osg::Node> MakeShadow(float rear_m, float front_m, float half_width_m);
 
  private:
+  osg::ref_ptr<osg::Geometry> BareGeometryOf(const scene::Mesh& mesh);
   osg::ref_ptr<osg::StateSet> MakeState(scene::Material material);
   osg::StateSet* KnownFace(const std::string& face);
 

@@ -14,6 +14,7 @@
 #include "nodes/view/aim_camera.hpp"
 #include "nodes/view/air_uniforms.hpp"
 #include "nodes/view/built_world.hpp"
+#include "nodes/view/cabin_node.hpp"
 #include "nodes/view/car_node.hpp"
 #include "nodes/view/instruments.hpp"
 #include "nodes/view/lights_node.hpp"
@@ -94,6 +95,7 @@ struct Painter::Parts {
 
   Look look;
   Fleet fleet{look};
+  CabinNode cabin{look};
   LightsNode lights;
   osg::ref_ptr<osg::Camera> overlay = MakeOverlay();
   Instruments instruments{*overlay};
@@ -143,6 +145,7 @@ void Painter::SetUp() {
   group.addChild(parts_->lights.node());
   group.addChild(look.MakeSky());
   root.addChild(&group);
+  root.addChild(parts_->cabin.node());
   root.addChild(parts_->rain);
   root.addChild(parts_->overlay);
   osg::StateSet* state = root.getOrCreateStateSet();
@@ -188,6 +191,7 @@ void Painter::Draw(const Picture& picture) {
   SetRain(state, picture.moment.time_ns, aspect);
   parts_->rain->setNodeMask(air.rain > 0.0F ? ~0U : 0U);
   parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt);
+  parts_->cabin.Show(is_car && picture.cabin && picture.camera == scene::CameraKind::kDriver ? &picture.moment.cars[picture.followed] : nullptr);
   parts_->lights.Show(picture.moment.lights);
   FitOverlay(*parts_->overlay, width, height);
   parts_->mirrors.Show(picture, body, air, width, height);

@@ -87,6 +87,9 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& 
   const std::string window = map.Choice("window", {"auto", "always", "never"}, "auto");
   settings.window = window == "always" ? WindowWish::kAlways : window == "never" ? WindowWish::kNever : WindowWish::kAuto;
   settings.instruments = map.Flag("instruments", true);
+  settings.sound = map.Flag("sound", true);
+  settings.volume = map.Number("volume", {0.0, 1.0}, settings.volume);
+  settings.cabin = map.Flag("cabin", !settings.screen);  // a laboratory has its own
   if (map.Has("mirrors")) ReadMirrors(map, settings);
   ReadFollowed(launch.roster(), view, map, settings);
   ReadDriving(launch, settings);
@@ -163,6 +166,7 @@ Picture PictureOf(const ViewSettings& settings, scene::Moment moment) {
   picture.followed = settings.followed;
   picture.show_instruments = settings.instruments;
   picture.mirrors = settings.mirrors;
+  picture.cabin = settings.cabin;
   return picture;
 }
 
