@@ -37,7 +37,12 @@ BuiltGround::BuiltGround(std::shared_ptr<const network::Network> network, Juncti
       paint_(*network_),
       earthworks_(network_, junctions_) {
   std::set<std::string> made;
-  for (const auto& junction : junctions_) made.insert(junction->id());
+  std::vector<Squares::Box> boxes;
+  for (const auto& junction : junctions_) {
+    made.insert(junction->id());
+    boxes.push_back({junction->low_W(), junction->high_W()});
+  }
+  junction_squares_ = Squares(boxes);
   for (const network::Road& road : network_->roads()) in_junction_.push_back(made.contains(road.spec().junction));
 }
 
@@ -75,7 +80,7 @@ SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
   thread_local std::vector<network::Surfacing> surfaces;
   network_->Surfaces(x_m, y_m, surfaces);
   const auto in_junction = [&](const auto& junction) { return junction->Contains(p); };
-  const auto first = std::find_if(junctions_.begin(), junctions_.end(), in_junction);
+  const auto first = junction_squares_.MayHold(p) ? std::find_if(junctions_.begin(), junctions_.end(), in_junction) : junctions_.end();
   const auto exempt = [&](const network::Place& place) { return IsExempt(network_->roads()[place.lane.road].spec(), place.s_m); };
   const auto answers = [&](const network::Place& place) { return !in_junction_[place.lane.road] && place.lane.lane != 0; };
   if (first == junctions_.end() && surfaces.size() == 1 && answers(surfaces[0].place) && !exempt(surfaces[0].place)) {

@@ -43,6 +43,7 @@ class BuiltGround {
   LaneGrounds grounds_;
   Paint paint_;
   Earthworks earthworks_;
+  Squares junction_squares_;
   std::vector<bool> in_junction_;  // by road: its surface is a junction's
 };
 

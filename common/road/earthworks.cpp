@@ -43,6 +43,22 @@ void Standing(const network::Road& road, double low_m, double high_m, const Use&
   }
 }
 
+// Boxes that hold every place a road's slopes may reach, one a panel.
+void AddReach(const network::Road& road, double reach_m, std::vector<Squares::Box>& boxes) {
+  double widest = 0.0;
+  for (const network::LaneSection& section : road.spec().sections) {
+    double right, left;
+    section.Bounds(road.spec().lane_offset, section.s_m, section.end_s_m, right, left);
+    widest = std::max({widest, -right, left});
+  }
+  for (const geometry::AxisPanel& panel : road.axis().panels()) {
+    const Eigen::Vector2d begin = road.axis().At(panel, -panel.half_m).p_W, end = road.axis().At(panel, panel.half_m).p_W;
+    // A leaning section moves its edges along the road by less than it is wide.
+    const Eigen::Vector2d beyond = Eigen::Vector2d::Constant(reach_m + 2.0 * widest + road.axis().Bulge(panel) + 1.0);
+    boxes.push_back({begin.cwiseMin(end) - beyond, begin.cwiseMax(end) + beyond});
+  }
+}
+
 }  // namespace
 
 Earthworks::Earthworks(std::shared_ptr<const network::Network> network, std::vector<std::shared_ptr<const design::JunctionSurface>> junctions)
@@ -50,6 +66,15 @@ Earthworks::Earthworks(std::shared_ptr<const network::Network> network, std::vec
   for (const network::Road& road : network_->roads()) {
     if (road.spec().earthwork) reach_m_ = std::max(reach_m_, road.spec().earthwork->reach_m);
   }
+  std::vector<Squares::Box> boxes;
+  for (const network::Road& road : network_->roads()) {
+    if (road.spec().earthwork) AddReach(road, reach_m_, boxes);
+  }
+  for (const auto& junction : junctions_) {
+    const Eigen::Vector2d beyond = Eigen::Vector2d::Constant(network::Earthwork().reach_m);
+    boxes.push_back({junction->low_W() - beyond, junction->high_W() + beyond});
+  }
+  squares_ = Squares(boxes);
   for (const auto& junction : junctions_) {
     std::vector<Heights>& heights = edge_heights_.emplace_back();
     for (const design::FreeEdge& edge : junction->free_edges()) {
@@ -148,6 +173,7 @@ void Earthworks::FromJunction(std::size_t index, const Eigen::Vector2d& p_W, Bou
 }
 
 void Earthworks::Shape(const Eigen::Vector2d& p_W, SurfacePoint& ground) const {
+  if (!squares_.MayHold(p_W)) return;
   Bounds bounds;
   network_->Near(p_W, reach_m_, [&](std::uint32_t road, std::uint32_t panel) { FromRoad(network_->roads()[road], panel, p_W, bounds); });
   for (std::size_t i = 0; i < junctions_.size(); ++i) FromJunction(i, p_W, bounds);

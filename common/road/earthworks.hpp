@@ -5,6 +5,7 @@
 
 #include "common/design/junction_surface.hpp"
 #include "common/network/network.hpp"
+#include "common/road/squares.hpp"
 #include "common/road/surface_point.hpp"
 
 namespace rodeira::road {
@@ -45,6 +46,7 @@ class Earthworks {
   };
   std::vector<std::vector<Heights>> edge_heights_;  // by junction and free edge
   double reach_m_ = 0.0;
+  Squares squares_;  // that slopes may reach
 };
 
 }  // namespace rodeira::road
