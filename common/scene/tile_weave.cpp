@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
+#include <vector>
 
 #include "common/scene/colours.hpp"
 #include "common/scene/levels_at.hpp"
@@ -21,7 +21,7 @@ constexpr std::size_t kNobody = 99;
 
 class Weaver {
  public:
-  Weaver(const road::World& world, const TilePlan& plan) : plan_(plan), heights_(world, plan) {
+  Weaver(const road::World& world, const TilePlan& plan) : plan_(plan), heights_(world, plan), vertices_(plan.triangles.points().size()) {
     const Face& first = plan.faces.front();
     origin_W_ = TileOrigin(plan.key, first.levels.empty() ? 0.0 : first.levels.front().z_m);
     wall_.material = Material::kRoad;
@@ -52,13 +52,16 @@ class Weaver {
   }
 
   std::uint32_t Vertex(Mesh& mesh, std::uint32_t point, std::uint32_t face, std::size_t level) {
-    const auto [found, fresh] = vertices_.try_emplace({point, face, level}, 0);
-    if (!fresh) return found->second;
+    std::vector<Known>& here = vertices_[point];
+    for (const Known& known : here) {
+      if (known.face == face && known.level == level) return known.vertex;
+    }
     const CornerHeight& height = heights_.At(point, face)[level];
     const Skin& skin = plan_.faces[face].skins[level];
     const Eigen::Vector3d p_W = Place(point, height.z_m);
     const Colour colour = skin.grown ? GroundColour(skin.surface, p_W.x(), p_W.y(), height.normal_W) : skin.colour;
-    return found->second = mesh.Add(p_W, height.normal_W, colour);
+    here.push_back({face, level, mesh.Add(p_W, height.normal_W, colour)});
+    return here.back().vertex;
   }
 
   void Ground(std::uint32_t triangle, std::size_t level) {
@@ -137,7 +140,12 @@ class Weaver {
   WovenTile woven_;
   std::map<Material, Mesh> meshes_;
   Mesh wall_;
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::size_t>, std::uint32_t> vertices_;
+  struct Known {
+    std::uint32_t face;
+    std::size_t level;
+    std::uint32_t vertex;
+  };
+  std::vector<std::vector<Known>> vertices_;  // by point: what is there already, mostly one
 };
 
 }  // namespace
