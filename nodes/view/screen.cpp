@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/user_folders.hpp"
 #include "common/hands/key_names.hpp"
 #include "common/launch/live_keys.hpp"
 #include "nodes/view/heard.hpp"
+#include "nodes/view/png.hpp"
 
 namespace rodeira::view {
 namespace {
 
+constexpr double kNote_s = 3.0;      // how long a note stands
 constexpr double kZoom = 1.15;       // a notch of the mouse's wheel
 constexpr double kTurn_rad = 0.006;  // a pixel that it is drawn
 
@@ -52,6 +55,8 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   screen->painter_->DrawWhole(FirstPicture(world));
   (void)screen->painter_->Read();
   screen->help_text_ = std::move(help);
+  screen->title_ = world.name().empty() ? "rodeira" : world.name();
+  std::replace(screen->title_.begin(), screen->title_.end(), '/', '-');
   screen->live_ = PictureOf(settings, {});
   if (kind == SurfaceKind::kWindow && settings.sound) {
     auto speaker = Speaker::Open();
@@ -76,6 +81,7 @@ bool Screen::TakeKey(int symbol, bool driven) {
     }
     case SDLK_h: help_ = !help_; return true;
     case SDLK_F4: live_.mirrors = live_.mirrors == kNoMirrors ? mirrors_ : kNoMirrors; return true;
+    case SDLK_F12: picture_wanted_ = true; return true;
     case SDLK_F5: muted_ = !muted_; return true;
     case SDLK_F3: statistics_ = !statistics_; return true;
     case SDLK_s:
@@ -114,6 +120,21 @@ void Screen::Follow() {
   if (live_.followed >= cars) live_.followed = 0;
 }
 
+// What the window shows now, without notes, into the user's pictures: the time in its name is simulated.
+void Screen::TakePicture() {
+  picture_wanted_ = false;
+  painter_->DrawWhole(live_);
+  const std::filesystem::path folder = base::UserDataFolder() / "pictures";
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  const std::string stem = fmt::format("{}-{:.2f}s", title_, static_cast<double>(live_.moment.time_ns) * 1e-9);
+  std::filesystem::path file = folder / (stem + ".png");
+  for (int number = 2; std::filesystem::exists(file); ++number) file = folder / fmt::format("{}-{}.png", stem, number);
+  const base::Status written = WritePng(file, painter_->Read());
+  note_ = written ? "written: " + file.string() : written.error().Text();
+  note_until_s_ = launch::WallSeconds() + kNote_s;
+}
+
 void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> timeline) {
   const double begin_s = launch::WallSeconds();
   live_.moment = std::move(moment);
@@ -126,6 +147,8 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
   }
   // In slow motion it is fainter, and silent where time stands.
   if (speaker_) speaker_->Play(HeardBy(live_.moment, live_.followed, muted_ ? 0.0 : volume_ * std::min(std::fabs(rate), 1.0)), interval_s_);
+  if (picture_wanted_) TakePicture();
+  if (begin_s < note_until_s_) live_.text += (live_.text.empty() ? "" : "\n\n") + note_;
   painter_->Draw(live_);
   surface_->Swap();
   const double end_s = launch::WallSeconds();

@@ -43,13 +43,17 @@ class Screen {
   std::unique_ptr<Speaker> speaker_;  // null: nothing is heard
   double volume_ = 0.0;
   bool muted_ = false;
-  std::string help_text_;
+  std::string help_text_, title_;
+  void TakePicture();
   void Follow();  // whom the person chose, wherever it stands among the others now
 
   Picture live_;  // camera, followed car as the person chose
   std::optional<std::uint64_t> chosen_agent_;  // of the traffic
   static constexpr std::array<bool, scene::kMirrors> kNoMirrors{};
   std::array<bool, scene::kMirrors> mirrors_ = {true, true, true};  // those that the key brings back
+  bool picture_wanted_ = false;
+  std::string note_;  // of the last one
+  double note_until_s_ = 0.0;
   bool help_ = false;
   bool statistics_ = false;
   double frame_s_ = 0.0;      // smoothed time of drawing
