@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "common/base/user_folders.hpp"
 #include "common/hands/key_names.hpp"
 #include "common/launch/live_keys.hpp"
+#include "common/scene/pick.hpp"
 #include "nodes/view/heard.hpp"
 #include "nodes/view/png.hpp"
 
@@ -16,6 +18,7 @@ namespace rodeira::view {
 namespace {
 
 constexpr double kNote_s = 3.0;      // how long a note stands
+constexpr int kClick_px = 4;          // moved farther it is no click
 constexpr double kZoom = 1.15;       // a notch of the mouse's wheel
 constexpr double kTurn_rad = 0.006;  // a pixel that it is drawn
 
@@ -76,7 +79,7 @@ bool Screen::TakeKey(int symbol, bool driven) {
     case SDLK_TAB: {
       const std::size_t cars = live_.moment.cars.size(), all = cars + live_.moment.agents.size();
       live_.followed = all == 0 ? 0 : (live_.followed + 1) % all;
-      chosen_agent_ = live_.followed < cars || all == 0 ? std::nullopt : std::optional(live_.moment.agents[live_.followed - cars].id);
+      followed_agent_ = live_.followed < cars || all == 0 ? std::nullopt : std::optional(live_.moment.agents[live_.followed - cars].id);
       return true;
     }
     case SDLK_h: help_ = !help_; return true;
@@ -98,7 +101,20 @@ bool Screen::TakeMouse(const SDL_Event& event, bool driven) {
     live_.aim.Zoom(std::pow(kZoom, -event.wheel.y));
     return true;
   }
-  const bool turns = event.type == SDL_MOUSEMOTION && !driven && (event.motion.state & SDL_BUTTON_LMASK) != 0;
+  if (driven) return false;
+  if (event.type == SDL_MOUSEBUTTONDOWN && event.button.button == SDL_BUTTON_LEFT) {
+    dragged_px_ = 0;
+    return false;
+  }
+  if (event.type == SDL_MOUSEBUTTONUP && event.button.button == SDL_BUTTON_LEFT && dragged_px_ <= kClick_px) {
+    // Nobody who is looked at from the driver's seat sits in its own way.
+    const bool inside = live_.camera == scene::CameraKind::kDriver || live_.camera == scene::CameraKind::kBonnet;
+    const scene::Ray ray = scene::RayAt(painter_->CameraOf(live_), {event.button.x, event.button.y}, surface_->width_px(), surface_->height_px());
+    chosen_.Choose(live_.moment, scene::BodyOn(live_.moment, ray, inside ? std::optional(live_.followed) : std::nullopt));
+    return true;
+  }
+  if (event.type == SDL_MOUSEMOTION && (event.motion.state & SDL_BUTTON_LMASK) != 0) dragged_px_ += std::abs(event.motion.xrel) + std::abs(event.motion.yrel);
+  const bool turns = event.type == SDL_MOUSEMOTION && (event.motion.state & SDL_BUTTON_LMASK) != 0;
   if (!turns) return false;
   live_.aim.Turn(kTurn_rad * event.motion.xrel, kTurn_rad * event.motion.yrel);
   return true;
@@ -107,14 +123,14 @@ bool Screen::TakeMouse(const SDL_Event& event, bool driven) {
 // A car of the traffic that has left is followed no more.
 void Screen::Follow() {
   const std::size_t cars = live_.moment.cars.size();
-  if (chosen_agent_) {
+  if (followed_agent_) {
     const auto& agents = live_.moment.agents;
-    const auto found = std::find_if(agents.begin(), agents.end(), [&](const scene::AgentPose& agent) { return agent.id == *chosen_agent_; });
+    const auto found = std::find_if(agents.begin(), agents.end(), [&](const scene::AgentPose& agent) { return agent.id == *followed_agent_; });
     if (found != agents.end()) {
       live_.followed = cars + static_cast<std::size_t>(found - agents.begin());
       return;
     }
-    chosen_agent_.reset();
+    followed_agent_.reset();
     live_.followed = 0;
   }
   if (live_.followed >= cars) live_.followed = 0;
@@ -140,6 +156,8 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
   live_.moment = std::move(moment);
   live_.timeline = std::move(timeline);
   Follow();
+  live_.chosen = chosen_.In(live_.moment);
+  live_.panel = chosen_.Panel(live_.moment);
   live_.text = help_ ? help_text_ : "";
   if (statistics_) {
     live_.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", help_ ? "\n\n" : "", 1.0 / interval_s_,

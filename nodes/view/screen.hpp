@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/base/result.hpp"
+#include "nodes/view/chosen.hpp"
 #include "nodes/view/painter.hpp"
 #include "nodes/view/speaker.hpp"
 #include "nodes/view/surface.hpp"
@@ -30,7 +31,7 @@ class Screen {
   // `driven`: somebody drives by this window, and s is the brake.
   bool TakeKey(int symbol, bool driven);
   // The wheel brings free cameras nearer and farther; the left button, held, turns the one about the car, where the mouse's
-  // buttons do not drive. False where nothing changed.
+  // buttons do not drive; there a click chooses the vehicle that is seen at its place, or nobody. False where nothing changed.
   bool TakeMouse(const SDL_Event& event, bool driven);
   // Draws the moment as the person wishes to see it, and shows it. `rate`: simulated seconds a second, for the statistics.
   void Show(scene::Moment moment, double rate, std::optional<Timeline> timeline = std::nullopt);
@@ -48,7 +49,9 @@ class Screen {
   void Follow();  // whom the person chose, wherever it stands among the others now
 
   Picture live_;  // camera, followed car as the person chose
-  std::optional<std::uint64_t> chosen_agent_;  // of the traffic
+  std::optional<std::uint64_t> followed_agent_;  // of the traffic
+  Chosen chosen_;
+  int dragged_px_ = 0;  // since the left button went down
   static constexpr std::array<bool, scene::kMirrors> kNoMirrors{};
   std::array<bool, scene::kMirrors> mirrors_ = {true, true, true};  // those that the key brings back
   bool picture_wanted_ = false;
