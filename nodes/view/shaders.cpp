@@ -49,6 +49,34 @@ vec3 Look() {
   float wear = texture2D(noise, ground / 16.0).g;
   return gl_Color.rgb * light * (0.80 + 0.24 * grain + 0.16 * wear);
 })";
+    // Slabs are even and pale, with pores and large soft stains.
+    case scene::Material::kConcrete: return R"(
+uniform sampler2D noise;
+vec3 Look() {
+  float pores = smoothstep(0.30, 0.42, texture2D(noise, ground / 1.5).r);
+  float stains = texture2D(noise, ground / 24.0).g;
+  return gl_Color.rgb * light * (0.78 + 0.10 * pores + 0.26 * stains);
+})";
+    // Stones of some centimetres, each of its own grey, dark between them.
+    case scene::Material::kGravel: return R"(
+uniform sampler2D noise;
+vec3 Look() {
+  float stones = texture2D(noise, ground / 2.0).r + 0.6 * texture2D(noise, ground * 1.7 / 2.0 + 0.31).r;
+  float wear = texture2D(noise, ground / 16.0).g;
+  return gl_Color.rgb * light * (0.50 + 0.85 * smoothstep(0.45, 1.15, stones) + 0.14 * wear);
+})";
+    case scene::Material::kPicture: return R"(
+uniform sampler2D noise;
+uniform sampler2D face;
+uniform float repeats;
+varying vec2 on_face;
+vec3 Look() {
+  vec2 beyond = abs(on_face - 0.5);
+  float there = max(repeats, 1.0 - step(0.5, max(beyond.x, beyond.y)));
+  float near = texture2D(noise, ground / 4.0).r + texture2D(noise, ground / 32.0).g;
+  vec3 bare = gl_Color.rgb * (0.62 + 0.38 * near);
+  return mix(bare, texture2D(face, on_face).rgb, there) * light;
+})";
     case scene::Material::kMark: return R"(
 uniform sampler2D noise;
 vec3 Look() {
