@@ -48,6 +48,7 @@ World::World(WorldSpec spec)
                spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)])},
       network_(spec.network),
       detail_(spec.detail),
+      ground_picture_(spec.ground_picture),
       friction_(spec.friction),
       start_(spec.start),
       content_hash_(ContentHash(spec)) {
@@ -58,6 +59,7 @@ World::World(WorldSpec spec)
     network_ = AsNetwork(spec, roads_);
   } else if (open_drive()) {
     grounds_ = LaneGrounds(*network_, friction_);
+    paint_ = std::make_shared<const MarkPaint>(network_);
   } else if (network_ != nullptr) {
     built_ = std::make_shared<const BuiltGround>(network_, spec.junctions, friction_, detail_ == nullptr ? SurfaceDetail() : *detail_, terrain_);
   }
@@ -80,7 +82,7 @@ std::unique_ptr<terrain::Ground> World::MakeGround() const { return std::make_un
 base::Digest World::measured_digest() const { return detail_ == nullptr ? 0 : detail_->digest(); }
 
 SurfacePoint World::At(double x_m, double y_m, double z_hint_m) const {
-  if (open_drive()) return NetworkGround(*network_, grounds_, friction_, x_m, y_m, z_hint_m, detail_.get());
+  if (open_drive()) return NetworkGround(*network_, grounds_, friction_, x_m, y_m, z_hint_m, paint_.get(), detail_.get());
   if (built_ != nullptr) return built_->At(x_m, y_m, z_hint_m);
   SurfacePoint point = TerrainAt(x_m, y_m);
   for (const Road& road : roads_) {
