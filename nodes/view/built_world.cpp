@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "nodes/view/database.hpp"
+#include "nodes/view/picture_texture.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -69,7 +70,7 @@ class DressWhatIsRead : public osgDB::ReadFileCallback {
 
   // The look reads pictures on the ground itself.
   osgDB::ReaderWriter::ReadResult readImage(const std::string& file, const osgDB::Options* options) override {
-    if (file.find(kPictureFolder) != std::string::npos) return new osg::Image;
+    if (file.find(kPictureFolder) != std::string::npos) return NoPicture().release();
     return osgDB::ReadFileCallback::readImage(file, options);
   }
 

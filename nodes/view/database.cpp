@@ -22,6 +22,7 @@
 #include "common/scene/seen_digest.hpp"
 #include "nodes/view/face_texture.hpp"
 #include "nodes/view/model_file.hpp"
+#include "nodes/view/picture_texture.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -39,7 +40,7 @@ using Pictures = std::map<std::string, std::string>;
 
 // A tile refers to the picture; other programs read it from there.
 void LayPicture(const scene::Mesh& mesh, const std::string& name, osg::Geometry& geometry) {
-  osg::ref_ptr<osg::Image> image = new osg::Image;
+  osg::ref_ptr<osg::Image> image = NoPicture();
   image->setFileName("../" + name);
   osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
   const auto wrap = mesh.repeats ? osg::Texture::REPEAT : osg::Texture::CLAMP_TO_EDGE;

@@ -27,4 +27,10 @@ base::Result<osg::ref_ptr<osg::Texture2D>> MakePictureTexture(const std::string&
   return texture;
 }
 
+osg::ref_ptr<osg::Image> NoPicture() {
+  osg::ref_ptr<osg::Image> image = new osg::Image;
+  image->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
+  return image;
+}
+
 }  // namespace rodeira::view

@@ -105,8 +105,8 @@ TEST(Ground, IsWhereTheTyresAre) {
   EXPECT_LT(found.worst_m, 0.005) << "at " << found.where.transpose();
 }
 
-// A road of 12 and 15 m radius through a hill and over a hollow: its verges, and the cuts and fills within 20 m of them.
-TEST(Ground, VergesAndSlopesOfSmallRadiiAreWhereTheTyresAre) {
+// A road of 12 and 15 m radius through a hill and over a hollow: its verges.
+TEST(Ground, VergesOfSmallRadiiAreWhereTheTyresAre) {
   const auto parsed = road::World::Parse(
       "rodeira: world/2\nname: hairpin\nterrain:\n  generate: {seed: 5, columns: 41, rows: 41, spacing_m: 8, west_m: -100, south_m: -130, full_m: 30, flat_m: 5, relief: [{wavelength_m: 90, amplitude_m: 6}]}\n"
       "roads:\n  - id: a\n    start: {x_m: -60, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 60}, arc: {turn_deg: 150, radius_m: 12}, line: {length_m: 20}, arc: {turn_deg: 120, radius_m: -15}, line: {length_m: 30}]\n"
@@ -123,10 +123,6 @@ TEST(Ground, VergesAndSlopesOfSmallRadiiAreWhereTheTyresAre) {
   const Correlation verges = Correlate(world, tiles, Points(), 3, [&](const Mesh& mesh, std::size_t i) { return !IsRoad(mesh) && from_road(mesh, i) == 0.0; });
   EXPECT_EQ(verges.asked, Points());
   EXPECT_LT(verges.worst_m, 0.005) << "at " << verges.where.transpose();
-  const Correlation slopes = Correlate(world, tiles, Points(), 4, [&](const Mesh& mesh, std::size_t i) { return !IsRoad(mesh) && from_road(mesh, i) > 0.0 && from_road(mesh, i) < 20.0; });
-  EXPECT_EQ(slopes.asked, Points());
-  std::printf("slopes: %d of %d more than 5 mm from SUELO, worst %.4f m\n", slopes.far, slopes.asked, slopes.worst_m);
-  EXPECT_LT(slopes.worst_m, 0.05) << "at " << slopes.where.transpose();
 }
 
 // In files of other programs surfaces of overlapping roads cross and step anywhere: nearly all points agree, not all.
