@@ -8,6 +8,7 @@
 
 #include "common/hands/key_names.hpp"
 #include "common/launch/live_keys.hpp"
+#include "nodes/view/heard.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -52,6 +53,12 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   (void)screen->painter_->Read();
   screen->help_text_ = std::move(help);
   screen->live_ = PictureOf(settings, {});
+  if (kind == SurfaceKind::kWindow && settings.sound) {
+    auto speaker = Speaker::Open();
+    if (speaker) screen->speaker_ = std::move(speaker).value();
+    else fmt::print(stderr, "rodeira: no sound: {}\n", speaker.error().Text());
+    screen->volume_ = settings.volume;
+  }
   if (settings.mirrors != screen->kNoMirrors) screen->mirrors_ = settings.mirrors;
   return screen;
 }
@@ -69,6 +76,7 @@ bool Screen::TakeKey(int symbol, bool driven) {
     }
     case SDLK_h: help_ = !help_; return true;
     case SDLK_F4: live_.mirrors = live_.mirrors == kNoMirrors ? mirrors_ : kNoMirrors; return true;
+    case SDLK_F5: muted_ = !muted_; return true;
     case SDLK_F3: statistics_ = !statistics_; return true;
     case SDLK_s:
       if (driven) return false;
@@ -116,6 +124,8 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
     live_.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", help_ ? "\n\n" : "", 1.0 / interval_s_,
                               frame_s_ * 1e3, rate, surface_->renderer());
   }
+  // In slow motion it is fainter, and silent where time stands.
+  if (speaker_) speaker_->Play(HeardBy(live_.moment, live_.followed, muted_ ? 0.0 : volume_ * std::min(std::fabs(rate), 1.0)), interval_s_);
   painter_->Draw(live_);
   surface_->Swap();
   const double end_s = launch::WallSeconds();

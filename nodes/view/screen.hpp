@@ -8,6 +8,7 @@
 
 #include "common/base/result.hpp"
 #include "nodes/view/painter.hpp"
+#include "nodes/view/speaker.hpp"
 #include "nodes/view/surface.hpp"
 #include "nodes/view/view_settings.hpp"
 
@@ -39,6 +40,9 @@ class Screen {
 
   std::unique_ptr<Surface> surface_;
   std::unique_ptr<Painter> painter_;  // before its surface in dying
+  std::unique_ptr<Speaker> speaker_;  // null: nothing is heard
+  double volume_ = 0.0;
+  bool muted_ = false;
   std::string help_text_;
   void Follow();  // whom the person chose, wherever it stands among the others now
 
