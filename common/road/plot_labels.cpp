@@ -26,9 +26,11 @@ std::string EscapedText(std::string_view text) {
 
 bool PlotLabels::IsFree(const Box& box) const {
   if (box.low.x() < 0.0 || box.low.y() < 0.0 || box.high.x() > width_ || box.high.y() > height_) return false;
-  return std::none_of(taken_.begin(), taken_.end(), [&](const Box& other) {
-    return (box.low.array() < other.high.array() + kRoom).all() && (other.low.array() < box.high.array() + kRoom).all();
-  });
+  return std::none_of(taken_.begin(), taken_.end(), [&](const Box& other) { return Touch(box, other); });
+}
+
+bool PlotLabels::Touch(const Box& a, const Box& b) {
+  return (a.low.array() < b.high.array() + kRoom).all() && (b.low.array() < a.high.array() + kRoom).all();
 }
 
 bool PlotLabels::Keep(const Eigen::Vector2d& corner, const Eigen::Vector2d& size) {
@@ -42,13 +44,17 @@ bool PlotLabels::Put(const Eigen::Vector2d& point, double gap, double size, cons
   const double wide = kWide * size * static_cast<double>(Letters(text)), high = (kAbove + kBelow) * size;
   // Where the box's middle lies, in halves of its size and in gaps.
   static constexpr std::array<std::array<double, 2>, 8> kSides = {{{1, 0}, {-1, 0}, {0, -1}, {0, 1}, {1, -1}, {1, 1}, {-1, -1}, {-1, 1}}};
-  for (const auto& [x, y] : kSides) {
-    const Eigen::Vector2d middle = point + Eigen::Vector2d(x * (0.5 * wide + gap), y * (0.5 * high + gap));
-    const Eigen::Vector2d corner = middle - 0.5 * Eigen::Vector2d(wide, high);
-    if (!Keep(corner, {wide, high})) continue;
-    svg_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-family=\"sans-serif\" font-size=\"{}\" fill=\"{}\">{}</text>\n", corner.x(), corner.y() + kAbove * size, size, colour,
-                        EscapedText(text));
-    return true;
+  for (const bool beside : {true, false}) {  // beside all that is to be avoided, or else anywhere
+    for (const auto& [x, y] : kSides) {
+      const Eigen::Vector2d middle = point + Eigen::Vector2d(x * (0.5 * wide + gap), y * (0.5 * high + gap));
+      const Eigen::Vector2d corner = middle - 0.5 * Eigen::Vector2d(wide, high);
+      const Box box{corner, corner + Eigen::Vector2d(wide, high)};
+      if (beside && std::any_of(avoided_.begin(), avoided_.end(), [&](const Box& other) { return Touch(box, other); })) continue;
+      if (!Keep(corner, {wide, high})) continue;
+      svg_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-family=\"sans-serif\" font-size=\"{}\" fill=\"{}\">{}</text>\n", corner.x(), corner.y() + kAbove * size, size,
+                          colour, EscapedText(text));
+      return true;
+    }
   }
   return false;
 }

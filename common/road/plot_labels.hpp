@@ -22,16 +22,20 @@ class PlotLabels {
   // Keeps a rectangle clear that begins at its upper left corner; false, and nothing kept, where it is taken.
   bool Keep(const Eigen::Vector2d& corner, const Eigen::Vector2d& size);
 
+  // Words stand on a square about this point only where there is no other room for them; what is kept may.
+  void Avoid(const Eigen::Vector2d& point, double half) { avoided_.push_back({point - Eigen::Vector2d::Constant(half), point + Eigen::Vector2d::Constant(half)}); }
+
   const std::string& svg() const { return svg_; }
 
  private:
   struct Box {
     Eigen::Vector2d low, high;
   };
+  static bool Touch(const Box& a, const Box& b);
   bool IsFree(const Box& box) const;
 
   double width_, height_;
-  std::vector<Box> taken_;
+  std::vector<Box> taken_, avoided_;
   std::string svg_;
 };
 

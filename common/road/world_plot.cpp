@@ -158,6 +158,10 @@ class Writer {
     for (RoadChain& chain : ChainsOf(network_)) {
       if (chain.length_m * view.scale >= 12.0) chains_.push_back(std::move(chain));
     }
+    for (const network::Road& road : network_.roads()) {
+      const double half = std::max(1.0, 0.5 * PavedWidth(road) * view.scale), step = std::max(1.0, half / view.scale);
+      for (double s = 0.0; s <= road.length_m(); s += step) labels_.Avoid(OnPicture(road.axis().Evaluate(s).p_W), half);
+    }
   }
 
   std::string Write() {
