@@ -61,6 +61,8 @@ scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, 
   car.gear = message.gear();
   car.engine_rpm = message.engine_speed_radps() * 30.0 / std::numbers::pi;
   car.fuel_l = message.fuel_kg() / kPetrol_kgpl;
+  car.fuel_lph = 3600.0 * Double(message.fuel_rate_kgps()) / kPetrol_kgpl;
+  car.odometer_m = message.odometer_m();
   car.steering_wheel_rad = message.steering_wheel_rad();
   car.throttle = std::clamp(Double(message.throttle()), 0.0, 1.0);
   car.sliding = Sliding(message);
