@@ -10,6 +10,7 @@
 #include "common/base/state.hpp"
 #include "common/driver/footprint.hpp"
 #include "common/driver/way.hpp"
+#include "common/lanes/edge_marks.hpp"
 #include "common/lanes/zones.hpp"
 #include "common/road/world.hpp"
 #include "common/traffic/agent.hpp"
@@ -22,8 +23,8 @@ namespace rodeira::traffic {
 // speed that limits, bends and crests allow, and enters a stretch that other ways cross only when all of it up to the next
 // place to stand is its own (docs/traffic.md). A car that reaches the end of its last lane leaves and enters again, by lot,
 // where traffic enters the network, as soon as there is a safe gap: their number never changes, and nobody is moved or
-// removed elsewhere. They see other vehicles (the driver's car) by their rectangles, wherever they are. They do not change
-// lanes but where one ends. Nothing here depends on order of arrival, threads or the clock: the state is Save's, and each
+// removed elsewhere. They see other vehicles (the driver's car) by their rectangles, wherever they are. On roads
+// of several lanes they change lanes where that brings them on (MOBIL). Nothing here depends on order of arrival, threads or the clock: the state is Save's, and each
 // step is a function of it and of `others`.
 class TrafficModel {
  public:
@@ -68,6 +69,7 @@ class TrafficModel {
     std::shared_ptr<const network::Network> network;
     lanes::Graph graph;
     lanes::Zones zones;
+    lanes::EdgeMarks marks;
     std::vector<TrackPlan> plans;  // by track
     std::vector<std::uint32_t> entries;
 
@@ -77,6 +79,7 @@ class TrafficModel {
   struct Stretch {
     std::uint32_t track = 0;
     double zero_m = 0.0, begin_m = 0.0, end_m = 0.0;
+    bool changes = false;  // goes over to the lane beside at its end
   };
   // Somebody on a track, in its own d, which may lie beyond its ends.
   struct Occupant {
@@ -96,6 +99,22 @@ class TrafficModel {
     double speed_mps = 0.0;
     std::int64_t id = -1;  // of an agent
     bool any = false;
+  };
+  // Who follows, on a track and up to a place on it.
+  struct Behind {
+    double gap_m = 1e9;
+    double speed_mps = 0.0;
+    std::int64_t id = -1;  // of an agent
+    std::uint32_t track = 0;
+    double d_m = 0.0;      // of its front
+    bool any = false;
+  };
+  // A change to the lane beside that could begin now, and the way then.
+  struct Sideways {
+    Piece piece;
+    int side = 0;
+    double surplus_mps2 = 0.0;  // by which it is worth while
+    std::vector<Stretch> stretches;
   };
   struct Crossing {
     std::int64_t zone = -1;  // none: only a STOP line
@@ -143,6 +162,22 @@ class TrafficModel {
   Ahead FindAhead(std::uint32_t id) const;
   std::size_t DrawLink(const Agent& agent, std::uint32_t id, std::uint32_t track, std::uint32_t link) const;
   double SightOf(const Agent& agent) const;
+
+  // Changes to the lane beside.
+  void ChangeLanes(std::int64_t step_ns);
+  std::optional<Sideways> Weigh(std::uint32_t id, int side);
+  std::optional<Piece> PieceBeside(std::uint32_t id, int side) const;
+  bool IsPlain(std::uint32_t id, double from_m, double to_m) const;
+  bool MayCross(std::uint32_t id, int side, double from_m, double to_m) const;
+  double LaneEnds(std::uint32_t id) const;
+  Behind FindBehind(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const;
+  double FollowerDoes(const Behind& behind, bool any, double gap_m, double leader_mps) const;
+  double Following(std::uint32_t id, double limit_mps, bool any, double gap_m, double leader_mps) const;
+  double Limit_mps(std::uint32_t id, std::uint32_t track, double d_m) const;
+  void BeginChange(std::uint32_t id, Sideways&& way);
+  void Appear(std::uint32_t track, const Occupant& occupant);
+  void AppearOnLaneLeft(std::uint32_t id);
+  std::optional<std::uint32_t> LaneLeft(std::uint32_t id, const Stretch& stretch, double odometer_m) const;
 
   // Right of way.
   void Arbitrate(double dt_s);

@@ -65,6 +65,12 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.speed.braking_mps2 = comfort.Number("braking_mps2", {0.3, 6.0}, t.speed.braking_mps2);
   t.speed.steep_grade = comfort.Number("steep_grade", {0.0, 1.0}, t.speed.steep_grade);
   t.speed.steep_factor = comfort.Number("steep_factor", {0.2, 1.0}, t.speed.steep_factor);
+  const config::Map change = map.OptionalChild("lane_changes");
+  t.changes_lanes = change.Flag("allowed", t.changes_lanes);
+  t.lane_changes.politeness = change.Number("politeness", {0.0, 1.0}, t.lane_changes.politeness);
+  t.lane_changes.threshold_mps2 = change.Number("threshold_mps2", {0.0, 2.0}, t.lane_changes.threshold_mps2);
+  t.lane_changes.bias_mps2 = change.Number("bias_mps2", {0.0, 2.0}, t.lane_changes.bias_mps2);
+  t.lane_changes.safe_mps2 = change.Number("safe_mps2", {0.5, 8.0}, t.lane_changes.safe_mps2);
   return t;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "common/lanes/signs.hpp"
+#include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
 
@@ -54,6 +55,13 @@ TEST(NetworkTraffic, DrivesTheRealFiles) {
     const bool large = file.filename() == "carla_Town04.xodr";
     Behaves(file.filename(), opendrive::LoadNetwork(file).value(), large ? 100 : 25, 1);
   }
+}
+
+// Two lanes of each direction: they pass one another on the motorway, and nothing else happens than on any road.
+TEST(NetworkTraffic, DrivesTheMotorway) {
+  const auto world = road::World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/motorway.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  Behaves("motorway", NetworkOf(world.value()), 150, 2);
 }
 
 // More cars than the town bears without queues that reach back into the next junction: it goes on, and everybody with it.
