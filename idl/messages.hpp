@@ -15,4 +15,5 @@
 #include "traffic.h"
 #include "trigger.h"
 #include "vehicle.h"
+#include "weather.h"
 #include "world.h"

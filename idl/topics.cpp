@@ -14,6 +14,7 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kTrafficState, "rodeira::msg::TrafficState", "traffic", true},
       {topics::kSignalsState, "rodeira::msg::SignalsState", "signals", true},
       {topics::kScenarioEvents, "rodeira::msg::ScenarioEvents", "scenario", true},
+      {topics::kWeatherState, "rodeira::msg::WeatherState", "weather", true},
       {topics::kSnapshot, "rodeira::msg::Snapshot", "snapshot", true},
       {topics::kPulse, "rodeira::msg::Pulse", "pulse", true},
       {topics::kParcels, "rodeira::msg::Parcel", "parcel", false},

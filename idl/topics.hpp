@@ -16,6 +16,7 @@ inline constexpr std::string_view kCollisions = "rodeira/collisions";
 inline constexpr std::string_view kTrafficState = "rodeira/traffic_state";
 inline constexpr std::string_view kSignalsState = "rodeira/signals_state";
 inline constexpr std::string_view kScenarioEvents = "rodeira/scenario_events";
+inline constexpr std::string_view kWeatherState = "rodeira/weather_state";
 inline constexpr std::string_view kPulse = "rodeira/pulse";
 inline constexpr std::string_view kSnapshot = "rodeira/snapshot";
 inline constexpr std::string_view kParcels = "rodeira/parcels/";  // and the name of the node that they are for

@@ -11,6 +11,7 @@
 #include "launch/doctor.hpp"
 #include "launch/export_command.hpp"
 #include "launch/info_command.hpp"
+#include "launch/input_command.hpp"
 #include "launch/joysticks_command.hpp"
 #include "launch/map_command.hpp"
 #include "launch/mechanism_command.hpp"
@@ -223,6 +224,15 @@ void AddVehicle(CLI::App& app, VehicleOptions& options) {
   test->callback([&options] { options.asked = true; });
 }
 
+void AddInput(CLI::App& app, InputOptions& options) {
+  CLI::App* input = app.add_subcommand("input", "steering wheels and pedals");
+  input->require_subcommand(1);
+  CLI::App* setup = input->add_subcommand("setup", "find out what turns and what is pressed, by moving it, and write a wheel file");
+  setup->add_option("-o,--out", options.out, "wheel file; otherwise one in the user's configuration, by the device's GUID");
+  setup->add_option("--lock-deg", options.lock_deg, "angle of the car's steering wheel at the device's end, from straight ahead")->check(CLI::Range(10.0, 1800.0));
+  setup->callback([&options] { options.asked = true; });
+}
+
 void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
   CLI::App* joysticks = app.add_subcommand("joysticks", "wheels and joysticks that are plugged in, with their GUIDs");
   CLI::Option* watch = joysticks->add_flag("--watch", options.watch, "say which axis and button moves");
@@ -301,6 +311,8 @@ int Main(int argc, char** argv) {
   AddDoctor(app, doctor);
   JoysticksOptions joysticks;
   AddJoysticks(app, joysticks);
+  InputOptions input;
+  AddInput(app, input);
   CtlOptions ctl_options;
   const CLI::App* ctl = AddCtl(app, ctl_options);
   RecordingOptions recording;
@@ -322,6 +334,7 @@ int Main(int argc, char** argv) {
   if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);
+  if (input.asked) return SetUpInput(input);
   if (ctl->parsed()) return Ctl(ctl_options);
   if (app.got_subcommand("info")) return Info(recording.info_file);
   if (app.got_subcommand("export")) return Export(recording.exported);

@@ -5,20 +5,12 @@
 
 #include "common/geometry/clothoid.hpp"
 #include "common/geometry/plane.hpp"
+#include "common/geometry/small_arc_tangent.hpp"
 
 namespace rodeira::geometry {
 namespace {
 
 constexpr double kLastStep_m = 1e-7;
-
-// An arc tangent by its power series, to the last bit or the one before it; a panel of an arc turns by half a radian at most.
-constexpr double kSmallTangent = 0.13;
-double SmallArcTangent(double x) {
-  const double q = x * x, q2 = q * q;
-  const double high = (1.0 / 9.0 - q / 11.0) + q2 * ((1.0 / 13.0 - q / 15.0) + q2 * (1.0 / 17.0));
-  const double low = (-1.0 / 3.0 + q / 5.0) + q2 * (-1.0 / 7.0 + q * high);
-  return x + x * q * low;
-}
 
 PlanPoint ArcAt(const AxisPanel& panel, double u_m) {
   const double turned = panel.curvature_1pm * u_m;

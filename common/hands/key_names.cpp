@@ -68,6 +68,7 @@ constexpr std::array kWindow = std::to_array<WindowKey>({
     {43, "tab", "next car, then the traffic's"},
     {9, "f", "full screen"},
     {60, "f3", "statistics"},
+    {61, "f4", "mirrors"},
     {11, "h", "this help"},
     {41, "escape", "close the window (the run goes on)"},
     {44, "space", ""},

@@ -1,20 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <numbers>
 
 #include "common/base/suggest.hpp"
 #include "common/hands/wheel_driver.hpp"
+#include "common/hands/wheel_names.hpp"
 
 namespace rodeira::hands {
 namespace {
 
-constexpr std::array<const char*, kWheelAxes> kAxisNames{"steering", "throttle", "brake", "clutch", "handbrake", "pedals"};
-constexpr std::array<const char*, kWheelButtons> kButtonNames{"gear_up", "gear_down", "gearbox_mode",
-                                                              "clutch",  "handbrake", "starter"};
 constexpr const char* kNoGuid = "'{}' is '{}'; a GUID of 32 hexadecimal digits was expected, as `rodeira joysticks` lists them";
 
 std::vector<DeviceUse> ReadDevices(const config::Map& map) {

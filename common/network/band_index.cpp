@@ -146,6 +146,26 @@ std::span<const std::uint32_t> BandIndex::Around(const Eigen::Vector2d& p_W) con
   return std::span(cell_bands_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
 }
 
+std::optional<std::uint32_t> BandIndex::OnlyOne(const Eigen::Vector2d& low_W, const Eigen::Vector2d& high_W) const {
+  const Eigen::Vector2d size = high_W - low_W, middle = low_W + 0.5 * size;
+  if (!(size.x() <= kWidest_m && size.y() <= kWidest_m)) return std::nullopt;
+  const double radius = 0.5 * size.norm() + kSlack_m;
+  std::optional<std::uint32_t> only;
+  // A cell is wider than the box: what holds some of it is known in a corner's cell.
+  for (const Eigen::Vector2d& corner : {low_W, high_W, Eigen::Vector2d(low_W.x(), high_W.y()), Eigen::Vector2d(high_W.x(), low_W.y())}) {
+    for (const std::uint32_t index : Around(corner)) {
+      if (only == index) continue;
+      const Band& band = bands_[index];
+      const Eigen::Vector2d away = middle - band.centre_W;
+      const double ahead = std::fabs(away.dot(band.along_W)), aside = std::fabs(geometry::Cross(band.along_W, away));
+      if (ahead > band.half_along_m + radius || aside > band.half_across_m + radius) continue;
+      if (only || ahead > band.half_along_m - radius || aside > band.half_across_m - radius) return std::nullopt;
+      only = index;
+    }
+  }
+  return only;
+}
+
 std::uint32_t BandIndex::BuildTree(std::uint32_t first, std::uint32_t last, std::span<const Eigen::Vector2d> low,
                                    std::span<const Eigen::Vector2d> high) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,10 @@ class BandIndex {
   Eigen::Vector2d high_W() const { return nodes_.empty() ? Eigen::Vector2d::Zero() : nodes_[0].high; }
   // Every band whose rectangle holds (x, y), and maybe others; ascending.
   std::span<const std::uint32_t> Around(const Eigen::Vector2d& p_W) const;
+  // The one band whose rectangle holds all of a box that is no wider than kWidest_m, where no other band holds any of it; otherwise
+  // nothing, and maybe nothing too where a band's edge is near.
+  static constexpr double kWidest_m = 2.0;
+  std::optional<std::uint32_t> OnlyOne(const Eigen::Vector2d& low_W, const Eigen::Vector2d& high_W) const;
 
   // Visits bands in an order that depends on the point alone, and leaves out those that are farther than `best`, which
   // visit(band) may lower.

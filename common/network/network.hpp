@@ -16,6 +16,8 @@
 
 namespace rodeira::network {
 
+struct Cluster;
+
 // A lane of one lane section: indices into Network::roads() and RoadSpec::sections, and the lane's id.
 struct LaneKey {
   std::uint32_t road = 0;
@@ -112,6 +114,10 @@ class Network {
   std::optional<Place> LocateSlowly(double x_m, double y_m, std::optional<double> z_m = std::nullopt) const;
   // Every road's surface at (x, y), from the highest to the lowest.
   void Surfaces(double x_m, double y_m, std::vector<Surfacing>& surfaces) const;
+
+  // The same of points close to one another, where one road's surface alone lies at all of them, and no other road is near: to the bit what
+  // Surfaces says of each. False, and then nothing is known, where that is not so, or not told so quickly.
+  bool Together(Cluster& cluster) const;
 
   // Visits the panels of all roads whose lanes may lie within reach_m of (x, y): visit(road, panel of its axis).
   template <class Visit>

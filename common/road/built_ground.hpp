@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "common/design/junction_surface.hpp"
@@ -24,8 +25,13 @@ class BuiltGround {
               BareTerrain terrain);
 
   SurfacePoint At(double x_m, double y_m, double z_hint_m) const;
+  // The same of points close to one another, where they lie on one road alone, whose surface then answers whatever the hints: to the bit
+  // what At says of each. False, and then nothing is written, where that is not so or not told so quickly. Spans of equal length, of
+  // Cluster::kMost at most.
+  bool Together(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) const;
 
  private:
+  bool OneRoadAlone(const network::Cluster& cluster) const;
   SurfacePoint OnRoad(const network::Surfacing& surfacing) const;
   SurfacePoint OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W) const;
 

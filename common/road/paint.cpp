@@ -38,11 +38,26 @@ Paint::Paint(const network::Network& network) {
   }
 }
 
+std::size_t Paint::Lines::StretchAt(double s_m) const {
+  return std::min(static_cast<std::size_t>(std::max(0.0, s_m / kStretch_m)), by_stretch.size() - 1);
+}
+
+bool Paint::MayBe(std::uint32_t road, double low_s_m, double high_s_m, double low_t_m, double high_t_m) const {
+  const Lines& lines = roads_[road];
+  if (lines.by_stretch.empty()) return false;
+  for (std::size_t stretch = lines.StretchAt(low_s_m); stretch <= lines.StretchAt(high_s_m); ++stretch) {
+    for (const std::uint32_t number : lines.by_stretch[stretch]) {
+      const Line& line = lines.lines[number];
+      if (high_t_m >= line.low_t_m && low_t_m <= line.high_t_m && high_s_m >= line.from_s_m && low_s_m <= line.to_s_m) return true;
+    }
+  }
+  return false;
+}
+
 bool Paint::At(std::uint32_t road, double s_m, double t_m) const {
   const Lines& lines = roads_[road];
   if (lines.by_stretch.empty()) return false;
-  const auto stretch = std::min(static_cast<std::size_t>(std::max(0.0, s_m / kStretch_m)), lines.by_stretch.size() - 1);
-  for (const std::uint32_t number : lines.by_stretch[stretch]) {
+  for (const std::uint32_t number : lines.by_stretch[lines.StretchAt(s_m)]) {
     const Line& line = lines.lines[number];
     if (t_m < line.low_t_m || t_m > line.high_t_m) continue;
     if (s_m < line.from_s_m || s_m > line.to_s_m || std::fabs(t_m - line.t->Value(s_m)) > line.half_width_m) continue;

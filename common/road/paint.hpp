@@ -14,6 +14,8 @@ class Paint {
   explicit Paint(const network::Network& network);
 
   bool At(std::uint32_t road, double s_m, double t_m) const;
+  // False: nothing is painted anywhere between these.
+  bool MayBe(std::uint32_t road, double low_s_m, double high_s_m, double low_t_m, double high_t_m) const;
 
  private:
   struct Line {
@@ -25,6 +27,8 @@ class Paint {
   struct Lines {
     std::vector<Line> lines;
     std::vector<std::vector<std::uint32_t>> by_stretch;  // of kStretch_m
+
+    std::size_t StretchAt(double s_m) const;
   };
   std::vector<Lines> roads_;
 };

@@ -23,6 +23,7 @@ class SurfaceDetail {
   static base::Result<SurfaceDetail> Load(const network::Network& network, const std::filesystem::path& folder);
 
   bool empty() const { return roads_.empty(); }
+  bool On(std::uint32_t road) const { return !roads_.empty() && !roads_[road].empty(); }
   // Of every number of the measured surfaces; how they are laid is the network's. 0: there are none.
   base::Digest digest() const { return digest_; }
   // What stands over the road at (s, t) between its outermost edges, added to the sample. Over the first and last metre of a

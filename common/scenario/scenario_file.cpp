@@ -62,7 +62,9 @@ Scenario ReadScenario(const config::Map& root, const Timing& timing) {
   Scenario scenario;
   (void)root.Choice("rodeira", {"scenario/1"});
   (void)root.Text("name", "");
-  const config::List events = root.Items("events");
+  scenario.weather = weather::ReadWeather(root.OptionalItems("weather"));
+  // One with weather only needs no events.
+  const config::List events = root.Has("weather") ? root.OptionalItems("events") : root.Items("events");
   for (std::size_t i = 0; i < events.size(); ++i) {
     const config::Map map = events.At(i);
     Event event = ReadEvent(map);

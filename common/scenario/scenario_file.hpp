@@ -8,6 +8,7 @@
 #include "common/base/result.hpp"
 #include "common/config/config.hpp"
 #include "common/scenario/event.hpp"
+#include "common/weather/weather_plan.hpp"
 
 namespace rodeira::scenario {
 
@@ -35,8 +36,7 @@ struct ConditionalEvent {
 struct Scenario {
   std::vector<ScheduledEvent> scheduled;  // by step, then as they stand in the file
   std::vector<ConditionalEvent> conditional;
-
-  bool empty() const { return scheduled.empty() && conditional.empty(); }
+  weather::WeatherPlan weather;
 };
 
 // Problems stay in the file's collection: a time that is no multiple of the period or before the first sample, times that

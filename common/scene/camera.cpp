@@ -23,8 +23,6 @@ Vector2d NoseInPlan(const Body& car) {
   return length > 1e-3 ? Vector2d(nose.x() / length, nose.y() / length) : Vector2d::UnitX();
 }
 
-Vector3d DriversEye_B(const Body& car) { return {0.10, 0.22 * car.width_m, 1.20}; }
-
 Vector3d AboveGround(Vector3d eye_W, const road::World& world) {
   const road::SurfacePoint below = world.At(eye_W.x(), eye_W.y(), eye_W.z());
   if (below.inside) eye_W.z() = std::max(eye_W.z(), below.z_m + kClearance_m);
@@ -94,6 +92,8 @@ Camera ChaseCamera(const Body& car, const road::World& world) {
   const Vector3d target = car.p_WB_W + 9.0 * ahead + Vector3d(0.0, 0.0, 0.75);
   return LookFrom(eye, target - eye, Vector3d::UnitZ(), 48.0 * kDegree);
 }
+
+Vector3d DriversEye_B(const Body& car) { return {0.10, 0.22 * car.width_m, 1.20}; }
 
 Camera DriverCamera(const Body& car) {
   const Vector3d forward_B(1.0, 0.0, -0.015);

@@ -73,6 +73,8 @@ struct ScreenPlane {
   double aside_m = 0.0;        // of the screen's middle from the foot of the eye's distance, positive to the right
 };
 
+// The driver's eye, in B.
+Eigen::Vector3d DriversEye_B(const Body& car);
 // Behind and above the car, without its roll.
 Camera ChaseCamera(const Body& car, const road::World& world);
 // In the driver's seat, on the left.

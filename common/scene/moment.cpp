@@ -31,6 +31,9 @@ CarPose BetweenCars(const CarPose& a, const CarPose& b, double alpha, double int
   car.p_WB_W = a.p_WB_W + alpha * (b.p_WB_W - a.p_WB_W);
   car.q_WB = a.q_WB.slerp(alpha, b.q_WB);
   car.speed_mps = Between(a.speed_mps, b.speed_mps, alpha);
+  car.engine_rpm = Between(a.engine_rpm, b.engine_rpm, alpha);
+  car.fuel_l = Between(a.fuel_l, b.fuel_l, alpha);
+  car.steering_wheel_rad = Between(a.steering_wheel_rad, b.steering_wheel_rad, alpha);
   for (std::size_t i = 0; i < car.wheels.size(); ++i) car.wheels[i] = BetweenWheels(a.wheels[i], b.wheels[i], alpha, interval_s);
   return car;
 }
@@ -72,6 +75,7 @@ Moment Interpolate(const Moment& a, const Moment& b, double alpha) {
   ForPairs(a.cars, b.cars, [&](const CarPose& p, const CarPose& q) { moment.cars.push_back(BetweenCars(p, q, alpha, interval_s)); });
   ForPairs(a.agents, b.agents, [&](const AgentPose& p, const AgentPose& q) { moment.agents.push_back(BetweenAgents(p, q, alpha, interval_s)); });
   moment.lights = alpha < 0.5 ? a.lights : b.lights;
+  moment.weather = alpha < 0.5 ? a.weather : b.weather;
   return moment;
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/network/lights.hpp"
 #include "common/scene/mesh.hpp"
+#include "common/weather/weather.hpp"
 
 namespace rodeira::scene {
 
@@ -29,6 +30,8 @@ struct CarPose {
   double speed_mps = 0.0;           // forward
   double brake = 0.0;               // 0 … 1
   std::int32_t gear = 0;
+  double engine_rpm = 0.0, fuel_l = 0.0;
+  double steering_wheel_rad = 0.0;  // positive to the left
   double length_m = 3.85, front_m = 2.01, width_m = 1.65;  // front bumper from B's origin
   double height_m = 1.42, wheelbase_m = 2.46, wheel_radius_m = 0.2915;       // at rest
   std::array<double, 2> track_m = {1.42, 1.42};             // front, rear
@@ -62,10 +65,11 @@ struct Moment {
   std::vector<CarPose> cars;      // ascending ids
   std::vector<AgentPose> agents;  // ascending ids
   std::vector<LightShown> lights;  // ascending controllers; the others are dark
+  weather::Weather weather;
 };
 
 // (1 - alpha) a + alpha b with the same alpha for everything; alpha in [0, 1], 0 is exactly a and 1 exactly b. Attitudes
-// turn on the shortest way, wheels turn on as fast as they did; lights are a's below 0.5. Who is only in one of the two is not in the result, unless
+// turn on the shortest way, wheels turn on as fast as they did; lights and weather are a's below 0.5. Who is only in one of the two is not in the result, unless
 // alpha is 0 or 1.
 Moment Interpolate(const Moment& a, const Moment& b, double alpha);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/assert.hpp"
+#include "common/base/huge_pages.hpp"
 
 namespace rodeira::terrain {
 
@@ -12,6 +13,7 @@ ElevationGrid::ElevationGrid(Frame frame, std::vector<float> heights_m, std::str
   RODEIRA_ASSERT(frame_.columns >= 2 && frame_.rows >= 2);
   RODEIRA_ASSERT(frame_.east_m > frame_.west_m && frame_.north_m > frame_.south_m);
   RODEIRA_ASSERT(heights_m_.size() == static_cast<std::size_t>(frame_.columns) * static_cast<std::size_t>(frame_.rows));
+  base::PreferHugePages(heights_m_.data(), heights_m_.size() * sizeof(float));
   spacing_x_m_ = (frame_.east_m - frame_.west_m) / (frame_.columns - 1);
   spacing_y_m_ = (frame_.north_m - frame_.south_m) / (frame_.rows - 1);
   cells_per_m_x_ = (frame_.columns - 1) / (frame_.east_m - frame_.west_m);

@@ -9,6 +9,7 @@
 
 #include "common/base/suggest.hpp"
 #include "common/hands/wheel_driver.hpp"
+#include "common/hands/wheel_setup.hpp"
 #include "nodes/input/car_seen.hpp"
 #include "nodes/input/joysticks.hpp"
 
@@ -116,13 +117,29 @@ base::Status CheckDevices(const hands::WheelSettings& settings, const Joysticks&
   return {};
 }
 
+// The file that the launch file names; without one that which `rodeira input setup` has written for a device that is there.
+base::Result<std::filesystem::path> WheelFileFor(const config::Map& config) {
+  if (const auto named = config.OptionalPath("wheel")) return *named;
+  auto joysticks = Joysticks::Start();
+  if (!joysticks) return joysticks.error();
+  joysticks.value()->Update();
+  const auto connected = joysticks.value()->Connected();
+  for (const JoystickInfo& info : connected) {
+    const std::filesystem::path file = hands::WheelFileOf(info.guid);
+    if (std::filesystem::exists(file)) return file;
+  }
+  return base::WrongInput(fmt::format("no 'wheel' is named, and none of the devices was set up (`rodeira input setup`) in {}; {}", hands::WheelFolder().string(), ListJoysticks(connected)),
+                          config.Place());
+}
+
 }  // namespace
 
 base::Result<std::unique_ptr<Source>> MakeJoystickSource(const config::Map& config, launch::NodeContext& context) {
-  const std::filesystem::path file = config.Path("wheel");
+  const auto file = WheelFileFor(config);
+  if (!file) return file.error();
   config.LeaveToOthers("devices");
   if (auto status = context.launch().file().Finish(); !status) return status.error();
-  auto settings = hands::LoadWheel(file);
+  auto settings = hands::LoadWheel(file.value());
   if (!settings) return settings.error();
   ReplaceGuids(config, settings.value());
   if (auto status = context.launch().file().Finish(); !status) return status.error();

@@ -54,12 +54,13 @@ class Gate {
 
 class ScenarioNode final : public lockstep::Node {
  public:
-  ScenarioNode(scenario::Scenario scenario, std::shared_ptr<const road::World> world, std::vector<Gate> gates)
-      : scenario_(std::move(scenario)), world_(std::move(world)), gates_(std::move(gates)) {}
+  ScenarioNode(scenario::Scenario scenario, std::int64_t base_step_ns, std::shared_ptr<const road::World> world, std::vector<Gate> gates)
+      : scenario_(std::move(scenario)), base_step_ns_(base_step_ns), world_(std::move(world)), gates_(std::move(gates)) {}
 
-  // The initial sample may stand at several steps (law L1), so nothing is said in it.
+  // The initial sample may stand at several steps (law L1), so no event is said in it; the weather is that of the run's beginning.
   base::Status Initialise(lockstep::Outbox& outbox) override {
     outbox.Put(topics::kScenarioEvents, idl::Encode(msg::ScenarioEvents()));
+    outbox.Put(topics::kWeatherState, idl::Encode(WeatherAt(0)));
     return {};
   }
 
@@ -78,6 +79,7 @@ class ScenarioNode final : public lockstep::Node {
       }
     }
     outbox.Put(topics::kScenarioEvents, idl::Encode(events));
+    outbox.Put(topics::kWeatherState, idl::Encode(WeatherAt(step.output_valid)));
     return {};
   }
 
@@ -90,6 +92,17 @@ class ScenarioNode final : public lockstep::Node {
   }
 
  private:
+  msg::WeatherState WeatherAt(lockstep::Step step) const {
+    const weather::Weather now = scenario_.weather.At(static_cast<double>(step * base_step_ns_) * 1e-9);
+    msg::WeatherState out;
+    out.wetness(now.wetness);
+    out.rain_mmph(now.rain_mmph);
+    out.visibility_m(now.visibility_m);
+    out.clouds(now.clouds);
+    out.hour(now.hour);
+    return out;
+  }
+
   static void Add(const scenario::Event& event, msg::ScenarioEvents& events) {
     msg::ScenarioEvent out;
     out.name(event.name);
@@ -100,6 +113,7 @@ class ScenarioNode final : public lockstep::Node {
   }
 
   scenario::Scenario scenario_;
+  std::int64_t base_step_ns_;
   std::shared_ptr<const road::World> world_;
   std::vector<Gate> gates_;  // one for each conditional event
 };
@@ -185,7 +199,7 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeScenarioNode(launch::NodeConte
     gates = std::move(made).value();
   }
   return std::unique_ptr<lockstep::Node>(
-      std::make_unique<ScenarioNode>(std::move(scenario).value(), std::move(world), std::move(gates)));
+      std::make_unique<ScenarioNode>(std::move(scenario).value(), context.roster().base_step_ns(), std::move(world), std::move(gates)));
 }
 
 }  // namespace rodeira::nodes

@@ -10,6 +10,7 @@
 #include "common/geometry/angle.hpp"
 #include "common/road/world.hpp"
 #include "common/vehicle/vehicle_model.hpp"
+#include "common/weather/wet_ground.hpp"
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
 #include "nodes/vehicle/collisions.hpp"
@@ -43,6 +44,11 @@ class VehicleNode final : public lockstep::Node {
       if (!found) return found.error();
       model_->SetPush(found.value().push);
       touched = std::move(found.value().event);
+    }
+    if (inbox.Has(topics::kWeatherState)) {
+      const auto weather = idl::Decode<msg::WeatherState>(*inbox.Latest(topics::kWeatherState).payload);
+      if (!weather) return weather.error();
+      ground_.set_wetness(weather.value().wetness());
     }
     model_->Step(FromWire(controls.value()), ground_, step.dt_s);  // CALCULO
     if (auto problem = model_->problem(); !problem) return problem;
@@ -78,7 +84,7 @@ class VehicleNode final : public lockstep::Node {
   std::unique_ptr<vehicle::VehicleModel> model_;
   vehicle::InitialCondition initial_;
   std::unique_ptr<terrain::Ground> own_ground_;
-  terrain::Ground& ground_;
+  weather::WetGround ground_;  // of the newest weather: no state of its own
   std::optional<Collisions> collisions_;  // nothing: the car touches nobody
 };
 

@@ -5,8 +5,9 @@
 
 namespace rodeira::view {
 
-osg::ref_ptr<osg::Image> MakeFaceImage(const std::string& face) {
-  const scene::Raster raster = scene::DrawFace(face);
+namespace {
+
+osg::ref_ptr<osg::Image> ImageOf(const scene::Raster& raster) {
   osg::ref_ptr<osg::Image> image = new osg::Image;
   image->allocateImage(raster.width_px, raster.height_px, 1, GL_RGB, GL_UNSIGNED_BYTE);
   for (int y = 0; y < raster.height_px; ++y) {
@@ -19,8 +20,14 @@ osg::ref_ptr<osg::Image> MakeFaceImage(const std::string& face) {
   return image;
 }
 
-osg::ref_ptr<osg::Texture2D> MakeFaceTexture(const std::string& face) {
-  osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(MakeFaceImage(face));
+}  // namespace
+
+osg::ref_ptr<osg::Image> MakeFaceImage(const std::string& face) { return ImageOf(scene::DrawFace(face)); }
+
+osg::ref_ptr<osg::Texture2D> MakeFaceTexture(const std::string& face) { return MakeTexture(scene::DrawFace(face)); }
+
+osg::ref_ptr<osg::Texture2D> MakeTexture(const scene::Raster& picture) {
+  osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(ImageOf(picture));
   texture->setResizeNonPowerOfTwoHint(false);
   texture->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_EDGE);
   texture->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);

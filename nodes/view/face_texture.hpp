@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "common/scene/canvas.hpp"
 #include "common/scene/mesh.hpp"
 
 namespace rodeira::view {
@@ -14,6 +15,7 @@ namespace rodeira::view {
 osg::ref_ptr<osg::Image> MakeFaceImage(const std::string& face);
 // The same to be drawn at any distance.
 osg::ref_ptr<osg::Texture2D> MakeFaceTexture(const std::string& face);
+osg::ref_ptr<osg::Texture2D> MakeTexture(const scene::Raster& picture);
 // Where on the face each vertex of a mesh of kSign lies.
 osg::ref_ptr<osg::Vec2Array> PlacesOnFace(const scene::Mesh& mesh);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
@@ -11,9 +12,18 @@ namespace {
 
 constexpr std::array<scene::Colour, 4> kPaints = {scene::Colour::Of(0xb01e26), scene::Colour::Of(0x1e4fa0), scene::Colour::Of(0xd9b11e), scene::Colour::Of(0x2b7a3d)};
 
+constexpr double kPetrol_kgpl = 0.745;  // as gauges count it
+
 double Double(float value) { return static_cast<double>(value); }
 Eigen::Vector3d ToVector(const msg::Vector3& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d ToVector(const msg::Vector3f& v) { return {Double(v.x()), Double(v.y()), Double(v.z())}; }
+
+// What lies outside of what can be (a recording from elsewhere) is cut to it.
+weather::Weather FromWire(const msg::WeatherState& message) {
+  const auto cut = [](double value, double low, double high) { return value >= low ? std::min(value, high) : low; };
+  return {cut(message.wetness(), 0.0, 1.0), cut(message.rain_mmph(), 0.0, 200.0), cut(message.visibility_m(), 10.0, weather::kClear_m),
+          cut(message.clouds(), 0.0, 1.0), cut(message.hour(), 0.0, 24.0)};
+}
 
 }  // namespace
 
@@ -31,6 +41,9 @@ scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, 
   car.speed_mps = (car.q_WB.conjugate() * ToVector(message.velocity_w_mps())).x();
   car.brake = Double(message.brake());
   car.gear = message.gear();
+  car.engine_rpm = message.engine_speed_radps() * 30.0 / std::numbers::pi;
+  car.fuel_l = message.fuel_kg() / kPetrol_kgpl;
+  car.steering_wheel_rad = message.steering_wheel_rad();
   if (message.length_m() > 0.0F && message.width_m() > 0.0F) {
     car.length_m = Double(message.length_m());
     car.front_m = Double(message.front_m());
@@ -85,6 +98,10 @@ base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep:
       const auto message = idl::Decode<msg::SignalsState>(*payload);
       if (!message) return message.error();
       AddLights(message.value(), moment.lights);
+    } else if (roster.source(source).topic == idl::topics::kWeatherState) {
+      const auto message = idl::Decode<msg::WeatherState>(*payload);
+      if (!message) return message.error();
+      moment.weather = FromWire(message.value());
     } else {
       const auto message = idl::Decode<msg::TrafficState>(*payload);
       if (!message) return message.error();

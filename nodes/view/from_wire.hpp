@@ -19,7 +19,7 @@ void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::v
 // Adds what one source says of the lights; they stay ascending.
 void AddLights(const msg::SignalsState& message, std::vector<scene::LightShown>& lights);
 
-// The newest sample of each source that a view looks at: cars, traffic, lights.
+// The newest sample of each source that a view looks at: cars, traffic, lights, weather.
 using NewestSamples = std::map<lockstep::SourceIndex, std::shared_ptr<const base::Bytes>>;
 // Everything as they tell it, at a step. Wrong input where one of them cannot be read.
 base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep::Step step, const NewestSamples& newest);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kNoiseSize = 256;
 // Drawn in this order; the road's marks after the ground they lie on, the sky where nothing else is.
-constexpr int kMarkBin = 1, kSkyBin = 2, kShadowBin = 3;
+constexpr int kMarkBin = 1, kSkyBin = 2, kShadowBin = 3, kRainBin = 4;
 
 osg::ref_ptr<osg::Program> ProgramOf(const std::string& vertex, const std::string& fragment) {
   osg::ref_ptr<osg::Program> program = new osg::Program;
@@ -63,7 +63,7 @@ osg::ref_ptr<osg::Texture2D> MakeNoise() {
 
 }  // namespace
 
-Look::Look(const osg::Vec3f& sun_W) : sun_W_(sun_W), noise_(MakeNoise()), shadow_(ProgramOf(ShadowVertexShader(), ShadowFragmentShader())) {}
+Look::Look() : noise_(MakeNoise()), shadow_(ProgramOf(ShadowVertexShader(), ShadowFragmentShader())) {}
 
 osg::ref_ptr<osg::StateSet> Look::MakeState(scene::Material material) {
   osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
@@ -99,7 +99,7 @@ osg::StateSet* Look::KnownFace(const std::string& face) {
   return state;
 }
 
-osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
+osg::ref_ptr<osg::Geometry> Look::BareGeometryOf(const scene::Mesh& mesh) {
   osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
   osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
   osg::ref_ptr<osg::Vec4ubArray> colours = new osg::Vec4ubArray;
@@ -121,8 +121,19 @@ osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
   colours->setNormalize(true);
   geometry->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
   geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.triangles.begin(), mesh.triangles.end()));
-  geometry->setStateSet(mesh.material == scene::Material::kSign ? KnownFace(mesh.face) : StateOf(mesh.material));
   if (mesh.material == scene::Material::kSign) geometry->setTexCoordArray(1, PlacesOnFace(mesh));
+  return geometry;
+}
+
+osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
+  osg::ref_ptr<osg::Geometry> geometry = BareGeometryOf(mesh);
+  geometry->setStateSet(mesh.material == scene::Material::kSign ? KnownFace(mesh.face) : StateOf(mesh.material));
+  return geometry;
+}
+
+osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh, osg::ref_ptr<osg::Texture2D> picture) {
+  osg::ref_ptr<osg::Geometry> geometry = BareGeometryOf(mesh);
+  geometry->setStateSet(StateOfFace(*picture));
   return geometry;
 }
 
@@ -165,10 +176,28 @@ osg::ref_ptr<osg::Node> Look::MakeSky() {
   state->setAttributeAndModes(ProgramOf(SkyVertexShader(), SkyFragmentShader()));
   state->setTextureAttribute(0, noise_);
   state->addUniform(new osg::Uniform("noise", 0));
-  state->addUniform(new osg::Uniform("sun_world", sun_W_));
   state->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, false));
   state->setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
   state->setRenderBinDetails(kSkyBin, "RenderBin");
+  return geometry;
+}
+
+osg::ref_ptr<osg::Node> Look::MakeRain() {
+  osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
+  for (const auto& [x, y] : {std::pair(-1.0F, -1.0F), std::pair(1.0F, -1.0F), std::pair(1.0F, 1.0F), std::pair(-1.0F, 1.0F)}) corners->push_back({x, y, 0.0F});
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  geometry->setUseDisplayList(false);
+  geometry->setUseVertexBufferObjects(true);
+  geometry->setVertexArray(corners);
+  geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_FAN, 0, 4));
+  geometry->setCullingActive(false);
+  osg::StateSet* state = geometry->getOrCreateStateSet();
+  state->setAttributeAndModes(ProgramOf(RainVertexShader(), RainFragmentShader()));
+  state->setTextureAttribute(0, noise_);
+  state->addUniform(new osg::Uniform("noise", 0));
+  state->setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA));
+  state->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+  state->setRenderBinDetails(kRainBin, "RenderBin");
   return geometry;
 }
 

@@ -19,7 +19,7 @@ namespace rodeira::view {
 // From the scene's plain meshes to OpenSceneGraph's nodes. What it makes belongs to one OpenGL context.
 class Look {
  public:
-  explicit Look(const osg::Vec3f& sun_W);
+  Look();
 
   // How a material is drawn; one shared state for each.
   osg::StateSet* StateOf(scene::Material material);
@@ -27,17 +27,21 @@ class Look {
   osg::ref_ptr<osg::StateSet> StateOfFace(osg::Texture2D& picture);
   // The mesh without its origin.
   osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh);
+  // The same of a sign (kSign) with this picture instead of its face's.
+  osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh, osg::ref_ptr<osg::Texture2D> picture);
   // The meshes at their places in the world. They must have the same origin, and at least one there must be.
   osg::ref_ptr<osg::MatrixTransform> Placed(std::span<const scene::Mesh* const> meshes);
   osg::ref_ptr<osg::Node> MakeSky();
+  // Falling rain before everything, over the whole picture. Its state wants the uniforms time_s and aspect.
+  osg::ref_ptr<osg::Node> MakeRain();
   // A soft shadow on the ground under a car, on z = 0 of its frame.
   osg::ref_ptr<osg::Node> MakeShadow(float rear_m, float front_m, float half_width_m);
 
  private:
+  osg::ref_ptr<osg::Geometry> BareGeometryOf(const scene::Mesh& mesh);
   osg::ref_ptr<osg::StateSet> MakeState(scene::Material material);
   osg::StateSet* KnownFace(const std::string& face);
 
-  osg::Vec3f sun_W_;
   osg::ref_ptr<osg::Texture2D> noise_;  // repeats: fine in its red part, coarse in its green one
   osg::ref_ptr<osg::Program> shadow_;
   std::array<osg::ref_ptr<osg::StateSet>, 10> states_;

@@ -11,11 +11,15 @@
 #include <cmath>
 #include <thread>
 
+#include "nodes/view/aim_camera.hpp"
+#include "nodes/view/air_uniforms.hpp"
 #include "nodes/view/built_world.hpp"
+#include "nodes/view/cabin_node.hpp"
 #include "nodes/view/car_node.hpp"
 #include "nodes/view/instruments.hpp"
 #include "nodes/view/lights_node.hpp"
 #include "nodes/view/look.hpp"
+#include "nodes/view/mirrors.hpp"
 #include "nodes/view/model_file.hpp"
 #include "nodes/view/overlay.hpp"
 #include "nodes/view/timeline_bar.hpp"
@@ -23,17 +27,10 @@
 namespace rodeira::view {
 namespace {
 
-constexpr double kNear_m = 0.3;  // fixed: depths then mean the same in every frame
 constexpr double kFar_m = 15'000.0;
 constexpr float kMarksSeen_m = 650.0F;
 constexpr float kTreesSeen_m = 1'100.0F;
 constexpr std::array<float, scene::kTerrainLevels> kLevelSeen_m = {450.0F, 1'300.0F, 1e9F};  // up to this distance of the tile's centre
-
-const osg::Vec3f kSun_W = [] {
-  osg::Vec3f sun(-0.45F, -0.60F, 0.72F);  // an afternoon's, from the south-west
-  sun.normalize();
-  return sun;
-}();
 
 osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -96,15 +93,17 @@ scene::Camera CameraFor(const Picture& picture, const scene::Body& body, const r
 struct Painter::Parts {
   explicit Parts(const road::World& world) : lights(look, world) {}
 
-  Look look{kSun_W};
+  Look look;
   Fleet fleet{look};
+  CabinNode cabin{look};
   LightsNode lights;
   osg::ref_ptr<osg::Camera> overlay = MakeOverlay();
   Instruments instruments{*overlay};
   TimelineBar timeline{*overlay};
   osg::ref_ptr<osg::Group> root = new osg::Group;
-  osg::ref_ptr<osg::Uniform> sun_eye = new osg::Uniform("sun_eye", osg::Vec3f(0.0F, 0.0F, 1.0F));
-  osg::ref_ptr<osg::Uniform> up_eye = new osg::Uniform("up_eye", osg::Vec3f(0.0F, 0.0F, 1.0F));
+  osg::ref_ptr<osg::Group> scene = new osg::Group;  // the world and what moves in it: all that mirrors show too
+  Mirrors mirrors{*root, *scene, *overlay};
+  osg::ref_ptr<osg::Node> rain = look.MakeRain();
   unsigned built_tiles = 0;  // 0: the ground is in memory
   osgViewer::Viewer viewer;
 };
@@ -113,15 +112,15 @@ Painter::Painter(Surface& surface, const road::World& world) : surface_(surface)
 
 Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing) : Painter(surface, world) {
   Look& look = parts_->look;
-  osg::Group& root = *parts_->root;
-  for (const scene::GroundTile& tile : standing.ground) root.addChild(GroundNode(look, tile));
-  for (const scene::TerrainTile& tile : standing.terrain) root.addChild(TerrainNode(look, tile));
-  for (const scene::RoadTile& tile : standing.roads) AddRoadTile(look, tile, root);
+  osg::Group& group = *parts_->scene;
+  for (const scene::GroundTile& tile : standing.ground) group.addChild(GroundNode(look, tile));
+  for (const scene::TerrainTile& tile : standing.terrain) group.addChild(TerrainNode(look, tile));
+  for (const scene::RoadTile& tile : standing.roads) AddRoadTile(look, tile, group);
   for (const scene::Mesh& trees : standing.trees) {
     const scene::Mesh* mesh = &trees;
     osg::ref_ptr<osg::LOD> lod = new osg::LOD;
     lod->addChild(look.Placed({&mesh, 1}), 0.0F, kTreesSeen_m);
-    root.addChild(lod);
+    group.addChild(lod);
   }
   SetUp();
 }
@@ -130,7 +129,7 @@ base::Result<std::unique_ptr<Painter>> Painter::Make(Surface& surface, const roa
   std::unique_ptr<Painter> painter(new Painter(surface, world));
   auto ground = ReadBuilt(built, painter->parts_->look);
   if (!ground) return ground.error();
-  painter->parts_->root->addChild(ground.value().root);
+  painter->parts_->scene->addChild(ground.value().root);
   painter->parts_->built_tiles = ground.value().tiles;
   painter->SetUp();
   return painter;
@@ -141,13 +140,15 @@ void Painter::SetUp() {
   Surface& surface = surface_;
   Look& look = parts_->look;
   osg::Group& root = *parts_->root;
-  root.addChild(parts_->fleet.node());
-  root.addChild(parts_->lights.node());
-  root.addChild(look.MakeSky());
+  osg::Group& group = *parts_->scene;
+  group.addChild(parts_->fleet.node());
+  group.addChild(parts_->lights.node());
+  group.addChild(look.MakeSky());
+  root.addChild(&group);
+  root.addChild(parts_->cabin.node());
+  root.addChild(parts_->rain);
   root.addChild(parts_->overlay);
   osg::StateSet* state = root.getOrCreateStateSet();
-  state->addUniform(parts_->sun_eye);
-  state->addUniform(parts_->up_eye);
   state->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
   state->setMode(GL_MULTISAMPLE, osg::StateAttribute::ON);
 
@@ -174,29 +175,26 @@ void Painter::Draw(const Picture& picture) {
   const int width = surface_.width_px(), height = surface_.height_px();
   scene::Camera camera;
   const bool is_car = picture.followed < picture.moment.cars.size();
-  if (const auto body = scene::BodyAt(picture.moment, picture.followed)) camera = CameraFor(picture, *body, world_);
+  const auto body = scene::BodyAt(picture.moment, picture.followed);
+  if (body) camera = CameraFor(picture, *body, world_);
   osg::Camera& eye = *parts_->viewer.getCamera();
   if (eye.getViewport() == nullptr || static_cast<int>(eye.getViewport()->width()) != width || static_cast<int>(eye.getViewport()->height()) != height) {
     eye.getGraphicsContext()->resized(0, 0, width, height);
     eye.setViewport(0, 0, width, height);
   }
-  const osg::Vec3d forward = ToOsg(camera.forward_W), up = ToOsg(camera.up_W), at = ToOsg(camera.eye_W);
-  eye.setViewMatrixAsLookAt(at, at + forward, up);
-  const double aspect = static_cast<double>(width) / height, half_m = 0.5 * camera.parallel_height_m;
-  if (camera.window) {
-    const auto& [left, right, low, high] = *camera.window;
-    eye.setProjectionMatrixAsFrustum(kNear_m * left, kNear_m * right, kNear_m * low, kNear_m * high, kNear_m, kFar_m);
-  } else if (half_m > 0.0) {
-    eye.setProjectionMatrixAsOrtho(-half_m * aspect, half_m * aspect, -half_m, half_m, kNear_m, kFar_m);
-  } else {
-    eye.setProjectionMatrixAsPerspective(camera.vertical_view_rad * 180.0 / 3.14159265358979323846, aspect, kNear_m, kFar_m);
-  }
-  const osg::Matrixd view = eye.getViewMatrix();
-  parts_->sun_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(kSun_W), view)));
-  parts_->up_eye->set(osg::Vec3f(osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, 1.0), view)));
+  const double aspect = static_cast<double>(width) / height;
+  AimCamera(eye, camera, aspect, kFar_m);
+  const scene::Air air = scene::MakeAir(picture.moment.weather);
+  osg::StateSet& state = *parts_->root->getOrCreateStateSet();
+  SetAir(state, air);
+  SetEye(state, air, is_car ? &picture.moment.cars[picture.followed] : nullptr, eye.getViewMatrix());
+  SetRain(state, picture.moment.time_ns, aspect);
+  parts_->rain->setNodeMask(air.rain > 0.0F ? ~0U : 0U);
   parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt);
+  parts_->cabin.Show(is_car && picture.cabin && picture.camera == scene::CameraKind::kDriver ? &picture.moment.cars[picture.followed] : nullptr);
   parts_->lights.Show(picture.moment.lights);
   FitOverlay(*parts_->overlay, width, height);
+  parts_->mirrors.Show(picture, body, air, width, height);
   parts_->instruments.Show(picture, width, height, picture.timeline ? TimelinePlace::kHeight_px : 0.0F);
   parts_->timeline.Show(picture.timeline, width);
   parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);

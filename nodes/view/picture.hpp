@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/scene/camera.hpp"
+#include "common/scene/mirror.hpp"
 #include "common/scene/moment.hpp"
 
 namespace rodeira::view {
@@ -27,6 +29,8 @@ struct Picture {
   std::optional<scene::ScreenPlane> screen;  // through which the driver's camera looks
   std::size_t followed = 0;         // whom the camera goes with: the moment's cars, then its traffic
   bool show_instruments = true;     // speed, gear, time
+  bool cabin = false;               // dashboard and steering wheel before the driver's camera
+  std::array<bool, scene::kMirrors> mirrors = {true, true, true};  // left, inside, right: shown with the driver's camera
   std::string text;                 // more lines for a person: help, statistics
   std::optional<Timeline> timeline;  // of a recording that is watched
 };

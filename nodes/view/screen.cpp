@@ -52,6 +52,7 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   (void)screen->painter_->Read();
   screen->help_text_ = std::move(help);
   screen->live_ = PictureOf(settings, {});
+  if (settings.mirrors != screen->kNoMirrors) screen->mirrors_ = settings.mirrors;
   return screen;
 }
 
@@ -67,6 +68,7 @@ bool Screen::TakeKey(int symbol, bool driven) {
       return true;
     }
     case SDLK_h: help_ = !help_; return true;
+    case SDLK_F4: live_.mirrors = live_.mirrors == kNoMirrors ? mirrors_ : kNoMirrors; return true;
     case SDLK_F3: statistics_ = !statistics_; return true;
     case SDLK_s:
       if (driven) return false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -43,6 +44,8 @@ class Screen {
 
   Picture live_;  // camera, followed car as the person chose
   std::optional<std::uint64_t> chosen_agent_;  // of the traffic
+  static constexpr std::array<bool, scene::kMirrors> kNoMirrors{};
+  std::array<bool, scene::kMirrors> mirrors_ = {true, true, true};  // those that the key brings back
   bool help_ = false;
   bool statistics_ = false;
   double frame_s_ = 0.0;      // smoothed time of drawing

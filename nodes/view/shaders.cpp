@@ -3,24 +3,44 @@
 namespace rodeira::view {
 namespace {
 
-// The sky over a direction given by its height (1: zenith), without sun and clouds; the fog has its horizon's colour.
+// The sky over a direction given by its height (1: zenith), without sun and clouds; haze and fog have its horizon's colour.
 constexpr const char* kAir = R"(
-const vec3 horizon_colour = vec3(0.80, 0.86, 0.91);
-const vec3 zenith_colour = vec3(0.27, 0.47, 0.76);
+uniform vec3 horizon_colour;
+uniform vec3 zenith_colour;
+uniform float fog_per_m;
+vec3 FogColour() { return horizon_colour * vec3(0.93, 0.96, 1.0); }
 vec3 SkyColour(float up) { return mix(horizon_colour, zenith_colour, pow(clamp(up, 0.0, 1.0), 0.55)); }
 vec3 Hazy(vec3 colour, float distance_m) {
-  float clear = exp(-pow(distance_m * 1.6e-4, 1.3));
-  return mix(horizon_colour * vec3(0.93, 0.96, 1.0), colour, clear);
+  float clear = exp(-pow(distance_m * 1.6e-4, 1.3) - fog_per_m * distance_m);
+  return mix(FogColour(), colour, clear);
 }
 )";
 
 constexpr const char* kHead = R"(#version 120
 varying vec3 at_eye;
 varying vec3 normal_eye;
-varying vec3 light;
+varying vec3 daylight;
 varying vec2 ground;
 uniform vec3 sun_eye;
 uniform vec3 up_eye;
+)";
+
+// What falls on a surface by day and from the headlights of the car that is watched: a dipped beam, bright to some 60 m.
+constexpr const char* kLight = R"(
+uniform float headlights;
+uniform vec3 lamp_eye;
+uniform vec3 lamp_ahead_eye;
+vec3 light;
+vec3 Beam() {
+  vec3 from = at_eye - lamp_eye;
+  float distance_m = length(from);
+  vec3 ray = from / max(distance_m, 0.1);
+  float ahead = dot(ray, lamp_ahead_eye);
+  float above = dot(ray - lamp_ahead_eye * ahead, up_eye);
+  float cone = smoothstep(0.80, 0.97, ahead) * (1.0 - 0.9 * smoothstep(-0.01, 0.02, above));
+  float facing = 0.3 + 0.7 * max(dot(-ray, normalize(normal_eye)), 0.0);
+  return vec3(1.0, 0.95, 0.84) * (headlights * 2.4 * cone * facing / (1.0 + pow(distance_m / 24.0, 2.0)));
+}
 )";
 
 const char* FragmentBody(scene::Material material) {
@@ -44,10 +64,19 @@ vec3 Look() {
 })";
     case scene::Material::kRoad: return R"(
 uniform sampler2D noise;
+uniform float wetness;
 vec3 Look() {
   float grain = texture2D(noise, ground / 2.0).r;
   float wear = texture2D(noise, ground / 16.0).g;
-  return gl_Color.rgb * light * (0.80 + 0.24 * grain + 0.16 * wear);
+  vec3 dry = gl_Color.rgb * light * (0.80 + 0.24 * grain + 0.16 * wear);
+  if (wetness <= 0.0) return dry;
+  // Water darkens the stone and mirrors the sky the more, the flatter one looks at it; most where it stands.
+  vec3 view = normalize(at_eye);
+  vec3 n = normalize(normal_eye);
+  float flat_look = pow(1.0 - max(dot(-view, n), 0.0), 10.0);
+  float standing = 0.45 + 0.55 * smoothstep(0.40, 0.62, texture2D(noise, ground / 24.0).g);
+  vec3 mirrored = SkyColour(dot(reflect(view, n), up_eye));
+  return mix(dry * (1.0 - 0.42 * wetness), mirrored, wetness * standing * (0.02 + 0.70 * flat_look));
 })";
     case scene::Material::kMark: return R"(
 uniform sampler2D noise;
@@ -97,6 +126,9 @@ vec3 Look() { return gl_Color.rgb * light; })";
 std::string VertexShader() {
   return std::string(kHead) + R"(
 varying vec2 on_face;
+uniform vec3 base_light;
+uniform vec3 sky_light;
+uniform vec3 sun_light;
 void main() {
   vec4 p = gl_ModelViewMatrix * gl_Vertex;
   gl_Position = gl_ProjectionMatrix * p;
@@ -104,7 +136,7 @@ void main() {
   normal_eye = normalize(gl_NormalMatrix * gl_Normal);
   float sun = max(dot(normal_eye, sun_eye), 0.0);
   float sky = 0.5 + 0.5 * dot(normal_eye, up_eye);
-  light = vec3(0.30, 0.31, 0.30) + sky * vec3(0.20, 0.24, 0.30) + sun * vec3(0.78, 0.73, 0.62);
+  daylight = base_light + sky * sky_light + sun * sun_light;
   ground = gl_Vertex.xy;
   gl_FrontColor = gl_Color;
   on_face = gl_MultiTexCoord1.xy;
@@ -113,8 +145,12 @@ void main() {
 }
 
 std::string FragmentShader(scene::Material material) {
-  return std::string(kHead) + kAir + FragmentBody(material) + R"(
-void main() { gl_FragColor = vec4(Hazy(Look(), length(at_eye)), 1.0); }
+  return std::string(kHead) + kAir + kLight + FragmentBody(material) + R"(
+void main() {
+  light = daylight;
+  if (headlights > 0.0) light += Beam();
+  gl_FragColor = vec4(Hazy(Look(), length(at_eye)), 1.0);
+}
 )";
 }
 
@@ -133,6 +169,9 @@ std::string SkyFragmentShader() {
   return std::string(R"(#version 120
 varying vec3 direction;
 uniform vec3 sun_world;
+uniform float sun_disc;
+uniform float clouds;
+uniform float cloud_light;
 uniform sampler2D noise;
 )") + kAir + R"(
 void main() {
@@ -140,12 +179,16 @@ void main() {
   vec3 colour = SkyColour(d.z);
   vec2 cloud_at = d.xy / (max(d.z, 0.0) + 0.12);
   float cloud = texture2D(noise, cloud_at * 0.11).g * 0.6 + texture2D(noise, cloud_at * 0.31 + 0.37).g * 0.3 + texture2D(noise, cloud_at * 0.9).g * 0.1;
-  float cover = smoothstep(0.52, 0.78, cloud) * smoothstep(0.02, 0.25, d.z);
-  colour = mix(colour, vec3(0.97, 0.97, 0.98), 0.75 * cover);
+  float low = 0.52 + (0.3 - clouds) * (clouds < 0.3 ? 1.2 : 0.6);
+  float cover = smoothstep(low, low + 0.26, cloud) * smoothstep(0.02, 0.25, d.z);
+  colour = mix(colour, vec3(0.97, 0.97, 0.98) * cloud_light, 0.75 * cover);
   float towards = max(dot(d, sun_world), 0.0);
-  colour += vec3(1.0, 0.92, 0.75) * (0.25 * pow(towards, 24.0) + 2.0 * pow(towards, 1800.0));
+  colour += sun_disc * vec3(1.0, 0.92, 0.75) * (0.25 * pow(towards, 24.0) + 2.0 * pow(towards, 1800.0));
   // Beyond the edge of the world there is land, far and hazy.
-  colour = mix(colour, vec3(0.52, 0.57, 0.42), 0.85 * (1.0 - smoothstep(-0.06, 0.0, d.z)));
+  float bright = dot(horizon_colour, vec3(0.30, 0.59, 0.11)) / 0.85;
+  colour = mix(colour, vec3(0.52, 0.57, 0.42) * bright, 0.85 * (1.0 - smoothstep(-0.06, 0.0, d.z)));
+  // The fog is 300 m thick.
+  colour = mix(FogColour(), colour, exp(-fog_per_m * 300.0 / max(d.z, 0.02)));
   gl_FragColor = vec4(min(colour, 1.0), 1.0);
 }
 )";
@@ -164,9 +207,42 @@ void main() {
 std::string ShadowFragmentShader() {
   return R"(#version 120
 varying vec2 part;
+uniform vec3 sun_light;
 void main() {
   vec2 inner = 1.0 - smoothstep(vec2(0.62, 0.45), vec2(1.0), abs(part));
-  gl_FragColor = vec4(0.05, 0.06, 0.09, 0.62 * inner.x * inner.y);
+  gl_FragColor = vec4(0.05, 0.06, 0.09, (0.25 + 0.37 * sun_light.g / 0.73) * inner.x * inner.y);
+}
+)";
+}
+
+std::string RainVertexShader() {
+  return R"(#version 120
+varying vec2 at;
+void main() {
+  at = gl_Vertex.xy;
+  gl_Position = vec4(gl_Vertex.xy, 0.0, 1.0);
+}
+)";
+}
+
+std::string RainFragmentShader() {
+  return R"(#version 120
+varying vec2 at;
+uniform float rain;
+uniform float aspect;
+uniform float time_s;
+uniform vec3 horizon_colour;
+uniform sampler2D noise;
+// Drops nearer to the eye are longer, wider apart and faster.
+float Streaks(float apart, float fall) {
+  vec2 p = vec2(at.x * aspect + 0.06 * at.y, at.y) / apart;
+  float drop = texture2D(noise, vec2(p.x, 0.035 * p.y + fract(fall * time_s))).r;
+  float edge = 0.82 - 0.24 * rain;
+  return smoothstep(edge, edge + 0.12, drop);
+}
+void main() {
+  float seen = 0.5 * Streaks(0.55, 0.9) + 0.4 * Streaks(0.9, 1.3) + 0.3 * Streaks(1.6, 1.9);
+  gl_FragColor = vec4(min(horizon_colour * 1.15 + 0.04, 1.0), 0.7 * seen * sqrt(rain));
 }
 )";
 }

@@ -6,13 +6,15 @@
 
 namespace rodeira::view {
 
-// GLSL 1.20, which every OpenGL from 2.1 on understands. Uniforms: sun_eye, up_eye (unit vectors in the eye's frame),
-// noise (a texture that repeats), glow (of lamps), face (a sign's picture; where on it: texture coordinates 1).
+// GLSL 1.20, which every OpenGL from 2.1 on understands. Uniforms: those of AirUniforms, noise (a texture that repeats), glow (of
+// lamps), face (a sign's picture; where on it: texture coordinates 1), and of the rain time_s and aspect (width by height).
 std::string VertexShader();
 std::string FragmentShader(scene::Material material);
 std::string SkyVertexShader();
 std::string SkyFragmentShader();
 std::string ShadowVertexShader();
 std::string ShadowFragmentShader();
+std::string RainVertexShader();
+std::string RainFragmentShader();
 
 }  // namespace rodeira::view

@@ -77,7 +77,7 @@ class ViewNode final : public lockstep::Node {
   // Takes the samples in their order and orders the frames of steps in (after, through] on the way.
   base::Status Take(const lockstep::Inbox& inbox, lockstep::Step after, lockstep::Step through) {
     std::vector<const Sample*> samples;
-    for (const std::string_view topic : {topics::kVehicleState, topics::kTrafficState, topics::kSignalsState}) {
+    for (const std::string_view topic : {topics::kVehicleState, topics::kTrafficState, topics::kSignalsState, topics::kWeatherState}) {
       if (!inbox.Has(topic)) continue;
       for (const Sample& sample : inbox.All(topic)) samples.push_back(&sample);
     }

@@ -64,6 +64,16 @@ void ReadDriving(const launch::Launch& launch, ViewSettings& settings) {
   }
 }
 
+void ReadMirrors(const config::Map& map, ViewSettings& settings) {
+  settings.mirrors = {};
+  const config::List names = map.Items("mirrors");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string name = names.Text(i);
+    if (const auto mirror = scene::MirrorOf(name)) settings.mirrors[static_cast<std::size_t>(*mirror)] = true;
+    else names.Problem(i, fmt::format("'{}' is no mirror; left, inside or right was expected", name));
+  }
+}
+
 // All but the frames.
 ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& view, const config::Map& map) {
   ViewSettings settings;
@@ -77,6 +87,8 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& 
   const std::string window = map.Choice("window", {"auto", "always", "never"}, "auto");
   settings.window = window == "always" ? WindowWish::kAlways : window == "never" ? WindowWish::kNever : WindowWish::kAuto;
   settings.instruments = map.Flag("instruments", true);
+  settings.cabin = map.Flag("cabin", !settings.screen);  // a laboratory has its own
+  if (map.Has("mirrors")) ReadMirrors(map, settings);
   ReadFollowed(launch.roster(), view, map, settings);
   ReadDriving(launch, settings);
   return settings;
@@ -151,6 +163,8 @@ Picture PictureOf(const ViewSettings& settings, scene::Moment moment) {
   picture.screen = settings.screen;
   picture.followed = settings.followed;
   picture.show_instruments = settings.instruments;
+  picture.mirrors = settings.mirrors;
+  picture.cabin = settings.cabin;
   return picture;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "common/launch/node_context.hpp"
 #include "common/road/world.hpp"
 #include "common/scene/camera.hpp"
+#include "common/scene/mirror.hpp"
 #include "nodes/view/picture.hpp"
 
 namespace rodeira::view {
@@ -25,6 +27,8 @@ struct ViewSettings {
   int display = 0;                           // of the PC, for the window
   WindowWish window = WindowWish::kAuto;
   bool instruments = true;
+  bool cabin = true;                         // dashboard and steering wheel, likewise
+  std::array<bool, scene::kMirrors> mirrors = {true, true, true};  // of the driver's camera
   std::size_t followed = 0;                  // which of the cars wired to the view, in the roster's order
   std::vector<lockstep::Step> frame_steps;   // ascending, each once
   std::filesystem::path folder;              // of the frames

@@ -43,15 +43,18 @@ void Frame(benchmark::State& state) {
   const scene::WorldScene standing = scene::BuildWorldScene(N222());
   Painter painter(*surface.value(), N222(), standing);
   const auto camera = state.range(0) == 0 ? scene::CameraKind::kChase : scene::CameraKind::kDriver;
+  const bool mirrors = state.range(0) == 2;
   double s_m = 30.0;
   for (auto _ : state) {
-    painter.Draw(AlongTheRoad(s_m, camera));
+    Picture picture = AlongTheRoad(s_m, camera);
+    picture.mirrors.fill(mirrors);
+    painter.Draw(picture);
     benchmark::DoNotOptimize(painter.Read());
     s_m = std::fmod(s_m + 37.0, N222().roads()[0].length_m() - 60.0);
   }
-  state.SetLabel(surface.value()->renderer() + (state.range(0) == 0 ? ", chase" : ", driver"));
+  state.SetLabel(surface.value()->renderer() + (state.range(0) == 0 ? ", chase" : mirrors ? ", driver with three mirrors" : ", driver"));
 }
-BENCHMARK(Frame)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK(Frame)->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 
 // From a loaded HASTE to its first picture: the ground built in memory (0), or the built database found, checked and read (1).
 void FirstPictureOfHaste(benchmark::State& state) {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -206,6 +207,52 @@ TEST(BuiltWorld, APatchIsItsPointsBitByBit) {
           << "patch " << i << " point " << k;
     }
   }
+}
+
+// What is asked together is to the bit what each point is told alone, on lines, arcs and clothoids, over lanes, crown, paint and seams; and most
+// tyres' patches are asked together.
+TEST(BuiltWorld, PointsTogetherArePointsAlone) {
+  const auto world = MustParse(R"(rodeira: world/2
+name: bends
+ground: {kind: plane}
+roads:
+  - id: a
+    start: {x_m: 3000000, y_m: -20, heading_deg: 20}
+    axis: [line: {length_m: 120}, clothoid: {a_m: 90, radius_end_m: 90}, arc: {length_m: 200, radius_m: 90}, clothoid: {a_m: 120, radius_start_m: 90, radius_end_m: -400}]
+    vertical: [{s_m: 0, z_m: 30}, {s_m: 200, z_m: 38, parabola_m: 140}, {s_m: 400, z_m: 31}]
+    section:
+      lanes: [{id: -1, widths: [{s_m: 0, width_m: 3.5}, {s_m: 90, width_m: 3.5}, {s_m: 120, width_m: 4.5}]}, {id: 1, width_m: 3.5}, {id: 2, width_m: 2, material: gravel}]
+      crossfall: {kind: crown, fall: 0.025}
+    lines: [{ts: [{s_m: 0, t_m: 0.5}], kind: dashed, stroke_m: 3, gap_m: 5}]
+)");
+  ASSERT_NE(world, nullptr);
+  const std::shared_ptr<const network::Network> network(world, world->network());
+  const BuiltGround built(network, {}, kUsualFriction, SurfaceDetail(), {nullptr, world->plane(), terrain::Surface::kGrass, 0.5});
+  const auto ground = world->MakeGround();
+  const network::Road& road = network->roads()[0];
+  const auto same = [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); };
+  int together = 0, painted = 0;
+  constexpr int kPatches = 400;
+  for (std::uint64_t i = 0; i < kPatches; ++i) {
+    const double s = base::RandomUniform({i, 0}, 0.5, road.length_m() - 0.5);
+    const Eigen::Vector3d p = road.Surface(s, base::RandomUniform({i, 1}, -4.0, 5.0)).p_W;
+    const terrain::GroundPatch patch{p.x(), p.y(), base::RandomUniform({i, 2}, -3.0, 3.0), 0.2, 0.18, 14, 14, i % 2 == 0 ? kNone : p.z()};
+    std::vector<terrain::GroundQuery> queries;
+    for (int k = 0; k < 196; ++k) queries.push_back(terrain::PatchPoint(patch, k / 14, k % 14));
+    std::vector<terrain::GroundPoint> points(queries.size());
+    if (!built.Together(queries, points)) continue;
+    ++together;
+    for (std::size_t k = 0; k < queries.size(); ++k) {
+      const terrain::GroundPoint alone = ground->At(queries[k].x_m, queries[k].y_m, queries[k].z_hint_m);
+      painted += alone.surface == terrain::Surface::kRoadMark;
+      ASSERT_TRUE(alone.inside && points[k].inside);
+      ASSERT_TRUE(same(points[k].z_m, alone.z_m) && same(points[k].normal_W.x(), alone.normal_W.x()) && same(points[k].normal_W.y(), alone.normal_W.y()) &&
+                  same(points[k].normal_W.z(), alone.normal_W.z()) && same(points[k].friction, alone.friction) && points[k].surface == alone.surface)
+          << "patch " << i << " point " << k << " s " << s;
+    }
+  }
+  EXPECT_GT(together, kPatches * 3 / 4);
+  EXPECT_GT(painted, 100);
 }
 
 TEST(BuiltWorld, RoughnessStandsOnTheRoadAndFadesAtItsEnds) {

@@ -178,6 +178,29 @@ RC_GTEST_PROP(Suelo, BatchOrderAndHistoryChangeNoBit, (std::uint64_t seed)) {
   for (std::size_t i = 0; i < order.size(); ++i) RC_ASSERT(SameBits(points[i], batch[order[i]]));
 }
 
+// A grid larger than the processor's caches, whose heights are fetched ahead of the questions: at its edges and beyond too.
+TEST(Suelo, ALargeGridIsItselfInABatch) {
+  constexpr int kColumns = 1300, kRows = 900;
+  std::vector<float> heights;
+  for (std::uint64_t i = 0; i < kColumns * kRows; ++i) heights.push_back(static_cast<float>(base::RandomUniform({i, 5}, 0.0, 50.0)));
+  WorldSpec spec;
+  spec.grid = std::make_shared<terrain::ElevationGrid>(terrain::ElevationGrid::Frame{kColumns, kRows, -100.0, 50.0, -100.0 + 8.0 * (kColumns - 1), 50.0 + 8.0 * (kRows - 1)},
+                                                       std::move(heights));
+  const auto world = World::Make(spec);
+  const Extents e = world->extents();
+  std::vector<GroundQuery> queries = {{e.west_m, e.south_m}, {e.east_m, e.north_m}, {e.east_m, e.south_m}, {e.west_m, e.north_m}, {std::nan(""), 60.0}, {1e300, -1e300}};
+  for (std::uint64_t i = 0; i < 5000; ++i) {
+    queries.push_back({base::RandomUniform({i, 6}, e.west_m - 50.0, e.east_m + 50.0), base::RandomUniform({i, 7}, e.south_m - 50.0, e.north_m + 50.0)});
+  }
+  std::vector<GroundPoint> points(queries.size());
+  world->MakeGround()->Query(queries, points);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const terrain::GridSample alone = spec.grid->At(queries[i].x_m, queries[i].y_m);
+    ASSERT_EQ(points[i].inside, alone.inside);
+    ASSERT_EQ(points[i].z_m, alone.inside ? alone.z_m : 0.0);
+  }
+}
+
 TEST(Suelo, APlaneWorldNeedsNoRoad) {
   const auto world = MustParse("rodeira: world/1\nname: plane\nground: {kind: plane, z_m: 2, slope_x: 0.05, slope_y: -0.02, friction: 0.8}\n");
   const auto ground = world->MakeGround();

@@ -39,6 +39,8 @@ TEST(ViewSettings, WrongOnesAreRefusedWithTheirPlace) {
   EXPECT_NE(Complaint("{camera: chaise}").find("did you mean 'chase'"), std::string::npos) << Complaint("{camera: chaise}");
   EXPECT_NE(Complaint("{width_px: 10}").find("width_px"), std::string::npos);
   EXPECT_EQ(Complaint("{follow: egg}"), "fake.yaml:9: 'egg' is no vehicle that this view is wired to; did you mean 'ego'?");
+  EXPECT_EQ(Complaint("{mirrors: [left, middle]}"), "fake.yaml:9: 'middle' is no mirror; left, inside or right was expected");
+  EXPECT_EQ(Complaint("{mirrors: []}"), "");
   EXPECT_EQ(Complaint("{follow: ego}"), "");
   EXPECT_NE(Complaint("{frames: {times_s: [1]}}").find("folder"), std::string::npos);
 }

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <array>
+
+#include "common/hands/wheel_driver.hpp"
+
+namespace rodeira::hands {
+
+// As wheel files call them, in the order of WheelAxis and WheelButton.
+inline constexpr std::array<const char*, kWheelAxes> kAxisNames{"steering", "throttle", "brake", "clutch", "handbrake", "pedals"};
+inline constexpr std::array<const char*, kWheelButtons> kButtonNames{"gear_up", "gear_down", "gearbox_mode", "clutch", "handbrake", "starter"};
+
+}  // namespace rodeira::hands

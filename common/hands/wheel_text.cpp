@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <numbers>
+
+#include "common/hands/wheel_names.hpp"
+#include "common/hands/wheel_setup.hpp"
+
+namespace rodeira::hands {
+
+std::string WheelText(const WheelSettings& s, const std::string& name) {
+  std::string text = "rodeira: wheel/1\nname: \"" + name + "\"\ndevices:\n";
+  for (const DeviceUse& device : s.devices) text += fmt::format("  {}: \"{}\"\n", device.name, device.guid);
+  const auto device = [&](std::size_t place) { return s.devices.size() > 1 ? fmt::format("device: {}, ", s.devices[place].name) : std::string(); };
+  for (std::size_t i = 0; i < kWheelAxes; ++i) {
+    const auto& axis = s.axes[i];
+    if (!axis) continue;
+    const bool steering = i == static_cast<std::size_t>(WheelAxis::kSteering), two_sided = steering || i == static_cast<std::size_t>(WheelAxis::kPedals);
+    text += fmt::format("{}: {{{}axis: {}, min: {}, {}max: {}, inverted: {}, dead_zone: {}, exponent: {}{}}}\n", kAxisNames[i], device(axis->device), axis->axis, axis->min,
+                        two_sided ? fmt::format("centre: {}, ", axis->centre) : "", axis->max, axis->inverted, axis->dead_zone, axis->exponent,
+                        steering ? fmt::format(", lock_deg: {}", s.lock_rad * 180.0 / std::numbers::pi) : "");
+  }
+  std::string buttons;
+  for (std::size_t i = 0; i < kWheelButtons; ++i) {
+    if (s.buttons[i]) buttons += fmt::format("  {}: {{{}button: {}}}\n", kButtonNames[i], device(s.buttons[i]->device), s.buttons[i]->button);
+  }
+  if (!buttons.empty()) text += "buttons:\n" + buttons;
+  if (!s.lever.empty()) text += "lever:\n";
+  for (const auto& [gear, use] : s.lever) text += fmt::format("  {}: {{{}button: {}}}\n", gear < 0 ? "reverse" : std::to_string(gear), device(use.device), use.button);
+  return text + fmt::format("gears: {}\ngearbox: {}\n", s.gears, s.gearbox == vehicle::GearboxMode::kManual ? "manual" : "automatic");
+}
+
+std::filesystem::path WheelFolder() {
+  const char* config = std::getenv("XDG_CONFIG_HOME");
+  if (config != nullptr && *config != '\0') return std::filesystem::path(config) / "rodeira/wheels";
+  const char* home = std::getenv("HOME");
+  return std::filesystem::path(home != nullptr ? home : ".") / ".config/rodeira/wheels";
+}
+
+std::filesystem::path WheelFileOf(const std::string& guid) { return WheelFolder() / (guid + ".yaml"); }
+
+}  // namespace rodeira::hands

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/geometry/axis_feet.hpp"
+#include "common/network/lane.hpp"
+
+namespace rodeira::network {
+
+// Points close to one another on the surface of one road, and what Network::Surfaces says of them, number by number.
+struct Cluster {
+  using Numbers = geometry::AxisFeet::Numbers;
+  static constexpr std::size_t kMost = geometry::AxisFeet::kMost;
+
+  geometry::AxisFeet feet;  // the points, t, the direction of the reference line; of a road that is not rolled
+  std::uint32_t road = 0, section = 0;
+  int lane = 0;  // of all of them; 0: each has its own
+  std::array<int, kMost> lanes;
+  Numbers s_m;
+  Numbers z_m, z_by_s, z_by_t;                      // of the surface
+  double low_s_m, high_s_m, low_t_m, high_t_m;      // the smallest and the largest
+
+  int LaneOf(std::size_t point) const { return lane != 0 ? lane : lanes[point]; }
+};
+
+}  // namespace rodeira::network

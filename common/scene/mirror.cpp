@@ -1,0 +1,54 @@
+#include "common/scene/mirror.hpp"
+
+#include <cmath>
+
+#include "common/geometry/angle.hpp"
+
+namespace rodeira::scene {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDegree = geometry::kPi / 180.0;
+constexpr double kOutward_rad = 8.0 * kDegree;
+constexpr double kInsideView_rad = 38.0 * kDegree, kOuterView_rad = 26.0 * kDegree;
+
+double SideOf(Mirror mirror) { return mirror == Mirror::kLeft ? 1.0 : mirror == Mirror::kRight ? -1.0 : 0.0; }
+
+}  // namespace
+
+std::string_view NameOf(Mirror mirror) { return mirror == Mirror::kLeft ? "left" : mirror == Mirror::kRight ? "right" : "inside"; }
+
+std::optional<Mirror> MirrorOf(std::string_view name) {
+  for (const Mirror mirror : kAllMirrors) {
+    if (NameOf(mirror) == name) return mirror;
+  }
+  return std::nullopt;
+}
+
+double ShapeOf(Mirror mirror) { return mirror == Mirror::kInside ? 3.6 : 1.5; }
+
+Camera MirrorCamera(const Body& car, Mirror mirror) {
+  const double side = SideOf(mirror);
+  const bool inside = mirror == Mirror::kInside;
+  const Vector3d at_B(car.front_m - (inside ? 0.47 : 0.33) * car.length_m, side * (0.5 * car.width_m + 0.12), (inside ? 0.90 : 0.69) * car.height_m);
+  const Vector3d back_B(-std::cos(kOutward_rad * side), std::sin(kOutward_rad * side), inside ? -0.02 : -0.06);
+  Camera camera = LookFrom(car.p_WB_W + car.q_WB * at_B, car.q_WB * back_B, car.q_WB * Vector3d::UnitZ(), 0.0);
+  const double half = std::tan(0.5 * (inside ? kInsideView_rad : kOuterView_rad)), half_high = half / ShapeOf(mirror);
+  camera.window = Camera::Window{-half, half, -half_high, half_high};
+  camera.vertical_view_rad = 2.0 * std::atan(half_high);
+  return camera;
+}
+
+MirrorPlace PlaceOf(Mirror mirror, double aspect) {
+  constexpr double kEdge = 0.012;
+  const double wide = mirror == Mirror::kInside ? 0.26 : 0.17, high = wide * aspect / ShapeOf(mirror);
+  switch (mirror) {
+    case Mirror::kLeft: return {kEdge, 0.30, kEdge + wide, 0.30 + high};
+    case Mirror::kRight: return {1.0 - kEdge - wide, 0.30, 1.0 - kEdge, 0.30 + high};
+    case Mirror::kInside: break;
+  }
+  return {0.56, 1.0 - kEdge * aspect - high, 0.56 + wide, 1.0 - kEdge * aspect};
+}
+
+}  // namespace rodeira::scene

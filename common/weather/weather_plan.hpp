@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/config/config.hpp"
+#include "common/weather/weather.hpp"
+
+namespace rodeira::weather {
+
+// From `at_s` on, within `over_s` and evenly, what is named becomes this; the rest stays as it is or goes on changing.
+struct Change {
+  double at_s = 0.0;
+  double over_s = 0.0;  // 0: at once
+  std::optional<double> wetness, rain_mmph, visibility_m, clouds, hour;
+};
+
+// The weather of a run as a function of time alone. A change of a quantity that is still changing begins where that one is then.
+// The visibility changes evenly in its reciprocal (which is how fog looks); the hour goes forward, past midnight if it must.
+class WeatherPlan {
+ public:
+  WeatherPlan() = default;
+  // `changes` by time.
+  explicit WeatherPlan(std::vector<Change> changes) : changes_(std::move(changes)) {}
+
+  Weather At(double time_s) const;
+  bool empty() const { return changes_.empty(); }
+
+ private:
+  std::vector<Change> changes_;
+};
+
+// A list of changes (docs/formats.md). Problems stay in the file's collection.
+WeatherPlan ReadWeather(const config::List& changes);
+
+}  // namespace rodeira::weather

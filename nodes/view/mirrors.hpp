@@ -1,0 +1,41 @@
+#pragma once
+
+#include <osg/Camera>
+#include <osg/Geometry>
+#include <osg/Group>
+#include <osg/Texture2D>
+#include <osg/ref_ptr>
+
+#include <array>
+
+#include "common/scene/air.hpp"
+#include "common/scene/mirror.hpp"
+#include "nodes/view/overlay.hpp"
+#include "nodes/view/picture.hpp"
+
+namespace rodeira::view {
+
+// The driver's mirrors: each draws the scene backward into a picture of its own, which is shown reversed over the large one.
+class Mirrors {
+ public:
+  // `scene`: what they show; cameras go below `root`, frames and pictures below `overlay`.
+  Mirrors(osg::Group& root, osg::Group& scene, osg::Group& overlay);
+
+  // Of the body that the picture goes with; none: no mirrors.
+  void Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air, int width_px, int height_px);
+
+ private:
+  struct Glass {
+    osg::ref_ptr<osg::Camera> camera;
+    osg::ref_ptr<osg::Texture2D> texture;
+    osg::ref_ptr<osg::Geometry> pane;
+  };
+  static Glass MakeGlass(osg::Group& root, osg::Group& scene, osg::Group& overlay);
+  void Fit(Glass& glass, scene::Mirror mirror, int width_px, int height_px);
+
+  Boxes frames_;
+  std::array<Glass, scene::kMirrors> glasses_;
+  int width_px_ = 0, height_px_ = 0;  // of the picture for which they were fitted
+};
+
+}  // namespace rodeira::view

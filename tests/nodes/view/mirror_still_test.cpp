@@ -1,0 +1,105 @@
+// What a driver sees in the mirrors, asked of single pixels: reversed left to right.
+#include <gtest/gtest.h>
+
+#include "tests/nodes/view/pictures.hpp"
+
+namespace rodeira::view {
+namespace {
+
+constexpr int kWidth = 1280, kHeight = 720;
+
+class MirrorStill : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    RODEIRA_NEEDS_PICTURES();
+    world_ = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+    surface_ = Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test").value();
+    painter_ = std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_));
+    picture_.show_instruments = false;
+    picture_.camera = scene::CameraKind::kDriver;
+    picture_.moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
+    AddBehind(1, 14.0, 3.5, scene::Colour::Of(0xc01010));   // red, to the left
+    AddBehind(2, 14.0, -3.5, scene::Colour::Of(0x1030c0));  // blue, to the right
+  }
+  const scene::CarPose& Car() const { return picture_.moment.cars[0]; }
+  Eigen::Vector3d Behind(double behind_m, double left_m, double up_m) const { return Car().p_WB_W + Car().q_WB * Eigen::Vector3d(-behind_m, left_m, up_m); }
+  void AddBehind(std::uint64_t id, double behind_m, double left_m, scene::Colour colour) {
+    scene::AgentPose agent;
+    agent.id = id;
+    agent.colour = colour;
+    agent.p_WB_W = Behind(behind_m, left_m, 0.0);
+    agent.q_WB = Car().q_WB;
+    picture_.moment.agents.push_back(agent);
+  }
+  Image Drawn() {
+    painter_->Draw(picture_);
+    return painter_->Read();
+  }
+  // Where a place behind the car is seen in a mirror, in pixels of the picture; `reversed` as mirrors do.
+  static Eigen::Vector2d Seen(const scene::CarPose& car, scene::Mirror mirror, const Eigen::Vector3d& p_W, bool reversed) {
+    const scene::MirrorPlace place = scene::PlaceOf(mirror, static_cast<double>(kWidth) / kHeight);
+    const double wide = (place.right - place.left) * kWidth, high = (place.high - place.low) * kHeight;
+    const auto at = scene::MirrorCamera(car, mirror).Project(p_W, 10'000, 10'000);
+    const double x = at->x() / 10'000.0, y = at->y() / 10'000.0;
+    return {place.left * kWidth + (reversed ? 1.0 - x : x) * wide, (1.0 - place.high) * kHeight + y * high};
+  }
+
+  std::shared_ptr<const road::World> world_;
+  std::unique_ptr<Surface> surface_;
+  std::unique_ptr<Painter> painter_;
+  Picture picture_;
+};
+
+TEST_F(MirrorStill, LeftIsLeft) {
+  const Image image = Drawn();
+  // The bonnets of the two, 14 m behind: 2 m before their middles, at 0.75 m.
+  const auto bonnet = [&](scene::Mirror mirror, double left_m, bool reversed) {
+    const Eigen::Vector2d at = Seen(Car(), mirror, Behind(12.5, left_m, 0.85), reversed);
+    return ProbeAt(image, at.x(), at.y());
+  };
+  EXPECT_TRUE(bonnet(scene::Mirror::kInside, 3.5, true).IsRed()) << bonnet(scene::Mirror::kInside, 3.5, true);
+  EXPECT_TRUE(bonnet(scene::Mirror::kInside, -3.5, true).IsBlue()) << bonnet(scene::Mirror::kInside, -3.5, true);
+  EXPECT_TRUE(bonnet(scene::Mirror::kInside, 3.5, false).IsBlue()) << "where it would be in a picture that is not reversed the other one is";
+  EXPECT_TRUE(bonnet(scene::Mirror::kLeft, 3.5, true).IsRed()) << bonnet(scene::Mirror::kLeft, 3.5, true);
+  EXPECT_TRUE(bonnet(scene::Mirror::kRight, -3.5, true).IsBlue()) << bonnet(scene::Mirror::kRight, -3.5, true);
+  // Each of the outer ones shows the car's own flank on the side where it is.
+  const scene::MirrorPlace left = scene::PlaceOf(scene::Mirror::kLeft, static_cast<double>(kWidth) / kHeight);
+  const Probe flank = ProbeAt(image, left.right * kWidth - 6.0, (1.0 - left.low) * kHeight - 30.0, 3);
+  EXPECT_TRUE(flank.IsRed()) << flank;
+}
+
+TEST_F(MirrorStill, OnlyTheChosenOnesAndOnlyForTheDriver) {
+  const Image all = Drawn();
+  picture_.mirrors = {false, false, false};
+  const Image none = Drawn();
+  const auto differ = [&](const Image& a, const Image& b, scene::Mirror mirror) {
+    const scene::MirrorPlace place = scene::PlaceOf(mirror, static_cast<double>(kWidth) / kHeight);
+    int pixels = 0;
+    for (int y = static_cast<int>((1.0 - place.high) * kHeight) + 4; y < static_cast<int>((1.0 - place.low) * kHeight) - 4; ++y) {
+      for (int x = static_cast<int>(place.left * kWidth) + 4; x < static_cast<int>(place.right * kWidth) - 4; ++x) pixels += std::memcmp(a.At(x, y), b.At(x, y), 3) != 0;
+    }
+    return pixels > 1000;
+  };
+  for (const scene::Mirror mirror : scene::kAllMirrors) EXPECT_TRUE(differ(all, none, mirror)) << scene::NameOf(mirror);
+  picture_.mirrors = {false, true, false};
+  const Image inside = Drawn();
+  EXPECT_FALSE(differ(inside, none, scene::Mirror::kLeft));
+  EXPECT_TRUE(differ(inside, none, scene::Mirror::kInside));
+  EXPECT_FALSE(differ(inside, none, scene::Mirror::kRight));
+  picture_.camera = scene::CameraKind::kChase;
+  const Image chase = Drawn();
+  picture_.mirrors = {false, false, false};
+  EXPECT_EQ(chase.rgb, Drawn().rgb);
+}
+
+// The same picture again, after others, has the same pixels: mirrors keep nothing.
+TEST_F(MirrorStill, APictureIsAFunctionOfWhatItShows) {
+  const Image first = Drawn();
+  picture_.moment.cars[0].p_WB_W.x() += 30.0;
+  (void)Drawn();
+  picture_.moment.cars[0].p_WB_W.x() -= 30.0;
+  EXPECT_EQ(Drawn().rgb, first.rgb);
+}
+
+}  // namespace
+}  // namespace rodeira::view

@@ -1,0 +1,102 @@
+// What the weather does to a picture, asked of single pixels.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/nodes/view/pictures.hpp"
+
+namespace rodeira::view {
+namespace {
+
+constexpr int kWidth = 960, kHeight = 540;
+
+// One surface, painter and place for all: N222's first straight.
+class WeatherStill : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    RODEIRA_NEEDS_PICTURES();
+    auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml");
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    world_ = world.value();
+    auto surface = Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test");
+    ASSERT_TRUE(surface.ok());
+    surface_ = std::move(surface).value();
+    painter_ = std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_));
+    picture_.show_instruments = false;
+    picture_.camera = scene::CameraKind::kDriver;
+    picture_.moment.cars.push_back(CarOn(world_->roads()[0], 60.0, -1.45));
+    camera_ = scene::DriverCamera(picture_.moment.cars[0]);
+  }
+  Image Drawn(const weather::Weather& weather) {
+    picture_.moment.weather = weather;
+    painter_->Draw(picture_);
+    return painter_->Read();
+  }
+  // The road's surface so far ahead of the driver, in his lane and the other one.
+  Probe Road(const Image& image, double ahead_m, double t_m = -1.45) {
+    return ProbeAt(image, camera_, world_->roads()[0].Position(60.0 + ahead_m, t_m), 2);
+  }
+  static double Brightness(const Probe& probe) { return (probe.red + probe.green + probe.blue) / 3.0; }
+
+  std::shared_ptr<const road::World> world_;
+  std::unique_ptr<Surface> surface_;
+  std::unique_ptr<Painter> painter_;
+  Picture picture_;
+  scene::Camera camera_;
+};
+
+TEST_F(WeatherStill, AtNightOnlyTheHeadlightsShowTheRoad) {
+  weather::Weather night;
+  night.hour = 1.0;
+  night.clouds = 0.0;
+  const Image day = Drawn({}), dark = Drawn(night);
+  EXPECT_LT(Brightness(ProbeAt(dark, 0.5 * kWidth, 10)), 0.15 * Brightness(ProbeAt(day, 0.5 * kWidth, 10)));
+  const double near = Brightness(Road(dark, 18.0)), far = Brightness(Road(dark, 110.0));
+  EXPECT_GT(near, 40.0);
+  EXPECT_LT(far, 0.5 * near);
+  picture_.moment.cars[0].p_WB_W += Eigen::Vector3d(0.0, 0.0, 300.0);  // high above: its beam reaches nothing
+  const Image without = Drawn(night);
+  picture_.moment.cars[0].p_WB_W -= Eigen::Vector3d(0.0, 0.0, 300.0);
+  EXPECT_LT(Brightness(ProbeAt(without, 0.5 * kWidth, kHeight - 10)), 0.5 * near);
+}
+
+// A place d away differs from the fog by exp(-3 d / visibility) of what it would without: asked of two fogs with the same light.
+TEST_F(WeatherStill, FogTakesTheContrast) {
+  weather::Weather thick, thin;
+  thick.visibility_m = 60.0;
+  thin.visibility_m = 150.0;
+  const Image in_thick = Drawn(thick), in_thin = Drawn(thin);
+  const double fog = Brightness(ProbeAt(in_thick, 0.03 * kWidth, kHeight * 0.47, 2));
+  for (const double ahead_m : {10.0, 25.0, 40.0}) {
+    const Eigen::Vector3d place = world_->roads()[0].Position(60.0 + ahead_m, -1.45);
+    const double distance_m = (place - camera_.eye_W).norm(), expected = std::exp(-3.0 * distance_m / 60.0 + 3.0 * distance_m / 150.0);
+    const double much = fog - Brightness(Road(in_thin, ahead_m)), little = fog - Brightness(Road(in_thick, ahead_m));
+    EXPECT_GT(much, 20.0) << ahead_m;
+    EXPECT_NEAR(little, expected * much, 2.0) << ahead_m << " m: " << much << " of 255";
+  }
+}
+
+TEST_F(WeatherStill, AWetRoadIsDarkNearbyAndMirrorsTheSkyFarAway) {
+  weather::Weather wet;
+  wet.wetness = 1.0;
+  const Image dry = Drawn({}), drenched = Drawn(wet);
+  EXPECT_LT(Brightness(Road(drenched, 7.0)), 0.8 * Brightness(Road(dry, 7.0)));
+  EXPECT_GT(Brightness(Road(drenched, 100.0)), Brightness(Road(dry, 100.0)) + 10.0);
+}
+
+// A picture is a function of what it shows: the same moment again after other weather is the same picture.
+TEST_F(WeatherStill, RainFallsAndLeavesNothingBehind) {
+  weather::Weather rain;
+  rain.rain_mmph = 40.0;
+  const Image before = Drawn({});
+  picture_.moment.time_ns = 3'000'000'000;
+  const Image first = Drawn(rain);
+  picture_.moment.time_ns = 3'020'000'000;
+  const Image second = Drawn(rain);
+  EXPECT_NE(first.rgb, second.rgb);
+  picture_.moment.time_ns = 0;
+  EXPECT_EQ(Drawn({}).rgb, before.rgb);
+}
+
+}  // namespace
+}  // namespace rodeira::view
