@@ -18,6 +18,9 @@ constexpr double kSame_m = 1e-4, kSame = 1e-4;  // lanes that meet so are one
 
 void Agent::Save(base::StateWriter& writer) const {
   writer.Put("on_road", on_road);
+  writer.Put("is_struck", is_struck);
+  writer.Put("struck", struck);
+  writer.Put("struck_z_m", struck_z_m);
   writer.Put("entry", entry);
   writer.Put("trip", trip);
   writer.Put("links", links);
@@ -56,6 +59,9 @@ void Agent::Save(base::StateWriter& writer) const {
 
 void Agent::Restore(base::StateReader& reader) {
   reader.Get("on_road", on_road);
+  reader.Get("is_struck", is_struck);
+  reader.Get("struck", struck);
+  reader.Get("struck_z_m", struck_z_m);
   reader.Get("entry", entry);
   reader.Get("trip", trip);
   reader.Get("links", links);
@@ -90,7 +96,7 @@ void Agent::Restore(base::StateReader& reader) {
     const double* at = &numbers[6 * i];
     path.push_back({tracks[i], at[0], at[1], at[2], at[3], at[4], at[5]});
   }
-  on_road = on_road && !path.empty();
+  on_road = on_road && !is_struck && !path.empty();
 }
 
 // Quintic from (offset, slope) at u = 0 to rest on the middle at u = 1.

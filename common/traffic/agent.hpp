@@ -8,6 +8,7 @@
 #include "common/base/state.hpp"
 #include "common/driver/footprint.hpp"
 #include "common/lanes/graph.hpp"
+#include "common/traffic/struck.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
 namespace rodeira::traffic {
@@ -61,7 +62,10 @@ struct ZoneGrant {
 struct Agent {
   static constexpr double kNoCap_mps = 1e3;
 
-  bool on_road = false;
+  bool on_road = false;     // drives
+  bool is_struck = false;   // has been hit, and drives no more
+  Struck struck;
+  double struck_z_m = 0.0;  // its height, where no lane is below it
   std::uint32_t entry = 0;  // the track where it waits to enter
   std::uint32_t trip = 0;
   std::uint32_t links = 0;  // passed on this trip: keys of the draws at branches

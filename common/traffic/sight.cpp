@@ -129,6 +129,7 @@ TrafficModel::Ahead TrafficModel::FindAhead(std::uint32_t id) const {
       }
     }
     for (const Block& block : blocks_[stretch.track]) consider_block(block, stretch.zero_m);
+    if (agent.change.side == 0) continue;
     if (const auto old = LaneLeft(id, stretch, front)) {
       const double at = std::max(agent.o_m, stretch.begin_m), zero = at - graph().Across(stretch.track, at - stretch.zero_m, *old);
       for (const Occupant& other : Beyond(*old, agent.o_m - zero)) consider(other, zero);

@@ -11,7 +11,7 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr std::uint64_t kDrawLink = 103;
-constexpr double kGentleBend = 0.01;
+constexpr double kGentle_m = 3e-4;      // what a bend makes of the way of a step, and no more
 constexpr double kEntryClear_m = 12.0;  // from a lane's beginning to its first conflict zone
 
 }  // namespace
@@ -82,7 +82,11 @@ std::size_t TrafficModel::DrawLink(const Agent& agent, std::uint32_t id, std::ui
 
 void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) {
   RODEIRA_ASSERT(dt_s > 0.0);
-  See(others);
+  bodies_.assign(others.begin(), others.end());
+  for (const AgentPose& pose : poses_) {
+    if (agents_[pose.id].is_struck) bodies_.push_back(FootprintOf(pose, traits_[pose.id]));
+  }
+  See(bodies_);
   Arbitrate(dt_s);
   const std::int64_t step_ns = std::llround(dt_s * 1e9);
   ChangeLanes(step_ns);
@@ -96,6 +100,7 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
     Follow(id);
     if (AtTheEnd(id)) Leave(id);
   }
+  SlideStruck(dt_s);
   Enter();
   time_ns_ += step_ns;
   FindColours();
@@ -115,7 +120,7 @@ double TrafficModel::Moved(std::uint32_t id, double travel_m) const {
   const Agent& agent = agents_[id];
   const double rate = Advance(id, agent.o_m + 0.5 * travel_m);
   double odometer = agent.o_m + travel_m / rate;
-  if (std::fabs(rate - 1.0) < kGentleBend && agent.change.side == 0) return odometer;
+  if (std::fabs(rate - 1.0) * travel_m < kGentle_m && agent.change.side == 0) return odometer;
   const auto middle = [&](double o) -> Eigen::Vector2d {
     return 0.5 * (FrameAt(graph(), agent.path, o + HalfBase(id)).p_W + FrameAt(graph(), agent.path, o - HalfBase(id)).p_W).head<2>();
   };

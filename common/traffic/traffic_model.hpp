@@ -42,17 +42,21 @@ class TrafficModel {
   void Brake(std::uint32_t id, double deceleration_mps2);  // at exactly this rate down to rest, and stay; harder where it must
   void CapSpeed(std::uint32_t id, double speed_mps);       // never faster
   void Release(std::uint32_t id);
+  // An impulse on an agent's body, N s, at a point, both in W: from then on it drives no more, but slides on locked wheels and stays
+  // where it comes to rest, an obstacle to all others. A push that would change its speed by less than 1 mm/s is nothing to it
+  // as long as it drives; nothing happens to who is not there.
+  void Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W);
   // The next agent in front of this rectangle, in the lane on which its middle stands and whose way it faces, or further on
   // the way, and within sight; nothing where none is. One of the agents itself (by its id) is not in front of itself.
   std::optional<std::uint32_t> AheadOf(const driver::Footprint& other) const;
 
-  // Those on the road, by ascending id.
+  // Those on the road, driving or struck, by ascending id.
   const std::vector<AgentPose>& poses() const { return poses_; }
   const AgentTraits& traits(std::uint32_t id) const { return traits_[id]; }
   const Agent& agent(std::uint32_t id) const { return agents_[id]; }
   std::size_t on_road() const { return poses_.size(); }
   std::size_t vehicles() const { return agents_.size(); }
-  std::size_t waiting() const { return agents_.size() - poses_.size(); }
+  std::size_t waiting() const { return waiting_.size(); }
   // From its front bumper to who is ahead, as it was seen in the last step; 1e9 where nobody is in sight.
   double GapAhead(std::uint32_t id) const { return ahead_[id].gap_m; }
   // By the network's controllers: what their lights show. Those without times are dark, and show red here.
@@ -213,6 +217,7 @@ class TrafficModel {
   double HalfBase(std::uint32_t id) const { return 0.5 * traits_[id].wheelbase_m; }  // of the odometer
   void Follow(std::uint32_t id);
   bool AtTheEnd(std::uint32_t id) const;
+  void SlideStruck(double dt_s);
 
   // Coming and going.
   void PlaceAll(std::span<const driver::Footprint> others);
@@ -224,6 +229,8 @@ class TrafficModel {
   void FindColours();
   void FindPoses();
   AgentPose PoseOf(std::uint32_t id) const;
+  AgentPose PoseOfStruck(std::uint32_t id) const;
+  double HeightAt(const Struck& struck, double near_z_m) const;
 
   TrafficSettings settings_;
   std::shared_ptr<const Map> map_;
@@ -234,6 +241,7 @@ class TrafficModel {
   std::uint64_t next_grant_ = 1;
   std::int64_t time_ns_ = 0;  // since the beginning
   std::vector<AgentPose> poses_;
+  std::vector<driver::Footprint> bodies_;  // what agents see that does not drive as they do: other vehicles, and who has been struck
 
   // Found anew each step.
   std::vector<network::LightColour> colours_;          // by controller

@@ -40,6 +40,7 @@ struct AgentTraits {
   double height_m = 1.45;
   double wheelbase_m = 2.5;
   double wheel_radius_m = 0.3;
+  double mass_kg = 1300.0;
   std::uint32_t colour_rgb = 0x808080;
   double speed_factor = 1.0;
   driver::IdmSettings idm;
