@@ -16,7 +16,7 @@
 #include "launch/interrupt.hpp"
 #include "launch/joysticks_command.hpp"
 #include "launch/processes.hpp"
-#include "launch/recording_folder.hpp"
+#include "common/base/user_folders.hpp"
 #include "launch/shared_memory.hpp"
 
 namespace rodeira::front {
@@ -51,7 +51,7 @@ std::vector<Check> Checks(const DoctorOptions& options, launch::Transport transp
       [] { return CheckSockets(); },
       [] { return CheckCores(std::thread::hardware_concurrency()); },
       [] { return CheckMemory(); },
-      [] { return CheckDisk(RecordingFolder()); },
+      [] { return CheckDisk(base::UserDataFolder()); },
   };
 }
 

@@ -8,7 +8,7 @@
 #include <ctime>
 #include <filesystem>
 
-#include "launch/recording_folder.hpp"
+#include "common/base/user_folders.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -20,7 +20,7 @@ std::string DatedRecording(const std::string& launch_name) {
   ::localtime_r(&now, &local);
   std::string name = launch_name;
   std::ranges::replace(name, '/', '_');
-  return (RecordingFolder() / fmt::format("{}-{:%Y%m%d-%H%M%S}-{}.mcap", name, local, ::getpid())).string();
+  return (base::UserDataFolder() / fmt::format("{}-{:%Y%m%d-%H%M%S}-{}.mcap", name, local, ::getpid())).string();
 }
 
 // The name, or name2, name3 …: what no node of the launch file is called.
@@ -56,10 +56,10 @@ base::Status ResolveRecording(const launch::Launch& launch, const Placement& pla
   std::error_code problem;
   if (options.record.empty()) {
     options.record = DatedRecording(launch.name());
-    std::filesystem::create_directories(RecordingFolder(), problem);
+    std::filesystem::create_directories(base::UserDataFolder(), problem);
     if (problem) {
       const std::string what = fmt::format("the folder for recordings cannot be made: {}; name a file by --record, or say --no-record", problem.message());
-      return base::Failed(what, RecordingFolder().string());
+      return base::Failed(what, base::UserDataFolder().string());
     }
   }
   options.record = std::filesystem::absolute(options.record, problem).string();

@@ -13,6 +13,7 @@
 
 #include "common/fmi/archive.hpp"
 #include "common/fmi/fmi2.hpp"
+#include "common/fmi/trial.hpp"
 
 namespace rodeira::fmi {
 namespace {
@@ -226,6 +227,13 @@ base::Result<std::unique_ptr<Unit>> Unit::Load(const fs::path& fmu) {
   auto description = ReadDescription(folder.value().path() / "modelDescription.xml", fmu.string());
   if (!description) return description.error();
   auto unit = std::make_unique<LoadedUnit>(std::move(folder).value(), std::move(description).value(), fmu.string());
+  // Once where it can do no harm.
+  const auto tried = TryInChild([&unit] {
+    if (!unit->Open()) return;
+    auto instance = unit->Instantiate("trial");
+    if (instance && instance.value()->EnterInitialisation(0.0)) (void)instance.value()->ExitInitialisation();
+  });
+  if (!tried) return base::Error{tried.error().code, tried.error().message, fmu.string()};
   if (auto status = unit->Open(); !status) return status.error();
   return std::unique_ptr<Unit>(std::move(unit));
 }

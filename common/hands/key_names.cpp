@@ -69,6 +69,8 @@ constexpr std::array kWindow = std::to_array<WindowKey>({
     {9, "f", "full screen"},
     {60, "f3", "statistics"},
     {61, "f4", "mirrors"},
+    {62, "f5", "sound on or off"},
+    {69, "f12", "picture into a file"},
     {11, "h", "this help"},
     {41, "escape", "close the window (the run goes on)"},
     {44, "space", ""},

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <numbers>
 
+#include "common/base/user_folders.hpp"
 #include "common/hands/wheel_names.hpp"
 #include "common/hands/wheel_setup.hpp"
 
@@ -30,12 +30,7 @@ std::string WheelText(const WheelSettings& s, const std::string& name) {
   return text + fmt::format("gears: {}\ngearbox: {}\n", s.gears, s.gearbox == vehicle::GearboxMode::kManual ? "manual" : "automatic");
 }
 
-std::filesystem::path WheelFolder() {
-  const char* config = std::getenv("XDG_CONFIG_HOME");
-  if (config != nullptr && *config != '\0') return std::filesystem::path(config) / "rodeira/wheels";
-  const char* home = std::getenv("HOME");
-  return std::filesystem::path(home != nullptr ? home : ".") / ".config/rodeira/wheels";
-}
+std::filesystem::path WheelFolder() { return base::UserConfigFolder() / "wheels"; }
 
 std::filesystem::path WheelFileOf(const std::string& guid) { return WheelFolder() / (guid + ".yaml"); }
 

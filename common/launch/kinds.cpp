@@ -13,7 +13,7 @@ const std::vector<NodeKind>& NodeKinds() {
       {"road", Role::kService, 0.0, {}, {}, "rodeira-road"},
       {"vehicle", Role::kStepped, 0.001, {topics::kVehicleState, topics::kCollisions},
        {{topics::kControls, PortKind::kState, false, true}, {topics::kTrafficState, PortKind::kState, true, false},
-        {topics::kWeatherState, PortKind::kState, false, false}}, "rodeira-vehicle"},
+        {topics::kVehicleState, PortKind::kState, true, false}, {topics::kWeatherState, PortKind::kState, false, false}}, "rodeira-vehicle"},
       {"traffic", Role::kStepped, 0.01, {topics::kTrafficState, topics::kSignalsState},
        {{topics::kVehicleState, PortKind::kState, true, false}, {topics::kCollisions, PortKind::kEvent, true, false},
         {topics::kScenarioEvents, PortKind::kEvent, true, false}}, "rodeira-traffic"},

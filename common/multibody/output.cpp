@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -29,6 +30,8 @@ double Output::ValueOf(const System& system) const {
       return system.PotentialEnergy();
     case Kind::kReaction:
       return system.multipliers()[static_cast<std::size_t>(index_)];
+    case Kind::kJoint:
+      return joint_->Now(system)[component_];
     case Kind::kForce:
       return system.drawing().loads[static_cast<std::size_t>(index_)].load->Force(system.motion());
   }
@@ -52,6 +55,8 @@ class OutputReader {
       if (!from || !to) return;
       output.kind_ = Output::Kind::kAngle;
       output.form_ = Sum(*to, *from, -1.0);
+    } else if (what.size() == 3 && what[0] == "joint") {
+      if (!FindJoint(name, what[1], what[2], output)) return;
     } else if (what.size() >= 2 && (what[0] == "reaction" || what[0] == "force")) {
       if (!FindIndex(name, what, output)) return;
     } else if (what.size() != 1 || !FindOne(name, what[0], output)) {
@@ -59,7 +64,7 @@ class OutputReader {
         outputs_.Problem(
             name,
             fmt::format(
-                "'{}' is no output; P.x, P.vx, P.ax, a coordinate, energy, reaction NAME, force NAME or angle P Q was expected",
+                "'{}' is no output; P.x, P.vx, P.ax, a coordinate, energy, reaction NAME, force NAME, joint BODY P.x or angle P Q was expected",
                 outputs_.Text(name)));
       return;
     }
@@ -108,6 +113,29 @@ class OutputReader {
     outputs_.Problem(name,
                      fmt::format("'{}' is no {}{}", wanted, force ? "force" : "constraint", base::DidYouMean(wanted, names)));
     return false;
+  }
+
+  // "P.x" on this body.
+  bool FindJoint(const std::string& name, const std::string& body, const std::string& at, Output& output) {
+    const std::vector<std::string>& names = system_.drawing().body_names;
+    const auto which = std::find(names.begin(), names.end(), body);
+    const std::size_t component = at.size() > 2 && at[at.size() - 2] == '.' ? std::string("xyz").find(at.back()) : std::string::npos;
+    if (which == names.end() || component == std::string::npos) {
+      outputs_.Problem(name, which == names.end() ? fmt::format("'{}' is no body{}", body, base::DidYouMean(body, names))
+                                            : fmt::format("'{}' was found; a point and .x, .y or .z was expected", at));
+      return false;
+    }
+    const auto point = reader_.Entity(outputs_, name, at.substr(0, at.size() - 2), false);
+    if (!point) return false;
+    auto joint = JointForce::Make(system_, static_cast<int>(which - names.begin()), *point);
+    if (!joint) {
+      outputs_.Problem(name, joint.error().message);
+      return false;
+    }
+    output.kind_ = Output::Kind::kJoint;
+    output.joint_ = std::move(joint).value();
+    output.component_ = static_cast<int>(component);
+    return true;
   }
 
   bool FindOne(const std::string& name, const std::string& what, Output& output) {

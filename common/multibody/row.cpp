@@ -97,6 +97,21 @@ double Row::Evaluate(const double* q, double time_s, Triple* gradients) const {
     Gradients({zero, zero, zero}, 0.0, gradients);
     return value;
   }
+  if (one_way_ && !turned_ && coordinate_ < 0) {  // a length, the most frequent of all: the same by fewer steps
+    Vector3d v = Vector3d::Zero();
+    for (const Local& local : locals_) {
+      const double* e = q + 3 * local.entity;
+      const double a = local.a[kV];
+      v += Vector3d(a * e[0], a * e[1], a * e[2]);
+    }
+    const Vector3d by = 2.0 * scale_ * v;
+    const Local* local = locals_.data();
+    for (const Local* last = local + entities_.size(); local != last; ++local, ++gradients) {
+      const double a = local->a[kV];
+      gradients->v = {a * by.x() * local->free.x(), a * by.y() * local->free.y(), a * by.z() * local->free.z(), 0.0};
+    }
+    return scale_ * (v.squaredNorm() - value_);
+  }
   if (one_way_) {
     const Vector3d v = Way(q);
     WayGradients(2.0 * scale_ * v, -2.0 * scale_ * s, gradients);

@@ -219,6 +219,7 @@ bool System::FindAccelerations() {
     if (turn > 0 && changed == 0.0) break;
     before = changed;
   }
+  reactions_ = lambda_;
   return true;
 }
 

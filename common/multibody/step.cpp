@@ -25,6 +25,13 @@ void Contraction::Learn(int turns, double changed, double changed_before) {
     rate = std::min(1.0, kDoubt * rate);
 }
 
+void System::Foresee(double dt_s, std::span<double> q, std::span<double> qd) const {
+  for (std::size_t i = 0; i < q_.size(); ++i) {
+    q[i] = q_[i] + dt_s * (qd_[i] + 0.5 * dt_s * qdd_[i]);
+    qd[i] = qd_[i] + dt_s * qdd_[i];
+  }
+}
+
 // Where the accelerations lead that go on as they did over the last step.
 void System::Predict(double dt_s) {
   const double ahead = earlier_s_ > 0.0 ? 0.25 * dt_s / earlier_s_ : 0.0;
@@ -135,7 +142,7 @@ bool System::Refresh(double dt_s, StepReport& report) {
 }
 
 // The v nearest to the given one in the metric of M that fulfils Φq v + bias = 0 (bias_ holds it): M (v - v*) + Φqᵀ nu = 0 by
-// augmented Lagrangian, so that the result does not depend on the matrix having been made at exactly these coordinates.
+// augmented Lagrangian, so that the result does not depend on the matrix having been made at exactly these coordinates. nu_ holds nu then.
 bool System::Project(std::vector<double>& v, double wanted, double accepted, StepReport& report) {
   std::copy(v.begin(), v.end(), way_.begin());
   std::fill(nu_.begin(), nu_.end(), 0.0);
@@ -148,17 +155,22 @@ bool System::Project(std::vector<double>& v, double wanted, double accepted, Ste
     for (std::size_t i = 0; i < mu_.size(); ++i) mu_[i] += bias_[i];
     const double violation = LargestOf(mu_);
     const bool settled = turn == 0 || (turn > 1 && changed * changed <= kSettledShare * first * changed_before);
-    if (violation <= wanted && settled) return true;
-    if (violation <= accepted && violation > kNearer * before && turn > 2) return true;
+    const bool done = (violation <= wanted && settled) || (violation <= accepted && violation > kNearer * before && turn > 2);
+    if (done) {
+      for (std::size_t i = 0; turn > 0 && i < mu_.size(); ++i) nu_[i] += weight_ * mu_[i];
+      return true;
+    }
     if (turn == settings_.most_iterations || !std::isfinite(violation)) return false;
     before = violation;
     for (std::size_t i = 0; i < mu_.size(); ++i) {
       if (turn > 0) nu_[i] += weight_ * mu_[i];
       mu_[i] = nu_[i] + weight_ * mu_[i];
     }
-    for (std::size_t i = 0; i < v.size(); ++i) change_[i] = v[i] - way_[i];
     std::fill(residual_.begin(), residual_.end(), 0.0);
-    if (turn > 0) MultiplyMass(change_.data(), residual_.data());
+    if (turn > 0) {
+      for (std::size_t i = 0; i < v.size(); ++i) change_[i] = v[i] - way_[i];
+      MultiplyMass(change_.data(), residual_.data());
+    }
     constraints_.AddTransposed(mu_.data(), residual_.data());
     Mask(residual_.data());
     matrix_.Solve(residual_.data(), change_.data());
@@ -178,7 +190,9 @@ bool System::ProjectVelocities(StepReport& report) {
 
 bool System::ProjectAccelerations(StepReport& report) {
   constraints_.Bias(q_.data(), qd_.data(), time_s_, bias_.data());
-  return Project(qdd_, settings_.violation_mps2, std::numeric_limits<double>::max(), report);
+  const bool good = Project(qdd_, settings_.violation_mps2, std::numeric_limits<double>::max(), report);
+  for (std::size_t i = 0; i < nu_.size(); ++i) reactions_[i] = lambda_[i] + nu_[i];
+  return good;
 }
 
 // v -= A⁻¹ Φqᵀ α h²/4 mu.

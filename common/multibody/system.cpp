@@ -3,29 +3,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 namespace rodeira::multibody {
 
+namespace {
+
+// Two numbers of a row, wherever they stand. What the registers do with them is what one after the other would give.
+using Pair = double __attribute__((vector_size(16), aligned(8), may_alias));
+using Bits = long long __attribute__((vector_size(16)));
+
+}  // namespace
+
 double LargestOf(std::span<const double> values) {
-  std::array<double, 4> most{};
-  std::array<double, 4> nothing{};  // stays 0 unless something is not finite
+  constexpr Bits kWithoutSign = {0x7fffffffffffffffLL, 0x7fffffffffffffffLL};
+  Pair first{}, second{}, nothing{};  // the last stays 0 unless something is not finite
   const std::size_t even = values.size() / 4 * 4;
   for (std::size_t i = 0; i < even; i += 4) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      const double size = std::fabs(values[i + k]);
-      most[k] = size > most[k] ? size : most[k];
-      nothing[k] += 0.0 * size;
-    }
+    const Pair a = reinterpret_cast<Pair>(reinterpret_cast<Bits>(*reinterpret_cast<const Pair*>(values.data() + i)) & kWithoutSign);
+    const Pair b = reinterpret_cast<Pair>(reinterpret_cast<Bits>(*reinterpret_cast<const Pair*>(values.data() + i + 2)) & kWithoutSign);
+    first = a > first ? a : first;
+    second = b > second ? b : second;
+    nothing += 0.0 * a + 0.0 * b;
   }
+  double most = std::max({first[0], first[1], second[0], second[1]});
+  double none = nothing[0] + nothing[1];
   for (std::size_t i = even; i < values.size(); ++i) {
-    most[0] = std::max(most[0], std::fabs(values[i]));
-    nothing[0] += 0.0 * values[i];
+    most = std::max(most, std::fabs(values[i]));
+    none += 0.0 * values[i];
   }
-  const bool finite = nothing[0] + nothing[1] + nothing[2] + nothing[3] == 0.0;
-  return finite ? std::max({most[0], most[1], most[2], most[3]}) : std::numeric_limits<double>::infinity();
+  return none == 0.0 ? most : std::numeric_limits<double>::infinity();
 }
 
 System::System(const Drawing& drawing, const SystemSettings& settings) : drawing_(drawing), settings_(settings) {}
@@ -126,6 +134,7 @@ base::Status System::Compile() {
   lambda0_.assign(lambda_.size(), 0.0);
   bias_.assign(lambda_.size(), 0.0);
   nu_.assign(lambda_.size(), 0.0);
+  reactions_.assign(lambda_.size(), 0.0);
   return CompileMass();
 }
 
@@ -289,6 +298,7 @@ void System::Restore(base::StateReader& reader) {
   reader.Get("qd", std::span<double>(qd_));
   reader.Get("qdd", std::span<double>(qdd_));
   reader.Get("lambda", std::span<double>(lambda_));
+  reactions_ = lambda_;
   reader.Get("earlier", std::span<double>(earlier_));
   reader.Get("earlier_s", earlier_s_);
   reader.Get("contraction", newton_.rate);

@@ -80,6 +80,10 @@ class System {
   // All four.
   base::Status Start();
 
+  // Coordinates and velocities in dt_s if the accelerations stay as they are: what a load that must be set before a step may act on. Three
+  // numbers an entity each.
+  void Foresee(double dt_s, std::span<double> q, std::span<double> qd) const;
+
   // Advances by dt_s over 0. Where it does not converge the state is what the last iteration left.
   StepReport Step(double dt_s);
 
@@ -102,8 +106,9 @@ class System {
   Motion motion() const { return {q_.data(), qd_.data(), time_s_}; }
   Motion acceleration() const { return {q_.data(), qdd_.data(), time_s_}; }  // At: position, RateOf: acceleration
   Motion velocity_and_acceleration() const { return {qd_.data(), qdd_.data(), time_s_}; }
-  // Forces (torques) of the constraints, in the constraints' order; positive pulls the row's value down.
-  std::span<const double> multipliers() const { return lambda_; }
+  // Forces (torques) of the constraints, in the constraints' order; positive pulls the row's value down. They belong to qdd() as it has been
+  // projected: M qdd + Φqᵀ multipliers = Q. After Restore: from the next step on.
+  std::span<const double> multipliers() const { return reactions_; }
   double KineticEnergy() const;
   // Of weight and of the loads that have one.
   double PotentialEnergy() const;
@@ -159,7 +164,7 @@ class System {
   double earlier0_s_ = 0.0;
   Contraction newton0_;
   // Scratch, of no meaning between calls.
-  std::vector<double> q0_, qd0_, qdd0_, lambda0_, earlier0_, way_, forces_, residual_, change_, mu_, nu_, bias_;
+  std::vector<double> q0_, qd0_, qdd0_, lambda0_, earlier0_, way_, forces_, residual_, change_, mu_, nu_, bias_, reactions_;
 };
 
 }  // namespace rodeira::multibody

@@ -4,28 +4,9 @@
 
 #include "common/network/cluster.hpp"
 #include "common/road/built_ground.hpp"
+#include "common/road/cluster_points.hpp"
 
 namespace rodeira::road {
-namespace {
-
-using Numbers = network::Cluster::Numbers;
-
-// As BuiltGround::OnRoad and the ground's normal of it.
-void SetNormals(const network::Cluster& cluster, Numbers& normal_x, Numbers& normal_y, Numbers& up) {
-  for (std::size_t i = 0; i < cluster.feet.count; ++i) {
-    const double tangent_x = cluster.feet.tangent_x[i], tangent_y = cluster.feet.tangent_y[i];
-    const double pace = 1.0 - cluster.feet.curvature_1pm[i] * cluster.feet.t_m[i];
-    const double ds_x = pace * tangent_x, ds_y = pace * tangent_y, ds_z = cluster.z_by_s[i];
-    const double dt_x = -tangent_y, dt_y = tangent_x, dt_z = cluster.z_by_t[i];
-    const double down = -1.0 / (ds_x * dt_y - ds_y * dt_x);
-    const double slope_x = (ds_y * dt_z - ds_z * dt_y) * down, slope_y = (ds_z * dt_x - ds_x * dt_z) * down;
-    up[i] = 1.0 / std::sqrt(slope_x * slope_x + slope_y * slope_y + 1.0);
-    normal_x[i] = -slope_x * up[i];
-    normal_y[i] = -slope_y * up[i];
-  }
-}
-
-}  // namespace
 
 // Whether no junction is near, no bridge or tunnel, and nothing stands on the road or in its place.
 bool BuiltGround::OneRoadAlone(const network::Cluster& cluster) const {
@@ -45,25 +26,11 @@ bool BuiltGround::OneRoadAlone(const network::Cluster& cluster) const {
 
 bool BuiltGround::Together(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) const {
   network::Cluster cluster;
-  cluster.feet.count = queries.size();
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    cluster.feet.x_m[i] = queries[i].x_m;
-    cluster.feet.y_m[i] = queries[i].y_m;
-  }
+  SetPlaces(queries, cluster);
   if (!network_->Together(cluster) || !OneRoadAlone(cluster)) return false;
-  Numbers normal_x, normal_y, up;
-  SetNormals(cluster, normal_x, normal_y, up);
-  const auto ground_at = [&](int lane, double s) -> const LaneGround& {
-    return grounds_.At(*network_, {cluster.road, cluster.section, lane}, s);
-  };
-  const LaneGround* common = nullptr;
-  if (cluster.lane != 0 && &ground_at(cluster.lane, cluster.low_s_m) == &ground_at(cluster.lane, cluster.high_s_m)) {
-    common = &ground_at(cluster.lane, cluster.low_s_m);
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const LaneGround& ground = common != nullptr ? *common : ground_at(cluster.LaneOf(i), cluster.s_m[i]);
-    points[i] = {cluster.z_m[i], {normal_x[i], normal_y[i], up[i]}, ground.friction, ground.surface, true};
-  }
+  ClusterNormals normals;
+  SetNormals(cluster, [](double part, double up) { return part * (-1.0 / up); }, normals);
+  PutPoints(*network_, grounds_, cluster, normals, points);
   if (!paint_.MayBe(cluster.road, cluster.low_s_m, cluster.high_s_m, cluster.low_t_m, cluster.high_t_m)) return true;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!paint_.At(cluster.road, cluster.s_m[i], cluster.feet.t_m[i])) continue;

@@ -15,6 +15,12 @@ inline constexpr double kVerge_m = 100.0;
 SurfacePoint NetworkGround(const network::Network& network, const LaneGrounds& grounds, const FrictionTable& friction, double x_m, double y_m,
                            double z_hint_m, const SurfaceDetail* detail = nullptr);
 
+// The same of points close to one another, where they lie on one road alone, at or below what their hints ask for: to the bit what
+// NetworkGround says of each. False, and then nothing is written, where that is not so or not told so quickly. Spans of equal length, of
+// Cluster::kMost at most.
+bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& grounds, const SurfaceDetail* detail,
+                           std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points);
+
 // The roads and their verges.
 Extents NetworkExtents(const network::Network& network);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "common/base/assert.hpp"
@@ -18,10 +19,14 @@ namespace {
 
 constexpr std::size_t kFew = 12;  // are asked sooner one by one
 
-// SUELO on a world: nothing but World::At, a point at a time, or the same faster where many lie together on a built road.
+// Answers for points close to one another as World::At does for each; false, and writes nothing, where it cannot.
+using Together = std::function<bool(std::span<const terrain::GroundQuery>, std::span<terrain::GroundPoint>)>;
+
+// SUELO on a world: nothing but World::At, a point at a time, or the same faster where many lie together on a road.
 class WorldGround final : public terrain::Ground {
  public:
-  WorldGround(std::shared_ptr<const World> world, const BuiltGround* built) : world_(std::move(world)), built_(built), ahead_(world_->grid()) {}
+  WorldGround(std::shared_ptr<const World> world, Together together)
+      : world_(std::move(world)), together_(std::move(together)), ahead_(world_->grid()) {}
 
   void Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) override {
     RODEIRA_ASSERT(queries.size() == points.size());
@@ -29,7 +34,7 @@ class WorldGround final : public terrain::Ground {
       const std::size_t count = std::min(network::Cluster::kMost, queries.size() - from);
       const auto some = queries.subspan(from, count);
       const auto answers = points.subspan(from, count);
-      if (count <= kFew || built_ == nullptr || !built_->Together(some, answers)) OneByOne(some, answers);
+      if (count <= kFew || !together_ || !together_(some, answers)) OneByOne(some, answers);
     }
   }
 
@@ -56,7 +61,7 @@ class WorldGround final : public terrain::Ground {
   }
 
   std::shared_ptr<const World> world_;
-  const BuiltGround* built_;  // the world's, or null
+  Together together_;  // none: each point by itself
   terrain::HeightsAhead ahead_;
 };
 
@@ -95,7 +100,15 @@ Extents World::extents() const {
   return {-infinity, -infinity, infinity, infinity};
 }
 
-std::unique_ptr<terrain::Ground> World::MakeGround() const { return std::make_unique<WorldGround>(shared_from_this(), built_.get()); }
+std::unique_ptr<terrain::Ground> World::MakeGround() const {
+  Together together;
+  if (built_ != nullptr) {
+    together = [this](auto queries, auto points) { return built_->Together(queries, points); };
+  } else if (open_drive()) {
+    together = [this](auto queries, auto points) { return NetworkGroundTogether(*network_, grounds_, detail_.get(), queries, points); };
+  }
+  return std::make_unique<WorldGround>(shared_from_this(), std::move(together));
+}
 
 base::Digest World::measured_digest() const { return detail_ == nullptr ? 0 : detail_->digest(); }
 

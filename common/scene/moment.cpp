@@ -28,6 +28,7 @@ WheelPose BetweenWheels(const WheelPose& a, const WheelPose& b, double alpha, do
 
 CarPose BetweenCars(const CarPose& a, const CarPose& b, double alpha, double interval_s) {
   CarPose car = alpha < 0.5 ? a : b;  // what does not move smoothly
+  car.blow = std::max(a.blow, b.blow);
   car.p_WB_W = a.p_WB_W + alpha * (b.p_WB_W - a.p_WB_W);
   car.q_WB = a.q_WB.slerp(alpha, b.q_WB);
   car.speed_mps = Between(a.speed_mps, b.speed_mps, alpha);

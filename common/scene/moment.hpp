@@ -30,8 +30,11 @@ struct CarPose {
   double speed_mps = 0.0;           // forward
   double brake = 0.0;               // 0 … 1
   std::int32_t gear = 0;
-  double engine_rpm = 0.0, fuel_l = 0.0;
+  double engine_rpm = 0.0, fuel_l = 0.0, fuel_lph = 0.0;  // litres, litres an hour
+  double odometer_m = 0.0;
   double steering_wheel_rad = 0.0;  // positive to the left
+  double throttle = 0.0;            // 0 … 1
+  double sliding = 0.0, blow = 0.0;  // of its tyres, and against its body: 0 none … 1
   double length_m = 3.85, front_m = 2.01, width_m = 1.65;  // front bumper from B's origin
   double height_m = 1.42, wheelbase_m = 2.46, wheel_radius_m = 0.2915;       // at rest
   std::array<double, 2> track_m = {1.42, 1.42};             // front, rear

@@ -7,6 +7,7 @@
 
 #include "common/geometry/angle.hpp"
 #include "common/vehicle/bicycle_model.hpp"
+#include "common/vehicle/cruise.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -35,7 +36,10 @@ class BicycleEquilibrium {
   Unknowns OnThePlane() const;
   void SettleCorners();
   BicycleModel::Contacts FindContacts() const;
+  Eigen::Vector3d Along(const Eigen::Vector3d& normal) const;
+  Eigen::Vector3d Drag(const Eigen::Vector3d& normal) const;
   Eigen::Vector3d HoldingForce(const Eigen::Vector3d& normal) const;
+  CruiseForces Cruise(const Eigen::Vector3d& normal) const;
   std::array<Eigen::Vector3d, kWheels> HoldingForces(const BicycleModel::Contacts& contacts, const Eigen::Vector3d& normal) const;
   Eigen::Vector3d Residual(const Unknowns& unknowns);
   Unknowns Balance(Unknowns unknowns);
@@ -79,14 +83,34 @@ BicycleModel::Contacts BicycleEquilibrium::FindContacts() const {
   return contacts;
 }
 
+// The way ahead in the road's plane.
+Eigen::Vector3d BicycleEquilibrium::Along(const Eigen::Vector3d& normal) const {
+  const Eigen::Vector3d forward = model_.body_.q_WG * Eigen::Vector3d::UnitX();
+  return (forward - forward.dot(normal) * normal).normalized();
+}
+
+// Of the air on a car that keeps its speed, at its centre of gravity.
+Eigen::Vector3d BicycleEquilibrium::Drag(const Eigen::Vector3d& normal) const {
+  if (!IsCruise(initial_)) return Eigen::Vector3d::Zero();
+  const BodySettings& body = model_.settings_.body;
+  return -std::copysign(AirDrag(body.air_density_kgpm3, body.drag_area_m2, initial_.speed_mps), initial_.speed_mps) * Along(normal);
+}
+
 // What the tyres must give along the road, all together, so that nothing accelerates.
 Eigen::Vector3d BicycleEquilibrium::HoldingForce(const Eigen::Vector3d& normal) const {
-  Eigen::Vector3d force(0.0, 0.0, -model_.settings_.body.mass_kg * kGravity_mps2);
+  Eigen::Vector3d force = Drag(normal);
+  force.z() -= model_.settings_.body.mass_kg * kGravity_mps2;
   for (const auto& wheel : model_.wheels_) force += wheel.corner.load_N() * wheel.normal_W;
   return force.dot(normal) * normal - force;
 }
 
-// Of each wheel. Along the car by load; across it the axles share so that nothing yaws (both forces of an axle act at its middle), and an
+CruiseForces BicycleEquilibrium::Cruise(const Eigen::Vector3d& normal) const {
+  std::array<double, kWheels> loads_N{};
+  for (std::size_t i = 0; i < kWheels; ++i) loads_N[i] = model_.wheels_[i].corner.load_N();
+  return PushAlong(HoldingForce(normal).dot(Along(normal)), loads_N, model_.settings_.wheel, model_.settings_.front_driven, initial_.speed_mps);
+}
+
+// Of each wheel. Along the car by load, or as rolling wheels drive it; across it the axles share so that nothing yaws (both forces of an axle act at its middle), and an
 // axle's wheels by load.
 std::array<Eigen::Vector3d, kWheels> BicycleEquilibrium::HoldingForces(const BicycleModel::Contacts& contacts, const Eigen::Vector3d& normal) const {
   std::array<Eigen::Vector3d, kWheels> forces;
@@ -95,19 +119,22 @@ std::array<Eigen::Vector3d, kWheels> BicycleEquilibrium::HoldingForces(const Bic
   for (std::size_t i = 0; i < kWheels; ++i) load[i / 2] += model_.wheels_[i].corner.load_N();
   if (!(load[0] > 0.0 && load[1] > 0.0)) return forces;
   const Eigen::Vector3d holding = HoldingForce(normal);
-  const Eigen::Vector3d forward = model_.body_.q_WG * Eigen::Vector3d::UnitX();
-  const Eigen::Vector3d along = (forward - forward.dot(normal) * normal).normalized();
+  const Eigen::Vector3d along = Along(normal);
   const Eigen::Vector3d lengthwise = holding.dot(along) * along, across = holding - lengthwise;
   const auto yaws = [&](std::size_t axle, const Eigen::Vector3d& force) {
     return (0.5 * (contacts[2 * axle].point_W + contacts[2 * axle + 1].point_W) - model_.body_.p_WG_W).cross(force).dot(normal);
   };
   const double by_load = load[0] / (load[0] + load[1]);
-  const double lengthwise_yaws = by_load * yaws(0, lengthwise) + (1.0 - by_load) * yaws(1, lengthwise);
+  std::array<double, kWheels> along_N{};
+  for (std::size_t i = 0; i < kWheels; ++i)
+    along_N[i] = model_.wheels_[i].corner.load_N() / load[i / 2] * (i < 2 ? by_load : 1.0 - by_load) * lengthwise.dot(along);
+  if (IsCruise(initial_)) along_N = Cruise(normal).longitudinal_N;
+  const double lengthwise_yaws = (along_N[0] + along_N[1]) * yaws(0, along) + (along_N[2] + along_N[3]) * yaws(1, along);
   const double apart = yaws(0, across) - yaws(1, across);
   const double front = std::fabs(apart) > 1e-9 ? std::clamp(-(lengthwise_yaws + yaws(1, across)) / apart, 0.0, 1.0) : by_load;
   for (std::size_t i = 0; i < kWheels; ++i) {
     const double of_axle = model_.wheels_[i].corner.load_N() / load[i / 2];
-    forces[i] = of_axle * ((i < 2 ? by_load : 1.0 - by_load) * lengthwise + (i < 2 ? front : 1.0 - front) * across);
+    forces[i] = along_N[i] * along + of_axle * (i < 2 ? front : 1.0 - front) * across;
   }
   return forces;
 }
@@ -119,7 +146,7 @@ Eigen::Vector3d BicycleEquilibrium::Residual(const Unknowns& unknowns) {
   const BicycleModel::Contacts contacts = FindContacts();
   const Eigen::Vector3d normal = model_.RoadNormal(contacts);
   const std::array<Eigen::Vector3d, kWheels> holding = HoldingForces(contacts, normal);
-  Eigen::Vector3d force = HoldingForce(normal);
+  Eigen::Vector3d force = HoldingForce(normal) + Drag(normal);
   force.z() -= model_.settings_.body.mass_kg * kGravity_mps2;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < kWheels; ++i) {
@@ -182,9 +209,10 @@ void BicycleEquilibrium::SetInMotion() {
   model_.contacts_ = FindContacts();
   RigidBody& body = model_.body_;
   const Eigen::Vector3d normal = model_.RoadNormal(model_.contacts_);
-  const Eigen::Vector3d forward = body.q_WG * Eigen::Vector3d::UnitX();
-  const Eigen::Vector3d along = (forward - forward.dot(normal) * normal).normalized();
-  const Eigen::Vector3d v_WB_W = initial_.speed_mps * along + initial_.lateral_speed_mps * normal.cross(along);
+  const Eigen::Vector3d along = Along(normal);
+  const bool cruises = IsCruise(initial_);
+  const double speed_mps = cruises ? initial_.speed_mps / along.dot(body.q_WG * Eigen::Vector3d::UnitX()) : initial_.speed_mps;
+  const Eigen::Vector3d v_WB_W = speed_mps * along + initial_.lateral_speed_mps * normal.cross(along);
   body.w_WG_G = body.q_WG.conjugate() * (initial_.yaw_rate_radps * normal);
   body.v_WG_W = v_WB_W + body.w_WG_W().cross(body.q_WG * model_.p_BG_B_);
 
@@ -196,8 +224,12 @@ void BicycleEquilibrium::SetInMotion() {
     const TyreSettings& tyre = model_.tyres_[i];
     const double bears = wheel.corner.load_N();
     wheel.spin_radps = rests ? 0.0 : model_.MotionOf(model_.contacts_, i).vx_mps / model_.settings_.wheel.rolling_radius_m;
-    const TyreMotion motion = model_.MotionOf(model_.contacts_, i);
-    if (rests && bears > 0.0) {
+    TyreMotion motion = model_.MotionOf(model_.contacts_, i);
+    if (cruises && bears > 0.0) {
+      const TyreForces wanted{holding[i].dot(contact.along_W), holding[i].dot(contact.across_W)};
+      motion = wheel.tyre.SetToRollAndBear(tyre, wanted, motion.vx_mps, bears, wheel.friction);
+      wheel.spin_radps = (motion.vx_mps - motion.vsx_mps) / model_.settings_.wheel.rolling_radius_m;
+    } else if (rests && bears > 0.0) {
       wheel.tyre.SetToBear(tyre, {holding[i].dot(contact.along_W), holding[i].dot(contact.across_W)}, bears, wheel.friction);
     } else {
       wheel.tyre.SetToRoll(tyre, motion, bears, wheel.friction);
@@ -206,7 +238,8 @@ void BicycleEquilibrium::SetInMotion() {
   }
   const std::size_t driven = model_.settings_.front_driven ? kFrontLeft : kRearLeft;
   const double turning = 0.5 * (model_.wheels_[driven].spin_radps + model_.wheels_[driven + 1].spin_radps);
-  model_.powertrain_.Start(model_.settings_.powertrain, rests ? 0.0 : turning);
+  if (cruises) model_.powertrain_.StartSteadily(model_.settings_.powertrain, turning, Cruise(normal).at_wheel_Nm);
+  else model_.powertrain_.Start(model_.settings_.powertrain, rests ? 0.0 : turning);
 }
 
 base::Status BicycleModel::Initialise(const InitialCondition& initial, terrain::Ground& ground) {

@@ -71,6 +71,13 @@ void Engine::Start(double speed_radps) {
   running_ = true;
 }
 
+void Engine::Hold(const EngineSettings& engine, double torque_Nm) {
+  drag_Nm_ = DragTorque(engine, speed_radps_);
+  const double available = FullLoadTorque(engine, speed_radps_) + drag_Nm_;
+  throttle_ = available > 0.0 ? std::clamp((torque_Nm + drag_Nm_) / available, 0.0, 1.0) : 0.0;
+  indicated_Nm_ = throttle_ * available;
+}
+
 void Engine::Prepare(const EngineSettings& engine, double throttle, bool starter) {
   if (running_ && speed_radps_ < engine.stall_radps && !starter) running_ = false;
   if (!running_ && starter && speed_radps_ >= engine.stall_radps) running_ = true;

@@ -45,6 +45,8 @@ double DragTorque(const EngineSettings& engine, double speed_radps);
 class Engine {
  public:
   void Start(double speed_radps);  // running at this speed, nothing burnt yet
+  // After Start: with the throttle at which it gives this torque at the flywheel, as far as it can.
+  void Hold(const EngineSettings& engine, double torque_Nm);
 
   // Decides running, limiter and throttle for the coming step. `throttle` is the driver's or the gear change's.
   void Prepare(const EngineSettings& engine, double throttle, bool starter);

@@ -16,11 +16,12 @@ void WheelLoad::SetStep(double longitudinal_N, double lateral_N, double brake_on
   brake_on_wheel_Nm_ = brake_on_wheel_Nm;
   spin_radps_ = spin_radps;
   anchored_ = false;
+  locked_ = false;
 }
 
-void WheelLoad::Anchor(const Vector3d& hub_W, double stiffness_Npm) {
-  SetStep(0.0, 0.0, 0.0, 0.0);
+void WheelLoad::Anchor(const Vector3d& hub_W, double stiffness_Npm, bool locked) {
   anchored_ = true;
+  locked_ = locked;
   anchor_W_ = hub_W;
   anchor_Npm_ = stiffness_Npm;
 }
@@ -39,7 +40,7 @@ WheelLoad::Contact WheelLoad::ContactAt(const multibody::Motion& motion) const {
 Eigen::Vector2d WheelLoad::Tangential(const multibody::Motion& motion, const Contact& contact) const {
   if (!anchored_) return {longitudinal_N_, lateral_N_};
   const Vector3d away = anchor_Npm_ * (motion.At(settings_.centre) - anchor_W_);
-  return {-away.dot(contact.along_W), -away.dot(contact.across_W)};
+  return {longitudinal_N_ - away.dot(contact.along_W), lateral_N_ - away.dot(contact.across_W)};
 }
 
 void WheelLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) const {
@@ -48,7 +49,7 @@ void WheelLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) cons
   const Eigen::Vector2d tangential = Tangential(motion, contact);
   const Vector3d force = contact.load_N * normal_W_ + tangential[0] * contact.along_W + tangential[1] * contact.across_W;
   Vector3d moment = (contact.point_W - motion.At(settings_.centre)).cross(force);
-  if (!anchored_) {
+  if (!locked_) {
     moment -= (moment.dot(axle) + brake_on_wheel_Nm_) * axle;  // about its axle the wheel turns by itself
     moment -= settings_.spin_inertia_kgm2 * spin_radps_ * motion.RateOf(settings_.axle);
   }
@@ -70,14 +71,14 @@ void WheelLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) cons
 }
 
 void ChassisLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) const {
-  const Vector3d v = multibody::Evaluate(drag_point_, motion.qd);
+  const Vector3d v = headway_W_ + multibody::Evaluate(drag_point_, motion.qd);
   sink.Push(drag_point_, -half_rho_area_kgpm_ * v.norm() * v);
   multibody::PushTorque(chassis_, -torque_on_wheels_Nm_ * multibody::Evaluate(chassis_.axes[1], motion.q), motion.q,
                         sink.forces());
 }
 
 double ChassisLoad::Force(const multibody::Motion& motion) const {
-  return half_rho_area_kgpm_ * multibody::Evaluate(drag_point_, motion.qd).squaredNorm();
+  return half_rho_area_kgpm_ * (headway_W_ + multibody::Evaluate(drag_point_, motion.qd)).squaredNorm();
 }
 
 double ColumnLoad::Force(const multibody::Motion& motion) const {

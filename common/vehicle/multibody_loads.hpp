@@ -32,11 +32,11 @@ class WheelLoad final : public multibody::Load {
   }
   // Forces along and across, torque of the brake on the wheel about the axle, spin.
   void SetStep(double longitudinal_N, double lateral_N, double brake_on_wheel_Nm, double spin_radps);
-  // Holds the hub over this point by stiff springs, wheel locked (INI); until SetStep.
-  void Anchor(const Eigen::Vector3d& hub_W, double stiffness_Npm);
+  // INI, until SetStep: stiff springs hold the hub over this point, beside the forces that are set; locked, or free to roll.
+  void Anchor(const Eigen::Vector3d& hub_W, double stiffness_Npm, bool locked);
 
   Contact ContactAt(const multibody::Motion& motion) const;
-  // Tangential forces now: those set, or the anchor's.
+  // Tangential forces now: those set and the anchor's.
   Eigen::Vector2d Tangential(const multibody::Motion& motion, const Contact& contact) const;
 
   std::vector<int> Stiffens() const override { return {settings_.centre}; }
@@ -51,6 +51,7 @@ class WheelLoad final : public multibody::Load {
   double lateral_N_ = 0.0;
   double brake_on_wheel_Nm_ = 0.0;
   double spin_radps_ = 0.0;
+  bool locked_ = false;
   bool anchored_ = false;
   Eigen::Vector3d anchor_W_ = Eigen::Vector3d::Zero();
   double anchor_Npm_ = 0.0;
@@ -62,6 +63,8 @@ class ChassisLoad final : public multibody::Load {
   ChassisLoad(const multibody::Frame& chassis, multibody::Form drag_point, double half_rho_area_kgpm)
       : chassis_(chassis), drag_point_(std::move(drag_point)), half_rho_area_kgpm_(half_rho_area_kgpm) {}
   void SetDrive(double torque_on_wheels_Nm) { torque_on_wheels_Nm_ = torque_on_wheels_Nm; }
+  // INI: what the air meets beside the motion, as if the car went that fast.
+  void SetHeadway(const Eigen::Vector3d& v_W) { headway_W_ = v_W; }
   void Add(const multibody::Motion& motion, multibody::Sink& sink) const override;
   double Force(const multibody::Motion& motion) const override;  // the drag
 
@@ -70,6 +73,7 @@ class ChassisLoad final : public multibody::Load {
   multibody::Form drag_point_;
   double half_rho_area_kgpm_;
   double torque_on_wheels_Nm_ = 0.0;
+  Eigen::Vector3d headway_W_ = Eigen::Vector3d::Zero();
 };
 
 // The driver's hands turn the column through a spring and a damper.

@@ -13,6 +13,10 @@ constexpr double kMostStep_s = 0.1;
 constexpr double kBottom = 0.5;  // share of the radius that a tyre can be pressed in
 constexpr int kMostHalvings = 3;
 
+TyreMotion Halfway(const TyreMotion& a, const TyreMotion& b) {
+  return {0.5 * (a.vx_mps + b.vx_mps), 0.5 * (a.vsx_mps + b.vsx_mps), 0.5 * (a.vsy_mps + b.vsy_mps), 0.5 * (a.camber_rad + b.camber_rad)};
+}
+
 }  // namespace
 
 base::Status MultibodyModel::Build() {
@@ -44,17 +48,17 @@ base::Status MultibodyModel::Build() {
   auto system = multibody::System::Make(drawing);
   if (!system) return system.error();
   system_ = std::move(system).value();
+  ahead_q_.assign(system_->q().size(), 0.0);
+  ahead_qd_ = ahead_q_;
   if (auto status = system_->Start(); !status) return status;
   // Where the car stands level on z = 0 is the published frame.
   terrain::PlaneGround level;
-  if (auto status = Settle({}, level); !status) return status;
+  if (auto status = Initialise({}, level); !status) return status;
   const Eigen::Isometry3d X_WC = X_WB();  // X_CB is the identity as yet
   X_CB_ = X_WC.inverse();
   body_load_->SetBody(X_CB_, settings_.dimensions);
   for (std::size_t i = 0; i < kWheels; ++i) hub_rest_B_[i] = Hub_W(i);
-  SetInMotion({});
-  Publish(Controls{}, 0.0);
-  return {};
+  return Initialise({}, level);
 }
 
 Eigen::Vector3d MultibodyModel::Hub_W(std::size_t wheel) const { return system_->motion().At(settings_.wheels[wheel].centre); }
@@ -71,11 +75,9 @@ Eigen::Vector3d MultibodyModel::Forward_W() const {
 }
 
 // ½ Σ e × ė.
-Eigen::Vector3d MultibodyModel::Turning_W(const multibody::Frame& frame) const {
+Eigen::Vector3d MultibodyModel::Turning_W(const multibody::Frame& frame, const multibody::Motion& motion) const {
   Eigen::Vector3d turning = Eigen::Vector3d::Zero();
-  for (const multibody::Form& axis : frame.axes) {
-    turning += 0.5 * multibody::Evaluate(axis, system_->q().data()).cross(multibody::Evaluate(axis, system_->qd().data()));
-  }
+  for (const multibody::Form& axis : frame.axes) turning += 0.5 * multibody::Evaluate(axis, motion.q).cross(multibody::Evaluate(axis, motion.qd));
   return turning;
 }
 
@@ -106,35 +108,42 @@ void MultibodyModel::Step(const Controls& controls, terrain::Ground& ground, dou
   Publish(cut, dt_s);
 }
 
-MultibodyModel::Contacts MultibodyModel::FindContacts() const {
+MultibodyModel::Contacts MultibodyModel::FindContacts(const multibody::Motion& motion) const {
   Contacts contacts;
-  for (std::size_t i = 0; i < kWheels; ++i) contacts[i] = wheels_[i].load->ContactAt(system_->motion());
+  for (std::size_t i = 0; i < kWheels; ++i) contacts[i] = wheels_[i].load->ContactAt(motion);
   return contacts;
 }
 
 // Sideways the contact moves with the carrier (camber and steer rates count); along, the hub's speed and the spin do.
-TyreMotion MultibodyModel::MotionOf(std::size_t wheel, const WheelLoad::Contact& contact) const {
+TyreMotion MultibodyModel::MotionOf(std::size_t wheel, const multibody::Motion& motion, const WheelLoad::Contact& contact) const {
   const MultibodyWheelSettings& hung = settings_.wheels[wheel];
-  const Eigen::Vector3d hub_v = system_->motion().RateOf(hung.centre);
-  const Eigen::Vector3d turning = Turning_W(system_->drawing().bodies[static_cast<std::size_t>(hung.carrier)].frame);
-  const Eigen::Vector3d v = hub_v + turning.cross(contact.point_W - Hub_W(wheel));
-  TyreMotion motion;
-  motion.vx_mps = hub_v.dot(contact.along_W);
-  motion.vsx_mps = motion.vx_mps - wheels_[wheel].spin_radps * settings_.wheel.rolling_radius_m;
-  motion.vsy_mps = v.dot(contact.across_W);
-  motion.camber_rad = contact.camber_rad;
-  return motion;
+  const Eigen::Vector3d hub_v = motion.RateOf(hung.centre);
+  const Eigen::Vector3d turning = Turning_W(system_->drawing().bodies[static_cast<std::size_t>(hung.carrier)].frame, motion);
+  const Eigen::Vector3d v = hub_v + turning.cross(contact.point_W - motion.At(hung.centre));
+  TyreMotion rolling;
+  rolling.vx_mps = hub_v.dot(contact.along_W);
+  rolling.vsx_mps = rolling.vx_mps - wheels_[wheel].spin_radps * settings_.wheel.rolling_radius_m;
+  rolling.vsy_mps = v.dot(contact.across_W);
+  rolling.camber_rad = contact.camber_rad;
+  return rolling;
 }
 
-MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls, const Contacts& contacts, double dt_s) {
+MultibodyModel::Rolling MultibodyModel::FindRolling(const multibody::Motion& motion, const Contacts& contacts) const {
+  Rolling rolling;
+  for (std::size_t i = 0; i < kWheels; ++i) rolling[i] = MotionOf(i, motion, contacts[i]);
+  return rolling;
+}
+
+MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls, const std::array<double, kWheels>& loads_N,
+                                                        const std::array<TyreForces, kWheels>& forces, double dt_s) {
   WheelTorques torques;
   const double radius = settings_.wheel.rolling_radius_m;
   std::array<double, kWheels> road{};
   std::array<double, kWheels> friction{};
   for (std::size_t i = 0; i < kWheels; ++i) {
-    road[i] = -radius * forces_[i].longitudinal_N;
+    road[i] = -radius * forces[i].longitudinal_N;
     torques.brake_Nm[i] = BrakeTorque(settings_.brakes, i, controls.brake, controls.handbrake);
-    friction[i] = torques.brake_Nm[i] + settings_.wheel.rolling_resistance * contacts[i].load_N * radius;
+    friction[i] = torques.brake_Nm[i] + settings_.wheel.rolling_resistance * loads_N[i] * radius;
   }
   const std::size_t driven = settings_.front_driven ? kFrontLeft : kRearLeft;
   const std::size_t free = settings_.front_driven ? kRearLeft : kFrontLeft;
@@ -162,14 +171,24 @@ MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls
   return torques;
 }
 
+// The wheels turn under the forces of the step's middle; the mechanism, whose rule takes the mean of both ends, gets those of its end. Both are
+// found from where the present accelerations lead, so that all of it is of second order.
 void MultibodyModel::Substep(const Controls& controls, double dt_s) {
   for (std::size_t i = 0; i < kWheels; ++i) GiveGround(i);
-  const Contacts before = FindContacts();
+  system_->Foresee(dt_s, ahead_q_, ahead_qd_);
+  const multibody::Motion ahead{ahead_q_.data(), ahead_qd_.data(), system_->time_s() + dt_s};
+  const Contacts before = FindContacts(system_->motion()), foreseen = FindContacts(ahead);
+  const Rolling began = FindRolling(system_->motion(), before);
+  const Rolling goes_on = FindRolling(ahead, foreseen);
+  std::array<double, kWheels> loads_N{};
   for (std::size_t i = 0; i < kWheels; ++i) {
-    Wheel& wheel = wheels_[i];
-    forces_[i] = wheel.tyre.Forces(tyres_[i], MotionOf(i, before[i]), before[i].load_N, wheel.friction);
+    loads_N[i] = 0.5 * (before[i].load_N + foreseen[i].load_N);
+    forces_[i] = wheels_[i].tyre.ForcesAfter(tyres_[i], began[i], Halfway(began[i], goes_on[i]), loads_N[i], wheels_[i].friction, 0.5 * dt_s);
   }
-  torques_ = TurnWheels(controls, before, dt_s);
+  torques_ = TurnWheels(controls, loads_N, forces_, dt_s);
+  const Rolling ends = FindRolling(ahead, foreseen);  // with the new spins
+  for (std::size_t i = 0; i < kWheels; ++i)
+    forces_[i] = wheels_[i].tyre.ForcesAfter(tyres_[i], began[i], ends[i], foreseen[i].load_N, wheels_[i].friction, dt_s);
   double drive_Nm = 0.0;
   for (std::size_t i = 0; i < kWheels; ++i) {
     wheels_[i].load->SetStep(forces_[i].longitudinal_N, forces_[i].lateral_N, torques_.friction_Nm[i], wheels_[i].spin_radps);
@@ -183,10 +202,11 @@ void MultibodyModel::Substep(const Controls& controls, double dt_s) {
   const Eigen::Vector3d before_W = multibody::Evaluate(origin_, system_->qd().data());
   Advance(dt_s, 0);
   forward_mps2_ = (multibody::Evaluate(origin_, system_->qd().data()) - before_W).dot(Forward_W()) / dt_s;
-  const Contacts after = FindContacts();
+  const Contacts after = FindContacts(system_->motion());
+  const Rolling ended = FindRolling(system_->motion(), after);
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = wheels_[i];
-    wheel.tyre.Advance(tyres_[i], MotionOf(i, after[i]), after[i].load_N, wheel.friction, dt_s);
+    wheel.tyre.Advance(tyres_[i], began[i], ended[i], after[i].load_N, wheel.friction, dt_s);
     wheel.spin_rad = geometry::WrapAngle(wheel.spin_rad + dt_s * wheel.spin_radps);
   }
 }

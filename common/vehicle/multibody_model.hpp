@@ -2,6 +2,8 @@
 
 #include <array>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "common/multibody/system.hpp"
 #include "common/vehicle/multibody_body_load.hpp"
@@ -59,19 +61,28 @@ class MultibodyModel final : public VehicleModel {
 
   Eigen::Vector3d Hub_W(std::size_t wheel) const;
   Eigen::Vector3d Forward_W() const;
-  Eigen::Vector3d Turning_W(const multibody::Frame& frame) const;  // angular velocity
+  Eigen::Vector3d Turning_W(const multibody::Frame& frame, const multibody::Motion& motion) const;  // angular velocity
   void AskGround(terrain::Ground& ground);
   void GiveGround(std::size_t wheel);
   // One substep.
   void Substep(const Controls& controls, double dt_s);
-  Contacts FindContacts() const;
-  TyreMotion MotionOf(std::size_t wheel, const WheelLoad::Contact& contact) const;
-  WheelTorques TurnWheels(const Controls& controls, const Contacts& contacts, double dt_s);
+  Contacts FindContacts(const multibody::Motion& motion) const;
+  TyreMotion MotionOf(std::size_t wheel, const multibody::Motion& motion, const WheelLoad::Contact& contact) const;
+  using Rolling = std::array<TyreMotion, kWheels>;
+  Rolling FindRolling(const multibody::Motion& motion, const Contacts& contacts) const;
+  // Loads and tyres' forces in the middle of the step.
+  WheelTorques TurnWheels(const Controls& controls, const std::array<double, kWheels>& loads_N, const std::array<TyreForces, kWheels>& forces, double dt_s);
   void Advance(double dt_s, int depth);
   // INI.
-  base::Status Settle(const InitialCondition& initial, terrain::Ground& ground);
+  struct Cruise;  // of a car that keeps its speed
+  base::Status Settle(const InitialCondition& initial, terrain::Ground& ground, Cruise& cruise);
+  base::Status Balance(const InitialCondition& initial, terrain::Ground& ground, Cruise* cruise);
+  Eigen::Isometry3d MoveTo(const InitialCondition& initial, double& by);
+  double UpdateCruise(const InitialCondition& initial, Cruise& cruise);
+  void FillTranslation(const Eigen::Vector3d& v_W, std::span<double> rates) const;
   void Place(const Eigen::Isometry3d& X_WC);
-  void SetInMotion(const InitialCondition& initial);
+  void SetInMotion(const InitialCondition& initial, const Cruise& cruise);
+  void Turn(const Eigen::Vector3d& about_W, const Eigen::Vector3d& w_W);
   // Published state.
   void Publish(const Controls& controls, double dt_s);
 
@@ -92,6 +103,7 @@ class MultibodyModel final : public VehicleModel {
   std::array<TyreForces, kWheels> forces_;
   WheelTorques torques_;
   multibody::StepReport report_;
+  std::vector<double> ahead_q_, ahead_qd_;  // scratch of a substep
   Wrench push_;  // of the next step
   VehicleState state_;
 };

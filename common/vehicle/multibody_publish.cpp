@@ -11,7 +11,8 @@ namespace rodeira::vehicle {
 void MultibodyModel::Publish(const Controls& controls, double dt_s) {
   VehicleState& s = state_;
   const Eigen::Isometry3d pose = X_WB();
-  const Eigen::Vector3d turning_W = Turning_W(system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame);
+  const multibody::Motion motion = system_->motion();
+  const Eigen::Vector3d turning_W = Turning_W(system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame, motion);
   const Eigen::Vector3d origin = multibody::Evaluate(origin_, system_->q().data());
   const Eigen::Vector3d v = multibody::Evaluate(origin_, system_->qd().data()) + turning_W.cross(pose.translation() - origin);
   const Eigen::Vector3d turning_B = pose.linear().transpose() * turning_W;
@@ -23,8 +24,7 @@ void MultibodyModel::Publish(const Controls& controls, double dt_s) {
   s.w_WB_B = turning_B;
   s.odometer_m += dt_s * std::fabs(s.speed_mps());
   s.inside_world = true;
-  const Contacts contacts = FindContacts();
-  const multibody::Motion motion = system_->motion();
+  const Contacts contacts = FindContacts(motion);
   for (std::size_t i = 0; i < kWheels; ++i) {
     const Wheel& wheel = wheels_[i];
     const MultibodyWheelSettings& hung = settings_.wheels[i];

@@ -3,8 +3,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "common/vehicle/cruise.hpp"
 #include "common/vehicle/ode_model.hpp"
 
 namespace rodeira::vehicle {
@@ -34,13 +36,21 @@ class OdeEquilibrium {
   void Place(const Vector& unknowns);
   Vector OnThePlane() const;
   void Load();
+  void ShareAcross();
+  Eigen::Vector3d Along() const;
+  Eigen::Vector3d Drag() const;
+  Eigen::Vector3d Holding(std::size_t wheel) const;
   Vector Residual(const Vector& unknowns);
   Vector Balance(Vector unknowns);
 
   OdeModel& model_;
   const InitialCondition& initial_;
+  CruiseForces cruise_;                                  // at a speed
+  std::array<double, 2> cruise_axle_N_{};                // then, across: front, rear
+  std::array<double, 2> axle_load_N_{};
   Eigen::Vector3d holding_W_ = Eigen::Vector3d::Zero();  // of all tyres together along the road, so that nothing accelerates
   double load_N_ = 0.0;                                  // of all
+  Eigen::Vector3d normal_W_ = Eigen::Vector3d::UnitZ();  // mean of the ground under the wheels
 };
 
 void OdeEquilibrium::Place(const Vector& unknowns) {
@@ -75,6 +85,15 @@ OdeEquilibrium::Vector OdeEquilibrium::OnThePlane() const {
   return unknowns;
 }
 
+// The way ahead in the road's plane: that of the wheels, which none is steered out of.
+Eigen::Vector3d OdeEquilibrium::Along() const { return (model_.chassis().q_WG * Eigen::Vector3d::UnitY()).cross(normal_W_).normalized(); }
+
+// Of the air on a car that keeps its speed, at the chassis's centre of gravity.
+Eigen::Vector3d OdeEquilibrium::Drag() const {
+  if (!IsCruise(initial_)) return Eigen::Vector3d::Zero();
+  return -std::copysign(AirDrag(car().body.air_density_kgpm3, car().body.drag_area_m2, initial_.speed_mps), initial_.speed_mps) * Along();
+}
+
 // Loads at the present place, and what the tyres must hold, shared by load.
 void OdeEquilibrium::Load() {
   Eigen::Vector3d force(0.0, 0.0, -car().body.mass_kg * kGravity_mps2);
@@ -87,8 +106,41 @@ void OdeEquilibrium::Load() {
     normal += model_.now_.wheels[i].normal_W;
     load_N_ += load;
   }
-  normal.normalize();
-  holding_W_ = force.dot(normal) * normal - force;
+  normal_W_ = normal.normalized();
+  force += Drag();
+  holding_W_ = force.dot(normal_W_) * normal_W_ - force;
+  std::array<double, kWheels> loads_N{};
+  for (std::size_t i = 0; i < kWheels; ++i) loads_N[i] = model_.contacts_[i].load_N;
+  cruise_ = PushAlong(holding_W_.dot(Along()), loads_N, car().wheel, car().front_driven, initial_.speed_mps);
+  if (IsCruise(initial_)) ShareAcross();
+}
+
+// Of one tyre along the road: by load, but for what drives and brakes a rolling wheel.
+Eigen::Vector3d OdeEquilibrium::Holding(std::size_t wheel) const {
+  const OdeModel::Contact& contact = model_.contacts_[wheel];
+  if (!IsCruise(initial_)) return (load_N_ > 0.0 ? contact.load_N / load_N_ : 0.25) * holding_W_;
+  const double of_axle = axle_load_N_[wheel / 2] > 0.0 ? contact.load_N / axle_load_N_[wheel / 2] : 0.5;
+  return cruise_.longitudinal_N[wheel] * contact.along_W + of_axle * cruise_axle_N_[wheel / 2] * contact.across_W;
+}
+
+// At a speed the axles share what acts across so that nothing yaws.
+void OdeEquilibrium::ShareAcross() {
+  const Eigen::Vector3d centre = model_.chassis().p_WG_W;
+  const Eigen::Vector3d across = normal_W_.cross(Along()), wheel_weight(0.0, 0.0, -model_.settings_.wheel_mass_kg * kGravity_mps2);
+  axle_load_N_ = {};
+  for (std::size_t i = 0; i < kWheels; ++i) axle_load_N_[i / 2] += model_.contacts_[i].load_N;
+  double yaws_Nm = 0.0;
+  std::array<double, 2> arm_m{};
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const OdeModel::Contact& contact = model_.contacts_[i];
+    const Eigen::Vector3d road = contact.load_N * model_.now_.wheels[i].normal_W + cruise_.longitudinal_N[i] * contact.along_W;
+    yaws_Nm += ((contact.point_W - centre).cross(road) + (model_.now_.bodies[i].p_WG_W - centre).cross(wheel_weight)).dot(normal_W_);
+    const double share = axle_load_N_[i / 2] > 0.0 ? contact.load_N / axle_load_N_[i / 2] : 0.5;
+    arm_m[i / 2] += share * (contact.point_W - centre).cross(contact.across_W).dot(normal_W_);
+  }
+  const double all_N = holding_W_.dot(across);
+  cruise_axle_N_[0] = (-yaws_Nm - all_N * arm_m[1]) / (arm_m[0] - arm_m[1]);
+  cruise_axle_N_[1] = all_N - cruise_axle_N_[0];
 }
 
 OdeEquilibrium::Vector OdeEquilibrium::Residual(const Vector& unknowns) {
@@ -97,13 +149,13 @@ OdeEquilibrium::Vector OdeEquilibrium::Residual(const Vector& unknowns) {
   const OdeSettings& settings = model_.settings_;
   const RigidBody& chassis = model_.chassis();
   const Eigen::Vector3d up = chassis.q_WG * Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d force(0.0, 0.0, -model_.measures_.mass_kg * kGravity_mps2);
+  Eigen::Vector3d force = Drag();
+  force.z() -= model_.measures_.mass_kg * kGravity_mps2;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Vector residual;
   for (std::size_t i = 0; i < kWheels; ++i) {
-    const double share = load_N_ > 0.0 ? model_.contacts_[i].load_N / load_N_ : 0.25;
     const Eigen::Vector3d weight(0.0, 0.0, -settings.wheel_mass_kg * kGravity_mps2);
-    const Eigen::Vector3d road = model_.contacts_[i].load_N * model_.now_.wheels[i].normal_W + share * holding_W_;
+    const Eigen::Vector3d road = model_.contacts_[i].load_N * model_.now_.wheels[i].normal_W + Holding(i);
     const double strut = model_.StrutExtra(i) + car().suspension[i / 2].spring_Npm * model_.Travel(i);
     residual[3 + static_cast<int>(i)] = (road + weight).dot(up) - strut;
     // ODE lets a joint's reaction across the strut act on the chassis where the wheel is at rest, not where it has travelled to.
@@ -169,7 +221,10 @@ base::Status OdeEquilibrium::Find(terrain::Ground& ground) {
 void OdeEquilibrium::SetInMotion() {
   const Eigen::Vector3d origin = model_.p_WB_W();
   const Eigen::Quaterniond q = model_.chassis().q_WG;
-  const Eigen::Vector3d v = q * Eigen::Vector3d(initial_.speed_mps, initial_.lateral_speed_mps, 0.0);
+  const bool cruises = IsCruise(initial_);
+  const Eigen::Vector3d along = Along(), forward = q * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d v = cruises ? Eigen::Vector3d(initial_.speed_mps / along.dot(forward) * along)
+                                    : q * Eigen::Vector3d(initial_.speed_mps, initial_.lateral_speed_mps, 0.0);
   const Eigen::Vector3d w_G(0.0, 0.0, initial_.yaw_rate_radps);
   const bool rests = v.norm() < kStandstill_mps && std::fabs(initial_.yaw_rate_radps) < kStandstill_mps;
   for (RigidBody& body : model_.now_.bodies) {
@@ -182,9 +237,13 @@ void OdeEquilibrium::SetInMotion() {
     const TyreSettings& tyre = model_.tyres_[i];
     wheel.spin_rad = 0.0;
     wheel.spin_radps = 0.0;
-    if (rests && load_N_ > 0.0) {
-      const Eigen::Vector3d share = contact.load_N / load_N_ * holding_W_;
-      wheel.tyre.SetToBear(tyre, {share.dot(contact.along_W), share.dot(contact.across_W)}, contact.load_N, wheel.friction, contact.camber_rad);
+    if (cruises && contact.load_N > 0.0) {
+      const TyreForces wanted{Holding(i).dot(contact.along_W), Holding(i).dot(contact.across_W)};
+      const TyreMotion motion = wheel.tyre.SetToRollAndBear(tyre, wanted, model_.MotionOf(i, contact).vx_mps, contact.load_N, wheel.friction, contact.camber_rad);
+      wheel.spin_radps = (motion.vx_mps - motion.vsx_mps) / car().wheel.rolling_radius_m;
+      model_.now_.bodies[i].w_WG_G.y() += wheel.spin_radps;
+    } else if (rests && load_N_ > 0.0) {
+      wheel.tyre.SetToBear(tyre, {Holding(i).dot(contact.along_W), Holding(i).dot(contact.across_W)}, contact.load_N, wheel.friction, contact.camber_rad);
     } else {
       wheel.spin_radps = model_.MotionOf(i, contact).vx_mps / car().wheel.rolling_radius_m;
       model_.now_.bodies[i].w_WG_G.y() += wheel.spin_radps;
@@ -194,7 +253,8 @@ void OdeEquilibrium::SetInMotion() {
   }
   const std::size_t driven = car().front_driven ? kFrontLeft : kRearLeft;
   const double turning = 0.5 * (model_.now_.wheels[driven].spin_radps + model_.now_.wheels[driven + 1].spin_radps);
-  model_.now_.powertrain.Start(car().powertrain, rests ? 0.0 : turning);
+  if (cruises) model_.now_.powertrain.StartSteadily(car().powertrain, turning, cruise_.at_wheel_Nm);
+  else model_.now_.powertrain.Start(car().powertrain, rests ? 0.0 : turning);
   model_.now_.forward_mps2 = 0.0;
 }
 

@@ -16,6 +16,21 @@ void Powertrain::Start(const PowertrainSettings& settings, double wheel_radps) {
   motion_.clutch_slip_radps = engine_.speed_radps() - turned;
 }
 
+double ShaftTorque(const GearboxSettings& gearbox, double at_wheel_Nm, double onward) {
+  const double wanted = onward * at_wheel_Nm;
+  return onward * (wanted > 0.0 ? wanted / gearbox.efficiency : wanted / (2.0 - gearbox.efficiency));
+}
+
+void Powertrain::StartSteadily(const PowertrainSettings& settings, double wheel_radps, double at_wheel_Nm) {
+  Start(settings, wheel_radps);
+  const double ratio = TotalRatio(settings.gearbox, gear_);
+  if (ratio * wheel_radps < settings.engine.idle_radps) return;
+  motion_.drive_torque_Nm = ShaftTorque(settings.gearbox, at_wheel_Nm, wheel_radps < 0.0 ? -1.0 : 1.0);
+  motion_.clutch_torque_Nm = 2.0 * motion_.drive_torque_Nm / ratio;
+  clutch_ = 0.0;
+  engine_.Hold(settings.engine, motion_.clutch_torque_Nm);
+}
+
 const DrivelineMotion& Powertrain::Step(const PowertrainSettings& settings, const Controls& controls, const PowertrainInput& input,
                                         double dt_s) {
   const double wheel_radps = 0.5 * (input.wheel_radps[0] + input.wheel_radps[1]);

@@ -49,6 +49,13 @@ double LateralPeak(const TyreSettings& tyre, double load_N, double friction) {
   return tyre.slip_curve ? LateralPeak(*tyre.slip_curve, load_N, friction) : LateralPeak(tyre.formula, load_N, friction);
 }
 
+TyreSlip SteadySlip(const TyreSettings& tyre, const TyreMotion& motion, double load_N) {
+  const double speed = std::fabs(motion.vx_mps);
+  const double damping_N = speed * tyre.low_speed_damping_Nspm * LowSpeedShare(tyre, motion.vx_mps);
+  return {-motion.vsx_mps / speed * (1.0 + damping_N / std::max(LongitudinalStiffness(tyre, load_N), kTiny_N)),
+          motion.vsy_mps / speed * (1.0 + damping_N / std::max(CorneringStiffness(tyre, load_N), kTiny_N)), motion.camber_rad};
+}
+
 TyreForces Tyre::Forces(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction) {
   if (!(load_N > 0.0)) {
     slip_ = 0.0;
@@ -64,22 +71,46 @@ TyreForces Tyre::Forces(const TyreSettings& tyre, const TyreMotion& motion, doub
 }
 
 void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction, double dt_s) {
-  if (!(load_N > 0.0)) {
-    const double left = std::max(0.0, 1.0 - dt_s / kFadeInAir_s);
-    u_m_ *= left;
-    v_m_ *= left;
-    return;
-  }
+  if (!(load_N > 0.0)) return FadeInAir(dt_s);
   const double travel = std::fabs(motion.vx_mps) * dt_s;
+  u_m_ = (u_m_ - dt_s * motion.vsx_mps) / (1.0 + travel / tyre.relaxation_longitudinal_m);
+  v_m_ = (v_m_ + dt_s * motion.vsy_mps) / (1.0 + travel / tyre.relaxation_lateral_m);
+  CutNearThePeak(tyre, motion, load_N, friction);
+}
+
+void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& before, const TyreMotion& after, double load_N, double friction, double dt_s) {
+  if (!(load_N > 0.0)) return FadeInAir(dt_s);
+  const double half_s = 0.5 * dt_s;
+  const double rolled = half_s * std::fabs(before.vx_mps), rolls = half_s * std::fabs(after.vx_mps);
   const double sigma_k = tyre.relaxation_longitudinal_m;
   const double sigma_a = tyre.relaxation_lateral_m;
-  u_m_ = (u_m_ - dt_s * motion.vsx_mps) / (1.0 + travel / sigma_k);
-  v_m_ = (v_m_ + dt_s * motion.vsy_mps) / (1.0 + travel / sigma_a);
+  u_m_ = (u_m_ * (1.0 - rolled / sigma_k) - half_s * (before.vsx_mps + after.vsx_mps)) / (1.0 + rolls / sigma_k);
+  v_m_ = (v_m_ * (1.0 - rolled / sigma_a) + half_s * (before.vsy_mps + after.vsy_mps)) / (1.0 + rolls / sigma_a);
+  CutNearThePeak(tyre, after, load_N, friction);
+}
+
+TyreForces Tyre::ForcesAfter(const TyreSettings& tyre, const TyreMotion& before, const TyreMotion& after, double load_N, double friction,
+                             double dt_s) {
+  Tyre then = *this;
+  then.Advance(tyre, before, after, load_N, friction, dt_s);
+  const TyreForces forces = then.Forces(tyre, after, load_N, friction);
+  slip_ = then.slip_;
+  slip_angle_tan_ = then.slip_angle_tan_;
+  return forces;
+}
+
+void Tyre::FadeInAir(double dt_s) {
+  const double left = std::max(0.0, 1.0 - dt_s / kFadeInAir_s);
+  u_m_ *= left;
+  v_m_ *= left;
+}
+
+void Tyre::CutNearThePeak(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction) {
   const double moving = std::max({std::fabs(motion.vx_mps), std::fabs(motion.vsx_mps), std::fabs(motion.vsy_mps)});
-  const double u_most = sigma_k * SlipBound(LongitudinalPeak(tyre, load_N, friction),
-                                            LongitudinalStiffness(tyre, load_N), moving, tyre.low_speed_mps);
-  const double v_most = sigma_a * SlipBound(LateralPeak(tyre, load_N, friction),
-                                            CorneringStiffness(tyre, load_N), moving, tyre.low_speed_mps);
+  const double u_most = tyre.relaxation_longitudinal_m * SlipBound(LongitudinalPeak(tyre, load_N, friction),
+                                                                   LongitudinalStiffness(tyre, load_N), moving, tyre.low_speed_mps);
+  const double v_most = tyre.relaxation_lateral_m * SlipBound(LateralPeak(tyre, load_N, friction),
+                                                              CorneringStiffness(tyre, load_N), moving, tyre.low_speed_mps);
   u_m_ = std::clamp(u_m_, -u_most, u_most);
   v_m_ = std::clamp(v_m_, -v_most, v_most);
 }
@@ -110,6 +141,17 @@ void Tyre::SetToRoll(const TyreSettings& tyre, const TyreMotion& motion, double 
   u_m_ = -tyre.relaxation_longitudinal_m * motion.vsx_mps / speed;
   v_m_ = tyre.relaxation_lateral_m * motion.vsy_mps / speed;
   Advance(tyre, motion, load_N, friction, 0.0);  // for the bounds
+}
+
+TyreMotion Tyre::SetToRollAndBear(const TyreSettings& tyre, const TyreForces& forces, double vx_mps, double load_N, double friction, double camber_rad) {
+  SetToBear(tyre, forces, load_N, friction, camber_rad);
+  if (!(load_N > 0.0)) return {vx_mps, 0.0, 0.0, camber_rad};
+  // Forces() adds the damping's part to the deflections' slip.
+  const double damping_Nspm = tyre.low_speed_damping_Nspm * LowSpeedShare(tyre, vx_mps);
+  u_m_ /= 1.0 + damping_Nspm * std::fabs(vx_mps) / std::max(LongitudinalStiffness(tyre, load_N), kTiny_N);
+  v_m_ /= 1.0 + damping_Nspm * std::fabs(vx_mps) / std::max(CorneringStiffness(tyre, load_N), kTiny_N);
+  const double speed = std::fabs(vx_mps);
+  return {vx_mps, -speed * u_m_ / tyre.relaxation_longitudinal_m, speed * v_m_ / tyre.relaxation_lateral_m, camber_rad};
 }
 
 void Tyre::Save(base::StateWriter& writer) const {

@@ -36,6 +36,9 @@ struct TyreMotion {
   double camber_rad = 0.0;  // about the contact's x axis: positive when the wheel leans to the right
 };
 
+// What the forces go by where the wheel rolls steadily (vx not 0), the damping of low speeds included.
+TyreSlip SteadySlip(const TyreSettings& tyre, const TyreMotion& motion, double load_N);
+
 // The transient of the formula (or curve) by relaxation of the contact patch's deflections u and v:
 //   sigma_k du/dt + |vx| u = -sigma_k vsx,   sigma_a dv/dt + |vx| v = sigma_a vsy,   kappa' = u/sigma_k, tan alpha' = v/sigma_a.
 // The steady state is the static table. At standstill the patch is a spring, so that a braked car rests on a slope without
@@ -47,11 +50,19 @@ class Tyre {
   TyreForces Forces(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction);
   // Advances the deflections with the motion at the end of the step (implicit in u and v). Without load they fade in 10 ms.
   void Advance(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction, double dt_s);
+  // The same to second order (trapezoidal rule), from the motion at the step's beginning to the one at its end.
+  void Advance(const TyreSettings& tyre, const TyreMotion& before, const TyreMotion& after, double load_N, double friction, double dt_s);
+  // The forces at that step's end: the deflections stay, slip() and slip_angle_tan() are those then.
+  TyreForces ForcesAfter(const TyreSettings& tyre, const TyreMotion& before, const TyreMotion& after, double load_N, double friction,
+                         double dt_s);
   // Deflections at which the tyre bears these forces steadily at standstill, as near as friction allows (inverse of the
   // pure formulas below the peaks).
   void SetToBear(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction, double camber_rad = 0.0);
   // Deflections of steady rolling with this motion.
   void SetToRoll(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction);
+  // Deflections of steady rolling at vx_mps (not 0) that bear these forces, as near as friction allows. Returns how the wheel must move for
+  // that.
+  TyreMotion SetToRollAndBear(const TyreSettings& tyre, const TyreForces& forces, double vx_mps, double load_N, double friction, double camber_rad = 0.0);
   void Reset() { *this = Tyre(); }
 
   double slip() const { return slip_; }
@@ -61,6 +72,9 @@ class Tyre {
   void Restore(base::StateReader& reader);
 
  private:
+  void FadeInAir(double dt_s);
+  void CutNearThePeak(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction);
+
   double u_m_ = 0.0;
   double v_m_ = 0.0;
   double slip_ = 0.0;

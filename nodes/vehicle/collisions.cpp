@@ -7,11 +7,31 @@
 
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
+#include "nodes/vehicle/vehicle_wire.hpp"
 
 namespace rodeira::nodes {
 namespace {
 
-constexpr std::uint32_t kInWorld = 0, kAgent = 1;  // collision.idl
+constexpr std::uint32_t kInWorld = 0, kAgent = 1;  // collision.idl; another node's car is an agent by its stream, with the id 0
+
+// The same of another node's car, which turns as well.
+vehicle::Obstacle BoxOf(const msg::VehicleState& wire, double late_s) {
+  const vehicle::VehicleState car = FromWire(wire);
+  vehicle::VehicleDimensions dimensions;
+  dimensions.front_m = static_cast<double>(wire.front_m());
+  dimensions.rear_m = static_cast<double>(wire.length_m()) - dimensions.front_m;
+  dimensions.width_m = static_cast<double>(wire.width_m());
+  dimensions.height_m = static_cast<double>(wire.height_m());
+  const vehicle::BodyBox box = vehicle::BoxOf(dimensions, {});
+  const Eigen::Vector3d middle_W = car.q_WB * box.centre_B;
+  vehicle::Obstacle obstacle;
+  obstacle.q_WO = car.q_WB;
+  obstacle.w_WO_W = car.q_WB * car.w_WB_B;
+  obstacle.v_WO_W = car.v_WB_W + obstacle.w_WO_W.cross(middle_W);
+  obstacle.centre_W = car.p_WB_W + middle_W + late_s * obstacle.v_WO_W;
+  obstacle.half_m = box.half_m;
+  return obstacle;
+}
 
 // The agent's box `late_s` after it was there.
 vehicle::Obstacle BoxOf(const msg::TrafficAgent& agent, double late_s) {
@@ -57,6 +77,19 @@ base::Status Collisions::SeeTraffic(const vehicle::VehicleState& car, const lock
   return {};
 }
 
+base::Status Collisions::SeeCars(const vehicle::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step) {
+  if (!inbox.Has(idl::topics::kVehicleState)) return {};
+  for (const lockstep::Sample& sample : inbox.All(idl::topics::kVehicleState)) {
+    const auto state = idl::Decode<msg::VehicleState>(*sample.payload);
+    if (!state) return state.error();
+    const vehicle::Obstacle box = BoxOf(state.value(), static_cast<double>(step.time_ns - sample.header.time_ns) * 1e-9);
+    if ((box.centre_W - car.p_WB_W).norm() > reach_m_ + box.half_m.norm()) continue;
+    obstacles_.push_back(box);
+    partners_.push_back({kAgent, sample.source(), 0});
+  }
+  return {};
+}
+
 void Collisions::SeeWorld(const vehicle::VehicleState& car) {
   for (const std::uint32_t number : world_.Near(car.p_WB_W)) {
     obstacles_.push_back(world_.all()[number]);
@@ -91,6 +124,7 @@ base::Result<Collisions::Touched> Collisions::Find(const vehicle::VehicleState& 
   obstacles_.clear();
   partners_.clear();
   if (auto status = SeeTraffic(car, inbox, step); !status) return status.error();
+  if (auto status = SeeCars(car, inbox, step); !status) return status.error();
   SeeWorld(car);
   for (std::size_t i = 0; i < obstacles_.size(); ++i) obstacles_[i].id = i;
   const std::vector<vehicle::Impact> impacts = space_.Touch(car, obstacles_);

@@ -14,7 +14,7 @@
 
 namespace rodeira::nodes {
 
-// What a car hits: the agents of traffic that its node sees and what stands in the world. Of what it returns everything follows from the
+// What a car hits: the agents of traffic and the other cars that its node sees, and what stands in the world. Of what it returns everything follows from the
 // car's state, the inbox and which partners the step before touched; only these are its state.
 class Collisions {
  public:
@@ -46,6 +46,7 @@ class Collisions {
   };
 
   base::Status SeeTraffic(const vehicle::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
+  base::Status SeeCars(const vehicle::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
   void SeeWorld(const vehicle::VehicleState& car);
   msg::Collision EventOf(const vehicle::Impact& impact, double dt_s) const;
 

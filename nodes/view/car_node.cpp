@@ -1,7 +1,12 @@
 #include "nodes/view/car_node.hpp"
 
+#include <cmath>
+#include <numbers>
+
 namespace rodeira::view {
 namespace {
+
+constexpr double kPulse_Hz = 1.25;
 
 osg::Matrixd ToOsg(const Eigen::Vector3d& p, const Eigen::Quaterniond& q) {
   return osg::Matrixd::rotate(osg::Quat(q.x(), q.y(), q.z(), q.w())) * osg::Matrixd::translate(p.x(), p.y(), p.z());
@@ -10,7 +15,7 @@ osg::Matrixd ToOsg(const Eigen::Vector3d& p, const Eigen::Quaterniond& q) {
 }  // namespace
 
 CarNode::CarNode(Look& look, const scene::CarShape& shape, scene::Colour paint)
-    : shape_(shape), body_(new osg::MatrixTransform), frame_(new osg::Group), brake_glow_(new osg::Uniform("glow", 1.0F)) {
+    : shape_(shape), body_(new osg::MatrixTransform), frame_(new osg::Group), brake_glow_(new osg::Uniform("glow", 1.0F)), pulse_(new osg::Uniform("pulse", 0.0F)) {
   const scene::CarMeshes car = scene::BuildCar(shape, paint);
   std::map<scene::Material, scene::Mesh> parts;  // as few as there are materials: each costs a call a frame
   const auto gather = [&parts](const scene::Mesh& mesh) {
@@ -19,10 +24,10 @@ CarNode::CarNode(Look& look, const scene::CarShape& shape, scene::Colour paint)
     part.Append(mesh);
   };
   for (const scene::Mesh& mesh : car.body) gather(mesh);
-  for (const auto& [material, part] : parts) body_->addChild(look.GeometryOf(part));
+  for (const auto& [material, part] : parts) body_->addChild(material == scene::Material::kCarPaint ? Painted(look, part) : look.GeometryOf(part));
   parts.clear();
   for (const scene::Mesh& mesh : car.frame) gather(mesh);
-  for (const auto& [material, part] : parts) frame_->addChild(look.GeometryOf(part));
+  for (const auto& [material, part] : parts) frame_->addChild(material == scene::Material::kCarPaint ? Painted(look, part) : look.GeometryOf(part));
   body_->addChild(frame_);
   const osg::ref_ptr<osg::Geometry> lamps = look.GeometryOf(car.brake_lamps);
   osg::ref_ptr<osg::Group> lamps_group = new osg::Group;
@@ -43,6 +48,15 @@ CarNode::CarNode(Look& look, const scene::CarShape& shape, scene::Colour paint)
   }
 }
 
+// A uniform farther down would win, so the paint gets a copy of its material's state with its own.
+osg::ref_ptr<osg::Geometry> CarNode::Painted(Look& look, const scene::Mesh& mesh) {
+  osg::ref_ptr<osg::Geometry> geometry = look.GeometryOf(mesh);
+  osg::ref_ptr<osg::StateSet> state = new osg::StateSet(*look.StateOf(scene::Material::kCarPaint), osg::CopyOp::SHALLOW_COPY);
+  state->addUniform(pulse_);
+  geometry->setStateSet(state);
+  return geometry;
+}
+
 void CarNode::Place(const Eigen::Vector3d& p_WB_W, const Eigen::Quaterniond& q_WB) { body_->setMatrix(ToOsg(p_WB_W, q_WB)); }
 
 void CarNode::Turn(std::size_t wheel, const Eigen::Vector3d& hub_B, double steer_rad, double spin_rad) {
@@ -52,6 +66,8 @@ void CarNode::Turn(std::size_t wheel, const Eigen::Vector3d& hub_B, double steer
 }
 
 void CarNode::Brake(bool braking) { brake_glow_->set(braking ? 2.1F : 1.0F); }
+
+void CarNode::Pulse(double share) { pulse_->set(static_cast<float>(share)); }
 
 template <class Pose, class Update>
 void Fleet::Match(const std::vector<Pose>& poses, std::map<std::uint64_t, CarNode>& nodes, Update update) {
@@ -75,16 +91,20 @@ void Fleet::Match(const std::vector<Pose>& poses, std::map<std::uint64_t, CarNod
   }
 }
 
-void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside) {
+void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen) {
+  const double now = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * kPulse_Hz * static_cast<double>(moment.time_ns) * 1e-9);
+  const auto pulse = [&](std::size_t number) { return chosen == number ? now : 0.0; };
   Match(moment.cars, cars_, [&](CarNode& node, const scene::CarPose& car) {
     node.SeenFromInside(inside && &car == &moment.cars[*inside]);
     for (std::size_t i = 0; i < car.wheels.size(); ++i) node.Turn(i, car.wheels[i].hub_B, car.wheels[i].steer_rad, car.wheels[i].spin_rad);
     node.Brake(car.brake > 0.02);
+    node.Pulse(pulse(static_cast<std::size_t>(&car - moment.cars.data())));
   });
-  Match(moment.agents, agents_, [](CarNode& node, const scene::AgentPose& agent) {
+  Match(moment.agents, agents_, [&](CarNode& node, const scene::AgentPose& agent) {
     const scene::CarShape shape = scene::CarShape::Of(agent);
     for (std::size_t i = 0; i < 4; ++i) node.Turn(i, shape.hubs_B[i], i < 2 ? agent.steer_rad : 0.0, agent.wheel_spin_rad);
     node.Brake(agent.braking);
+    node.Pulse(pulse(moment.cars.size() + static_cast<std::size_t>(&agent - moment.agents.data())));
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "idl/codec.hpp"
@@ -25,6 +26,23 @@ weather::Weather FromWire(const msg::WeatherState& message) {
           cut(message.clouds(), 0.0, 1.0), cut(message.hour(), 0.0, 24.0)};
 }
 
+// Tyres begin to be heard beyond the slip of their greatest force, some 0.12, and where the car moves.
+double Sliding(const msg::VehicleState& message) {
+  double most = 0.0;
+  for (const msg::WheelState& wheel : message.wheels()) {
+    if (wheel.in_contact() == 0) continue;
+    const double slip = std::hypot(Double(wheel.slip()), Double(wheel.slip_angle_tan())), moving = std::fabs(Double(wheel.spin_radps())) * 0.3 + ToVector(message.velocity_w_mps()).norm();
+    most = std::max(most, std::clamp((slip - 0.12) / 0.3, 0.0, 1.0) * std::clamp(moving / 5.0 - 0.2, 0.0, 1.0));
+  }
+  return most;
+}
+
+// Tyres alone do not accelerate a car by more than some 12 m/s2 in the plane.
+double Blow(const msg::VehicleState& message) {
+  const double level = std::hypot(Double(message.acceleration_w_mps2().x()), Double(message.acceleration_w_mps2().y()));
+  return std::clamp((level - 25.0) / 150.0, 0.0, 1.0);
+}
+
 }  // namespace
 
 scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, std::size_t order) {
@@ -43,7 +61,12 @@ scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, 
   car.gear = message.gear();
   car.engine_rpm = message.engine_speed_radps() * 30.0 / std::numbers::pi;
   car.fuel_l = message.fuel_kg() / kPetrol_kgpl;
+  car.fuel_lph = 3600.0 * Double(message.fuel_rate_kgps()) / kPetrol_kgpl;
+  car.odometer_m = message.odometer_m();
   car.steering_wheel_rad = message.steering_wheel_rad();
+  car.throttle = std::clamp(Double(message.throttle()), 0.0, 1.0);
+  car.sliding = Sliding(message);
+  car.blow = Blow(message);
   if (message.length_m() > 0.0F && message.width_m() > 0.0F) {
     car.length_m = Double(message.length_m());
     car.front_m = Double(message.front_m());

@@ -71,6 +71,7 @@ osg::ref_ptr<osg::StateSet> Look::MakeState(scene::Material material) {
   state->setTextureAttribute(0, noise_);
   state->addUniform(new osg::Uniform("noise", 0));
   state->setMode(GL_CULL_FACE, osg::StateAttribute::ON);
+  if (material == scene::Material::kCarPaint) state->addUniform(new osg::Uniform("pulse", 0.0F));
   if (material == scene::Material::kLamp) state->addUniform(new osg::Uniform("glow", 1.0F));
   if (material == scene::Material::kMark) {
     state->setAttributeAndModes(new osg::PolygonOffset(-1.0F, -4.0F));

@@ -83,11 +83,6 @@ void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group) {
   group.addChild(lod);
 }
 
-scene::Camera CameraFor(const Picture& picture, const scene::Body& body, const road::World& world) {
-  if (picture.screen && picture.camera == scene::CameraKind::kDriver) return scene::ScreenCamera(body, *picture.screen);
-  return scene::MakeCamera(picture.camera, body, picture.aim, world);
-}
-
 }  // namespace
 
 struct Painter::Parts {
@@ -171,12 +166,18 @@ Painter::~Painter() {
   parts_->root->releaseGLObjects(parts_->viewer.getCamera()->getGraphicsContext()->getState());
 }
 
+scene::Camera Painter::CameraOf(const Picture& picture) const {
+  const auto body = scene::BodyAt(picture.moment, picture.followed);
+  if (!body) return {};
+  if (picture.screen && picture.camera == scene::CameraKind::kDriver) return scene::ScreenCamera(*body, *picture.screen);
+  return scene::MakeCamera(picture.camera, *body, picture.aim, world_);
+}
+
 void Painter::Draw(const Picture& picture) {
   const int width = surface_.width_px(), height = surface_.height_px();
-  scene::Camera camera;
+  const scene::Camera camera = CameraOf(picture);
   const bool is_car = picture.followed < picture.moment.cars.size();
   const auto body = scene::BodyAt(picture.moment, picture.followed);
-  if (body) camera = CameraFor(picture, *body, world_);
   osg::Camera& eye = *parts_->viewer.getCamera();
   if (eye.getViewport() == nullptr || static_cast<int>(eye.getViewport()->width()) != width || static_cast<int>(eye.getViewport()->height()) != height) {
     eye.getGraphicsContext()->resized(0, 0, width, height);
@@ -190,7 +191,7 @@ void Painter::Draw(const Picture& picture) {
   SetEye(state, air, is_car ? &picture.moment.cars[picture.followed] : nullptr, eye.getViewMatrix());
   SetRain(state, picture.moment.time_ns, aspect);
   parts_->rain->setNodeMask(air.rain > 0.0F ? ~0U : 0U);
-  parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt);
+  parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt, picture.chosen);
   parts_->cabin.Show(is_car && picture.cabin && picture.camera == scene::CameraKind::kDriver ? &picture.moment.cars[picture.followed] : nullptr);
   parts_->lights.Show(picture.moment.lights);
   FitOverlay(*parts_->overlay, width, height);

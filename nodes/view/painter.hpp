@@ -24,6 +24,8 @@ class Painter {
   void Draw(const Picture& picture);
   // Draws, and waits for all that is to be seen: a pure function of the world and the picture, built or not.
   void DrawWhole(const Picture& picture);
+  // From where such a picture is seen.
+  scene::Camera CameraOf(const Picture& picture) const;
   // What was drawn last, from before any Surface::Swap.
   Image Read() const;
 

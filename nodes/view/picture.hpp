@@ -28,6 +28,8 @@ struct Picture {
   scene::Aim aim;                   // of the cameras that a hand moves
   std::optional<scene::ScreenPlane> screen;  // through which the driver's camera looks
   std::size_t followed = 0;         // whom the camera goes with: the moment's cars, then its traffic
+  std::optional<std::size_t> chosen;  // whom a person looks at, counted likewise: it pulses
+  std::string panel;                // lines about it
   bool show_instruments = true;     // speed, gear, time
   bool cabin = false;               // dashboard and steering wheel before the driver's camera
   std::array<bool, scene::kMirrors> mirrors = {true, true, true};  // left, inside, right: shown with the driver's camera

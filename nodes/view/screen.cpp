@@ -5,13 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
+#include "common/base/user_folders.hpp"
 #include "common/hands/key_names.hpp"
 #include "common/launch/live_keys.hpp"
+#include "common/scene/pick.hpp"
+#include "nodes/view/heard.hpp"
+#include "nodes/view/png.hpp"
 
 namespace rodeira::view {
 namespace {
 
+constexpr double kNote_s = 3.0;      // how long a note stands
+constexpr int kClick_px = 4;          // moved farther it is no click
 constexpr double kZoom = 1.15;       // a notch of the mouse's wheel
 constexpr double kTurn_rad = 0.006;  // a pixel that it is drawn
 
@@ -51,7 +58,15 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   screen->painter_->DrawWhole(FirstPicture(world));
   (void)screen->painter_->Read();
   screen->help_text_ = std::move(help);
+  screen->title_ = world.name().empty() ? "rodeira" : world.name();
+  std::replace(screen->title_.begin(), screen->title_.end(), '/', '-');
   screen->live_ = PictureOf(settings, {});
+  if (kind == SurfaceKind::kWindow && settings.sound) {
+    auto speaker = Speaker::Open();
+    if (speaker) screen->speaker_ = std::move(speaker).value();
+    else fmt::print(stderr, "rodeira: no sound: {}\n", speaker.error().Text());
+    screen->volume_ = settings.volume;
+  }
   if (settings.mirrors != screen->kNoMirrors) screen->mirrors_ = settings.mirrors;
   return screen;
 }
@@ -64,11 +79,13 @@ bool Screen::TakeKey(int symbol, bool driven) {
     case SDLK_TAB: {
       const std::size_t cars = live_.moment.cars.size(), all = cars + live_.moment.agents.size();
       live_.followed = all == 0 ? 0 : (live_.followed + 1) % all;
-      chosen_agent_ = live_.followed < cars || all == 0 ? std::nullopt : std::optional(live_.moment.agents[live_.followed - cars].id);
+      followed_agent_ = live_.followed < cars || all == 0 ? std::nullopt : std::optional(live_.moment.agents[live_.followed - cars].id);
       return true;
     }
     case SDLK_h: help_ = !help_; return true;
     case SDLK_F4: live_.mirrors = live_.mirrors == kNoMirrors ? mirrors_ : kNoMirrors; return true;
+    case SDLK_F12: picture_wanted_ = true; return true;
+    case SDLK_F5: muted_ = !muted_; return true;
     case SDLK_F3: statistics_ = !statistics_; return true;
     case SDLK_s:
       if (driven) return false;
@@ -84,7 +101,20 @@ bool Screen::TakeMouse(const SDL_Event& event, bool driven) {
     live_.aim.Zoom(std::pow(kZoom, -event.wheel.y));
     return true;
   }
-  const bool turns = event.type == SDL_MOUSEMOTION && !driven && (event.motion.state & SDL_BUTTON_LMASK) != 0;
+  if (driven) return false;
+  if (event.type == SDL_MOUSEBUTTONDOWN && event.button.button == SDL_BUTTON_LEFT) {
+    dragged_px_ = 0;
+    return false;
+  }
+  if (event.type == SDL_MOUSEBUTTONUP && event.button.button == SDL_BUTTON_LEFT && dragged_px_ <= kClick_px) {
+    // Nobody who is looked at from the driver's seat sits in its own way.
+    const bool inside = live_.camera == scene::CameraKind::kDriver || live_.camera == scene::CameraKind::kBonnet;
+    const scene::Ray ray = scene::RayAt(painter_->CameraOf(live_), {event.button.x, event.button.y}, surface_->width_px(), surface_->height_px());
+    chosen_.Choose(live_.moment, scene::BodyOn(live_.moment, ray, inside ? std::optional(live_.followed) : std::nullopt));
+    return true;
+  }
+  if (event.type == SDL_MOUSEMOTION && (event.motion.state & SDL_BUTTON_LMASK) != 0) dragged_px_ += std::abs(event.motion.xrel) + std::abs(event.motion.yrel);
+  const bool turns = event.type == SDL_MOUSEMOTION && (event.motion.state & SDL_BUTTON_LMASK) != 0;
   if (!turns) return false;
   live_.aim.Turn(kTurn_rad * event.motion.xrel, kTurn_rad * event.motion.yrel);
   return true;
@@ -93,17 +123,32 @@ bool Screen::TakeMouse(const SDL_Event& event, bool driven) {
 // A car of the traffic that has left is followed no more.
 void Screen::Follow() {
   const std::size_t cars = live_.moment.cars.size();
-  if (chosen_agent_) {
+  if (followed_agent_) {
     const auto& agents = live_.moment.agents;
-    const auto found = std::find_if(agents.begin(), agents.end(), [&](const scene::AgentPose& agent) { return agent.id == *chosen_agent_; });
+    const auto found = std::find_if(agents.begin(), agents.end(), [&](const scene::AgentPose& agent) { return agent.id == *followed_agent_; });
     if (found != agents.end()) {
       live_.followed = cars + static_cast<std::size_t>(found - agents.begin());
       return;
     }
-    chosen_agent_.reset();
+    followed_agent_.reset();
     live_.followed = 0;
   }
   if (live_.followed >= cars) live_.followed = 0;
+}
+
+// What the window shows now, without notes, into the user's pictures: the time in its name is simulated.
+void Screen::TakePicture() {
+  picture_wanted_ = false;
+  painter_->DrawWhole(live_);
+  const std::filesystem::path folder = base::UserDataFolder() / "pictures";
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  const std::string stem = fmt::format("{}-{:.2f}s", title_, static_cast<double>(live_.moment.time_ns) * 1e-9);
+  std::filesystem::path file = folder / (stem + ".png");
+  for (int number = 2; std::filesystem::exists(file); ++number) file = folder / fmt::format("{}-{}.png", stem, number);
+  const base::Status written = WritePng(file, painter_->Read());
+  note_ = written ? "written: " + file.string() : written.error().Text();
+  note_until_s_ = launch::WallSeconds() + kNote_s;
 }
 
 void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> timeline) {
@@ -111,11 +156,17 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
   live_.moment = std::move(moment);
   live_.timeline = std::move(timeline);
   Follow();
+  live_.chosen = chosen_.In(live_.moment);
+  live_.panel = chosen_.Panel(live_.moment);
   live_.text = help_ ? help_text_ : "";
   if (statistics_) {
     live_.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", help_ ? "\n\n" : "", 1.0 / interval_s_,
                               frame_s_ * 1e3, rate, surface_->renderer());
   }
+  // In slow motion it is fainter, and silent where time stands.
+  if (speaker_) speaker_->Play(HeardBy(live_.moment, live_.followed, muted_ ? 0.0 : volume_ * std::min(std::fabs(rate), 1.0)), interval_s_);
+  if (picture_wanted_) TakePicture();
+  if (begin_s < note_until_s_) live_.text += (live_.text.empty() ? "" : "\n\n") + note_;
   painter_->Draw(live_);
   surface_->Swap();
   const double end_s = launch::WallSeconds();

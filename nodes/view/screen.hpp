@@ -7,7 +7,9 @@
 #include <string>
 
 #include "common/base/result.hpp"
+#include "nodes/view/chosen.hpp"
 #include "nodes/view/painter.hpp"
+#include "nodes/view/speaker.hpp"
 #include "nodes/view/surface.hpp"
 #include "nodes/view/view_settings.hpp"
 
@@ -29,7 +31,7 @@ class Screen {
   // `driven`: somebody drives by this window, and s is the brake.
   bool TakeKey(int symbol, bool driven);
   // The wheel brings free cameras nearer and farther; the left button, held, turns the one about the car, where the mouse's
-  // buttons do not drive. False where nothing changed.
+  // buttons do not drive; there a click chooses the vehicle that is seen at its place, or nobody. False where nothing changed.
   bool TakeMouse(const SDL_Event& event, bool driven);
   // Draws the moment as the person wishes to see it, and shows it. `rate`: simulated seconds a second, for the statistics.
   void Show(scene::Moment moment, double rate, std::optional<Timeline> timeline = std::nullopt);
@@ -39,13 +41,22 @@ class Screen {
 
   std::unique_ptr<Surface> surface_;
   std::unique_ptr<Painter> painter_;  // before its surface in dying
-  std::string help_text_;
+  std::unique_ptr<Speaker> speaker_;  // null: nothing is heard
+  double volume_ = 0.0;
+  bool muted_ = false;
+  std::string help_text_, title_;
+  void TakePicture();
   void Follow();  // whom the person chose, wherever it stands among the others now
 
   Picture live_;  // camera, followed car as the person chose
-  std::optional<std::uint64_t> chosen_agent_;  // of the traffic
+  std::optional<std::uint64_t> followed_agent_;  // of the traffic
+  Chosen chosen_;
+  int dragged_px_ = 0;  // since the left button went down
   static constexpr std::array<bool, scene::kMirrors> kNoMirrors{};
   std::array<bool, scene::kMirrors> mirrors_ = {true, true, true};  // those that the key brings back
+  bool picture_wanted_ = false;
+  std::string note_;  // of the last one
+  double note_until_s_ = 0.0;
   bool help_ = false;
   bool statistics_ = false;
   double frame_s_ = 0.0;      // smoothed time of drawing

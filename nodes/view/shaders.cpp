@@ -86,6 +86,7 @@ vec3 Look() {
   return paint * light * (0.88 + 0.12 * texture2D(noise, ground / 2.0).r);
 })";
     case scene::Material::kCarPaint: return R"(
+uniform float pulse;
 vec3 Look() {
   vec3 n = normalize(normal_eye);
   vec3 view = normalize(at_eye);
@@ -94,7 +95,7 @@ vec3 Look() {
   float up = dot(mirrored, up_eye);
   vec3 around = mix(vec3(0.25, 0.27, 0.22), SkyColour(up), smoothstep(-0.05, 0.05, up));
   float shine = pow(max(dot(mirrored, sun_eye), 0.0), 60.0);
-  return gl_Color.rgb * light + fresnel * around + 0.7 * shine;
+  return mix(gl_Color.rgb * light + fresnel * around + 0.7 * shine, vec3(1.0, 0.95, 0.55), 0.65 * pulse);
 })";
     case scene::Material::kGlass: return R"(
 vec3 Look() {

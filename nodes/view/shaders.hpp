@@ -7,7 +7,7 @@
 namespace rodeira::view {
 
 // GLSL 1.20, which every OpenGL from 2.1 on understands. Uniforms: those of AirUniforms, noise (a texture that repeats), glow (of
-// lamps), face (a sign's picture; where on it: texture coordinates 1), and of the rain time_s and aspect (width by height).
+// lamps), pulse (of a chosen car, 0 to 1), face (a sign's picture; where on it: texture coordinates 1), and of the rain time_s and aspect (width by height).
 std::string VertexShader();
 std::string FragmentShader(scene::Material material);
 std::string SkyVertexShader();

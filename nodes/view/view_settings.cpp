@@ -87,6 +87,8 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& 
   const std::string window = map.Choice("window", {"auto", "always", "never"}, "auto");
   settings.window = window == "always" ? WindowWish::kAlways : window == "never" ? WindowWish::kNever : WindowWish::kAuto;
   settings.instruments = map.Flag("instruments", true);
+  settings.sound = map.Flag("sound", true);
+  settings.volume = map.Number("volume", {0.0, 1.0}, settings.volume);
   settings.cabin = map.Flag("cabin", !settings.screen);  // a laboratory has its own
   if (map.Has("mirrors")) ReadMirrors(map, settings);
   ReadFollowed(launch.roster(), view, map, settings);

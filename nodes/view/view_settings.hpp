@@ -27,6 +27,8 @@ struct ViewSettings {
   int display = 0;                           // of the PC, for the window
   WindowWish window = WindowWish::kAuto;
   bool instruments = true;
+  bool sound = true;                         // of a window
+  double volume = 0.6;                       // 0 … 1
   bool cabin = true;                         // dashboard and steering wheel, likewise
   std::array<bool, scene::kMirrors> mirrors = {true, true, true};  // of the driver's camera
   std::size_t followed = 0;                  // which of the cars wired to the view, in the roster's order

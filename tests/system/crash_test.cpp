@@ -104,6 +104,37 @@ TEST_F(Crash, IntoAParkedCarOfTraffic) {
   EXPECT_EQ(FirstDifference(SamplesOf(recording), SamplesOf(Path("again.mcap"))), "");
 }
 
+// Cars of two nodes: each sees the other as it is at that step, so they touch in the same steps with opposite impulses.
+TEST_F(Crash, IntoTheCarOfAnotherNode) {
+  const std::string recording = Path("cars.mcap");
+  const Ended run = Run("crash_cars.yaml", {"--for", "4", "--record", recording});
+  ASSERT_EQ(run.status, 0) << run.out;
+  const auto of_ego = MessagesOf<msg::Collisions>(recording, idl::topics::kCollisions, "ego");
+  const auto of_other = MessagesOf<msg::Collisions>(recording, idl::topics::kCollisions, "other");
+  const auto states = MessagesOf<msg::VehicleState>(recording, idl::topics::kVehicleState, "other");
+  ASSERT_EQ(of_ego.size(), of_other.size());
+  double all_Ns = 0.0;
+  int touching = 0;
+  for (std::size_t i = 0; i < of_ego.size(); ++i) {
+    ASSERT_EQ(of_ego[i].collisions().size(), of_other[i].collisions().size()) << "step " << i;
+    if (of_ego[i].collisions().empty()) continue;
+    ++touching;
+    const msg::Collision& mine = of_ego[i].collisions().front();
+    const msg::Collision& theirs = of_other[i].collisions().front();
+    EXPECT_EQ(mine.partner(), 1u);
+    EXPECT_EQ(mine.partner_source(), states.front().header().source());
+    EXPECT_EQ(mine.begins(), theirs.begins());
+    EXPECT_NEAR(mine.impulse_x_ns(), -theirs.impulse_x_ns(), 1e-3 * std::fabs(mine.impulse_x_ns()) + 1e-3);
+    all_Ns += theirs.impulse_x_ns();
+  }
+  EXPECT_GT(touching, 5);
+  EXPECT_GT(all_Ns, 2000.0);
+  EXPECT_GT(states.back().position_w_m().x(), 230.1) << "it was pushed on";
+  EXPECT_EQ(RunCommand({Bin("rodeira"), "replay", recording, "--verify"}).status, 0);
+  ASSERT_EQ(Run("crash_cars.yaml", {"--for", "4", "--in-process", "--record", Path("again.mcap")}).status, 0);
+  EXPECT_EQ(FirstDifference(SamplesOf(recording), SamplesOf(Path("again.mcap"))), "");
+}
+
 TEST_F(Crash, NobodyIsTouchedWhereCollisionsAreOff) {
   const std::string recording = Path("none.mcap");
   const Ended run = Run("crash_wall.yaml", {"--for", "10", "--in-process", "--set", "nodes.ego.config.collisions=none", "--record", recording});

@@ -4,8 +4,12 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "common/base/files.hpp"
+#include "common/base/hash.hpp"
 #include "tests/common/fmi/test_fmu.hpp"
 #include "tests/system/command.hpp"
 
@@ -46,12 +50,58 @@ TEST_F(FmuRun, OneThatHangsIsNamedByTheWatchdog) {
   EXPECT_EQ(run.Wait(10s).status, 1);
 }
 
+TEST_F(FmuRun, OneThatCrashesIsNamedAndTheOthersEnd) {
+  const std::string recording = (folder_.path() / "crash.mcap").string();
+  const Ended run = RunCommand(Command("parameters: {crash_at_s: 1.5}\n", {"--for", "5", "--record", recording}));
+  EXPECT_EQ(run.status, 1) << run.out;
+  EXPECT_THAT(run.out, HasSubstr("node 'ego' was killed by signal 11"));
+  EXPECT_EQ(RunCommand({Bin("rodeira"), "info", recording}).status, 0) << "what was complete is there";
+}
+
+// Already where it makes an instance of itself: also a run of one process says so, and is not dragged along.
+TEST_F(FmuRun, OneThatCrashesAtOnceIsRefused) {
+  auto command = Command("", {"--for", "1", "--no-record", "--in-process"});
+  folder_.Pack({{"{rodeira-test-car}", "{crashes}"}});
+  const Ended run = RunCommand(command);
+  EXPECT_EQ(run.status, 2) << run.out;
+  EXPECT_THAT(run.out, HasSubstr("car.fmu: its binary crashes (signal 11) as it is loaded and makes an instance of itself"));
+}
+
 TEST_F(FmuRun, WhatIsNoFmuIsRefused) {
   const auto command = Command("", {"--for", "1", "--no-record", "--in-process"});
   ASSERT_TRUE(base::WriteWhole(folder_.path() / "car.fmu", "no archive").ok());
   const Ended run = RunCommand(command);
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.out, HasSubstr("car.fmu: this is no FMU: a ZIP archive was expected"));
+}
+
+// The demo (autopilot, traffic, recorder, the view) with any model: a word in the command line, and for a laboratory's car its file.
+TEST_F(FmuRun, TheDemoDrivesWithEachModel) {
+  folder_.Pack();
+  const std::string fmu = folder_.WriteCar().string();
+  const std::vector<std::vector<std::string>> cars = {{"vehicle.model=bicycle"}, {"vehicle.model=multibody"}, {"vehicle.model=ode"},
+                                                      {"nodes.ego.config.vehicle=" + fmu, "nodes.driver.config.vehicle=" + fmu}};
+  for (const auto& settings : cars) {
+    SCOPED_TRACE(settings.front());
+    const std::string recording = (folder_.path() / "demo.mcap").string();
+    const auto frames = folder_.path() / "frames";
+    std::vector<std::string> command = {Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--pace", "max", "--for", "3", "--record", recording,
+                                        "--set", "nodes.view.config.width_px=160", "--set", "nodes.view.config.height_px=90",
+                                        "--set", "nodes.view.config.frames.times_s=[1, 3]", "--set", "nodes.view.config.frames.folder=" + frames.string()};
+    for (const std::string& setting : settings) command.insert(command.end(), {"--set", setting});
+    const Ended run = RunCommand(command);
+    ASSERT_EQ(run.status, 0) << run.out;
+    std::set<base::Digest> pictures;
+    for (const auto& picture : std::filesystem::directory_iterator(frames)) {
+      EXPECT_GT(picture.file_size(), 3000u) << "there is something to be seen";
+      pictures.insert(base::Hash(base::ReadBytes(picture.path()).value()));
+    }
+    EXPECT_EQ(pictures.size(), 2u) << "the car has moved";
+    const Ended verified = RunCommand({Bin("rodeira"), "replay", recording, "--verify"});
+    EXPECT_EQ(verified.status, 0) << verified.out;
+    std::filesystem::remove_all(frames);
+    std::filesystem::remove(recording);
+  }
 }
 
 }  // namespace

@@ -105,6 +105,32 @@ BENCHMARK_CAPTURE(PatchOn, Straight, "line: {length_m: 400}")->Arg(0)->Arg(1)->U
 BENCHMARK_CAPTURE(PatchOn, Arc, "arc: {length_m: 400, radius_m: 200}")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(PatchOn, Clothoid, "clothoid: {length_m: 400, radius_end_m: 200}")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
+// The same on Town04's driving lanes, as they come (needs the real file beside the project).
+void Town04Patch(benchmark::State& state) {
+  const std::filesystem::path root(RODEIRA_SOURCE_DIR);
+  const char* file = "shared/data/road/xodr/carla_Town04.xodr";
+  const auto world = World::Load(std::filesystem::exists(root / ".." / file) ? root / ".." / file : root / "../.." / file);
+  if (!world) return state.SkipWithError("no Town04");
+  const network::Network& network = *world.value()->network();
+  const auto lanes = network.Lanes();
+  std::vector<terrain::GroundPatch> patches;
+  for (std::uint64_t i = 0; patches.size() < 1024; ++i) {
+    const network::LaneKey key = lanes[base::RandomBits({i, 1}) % lanes.size()];
+    if (!network::IsDrivable(network.Find(key)->type)) continue;
+    const double s = base::RandomUniform({i, 2}, network.Section(key).s_m, network.Section(key).end_s_m);
+    const Eigen::Vector3d p = network.Centre(key, s);
+    patches.push_back({p.x(), p.y(), network.roads()[key.road].axis().Evaluate(s).heading_rad, 0.2, 0.18, 20, 20, p.z()});
+  }
+  const auto ground = world.value()->MakeGround();
+  std::vector<terrain::GroundPoint> points(400);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    ground->Patch(patches[i++ & 1023], points);
+    benchmark::DoNotOptimize(points.data());
+  }
+}
+BENCHMARK(Town04Patch)->Unit(benchmark::kMicrosecond);
+
 void N222TerrainRandom(benchmark::State& state) {
   std::vector<terrain::GroundQuery> queries;
   for (std::uint64_t i = 0; i < kPoints; ++i) queries.push_back({base::RandomUniform({i, 1}, -2560.0, 2560.0), base::RandomUniform({i, 2}, -2560.0, 2560.0)});

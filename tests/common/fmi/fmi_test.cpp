@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/fmi/archive.hpp"
+#include "common/fmi/trial.hpp"
 #include "common/fmi/unit.hpp"
 
 namespace rodeira::fmi {
@@ -101,6 +102,17 @@ TEST_F(Fmi, WhatIsNoFmuOfThisPlatformIsRefused) {
   WriteZip(file, {{"modelDescription.xml", FmuFolder::Description()}, {"../outside.txt", "x"}});
   EXPECT_THAT(Refusal(file), HasSubstr("'../outside.txt' leads out of its folder"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path().parent_path() / "outside.txt"));
+}
+
+// It is tried in a process of its own first.
+TEST_F(Fmi, WhatCrashesOrHangsAsItIsLoadedIsRefused) {
+  EXPECT_THAT(Refusal(folder_.Pack({{"{rodeira-test-car}", "{crashes}"}})), HasSubstr("its binary crashes (signal 11) as it is loaded and makes an instance of itself"));
+  const auto hangs = TryInChild([] {
+    volatile double never = 0.0;
+    while (never < 1.0) never = never * 0.5;
+  }, 1);
+  EXPECT_EQ(hangs.error().exit_status(), 2);
+  EXPECT_THAT(hangs.error().Text(), HasSubstr("its binary does not come back within 1 s"));
 }
 
 // Cut short or with bytes changed: a sentence or an FMU, never a crash. The binary is left out: nobody can try foreign code.

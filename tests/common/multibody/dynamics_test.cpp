@@ -1,5 +1,8 @@
 // Mechanisms against closed forms: order, energy, free bodies, springs, driven coordinates, joints.
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <tuple>
+#include <vector>
 
 #include "tests/common/multibody/run_mechanism.hpp"
 
@@ -46,6 +49,69 @@ TEST(Order, OfAndrewsIsTwo) {
     }
     before = error;
   }
+}
+
+// Joint forces of a four-bar linkage against Newton's and Euler's equations of its three rods, solved by themselves from where the rods are
+// and how fast: eight forces and three angular accelerations from nine equations of motion and the coupler's end, which both ends give.
+TEST(Reactions, JointForcesOfAFourBarAreNewtonsAndEulers) {
+  Mechanism bars = Parsed(R"(
+planar: true
+gravity_mps2: [0, -9.81, 0]
+points:
+  A: {at_m: [0, 0, 0], fixed: true}
+  B: {at_m: [0.1, 0.4, 0], velocity_mps: [-1.6, 0.4, 0]}
+  C: {at_m: [0.9, 0.7, 0]}
+  D: {at_m: [1, 0, 0], fixed: true}
+bodies:
+  crank: {kind: rod, points: [A, B], mass_kg: 1}
+  coupler: {kind: rod, points: [B, C], mass_kg: 2}
+  rocker: {kind: rod, points: [C, D], mass_kg: 1.5}
+outputs: {ax: joint crank A.x, ay: joint crank A.y, bx: joint coupler B.x, by: joint coupler B.y, cx: joint rocker C.x, cy: joint rocker C.y,
+  dx: joint rocker D.x, dy: joint rocker D.y, vbx: B.vx, vby: B.vy, vcx: C.vx, vcy: C.vy}
+)");
+  using Flat = Eigen::Vector2d;
+  const auto about = [](const Flat& r) { return Flat(-r.y(), r.x()); };  // z × r
+  const Flat down(0.0, -9.81), a_m(0.0, 0.0), d_m(1.0, 0.0);
+  double most_N = 0.0;
+  for (int i = 1; i <= 40; ++i) {
+    RunTo(bars, 0.02 * i, 0.0005);
+    const Flat b_m = PointOf(bars, "B").head<2>(), c_m = PointOf(bars, "C").head<2>();
+    const Flat v_b(Value(bars, "vbx"), Value(bars, "vby")), v_c(Value(bars, "vcx"), Value(bars, "vcy"));
+    const auto rate = [&](const Flat& r, const Flat& v) { return about(r).dot(v) / r.squaredNorm(); };
+    const Flat crank = b_m - a_m, coupler = c_m - b_m, rocker = c_m - d_m;
+    const double w1 = rate(crank, v_b), w2 = rate(coupler, v_c - v_b), w3 = rate(rocker, v_c);
+    // Unknowns: forces at A, B, C, D (on crank, coupler, rocker, rocker), angular accelerations.
+    Eigen::Matrix<double, 11, 11> m = Eigen::Matrix<double, 11, 11>::Zero();
+    Eigen::Matrix<double, 11, 1> right = Eigen::Matrix<double, 11, 1>::Zero();
+    int row = 0;
+    const auto body = [&](double mass_kg, const Flat& middle, const Flat& length, const std::vector<std::tuple<int, double, Flat>>& forces,
+                          const std::vector<std::pair<int, Flat>>& accelerates, const Flat& known, int turn) {
+      for (const auto& [force, sign, at] : forces) {
+        m.block<2, 2>(row, 2 * force) += sign * Eigen::Matrix2d::Identity();
+        m.block<1, 2>(row + 2, 2 * force) += sign * about(at - middle).transpose();
+      }
+      for (const auto& [which, by] : accelerates) m.block<2, 1>(row, 8 + which) -= mass_kg * by;
+      right.segment<2>(row) = mass_kg * (known - down);
+      m(row + 2, 8 + turn) -= mass_kg * length.squaredNorm() / 12.0;
+      row += 3;
+    };
+    const Flat inward_b = -w1 * w1 * crank, inward_c = inward_b - w2 * w2 * coupler;
+    body(1.0, 0.5 * (a_m + b_m), crank, {{0, 1.0, a_m}, {1, -1.0, b_m}}, {{0, 0.5 * about(crank)}}, 0.5 * inward_b, 0);
+    body(2.0, 0.5 * (b_m + c_m), coupler, {{1, 1.0, b_m}, {2, -1.0, c_m}}, {{0, about(crank)}, {1, 0.5 * about(coupler)}},
+         0.5 * (inward_b + inward_c), 1);
+    body(1.5, 0.5 * (c_m + d_m), rocker, {{2, 1.0, c_m}, {3, 1.0, d_m}}, {{2, 0.5 * about(rocker)}}, -0.5 * w3 * w3 * rocker, 2);
+    m.block<2, 1>(row, 8) = about(crank);
+    m.block<2, 1>(row, 9) = about(coupler);
+    m.block<2, 1>(row, 10) = -about(rocker);
+    right.segment<2>(row) = -w3 * w3 * rocker - inward_c;
+    const Eigen::Matrix<double, 11, 1> solved = m.partialPivLu().solve(right);
+    int k = 0;
+    for (const std::string force : {"ax", "ay", "bx", "by", "cx", "cy", "dx", "dy"}) {
+      EXPECT_NEAR(Value(bars, force), solved[k], 2e-3 * (1.0 + solved.head<8>().norm())) << force << " at " << 0.02 * i << " s";
+      most_N = std::max(most_N, std::fabs(solved[k++]));
+    }
+  }
+  EXPECT_GT(most_N, 50.0);
 }
 
 TEST(Energy, DriftFallsFourfoldWhenTheStepIsHalved) {

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "common/base/random.hpp"
 #include "common/geometry/angle.hpp"
 #include "tests/common/opendrive/sample.hpp"
+#include "tests/setting.hpp"
 
 namespace rodeira::network {
 namespace {
@@ -97,8 +97,7 @@ TEST(Locate, SmallGapsBetweenElementsAreClosed) {
 
 // The same with the index, with any hint, and without any index: bit by bit. RODEIRA_NETWORK_POINTS asks for more points.
 void ExpectTheIndexChangesNothing(const Network& network, const std::string& name) {
-  const char* asked = std::getenv("RODEIRA_NETWORK_POINTS");
-  const std::uint64_t points = asked == nullptr ? 3000 : std::strtoull(asked, nullptr, 10);
+  const std::uint64_t points = Setting("RODEIRA_NETWORK_POINTS", 3000);
   Hint warm;
   for (std::uint64_t i = 0; i < points; ++i) {
     const auto road_index = static_cast<std::size_t>(base::RandomBits({i, 1}) % network.roads().size());

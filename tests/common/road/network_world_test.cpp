@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <bit>
 #include <cmath>
 #include <fstream>
 
@@ -110,6 +111,52 @@ TEST_F(NetworkWorld, TheVergeGoesOnFromTheRoadsEdge) {
   EXPECT_FALSE(ground->At(0.0, -3.6 - kVerge_m).inside);
   EXPECT_TRUE(ground->At(0.0, -3.4 - kVerge_m).inside);
   EXPECT_FALSE(ground->At(kNan, 0.0).inside);
+}
+
+// Patches on roads, over their edges, in junctions, under and on bridges, with hints at, above and below the road: to the bit their points.
+void ExpectPatchesAreTheirPoints(const World& world, std::uint64_t patches) {
+  const auto ground = world.MakeGround(), fresh = world.MakeGround();
+  const network::Network& network = *world.network();
+  const auto same = [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); };
+  for (std::uint64_t i = 0; i < patches; ++i) {
+    const network::Road& road = network.roads()[base::RandomBits({i, 1}) % network.roads().size()];
+    const double s = base::RandomUniform({i, 2}, 0.0, road.length_m());
+    const Eigen::Vector3d p = road.Surface(s, base::RandomUniform({i, 3}, -5.0, 5.0)).p_W;
+    const double hint = i % 3 == 0 ? kNan : i % 3 == 1 ? p.z() : p.z() - 3.0;
+    const terrain::GroundPatch patch{p.x(), p.y(), base::RandomUniform({i, 4}, -3.0, 3.0), 0.2, 0.18, 9, 7, hint};
+    std::vector<terrain::GroundPoint> points(patch.size());
+    ground->Patch(patch, points);
+    for (int k = 0; k < 63; ++k) {
+      const terrain::GroundQuery query = terrain::PatchPoint(patch, k / 7, k % 7);
+      const terrain::GroundPoint alone = fresh->At(query.x_m, query.y_m, query.z_hint_m), &at = points[static_cast<std::size_t>(k)];
+      ASSERT_TRUE(same(at.z_m, alone.z_m) && same(at.normal_W.x(), alone.normal_W.x()) && same(at.normal_W.y(), alone.normal_W.y()) &&
+                  same(at.normal_W.z(), alone.normal_W.z()) && same(at.friction, alone.friction) && at.surface == alone.surface && at.inside == alone.inside)
+          << "road " << road.id() << " s " << s << " patch " << i << " point " << k;
+    }
+  }
+}
+
+TEST_F(NetworkWorld, APatchIsItsPointsBitByBit) {
+  ExpectPatchesAreTheirPoints(*MustLoad(TwoLevels()), 300);
+  // What is asked together agrees with no hint above the road, and says nothing where the hint lies below it.
+  const auto flat = MustLoad(Document(RoadText().Text()));
+  const LaneGrounds grounds(*flat->network(), kUsualFriction);
+  std::vector<terrain::GroundQuery> queries(20, {40.0, 1.5, 0.2});
+  std::vector<terrain::GroundPoint> points(queries.size());
+  EXPECT_TRUE(NetworkGroundTogether(*flat->network(), grounds, nullptr, queries, points));
+  queries[7].z_hint_m = -0.6;
+  EXPECT_FALSE(NetworkGroundTogether(*flat->network(), grounds, nullptr, queries, points));
+}
+
+TEST_F(NetworkWorld, APatchIsItsPointsOnRealFiles) {
+  const auto files = opendrive::RealFiles();
+  if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";
+  for (const auto& file : files) {
+    const auto world = World::Load(file);
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    ExpectPatchesAreTheirPoints(*world.value(), 200);
+    if (HasFatalFailure()) FAIL() << file;
+  }
 }
 
 TEST_F(NetworkWorld, StartsOnTheLongestLaneInItsDirection) {

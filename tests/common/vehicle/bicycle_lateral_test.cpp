@@ -40,6 +40,10 @@ TEST(BicycleLateral, SteadyYawRateIsTheClosedForm) {
     const VehicleState& s = car.state();
     EXPECT_LT(std::fabs(s.w_WB_B.z() * s.speed_mps()), 0.5);
     EXPECT_NEAR(s.w_WB_B.z() / steer, expected, 0.02 * expected) << speed;
+    // The front axle bears m b / L of the lateral acceleration, by both trails: the tyres hardly slide.
+    const SteeringSettings& steering = settings.steering;
+    const double feedback = -(steering.mechanical_trail_m + steering.pneumatic_trail_m) * m * b / l * s.w_WB_B.z() * s.speed_mps() / steering.ratio;
+    EXPECT_NEAR(s.steering_torque_Nm, feedback, 0.03 * std::fabs(feedback)) << speed;
     // beta / delta at the centre of gravity, = (b - a m V² / (L Cr)) / (L + Kus V²).
     const double beta = (s.v_WB_B().y() + s.w_WB_B.z() * (l / 2 - a)) / s.speed_mps();
     const double beta_expected = (b - a * m * speed * speed / (l * cr)) / (l + kus * speed * speed) * steer;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "common/vehicle/multibody_model.hpp"
 #include "tests/common/vehicle/every_model.hpp"
@@ -265,6 +266,44 @@ TEST_P(EveryBody, StandsInEquilibrium) {
       ASSERT_TRUE(car->Initialise({.x_m = 100.0, .y_m = -7.0, .heading_rad = 0.7}, ground).ok());
       for (const double each : mechanism->system().qdd()) EXPECT_LE(std::fabs(each), 1e-6) << slope_x;
     }
+  }
+}
+
+// At a speed: nothing accelerates either, and with the throttle that INI found it goes on as it began.
+TEST_P(EveryBody, AtASpeedItBeginsSteadily) {
+  auto car = MakeModel(GetParam());
+  for (const auto& [speed_mps, slope_x, slope_y] : {std::tuple(15.0, 0.0, 0.0), std::tuple(30.0, 0.0, 0.0), std::tuple(12.0, 0.05, 0.0), std::tuple(20.0, -0.01, 0.0), std::tuple(15.0, 0.02, 0.03)}) {
+    SCOPED_TRACE(speed_mps);
+    PlaneGround ground(Eigen::Vector3d(0, 0, 12.5), slope_x, slope_y);
+    ASSERT_TRUE(car->Initialise({.x_m = 100.0, .y_m = -7.0, .speed_mps = speed_mps}, ground).ok());
+    const VehicleState s = car->state();
+    EXPECT_NEAR(s.p_WB_W.x(), 100.0, 1e-9);
+    EXPECT_NEAR(s.p_WB_W.y(), -7.0, 1e-9);
+    EXPECT_NEAR(s.speed_mps(), speed_mps, 1e-9);
+    if (auto* mechanism = dynamic_cast<MultibodyModel*>(car.get())) {
+      for (const double each : mechanism->system().qdd()) EXPECT_LE(std::fabs(each), 1e-6);
+    }
+    double loads_N = 0.0;
+    for (const WheelState& wheel : s.wheels) loads_N += wheel.load_N;
+    EXPECT_NEAR(loads_N, car->dimensions().mass_kg * kG / std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y), 1e-6 * loads_N);
+    Controls controls;
+    controls.gearbox = GearboxMode::kManual;
+    controls.gear = s.gear;
+    controls.throttle = s.throttle;
+    EXPECT_GT(s.throttle, 0.01);
+    EXPECT_LT(s.throttle, 0.99);
+    // On a slope across the slip that holds the car begins to relax within the step, whose end the mechanism goes by.
+    if (GetParam().is_mechanism && slope_y != 0.0) continue;
+    car->Step(controls, ground, kStep);
+    const double solved = GetParam().is_mechanism ? 1e-3 : 1e-6;
+    EXPECT_LE(car->state().a_WB_W.norm(), solved);
+    EXPECT_LE(car->state().alpha_WB_B.norm(), 2.0 * solved);
+    if (slope_y != 0.0) continue;  // from here on somebody must steer
+    DriveFor(*car, ground, controls, 2.0);
+    EXPECT_NEAR(car->state().speed_mps(), speed_mps, 1e-3);
+    EXPECT_NEAR(car->state().p_WB_W.y(), -7.0, 1e-3);
+    EXPECT_NEAR(car->state().pitch_rad(), s.pitch_rad(), 1e-5);
+    EXPECT_NEAR(car->state().engine_speed_radps, s.engine_speed_radps, 0.05);
   }
 }
 

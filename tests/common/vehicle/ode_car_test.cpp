@@ -121,6 +121,10 @@ TEST(OdeCarDynamics, BelowOneMetrePerSecondSquaredItIsTheClosedForm) {
     const double expected = v / (l + kus * v * v);
     EXPECT_LT(std::fabs(car->state().w_WB_B.z() * v), 0.5);
     EXPECT_NEAR(car->state().w_WB_B.z() / steer, expected, 0.05 * expected) << speed;
+    // The front axle bears m b / L of the lateral acceleration, by both trails: the tyres hardly slide.
+    const SteeringSettings& steering = settings.car.steering;
+    const double feedback = -(steering.mechanical_trail_m + steering.pneumatic_trail_m) * m * b / l * car->state().w_WB_B.z() * v / steering.ratio;
+    EXPECT_NEAR(car->state().steering_torque_Nm, feedback, 0.03 * std::fabs(feedback)) << speed;
   }
 }
 
@@ -128,9 +132,10 @@ TEST(OdeCarDynamics, BelowOneMetrePerSecondSquaredItIsTheClosedForm) {
 TEST(OdeCarDynamics, LoadTransferOfBraking) {
   auto car = Car();
   PlaneGround ground;
-  ASSERT_TRUE(car->Initialise({.speed_mps = 25.0}, ground).ok());
+  ASSERT_TRUE(car->Initialise({}, ground).ok());
   const BodySettings& body = car->settings().car.body;
   const double front_at_rest = 2.0 * car->state().wheels[kFrontLeft].load_N;
+  ASSERT_TRUE(car->Initialise({.speed_mps = 25.0}, ground).ok());
   Controls controls = Rolling();
   controls.brake = 0.4;
   DriveFor(*car, ground, controls, 1.5);

@@ -4,10 +4,12 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "common/base/random.hpp"
 #include "common/geometry/angle.hpp"
 #include "common/vehicle/friction.hpp"
+#include "common/vehicle/powertrain_array.hpp"
 #include "tests/common/vehicle/test_car.hpp"
 
 namespace rodeira::vehicle {
@@ -316,6 +318,48 @@ TEST(Gearbox, ByHandAGearNeedsTheClutchAndReverseNeedsPatience) {
   EXPECT_EQ(ShiftByHand(gearbox, 0, -1, 1.0, 5.0), 0);
   EXPECT_EQ(ShiftByHand(gearbox, 0, -1, 1.0, 0.5), -1);
   EXPECT_EQ(ShiftByHand(gearbox, -1, 1, 1.0, -5.0), 0);
+}
+
+// Forty cars of two kinds in one array, and each by itself, backward through the array: the same bits, whoever stands beside it.
+TEST(PowertrainArray, EachCarHasTheBitsThatItHasAlone) {
+  constexpr std::size_t kCars = 40;
+  const PowertrainSettings usual = DefaultSettings().powertrain;
+  PowertrainSettings lame = usual;
+  for (TorqueSample& sample : lame.engine.full_load) sample.torque_Nm *= 0.6;
+  lame.differential.preload_Nm = 40.0;
+  std::vector<const PowertrainSettings*> settings;
+  std::vector<Powertrain> together(kCars);
+  for (std::size_t i = 0; i < kCars; ++i) {
+    settings.push_back(i % 3 == 0 ? &lame : &usual);
+    together[i].Start(*settings[i], static_cast<double>(i));
+  }
+  std::vector<Powertrain> alone = together;
+  std::vector<Controls> controls(kCars);
+  std::vector<PowertrainInput> inputs(kCars);
+  const auto bits = [](const Powertrain& car) {
+    base::StateWriter writer(base::StateWriter::Names::kWithout);
+    car.Save(writer);
+    return writer.digest();
+  };
+  for (int step = 0; step < 2000; ++step) {
+    for (std::size_t i = 0; i < kCars; ++i) {
+      const auto draw = [&](std::uint64_t what, double low, double high) {
+        return base::RandomUniform({what, i, static_cast<std::uint64_t>(step / 100)}, low, high);
+      };
+      controls[i].throttle = draw(0, 0.0, 1.0);
+      controls[i].gearbox = i % 4 == 0 ? GearboxMode::kManual : GearboxMode::kAutomatic;
+      controls[i].gear = static_cast<std::int32_t>(draw(1, -1.5, 3.0));
+      controls[i].clutch = draw(2, 0.0, 1.0);
+      inputs[i].wheel_radps = together[i].motion().wheel_radps;
+      inputs[i].road_torque_Nm = {draw(3, -300.0, 100.0), draw(4, -300.0, 100.0)};
+      inputs[i].friction_torque_Nm = {20.0, draw(5, 10.0, 200.0)};
+      inputs[i].speed_mps = 0.28 * inputs[i].wheel_radps[0];
+    }
+    StepPowertrains(settings, controls, inputs, kStep_s, together);
+    for (std::size_t i = kCars; i-- > 0;) (void)alone[i].Step(*settings[i], controls[i], inputs[i], kStep_s);
+    for (std::size_t i = 0; i < kCars; ++i) ASSERT_EQ(bits(together[i]), bits(alone[i])) << i << " at step " << step;
+  }
+  EXPECT_NE(bits(together[1]), bits(together[4])) << "two cars of a kind were driven differently";
 }
 
 }  // namespace

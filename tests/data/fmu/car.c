@@ -1,8 +1,10 @@
 /* A car of four numbers as an FMU for co-simulation (FMI 2.0), for tests: place, heading and speed of a point that rolls on its wheels.
  *   dv/dt = 3 throttle (backward in reverse) - 0.05 v - 6 brake sign(v) + push along the car / 1000 kg,
  *   dheading/dt = v tan(steering wheel / 16) / 2.5
- * by explicit Euler steps. z is the mean of the ground's four heights. Parameters make it fail, hang, or say what is no number. */
+ * by explicit Euler steps. z is the mean of the ground's four heights. Parameters make it fail, hang, crash,
+ * or say what is no number. */
 #include <math.h>
+#include <signal.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +20,7 @@ typedef struct {
 
 enum { kX, kY, kZ, kRoll, kPitch, kHeading, kVx, kVy, kVz, kRollRate, kPitchRate, kYawRate, kSteering, kThrottle, kBrake, kGround0, kGround1, kGround2,
        kGround3, kStartX, kStartY, kStartZ, kStartHeading, kStartSpeed, kFailAt, kHangAt, kNonsenseAt, kPushX, kPushY, kPushZ, kMomentX,
-       kMomentY, kMomentZ, kGearLever, kSpeed, kReals };
+       kMomentY, kMomentZ, kGearLever, kCrashAt, kSpeed, kReals };
 
 typedef struct {
   double real[kReals];
@@ -48,6 +50,7 @@ EXPORT void* fmi2Instantiate(const char* name, int type, const char* guid, const
                              int logging) {
   Car* car;
   (void)name, (void)resources, (void)visible, (void)logging;
+  if (strcmp(guid, "{crashes}") == 0) raise(SIGSEGV);
   if (type != 1 || strcmp(guid, "{rodeira-test-car}") != 0) {
     callbacks->logger(callbacks->componentEnvironment, "car", fmi2Error, "guid", "the guid is %s, which is another car's", guid);
     return NULL;
@@ -55,7 +58,7 @@ EXPORT void* fmi2Instantiate(const char* name, int type, const char* guid, const
   car = callbacks->allocateMemory(1, sizeof(Car));
   if (car == NULL) return NULL;
   car->callbacks = callbacks;
-  car->values.real[kFailAt] = car->values.real[kHangAt] = car->values.real[kNonsenseAt] = 1e9;
+  car->values.real[kFailAt] = car->values.real[kHangAt] = car->values.real[kNonsenseAt] = car->values.real[kCrashAt] = 1e9;
   return car;
 }
 EXPORT void fmi2FreeInstance(void* c) { ((Car*)c)->callbacks->freeMemory(c); }
@@ -109,6 +112,7 @@ EXPORT fmi2Status fmi2DoStep(void* c, double time, double step, int no_return) {
     return fmi2Error;
   }
   while (time >= v->real[kHangAt] - 1e-9) never = never + 1.0;
+  if (time >= v->real[kCrashAt] - 1e-9) raise(SIGSEGV);
   brake = 6.0 * v->real[kBrake] * step;
   v->real[kX] += step * v->real[kSpeed] * cos(v->real[kHeading]);
   v->real[kY] += step * v->real[kSpeed] * sin(v->real[kHeading]);

@@ -2,40 +2,23 @@
 #include <gtest/gtest.h>
 
 #include "common/scene/cabin.hpp"
-#include "tests/nodes/view/pictures.hpp"
+#include "tests/nodes/view/driver_still.hpp"
 
 namespace rodeira::view {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
 
-class CabinStill : public ::testing::Test {
+class CabinStill : public DriverStill {
  protected:
+  CabinStill() : DriverStill("plane.yaml", kWidth, kHeight) {}
   void SetUp() override {
-    RODEIRA_NEEDS_PICTURES();
-    world_ = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
-    surface_ = Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test").value();
-    painter_ = std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_));
-    picture_.show_instruments = false;
-    picture_.mirrors.fill(false);
+    DriverStill::SetUp();
     picture_.cabin = true;
-    picture_.camera = scene::CameraKind::kDriver;
-    picture_.moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
-  }
-  scene::CarPose& Car() { return picture_.moment.cars[0]; }
-  Image Drawn() {
-    painter_->Draw(picture_);
-    return painter_->Read();
   }
   Probe At(const Image& image, const Eigen::Vector3d& p_E, int around = 1) {
-    const scene::CarPose& car = picture_.moment.cars[0];
-    return ProbeAt(image, scene::DriverCamera(car), car.p_WB_W + car.q_WB * (scene::DriversEye_B(car) + p_E), around);
+    return ProbeAt(image, scene::DriverCamera(Car()), Car().p_WB_W + Car().q_WB * (scene::DriversEye_B(Car()) + p_E), around);
   }
-
-  std::shared_ptr<const road::World> world_;
-  std::unique_ptr<Surface> surface_;
-  std::unique_ptr<Painter> painter_;
-  Picture picture_;
 };
 
 TEST_F(CabinStill, TheNeedlesPointAtWhatTheCarDoes) {

@@ -1,28 +1,24 @@
 // What a driver sees in the mirrors, asked of single pixels: reversed left to right.
 #include <gtest/gtest.h>
 
-#include "tests/nodes/view/pictures.hpp"
+#include "tests/nodes/view/driver_still.hpp"
 
 namespace rodeira::view {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
 
-class MirrorStill : public ::testing::Test {
+class MirrorStill : public DriverStill {
  protected:
+  MirrorStill() : DriverStill("plane.yaml", kWidth, kHeight) {}
   void SetUp() override {
-    RODEIRA_NEEDS_PICTURES();
-    world_ = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
-    surface_ = Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test").value();
-    painter_ = std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_));
-    picture_.show_instruments = false;
-    picture_.camera = scene::CameraKind::kDriver;
-    picture_.moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
+    DriverStill::SetUp();
+    if (IsSkipped()) return;
+    picture_.mirrors.fill(true);
     AddBehind(1, 14.0, 3.5, scene::Colour::Of(0xc01010));   // red, to the left
     AddBehind(2, 14.0, -3.5, scene::Colour::Of(0x1030c0));  // blue, to the right
   }
-  const scene::CarPose& Car() const { return picture_.moment.cars[0]; }
-  Eigen::Vector3d Behind(double behind_m, double left_m, double up_m) const { return Car().p_WB_W + Car().q_WB * Eigen::Vector3d(-behind_m, left_m, up_m); }
+  Eigen::Vector3d Behind(double behind_m, double left_m, double up_m) { return Car().p_WB_W + Car().q_WB * Eigen::Vector3d(-behind_m, left_m, up_m); }
   void AddBehind(std::uint64_t id, double behind_m, double left_m, scene::Colour colour) {
     scene::AgentPose agent;
     agent.id = id;
@@ -30,10 +26,6 @@ class MirrorStill : public ::testing::Test {
     agent.p_WB_W = Behind(behind_m, left_m, 0.0);
     agent.q_WB = Car().q_WB;
     picture_.moment.agents.push_back(agent);
-  }
-  Image Drawn() {
-    painter_->Draw(picture_);
-    return painter_->Read();
   }
   // Where a place behind the car is seen in a mirror, in pixels of the picture; `reversed` as mirrors do.
   static Eigen::Vector2d Seen(const scene::CarPose& car, scene::Mirror mirror, const Eigen::Vector3d& p_W, bool reversed) {
@@ -44,10 +36,6 @@ class MirrorStill : public ::testing::Test {
     return {place.left * kWidth + (reversed ? 1.0 - x : x) * wide, (1.0 - place.high) * kHeight + y * high};
   }
 
-  std::shared_ptr<const road::World> world_;
-  std::unique_ptr<Surface> surface_;
-  std::unique_ptr<Painter> painter_;
-  Picture picture_;
 };
 
 TEST_F(MirrorStill, LeftIsLeft) {

@@ -3,34 +3,26 @@
 
 #include <cmath>
 
-#include "tests/nodes/view/pictures.hpp"
+#include "tests/nodes/view/driver_still.hpp"
 
 namespace rodeira::view {
 namespace {
 
 constexpr int kWidth = 960, kHeight = 540;
 
-// One surface, painter and place for all: N222's first straight.
-class WeatherStill : public ::testing::Test {
+// At one place: N222's first straight.
+class WeatherStill : public DriverStill {
  protected:
+  WeatherStill() : DriverStill("n222.yaml", kWidth, kHeight) {}
   void SetUp() override {
-    RODEIRA_NEEDS_PICTURES();
-    auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml");
-    ASSERT_TRUE(world.ok()) << world.error().Text();
-    world_ = world.value();
-    auto surface = Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test");
-    ASSERT_TRUE(surface.ok());
-    surface_ = std::move(surface).value();
-    painter_ = std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_));
-    picture_.show_instruments = false;
-    picture_.camera = scene::CameraKind::kDriver;
-    picture_.moment.cars.push_back(CarOn(world_->roads()[0], 60.0, -1.45));
-    camera_ = scene::DriverCamera(picture_.moment.cars[0]);
+    DriverStill::SetUp();
+    if (IsSkipped()) return;
+    Car() = CarOn(world_->roads()[0], 60.0, -1.45);
+    camera_ = scene::DriverCamera(Car());
   }
-  Image Drawn(const weather::Weather& weather) {
+  Image In(const weather::Weather& weather) {
     picture_.moment.weather = weather;
-    painter_->Draw(picture_);
-    return painter_->Read();
+    return Drawn();
   }
   // The road's surface so far ahead of the driver, in his lane and the other one.
   Probe Road(const Image& image, double ahead_m, double t_m = -1.45) {
@@ -38,10 +30,6 @@ class WeatherStill : public ::testing::Test {
   }
   static double Brightness(const Probe& probe) { return (probe.red + probe.green + probe.blue) / 3.0; }
 
-  std::shared_ptr<const road::World> world_;
-  std::unique_ptr<Surface> surface_;
-  std::unique_ptr<Painter> painter_;
-  Picture picture_;
   scene::Camera camera_;
 };
 
@@ -49,13 +37,13 @@ TEST_F(WeatherStill, AtNightOnlyTheHeadlightsShowTheRoad) {
   weather::Weather night;
   night.hour = 1.0;
   night.clouds = 0.0;
-  const Image day = Drawn({}), dark = Drawn(night);
+  const Image day = In({}), dark = In(night);
   EXPECT_LT(Brightness(ProbeAt(dark, 0.5 * kWidth, 10)), 0.15 * Brightness(ProbeAt(day, 0.5 * kWidth, 10)));
   const double near = Brightness(Road(dark, 18.0)), far = Brightness(Road(dark, 110.0));
   EXPECT_GT(near, 40.0);
   EXPECT_LT(far, 0.5 * near);
   picture_.moment.cars[0].p_WB_W += Eigen::Vector3d(0.0, 0.0, 300.0);  // high above: its beam reaches nothing
-  const Image without = Drawn(night);
+  const Image without = In(night);
   picture_.moment.cars[0].p_WB_W -= Eigen::Vector3d(0.0, 0.0, 300.0);
   EXPECT_LT(Brightness(ProbeAt(without, 0.5 * kWidth, kHeight - 10)), 0.5 * near);
 }
@@ -65,7 +53,7 @@ TEST_F(WeatherStill, FogTakesTheContrast) {
   weather::Weather thick, thin;
   thick.visibility_m = 60.0;
   thin.visibility_m = 150.0;
-  const Image in_thick = Drawn(thick), in_thin = Drawn(thin);
+  const Image in_thick = In(thick), in_thin = In(thin);
   const double fog = Brightness(ProbeAt(in_thick, 0.03 * kWidth, kHeight * 0.47, 2));
   for (const double ahead_m : {10.0, 25.0, 40.0}) {
     const Eigen::Vector3d place = world_->roads()[0].Position(60.0 + ahead_m, -1.45);
@@ -79,7 +67,7 @@ TEST_F(WeatherStill, FogTakesTheContrast) {
 TEST_F(WeatherStill, AWetRoadIsDarkNearbyAndMirrorsTheSkyFarAway) {
   weather::Weather wet;
   wet.wetness = 1.0;
-  const Image dry = Drawn({}), drenched = Drawn(wet);
+  const Image dry = In({}), drenched = In(wet);
   EXPECT_LT(Brightness(Road(drenched, 7.0)), 0.8 * Brightness(Road(dry, 7.0)));
   EXPECT_GT(Brightness(Road(drenched, 100.0)), Brightness(Road(dry, 100.0)) + 10.0);
 }
@@ -88,14 +76,14 @@ TEST_F(WeatherStill, AWetRoadIsDarkNearbyAndMirrorsTheSkyFarAway) {
 TEST_F(WeatherStill, RainFallsAndLeavesNothingBehind) {
   weather::Weather rain;
   rain.rain_mmph = 40.0;
-  const Image before = Drawn({});
+  const Image before = In({});
   picture_.moment.time_ns = 3'000'000'000;
-  const Image first = Drawn(rain);
+  const Image first = In(rain);
   picture_.moment.time_ns = 3'020'000'000;
-  const Image second = Drawn(rain);
+  const Image second = In(rain);
   EXPECT_NE(first.rgb, second.rgb);
   picture_.moment.time_ns = 0;
-  EXPECT_EQ(Drawn({}).rgb, before.rgb);
+  EXPECT_EQ(In({}).rgb, before.rgb);
 }
 
 }  // namespace

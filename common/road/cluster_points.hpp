@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include "common/network/cluster.hpp"
+#include "common/network/network.hpp"
+#include "common/road/lane_grounds.hpp"
+#include "common/terrain/ground.hpp"
+
+namespace rodeira::road {
+
+struct ClusterNormals {
+  network::Cluster::Numbers x, y, up;
+};
+
+// The surface's normals at a cluster's points, as a point alone has them: slope(n, up) is what is made of a part n of the cross product and
+// its upward part.
+template <class Slope>
+void SetNormals(const network::Cluster& cluster, const Slope& slope, ClusterNormals& normals) {
+  for (std::size_t i = 0; i < cluster.feet.count; ++i) {
+    const double tangent_x = cluster.feet.tangent_x[i], tangent_y = cluster.feet.tangent_y[i];
+    const double pace = 1.0 - cluster.feet.curvature_1pm[i] * cluster.feet.t_m[i];
+    const double ds_x = pace * tangent_x, ds_y = pace * tangent_y, ds_z = cluster.z_by_s[i];
+    const double dt_x = -tangent_y, dt_y = tangent_x, dt_z = cluster.z_by_t[i];
+    const double up = ds_x * dt_y - ds_y * dt_x;
+    const double slope_x = slope(ds_y * dt_z - ds_z * dt_y, up), slope_y = slope(ds_z * dt_x - ds_x * dt_z, up);
+    normals.up[i] = 1.0 / std::sqrt(slope_x * slope_x + slope_y * slope_y + 1.0);
+    normals.x[i] = -slope_x * normals.up[i];
+    normals.y[i] = -slope_y * normals.up[i];
+  }
+}
+
+// Copies where the points lie.
+void SetPlaces(std::span<const terrain::GroundQuery> queries, network::Cluster& cluster);
+// SUELO's answers from heights, normals and what the lanes are made of.
+void PutPoints(const network::Network& network, const LaneGrounds& grounds, const network::Cluster& cluster, const ClusterNormals& normals,
+               std::span<terrain::GroundPoint> points);
+
+}  // namespace rodeira::road

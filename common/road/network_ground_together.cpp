@@ -1,0 +1,22 @@
+// SUELO on an OpenDRIVE network for many points that lie close together on one road: by the same formulas as a point alone.
+#include "common/network/cluster.hpp"
+#include "common/road/cluster_points.hpp"
+#include "common/road/network_ground.hpp"
+
+namespace rodeira::road {
+
+bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& grounds, const SurfaceDetail* detail,
+                           std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) {
+  network::Cluster cluster;
+  SetPlaces(queries, cluster);
+  if (!network.Together(cluster) || (detail != nullptr && detail->On(cluster.road))) return false;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (cluster.z_m[i] > queries[i].z_hint_m + terrain::kHintAbove_m) return false;  // what is below is asked for
+  }
+  ClusterNormals normals;
+  SetNormals(cluster, [](double part, double up) { return -part / up; }, normals);
+  PutPoints(network, grounds, cluster, normals, points);
+  return true;
+}
+
+}  // namespace rodeira::road

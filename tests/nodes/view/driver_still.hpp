@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+
+#include "tests/nodes/view/pictures.hpp"
+
+namespace rodeira::view {
+
+// One surface and painter for all of a test, the driver's camera, nothing over the picture. `SetUp` of a test that derives begins with this one's.
+class DriverStill : public ::testing::Test {
+ protected:
+  DriverStill(const char* world, int width_px, int height_px) : width_px_(width_px), height_px_(height_px), file_(world) {}
+
+  void SetUp() override {
+    RODEIRA_NEEDS_PICTURES();
+    auto world = road::World::Load(std::string(RODEIRA_SOURCE_DIR "/configs/worlds/") + file_);
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    world_ = world.value();
+    auto surface = Surface::Open(SurfaceKind::kOffscreen, width_px_, height_px_, "test");
+    ASSERT_TRUE(surface.ok()) << surface.error().Text();
+    surface_ = std::move(surface).value();
+    painter_ = std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_));
+    picture_.show_instruments = false;
+    picture_.mirrors.fill(false);
+    picture_.camera = scene::CameraKind::kDriver;
+    picture_.moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
+  }
+  scene::CarPose& Car() { return picture_.moment.cars[0]; }
+  Image Drawn() {
+    painter_->Draw(picture_);
+    return painter_->Read();
+  }
+
+  const int width_px_, height_px_;
+  std::shared_ptr<const road::World> world_;
+  std::unique_ptr<Surface> surface_;
+  std::unique_ptr<Painter> painter_;
+  Picture picture_;
+
+ private:
+  const char* file_;
+};
+
+}  // namespace rodeira::view
