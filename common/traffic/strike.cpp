@@ -9,8 +9,16 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kSlidingFriction = 0.7;  // of locked wheels on dry asphalt
+constexpr double kGravity_mps2 = 9.81;
 constexpr double kNoticed_mps = 1e-3;  // some kilonewtons for a millisecond
 constexpr double kReach_m = 12.0;         // lanes so near give it its height
+
+// What static friction holds: less than its wheels can take in a step, of momentum and of its moment about the middle.
+bool Holds(const Struck& struck, const AgentTraits& traits, double dt_s) {
+  const double takes_mps = kSlidingFriction * kGravity_mps2 * dt_s, arm = 0.5 * std::hypot(traits.wheelbase_m, traits.width_m);
+  const double gyration2 = (traits.length_m * traits.length_m + traits.width_m * traits.width_m) / 12.0;
+  return struck.v_W.norm() + std::fabs(struck.yaw_rate_radps) * gyration2 / arm <= takes_mps;
+}
 
 }  // namespace
 
@@ -42,7 +50,9 @@ void TrafficModel::SlideStruck(double dt_s) {
     Agent& agent = agents_[id];
     if (!agent.is_struck) continue;
     const Eigen::Vector2d before = agent.struck.v_W;
+    if (agent.waited_s > 0.0 && Holds(agent.struck, traits_[id], dt_s)) agent.struck.v_W.setZero(), agent.struck.yaw_rate_radps = 0.0;
     agent.struck.Slide(traits_[id], kSlidingFriction, dt_s);
+    agent.waited_s = agent.struck.at_rest() ? agent.waited_s + dt_s : 0.0;  // at rest
     const Eigen::Vector2d ahead(std::cos(agent.struck.heading_rad), std::sin(agent.struck.heading_rad));
     agent.speed_mps = agent.struck.v_W.dot(ahead);
     agent.acceleration_mps2 = (agent.struck.v_W - before).dot(ahead) / dt_s;
