@@ -189,6 +189,23 @@ outputs: {z: E.z, vz: E.vz, az: E.az, x: B.x}
   EXPECT_NEAR(Value(body, "x"), 1.0, 1e-9);
 }
 
+// v' = -k v² with k = rho A / 2m: v = v0 / (1 + k v0 t), and the way is ln(1 + k v0 t) / k.
+TEST(Drag, SlowsAThrownBodyAsTheClosedFormSays) {
+  Mechanism ball = Parsed(R"(
+gravity_mps2: [0, 0, 0]
+points: {P: {at_m: [0, 0, 0], velocity_mps: [30, 0, 40]}}
+bodies: {ball: {kind: particle, points: [P], mass_kg: 2}}
+forces: {air: {kind: drag, point: P, drag_area_m2: 0.1, density_kgpm3: 1.25}}
+outputs: {x_m: P.x, z_m: P.z, vx_mps: P.vx, drag_N: force air}
+)");
+  RunTo(ball, 3.0, 0.001);
+  const double k = 0.5 * 1.25 * 0.1 / 2.0, slower = 1.0 + k * 50.0 * 3.0;
+  EXPECT_NEAR(Value(ball, "vx_mps"), 0.6 * 50.0 / slower, 1e-5);
+  EXPECT_NEAR(Value(ball, "x_m"), 0.6 * std::log(slower) / k, 1e-5);
+  EXPECT_NEAR(Value(ball, "z_m"), 0.8 * std::log(slower) / k, 1e-5);
+  EXPECT_NEAR(std::fabs(Value(ball, "drag_N")), 2.0 * k * std::pow(50.0 / slower, 2), 1e-3);
+}
+
 TEST(Springs, AMassOnASpringAndDamperFollowsTheClosedForm) {
   Mechanism mass = Parsed(R"(
 gravity_mps2: [0, 0, 0]

@@ -68,6 +68,29 @@ TEST_F(N222, MarksKeepTheConventionsMeasures) {
   }
 }
 
+// Ordinary strokes on the middle line: there overtaking is legal. Everywhere on such a stretch a driver's eye sees the roof of an oncoming
+// car (1.2 m both) 100 m on, over the land that lies between.
+TEST_F(N222, OvertakingIsLegalWhereOneSeesFarEnough) {
+  const Road& road = world_->roads()[0];
+  double all_m = 0.0, longest_m = 0.0;
+  for (const Mark& mark : road.marks()) {
+    if (std::fabs(mark.t_m) > 0.2 || !mark.dashed() || mark.stroke_m > mark.gap_m) continue;
+    const double length_m = mark.to_s_m - mark.from_s_m;
+    all_m += length_m;
+    longest_m = std::max(longest_m, length_m);
+    for (double s = mark.from_s_m; s <= mark.to_s_m; s += 10.0) {
+      if (s + 100.0 > mark.to_s_m) continue;
+      const Eigen::Vector3d up(0.0, 0.0, 1.2), eye = road.Position(s, -1.5) + up, roof = road.Position(s + 100.0, 1.5) + up;
+      for (double share = 0.05; share < 1.0; share += 0.05) {
+        const Eigen::Vector3d sight = eye + share * (roof - eye);
+        EXPECT_GT(sight.z(), world_->At(sight.x(), sight.y()).z_m) << s << " " << share;
+      }
+    }
+  }
+  EXPECT_GT(all_m, 2000.0);
+  EXPECT_GT(longest_m, 1000.0);
+}
+
 TEST_F(N222, TheRoadIsWhereTheGroundIs) {
   const auto ground = world_->MakeGround();
   const Road& road = world_->roads()[0];
