@@ -225,6 +225,7 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
     return design.problems.empty() && file.Finish().ok();
   };
   design.warnings = context.warnings;
+  design.missing = context.missing;
   if (designs.empty() || !sound()) return design;
 
   std::vector<network::Road> roads;

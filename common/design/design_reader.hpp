@@ -31,6 +31,7 @@ struct Design {
   std::vector<std::shared_ptr<const JunctionSurface>> junctions;
   std::optional<StartPlace> start;
   std::vector<std::string> warnings;
+  std::vector<base::Error> missing;   // pictures: wrong, but the world can be driven without them
   std::vector<base::Error> problems;  // of included files; those of the file itself are with it
 };
 

@@ -55,7 +55,7 @@ Strip MakeStrip(LaneType type, CubicTable width, const Material& material, Cubic
   Strip strip;
   strip.lane.type = type;
   strip.lane.width = std::move(width);
-  strip.lane.materials.push_back({0.0, std::string(SurfaceName(material.surface)), material.friction, std::nullopt, material.texture});
+  strip.lane.materials.push_back({0.0, std::string(SurfaceName(material.surface)), material.friction, std::nullopt, material.texture, material.texture_width_m, material.texture_height_m});
   strip.fall = std::move(fall);
   return strip;
 }

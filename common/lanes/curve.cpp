@@ -136,6 +136,13 @@ double Curve::StationAt(double d_m) const {
   return nodes_[i].s_m + x * (nodes_[i + 1].s_m - nodes_[i].s_m);
 }
 
+double Curve::AtStation(double s_m) const {
+  const bool grows = nodes_.back().s_m > nodes_.front().s_m;
+  const auto after = std::partition_point(nodes_.begin() + 1, nodes_.end() - 1, [&](const Node& node) { return grows ? node.s_m < s_m : node.s_m > s_m; });
+  const Node &a = *(after - 1), &b = *after;
+  return a.d_m + std::clamp((s_m - a.s_m) / (b.s_m - a.s_m), 0.0, 1.0) * (b.d_m - a.d_m);
+}
+
 Curve::Foot Curve::FootNear(const Eigen::Vector2d& p_W, std::size_t node) const {
   RODEIRA_ASSERT(node < nodes_.size());
   const double low = nodes_[node < 3 ? 0 : node - 3].d_m, high = nodes_[std::min(node + 3, nodes_.size() - 1)].d_m;

@@ -45,6 +45,7 @@ class Curve {
   CurvePoint At(double d_m) const;
   double WidthAt(double d_m) const;
   double StationAt(double d_m) const;  // s of the road, held within the section
+  double AtStation(double s_m) const;  // its inverse: d, held at the ends
 
   struct Foot {
     double d_m = 0.0;

@@ -81,6 +81,11 @@ double Graph::SpeedLimit_mps(std::uint32_t track, double d_m) const {
   return limit ? std::clamp(*limit, 1.0, kNoLimit_mps) : kUnsaid_mps;
 }
 
+double Graph::Across(std::uint32_t track, double d_m, std::uint32_t beside) const {
+  const Curve& curve = tracks_[track].curve;
+  return tracks_[beside].curve.AtStation(curve.StationAt(d_m)) + d_m - std::clamp(d_m, 0.0, curve.length_m());
+}
+
 void Graph::BuildGrid() {
   for (std::uint32_t i = 0; i < tracks_.size(); ++i) {
     const auto& nodes = tracks_[i].curve.nodes();

@@ -56,6 +56,9 @@ class Graph {
   // The limit at d, within what a car may drive where the network says none (50 km/h) or is without limit (130 km/h).
   double SpeedLimit_mps(std::uint32_t track, double d_m) const;
 
+  // The distance along a track of the same lane section that lies beside `d_m` of this one; beyond the ends as far as there.
+  double Across(std::uint32_t track, double d_m, std::uint32_t beside) const;
+
   // Every node within radius of (x, y), by track and node.
   void Near(const Eigen::Vector2d& p_W, double radius_m, std::vector<NodeKey>& nodes) const;
 

@@ -86,9 +86,10 @@ class Collector {
       if (Seen(named, absolute) || outputs_.contains(named) || !fs::is_regular_file(named, problem) || fs::file_size(named, problem) > kMostBytes) continue;
       if (auto status = Take(named, absolute); !status) return status;
       if (named.extension() != ".yaml" && named.extension() != ".yml") {
-        // A raster's projection stands beside it.
-        const fs::path beside = fs::path(named).replace_extension(".prj");
-        if (fs::is_regular_file(beside, problem)) {
+        // A raster's projection and a picture's place stand beside it.
+        for (const char* extension : {".prj", ".wld", ".jgw", ".jpgw", ".pgw", ".pngw", ".bpw", ".bmpw", ".tfw", ".tifw"}) {
+          const fs::path beside = fs::path(named).replace_extension(extension);
+          if (!fs::is_regular_file(beside, problem)) continue;
           if (auto status = Take(beside, absolute); !status) return status;
         }
         continue;

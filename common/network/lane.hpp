@@ -63,7 +63,8 @@ struct LaneMaterial {
   std::string surface;
   std::optional<double> friction;
   std::optional<double> roughness;
-  std::string texture;  // a file; empty: the surface's usual one
+  std::string texture;  // a picture's file; empty: the surface's usual look
+  double texture_width_m = 0.0, texture_height_m = 0.0;  // of the picture on the ground; it repeats
 };
 
 struct LaneAccess {

@@ -12,14 +12,28 @@ namespace {
 using network::Network;
 using network::Place;
 
-SurfacePoint OnRoad(const Network& network, const LaneGrounds& grounds, const network::Surfacing& surfacing, const SurfaceDetail* detail) {
+// What a point on a road is answered from.
+struct Source {
+  const Network& network;
+  const LaneGrounds& grounds;
+  const FrictionTable& friction;
+  const MarkPaint* paint;
+  const SurfaceDetail* detail;
+};
+
+SurfacePoint OnRoad(const Source& source, const network::Surfacing& surfacing) {
+  const auto& [network, grounds, friction, paint, detail] = source;
   network::SurfaceSample sample = surfacing.sample;
   const network::Place& place = surfacing.place;
   if (detail != nullptr) {
     detail->Add(network.roads()[place.lane.road], place.lane.road, network.Section(place.lane), place.s_m, place.t_m, sample);
   }
   const Eigen::Vector3d normal = sample.ds_W.cross(sample.dt_W);
-  const LaneGround& ground = grounds.At(network, place.lane, place.s_m);
+  LaneGround ground = grounds.At(network, place.lane, place.s_m);
+  if (paint != nullptr && paint->At(place.lane.road, place.lane.section, place.s_m, place.t_m)) {
+    ground.surface = terrain::Surface::kRoadMark;
+    ground.friction = friction[static_cast<std::size_t>(ground.surface)];
+  }
   const auto measured = detail == nullptr ? std::nullopt : detail->FrictionAt(place.lane.road, place.s_m, place.t_m, sample.p_W.head<2>());
   return {sample.p_W.z(), -normal.x() / normal.z(), -normal.y() / normal.z(), measured.value_or(ground.friction), ground.surface, true};
 }
@@ -48,20 +62,21 @@ SurfacePoint OnVerge(const Network& network, const FrictionTable& friction, cons
 }  // namespace
 
 SurfacePoint NetworkGround(const Network& network, const LaneGrounds& grounds, const FrictionTable& friction, double x_m, double y_m,
-                           double z_hint_m, const SurfaceDetail* detail) {
+                           double z_hint_m, const MarkPaint* paint, const SurfaceDetail* detail) {
+  const Source source{network, grounds, friction, paint, detail};
   thread_local std::vector<network::Surfacing> surfaces;
   network.Surfaces(x_m, y_m, surfaces);
   const network::Surfacing* lowest = nullptr;
   for (const network::Surfacing& surfacing : surfaces) {
     if (surfacing.place.lane.lane == 0) continue;  // a road without lanes on that side
-    if (!(surfacing.sample.p_W.z() > z_hint_m + terrain::kHintAbove_m)) return OnRoad(network, grounds, surfacing, detail);  // NaN: the first
+    if (!(surfacing.sample.p_W.z() > z_hint_m + terrain::kHintAbove_m)) return OnRoad(source, surfacing);  // NaN: the first
     lowest = &surfacing;
   }
   const bool hinted = std::isfinite(z_hint_m);
   const auto place = network.Locate(x_m, y_m, hinted ? std::optional(z_hint_m) : std::nullopt);
-  if (!place || place->distance_m > kVerge_m) return lowest == nullptr ? SurfacePoint{} : OnRoad(network, grounds, *lowest, detail);
+  if (!place || place->distance_m > kVerge_m) return lowest == nullptr ? SurfacePoint{} : OnRoad(source, *lowest);
   const SurfacePoint verge = OnVerge(network, friction, {x_m, y_m}, *place);
-  if (lowest != nullptr && verge.z_m > z_hint_m + terrain::kHintAbove_m) return OnRoad(network, grounds, *lowest, detail);
+  if (lowest != nullptr && verge.z_m > z_hint_m + terrain::kHintAbove_m) return OnRoad(source, *lowest);
   return verge;
 }
 

@@ -2,6 +2,7 @@
 
 #include "common/network/network.hpp"
 #include "common/road/lane_grounds.hpp"
+#include "common/road/mark_paint.hpp"
 #include "common/road/surface_detail.hpp"
 #include "common/road/world.hpp"
 
@@ -11,14 +12,14 @@ namespace rodeira::road {
 inline constexpr double kVerge_m = 100.0;
 
 // SUELO on an OpenDRIVE network: the highest road surface that is not above the hint by more than 0.5 m (without a hint
-// the highest); beside all roads a level verge of grass that goes on from the nearest lane's edge.
+// the highest), with its paint as road_mark; beside all roads a level verge of grass that goes on from the nearest lane's edge.
 SurfacePoint NetworkGround(const network::Network& network, const LaneGrounds& grounds, const FrictionTable& friction, double x_m, double y_m,
-                           double z_hint_m, const SurfaceDetail* detail = nullptr);
+                           double z_hint_m, const MarkPaint* paint = nullptr, const SurfaceDetail* detail = nullptr);
 
 // The same of points close to one another, where they lie on one road alone, at or below what their hints ask for: to the bit what
 // NetworkGround says of each. False, and then nothing is written, where that is not so or not told so quickly. Spans of equal length, of
 // Cluster::kMost at most.
-bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& grounds, const SurfaceDetail* detail,
+bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& grounds, const FrictionTable& friction, const MarkPaint* paint, const SurfaceDetail* detail,
                            std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points);
 
 // The roads and their verges.

@@ -5,7 +5,7 @@
 
 namespace rodeira::road {
 
-bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& grounds, const SurfaceDetail* detail,
+bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& grounds, const FrictionTable& friction, const MarkPaint* paint, const SurfaceDetail* detail,
                            std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) {
   network::Cluster cluster;
   SetPlaces(queries, cluster);
@@ -16,6 +16,11 @@ bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& g
   ClusterNormals normals;
   SetNormals(cluster, [](double part, double up) { return -part / up; }, normals);
   PutPoints(network, grounds, cluster, normals, points);
+  for (std::size_t i = 0; paint != nullptr && i < points.size(); ++i) {
+    if (!paint->At(cluster.road, cluster.section, cluster.s_m[i], cluster.feet.t_m[i])) continue;
+    points[i].surface = terrain::Surface::kRoadMark;
+    points[i].friction = friction[static_cast<std::size_t>(terrain::Surface::kRoadMark)];
+  }
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/road/network_world.hpp"
+#include "common/road/plot_labels.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -84,7 +85,7 @@ std::string PlotNetwork(const Network& network) {
   high.array() += kMargin_m;
   const Eigen::Vector2d size = high - low;
   const Frame frame{low.x(), high.y(), kPicture / size.maxCoeff()};
-  std::string areas, ways, lines, names;
+  std::string areas, ways, lines;
   for (const LaneKey& key : network.Lanes()) {
     const network::Road& road = network.roads()[key.road];
     const network::LaneSection& section = network.Section(key);
@@ -102,21 +103,20 @@ std::string PlotNetwork(const Network& network) {
           Line(road.MarkAt(section.centre, section.s_m), Edge(network, key, stations, frame, false, false, true), frame.scale);
     }
   }
+  const double height = size.y() * frame.scale;
+  PlotLabels names(size.x() * frame.scale, height);
   for (const network::Road& road : network.roads()) {
     if (!road.spec().junction.empty() || road.length_m() * frame.scale < 25.0) continue;
-    const Eigen::Vector3d p = road.Surface(0.5 * road.length_m(), 0.0).p_W;
-    names += fmt::format(
-        "<text x=\"{:.1f}\" y=\"{:.1f}\" font-family=\"sans-serif\" font-size=\"9\" text-anchor=\"middle\" "
-        "fill=\"#b03020\">{}</text>\n",
-        (p.x() - frame.west) * frame.scale, (frame.north - p.y()) * frame.scale,
-        fmt::format("{:.12}", road.id().find_first_of("<&>") == std::string::npos ? road.id() : "?"));
+    for (const double part : {0.5, 0.25, 0.75}) {
+      const Eigen::Vector3d p = road.Surface(part * road.length_m(), 0.0).p_W;
+      if (names.Put({(p.x() - frame.west) * frame.scale, (frame.north - p.y()) * frame.scale}, 1.0, 9.0, "#b03020", fmt::format("{:.12}", road.id()))) break;
+    }
   }
   const double bar = std::pow(10.0, std::floor(std::log10(0.3 * size.x())));
-  const double height = size.y() * frame.scale;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n",
       size.x() * frame.scale, height + 30.0);
-  svg += "<rect width=\"100%\" height=\"100%\" fill=\"#eef0ea\"/>\n" + areas + ways + lines + names;
+  svg += "<rect width=\"100%\" height=\"100%\" fill=\"#eef0ea\"/>\n" + areas + ways + lines + names.svg();
   svg += fmt::format(
       "<path d=\"M12 {0:.1f}h{1:.1f}\" stroke=\"#202020\" stroke-width=\"2\"/><text x=\"{2:.1f}\" y=\"{3:.1f}\" "
       "font-family=\"sans-serif\" font-size=\"12\">{4:g} m, {5} roads, {6} junctions</text>\n",

@@ -73,6 +73,7 @@ World::World(WorldSpec spec)
                spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)])},
       network_(spec.network),
       detail_(spec.detail),
+      ground_picture_(spec.ground_picture),
       friction_(spec.friction),
       start_(spec.start),
       content_hash_(ContentHash(spec)) {
@@ -83,6 +84,7 @@ World::World(WorldSpec spec)
     network_ = AsNetwork(spec, roads_);
   } else if (open_drive()) {
     grounds_ = LaneGrounds(*network_, friction_);
+    paint_ = std::make_shared<const MarkPaint>(network_);
   } else if (network_ != nullptr) {
     built_ = std::make_shared<const BuiltGround>(network_, spec.junctions, friction_, detail_ == nullptr ? SurfaceDetail() : *detail_, terrain_);
   }
@@ -105,7 +107,7 @@ std::unique_ptr<terrain::Ground> World::MakeGround() const {
   if (built_ != nullptr) {
     together = [this](auto queries, auto points) { return built_->Together(queries, points); };
   } else if (open_drive()) {
-    together = [this](auto queries, auto points) { return NetworkGroundTogether(*network_, grounds_, detail_.get(), queries, points); };
+    together = [this](auto queries, auto points) { return NetworkGroundTogether(*network_, grounds_, friction_, paint_.get(), detail_.get(), queries, points); };
   }
   return std::make_unique<WorldGround>(shared_from_this(), std::move(together));
 }
@@ -113,7 +115,7 @@ std::unique_ptr<terrain::Ground> World::MakeGround() const {
 base::Digest World::measured_digest() const { return detail_ == nullptr ? 0 : detail_->digest(); }
 
 SurfacePoint World::At(double x_m, double y_m, double z_hint_m) const {
-  if (open_drive()) return NetworkGround(*network_, grounds_, friction_, x_m, y_m, z_hint_m, detail_.get());
+  if (open_drive()) return NetworkGround(*network_, grounds_, friction_, x_m, y_m, z_hint_m, paint_.get(), detail_.get());
   if (built_ != nullptr) return built_->At(x_m, y_m, z_hint_m);
   SurfacePoint point = TerrainAt(x_m, y_m);
   for (const Road& road : roads_) {

@@ -21,6 +21,7 @@
 namespace rodeira::road {
 
 class BuiltGround;
+class MarkPaint;
 
 // The rectangle in which the ground is known; infinite for a plane.
 struct Extents {
@@ -57,6 +58,8 @@ class World : public std::enable_shared_from_this<World> {
   const StartPose& start() const { return start_; }
   terrain::Surface terrain_surface() const { return terrain_.surface; }
   double terrain_friction() const { return terrain_.friction; }
+  // What lies on the terrain to be seen, and changes no answer; null: nothing.
+  const terrain::LaidPicture* ground_picture() const { return ground_picture_ ? &*ground_picture_ : nullptr; }
   // Of the numbers of the measured surfaces on the roads; 0: there are none.
   base::Digest measured_digest() const;
   double Friction(terrain::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
@@ -84,8 +87,10 @@ class World : public std::enable_shared_from_this<World> {
   std::shared_ptr<const network::Network> network_;
   std::shared_ptr<const SurfaceDetail> detail_;
   std::shared_ptr<const BuiltGround> built_;  // of a network in a terrain that is no road of version 1
+  std::optional<terrain::LaidPicture> ground_picture_;
   FrictionTable friction_;
   LaneGrounds grounds_;  // of an OpenDRIVE file
+  std::shared_ptr<const MarkPaint> paint_;  // the same
   StartPose start_;
   base::Digest content_hash_ = 0;
 };

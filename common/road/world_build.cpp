@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <cctype>
+#include <set>
+#include <string_view>
+
 #include "common/base/files.hpp"
 #include "common/config/config.hpp"
 #include "common/road/network_world.hpp"
@@ -9,6 +13,14 @@
 
 namespace rodeira::road {
 namespace {
+
+// The picture on the terrain, wherever the file is read from.
+std::string TextureText(const terrain::LaidPicture& picture) {
+  const std::string start = fmt::format("  texture:\n    file: \"{}\"\n", picture.file);
+  if (picture.repeats) return start + fmt::format("    kind: geotypical\n    repeat_m: {}\n", picture.width_m);
+  return start + fmt::format("    kind: draped\n    west_m: {}\n    south_m: {}\n    east_m: {}\n    north_m: {}\n", picture.west_m, picture.south_m, picture.west_m + picture.width_m,
+                             picture.south_m + picture.height_m);
+}
 
 // The world file's text with another 'terrain:' block; everything else, comments too, stays as it is.
 std::string WithTerrain(const std::string& text, const std::string& block) {
@@ -25,6 +37,29 @@ std::string WithTerrain(const std::string& text, const std::string& block) {
     if (!within || blank) out += line;
   }
   return out;
+}
+
+bool IsPartOfAPath(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("/._-~+").find(c) != std::string_view::npos; }
+
+// The files that the world file names, by their whole paths: the text is written into another folder.
+std::string WithWholePaths(std::string text, const config::File& file) {
+  const std::filesystem::path folder = std::filesystem::absolute(file.path()).parent_path();
+  std::set<std::string> names;
+  for (const std::string& scalar : file.Scalars()) {
+    std::error_code problem;
+    const std::filesystem::path name(scalar);
+    if (name.is_relative() && name.has_extension() && std::filesystem::is_regular_file(folder / name, problem)) names.insert(scalar);
+  }
+  for (const std::string& name : names) {
+    const std::string whole = (folder / name).lexically_normal().string();
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at)) {
+      const std::size_t end = at + name.size();
+      const bool is_whole = (at == 0 || !IsPartOfAPath(text[at - 1])) && (end == text.size() || !IsPartOfAPath(text[end]));
+      if (is_whole) text.replace(at, name.size(), whole);
+      at += is_whole ? whole.size() : name.size();
+    }
+  }
+  return text;
 }
 
 }  // namespace
@@ -53,7 +88,9 @@ base::Result<std::string> BuildWorld(const std::filesystem::path& world_yaml, co
   auto elevation = target;
   elevation.replace_extension(".bt");
   const auto surface = terrain::SurfaceName(reading.spec->terrain_surface);
-  const std::string text = WithTerrain(file.value().text(), fmt::format("terrain:\n  surface: {}\n  file: {}\n", surface, elevation.filename().string()));
+  std::string terrain = fmt::format("terrain:\n  surface: {}\n  file: {}\n", surface, elevation.filename().string());
+  if (reading.spec->ground_picture) terrain += TextureText(*reading.spec->ground_picture);
+  const std::string text = WithTerrain(WithWholePaths(file.value().text(), file.value()), terrain);
   const auto wanted = World::Make(*reading.spec);
 
   if (const auto written = terrain::WriteBt(elevation, *wanted->grid()); !written) return written.error();

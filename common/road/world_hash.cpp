@@ -62,7 +62,7 @@ base::Digest ContentHash(const WorldSpec& spec) {
   } else if (spec.plane) {
     canonical.PutAll(2, spec.plane->z_m, spec.plane->slope_x, spec.plane->slope_y);
   } else if (spec.network != nullptr) {
-    canonical.PutAll(3, static_cast<std::size_t>(spec.network_hash));
+    canonical.PutAll(6, static_cast<std::size_t>(spec.network_hash));  // 3 was without paint
   }
   if (spec.network != nullptr && (spec.grid != nullptr || spec.plane)) {
     canonical.PutAll(4, static_cast<std::size_t>(HashOf(*spec.network)), spec.junctions.size());

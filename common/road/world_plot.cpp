@@ -10,6 +10,7 @@
 
 #include "common/geometry/angle.hpp"
 #include "common/road/network_world.hpp"
+#include "common/road/plot_labels.hpp"
 #include "common/road/road_chains.hpp"
 
 namespace rodeira::road {
@@ -17,12 +18,6 @@ namespace {
 
 constexpr double kPicture = 1000.0;  // the longer edge, in SVG units
 constexpr int kTiles = 160;          // shaded squares and contour cells along that edge
-
-std::string Escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return out;
-}
 
 // Heights seen through a raster of points, and the way from world to picture.
 struct View {
@@ -155,46 +150,80 @@ double PavedWidth(const network::Road& road) {
   return width;
 }
 
-std::string Label(double x, double y, double size, const char* colour, const std::string& text) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-family=\"sans-serif\" font-size=\"{}\" fill=\"{}\">{}</text>\n", x, y, size, colour, text);
-}
+// What is written on the plan, the more important first: names, stations along the chains, radii of arcs.
+class Writer {
+ public:
+  Writer(const World& world, const View& view)
+      : network_(*world.network()), view_(view), labels_((view.extents.east_m - view.extents.west_m) * view.scale, (view.extents.north_m - view.extents.south_m) * view.scale) {
+    for (RoadChain& chain : ChainsOf(network_)) {
+      if (chain.length_m * view.scale >= 12.0) chains_.push_back(std::move(chain));
+    }
+    for (const network::Road& road : network_.roads()) {
+      const double half = std::max(1.0, 0.5 * PavedWidth(road) * view.scale), step = std::max(1.0, half / view.scale);
+      for (double s = 0.0; s <= road.length_m(); s += step) labels_.Avoid(OnPicture(road.axis().Evaluate(s).p_W), half);
+    }
+  }
 
-// Stations along the chains and the radii of their arcs, where there is room for them.
-std::string Stations(const World& world, const View& view) {
-  const network::Network& network = *world.network();
-  std::string svg;
-  std::vector<Eigen::Vector2d> taken;
-  const auto free = [&](const Eigen::Vector2d& p, double room) {
-    const bool is_free = std::all_of(taken.begin(), taken.end(), [&](const Eigen::Vector2d& q) { return (p - q).norm() * view.scale > room; });
-    if (is_free) taken.push_back(p);
-    return is_free;
-  };
-  double step = 100.0;
-  while (step * view.scale < 45.0) step *= step == 200.0 || step == 2000.0 ? 2.5 : 2.0;
-  for (const RoadChain& chain : ChainsOf(network)) {
-    if (chain.length_m * view.scale < 12.0) continue;
-    for (double s = 0.0; s <= chain.length_m; s += step) {
-      const auto [road, own_s] = chain.At(network, s);
-      const Eigen::Vector2d p = road->axis().Evaluate(own_s).p_W;
-      if (!free(p, 24.0)) continue;
-      svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"#ffffff\" stroke=\"#303038\"/>\n", view.X(p.x()), view.Y(p.y()));
-      svg += Label(view.X(p.x()) + 6.0, view.Y(p.y()), 12.0, "#000000",
-                   s == 0.0 ? Escaped(chain.name) : step < 1000.0 ? fmt::format("{:.0f} m", s) : fmt::format("{:g} km", s / 1000.0));
+  std::string Write() {
+    Names();
+    Stations();
+    Radii();
+    return dots_ + labels_.svg();
+  }
+
+ private:
+  static constexpr double kDot = 3.0, kBeside = 6.0;
+
+  Eigen::Vector2d OnPicture(const Eigen::Vector2d& p_W) const { return {view_.X(p_W.x()), view_.Y(p_W.y())}; }
+
+  // A dot on the road with words beside it; false where there is no room.
+  bool Dot(const RoadChain& chain, double s, std::string_view text) {
+    const auto [road, own_s] = chain.At(network_, s);
+    const Eigen::Vector2d at = OnPicture(road->axis().Evaluate(own_s).p_W), corner = at - Eigen::Vector2d::Constant(kDot);
+    const PlotLabels before = labels_;
+    if (!labels_.Keep(corner, Eigen::Vector2d::Constant(2.0 * kDot)) || !labels_.Put(at, kBeside, 12.0, "#000000", text)) {
+      labels_ = before;
+      return false;
+    }
+    dots_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"#ffffff\" stroke=\"#303038\"/>\n", at.x(), at.y(), kDot);
+    return true;
+  }
+
+  // At the chain's beginning, or somewhere along it.
+  void Names() {
+    for (const RoadChain& chain : chains_) {
+      for (const double part : {0.0, 1.0, 0.5, 0.25, 0.75}) {
+        if (Dot(chain, part * chain.length_m, chain.name)) break;
+      }
     }
   }
-  for (const network::Road& road : network.roads()) {
-    if (!road.spec().junction.empty()) continue;
-    for (const geometry::PlanElement& element : road.axis().elements()) {
-      const double k = element.curvature_start_1pm;
-      if (element.kind != geometry::PlanElement::Kind::kClothoid || k == 0.0 || k != element.curvature_end_1pm) continue;
-      const geometry::PlanPoint at = road.axis().Evaluate(element.s_m + 0.5 * element.length_m);
-      if (!free(at.p_W, 22.0)) continue;
-      const Eigen::Vector2d p = at.p_W + (k > 0.0 ? 1.0 : -1.0) * (PavedWidth(road) + 9.0 / view.scale) * at.left_W();
-      svg += Label(view.X(p.x()) - 9.0, view.Y(p.y()) + 3.0, 9.0, "#203060", fmt::format("R{:.0f}", 1.0 / std::fabs(k)));
+
+  void Stations() {
+    double step = 100.0;
+    while (step * view_.scale < 45.0) step *= step == 200.0 || step == 2000.0 ? 2.5 : 2.0;
+    for (const RoadChain& chain : chains_) {
+      for (double s = step; s <= chain.length_m; s += step) Dot(chain, s, step < 1000.0 ? fmt::format("{:.0f} m", s) : fmt::format("{:g} km", s / 1000.0));
     }
   }
-  return svg;
-}
+
+  void Radii() {
+    for (const network::Road& road : network_.roads()) {
+      if (!road.spec().junction.empty()) continue;
+      for (const geometry::PlanElement& element : road.axis().elements()) {
+        const double k = element.curvature_start_1pm;
+        if (element.kind != geometry::PlanElement::Kind::kClothoid || k == 0.0 || k != element.curvature_end_1pm) continue;
+        const geometry::PlanPoint at = road.axis().Evaluate(element.s_m + 0.5 * element.length_m);
+        labels_.Put(OnPicture(at.p_W), 0.5 * PavedWidth(road) * view_.scale + 3.0, 9.0, "#203060", fmt::format("R{:.0f}", 1.0 / std::fabs(k)));
+      }
+    }
+  }
+
+  const network::Network& network_;
+  const View& view_;
+  PlotLabels labels_;
+  std::vector<RoadChain> chains_;
+  std::string dots_;
+};
 
 std::string Roads(const World& world, const View& view) {
   if (world.network() == nullptr) return "";
@@ -211,7 +240,7 @@ std::string Roads(const World& world, const View& view) {
     for (const Eigen::Vector2d& p : junction.paved_W) path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", view.X(p.x()), view.Y(p.y()));
     if (!path.empty()) over += fmt::format("<path d=\"{}Z\" fill=\"#303038\"/>\n", path);
   }
-  return under + over + Stations(world, view);
+  return under + over + Writer(world, view).Write();
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "common/base/suggest.hpp"
 #include "common/design/design_reader.hpp"
 #include "common/geometry/angle.hpp"
+#include "common/road/picture_reader.hpp"
 #include "common/road/road_reader.hpp"
 #include "common/road/surface_detail.hpp"
 #include "common/road/world_fit.hpp"
@@ -121,6 +122,7 @@ struct Keys {
   terrain::Registration registration = terrain::Registration::kUsual;
   bool second = false;  // version 2: the roads are read by common/design
   design::StartWish start;
+  std::vector<base::Error> missing;
 };
 
 Keys ReadKeys(const Map& root) {
@@ -132,10 +134,14 @@ Keys ReadKeys(const Map& root) {
   if (root.Has("ground") == root.Has("terrain")) {
     root.Problem(root.Has("ground") ? "ground" : "", "a world stands either on 'terrain' (an elevation file, or hills) or on 'ground' (a plane)");
   }
-  if (root.Has("ground")) ReadPlane(root.Child("ground"), keys.spec);
+  if (root.Has("ground")) {
+    ReadPlane(root.Child("ground"), keys.spec);
+    keys.spec.ground_picture = ReadGroundPicture(root.Child("ground"), keys.missing);
+  }
   const Map terrain = root.OptionalChild("terrain");
   if (root.Has("terrain")) {
     keys.spec.terrain_surface = ReadSurface(terrain, "surface", terrain::Surface::kGrass);
+    keys.spec.ground_picture = ReadGroundPicture(terrain, keys.missing);
     keys.elevation_file = terrain.OptionalPath("file");
     if (terrain.Has("registration")) {
       keys.registration = terrain.Choice("registration", {"posts", "cells"}) == "cells" ? terrain::Registration::kCells : terrain::Registration::kPosts;
@@ -196,6 +202,7 @@ bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
   } else if (keys.hills) {
     keys.spec.grid = std::make_shared<const terrain::ElevationGrid>(MakeHills(*keys.hills, axis));
   }
+  SpreadPicture(keys.spec);
   return true;
 }
 
@@ -220,6 +227,8 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   const std::string projection = keys.hills ? keys.hills->projection_wkt : keys.spec.grid != nullptr ? keys.spec.grid->projection_wkt() : "";
   design::Design design = design::ReadDesign(file, keys.spec.friction, keys.spec.name, projection, keys.start, root.OptionalChild("start"));
   reading.warnings = std::move(design.warnings);
+  reading.missing = std::move(keys.missing);
+  std::move(design.missing.begin(), design.missing.end(), std::back_inserter(reading.missing));
   reading.problems = file.Problems();
   reading.problems.insert(reading.problems.end(), design.problems.begin(), design.problems.end());
   if (!reading.problems.empty()) return reading;
@@ -249,6 +258,7 @@ WorldReading ReadWorld(const config::File& file) {
   Keys keys = ReadKeys(root);
   if (keys.second) return ReadSecond(file, std::move(keys));
   WorldReading reading;
+  reading.missing = std::move(keys.missing);
   reading.problems = file.Problems();
   if (!reading.problems.empty()) return reading;
 

@@ -15,6 +15,7 @@ struct WorldReading {
   std::optional<WorldSpec> spec;
   std::optional<HillsSpec> hills;  // where the terrain is generated
   std::vector<base::Error> problems;
+  std::vector<base::Error> missing;  // pictures: wrong, but the world can be driven without them
   std::vector<std::string> warnings;
 };
 

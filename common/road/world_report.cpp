@@ -134,7 +134,9 @@ std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml) 
   if (IsOpenDrive(world_yaml)) return CheckNetwork(world_yaml, false).errors;
   const auto file = config::File::Load(world_yaml);
   if (!file) return {file.error()};
-  return ReadWorld(file.value()).problems;
+  WorldReading reading = ReadWorld(file.value());
+  std::move(reading.missing.begin(), reading.missing.end(), std::back_inserter(reading.problems));
+  return std::move(reading.problems);
 }
 
 std::string DescribeWorld(const World& world) {

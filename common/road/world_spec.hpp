@@ -12,6 +12,7 @@
 #include "common/road/surface_point.hpp"
 #include "common/terrain/elevation_grid.hpp"
 #include "common/terrain/ground.hpp"
+#include "common/terrain/picture_file.hpp"
 
 namespace rodeira::road {
 
@@ -46,6 +47,7 @@ struct WorldSpec {
   std::vector<std::shared_ptr<const design::JunctionSurface>> junctions;  // of a network that is built into the terrain
   std::shared_ptr<const SurfaceDetail> detail;      // what stands on the network's roads; null: nothing
   terrain::Surface terrain_surface = terrain::Surface::kGrass;
+  std::optional<terrain::LaidPicture> ground_picture;  // only to be seen
   std::optional<double> terrain_friction;  // otherwise its surface's
   FrictionTable friction = kUsualFriction;
   StartPose start;

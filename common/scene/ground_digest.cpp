@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "common/scene/ground_tile.hpp"
+#include "common/scene/lay_picture.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -45,7 +47,10 @@ base::Digest RoadDigest(const network::Road& road, std::span<const Line3> lines,
       for (const network::Lane& lane : *side) {
         lanes += fmt::format("{} {} {}\n", lane.id, network::LaneTypeName(lane.type), lane.level);
         for (const network::LaneHeight& height : lane.heights) lanes += fmt::format("h {} {} {}\n", height.s_m, height.inner_m, height.outer_m);
-        for (const network::LaneMaterial& material : lane.materials) lanes += fmt::format("m {} {} {}\n", material.s_m, material.surface, material.friction.value_or(-1.0));
+        for (const network::LaneMaterial& material : lane.materials) {
+          lanes += fmt::format("m {} {} {} {} {}\n", material.s_m, material.surface, material.friction.value_or(-1.0), std::filesystem::path(material.texture).filename().string(),
+                               material.texture_width_m);
+        }
       }
     }
   }
@@ -71,7 +76,7 @@ base::Digest TerrainDigest(const road::World& world) {
     digest = base::Combine(digest, base::Hash(std::as_bytes(world.grid()->heights_m())));
   }
   if (world.plane()) digest = base::Combine(digest, base::Hash(fmt::format("{} {} {}", world.plane()->z_m, world.plane()->slope_x, world.plane()->slope_y)));
-  return digest;
+  return base::Combine(digest, PicturesDigest(world));
 }
 
 base::Digest GroundPlan::SourceDigest(const TileKey& tile) const {

@@ -13,7 +13,7 @@ namespace rodeira::scene {
 enum class Material : std::uint32_t {
   kGround,    // terrain, verges
   kCheckers,  // a plane without features: squares let its motion be seen
-  kRoad,
+  kRoad,      // asphalt
   kMark,
   kCarPaint,
   kGlass,
@@ -21,7 +21,11 @@ enum class Material : std::uint32_t {
   kLamp,  // shines by itself
   kFoliage,
   kSign,  // a picture of its own
+  kConcrete,
+  kGravel,
+  kPicture,  // a picture from a file lies on it; where it ends, as kGround
 };
+inline constexpr int kMaterials = 13;
 
 struct Colour {
   std::uint8_t red = 255;
@@ -48,10 +52,11 @@ struct Mesh {
   std::vector<Eigen::Vector3f> normals;  // unit length
   std::vector<Colour> colours;
   std::vector<std::uint32_t> triangles;  // three indices each
-  // Of kSign only: which face (scene::DrawFace), and where on it each vertex lies: (0, 0) its lower left corner, (1, 1) its
-  // upper right one.
+  // Of kSign and kPicture only: which face (scene::DrawFace) or file, and where on it each vertex lies: (0, 0) its lower left
+  // corner, (1, 1) its upper right one.
   std::string face;
   std::vector<Eigen::Vector2f> on_face;
+  bool repeats = false;  // the picture, beyond its edges
 
   std::uint32_t Add(const Eigen::Vector3d& p_W, const Eigen::Vector3d& normal, Colour colour);
   void AddTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { triangles.insert(triangles.end(), {a, b, c}); }

@@ -5,6 +5,7 @@
 
 #include "common/scene/colours.hpp"
 #include "common/scene/ribbon.hpp"
+#include "common/scene/skin.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -21,10 +22,6 @@ struct Strip {
   bool outer_left = false;
 };
 
-bool IsPaved(terrain::Surface surface) {
-  return surface == terrain::Surface::kAsphalt || surface == terrain::Surface::kConcrete || surface == terrain::Surface::kGravel;
-}
-
 // From right to left.
 std::vector<Strip> StripsOf(const road::Section& section, Material ground) {
   static constexpr double kBlendParts[] = {0.0, 0.15, 0.3, 0.5, 0.7, 0.85, 1.0};
@@ -36,7 +33,8 @@ std::vector<Strip> StripsOf(const road::Section& section, Material ground) {
     strips.push_back({section.verge_right_m() - blend * kBlendParts[k], section.verge_right_m() - blend * kBlendParts[k - 1], ground, verge});
   }
   for (const road::Band& band : section.bands()) {
-    strips.push_back({band.from_t_m, band.to_t_m, IsPaved(band.surface) ? Material::kRoad : ground, band.surface});
+    const Material own = MaterialOf(band.surface);
+    strips.push_back({band.from_t_m, band.to_t_m, own == Material::kGround ? ground : own, band.surface});
   }
   for (int k = 0; k < kCount; ++k) {
     strips.push_back({section.verge_left_m() + blend * kBlendParts[k], section.verge_left_m() + blend * kBlendParts[k + 1], ground, verge});
@@ -113,7 +111,7 @@ class Weaver {
     vertex.inside = at.inside && slope.inside;
     Eigen::Vector3d normal = Eigen::Vector3d(-slope.slope_x, -slope.slope_y, 1.0).normalized();
     Colour colour = SurfaceColour(strip.surface);
-    if (strip.material != Material::kRoad && wild.inside) {
+    if (strip.material == lattice_.material() && wild.inside) {
       const double wildness = Wildness(t_m, line.beyond_m);
       Colour verge = GroundColour(strip.surface, p_W.x(), p_W.y(), Eigen::Vector3d::UnitZ());
       const double beside = std::max(t_m - section_.paved_left_m(), section_.paved_right_m() - t_m);

@@ -2,15 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+#include <map>
+
 #include "common/network/marking.hpp"
 #include "common/scene/ground_digest.hpp"
+#include "common/scene/lay_picture.hpp"
 #include "common/scene/road_paint.hpp"
 #include "common/scene/things.hpp"
 
 namespace rodeira::scene {
 
 base::Digest SeenDigest(const road::World& world) {
-  base::Digest digest = base::Combine(base::Hash(kGroundVersion), world.content_hash());
+  base::Digest digest = base::Combine(base::Combine(base::Hash(kGroundVersion), world.content_hash()), PicturesDigest(world));
+  std::map<std::string, std::size_t> pictures;  // by the number of their first place
+  for (const terrain::LaidPicture& picture : PicturesOf(world)) pictures.try_emplace(picture.file, pictures.size());
   std::vector<TilePaint> paint(world.network()->roads().size());
   for (const network::Placed& placed : network::PlaceFurniture(*world.network()).things) PaintThing(*world.network(), placed, paint[placed.road]);
   std::size_t index = 0;
@@ -21,6 +27,15 @@ base::Digest SeenDigest(const road::World& world) {
                      mark.gap_m, mark.first_m, mark.colour);
       if (mark.sway == nullptr) continue;
       for (const geometry::Cubic& cubic : mark.sway->records()) fmt::format_to(std::back_inserter(marks), "{} {} {} {} {}\n", cubic.from, cubic.a, cubic.b, cubic.c, cubic.d);
+    }
+    for (const network::LaneSection& section : road.spec().sections) {
+      for (const auto* side : {&section.left, &section.right}) {
+        for (const network::Lane& lane : *side) {
+          for (const network::LaneMaterial& material : lane.materials) {
+            if (const auto picture = PictureOf(material)) fmt::format_to(std::back_inserter(marks), "{} {} {}\n", lane.id, pictures.at(picture->file), picture->width_m);
+          }
+        }
+      }
     }
     digest = base::Combine(digest, base::Hash(marks));
     digest = base::Combine(digest, PaintDigest(paint[index++]));

@@ -4,6 +4,7 @@
 
 #include "common/network/network.hpp"
 #include "common/scene/colours.hpp"
+#include "common/scene/lay_picture.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -33,7 +34,26 @@ Colour PavedColour(LaneType type, terrain::Surface surface) {
   }
 }
 
+// The picture of the material in force at s, where it has one.
+std::optional<terrain::LaidPicture> PictureAt(const network::Lane& lane, double s_m) {
+  const network::LaneMaterial* found = nullptr;
+  for (const network::LaneMaterial& material : lane.materials) {
+    if (found == nullptr || material.s_m <= s_m) found = &material;
+  }
+  return found == nullptr ? std::nullopt : PictureOf(*found);
+}
+
 }  // namespace
+
+Material MaterialOf(terrain::Surface surface) {
+  switch (surface) {
+    case terrain::Surface::kConcrete: return Material::kConcrete;
+    case terrain::Surface::kGravel: return Material::kGravel;
+    case terrain::Surface::kAsphalt:
+    case terrain::Surface::kRoadMark: return Material::kRoad;
+    default: return Material::kGround;
+  }
+}
 
 Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::SurfacePoint& level) {
   Skin skin;
@@ -47,13 +67,14 @@ Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::Su
       if (lane == nullptr || lane->id == 0 || std::fabs(surfacing.sample.p_W.z() - level.z_m) > kSame_m) continue;
       skin.land = false;
       type = lane->type;
+      skin.picture = PictureAt(*lane, surfacing.place.s_m);
       break;
     }
   }
-  const bool paved = skin.surface == terrain::Surface::kAsphalt || skin.surface == terrain::Surface::kConcrete ||
-                     skin.surface == terrain::Surface::kGravel || skin.surface == terrain::Surface::kRoadMark;
+  skin.material = MaterialOf(skin.surface);
+  const bool paved = skin.material != Material::kGround;
   skin.grown = !paved;
-  skin.material = paved ? Material::kRoad : Material::kGround;
+  if (skin.land && world.ground_picture() != nullptr) skin.picture = *world.ground_picture();
   skin.colour = paved ? PavedColour(type, skin.surface == terrain::Surface::kRoadMark ? terrain::Surface::kAsphalt : skin.surface)
                       : SurfaceColour(skin.surface);
   return skin;

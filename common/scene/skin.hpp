@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "common/road/world.hpp"
 #include "common/scene/mesh.hpp"
@@ -14,7 +15,11 @@ struct Skin {
   terrain::Surface surface = terrain::Surface::kGrass;
   bool land = true;    // beside all roads
   bool grown = true;   // its colour changes from place to place
+  std::optional<terrain::LaidPicture> picture;
 };
+
+// How a surface is drawn where it has no picture.
+Material MaterialOf(terrain::Surface surface);
 
 // Of one of SUELO's levels at a place: by what it is made of, and by the type of the lane there.
 Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::SurfacePoint& level);

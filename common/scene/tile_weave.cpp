@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/scene/colours.hpp"
+#include "common/scene/lay_picture.hpp"
 #include "common/scene/levels_at.hpp"
 #include "common/scene/tile_heights.hpp"
 
@@ -38,8 +39,10 @@ class Weaver {
         if (beyond != Triangulation::kNone && plan_.face_of[beyond] != plan_.face_of[i]) Steps(i, k, beyond);
       }
     }
-    for (auto& [material, mesh] : meshes_) {
-      if (!mesh.triangles.empty()) woven_.meshes.push_back(std::move(mesh));
+    for (auto& [kind, made] : meshes_) {
+      if (made.mesh.triangles.empty()) continue;
+      if (made.picture != nullptr) LayPicture(*made.picture, made.mesh);
+      woven_.meshes.push_back(std::move(made.mesh));
     }
     if (!wall_.triangles.empty()) woven_.meshes.push_back(std::move(wall_));
     return std::move(woven_);
@@ -64,19 +67,31 @@ class Weaver {
     return here.back().vertex;
   }
 
+  // One for each material, and for each way that a picture lies.
+  Mesh& MeshOf(const Skin& skin) {
+    const bool pictured = skin.picture.has_value();
+    const auto kind = pictured ? std::tuple(Material::kPicture, skin.picture->file, skin.picture->width_m) : std::tuple(skin.material, std::string(), 0.0);
+    auto [found, fresh] = meshes_.try_emplace(kind);
+    if (fresh) {
+      found->second.mesh.material = skin.material;
+      found->second.mesh.origin_W = origin_W_;
+      found->second.picture = pictured ? &*skin.picture : nullptr;
+    }
+    return found->second.mesh;
+  }
+
   void Ground(std::uint32_t triangle, std::size_t level) {
     const auto& corner = plan_.triangles.triangles()[triangle].corner;
     const std::uint32_t face = plan_.face_of[triangle];
-    auto [found, fresh] = meshes_.try_emplace(plan_.faces[face].skins[level].material);
-    if (fresh) found->second.material = plan_.faces[face].skins[level].material, found->second.origin_W = origin_W_;
+    Mesh& mesh = MeshOf(plan_.faces[face].skins[level]);
     GroundTriangle ground;
     std::array<std::uint32_t, 3> index{};
     for (std::size_t k = 0; k < 3; ++k) {
-      index[k] = Vertex(found->second, corner[k], face, level);
+      index[k] = Vertex(mesh, corner[k], face, level);
       ground.p_W[k] = Place(corner[k], heights_.At(corner[k], face)[level].z_m);
     }
     ground.normal_W = (ground.p_W[1] - ground.p_W[0]).cross(ground.p_W[2] - ground.p_W[0]).normalized();
-    found->second.AddTriangle(index[0], index[1], index[2]);
+    mesh.AddTriangle(index[0], index[1], index[2]);
     woven_.triangles.push_back(ground);
   }
 
@@ -138,7 +153,11 @@ class Weaver {
   TileHeights heights_;
   Eigen::Vector3d origin_W_;
   WovenTile woven_;
-  std::map<Material, Mesh> meshes_;
+  struct Made {
+    Mesh mesh;
+    const terrain::LaidPicture* picture = nullptr;  // the plan's
+  };
+  std::map<std::tuple<Material, std::string, double>, Made> meshes_;
   Mesh wall_;
   struct Known {
     std::uint32_t face;

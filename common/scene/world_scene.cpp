@@ -1,5 +1,6 @@
 #include "common/scene/world_scene.hpp"
 
+#include "common/scene/lay_picture.hpp"
 #include "common/scene/trees.hpp"
 
 namespace rodeira::scene {
@@ -23,6 +24,16 @@ WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolera
   scene.terrain = BuildTerrain(lattice, ribbons);
   for (std::size_t i = 0; i < ribbons.size(); ++i) {
     for (RoadTile& tile : BuildRoad(world, world.roads()[i], ribbons[i], lattice)) scene.roads.push_back(std::move(tile));
+  }
+  if (const terrain::LaidPicture* picture = world.ground_picture()) {
+    for (TerrainTile& tile : scene.terrain) {
+      for (Mesh& mesh : tile.levels) LayPicture(*picture, mesh);
+    }
+    for (RoadTile& tile : scene.roads) {
+      for (Mesh& mesh : tile.ground) {
+        if (mesh.material == lattice.material()) LayPicture(*picture, mesh);  // verges, and what passes into the terrain
+      }
+    }
   }
   scene.trees = BuildTrees(PlantTrees(world, kTreeSeed));
   return scene;

@@ -12,11 +12,15 @@ constexpr double kSideways_mps2 = 1.2;  // lateral acceleration of a change to a
 constexpr double kSideways_mps = 0.8;   // and its speed
 constexpr double kShortestBlend_m = 3.0;
 constexpr double kLongestBlend_m = 90.0;
+constexpr double kSame_m = 1e-4, kSame = 1e-4;  // lanes that meet so are one
 
 }  // namespace
 
 void Agent::Save(base::StateWriter& writer) const {
   writer.Put("on_road", on_road);
+  writer.Put("is_struck", is_struck);
+  writer.Put("struck", struck);
+  writer.Put("struck_z_m", struck_z_m);
   writer.Put("entry", entry);
   writer.Put("trip", trip);
   writer.Put("links", links);
@@ -39,11 +43,15 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("grants_light", grants_light);
   writer.Put("stopped_m", stopped_m);
   writer.Put("waited_s", waited_s);
+  writer.Put("change_side", change.side);
+  writer.Put("change_from_m", change.from_m);
+  writer.Put("change_to_m", change.to_m);
+  writer.Put("settled_ns", settled_ns);
   std::vector<std::uint32_t> tracks;
   std::vector<double> numbers;
   for (const Piece& piece : path) {
     tracks.push_back(piece.track);
-    numbers.insert(numbers.end(), {piece.zero_m, piece.begin_m, piece.offset_m, piece.slope, piece.blend_m});
+    numbers.insert(numbers.end(), {piece.zero_m, piece.begin_m, piece.offset_m, piece.slope, piece.blend_m, piece.blend_from_m});
   }
   writer.Put("tracks", tracks);
   writer.Put("pieces", numbers);
@@ -51,6 +59,9 @@ void Agent::Save(base::StateWriter& writer) const {
 
 void Agent::Restore(base::StateReader& reader) {
   reader.Get("on_road", on_road);
+  reader.Get("is_struck", is_struck);
+  reader.Get("struck", struck);
+  reader.Get("struck_z_m", struck_z_m);
   reader.Get("entry", entry);
   reader.Get("trip", trip);
   reader.Get("links", links);
@@ -72,16 +83,20 @@ void Agent::Restore(base::StateReader& reader) {
   }
   reader.Get("stopped_m", stopped_m);
   reader.Get("waited_s", waited_s);
+  reader.Get("change_side", change.side);
+  reader.Get("change_from_m", change.from_m);
+  reader.Get("change_to_m", change.to_m);
+  reader.Get("settled_ns", settled_ns);
   std::vector<std::uint32_t> tracks;
   std::vector<double> numbers;
   reader.Get("tracks", tracks);
   reader.Get("pieces", numbers);
   path.clear();
-  for (std::size_t i = 0; i < tracks.size() && 5 * i + 4 < numbers.size(); ++i) {
-    const double* at = &numbers[5 * i];
-    path.push_back({tracks[i], at[0], at[1], at[2], at[3], at[4]});
+  for (std::size_t i = 0; i < tracks.size() && 6 * i + 5 < numbers.size(); ++i) {
+    const double* at = &numbers[6 * i];
+    path.push_back({tracks[i], at[0], at[1], at[2], at[3], at[4], at[5]});
   }
-  on_road = on_road && !path.empty();
+  on_road = on_road && !is_struck && !path.empty();
 }
 
 // Quintic from (offset, slope) at u = 0 to rest on the middle at u = 1.
@@ -97,7 +112,7 @@ PathFrame FrameAt(const lanes::Graph& graph, const std::vector<Piece>& path, dou
   frame.curvature_1pm = at.curvature_1pm;
   frame.bank = at.bank;
   frame.stretch = at.rate;
-  const double u = (odometer_m - piece.begin_m) / piece.blend_m;
+  const double u = (odometer_m - piece.blend_from_m) / piece.blend_m;
   if (u >= 1.0 || u < 0.0 || (piece.offset_m == 0.0 && piece.slope == 0.0)) return frame;
   const double u2 = u * u, u3 = u2 * u, L = piece.blend_m;
   const double e = piece.offset_m * (1.0 - u3 * (10.0 - 15.0 * u + 6.0 * u2)) + piece.slope * L * (u - u3 * (6.0 - 8.0 * u + 3.0 * u2));
@@ -121,6 +136,11 @@ Piece Onward(const lanes::Graph& graph, const std::vector<Piece>& path, const la
   piece.track = link.to;
   piece.begin_m = last.zero_m + graph[last.track].length_m();
   piece.zero_m = piece.begin_m - link.from_d_m;
+  piece.blend_from_m = piece.begin_m;
+  if (piece.begin_m < last.blend_from_m + last.blend_m && std::fabs(link.offset_m) < kSame_m && std::fabs(link.slope) < kSame) {
+    piece.offset_m = last.offset_m, piece.slope = last.slope, piece.blend_m = last.blend_m, piece.blend_from_m = last.blend_from_m;
+    return piece;  // the lane goes on, and so does the change to its middle
+  }
   const PathFrame end = FrameAt(graph, path, piece.begin_m);
   piece.offset_m = link.offset_m + end.offset_m;
   piece.slope = link.slope + end.slope;

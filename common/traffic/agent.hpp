@@ -8,6 +8,7 @@
 #include "common/base/state.hpp"
 #include "common/driver/footprint.hpp"
 #include "common/lanes/graph.hpp"
+#include "common/traffic/struck.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
 namespace rodeira::traffic {
@@ -31,14 +32,22 @@ struct AgentPose {
 driver::Footprint FootprintOf(const AgentPose& pose, const AgentTraits& traits);
 
 // A part of the path of one agent, by the agent's odometer: the middle of a track, which it approaches from where it came
-// over blend_m, offset and slope going to 0 with the smooth polynomials of degree five.
+// over blend_m from blend_from_m on, offset and slope going to 0 with the smooth polynomials of degree five.
 struct Piece {
   std::uint32_t track = 0;
   double zero_m = 0.0;    // odometer where the track's d is 0
   double begin_m = 0.0;   // odometer from which the piece holds
-  double offset_m = 0.0;  // there, to the left of the track's middle
+  double offset_m = 0.0;  // at blend_from_m, to the left of the track's middle
   double slope = 0.0;     // of the path against the track there
   double blend_m = 1.0;
+  double blend_from_m = 0.0;  // odometer; at begin_m or, where a change of lanes goes on from the track before, earlier
+};
+
+// A change to the lane beside, in the odometer.
+struct LaneChange {
+  int side = 0;         // +1: to the left, -1: to the right, 0: none
+  double from_m = 0.0;  // where its path leaves the old lane's middle …
+  double to_m = 0.0;    // … and is on the new one's
 };
 
 // Conflict zones that an agent was granted together.
@@ -53,7 +62,10 @@ struct ZoneGrant {
 struct Agent {
   static constexpr double kNoCap_mps = 1e3;
 
-  bool on_road = false;
+  bool on_road = false;     // drives
+  bool is_struck = false;   // has been hit, and drives no more
+  Struck struck;
+  double struck_z_m = 0.0;  // its height, where no lane is below it
   std::uint32_t entry = 0;  // the track where it waits to enter
   std::uint32_t trip = 0;
   std::uint32_t links = 0;  // passed on this trip: keys of the draws at branches
@@ -67,6 +79,8 @@ struct Agent {
   std::vector<ZoneGrant> grants;  // those that its rear has not left yet, as it meets them
   double stopped_m = -1.0;  // odometer of the STOP line at which it has come to rest
   double waited_s = 0.0;    // at rest for others to go first
+  LaneChange change;
+  std::int64_t settled_ns = 0;  // until then it keeps to its lane
   std::vector<Piece> path;  // from the piece under its rear bumper to that under its front bumper
 
   void Save(base::StateWriter& writer) const;

@@ -40,7 +40,7 @@ void TrafficModel::FindPassage(std::uint32_t id) {
     crossings.push_back(crossing);
   };
   for (const Stretch& stretch : stretches_[id]) {
-    if (stretch.end_m < rear || stretch.end_m < agent.granted_m) continue;
+    if (stretch.end_m < rear || stretch.end_m < agent.granted_m || stretch.changes) continue;
     if (passage.any && stretch.begin_m > passage.end_m + stand) break;
     const auto& sides = zones().Of(stretch.track);
     const auto& lines = map_->plans[stretch.track].lines;

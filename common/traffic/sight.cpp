@@ -28,7 +28,7 @@ void TrafficModel::FindStretches(std::uint32_t id, double range_m) {
   for (std::size_t i = 0; i < agent.path.size(); ++i) {
     const Piece& piece = agent.path[i];
     const double end = i + 1 < agent.path.size() ? agent.path[i + 1].begin_m : piece.zero_m + graph()[piece.track].length_m();
-    stretches.push_back({piece.track, piece.zero_m, piece.begin_m, end});
+    stretches.push_back({piece.track, piece.zero_m, piece.begin_m, end, end < piece.zero_m + graph()[piece.track].length_m() - kWithout_m});
   }
   const double far = agent.o_m + 0.5 * traits_[id].length_m + range_m;
   for (std::uint32_t link = agent.links; stretches.back().end_m < far; ++link) {
@@ -37,7 +37,7 @@ void TrafficModel::FindStretches(std::uint32_t id, double range_m) {
     if (next.empty()) break;
     const lanes::Link& on = next[DrawLink(agent, id, last.track, link)];
     const double zero = last.end_m - on.from_d_m;
-    stretches.push_back({on.to, zero, last.end_m, zero + graph()[on.to].length_m()});
+    stretches.push_back({on.to, zero, last.end_m, zero + graph()[on.to].length_m(), false});
   }
 }
 
@@ -73,6 +73,7 @@ void TrafficModel::See(std::span<const driver::Footprint> others) {
       if (stretch.end_m > rear) occupants_[stretch.track].push_back({id, rear - stretch.zero_m, front - stretch.zero_m, from});
       from = stretch.track;
     }
+    if (agent.change.side != 0) AppearOnLaneLeft(id);
   }
   for (auto& occupants : occupants_) {
     std::sort(occupants.begin(), occupants.end(), [](const Occupant& a, const Occupant& b) {
@@ -91,8 +92,8 @@ std::span<const TrafficModel::Occupant> TrafficModel::Beyond(std::uint32_t track
   return {from, all.end()};
 }
 
-// The nearest of: agents on the tracks of the way; agents on tracks that part from them, as long as they are not clear; what
-// else stands in the way.
+// The nearest of: agents on the tracks of the way, and on the lane that it is leaving; agents on tracks that part from them, as
+// long as they are not clear; what else stands in the way.
 TrafficModel::Ahead TrafficModel::FindAhead(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half;
@@ -103,10 +104,15 @@ TrafficModel::Ahead TrafficModel::FindAhead(std::uint32_t id) const {
     const double gap = zero_m + other.rear_m - front;
     if (!ahead.any || gap < ahead.gap_m) ahead = {gap, agents_[other.id].speed_mps, other.id, true};
   };
+  const auto consider_block = [&](const Block& block, double zero_m) {
+    if (zero_m + block.middle_m <= agent.o_m || block.span.right_m > half_width || block.span.left_m < -half_width) return;
+    const double gap = zero_m + block.span.rear_m - front;
+    if (gap < settings_.sight_m && (!ahead.any || gap < ahead.gap_m)) ahead = {gap, block.span.speed_mps, -1, true};
+  };
   std::int64_t before = -1;  // the track by which its own way comes
   for (const Stretch& stretch : stretches_[id]) {
     const std::int64_t from = std::exchange(before, stretch.track);
-    if (stretch.end_m < agent.o_m) continue;
+    if (stretch.end_m < agent.o_m || (stretch.changes && agent.change.side == 0)) continue;
     if (ahead.any && stretch.begin_m > front + ahead.gap_m + 10.0) break;
     for (Occupant other : Beyond(stretch.track, agent.o_m - stretch.zero_m)) {
       if (ahead.any && stretch.zero_m + other.middle_m() - longest_half_m_ - front >= ahead.gap_m) break;
@@ -122,11 +128,12 @@ TrafficModel::Ahead TrafficModel::FindAhead(std::uint32_t id) const {
         if (other.rear_m < zone.out_m[theirs] && other.front_m > zone.in_m[theirs]) consider(other, stretch.zero_m);
       }
     }
-    for (const Block& block : blocks_[stretch.track]) {
-      const double middle = stretch.zero_m + block.middle_m;
-      if (middle <= agent.o_m || block.span.right_m > half_width || block.span.left_m < -half_width) continue;
-      const double gap = stretch.zero_m + block.span.rear_m - front;
-      if (gap < settings_.sight_m && (!ahead.any || gap < ahead.gap_m)) ahead = {gap, block.span.speed_mps, -1, true};
+    for (const Block& block : blocks_[stretch.track]) consider_block(block, stretch.zero_m);
+    if (agent.change.side == 0) continue;
+    if (const auto old = LaneLeft(id, stretch, front)) {
+      const double at = std::max(agent.o_m, stretch.begin_m), zero = at - graph().Across(stretch.track, at - stretch.zero_m, *old);
+      for (const Occupant& other : Beyond(*old, agent.o_m - zero)) consider(other, zero);
+      for (const Block& block : blocks_[*old]) consider_block(block, zero);
     }
   }
   return ahead;

@@ -11,13 +11,13 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr std::uint64_t kDrawLink = 103;
-constexpr double kGentleBend = 0.01;
+constexpr double kGentle_m = 3e-4;      // what a bend makes of the way of a step, and no more
 constexpr double kEntryClear_m = 12.0;  // from a lane's beginning to its first conflict zone
 
 }  // namespace
 
 TrafficModel::Map::Map(std::shared_ptr<const network::Network> of, const driver::SpeedPlanSettings& speed)
-    : network(std::move(of)), graph(*network), zones(graph) {
+    : network(std::move(of)), graph(*network), zones(graph), marks(graph) {
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) plans.emplace_back(graph, track, speed);
   for (const bool clear : {true, false}) {
     for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
@@ -82,8 +82,14 @@ std::size_t TrafficModel::DrawLink(const Agent& agent, std::uint32_t id, std::ui
 
 void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) {
   RODEIRA_ASSERT(dt_s > 0.0);
-  See(others);
+  bodies_.assign(others.begin(), others.end());
+  for (const AgentPose& pose : poses_) {
+    if (agents_[pose.id].is_struck) bodies_.push_back(FootprintOf(pose, traits_[pose.id]));
+  }
+  See(bodies_);
   Arbitrate(dt_s);
+  const std::int64_t step_ns = std::llround(dt_s * 1e9);
+  ChangeLanes(step_ns);
   std::vector<double> wanted(agents_.size(), 0.0);  // read the old state …
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     if (agents_[id].on_road) wanted[id] = Wanted(id);
@@ -94,8 +100,9 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
     Follow(id);
     if (AtTheEnd(id)) Leave(id);
   }
+  SlideStruck(dt_s);
   Enter();
-  time_ns_ += std::llround(dt_s * 1e9);
+  time_ns_ += step_ns;
   FindColours();
   FindPoses();
 }
@@ -108,12 +115,12 @@ double TrafficModel::Advance(std::uint32_t id, double odometer_m) const {
   return std::max(0.2, 0.5 * (front.stretch * front.ahead_W + rear.stretch * rear.ahead_W).norm());
 }
 
-// The odometer when that point has gone so far; where bends are tight found by secants.
+// The odometer when that point has gone so far; where bends are tight, and beside a lane's middle, found by secants.
 double TrafficModel::Moved(std::uint32_t id, double travel_m) const {
   const Agent& agent = agents_[id];
   const double rate = Advance(id, agent.o_m + 0.5 * travel_m);
   double odometer = agent.o_m + travel_m / rate;
-  if (std::fabs(rate - 1.0) < kGentleBend) return odometer;
+  if (std::fabs(rate - 1.0) * travel_m < kGentle_m && agent.change.side == 0) return odometer;
   const auto middle = [&](double o) -> Eigen::Vector2d {
     return 0.5 * (FrameAt(graph(), agent.path, o + HalfBase(id)).p_W + FrameAt(graph(), agent.path, o - HalfBase(id)).p_W).head<2>();
   };

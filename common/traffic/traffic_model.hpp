@@ -10,6 +10,7 @@
 #include "common/base/state.hpp"
 #include "common/driver/footprint.hpp"
 #include "common/driver/way.hpp"
+#include "common/lanes/edge_marks.hpp"
 #include "common/lanes/zones.hpp"
 #include "common/road/world.hpp"
 #include "common/traffic/agent.hpp"
@@ -22,8 +23,8 @@ namespace rodeira::traffic {
 // speed that limits, bends and crests allow, and enters a stretch that other ways cross only when all of it up to the next
 // place to stand is its own (docs/traffic.md). A car that reaches the end of its last lane leaves and enters again, by lot,
 // where traffic enters the network, as soon as there is a safe gap: their number never changes, and nobody is moved or
-// removed elsewhere. They see other vehicles (the driver's car) by their rectangles, wherever they are. They do not change
-// lanes but where one ends. Nothing here depends on order of arrival, threads or the clock: the state is Save's, and each
+// removed elsewhere. They see other vehicles (the driver's car) by their rectangles, wherever they are. On roads
+// of several lanes they change lanes where that brings them on (MOBIL). Nothing here depends on order of arrival, threads or the clock: the state is Save's, and each
 // step is a function of it and of `others`.
 class TrafficModel {
  public:
@@ -41,17 +42,21 @@ class TrafficModel {
   void Brake(std::uint32_t id, double deceleration_mps2);  // at exactly this rate down to rest, and stay; harder where it must
   void CapSpeed(std::uint32_t id, double speed_mps);       // never faster
   void Release(std::uint32_t id);
+  // An impulse on an agent's body, N s, at a point, both in W: from then on it drives no more, but slides on locked wheels and stays
+  // where it comes to rest, an obstacle to all others. A push that would change its speed by less than 1 mm/s is nothing to it
+  // as long as it drives; nothing happens to who is not there.
+  void Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W);
   // The next agent in front of this rectangle, in the lane on which its middle stands and whose way it faces, or further on
   // the way, and within sight; nothing where none is. One of the agents itself (by its id) is not in front of itself.
   std::optional<std::uint32_t> AheadOf(const driver::Footprint& other) const;
 
-  // Those on the road, by ascending id.
+  // Those on the road, driving or struck, by ascending id.
   const std::vector<AgentPose>& poses() const { return poses_; }
   const AgentTraits& traits(std::uint32_t id) const { return traits_[id]; }
   const Agent& agent(std::uint32_t id) const { return agents_[id]; }
   std::size_t on_road() const { return poses_.size(); }
   std::size_t vehicles() const { return agents_.size(); }
-  std::size_t waiting() const { return agents_.size() - poses_.size(); }
+  std::size_t waiting() const { return waiting_.size(); }
   // From its front bumper to who is ahead, as it was seen in the last step; 1e9 where nobody is in sight.
   double GapAhead(std::uint32_t id) const { return ahead_[id].gap_m; }
   // By the network's controllers: what their lights show. Those without times are dark, and show red here.
@@ -68,6 +73,7 @@ class TrafficModel {
     std::shared_ptr<const network::Network> network;
     lanes::Graph graph;
     lanes::Zones zones;
+    lanes::EdgeMarks marks;
     std::vector<TrackPlan> plans;  // by track
     std::vector<std::uint32_t> entries;
 
@@ -77,6 +83,7 @@ class TrafficModel {
   struct Stretch {
     std::uint32_t track = 0;
     double zero_m = 0.0, begin_m = 0.0, end_m = 0.0;
+    bool changes = false;  // goes over to the lane beside at its end
   };
   // Somebody on a track, in its own d, which may lie beyond its ends.
   struct Occupant {
@@ -96,6 +103,22 @@ class TrafficModel {
     double speed_mps = 0.0;
     std::int64_t id = -1;  // of an agent
     bool any = false;
+  };
+  // Who follows, on a track and up to a place on it.
+  struct Behind {
+    double gap_m = 1e9;
+    double speed_mps = 0.0;
+    std::int64_t id = -1;  // of an agent
+    std::uint32_t track = 0;
+    double d_m = 0.0;      // of its front
+    bool any = false;
+  };
+  // A change to the lane beside that could begin now, and the way then.
+  struct Sideways {
+    Piece piece;
+    int side = 0;
+    double surplus_mps2 = 0.0;  // by which it is worth while
+    std::vector<Stretch> stretches;
   };
   struct Crossing {
     std::int64_t zone = -1;  // none: only a STOP line
@@ -144,6 +167,22 @@ class TrafficModel {
   std::size_t DrawLink(const Agent& agent, std::uint32_t id, std::uint32_t track, std::uint32_t link) const;
   double SightOf(const Agent& agent) const;
 
+  // Changes to the lane beside.
+  void ChangeLanes(std::int64_t step_ns);
+  std::optional<Sideways> Weigh(std::uint32_t id, int side);
+  std::optional<Piece> PieceBeside(std::uint32_t id, int side) const;
+  bool IsPlain(std::uint32_t id, double from_m, double to_m) const;
+  bool MayCross(std::uint32_t id, int side, double from_m, double to_m) const;
+  double LaneEnds(std::uint32_t id) const;
+  Behind FindBehind(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const;
+  double FollowerDoes(const Behind& behind, bool any, double gap_m, double leader_mps) const;
+  double Following(std::uint32_t id, double limit_mps, bool any, double gap_m, double leader_mps) const;
+  double Limit_mps(std::uint32_t id, std::uint32_t track, double d_m) const;
+  void BeginChange(std::uint32_t id, Sideways&& way);
+  void Appear(std::uint32_t track, const Occupant& occupant);
+  void AppearOnLaneLeft(std::uint32_t id);
+  std::optional<std::uint32_t> LaneLeft(std::uint32_t id, const Stretch& stretch, double odometer_m) const;
+
   // Right of way.
   void Arbitrate(double dt_s);
   void FindPassage(std::uint32_t id);
@@ -178,6 +217,7 @@ class TrafficModel {
   double HalfBase(std::uint32_t id) const { return 0.5 * traits_[id].wheelbase_m; }  // of the odometer
   void Follow(std::uint32_t id);
   bool AtTheEnd(std::uint32_t id) const;
+  void SlideStruck(double dt_s);
 
   // Coming and going.
   void PlaceAll(std::span<const driver::Footprint> others);
@@ -189,6 +229,8 @@ class TrafficModel {
   void FindColours();
   void FindPoses();
   AgentPose PoseOf(std::uint32_t id) const;
+  AgentPose PoseOfStruck(std::uint32_t id) const;
+  double HeightAt(const Struck& struck, double near_z_m) const;
 
   TrafficSettings settings_;
   std::shared_ptr<const Map> map_;
@@ -199,6 +241,7 @@ class TrafficModel {
   std::uint64_t next_grant_ = 1;
   std::int64_t time_ns_ = 0;  // since the beginning
   std::vector<AgentPose> poses_;
+  std::vector<driver::Footprint> bodies_;  // what agents see that does not drive as they do: other vehicles, and who has been struck
 
   // Found anew each step.
   std::vector<network::LightColour> colours_;          // by controller

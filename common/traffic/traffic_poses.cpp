@@ -51,6 +51,7 @@ void TrafficModel::FindPoses() {
   poses_.clear();
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     if (agents_[id].on_road) poses_.push_back(PoseOf(id));
+    else if (agents_[id].is_struck) poses_.push_back(PoseOfStruck(id));
   }
 }
 

@@ -11,14 +11,14 @@ namespace {
 enum Draw : std::uint64_t { kSize = 1, kColour = 2, kSpeed = 3, kTimeGap = 4, kAcceleration = 5, kBraking = 6, kShade = 7 };
 
 struct Body {
-  double length_m, width_m, height_m, wheelbase_m, wheel_radius_m;
+  double length_m, width_m, height_m, wheelbase_m, wheel_radius_m, mass_kg;
 };
 constexpr std::array<Body, 5> kBodies{{
-    {3.6, 1.62, 1.48, 2.35, 0.28},  // small
-    {4.1, 1.72, 1.46, 2.55, 0.30},  // compact
-    {4.5, 1.78, 1.45, 2.68, 0.31},  // saloon
-    {4.6, 1.82, 1.66, 2.70, 0.33},  // off-roader
-    {5.2, 1.92, 2.10, 3.20, 0.34},  // van
+    {3.6, 1.62, 1.48, 2.35, 0.28, 1000.0},  // small
+    {4.1, 1.72, 1.46, 2.55, 0.30, 1250.0},  // compact
+    {4.5, 1.78, 1.45, 2.68, 0.31, 1500.0},  // saloon
+    {4.6, 1.82, 1.66, 2.70, 0.33, 1750.0},  // off-roader
+    {5.2, 1.92, 2.10, 3.20, 0.34, 2100.0},  // van
 }};
 constexpr std::array<std::uint32_t, 8> kPaints{0xE8E8E6, 0x1B1C1E, 0x8A8D8F, 0x3A4A63, 0x9C2A2A, 0xC9CBCD, 0x4B5A45, 0xB59A5A};
 
@@ -33,6 +33,7 @@ AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id) {
   traits.height_m = body.height_m;
   traits.wheelbase_m = body.wheelbase_m;
   traits.wheel_radius_m = body.wheel_radius_m;
+  traits.mass_kg = body.mass_kg;
   traits.colour_rgb = kPaints[static_cast<std::size_t>(uniform(kColour, 0.0, static_cast<double>(kPaints.size())))];
   traits.speed_factor = uniform(kSpeed, settings.speed_factor_low, settings.speed_factor_high);
   const auto varied = [&](Draw what, double middle) { return middle * uniform(what, 1.0 - settings.variety, 1.0 + settings.variety); };
@@ -65,6 +66,12 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.speed.braking_mps2 = comfort.Number("braking_mps2", {0.3, 6.0}, t.speed.braking_mps2);
   t.speed.steep_grade = comfort.Number("steep_grade", {0.0, 1.0}, t.speed.steep_grade);
   t.speed.steep_factor = comfort.Number("steep_factor", {0.2, 1.0}, t.speed.steep_factor);
+  const config::Map change = map.OptionalChild("lane_changes");
+  t.changes_lanes = change.Flag("allowed", t.changes_lanes);
+  t.lane_changes.politeness = change.Number("politeness", {0.0, 1.0}, t.lane_changes.politeness);
+  t.lane_changes.threshold_mps2 = change.Number("threshold_mps2", {0.0, 2.0}, t.lane_changes.threshold_mps2);
+  t.lane_changes.bias_mps2 = change.Number("bias_mps2", {0.0, 2.0}, t.lane_changes.bias_mps2);
+  t.lane_changes.safe_mps2 = change.Number("safe_mps2", {0.5, 8.0}, t.lane_changes.safe_mps2);
   return t;
 }
 

@@ -6,6 +6,7 @@
 #include "common/base/result.hpp"
 #include "common/config/config.hpp"
 #include "common/driver/idm.hpp"
+#include "common/driver/mobil.hpp"
 #include "common/driver/speed_plan.hpp"
 
 namespace rodeira::traffic {
@@ -22,6 +23,8 @@ struct TrafficSettings {
   double tracking_s = 1.0;         // time in which a deviation from the planned speed is made good
   double side_margin_m = 0.3;      // what comes nearer to an agent's sides is in its way
   double sight_m = 200.0;
+  bool changes_lanes = true;
+  driver::MobilSettings lane_changes;
 };
 
 // Reads `vehicles`, `following`, `comfort` … of a mapping; the seed is the run's. Problems stay in the file's collection.
@@ -37,6 +40,7 @@ struct AgentTraits {
   double height_m = 1.45;
   double wheelbase_m = 2.5;
   double wheel_radius_m = 0.3;
+  double mass_kg = 1300.0;
   std::uint32_t colour_rgb = 0x808080;
   double speed_factor = 1.0;
   driver::IdmSettings idm;

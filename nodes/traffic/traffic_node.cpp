@@ -57,7 +57,8 @@ driver::Footprint FootprintOf(const msg::VehicleState& in, std::uint32_t id) {
 
 class TrafficNode final : public lockstep::Node {
  public:
-  TrafficNode(std::string name, traffic::TrafficModel model) : name_(std::move(name)), model_(std::move(model)) {}
+  // stream: by which it is a partner in collisions.
+  TrafficNode(std::string name, lockstep::SourceIndex stream, traffic::TrafficModel model) : name_(std::move(name)), stream_(stream), model_(std::move(model)) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     Publish(outbox);
@@ -70,6 +71,11 @@ class TrafficNode final : public lockstep::Node {
       const auto state = idl::Decode<msg::VehicleState>(*sample.payload);
       if (!state) return state.error();
       others_.push_back(FootprintOf(state.value(), kFirstCar + sample.source()));
+    }
+    if (inbox.Has(topics::kCollisions)) {
+      for (const lockstep::Sample& sample : inbox.All(topics::kCollisions)) {
+        if (auto status = TakeHits(sample); !status) return status;
+      }
     }
     if (inbox.Has(topics::kScenarioEvents)) {
       for (const lockstep::Sample& sample : inbox.All(topics::kScenarioEvents)) {
@@ -84,6 +90,17 @@ class TrafficNode final : public lockstep::Node {
   void Restore(base::StateReader& in) override { in.Get("model", model_); }
 
  private:
+  // The opposite of what the car took from its agents.
+  base::Status TakeHits(const lockstep::Sample& sample) {
+    constexpr std::uint32_t kAgent = 1;  // collision.idl
+    const auto touched = idl::Decode<msg::Collisions>(*sample.payload);
+    if (!touched) return touched.error();
+    for (const msg::Collision& hit : touched.value().collisions()) {
+      if (hit.partner() != kAgent || hit.partner_source() != stream_ || hit.partner_id() >= model_.vehicles()) continue;
+      model_.Strike(hit.partner_id(), {-hit.impulse_x_ns(), -hit.impulse_y_ns()}, {hit.position_x_m(), hit.position_y_m()});
+    }
+    return {};
+  }
   base::Status Obey(const lockstep::Sample& sample) {
     const auto events = idl::Decode<msg::ScenarioEvents>(*sample.payload);
     if (!events) return events.error();
@@ -144,6 +161,7 @@ class TrafficNode final : public lockstep::Node {
   }
 
   std::string name_;
+  lockstep::SourceIndex stream_;
   traffic::TrafficModel model_;
   std::vector<driver::Footprint> others_;
 };
@@ -162,7 +180,11 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
   const std::vector<driver::Footprint> clear{{0, start.x_m, start.y_m, start.heading_rad, 0.0, 20.0, 2.0}};
   auto model = traffic::TrafficModel::Make(settings, std::move(world).value(), clear);
   if (!model) return model.error();
-  return std::unique_ptr<lockstep::Node>(std::make_unique<TrafficNode>(context.spec().name, std::move(model).value()));
+  lockstep::SourceIndex stream = 0;
+  for (const lockstep::SourceIndex output : context.spec().outputs) {
+    if (context.roster().source(output).topic == topics::kTrafficState) stream = output;
+  }
+  return std::unique_ptr<lockstep::Node>(std::make_unique<TrafficNode>(context.spec().name, stream, std::move(model).value()));
 }
 
 }  // namespace rodeira::nodes

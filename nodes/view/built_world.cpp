@@ -7,8 +7,10 @@
 
 #include <charconv>
 #include <string_view>
+#include <utility>
 
 #include "nodes/view/database.hpp"
+#include "nodes/view/picture_texture.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -16,15 +18,16 @@ namespace {
 // Gives geometries of the database the look of those that are built in memory.
 class Dress : public osg::NodeVisitor {
  public:
-  explicit Dress(Look& look) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), look_(look) {}
+  Dress(Look& look, std::filesystem::path folder) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), look_(look), folder_(std::move(folder)) {}
 
   void apply(osg::Geometry& geometry) override {
     const std::string_view name = geometry.getName(), begin = kGeometryName;
     if (!name.starts_with(begin)) return;  // of a model's file
     int number = -1;
     std::from_chars(name.data() + begin.size(), name.data() + name.size(), number);
-    if (number < 0 || number > static_cast<int>(scene::Material::kSign)) return;
+    if (number < 0 || number >= scene::kMaterials) return;
     const auto material = static_cast<scene::Material>(number);
+    if (material == scene::Material::kPicture) return LayPicture(geometry);
     if (material == scene::Material::kSign) {
       osg::StateSet* own = geometry.getStateSet();
       auto* face = own == nullptr ? nullptr : dynamic_cast<osg::Texture2D*>(own->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
@@ -38,38 +41,56 @@ class Dress : public osg::NodeVisitor {
   }
 
  private:
+  // The name goes on with the file, below the database's folder.
+  void LayPicture(osg::Geometry& geometry) {
+    const std::string& name = geometry.getName();
+    const auto at = name.find(kPictureFolder);
+    if (at == std::string::npos) return;
+    geometry.setTexCoordArray(1, geometry.getTexCoordArray(0));
+    geometry.setTexCoordArray(0, nullptr);
+    geometry.setStateSet(look_.StateOfPicture((folder_ / name.substr(at)).string(), name.find(kRepeats) != std::string::npos));
+  }
+
   Look& look_;
+  std::filesystem::path folder_;
 };
 
 class DressWhatIsRead : public osgDB::ReadFileCallback {
  public:
-  explicit DressWhatIsRead(Look& look) : look_(look) {}
+  DressWhatIsRead(Look& look, std::filesystem::path folder) : look_(look), folder_(std::move(folder)) {}
 
   osgDB::ReaderWriter::ReadResult readNode(const std::string& file, const osgDB::Options* options) override {
     osgDB::ReaderWriter::ReadResult result = osgDB::ReadFileCallback::readNode(file, options);
     if (result.validNode()) {
-      Dress dress(look_);
+      Dress dress(look_, folder_);
       result.getNode()->accept(dress);
     }
     return result;
   }
 
+  // The look reads pictures on the ground itself.
+  osgDB::ReaderWriter::ReadResult readImage(const std::string& file, const osgDB::Options* options) override {
+    if (file.find(kPictureFolder) != std::string::npos) return NoPicture().release();
+    return osgDB::ReadFileCallback::readImage(file, options);
+  }
+
  private:
   Look& look_;
+  std::filesystem::path folder_;
 };
 
 }  // namespace
 
 base::Result<BuiltWorld> ReadBuilt(const std::filesystem::path& folder, Look& look) {
   // The states are made here, not by the pager's threads.
-  for (int number = 0; number <= static_cast<int>(scene::Material::kSign); ++number) (void)look.StateOf(static_cast<scene::Material>(number));
+  for (int number = 0; number < scene::kMaterials; ++number) (void)look.StateOf(static_cast<scene::Material>(number));
   const std::string file = (folder / "world.osgb").string();
   const osg::ref_ptr<osg::Node> read = osgDB::readRefNodeFile(file);
   BuiltWorld built;
   built.root = read.valid() ? read->asGroup() : nullptr;
   if (!built.root.valid()) return base::Failed("OpenSceneGraph cannot read this file", file);
   const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
-  options->setReadFileCallback(new DressWhatIsRead(look));
+  options->setReadFileCallback(new DressWhatIsRead(look, folder));
   for (unsigned i = 0; i < built.root->getNumChildren(); ++i) {
     auto* tile = dynamic_cast<osg::PagedLOD*>(built.root->getChild(i));
     if (tile == nullptr) return base::Failed("this is no database of tiles", file);

@@ -5,9 +5,12 @@
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osg/PolygonOffset>
+#include <osg/TexEnv>
 #include <osgDB/Registry>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -15,9 +18,11 @@
 
 #include "common/base/files.hpp"
 #include "common/scene/ground_tile.hpp"
+#include "common/scene/lay_picture.hpp"
 #include "common/scene/seen_digest.hpp"
 #include "nodes/view/face_texture.hpp"
 #include "nodes/view/model_file.hpp"
+#include "nodes/view/picture_texture.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -30,7 +35,24 @@ struct Known {
 };
 using Manifest = std::map<std::string, Known>;
 
-osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh) {
+// The files of the pictures, by their own names and by those that they have in the database.
+using Pictures = std::map<std::string, std::string>;
+
+// A tile refers to the picture; other programs read it from there.
+void LayPicture(const scene::Mesh& mesh, const std::string& name, osg::Geometry& geometry) {
+  osg::ref_ptr<osg::Image> image = NoPicture();
+  image->setFileName("../" + name);
+  osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+  const auto wrap = mesh.repeats ? osg::Texture::REPEAT : osg::Texture::CLAMP_TO_EDGE;
+  texture->setWrap(osg::Texture::WRAP_S, wrap);
+  texture->setWrap(osg::Texture::WRAP_T, wrap);
+  geometry.setName(geometry.getName() + (mesh.repeats ? kRepeats : "") + " " + name);
+  geometry.setTexCoordArray(0, PlacesOnFace(mesh));
+  geometry.getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
+  geometry.getOrCreateStateSet()->setTextureAttributeAndModes(0, new osg::TexEnv(osg::TexEnv::DECAL));  // the picture's own colours
+}
+
+osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh, const Pictures& pictures) {
   osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array, normals = new osg::Vec3Array;
   osg::ref_ptr<osg::Vec4ubArray> colours = new osg::Vec4ubArray;
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -58,15 +80,16 @@ osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh) {
     geometry->setTexCoordArray(0, PlacesOnFace(mesh));
     geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
   }
+  if (mesh.material == scene::Material::kPicture) LayPicture(mesh, pictures.at(mesh.face), *geometry);
   return geometry;
 }
 
-osg::ref_ptr<osg::Node> LevelNode(const scene::GroundLevel& level) {
+osg::ref_ptr<osg::Node> LevelNode(const scene::GroundLevel& level, const Pictures& pictures) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   const auto add = [&](const scene::Mesh& mesh) {
     if (mesh.triangles.empty()) return;
     osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(mesh.origin_W.x(), mesh.origin_W.y(), mesh.origin_W.z()));
-    place->addChild(GeometryOf(mesh));
+    place->addChild(GeometryOf(mesh, pictures));
     group->addChild(place);
   };
   for (const scene::Mesh& mesh : level.ground) add(mesh);
@@ -114,6 +137,32 @@ bool IsFresh(const fs::path& folder, const Manifest& before, const scene::TileKe
   return true;
 }
 
+// A picture's kind in its name in the database, where it is a plain word.
+std::string ExtensionOf(const fs::path& file) {
+  const std::string extension = file.extension().string();
+  const bool plain = extension.size() > 1 && std::all_of(extension.begin() + 1, extension.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
+  return plain ? extension : "";
+}
+
+// Copies the world's pictures into the database.
+base::Result<Pictures> WritePictures(const road::World& world, const fs::path& folder, Manifest& after) {
+  Pictures pictures;
+  for (const terrain::LaidPicture& picture : scene::PicturesOf(world)) {
+    if (pictures.contains(picture.file)) continue;
+    if (const auto facts = terrain::LookAtPicture(picture.file); !facts) return facts.error();
+    const auto bytes = base::ReadText(picture.file, 1u << 30);
+    if (!bytes) return bytes.error();
+    const base::Digest hash = base::Hash(bytes.value());
+    const std::string name = kPictureFolder + base::Hex(hash) + ExtensionOf(picture.file);
+    std::error_code problem;
+    fs::create_directories(folder / kPictureFolder, problem);
+    if (auto written = base::WriteWhole(folder / name, bytes.value()); !written) return written.error();
+    pictures[picture.file] = name;
+    after[name] = {hash, hash};
+  }
+  return pictures;
+}
+
 osg::ref_ptr<osg::Node> RootNode(const scene::GroundPlan& plan, const std::map<scene::TileKey, scene::TileBall>& balls) {
   osg::ref_ptr<osg::Group> root = new osg::Group;
   for (const scene::TileKey& key : plan.tiles()) {
@@ -147,6 +196,8 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
   const std::size_t count = plan.tiles().size();
 
   Manifest after;
+  const auto pictures = WritePictures(world, options.folder, after);
+  if (!pictures) return pictures.error();
   std::map<scene::TileKey, scene::TileBall> balls;
   DatabaseReport report;
   report.tiles = count;
@@ -166,7 +217,7 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
         if (auto read = ReadModel(model.file); !read) written = read;
       }
       for (int level = 0; level < scene::kGroundLevels && written; ++level) {
-        const auto bytes = Serialise(*LevelNode(tile.levels[static_cast<std::size_t>(level)]));
+        const auto bytes = Serialise(*LevelNode(tile.levels[static_cast<std::size_t>(level)], pictures.value()));
         if (!bytes) {
           written = bytes.error();
           break;

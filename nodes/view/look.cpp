@@ -1,5 +1,6 @@
 #include "nodes/view/look.hpp"
 
+#include <fmt/format.h>
 #include <osg/BlendFunc>
 #include <osg/CullFace>
 #include <osg/Depth>
@@ -14,6 +15,7 @@
 #include "common/base/assert.hpp"
 #include "common/base/random.hpp"
 #include "nodes/view/face_texture.hpp"
+#include "nodes/view/picture_texture.hpp"
 #include "nodes/view/shaders.hpp"
 
 namespace rodeira::view {
@@ -100,6 +102,22 @@ osg::StateSet* Look::KnownFace(const std::string& face) {
   return state;
 }
 
+osg::ref_ptr<osg::StateSet> Look::StateOfPicture(const std::string& file, bool repeats) {
+  const std::lock_guard lock(mutex_);
+  auto& state = pictures_[{file, repeats}];
+  if (state) return state;
+  const auto picture = MakePictureTexture(file, repeats);
+  if (!picture) {
+    fmt::print(stderr, "rodeira: the ground is drawn without its picture: {}\n", picture.error().Text());
+    return state = StateOf(scene::Material::kGround);
+  }
+  state = new osg::StateSet(*StateOf(scene::Material::kPicture), osg::CopyOp::SHALLOW_COPY);
+  state->setTextureAttribute(1, picture.value());
+  state->addUniform(new osg::Uniform("face", 1));
+  state->addUniform(new osg::Uniform("repeats", repeats ? 1.0F : 0.0F));
+  return state;
+}
+
 osg::ref_ptr<osg::Geometry> Look::BareGeometryOf(const scene::Mesh& mesh) {
   osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
   osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
@@ -122,13 +140,14 @@ osg::ref_ptr<osg::Geometry> Look::BareGeometryOf(const scene::Mesh& mesh) {
   colours->setNormalize(true);
   geometry->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
   geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.triangles.begin(), mesh.triangles.end()));
-  if (mesh.material == scene::Material::kSign) geometry->setTexCoordArray(1, PlacesOnFace(mesh));
+  if (mesh.material == scene::Material::kSign || mesh.material == scene::Material::kPicture) geometry->setTexCoordArray(1, PlacesOnFace(mesh));
   return geometry;
 }
 
 osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
   osg::ref_ptr<osg::Geometry> geometry = BareGeometryOf(mesh);
-  geometry->setStateSet(mesh.material == scene::Material::kSign ? KnownFace(mesh.face) : StateOf(mesh.material));
+  if (mesh.material == scene::Material::kPicture) geometry->setStateSet(StateOfPicture(mesh.face, mesh.repeats));
+  else geometry->setStateSet(mesh.material == scene::Material::kSign ? KnownFace(mesh.face) : StateOf(mesh.material));
   return geometry;
 }
 

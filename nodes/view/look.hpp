@@ -9,8 +9,10 @@
 
 #include <array>
 #include <map>
+#include <mutex>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "common/scene/mesh.hpp"
 
@@ -25,6 +27,9 @@ class Look {
   osg::StateSet* StateOf(scene::Material material);
   // The same for a sign whose picture this is; a new one.
   osg::ref_ptr<osg::StateSet> StateOfFace(osg::Texture2D& picture);
+  // The same for ground on which a file's picture lies. Where it cannot be read a sentence is printed, once, and the state is that
+  // of the ground without it. Several threads may ask.
+  osg::ref_ptr<osg::StateSet> StateOfPicture(const std::string& file, bool repeats);
   // The mesh without its origin.
   osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh);
   // The same of a sign (kSign) with this picture instead of its face's.
@@ -44,8 +49,10 @@ class Look {
 
   osg::ref_ptr<osg::Texture2D> noise_;  // repeats: fine in its red part, coarse in its green one
   osg::ref_ptr<osg::Program> shadow_;
-  std::array<osg::ref_ptr<osg::StateSet>, 10> states_;
+  std::array<osg::ref_ptr<osg::StateSet>, scene::kMaterials> states_;
   std::map<std::string, osg::ref_ptr<osg::StateSet>> faces_;  // of signs
+  std::mutex mutex_;  // of the next
+  std::map<std::pair<std::string, bool>, osg::ref_ptr<osg::StateSet>> pictures_;
 };
 
 }  // namespace rodeira::view

@@ -43,6 +43,21 @@ vec3 Beam() {
 }
 )";
 
+// Water darkens stone and mirrors the sky the more, the flatter one looks at it; most where it stands.
+constexpr const char* kWater = R"(
+uniform sampler2D noise;
+uniform float wetness;
+vec3 Wet(vec3 dry) {
+  if (wetness <= 0.0) return dry;
+  vec3 view = normalize(at_eye);
+  vec3 n = normalize(normal_eye);
+  float flat_look = pow(1.0 - max(dot(-view, n), 0.0), 10.0);
+  float standing = 0.45 + 0.55 * smoothstep(0.40, 0.62, texture2D(noise, ground / 24.0).g);
+  vec3 mirrored = SkyColour(dot(reflect(view, n), up_eye));
+  return mix(dry * (1.0 - 0.42 * wetness), mirrored, wetness * standing * (0.02 + 0.70 * flat_look));
+}
+)";
+
 const char* FragmentBody(scene::Material material) {
   switch (material) {
     case scene::Material::kGround: return R"(
@@ -63,20 +78,38 @@ vec3 Look() {
   return gl_Color.rgb * light * (0.9 + 0.10 * checker + 0.2 * (grain - 0.5));
 })";
     case scene::Material::kRoad: return R"(
-uniform sampler2D noise;
-uniform float wetness;
 vec3 Look() {
   float grain = texture2D(noise, ground / 2.0).r;
   float wear = texture2D(noise, ground / 16.0).g;
-  vec3 dry = gl_Color.rgb * light * (0.80 + 0.24 * grain + 0.16 * wear);
-  if (wetness <= 0.0) return dry;
-  // Water darkens the stone and mirrors the sky the more, the flatter one looks at it; most where it stands.
-  vec3 view = normalize(at_eye);
-  vec3 n = normalize(normal_eye);
-  float flat_look = pow(1.0 - max(dot(-view, n), 0.0), 10.0);
-  float standing = 0.45 + 0.55 * smoothstep(0.40, 0.62, texture2D(noise, ground / 24.0).g);
-  vec3 mirrored = SkyColour(dot(reflect(view, n), up_eye));
-  return mix(dry * (1.0 - 0.42 * wetness), mirrored, wetness * standing * (0.02 + 0.70 * flat_look));
+  return Wet(gl_Color.rgb * light * (0.80 + 0.24 * grain + 0.16 * wear));
+})";
+    // Slabs are even and pale, with pores and large soft stains.
+    case scene::Material::kConcrete: return R"(
+vec3 Look() {
+  float pores = smoothstep(0.30, 0.42, texture2D(noise, ground / 1.5).r);
+  float stains = texture2D(noise, ground / 24.0).g;
+  return Wet(gl_Color.rgb * light * (0.78 + 0.10 * pores + 0.26 * stains));
+})";
+    // Stones of some centimetres, each of its own grey, dark between them.
+    case scene::Material::kGravel: return R"(
+uniform float wetness;
+uniform sampler2D noise;
+vec3 Look() {
+  float stones = texture2D(noise, ground / 2.0).r + 0.6 * texture2D(noise, ground * 1.7 / 2.0 + 0.31).r;
+  float wear = texture2D(noise, ground / 16.0).g;
+  return gl_Color.rgb * light * (0.50 + 0.85 * smoothstep(0.45, 1.15, stones) + 0.14 * wear) * (1.0 - 0.42 * wetness);
+})";
+    case scene::Material::kPicture: return R"(
+uniform sampler2D noise;
+uniform sampler2D face;
+uniform float repeats;
+varying vec2 on_face;
+vec3 Look() {
+  vec2 beyond = abs(on_face - 0.5);
+  float there = max(repeats, 1.0 - step(0.5, max(beyond.x, beyond.y)));
+  float near = texture2D(noise, ground / 4.0).r + texture2D(noise, ground / 32.0).g;
+  vec3 bare = gl_Color.rgb * (0.62 + 0.38 * near);
+  return mix(bare, texture2D(face, on_face).rgb, there) * light;
 })";
     case scene::Material::kMark: return R"(
 uniform sampler2D noise;
@@ -146,7 +179,8 @@ void main() {
 }
 
 std::string FragmentShader(scene::Material material) {
-  return std::string(kHead) + kAir + kLight + FragmentBody(material) + R"(
+  const bool stone = material == scene::Material::kRoad || material == scene::Material::kConcrete;
+  return std::string(kHead) + kAir + kLight + (stone ? kWater : "") + FragmentBody(material) + R"(
 void main() {
   light = daylight;
   if (headlights > 0.0) light += Beam();

@@ -30,6 +30,7 @@ inline Design SoundDesign(const std::string& text) {
 
 inline std::string FirstProblem(const std::string& text) {
   const Design design = DesignOf(text);
+  if (design.problems.empty() && !design.missing.empty()) return design.missing.front().Text();
   return design.problems.empty() ? "none" : design.problems.front().Text();
 }
 

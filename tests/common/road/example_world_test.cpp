@@ -21,7 +21,7 @@ std::set<std::string> AskedKeys() {
   std::set<std::string> keys;
   const std::regex asked(R"re((?:Number|Integer|Flag|Text|Choice|Path|OptionalPath|Child|OptionalChild|Items|OptionalItems|MaterialOf|Has)\((?:item, )?"([a-z_0-9]+)")re");
   const std::regex tables(R"re(Read(?:Table|Knots)\([^"]*"([a-z_]+)", "([a-z_]+)"(?:, "([a-z_]+)")?)re");
-  std::vector<fs::path> files = {kRoot / "common/road/world_reader.cpp"};
+  std::vector<fs::path> files = {kRoot / "common/road/world_reader.cpp", kRoot / "common/road/picture_reader.cpp"};
   for (const auto& entry : fs::directory_iterator(kRoot / "common/design")) {
     if (entry.path().extension() == ".cpp") files.push_back(entry.path());
   }
@@ -43,8 +43,8 @@ TEST(ExampleWorld, SaysEveryKeyAndTheDocumentTellsOfIt) {
   const std::string document = base::ReadText(kRoot / "docs/formats.md").value();
   const std::set<std::string> keys = AskedKeys();
   EXPECT_GT(keys.size(), 90u);
-  // A world stands on a plane or on a terrain, which is a file or made: these are the others.
-  const std::set<std::string> elsewhere = {"ground", "file", "registration", "slope_x", "slope_y", "template"};
+  // A world stands on a plane or on a terrain, which is a file or made, under a picture that is draped or repeats: these are the others.
+  const std::set<std::string> elsewhere = {"ground", "file", "registration", "slope_x", "slope_y", "template", "repeat_m"};
   for (const std::string& key : keys) {
     const std::regex said("(^|[\n {,\\[])" + key + ":");
     EXPECT_TRUE(std::regex_search(example, said) || elsewhere.contains(key)) << "the example does not say " << key;

@@ -143,9 +143,9 @@ TEST_F(NetworkWorld, APatchIsItsPointsBitByBit) {
   const LaneGrounds grounds(*flat->network(), kUsualFriction);
   std::vector<terrain::GroundQuery> queries(20, {40.0, 1.5, 0.2});
   std::vector<terrain::GroundPoint> points(queries.size());
-  EXPECT_TRUE(NetworkGroundTogether(*flat->network(), grounds, nullptr, queries, points));
+  EXPECT_TRUE(NetworkGroundTogether(*flat->network(), grounds, kUsualFriction, nullptr, nullptr, queries, points));
   queries[7].z_hint_m = -0.6;
-  EXPECT_FALSE(NetworkGroundTogether(*flat->network(), grounds, nullptr, queries, points));
+  EXPECT_FALSE(NetworkGroundTogether(*flat->network(), grounds, kUsualFriction, nullptr, nullptr, queries, points));
 }
 
 TEST_F(NetworkWorld, APatchIsItsPointsOnRealFiles) {

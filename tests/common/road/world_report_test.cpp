@@ -10,8 +10,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
 
 #include "common/base/files.hpp"
+#include "common/road/plot_labels.hpp"
 #include "common/road/world_plot.hpp"
 #include "common/road/world_profile.hpp"
 #include "tests/common/road/sample_world.hpp"
@@ -99,6 +101,18 @@ TEST_F(WorldReport, BuildWritesTheProjectionWhereThereIsOne) {
   EXPECT_THAT(built.value()->grid()->projection_wkt(), HasSubstr("Transverse_Mercator"));
 }
 
+// With its includes, pictures, points and surfaces, which stay where they are.
+TEST_F(WorldReport, BuildWritesTheExampleWorldOnAFile) {
+  const fs::path example = fs::path(RODEIRA_SOURCE_DIR) / "configs/worlds/example/world.yaml";
+  const auto report = BuildWorld(example, folder_ / "built");
+  ASSERT_TRUE(report.ok()) << report.error().Text();
+  const auto ours = World::Load(example), built = World::Load(folder_ / "built/world.yaml");
+  ASSERT_TRUE(built.ok()) << built.error().Text();
+  EXPECT_EQ(built.value()->content_hash(), ours.value()->content_hash());
+  ASSERT_NE(built.value()->ground_picture(), nullptr);
+  EXPECT_EQ(*built.value()->ground_picture(), *ours.value()->ground_picture());
+}
+
 TEST_F(WorldReport, BuildRefusesToOverwriteAndToBuildNothing) {
   const auto itself = BuildWorld(folder_ / "w.yaml", folder_);
   ASSERT_FALSE(itself.ok());
@@ -140,6 +154,52 @@ TEST_F(WorldReport, TheProfileShowsGradesRadiiAndSlopes) {
   }
   const auto plane = World::Parse("rodeira: world/1\nname: p\nground: {kind: plane}\nstart: {x_m: 0, y_m: 0}\n", "p.yaml");
   EXPECT_TRUE(PlotProfiles(*plane.value()).empty());
+}
+
+// The rectangles in which a picture's words stand, as wide and high as DejaVu Sans has digits.
+struct Words {
+  double left, top, right, bottom;
+  std::string text;
+};
+
+std::vector<Words> WordsOf(const std::string& svg) {
+  std::vector<Words> words;
+  const std::regex text(R"re(<text x="([-0-9.]+)" y="([-0-9.]+)" font-family="sans-serif" font-size="([0-9.]+)"[^>]*>([^<]*)</text>)re");
+  for (std::sregex_iterator i(svg.begin(), svg.end(), text), end; i != end; ++i) {
+    const double x = std::stod((*i)[1]), y = std::stod((*i)[2]), size = std::stod((*i)[3]);
+    const std::string word = std::regex_replace((*i)[4].str(), std::regex("&[a-z]+;"), "?");
+    words.push_back({x, y - 0.73 * size, x + 0.636 * size * static_cast<double>(word.length()), y, word});
+  }
+  return words;
+}
+
+TEST(WorldPlot, NoWordStandsOverAnother) {
+  const std::filesystem::path root = RODEIRA_SOURCE_DIR;
+  std::vector<std::filesystem::path> worlds = {root / "configs/worlds/example/world.yaml", root / "../shared/data/road/xodr/carla_Town04.xodr", root / "../shared/data/road/xodr/esmini_fabriksgatan.xodr"};
+  for (const char* name : {"flat", "haste", "lights", "motorway", "n222", "plane", "ring"}) worlds.push_back(root / "configs/worlds" / (std::string(name) + ".yaml"));
+  for (const auto& path : worlds) {
+    const auto world = World::Load(path);
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    const std::vector<Words> words = WordsOf(PlotWorld(*world.value()));
+    EXPECT_FALSE(words.empty()) << path;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        const bool apart = words[i].right <= words[k].left || words[k].right <= words[i].left || words[i].bottom <= words[k].top || words[k].bottom <= words[i].top;
+        EXPECT_TRUE(apart) << path << ": '" << words[i].text << "' and '" << words[k].text << "'";
+      }
+    }
+  }
+}
+
+// Eight words fit around a point, and no ninth.
+TEST(WorldPlot, WordsWithoutRoomAreLeftOut) {
+  PlotLabels labels(200.0, 200.0);
+  for (int i = 0; i < 8; ++i) EXPECT_TRUE(labels.Put({100.0, 100.0}, 20.0, 10.0, "#000000", "word"));
+  EXPECT_FALSE(labels.Put({100.0, 100.0}, 20.0, 10.0, "#000000", "word"));
+  EXPECT_TRUE(labels.Put({195.0, 30.0}, 2.0, 10.0, "#000000", "a<b"));  // to the left, within the picture
+  EXPECT_EQ(WordsOf(labels.svg()).size(), 9u);
+  EXPECT_NE(labels.svg().find(">a&lt;b</text>"), std::string::npos);
+  for (const Words& word : WordsOf(labels.svg())) EXPECT_LE(word.right, 200.0);
 }
 
 }  // namespace

@@ -58,15 +58,17 @@ Eigen::Vector3d PointIn(const std::vector<std::array<Eigen::Vector3d, 3>>& trian
   return t[0] + a * (t[1] - t[0]) + b * (t[2] - t[0]);
 }
 
-// Points on the finest level's road triangles, evenly by area, against SUELO at the same place and level.
-Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed) {
+bool IsRoad(const Mesh& mesh) { return mesh.material == Material::kRoad || mesh.material == Material::kConcrete || mesh.material == Material::kGravel; }
+
+// Points on the finest level's triangles that count, evenly by area, against SUELO at the same place and level.
+template <class Counts>
+Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed, const Counts& counts) {
   std::vector<std::array<Eigen::Vector3d, 3>> triangles;
   std::vector<double> sums;
   for (const GroundTile& tile : tiles) {
     for (const Mesh& mesh : tile.levels[0].ground) {
-      if (mesh.material != Material::kRoad) continue;
       for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-        if (IsWall(mesh, i)) continue;
+        if (IsWall(mesh, i) || !counts(mesh, i)) continue;
         triangles.push_back(CornersOf(mesh, i));
         const Eigen::Vector3d u = triangles.back()[1] - triangles.back()[0], v = triangles.back()[2] - triangles.back()[0];
         sums.push_back((sums.empty() ? 0.0 : sums.back()) + 0.5 * u.cross(v).norm());
@@ -93,6 +95,10 @@ Correlation Correlate(const road::World& world, const std::vector<GroundTile>& t
   return result;
 }
 
+Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed) {
+  return Correlate(world, tiles, count, seed, [](const Mesh& mesh, std::size_t) { return IsRoad(mesh); });
+}
+
 int Points() { return static_cast<int>(Setting("RODEIRA_GROUND_POINTS", 5'000)); }
 
 TEST(Ground, IsWhereTheTyresAre) {
@@ -103,6 +109,26 @@ TEST(Ground, IsWhereTheTyresAre) {
   EXPECT_LT(found.stepped, 0.002 * found.asked);
   EXPECT_LT(found.worst_m, 0.005) << "at " << found.where.transpose();
   std::printf("%d points, %d at steps, worst %.4f m from SUELO\n", found.asked, found.stepped, found.worst_m);
+}
+
+// A road of 12 and 15 m radius through a hill and over a hollow: its verges.
+TEST(Ground, VergesOfSmallRadiiAreWhereTheTyresAre) {
+  const auto parsed = road::World::Parse(
+      "rodeira: world/2\nname: hairpin\nterrain:\n  generate: {seed: 5, columns: 41, rows: 41, spacing_m: 8, west_m: -100, south_m: -130, full_m: 30, flat_m: 5, relief: [{wavelength_m: 90, amplitude_m: 6}]}\n"
+      "roads:\n  - id: a\n    start: {x_m: -60, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 60}, arc: {turn_deg: 150, radius_m: 12}, line: {length_m: 20}, arc: {turn_deg: 120, radius_m: -15}, line: {length_m: 30}]\n"
+      "    vertical: [{s_m: 0, z_m: 0}, {s_m: 70, z_m: 3, parabola_m: 60}, {s_m: 140, z_m: 4}]\n    section: {template: rural, verge: {width_m: 1.5}}\n", "hairpin.yaml");
+  ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
+  const road::World& world = *parsed.value();
+  const std::vector<GroundTile> tiles = BuildAll(world);
+  const auto from_road = [&](const Mesh& mesh, std::size_t triangle) {
+    const auto corners = CornersOf(mesh, triangle);
+    const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    const auto place = world.network()->Locate(middle.x(), middle.y());
+    return place ? place->distance_m : 1e9;
+  };
+  const Correlation verges = Correlate(world, tiles, Points(), 3, [&](const Mesh& mesh, std::size_t i) { return !IsRoad(mesh) && from_road(mesh, i) == 0.0; });
+  EXPECT_EQ(verges.asked, Points());
+  EXPECT_LT(verges.worst_m, 0.005) << "at " << verges.where.transpose();
 }
 
 // In files of other programs surfaces of overlapping roads cross and step anywhere: nearly all points agree, not all.

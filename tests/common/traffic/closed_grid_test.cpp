@@ -42,6 +42,8 @@ TEST(ClosedGrid, AsFullAsItMayBeItGoesOn) {
   EXPECT_GT(r.on_road, settings.traffic.vehicles * 9 / 10);
   EXPECT_EQ(r.collisions, 0) << told;
   EXPECT_EQ(r.off_lane, 0) << told;
+  // Who comes to rest within a step goes v²/(2 a), up to a dt²/8 less than the mean of both speeds says.
+  EXPECT_LT(r.worst_step_m, 1e-3 + r.hardest_mps2 * settings.step_s * settings.step_s / 8.0) << told;
   EXPECT_LT(r.longest_with_room_s, 300.0) << "car " << r.longest_stand_id << told;
   EXPECT_GT(driven_m - second_m, 0.5 * first_m) << first_m << " m, " << second_m << " m, " << driven_m << " m";
 }

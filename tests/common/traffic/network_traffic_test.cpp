@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <map>
+#include <numbers>
 
 #include "common/lanes/signs.hpp"
+#include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
 
@@ -54,6 +57,42 @@ TEST(NetworkTraffic, DrivesTheRealFiles) {
     const bool large = file.filename() == "carla_Town04.xodr";
     Behaves(file.filename(), opendrive::LoadNetwork(file).value(), large ? 100 : 25, 1);
   }
+}
+
+// What a person in a car of traffic feels, from the published headings and speeds: lateral acceleration and yaw acceleration.
+TEST(NetworkTraffic, TurnsAreComfortable) {
+  constexpr double kStep_s = 0.01, kYaw_radps2 = 200.0 * std::numbers::pi / 180.0;
+  struct Before { std::uint32_t trip; double heading_rad, rate_radps; int steps; };
+  for (const std::string& name : lanes::MapNames()) {
+    TrafficSettings settings;
+    settings.vehicles = 25;
+    TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork(name), {}).value();
+    std::map<std::uint32_t, Before> before;
+    double lateral = 0.0, yaw = 0.0;
+    for (int i = 0; i < 9000; ++i) {
+      model.Step(kStep_s, {});
+      for (const AgentPose& pose : model.poses()) {
+        const double heading = FootprintOf(pose, model.traits(pose.id)).heading_rad;
+        Before& b = before[pose.id];
+        if (b.trip != pose.trip) b = {};
+        const double rate = std::remainder(heading - b.heading_rad, 2.0 * std::numbers::pi) / kStep_s;
+        if (b.steps > 0) lateral = std::max(lateral, std::fabs(pose.speed_mps * rate));
+        if (b.steps > 1) yaw = std::max(yaw, std::fabs(rate - b.rate_radps) / kStep_s);
+        b = {pose.trip, heading, rate, b.steps + 1};
+      }
+    }
+    EXPECT_LE(lateral, 3.0) << name;
+    EXPECT_LE(yaw, kYaw_radps2) << name;
+    RecordProperty(name + "_lateral_mps2", std::to_string(lateral));
+    RecordProperty(name + "_yaw_radps2", std::to_string(yaw));
+  }
+}
+
+// Two lanes of each direction: they pass one another on the motorway, and nothing else happens than on any road.
+TEST(NetworkTraffic, DrivesTheMotorway) {
+  const auto world = road::World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/motorway.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  Behaves("motorway", NetworkOf(world.value()), 150, 2);
 }
 
 // More cars than the town bears without queues that reach back into the next junction: it goes on, and everybody with it.

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "common/base/hash.hpp"
+#include "common/network/lane.hpp"
+#include "common/road/world.hpp"
+#include "common/scene/mesh.hpp"
+#include "common/terrain/picture_file.hpp"
+
+namespace rodeira::scene {
+
+// Makes of a mesh one of kPicture: the picture lies on it as seen from above. What repeats is counted from a whole number of
+// pictures near the mesh's origin, so that far from the world's origin nothing is lost.
+void LayPicture(const terrain::LaidPicture& picture, Mesh& mesh);
+
+// All that lie on a world's terrain and lanes, each once, in the order of the roads.
+std::vector<terrain::LaidPicture> PicturesOf(const road::World& world);
+// The picture of a lane's material; nothing where it has none.
+std::optional<terrain::LaidPicture> PictureOf(const network::LaneMaterial& material);
+// Of how they lie and of the files' bytes; paths are no part of it.
+base::Digest PicturesDigest(const road::World& world);
+
+}  // namespace rodeira::scene

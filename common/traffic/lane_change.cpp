@@ -1,0 +1,167 @@
+// Changes to the lane beside: the path, what must be free of, and who is beside meanwhile.
+#include <algorithm>
+#include <cmath>
+
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kSideways_mps2 = 0.9;      // lateral acceleration of the path …
+constexpr double kSidewaysJerk_mps3 = 2.5;  // … and its jerk
+constexpr double kShortest_m = 24.0;
+constexpr double kNarrowest_m = 2.6;        // lanes are no narrower
+constexpr double kApart_m = 6.0;            // nor their middles farther apart …
+constexpr double kAside = 0.1;              // … nor pointing farther apart
+constexpr double kTightest_1pm = 0.02;      // bends are no tighter
+constexpr double kLook_m = 4.0;             // apart, along the way
+constexpr double kSame_m = 1e-4, kSame = 1e-4;  // lanes that meet so go on as one
+constexpr double kClear_m = 1.3;            // from a lane's middle to what is beside it: half of a wide car and the margin
+
+const lanes::Link* LinkTo(const lanes::Track& track, std::uint32_t to) {
+  const auto link = std::find_if(track.next.begin(), track.next.end(), [&](const lanes::Link& on) { return on.to == to; });
+  return link == track.next.end() ? nullptr : &*link;
+}
+
+// Wide enough and not too bent between two distances.
+bool IsEasy(const lanes::Curve& curve, double low_m, double high_m) {
+  for (double d = low_m; d < high_m + kLook_m; d += kLook_m) {
+    const double at = std::min(d, high_m);
+    if (curve.WidthAt(at) < kNarrowest_m || std::fabs(curve.At(at).curvature_1pm) > kTightest_1pm) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+// The path to the middle of the lane beside, from its front bumper on; as long as comfort asks at the speed that it may come to.
+std::optional<Piece> TrafficModel::PieceBeside(std::uint32_t id, int side) const {
+  const Agent& agent = agents_[id];
+  const Piece& last = agent.path.back();
+  const lanes::Track& track = graph()[last.track];
+  const auto beside = side > 0 ? track.left : track.right;
+  const double begin = agent.o_m + 0.5 * traits_[id].length_m, d = begin - last.zero_m;
+  const bool settled = (last.offset_m == 0.0 && last.slope == 0.0) || begin > last.blend_from_m + last.blend_m;
+  if (!beside || !settled || d > track.length_m()) return std::nullopt;
+  const lanes::CurvePoint at = track.curve.At(d);
+  double there = graph().Across(last.track, d, *beside);
+  lanes::CurvePoint to = graph()[*beside].curve.At(there);
+  for (int turn = 0; turn < 3; ++turn) {  // the foot: on banked climbs what lies across the road does not lie across the lane
+    const Eigen::Vector2d away = (at.p_W - to.p_W).head<2>();
+    there += away.dot(to.ahead_W) / std::max(0.2, 1.0 - to.curvature_1pm * away.dot(to.left_W()));
+    to = graph()[*beside].curve.At(there);
+  }
+  Piece piece{*beside, begin - there, begin};
+  piece.blend_from_m = begin;
+  piece.offset_m = (at.p_W - to.p_W).head<2>().dot(to.left_W());
+  piece.slope = at.ahead_W.dot(to.left_W()) / std::max(0.2, at.ahead_W.dot(to.ahead_W));
+  const double size = std::fabs(piece.offset_m);
+  if (size > kApart_m || std::fabs(piece.slope) > kAside) return std::nullopt;
+  // The quintic's largest acceleration is 5.77 offset/T², its largest jerk 60 offset/T³.
+  const double time = std::max(std::sqrt(5.77 * size / kSideways_mps2), std::cbrt(60.0 * size / kSidewaysJerk_mps3));
+  const double fastest = std::min(agent.speed_mps + traits_[id].idm.acceleration_mps2 * time, std::max(agent.speed_mps, Limit_mps(id, *beside, there)));
+  piece.blend_m = std::max(kShortest_m, time * fastest);
+  return piece;
+}
+
+// Whether its way between two odometers is plain lane: no junction, no conflict zone, no line, easy to drive, and it goes on.
+bool TrafficModel::IsPlain(std::uint32_t id, double from_m, double to_m) const {
+  const Stretch* before = nullptr;
+  for (const Stretch& stretch : stretches_[id]) {
+    const bool beside = before != nullptr && before->changes;  // then it is there from its rear on
+    const double begin = beside ? from_m : stretch.begin_m;
+    if (begin > to_m) break;
+    if (before != nullptr && !beside && begin > from_m) {
+      const lanes::Link* link = LinkTo(graph()[before->track], stretch.track);
+      if (link == nullptr || std::fabs(link->offset_m) > kSame_m || std::fabs(link->slope) > kSame) return false;
+    }
+    before = &stretch;
+    if (stretch.end_m < from_m || stretch.changes) continue;
+    const lanes::Track& track = graph()[stretch.track];
+    if (track.junction >= 0) return false;
+    const double low = std::max(from_m, begin) - stretch.zero_m, high = std::min(to_m, stretch.end_m) - stretch.zero_m;
+    for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
+      if (part.in_m < high && part.out_m > low) return false;
+    }
+    for (const StopLine& line : map_->plans[stretch.track].lines) {
+      if (line.d_m > low && line.d_m < high) return false;
+    }
+    if (!IsEasy(track.curve, low, high)) return false;
+  }
+  return stretches_[id].back().end_m >= to_m;
+}
+
+// Whether the marks let it over to that side all the way.
+bool TrafficModel::MayCross(std::uint32_t id, int side, double from_m, double to_m) const {
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.begin_m > to_m) break;
+    if (stretch.end_m < from_m) continue;
+    if (!map_->marks.MayCross(stretch.track, side > 0 ? lanes::Side::kLeft : lanes::Side::kRight, std::max(from_m, stretch.begin_m) - stretch.zero_m,
+                              std::min(to_m, stretch.end_m) - stretch.zero_m)) return false;
+  }
+  return true;
+}
+
+// Where its lane ends, or goes over into the lane beside; far away where neither is in sight.
+double TrafficModel::LaneEnds(std::uint32_t id) const {
+  const auto& stretches = stretches_[id];
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    if (stretches[i].changes) continue;
+    const auto& next = graph()[stretches[i].track].next;
+    if (next.empty()) return stretches[i].end_m;
+    if (i + 1 == stretches.size()) break;
+    const lanes::Link* link = LinkTo(graph()[stretches[i].track], stretches[i + 1].track);
+    if (link != nullptr && link->joins) return stretches[i].end_m;
+  }
+  return kNoBarrier_m;
+}
+
+void TrafficModel::BeginChange(std::uint32_t id, Sideways&& way) {
+  Agent& agent = agents_[id];
+  agent.change = {way.side, way.piece.blend_from_m, way.piece.blend_from_m + way.piece.blend_m};
+  agent.path.push_back(way.piece);
+  stretches_[id] = std::move(way.stretches);
+  const double front = way.piece.begin_m - way.piece.zero_m;
+  Appear(way.piece.track, {id, front - traits_[id].length_m, front, -1});
+  ahead_[id] = FindAhead(id);
+}
+
+// Among those on a track.
+void TrafficModel::Appear(std::uint32_t track, const Occupant& occupant) {
+  auto& all = occupants_[track];
+  all.insert(std::upper_bound(all.begin(), all.end(), occupant, [](const Occupant& a, const Occupant& b) {
+    return a.middle_m() != b.middle_m() ? a.middle_m() < b.middle_m() : a.id < b.id;
+  }), occupant);
+}
+
+// The lane that it is leaving, beside a stretch of its way, as long as something of it at this odometer reaches into it.
+std::optional<std::uint32_t> TrafficModel::LaneLeft(std::uint32_t id, const Stretch& stretch, double odometer_m) const {
+  const Agent& agent = agents_[id];
+  if (agent.change.side == 0 || stretch.changes || stretch.end_m < agent.change.from_m) return std::nullopt;
+  const lanes::Track& track = graph()[stretch.track];
+  const auto old = agent.change.side > 0 ? track.right : track.left;
+  if (!old) return std::nullopt;
+  std::size_t i = agent.path.size() - 1;
+  while (i > 0 && agent.path[i].begin_m > odometer_m) --i;
+  if (odometer_m < agent.change.from_m) return old;
+  const double gone = std::fabs(agent.path[i].offset_m) - std::fabs(FrameAt(graph(), agent.path, odometer_m).offset_m);
+  return gone < 0.5 * traits_[id].width_m + kClear_m ? old : std::nullopt;
+}
+
+// It is seen on the lane that it is leaving, too.
+void TrafficModel::AppearOnLaneLeft(std::uint32_t id) {
+  const Agent& agent = agents_[id];
+  const double half = 0.5 * traits_[id].length_m, rear = agent.o_m - half;
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.begin_m > agent.o_m) break;
+    if (stretch.changes && stretch.end_m > rear) return;  // as long as its rear is on that path it is there anyway
+    if (stretch.end_m < agent.o_m) continue;
+    const auto old = LaneLeft(id, stretch, rear);
+    if (!old) return;
+    const double middle = graph().Across(stretch.track, agent.o_m - stretch.zero_m, *old);
+    occupants_[*old].push_back({id, middle - half, middle + half, -1});
+    return;
+  }
+}
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,88 @@
+// Agents that have been hit.
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/assert.hpp"
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kSlidingFriction = 0.7;  // of locked wheels on dry asphalt
+constexpr double kGravity_mps2 = 9.81;
+constexpr double kNoticed_mps = 1e-3;  // some kilonewtons for a millisecond
+constexpr double kReach_m = 12.0;         // lanes so near give it its height
+
+// What static friction holds: less than its wheels can take in a step, of momentum and of its moment about the middle.
+bool Holds(const Struck& struck, const AgentTraits& traits, double dt_s) {
+  const double takes_mps = kSlidingFriction * kGravity_mps2 * dt_s, arm = 0.5 * std::hypot(traits.wheelbase_m, traits.width_m);
+  const double gyration2 = (traits.length_m * traits.length_m + traits.width_m * traits.width_m) / 12.0;
+  return struck.v_W.norm() + std::fabs(struck.yaw_rate_radps) * gyration2 / arm <= takes_mps;
+}
+
+}  // namespace
+
+void TrafficModel::Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W) {
+  RODEIRA_ASSERT(id < agents_.size());
+  Agent& agent = agents_[id];
+  if (!agent.is_struck) {
+    if (!agent.on_road || impulse_Ns.norm() < kNoticed_mps * traits_[id].mass_kg) return;
+    const AgentPose pose = PoseOf(id);
+    const driver::Footprint body = FootprintOf(pose, traits_[id]);
+    const std::uint32_t trip = agent.trip;
+    const double driven = agent.driven_m;
+    agent = Agent();
+    agent.trip = trip;
+    agent.driven_m = driven;
+    agent.is_struck = true;
+    agent.struck_z_m = pose.p_WB_W.z();
+    agent.struck.p_W = {body.x_m, body.y_m};
+    agent.struck.heading_rad = body.heading_rad;
+    agent.struck.v_W = body.speed_mps * Eigen::Vector2d(std::cos(body.heading_rad), std::sin(body.heading_rad));
+  }
+  agent.struck.Push(traits_[id], impulse_Ns, point_W);
+  agent.speed_mps = agent.struck.v_W.dot(Eigen::Vector2d(std::cos(agent.struck.heading_rad), std::sin(agent.struck.heading_rad)));
+  *std::find_if(poses_.begin(), poses_.end(), [&](const AgentPose& pose) { return pose.id == id; }) = PoseOfStruck(id);
+}
+
+void TrafficModel::SlideStruck(double dt_s) {
+  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+    Agent& agent = agents_[id];
+    if (!agent.is_struck) continue;
+    const Eigen::Vector2d before = agent.struck.v_W;
+    if (agent.waited_s > 0.0 && Holds(agent.struck, traits_[id], dt_s)) agent.struck.v_W.setZero(), agent.struck.yaw_rate_radps = 0.0;
+    agent.struck.Slide(traits_[id], kSlidingFriction, dt_s);
+    agent.waited_s = agent.struck.at_rest() ? agent.waited_s + dt_s : 0.0;  // at rest
+    const Eigen::Vector2d ahead(std::cos(agent.struck.heading_rad), std::sin(agent.struck.heading_rad));
+    agent.speed_mps = agent.struck.v_W.dot(ahead);
+    agent.acceleration_mps2 = (agent.struck.v_W - before).dot(ahead) / dt_s;
+    agent.struck_z_m = HeightAt(agent.struck, agent.struck_z_m);
+  }
+}
+
+// Of the nearest lane's surface on its level, which goes on level beside it; beside all lanes as before.
+double TrafficModel::HeightAt(const Struck& struck, double near_z_m) const {
+  double height = near_z_m, nearest = kReach_m;
+  for (const lanes::Graph::Beside& beside : graph().TracksAt(struck.p_W, kReach_m)) {
+    const lanes::CurvePoint at = graph()[beside.track].curve.At(beside.foot.d_m);
+    if (std::fabs(at.p_W.z() - near_z_m) > network::Network::kLevel_m || std::fabs(beside.foot.offset_m) >= nearest) continue;
+    nearest = std::fabs(beside.foot.offset_m);
+    height = at.p_W.z() + at.bank * beside.foot.offset_m;
+  }
+  return height;
+}
+
+AgentPose TrafficModel::PoseOfStruck(std::uint32_t id) const {
+  const Agent& agent = agents_[id];
+  AgentPose pose;
+  pose.id = id;
+  pose.trip = agent.trip;
+  pose.p_WB_W = {agent.struck.p_W.x(), agent.struck.p_W.y(), agent.struck_z_m};
+  pose.q_WB = Eigen::AngleAxisd(agent.struck.heading_rad, Eigen::Vector3d::UnitZ());
+  pose.speed_mps = agent.speed_mps;
+  pose.acceleration_mps2 = agent.acceleration_mps2;
+  pose.braking = true;
+  return pose;
+}
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,125 @@
+// Somebody gets in an agent's way: where half a second of reaction and braking at mu g suffice, the agent does not hit him.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "common/base/random.hpp"
+#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/traffic/identical.hpp"
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kStep_s = 0.02, kReaction_s = 0.5, kGrip_mps2 = 0.8 * 9.81, kFor_s = 12.0;
+constexpr double kLane_y = -1.75;  // of the lane's middle; its traffic goes along x
+
+std::shared_ptr<const network::Network> Straight() {
+  opendrive::RoadText road;
+  road.length = 4000.0;
+  road.geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"4000\"><line/></geometry>";
+  road.left = "";
+  road.right = "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" max=\"36\" unit=\"m/s\"/></lane>";
+  return opendrive::MustRead(opendrive::Document(road.Text()));
+}
+
+// How somebody comes in: from beside into the lane and perhaps braking, across it, against it, or there all at once.
+struct Intruder {
+  enum Kind { kCutsIn, kCrosses, kAgainst, kAppears };
+  int kind;
+  double x_m, y_m, speed_mps, heading_rad, brakes_mps2, sideways_s;
+
+  static Intruder Draw(std::uint64_t number, double front_m, double agent_mps) {
+    std::uint64_t key = 0;
+    const auto draw = [&](double low, double high) { return base::RandomUniform({77, number, ++key}, low, high); };
+    Intruder i{};
+    i.kind = static_cast<int>(draw(0.0, 4.0));
+    const double gap = draw(2.0, 30.0 + 4.0 * agent_mps);
+    i.y_m = kLane_y;
+    if (i.kind == kCutsIn) i.y_m += draw(0.0, 1.0) < 0.5 ? 3.5 : -3.5, i.speed_mps = draw(0.3, 1.2) * agent_mps, i.brakes_mps2 = draw(0.0, 7.0), i.sideways_s = draw(1.0, 4.0);
+    if (i.kind == kCrosses) i.speed_mps = draw(1.0, 15.0), i.heading_rad = draw(0.0, 1.0) < 0.5 ? std::numbers::pi / 2 : -std::numbers::pi / 2;
+    if (i.kind == kCrosses) i.y_m -= std::copysign(draw(3.0, 40.0), i.heading_rad);
+    if (i.kind == kAgainst) i.heading_rad = std::numbers::pi, i.speed_mps = draw(0.0, 10.0), i.brakes_mps2 = draw(0.5, 7.0);
+    if (i.kind == kAppears) i.heading_rad = draw(-3.1, 3.1), i.y_m += draw(-1.5, 1.5);
+    i.x_m = front_m + gap + 2.2;
+    return i;
+  }
+  driver::Footprint At(double t) const {
+    const double stops = brakes_mps2 > 0.0 ? speed_mps / brakes_mps2 : 1e9, moving = std::min(t, stops);
+    const double way = speed_mps * moving - 0.5 * brakes_mps2 * moving * moving, speed = std::max(0.0, speed_mps - brakes_mps2 * t);
+    driver::Footprint f{9999, x_m + way * std::cos(heading_rad), y_m + way * std::sin(heading_rad), heading_rad, speed, 4.4, 1.8};
+    if (kind == kCutsIn) {
+      const double u = std::min(1.0, t / sideways_s);
+      f.y_m += (kLane_y - y_m) * u * u * (3.0 - 2.0 * u);
+    }
+    return f;
+  }
+  // Whether it is in the way of a car of that width in the lane.
+  static bool InTheWay(const driver::Footprint& f, double width_m) {
+    const double across = 0.5 * (std::fabs(std::sin(f.heading_rad)) * f.length_m + std::fabs(std::cos(f.heading_rad)) * f.width_m);
+    return std::fabs(f.y_m - kLane_y) < across + 0.5 * width_m + 0.3;
+  }
+};
+
+driver::Footprint CarAt(double x_m, double speed_mps, const AgentTraits& traits) { return {0, x_m, kLane_y, 0.0, speed_mps, traits.length_m, traits.width_m}; }
+
+// Whether who keeps his speed for the reaction's time, from when it is in the way, and then brakes as hard as he can, gets by
+// without driving into it. What drives into a car at rest is not that one's doing.
+bool Suffices(const Intruder& intruder, double x_m, double speed_mps, const AgentTraits& traits) {
+  double since = -1.0, x = x_m, v = speed_mps;
+  for (double t = 0.0; t < kFor_s; t += 0.005) {
+    const driver::Footprint other = intruder.At(t);
+    if (since < 0.0 && Intruder::InTheWay(other, traits.width_m)) since = t;
+    if (driver::Overlap(CarAt(x, v, traits), other)) return v <= 0.0;
+    const double before = v;
+    if (since >= 0.0 && t > since + kReaction_s) v = std::max(0.0, v - 0.005 * kGrip_mps2);
+    x += 0.0025 * (before + v);
+  }
+  return true;
+}
+
+// RODEIRA_INTRUSIONS: how many (400; tests/run --endurance traffic takes 10 000).
+TEST(Intrusion, NobodyIsHitWhoCouldBeAvoided) {
+  const char* wish = std::getenv("RODEIRA_INTRUSIONS");
+  const std::uint64_t count = wish == nullptr ? 400 : std::strtoull(wish, nullptr, 10);
+  const auto network = Straight();
+  std::vector<TrafficModel> driving;  // by speed
+  for (const double cap : {6.0, 10.0, 14.0, 19.0, 25.0, 31.0, 36.0}) {
+    TrafficModel model = TrafficModel::Make(Identical(1, 1.4), network, {}).value();
+    model.CapSpeed(0, cap);
+    for (int i = 0; i < 500; ++i) model.Step(kStep_s, {});
+    ASSERT_EQ(model.on_road(), 1u);
+    driving.push_back(std::move(model));
+  }
+  std::uint64_t sufficed = 0, hopeless = 0;
+  for (std::uint64_t number = 0; number < count; ++number) {
+    TrafficModel model = driving[number % driving.size()];
+    const AgentTraits& traits = model.traits(0);
+    const AgentPose start = model.poses()[0];
+    const Intruder intruder = Intruder::Draw(number, start.p_WB_W.x() + 0.5 * traits.length_m, start.speed_mps);
+    if (!Suffices(intruder, start.p_WB_W.x(), start.speed_mps, traits)) {
+      ++hopeless;
+      continue;
+    }
+    ++sufficed;
+    for (double t = 0.0; t < kFor_s && model.on_road() == 1; t += kStep_s) {
+      const std::vector<driver::Footprint> others{intruder.At(t)};
+      model.Step(kStep_s, others);
+      if (model.on_road() == 0) break;
+      const AgentPose& pose = model.poses()[0];
+      const bool touches = driver::Overlap(FootprintOf(pose, traits), intruder.At(t + kStep_s));
+      EXPECT_FALSE(touches && pose.speed_mps > 0.05) << "intruder " << number << " of kind " << intruder.kind << " at " << t << " s, " << start.speed_mps << " m/s";
+      if (touches) break;
+    }
+  }
+  RecordProperty("sufficed", std::to_string(sufficed));
+  EXPECT_GT(sufficed, count / 2);
+  EXPECT_GT(hopeless, count / 50);
+}
+
+}  // namespace
+}  // namespace rodeira::traffic
