@@ -147,6 +147,10 @@ void Fields(V& v, msg::SignalsState& m) {
   v("header", m.header()), v("groups", m.groups()), v("end", m.end());
 }
 template <class V>
+void Fields(V& v, msg::WeatherState& m) {
+  v("header", m.header()), v("wetness", m.wetness()), v("rain_mmph", m.rain_mmph()), v("visibility_m", m.visibility_m()), v("clouds", m.clouds()), v("hour", m.hour()), v("end", m.end());
+}
+template <class V>
 void Fields(V& v, msg::Vector3& m) {
   v("x", m.x()), v("y", m.y()), v("z", m.z());
 }
@@ -301,6 +305,7 @@ void ForEveryTopicType(const Use& use) {
   use(TypeTag<msg::Collisions>(), "rodeira::msg::Collisions");
   use(TypeTag<msg::TrafficState>(), "rodeira::msg::TrafficState");
   use(TypeTag<msg::SignalsState>(), "rodeira::msg::SignalsState");
+  use(TypeTag<msg::WeatherState>(), "rodeira::msg::WeatherState");
   use(TypeTag<msg::ScenarioEvents>(), "rodeira::msg::ScenarioEvents");
   use(TypeTag<msg::Snapshot>(), "rodeira::msg::Snapshot");
   use(TypeTag<msg::Parcel>(), "rodeira::msg::Parcel");
