@@ -148,14 +148,15 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
 }
 
 void AddPolyline(CLI::App& app, PolylineOptions& options) {
-  CLI::App* polyline = app.add_subcommand("polyline", "chains of points in CSV files (x_m,y_m,z_m), put together and moved");
+  CLI::App* polyline = app.add_subcommand("polyline", "chains of points in CSV files (x_m,y_m,z_m) and axes of roads (WORLD.yaml#ROAD), put together and moved");
   polyline->require_subcommand(1);
   const auto add = [&](const char* name, const char* text, const char* file) {
     CLI::App* command = polyline->add_subcommand(name, text);
-    CLI::Option* files = command->add_option(file, options.files, "CSV file")->required();
+    CLI::Option* files = command->add_option(file, options.files, "CSV file, or a road's axis: WORLD.yaml#ROAD, FILE.xodr#ROAD")->required();
     if (std::string(name) == "join") files->expected(2, CLI::detail::expected_max_vector_size);
     else files->expected(1);
     command->add_option("-o,--out", options.out, "CSV file to write")->required();
+    command->add_option("--step", options.step_m, "metres between the points of a road's axis")->check(CLI::PositiveNumber)->capture_default_str();
     command->callback([&options, name] { options.command = name; });
     return command;
   };

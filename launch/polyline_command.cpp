@@ -7,6 +7,7 @@
 #include "common/base/files.hpp"
 #include "common/geometry/angle.hpp"
 #include "common/geometry/polyline_offset.hpp"
+#include "launch/world_axis.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -57,6 +58,12 @@ base::Result<Polyline> Made(const std::vector<Polyline>& lines, const PolylineOp
 int Polylines(const PolylineOptions& options) {
   std::vector<Polyline> lines;
   for (const std::string& file : options.files) {
+    if (const auto axis = AxisNameOf(file)) {
+      auto line = AxisOf(*axis, options.step_m);
+      if (!line) return Complain(line.error());
+      lines.push_back(std::move(line).value());
+      continue;
+    }
     const auto text = base::ReadText(file);
     if (!text) return Complain(text.error());
     auto line = geometry::ReadPolyline(text.value(), file);

@@ -20,9 +20,10 @@ struct PolylineOptions {
   double within_m = 0.05;
   bool bridge = false;
   bool turn = false;
+  double step_m = 1.0;  // between the points of a road's axis
 };
 
-// `rodeira polyline`: chains of points in CSV files, put together and moved. Returns the exit status.
+// `rodeira polyline`: chains of points in CSV files, and axes of roads ("WORLD.yaml#ROAD"), put together and moved. Returns the exit status.
 int Polylines(const PolylineOptions& options);
 
 }  // namespace rodeira::front
