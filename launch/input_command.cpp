@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <numbers>
@@ -68,7 +69,9 @@ int SetUpInput(const InputOptions& options, const std::function<void(const std::
   }
   const hands::WheelSettings settings = setup.settings();
   std::filesystem::path file;
-  const std::string name = connected[0].name;
+  const std::string& steers = settings.devices[settings.AxisOf(hands::WheelAxis::kSteering)->device].guid;
+  const auto wheel = std::find(guids.begin(), guids.end(), steers);
+  const std::string& name = connected[static_cast<std::size_t>(wheel - guids.begin())].name;
   if (const auto written = Write(options, settings, name, file); !written) return Refuse(written.error());
   say(fmt::format("written: {}", file.string()));
   say(options.out ? fmt::format("drive with it: rodeira run launch/wheel.yaml --set nodes.driver.config.wheel={}", file.string())

@@ -30,6 +30,14 @@ AxisUse PedalUse(std::size_t device, std::size_t axis, double released, double p
   return use;
 }
 
+// A pedal's released end is where it stands still after it was pressed; nothing where that is no end.
+std::optional<std::pair<double, double>> ReleasedAndPressed(double low, double high, double now) {
+  const double share = (now - low) / (high - low);
+  if (share <= kBack) return std::pair(now, high);
+  if (share >= 1.0 - kBack) return std::pair(now, low);
+  return std::nullopt;
+}
+
 }  // namespace
 
 WheelSetup::WheelSetup(std::vector<DeviceUse> devices, double lock_rad) {
@@ -122,14 +130,6 @@ void WheelSetup::TakeSteering(const Track& track) {
   use.inverted = track.first > 0.0;  // the left came first, and a device's axis goes to the right
   settings_.axes[static_cast<std::size_t>(WheelAxis::kSteering)] = use;
   Begin(Stage::kThrottle);
-}
-
-// A pedal's released end is where it stands still after it was pressed: null where that is no end.
-static std::optional<std::pair<double, double>> ReleasedAndPressed(double low, double high, double now) {
-  const double share = (now - low) / (high - low);
-  if (share <= kBack) return std::pair(now, high);
-  if (share >= 1.0 - kBack) return std::pair(now, low);
-  return std::nullopt;
 }
 
 void WheelSetup::TakeThrottle(const Track& track) {

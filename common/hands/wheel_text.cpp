@@ -2,14 +2,26 @@
 
 #include <numbers>
 
+#include "common/base/printable.hpp"
 #include "common/base/user_folders.hpp"
 #include "common/hands/wheel_names.hpp"
 #include "common/hands/wheel_setup.hpp"
 
 namespace rodeira::hands {
 
+namespace {
+
+// As a text of YAML, whatever a device calls itself.
+std::string Quoted(const std::string& name) {
+  std::string quoted = "'";
+  for (const char c : base::Printable(name)) quoted += c == '\'' ? "''" : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
 std::string WheelText(const WheelSettings& s, const std::string& name) {
-  std::string text = "rodeira: wheel/1\nname: \"" + name + "\"\ndevices:\n";
+  std::string text = "rodeira: wheel/1\nname: " + Quoted(name) + "\ndevices:\n";
   for (const DeviceUse& device : s.devices) text += fmt::format("  {}: \"{}\"\n", device.name, device.guid);
   const auto device = [&](std::size_t place) { return s.devices.size() > 1 ? fmt::format("device: {}, ", s.devices[place].name) : std::string(); };
   for (std::size_t i = 0; i < kWheelAxes; ++i) {

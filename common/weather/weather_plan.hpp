@@ -24,7 +24,6 @@ class WeatherPlan {
   explicit WeatherPlan(std::vector<Change> changes) : changes_(std::move(changes)) {}
 
   Weather At(double time_s) const;
-  bool empty() const { return changes_.empty(); }
 
  private:
   std::vector<Change> changes_;

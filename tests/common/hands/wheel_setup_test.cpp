@@ -214,7 +214,7 @@ TEST(WheelText, IsReadAsTheSame) {
   auto folder = base::TemporaryFolder::Make("wheel");
   ASSERT_TRUE(folder.ok());
   const auto file = folder.value().path() / "wheel.yaml";
-  ASSERT_TRUE(base::WriteWhole(file, WheelText(settings, "a wheel")).ok());
+  ASSERT_TRUE(base::WriteWhole(file, WheelText(settings, "O'Neill: \"pro\" \\ #1")).ok());
   const auto read = LoadWheel(file);
   ASSERT_TRUE(read.ok()) << read.error().Text();
   EXPECT_EQ(WheelText(read.value(), "a wheel"), WheelText(settings, "a wheel"));

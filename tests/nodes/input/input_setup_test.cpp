@@ -86,7 +86,7 @@ TEST_F(InputSetup, WhoGivesUpOrHasNoWheelIsToldAndNothingIsWritten) {
   EXPECT_FALSE(std::filesystem::exists(folder_->path() / "rodeira"));
 }
 
-TEST_F(InputSetup, WithoutAFileARunSaysWhatToDo) {
+TEST_F(InputSetup, WithoutAFileARunNamesTheSetup) {
   VirtualWheel wheel;
   const launch::Launch launch = launch::Launch::Parse(LiveLaunch("{source: joystick}"), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml").value();
   const auto nodes = front::LocalNodes::Make(launch);
