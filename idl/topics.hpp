@@ -14,6 +14,7 @@ inline constexpr std::string_view kControls = "rodeira/controls";
 inline constexpr std::string_view kVehicleState = "rodeira/vehicle_state";
 inline constexpr std::string_view kCollisions = "rodeira/collisions";
 inline constexpr std::string_view kTrafficState = "rodeira/traffic_state";
+inline constexpr std::string_view kTrafficDetails = "rodeira/traffic_details";
 inline constexpr std::string_view kSignalsState = "rodeira/signals_state";
 inline constexpr std::string_view kScenarioEvents = "rodeira/scenario_events";
 inline constexpr std::string_view kWeatherState = "rodeira/weather_state";
@@ -28,6 +29,7 @@ inline constexpr std::string_view kGroundRequest = "rodeira/ground_request";
 inline constexpr std::string_view kGroundReply = "rodeira/ground_reply";
 inline constexpr std::string_view kWorldInfo = "rodeira/world_info";
 inline constexpr std::string_view kLiveKeys = "rodeira/live_keys";
+inline constexpr std::string_view kLiveRequests = "rodeira/live_requests";
 inline constexpr std::string_view kRunLog = "rodeira/run_log";
 inline constexpr std::string_view kTrigger = "rodeira/trigger";
 // Only in recordings: what came by the run's log.

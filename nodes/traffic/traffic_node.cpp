@@ -40,7 +40,8 @@ msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTra
   out.steer_rad(Single(pose.steer_rad));
   out.wheel_spin_rad(Single(pose.wheel_spin_rad));
   out.colour_rgb(traits.colour_rgb);
-  out.brake_lights(pose.braking ? 1 : 0);
+  out.kind(0);
+  out.lights(pose.braking ? 1 : 0);
   return out;
 }
 

@@ -31,7 +31,7 @@ class VehicleNode final : public lockstep::Node {
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     if (auto status = model_->Initialise(initial_, ground_); !status) return status;  // INI
-    Publish(outbox, {});
+    Publish(outbox, {}, {});
     return {};
   }
 
@@ -52,7 +52,7 @@ class VehicleNode final : public lockstep::Node {
     }
     model_->Step(FromWire(controls.value()), ground_, step.dt_s);  // CALCULO
     if (auto problem = model_->problem(); !problem) return problem;
-    Publish(outbox, touched);
+    Publish(outbox, controls.value(), touched);
     return {};
   }
 
@@ -75,8 +75,11 @@ class VehicleNode final : public lockstep::Node {
   bool can_save() const override { return model_->can_save(); }
 
  private:
-  void Publish(lockstep::Outbox& outbox, const msg::Collisions& touched) const {
-    outbox.Put(topics::kVehicleState, idl::Encode(ToWire(model_->state(), model_->dimensions())));
+  void Publish(lockstep::Outbox& outbox, const msg::Controls& controls, const msg::Collisions& touched) const {
+    msg::VehicleState state = ToWire(model_->state(), model_->dimensions());
+    state.lights(LightsOf(controls, state.gear()));
+    state.horn(controls.horn() != 0 ? 1 : 0);
+    outbox.Put(topics::kVehicleState, idl::Encode(state));
     outbox.Put(topics::kCollisions, idl::Encode(touched));
   }
 

@@ -88,6 +88,18 @@ vehicle::VehicleState FromWire(const msg::VehicleState& in) {
   return out;
 }
 
+std::uint32_t LightsOf(const msg::Controls& controls, int gear) {
+  constexpr std::uint32_t kBrake = 1, kLeft = 2, kRight = 4, kReversing = 8, kDipped = 16, kMain = 32;
+  constexpr double kPressed = 0.01;  // of the pedal's way: what a foot's rest does not do
+  std::uint32_t lights = controls.brake() > kPressed ? kBrake : 0;
+  if ((controls.indicators() & 1U) != 0) lights |= kLeft;
+  if ((controls.indicators() & 2U) != 0) lights |= kRight;
+  if (gear < 0) lights |= kReversing;
+  if (controls.headlights() == 1) lights |= kDipped;
+  if (controls.headlights() == 2) lights |= kMain;
+  return lights;
+}
+
 msg::VehicleState ToWire(const vehicle::VehicleState& state, const vehicle::VehicleDimensions& dimensions) {
   msg::VehicleState out;
   out.position_w_m(Vector(state.p_WB_W));

@@ -92,7 +92,7 @@ void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::v
     agent.speed_mps = from.speed_mps();
     agent.steer_rad = Double(from.steer_rad());
     agent.wheel_spin_rad = Double(from.wheel_spin_rad());
-    agent.braking = from.brake_lights() != 0;
+    agent.braking = (from.lights() & 1U) != 0;
     if (from.length_m() > 0.0F) agent.length_m = Double(from.length_m());
     if (from.width_m() > 0.0F) agent.width_m = Double(from.width_m());
     if (from.height_m() > 0.0F) agent.height_m = Double(from.height_m());

@@ -46,7 +46,7 @@ template <class V>
 void Fields(V& v, msg::Controls& m) {
   v("header", m.header()), v("steering_wheel_rad", m.steering_wheel_rad()), v("throttle", m.throttle()), v("brake", m.brake());
   v("clutch", m.clutch()), v("handbrake", m.handbrake()), v("gear", m.gear()), v("gearbox_mode", m.gearbox_mode());
-  v("starter", m.starter()), v("end", m.end());
+  v("starter", m.starter()), v("indicators", m.indicators()), v("headlights", m.headlights()), v("horn", m.horn()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::GroundPointQuery& m) {
@@ -69,6 +69,15 @@ void Fields(V& v, msg::GroundReply& m) {
 template <class V>
 void Fields(V& v, msg::LiveKey& m) {
   v("key", m.key()), v("held", m.held()), v("presses", m.presses());
+}
+template <class V>
+void Fields(V& v, msg::LiveRequest& m) {
+  v("number", m.number()), v("x_m", m.x_m()), v("y_m", m.y_m()), v("value", m.value()), v("name", m.name()), v("argument", m.argument());
+  v("end", m.end());
+}
+template <class V>
+void Fields(V& v, msg::LiveRequests& m) {
+  v("window", m.window()), v("requests", m.requests()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::LiveKeys& m) {
@@ -120,7 +129,17 @@ void Fields(V& v, msg::TrafficAgent& m) {
   v("heading_rad", m.heading_rad()), v("pitch_rad", m.pitch_rad()), v("roll_rad", m.roll_rad()), v("length_m", m.length_m());
   v("width_m", m.width_m()), v("height_m", m.height_m()), v("wheelbase_m", m.wheelbase_m()), v("wheel_radius_m", m.wheel_radius_m());
   v("steer_rad", m.steer_rad()), v("wheel_spin_rad", m.wheel_spin_rad()), v("colour_rgb", m.colour_rgb());
-  v("brake_lights", m.brake_lights());
+  v("kind", m.kind()), v("lights", m.lights());
+}
+template <class V>
+void Fields(V& v, msg::TrafficDetail& m) {
+  v("id", m.id()), v("throttle", m.throttle()), v("brake", m.brake()), v("clutch", m.clutch()), v("engine_speed_radps", m.engine_speed_radps());
+  v("fuel_rate_kgps", m.fuel_rate_kgps()), v("fuel_used_kg", m.fuel_used_kg()), v("target_speed_mps", m.target_speed_mps());
+  v("look_ahead_x_m", m.look_ahead_x_m()), v("look_ahead_y_m", m.look_ahead_y_m()), v("gear", m.gear());
+}
+template <class V>
+void Fields(V& v, msg::TrafficDetails& m) {
+  v("header", m.header()), v("agents", m.agents()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::TrafficState& m) {
@@ -182,7 +201,7 @@ void Fields(V& v, msg::VehicleState& m) {
   v("length_m", m.length_m()), v("front_m", m.front_m()), v("width_m", m.width_m()), v("height_m", m.height_m());
   v("wheelbase_m", m.wheelbase_m()), v("track_front_m", m.track_front_m()), v("track_rear_m", m.track_rear_m());
   v("wheel_radius_m", m.wheel_radius_m()), v("gear", m.gear());
-  v("engine_running", m.engine_running()), v("inside_world", m.inside_world()), v("end", m.end());
+  v("engine_running", m.engine_running()), v("lights", m.lights()), v("horn", m.horn()), v("inside_world", m.inside_world()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::WorldInfo& m) {
@@ -304,6 +323,7 @@ void ForEveryTopicType(const Use& use) {
   use(TypeTag<msg::VehicleState>(), "rodeira::msg::VehicleState");
   use(TypeTag<msg::Collisions>(), "rodeira::msg::Collisions");
   use(TypeTag<msg::TrafficState>(), "rodeira::msg::TrafficState");
+  use(TypeTag<msg::TrafficDetails>(), "rodeira::msg::TrafficDetails");
   use(TypeTag<msg::SignalsState>(), "rodeira::msg::SignalsState");
   use(TypeTag<msg::WeatherState>(), "rodeira::msg::WeatherState");
   use(TypeTag<msg::ScenarioEvents>(), "rodeira::msg::ScenarioEvents");
@@ -317,6 +337,7 @@ void ForEveryTopicType(const Use& use) {
   use(TypeTag<msg::GroundReply>(), "rodeira::msg::GroundReply");
   use(TypeTag<msg::WorldInfo>(), "rodeira::msg::WorldInfo");
   use(TypeTag<msg::LiveKeys>(), "rodeira::msg::LiveKeys");
+  use(TypeTag<msg::LiveRequests>(), "rodeira::msg::LiveRequests");
   use(TypeTag<msg::RunLog>(), "rodeira::msg::RunLog");
   use(TypeTag<msg::WallTime>(), "rodeira::msg::WallTime");
   use(TypeTag<msg::Remark>(), "rodeira::msg::Remark");

@@ -34,5 +34,26 @@ TEST(VehicleWire, RoundsWhatIsReadAndNotWhatGoesOn) {
   EXPECT_EQ(ToWire(infinite, {}).drag_n(), INFINITY);
 }
 
+// By the bits of vehicle.idl.
+TEST(VehicleWire, LightsFollowTheControls) {
+  msg::Controls controls;
+  EXPECT_EQ(LightsOf(controls, 1), 0u);
+  controls.brake(0.005);
+  EXPECT_EQ(LightsOf(controls, 1), 0u) << "a foot that rests on the pedal";
+  controls.brake(0.5);
+  EXPECT_EQ(LightsOf(controls, 1), 1u);
+  EXPECT_EQ(LightsOf(controls, -1), 1u | 8u);
+  controls.brake(0.0);
+  for (const auto& [indicators, lights] : {std::pair(1u, 2u), std::pair(2u, 4u), std::pair(3u, 6u)}) {
+    controls.indicators(indicators);
+    EXPECT_EQ(LightsOf(controls, 0), lights);
+  }
+  controls.indicators(0);
+  controls.headlights(1);
+  EXPECT_EQ(LightsOf(controls, 1), 16u);
+  controls.headlights(2);
+  EXPECT_EQ(LightsOf(controls, 1), 32u);
+}
+
 }  // namespace
 }  // namespace rodeira::nodes

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <SDL.h>
+
+#include <string>
+
+// A person's hands on a window without a display: what SDL would tell of mouse and keyboard.
+namespace rodeira::window::hands {
+
+inline void MoveTo(int x, int y) {
+  SDL_Event event{};
+  event.type = SDL_MOUSEMOTION;
+  event.motion.x = x;
+  event.motion.y = y;
+  SDL_PushEvent(&event);
+}
+
+inline void Button(int x, int y, bool down, Uint8 button = SDL_BUTTON_LEFT) {
+  SDL_Event event{};
+  event.type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
+  event.button.button = button;
+  event.button.x = x;
+  event.button.y = y;
+  SDL_PushEvent(&event);
+}
+
+inline void Click(int x, int y) {
+  MoveTo(x, y);
+  Button(x, y, true);
+  Button(x, y, false);
+}
+
+inline void Wheel(int notches) {
+  SDL_Event event{};
+  event.type = SDL_MOUSEWHEEL;
+  event.wheel.y = notches;
+  SDL_PushEvent(&event);
+}
+
+inline void Key(SDL_Scancode scancode, bool down, Uint16 modifiers = KMOD_NONE) {
+  SDL_Event event{};
+  event.type = down ? SDL_KEYDOWN : SDL_KEYUP;
+  event.key.keysym.scancode = scancode;
+  event.key.keysym.sym = SDL_GetKeyFromScancode(scancode);
+  event.key.keysym.mod = modifiers;
+  SDL_PushEvent(&event);
+}
+
+inline void Press(SDL_Scancode scancode, Uint16 modifiers = KMOD_NONE) {
+  Key(scancode, true, modifiers);
+  Key(scancode, false, modifiers);
+}
+
+// ASCII.
+inline void Type(const std::string& text) {
+  for (const char letter : text) {
+    SDL_Event event{};
+    event.type = SDL_TEXTINPUT;
+    event.text.text[0] = letter;
+    SDL_PushEvent(&event);
+  }
+}
+
+}  // namespace rodeira::window::hands
