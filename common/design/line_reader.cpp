@@ -2,46 +2,24 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include "common/design/section_reader.hpp"
 #include "common/design/tables.hpp"
+#include "common/network/line_kinds.hpp"
 
 namespace rodeira::design {
 namespace {
 
 using config::Map;
+using network::LineKind;
 using network::PaintedLine;
 
 // A painted line, or half of a double one. A gap of 0 is continuous.
 struct Stroke {
   double stroke_m = 0.0, gap_m = 0.0;
 };
-
-// What a kind is made of: one line, or two side by side, from the left; what the file says stands above it.
-struct Kind {
-  const char* name;
-  int lines;  // 0, 1 or 2
-  bool dashed_left, dashed_right;
-  double width_m, stroke_m, gap_m;
-};
-
-// The first five say what is painted; the others are the border types of traffic maps, with usual measures.
-constexpr std::array<Kind, 11> kKinds = {{
-    {"continuous", 1, false, false, 0.12, 0.0, 0.0},
-    {"dashed", 1, true, true, 0.12, 4.0, 8.0},
-    {"double", 2, false, false, 0.12, 0.0, 0.0},
-    {"double_dashed", 2, true, true, 0.12, 4.0, 8.0},
-    {"mixed", 2, false, true, 0.12, 4.0, 8.0},
-    {"none", 0, false, false, 0.12, 0.0, 0.0},
-    {"boundary", 1, false, false, 0.15, 0.0, 0.0},
-    {"single", 1, false, false, 0.12, 0.0, 0.0},
-    {"dashed_same", 1, true, true, 0.12, 3.0, 9.0},
-    {"dashed_speed_ctrl", 1, true, true, 0.30, 1.5, 1.5},
-    {"dashed_warn", 1, true, true, 0.12, 5.0, 2.0},
-}};
 
 geometry::CubicTable MiddleOf(const Map& item, const network::RoadSpec& spec) {
   const double offset = item.Number("offset_m", {-50.0, 50.0}, 0.0);
@@ -57,7 +35,7 @@ geometry::CubicTable MiddleOf(const Map& item, const network::RoadSpec& spec) {
   return Sum(EdgeOf(spec, lane), Constant(offset));
 }
 
-Stroke ReadStroke(const Map& item, const Kind& kind, bool dashed) {
+Stroke ReadStroke(const Map& item, const LineKind& kind, bool dashed) {
   if (!dashed) return {};
   return {item.Number("stroke_m", {0.1, 100.0}, kind.stroke_m), item.Number("gap_m", {0.1, 100.0}, kind.gap_m)};
 }
@@ -65,27 +43,24 @@ Stroke ReadStroke(const Map& item, const Kind& kind, bool dashed) {
 void ReadLine(const Map& item, bool of_template, double length_m, network::RoadSpec& spec) {
   if (of_template && item.Has("lane") && spec.sections[0].Find(static_cast<int>(item.Integer("lane", -30, 30))) == nullptr) return;
   std::vector<std::string> names;
-  for (const Kind& kind : kKinds) names.emplace_back(kind.name);
+  for (const LineKind& kind : network::kLineKinds) names.emplace_back(kind.name);
   const std::string name = item.Choice("kind", names);
-  const Kind* kind = &kKinds[0];
-  for (const Kind& known : kKinds) {
-    if (name == known.name) kind = &known;
-  }
+  const LineKind& kind = network::LineKindByName(name);
   PaintedLine line;
   line.t = MiddleOf(item, spec);
-  line.width_m = item.Number("width_m", {0.01, 5.0}, kind->width_m);
+  line.width_m = item.Number("width_m", {0.01, 5.0}, kind.width_m);
   line.from_s_m = item.Number("from_s_m", {0.0, length_m}, 0.0);
   line.to_s_m = item.Number("to_s_m", {0.0, length_m}, length_m);
   line.colour = item.Choice("colour", {"white", "yellow", "blue", "red", "orange"}, "white");
   if (!(line.from_s_m < line.to_s_m)) item.Problem("to_s_m", "a line must end after its beginning: 'to_s_m' above 'from_s_m'");
-  bool dashed_left = kind->dashed_left, dashed_right = kind->dashed_right;
+  bool dashed_left = kind.dashed_left, dashed_right = kind.dashed_right;
   if (name == "mixed") {
     dashed_left = item.Choice("left", {"continuous", "dashed"}, "continuous") == "dashed";
     dashed_right = item.Choice("right", {"continuous", "dashed"}, "dashed") == "dashed";
   }
-  const double apart = kind->lines == 2 ? 0.5 * (item.Number("apart_m", {0.02, 5.0}, 0.12) + line.width_m) : 0.0;
-  for (int i = 0; i < kind->lines; ++i) {
-    const Stroke stroke = ReadStroke(item, *kind, i == 0 ? dashed_left : dashed_right);
+  const double apart = kind.lines == 2 ? 0.5 * (item.Number("apart_m", {0.02, 5.0}, network::kLinesApart_m) + line.width_m) : 0.0;
+  for (int i = 0; i < kind.lines; ++i) {
+    const Stroke stroke = ReadStroke(item, kind, i == 0 ? dashed_left : dashed_right);
     PaintedLine painted = line;
     painted.stroke_m = stroke.stroke_m;
     painted.gap_m = stroke.gap_m;

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
+
+#include "common/map/border_paint.hpp"
 
 namespace rodeira::map {
 namespace {
@@ -45,35 +46,18 @@ std::string_view Fill(LaneMode mode) {
   return mode == LaneMode::kStart ? "#5d7f63" : mode == LaneMode::kEnd ? "#8a5f5f" : "#6a6a70";
 }
 
-// How a border is painted: width and dashes in metres, the gap after each; double lines are drawn a second time, thinner.
-struct Paint {
-  double width_m;
-  std::array<double, 2> dash_m;  // zeros: continuous
-  bool twofold;
-};
-
-constexpr std::array<Paint, kBorderTypes> kPaints = {{
-    {0.0, {0.0, 0.0}, false},   // None
-    {0.3, {0.0, 0.0}, false},   // Boundary
-    {0.15, {0.0, 0.0}, false},  // Single
-    {0.15, {3.0, 4.5}, false},  // Dashed
-    {0.15, {3.0, 9.0}, false},  // DashedSame
-    {0.3, {1.5, 1.5}, false},   // DashedSpeedCtrl
-    {0.15, {3.0, 1.5}, false},  // DashedWarn
-    {0.45, {3.0, 4.5}, true},   // DoubleDashed
-}};
-
 std::string DrawBorder(const Border& border, BorderType type, std::string_view lane_colour, const Paper& paper) {
-  const Paint& paint = kPaints[static_cast<std::size_t>(type)];
-  if (paint.width_m == 0.0) return "";
+  const network::LineKind& paint = PaintOf(type);
+  if (paint.lines == 0) return "";
+  const std::string dash = paint.gap_m == 0.0 ? ""
+                                              : fmt::format(" stroke-dasharray=\"{:.2f} {:.2f}\"", paint.stroke_m * paper.scale,
+                                                            paint.gap_m * paper.scale);
   const auto stroke = [&](double width_m, std::string_view colour) {
-    const std::string dash = paint.dash_m[0] == 0.0 ? ""
-                                                    : fmt::format(" stroke-dasharray=\"{:.2f} {:.2f}\"",
-                                                                  paint.dash_m[0] * paper.scale, paint.dash_m[1] * paper.scale);
     return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\"{}/>\n", paper.Curve(border.plan),
                        colour, std::max(0.6, width_m * paper.scale), dash);
   };
-  return stroke(paint.width_m, "#ffffff") + (paint.twofold ? stroke(paint.width_m / 3.0, lane_colour) : "");
+  if (paint.lines == 1) return stroke(paint.width_m, "#ffffff");
+  return stroke(2.0 * paint.width_m + network::kLinesApart_m, "#ffffff") + stroke(network::kLinesApart_m, lane_colour);
 }
 
 std::string DrawLane(const MapLane& lane, const Paper& paper) {

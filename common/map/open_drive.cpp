@@ -6,7 +6,9 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "common/map/border_paint.hpp"
 #include "common/map/drive_piece.hpp"
+#include "common/network/marking.hpp"
 
 namespace rodeira::map {
 namespace {
@@ -135,14 +137,31 @@ class Writer {
     }
   }
 
+  // Dashes begin where the lane does; two lines lie to both sides of the border.
   static void WriteMark(pugi::xml_node lane, BorderType type) {
-    constexpr std::array<const char*, kBorderTypes> kTypes = {"none",   "solid",  "solid",  "broken",
-                                                              "broken", "broken", "broken", "broken broken"};
+    const network::LineKind& paint = PaintOf(type);
+    const bool dashed = paint.gap_m > 0.0;
+    std::string name = paint.lines == 0 ? "none" : dashed ? "broken" : "solid";
+    if (paint.lines == 2) name += " " + name;
     pugi::xml_node mark = lane.append_child("roadMark");
     Set(mark, "sOffset", 0.0);
-    Set(mark, "type", kTypes[static_cast<std::size_t>(type)]);
-    Set(mark, "weight", type == BorderType::kDashedSpeedCtrl ? "bold" : "standard");
+    Set(mark, "type", name);
+    Set(mark, "weight", paint.width_m >= network::kBoldWidth_m ? "bold" : "standard");
     Set(mark, "color", "standard");
+    if (paint.lines == 0) return;
+    Set(mark, "width", paint.width_m);
+    pugi::xml_node lines = mark.append_child("type");
+    Set(lines, "name", name);
+    Set(lines, "width", paint.width_m);
+    const double beside_m = paint.lines == 2 ? 0.5 * (paint.width_m + network::kLinesApart_m) : 0.0;
+    for (int i = 0; i < paint.lines; ++i) {
+      pugi::xml_node line = lines.append_child("line");
+      Set(line, "length", paint.stroke_m);
+      Set(line, "space", paint.gap_m);
+      Set(line, "tOffset", i == 0 ? beside_m : -beside_m);
+      Set(line, "sOffset", 0.0);
+      Set(line, "width", paint.width_m);
+    }
   }
 
   static void WriteLanes(pugi::xml_node lanes, const MapLane& lane, const std::vector<DrivePiece>& pieces, bool from_road,

@@ -4,13 +4,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <pugixml.hpp>
 #include <set>
 
+#include "common/base/random.hpp"
+#include "common/map/map_network.hpp"
+#include "common/network/marking.hpp"
+#include "common/road/world.hpp"
 #include "tests/common/map/sample_map.hpp"
+#include "tests/launch/temporary_folder.hpp"
 
 namespace rodeira::map {
 namespace {
@@ -151,6 +158,82 @@ TEST(OpenDrive, StopAndMarks) {
   const pugi::xml_node section = road.child("lanes").child("laneSection");
   EXPECT_STREQ(section.child("center").child("lane").child("roadMark").attribute("type").value(), "broken");
   EXPECT_STREQ(section.child("right").child("lane").child("roadMark").attribute("type").value(), "solid");
+}
+
+// What docs/formats.md says of a border type: lines, their width, strokes and gaps.
+struct Measures {
+  BorderType type;
+  int lines;
+  double width_m, stroke_m, gap_m;
+};
+constexpr std::array<Measures, kBorderTypes> kMeasures = {{{BorderType::kNone, 0, 0.0, 0.0, 0.0},
+                                                           {BorderType::kBoundary, 1, 0.15, 0.0, 0.0},
+                                                           {BorderType::kSingle, 1, 0.12, 0.0, 0.0},
+                                                           {BorderType::kDashed, 1, 0.12, 4.0, 8.0},
+                                                           {BorderType::kDashedSame, 1, 0.12, 3.0, 9.0},
+                                                           {BorderType::kDashedSpeedCtrl, 1, 0.30, 1.5, 1.5},
+                                                           {BorderType::kDashedWarn, 1, 0.12, 5.0, 2.0},
+                                                           {BorderType::kDoubleDashed, 2, 0.12, 4.0, 8.0}}};
+constexpr double kLong_m = 120.0, kRow_m = 20.0;
+
+// A straight lane of 3 m to the east for each type, one north of the other, with that type on both of its sides.
+LaneMap MapOfAllTypes() {
+  LaneMap map;
+  for (int i = 0; i < kBorderTypes; ++i) {
+    const auto side = [&](double y) { return Border{{{V(0.0, y), V(kLong_m / 3.0, y), V(2.0 * kLong_m / 3.0, y), V(kLong_m, y)}}, {}}; };
+    const auto type = static_cast<BorderType>(i);
+    map.lanes.push_back({i + 1, LaneMode::kStart, type, type, LaneShape(side(kRow_m * i + 1.5), side(kRow_m * i - 1.5)), {}, {}});
+  }
+  return map;
+}
+
+TEST(OpenDrive, EveryBorderTypeIsReadAgainWithItsMeasures) {
+  const auto network = ToNetwork(MapOfAllTypes(), "types");
+  ASSERT_TRUE(network.ok()) << network.error().Text();
+  ASSERT_EQ(network.value()->roads().size(), kMeasures.size());
+  for (const Measures& expected : kMeasures) {
+    const network::Road& road = network.value()->roads()[static_cast<std::size_t>(expected.type)];
+    const auto markings = network::MarkingsOf(road);
+    ASSERT_EQ(markings.size(), static_cast<std::size_t>(2 * expected.lines)) << road.id();
+    std::vector<double> places;
+    for (const network::Marking& line : markings) {
+      EXPECT_EQ(line.width_m, expected.width_m) << road.id();
+      EXPECT_EQ(line.stroke_m, expected.gap_m > 0.0 ? expected.stroke_m : 0.0) << road.id();
+      EXPECT_EQ(line.gap_m, expected.gap_m) << road.id();
+      places.push_back(network::MarkingAt(road, line, 50.0).value);
+      double painted = 0.0;
+      for (const network::Stroke& stroke : network::StrokesOf(road, line)) painted += stroke.to_s_m - stroke.from_s_m;
+      const double period = expected.stroke_m + expected.gap_m;
+      const double whole = expected.gap_m == 0.0 ? kLong_m : std::floor(kLong_m / period) * expected.stroke_m + std::min(std::fmod(kLong_m, period), expected.stroke_m);
+      EXPECT_NEAR(painted, whole, 1e-6) << road.id();
+    }
+    std::sort(places.begin(), places.end());
+    const std::vector<double> one = {-1.5, 1.5}, two = {-1.62, -1.38, 1.38, 1.62};
+    if (expected.lines == 0) continue;
+    EXPECT_THAT(places, testing::Pointwise(testing::DoubleNear(1e-6), expected.lines == 1 ? one : two)) << road.id();
+  }
+}
+
+TEST(OpenDrive, EveryBorderTypeIsPaintToSuelo) {
+  const front::TemporaryFolder folder;
+  const auto world = road::World::Load(folder.Write("types.xodr", ToOpenDrive(MapOfAllTypes(), "types").value().xml));
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  int painted = 0;
+  for (const Measures& expected : kMeasures) {
+    for (std::uint64_t i = 0; i < 4'000; ++i) {
+      const auto row = static_cast<std::uint64_t>(expected.type);
+      const double x = base::RandomUniform({row, i, 1}, 0.0, kLong_m), in = base::RandomUniform({row, i, 2}, 0.0, 0.4);  // from the lane's edge
+      const double into = expected.gap_m > 0.0 ? std::fmod(x, expected.stroke_m + expected.gap_m) : 0.0;
+      const double off = std::fabs(in - (expected.lines == 2 ? 0.12 : 0.0));
+      if (std::fabs(off - 0.5 * expected.width_m) < 1e-4 || std::fabs(into - expected.stroke_m) < 1e-4) continue;
+      const bool paint = expected.lines > 0 && off < 0.5 * expected.width_m && (expected.gap_m == 0.0 || into < expected.stroke_m);
+      const double side = i % 2 == 0 ? 1.5 - in : in - 1.5;
+      const road::SurfacePoint at = world.value()->At(x, kRow_m * static_cast<double>(row) + side);
+      EXPECT_EQ(at.surface == terrain::Surface::kRoadMark, paint) << "type " << row << " at " << x << ", " << in << " from the edge";
+      painted += paint;
+    }
+  }
+  EXPECT_GT(painted, 1500);
 }
 
 // (t², t³) from −1 to 1 turns back on itself at its cusp.

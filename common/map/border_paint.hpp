@@ -1,0 +1,17 @@
+#pragma once
+
+#include <array>
+
+#include "common/map/map_file.hpp"
+#include "common/network/line_kinds.hpp"
+
+namespace rodeira::map {
+
+// How a border is painted, in the picture and in OpenDRIVE alike: as a world file's lines of the same name.
+constexpr const network::LineKind& PaintOf(BorderType type) {
+  constexpr std::array<const char*, kBorderTypes> kNames = {"none",        "boundary",          "single",      "dashed",
+                                                            "dashed_same", "dashed_speed_ctrl", "dashed_warn", "double_dashed"};
+  return network::LineKindByName(kNames[static_cast<std::size_t>(type)]);
+}
+
+}  // namespace rodeira::map

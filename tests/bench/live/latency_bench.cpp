@@ -1,0 +1,101 @@
+// From a wheel that is turned to a changed pixel on the display: a virtual joystick, the input node, the vehicle, the view with its window, in real
+// time, in this process. latency_bench [TURNS] [INPUT_PERIOD_MS] [VIEW_PERIOD_MS]
+#include <SDL.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/base/mathematics.hpp"
+#include "common/base/random.hpp"
+#include "common/launch/launch.hpp"
+#include "common/lockstep/in_process.hpp"
+#include "launch/local_nodes.hpp"
+#include "nodes/input/joysticks.hpp"
+#include "tests/bench/live/watched_display.hpp"
+
+namespace {
+
+using namespace rodeira;
+using Wall = std::chrono::steady_clock;
+
+constexpr int kWidth = 320, kHeight = 180;
+
+[[noreturn]] void Fail(const std::string& why) {
+  fmt::print(stderr, "{}\n", why);
+  std::exit(1);
+}
+
+std::string LaunchText(const std::string& guid, const std::string& input_ms, const std::string& view_ms) {
+  return fmt::format(R"(rodeira: launch/1
+world: configs/worlds/plane.yaml
+nodes:
+  road: {{kind: road}}
+  driver: {{kind: input, period_s: {}e-3, config: {{source: joystick, wheel: configs/drivers/wheel.yaml, devices: {{wheel: "{}"}}}}}}
+  ego: {{kind: vehicle, config: {{vehicle: configs/vehicles/default.yaml}}}}
+  view: {{kind: view, period_s: {}e-3, config: {{window: always, camera: driver, width_px: {}, height_px: {}, mirrors: [], instruments: false, sound: false}}}}
+)", input_ms, guid, view_ms, kWidth, kHeight);
+}
+
+// Milliseconds from each turn of the wheel to the first other pixel in the lower middle of the picture, where the steering wheel is.
+std::vector<double> Turn(const bench::WatchedDisplay& display, SDL_Joystick* wheel, int turns) {
+  std::vector<double> latencies_ms;
+  const auto seen = [&] { return display.HashOf(kWidth / 4, kHeight / 2, kWidth / 2, kHeight / 2); };
+  for (int turn = 0; turn < turns; ++turn) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const auto before = seen();
+    // Whatever phase of all periods it meets.
+    std::this_thread::sleep_for(std::chrono::microseconds(200'000 + static_cast<int>(base::RandomUniform({7, static_cast<std::uint64_t>(turn)}, 0.0, 100'000.0))));
+    if (seen() != before) Fail("the picture changes although nobody touches the wheel");
+    const auto begin = Wall::now();
+    SDL_JoystickSetVirtualAxis(wheel, 0, static_cast<Sint16>(turn % 2 == 0 ? 6000 : -6000));
+    while (seen() == before) {
+      if (Wall::now() - begin > std::chrono::seconds(2)) Fail("no pixel has changed for two seconds");
+      std::this_thread::sleep_for(std::chrono::microseconds(300));
+    }
+    latencies_ms.push_back(std::chrono::duration<double, std::milli>(Wall::now() - begin).count());
+  }
+  return latencies_ms;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  base::FixMathematics(argv);
+  const int turns = argc > 1 ? std::atoi(argv[1]) : 100;
+  const bench::WatchedDisplay display(97, kWidth, kHeight);
+  ::setenv("DISPLAY", display.name().c_str(), 1);
+  auto joysticks = nodes::Joysticks::Start();
+  if (!joysticks) Fail(joysticks.error().Text());
+  const int index = SDL_JoystickAttachVirtual(SDL_JOYSTICK_TYPE_WHEEL, 4, 9, 0);
+  char guid[33] = {};
+  SDL_JoystickGetGUIDString(SDL_JoystickGetDeviceGUID(index), guid, sizeof(guid));
+  SDL_Joystick* wheel = SDL_JoystickOpen(index);
+  if (wheel == nullptr) Fail(SDL_GetError());
+  for (const int pedal : {2, 3}) SDL_JoystickSetVirtualAxis(wheel, pedal, 32767);
+
+  const auto launch = launch::Launch::Parse(LaunchText(guid, argc > 2 ? argv[2] : "10", argc > 3 ? argv[3] : "20"), RODEIRA_SOURCE_DIR "/latency.yaml");
+  if (!launch) Fail(launch.error().Text());
+  auto nodes = front::LocalNodes::Make(launch.value());
+  if (!nodes) Fail(nodes.error().Text());
+  lockstep::InProcessSettings settings;
+  settings.pace = 1.0;
+  std::atomic<bool> over = false;
+  settings.stop_requested = [&] { return over.load(); };
+  lockstep::RunOutcome outcome;
+  std::thread run([&] { outcome = lockstep::RunThreaded(launch.value().roster(), nodes.value().nodes(), settings); });
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  std::vector<double> latencies_ms = Turn(display, wheel, turns);
+  over = true;
+  run.join();
+  if (!outcome.ok) Fail(outcome.fault);
+  std::sort(latencies_ms.begin(), latencies_ms.end());
+  fmt::print("wheel to pixel, {} turns: median {:.1f} ms, best {:.1f}, worst {:.1f}; late steps {} of {}, mean {:.2f} ms\n", latencies_ms.size(), latencies_ms[latencies_ms.size() / 2], latencies_ms.front(),
+             latencies_ms.back(), outcome.lateness.late, outcome.lateness.steps, outcome.lateness.mean_ns() * 1e-6);
+}
