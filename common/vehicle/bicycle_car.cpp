@@ -13,6 +13,7 @@ constexpr double kLongestSubstep_s = 0.001;
 constexpr double kLeastLean = 0.3;          // cosine between strut and normal, for walls
 constexpr double kBottom = 0.5;             // share of the radius that a tyre can be pressed in
 constexpr double kMostTilt_rad = 0.45;      // of the body against the ground under it
+constexpr double kSurelyUpright = 0.95;     // a cosine over that of the most tilt
 constexpr double kLeastHeight = 0.4;        // of the centre of gravity over that ground, share of its height at rest
 constexpr double kSteepest = 0.6;           // vertical part of the steepest ground that the body follows
 constexpr double kMostTurn_radps = 20.0;
@@ -30,6 +31,7 @@ BicycleChassis::BicycleChassis(const BicycleSettings& of) : settings(of), tyres(
   const double weight = body.mass_kg * kGravity_mps2;
   const double front_share = 1.0 - body.cg_to_front_axle_m / body.wheelbase_m;
   for (std::size_t i = 0; i < kWheels; ++i) static_load_N[i] = 0.5 * weight * (IsFront(i) ? front_share : 1.0 - front_share);
+  for (std::size_t i = 0; i < kWheels; ++i) p_GH_B[i] = HubAtRest_B(i) - p_BG_B;
 }
 
 double BicycleChassis::SteerAngle(std::size_t wheel, double steering_wheel_rad) const {
@@ -44,26 +46,34 @@ Eigen::Vector3d BicycleChassis::HubAtRest_B(std::size_t wheel) const {
   return {(IsFront(wheel) ? 0.5 : -0.5) * d.wheelbase_m, IsLeft(wheel) ? half_track : -half_track, settings.wheel.radius_m - sunk};
 }
 
-CornerInput BicycleCar::CornerInputOf(const BicycleChassis& chassis, std::size_t wheel) const {
+BicyclePose BicycleCar::PoseOf(const BicycleChassis& chassis, double steering_wheel_rad) const {
+  BicyclePose pose;
+  pose.up_W = body.q_WG * Eigen::Vector3d::UnitZ();
+  const double steer = chassis.SteerAngle(kFrontLeft, steering_wheel_rad);
+  pose.heading_W = {body.q_WG * Eigen::Vector3d(std::cos(steer), std::sin(steer), 0.0), body.q_WG * Eigen::Vector3d::UnitX()};
+  for (std::size_t i = 0; i < kWheels; ++i) pose.hub_W[i] = HubAtRest_W(chassis, i);
+  return pose;
+}
+
+CornerInput BicycleCar::CornerInputOf(const BicycleChassis& chassis, const BicyclePose& pose, std::size_t wheel) const {
   const Wheel& w = wheels[wheel];
   const WheelSettings& tyre = chassis.settings.wheel;
   CornerInput input;
   input.static_load_N = chassis.static_load_N[wheel];
   input.tyre_Npm = tyre.vertical_Npm;
-  input.free_gap_m = tyre.radius_m - (HubAtRest_W(chassis, wheel) - w.plane_W).dot(w.normal_W);
-  input.lean = std::clamp((body.q_WG * Eigen::Vector3d::UnitZ()).dot(w.normal_W), kLeastLean, 1.0);
+  input.free_gap_m = tyre.radius_m - (pose.hub_W[wheel] - w.plane_W).dot(w.normal_W);
+  input.lean = std::clamp(pose.up_W.dot(w.normal_W), kLeastLean, 1.0);
   input.other_travel_m = wheels[PartnerOf(wheel)].corner.travel_m();
   input.bottom_m = kBottom * tyre.radius_m;
   return input;
 }
 
-BicycleContact BicycleCar::ContactOf(const BicycleChassis& chassis, std::size_t wheel, double steering_wheel_rad) const {
+BicycleContact BicycleCar::ContactOf(const BicyclePose& pose, std::size_t wheel) const {
   const Wheel& w = wheels[wheel];
-  const Eigen::Vector3d hub = HubAtRest_W(chassis, wheel) + w.corner.travel_m() * (body.q_WG * Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d hub = pose.hub_W[wheel] + w.corner.travel_m() * pose.up_W;
   BicycleContact contact;
   contact.point_W = hub - (hub - w.plane_W).dot(w.normal_W) * w.normal_W;
-  const double steer = chassis.SteerAngle(wheel, steering_wheel_rad);
-  const Eigen::Vector3d heading = body.q_WG * Eigen::Vector3d(std::cos(steer), std::sin(steer), 0.0);
+  const Eigen::Vector3d& heading = pose.heading_W[AxleOf(wheel)];
   const Eigen::Vector3d along = heading - heading.dot(w.normal_W) * w.normal_W;
   const double size = along.norm();
   contact.along_W = size > 1e-3 ? Eigen::Vector3d(along / size) : heading;  // a wall straight ahead
@@ -71,11 +81,18 @@ BicycleContact BicycleCar::ContactOf(const BicycleChassis& chassis, std::size_t 
   return contact;
 }
 
-TyreMotion BicycleCar::MotionOf(const BicycleChassis& chassis, const BicycleContacts& contacts, std::size_t wheel) const {
-  const Eigen::Vector3d middle = 0.5 * (contacts[wheel].point_W + contacts[PartnerOf(wheel)].point_W);
-  const Eigen::Vector3d v = body.VelocityAt(middle);
-  const double vx = v.dot(contacts[wheel].along_W);
-  return {vx, vx - wheels[wheel].spin_radps * chassis.settings.wheel.rolling_radius_m, v.dot(contacts[wheel].across_W)};
+std::array<TyreMotion, kWheels> BicycleCar::MotionOf(const BicycleChassis& chassis, const BicycleContacts& contacts) const {
+  std::array<TyreMotion, kWheels> motion;
+  const Eigen::Vector3d w_WG_W = body.w_WG_W();
+  for (const std::size_t left : {0u, 2u}) {
+    const Eigen::Vector3d middle = 0.5 * (contacts[left].point_W + contacts[left + 1].point_W);
+    const Eigen::Vector3d v = body.v_WG_W + w_WG_W.cross(middle - body.p_WG_W);
+    for (const std::size_t i : {left, left + 1}) {
+      const double vx = v.dot(contacts[i].along_W);
+      motion[i] = {vx, vx - wheels[i].spin_radps * chassis.settings.wheel.rolling_radius_m, v.dot(contacts[i].across_W)};
+    }
+  }
+  return motion;
 }
 
 void BicycleCar::Step(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s, BicycleFindings& findings) {
@@ -85,21 +102,24 @@ void BicycleCar::Step(const BicycleChassis& chassis, const Controls& controls, c
 
 void BicycleCar::Substep(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s, BicycleFindings& findings) {
   BicycleContacts& contacts = findings.contacts;
+  const BicyclePose pose = PoseOf(chassis, controls.steering_wheel_rad);
   std::array<CornerInput, kWheels> inputs;
-  for (std::size_t i = 0; i < kWheels; ++i) inputs[i] = CornerInputOf(chassis, i);
+  for (std::size_t i = 0; i < kWheels; ++i) inputs[i] = CornerInputOf(chassis, pose, i);
   for (std::size_t i = 0; i < kWheels; ++i) {
     wheels[i].corner.Step(chassis.settings.suspension[AxleOf(i)], inputs[i], dt_s);
-    contacts[i] = ContactOf(chassis, i, controls.steering_wheel_rad);
+    contacts[i] = ContactOf(pose, i);
   }
+  const std::array<TyreMotion, kWheels> before = MotionOf(chassis, contacts);
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = wheels[i];
-    contacts[i].forces = wheel.tyre.Forces(chassis.tyres[i], MotionOf(chassis, contacts, i), wheel.corner.load_N(), wheel.friction);
+    contacts[i].forces = wheel.tyre.Forces(chassis.tyres[i], before[i], wheel.corner.load_N(), wheel.friction);
   }
   TurnWheels(chassis, controls, dt_s, findings);
   PushBody(chassis, push, dt_s, findings);
+  const std::array<TyreMotion, kWheels> after = MotionOf(chassis, contacts);
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = wheels[i];
-    wheel.tyre.Advance(chassis.tyres[i], MotionOf(chassis, contacts, i), wheel.corner.load_N(), wheel.friction, dt_s);
+    wheel.tyre.Advance(chassis.tyres[i], after[i], wheel.corner.load_N(), wheel.friction, dt_s);
     wheel.spin_rad = geometry::WrapAngle(wheel.spin_rad + dt_s * wheel.spin_radps);
   }
   body.Move(dt_s);
@@ -175,7 +195,8 @@ Eigen::Vector3d RoadNormal(const BicycleContacts& contacts) {
 void BicycleCar::KeepUpright(const BicycleChassis& chassis, const BicycleContacts& contacts) {
   const Eigen::Vector3d normal = RoadNormal(contacts);
   const Eigen::Vector3d up = body.q_WG * Eigen::Vector3d::UnitZ();
-  const double tilt = std::acos(std::clamp(up.dot(normal), -1.0, 1.0));
+  const double upright = up.dot(normal);
+  const double tilt = upright > kSurelyUpright ? 0.0 : std::acos(std::clamp(upright, -1.0, 1.0));
   if (tilt > kMostTilt_rad) {
     const Eigen::Vector3d cross = up.cross(normal);
     const Eigen::Vector3d axis = cross.norm() > 1e-9 ? Eigen::Vector3d(cross.normalized()) : body.q_WG * Eigen::Vector3d::UnitX();

@@ -20,9 +20,17 @@ struct BicycleChassis {
   std::array<TyreSettings, kWheels> tyres;
   Eigen::Vector3d p_BG_B;  // centre of gravity in the body frame
   std::array<double, kWheels> static_load_N{};
+  std::array<Eigen::Vector3d, kWheels> p_GH_B;  // from there to the hubs at rest
 
   double SteerAngle(std::size_t wheel, double steering_wheel_rad) const;
   Eigen::Vector3d HubAtRest_B(std::size_t wheel) const;
+};
+
+// The car where its body is now: found once for all that a substep asks of it.
+struct BicyclePose {
+  Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();
+  std::array<Eigen::Vector3d, 2> heading_W;    // of each axle's wheels
+  std::array<Eigen::Vector3d, kWheels> hub_W;  // at rest: without travel
 };
 
 // Where a wheel meets the ground, for one substep.
@@ -62,16 +70,18 @@ struct BicycleCar {
 
   Eigen::Vector3d p_WB_W(const BicycleChassis& chassis) const { return body.p_WG_W - body.q_WG * chassis.p_BG_B; }
   Eigen::Vector3d HubAtRest_W(const BicycleChassis& chassis, std::size_t wheel) const {
-    return body.p_WG_W + body.q_WG * (chassis.HubAtRest_B(wheel) - chassis.p_BG_B);
+    return body.p_WG_W + body.q_WG * chassis.p_GH_B[wheel];
   }
 
   // A step of any length with the controls held and the ground's planes as they are, in substeps of at most 1 ms. `controls` are cut to their bounds
   // (Cut), the push holds all the while.
   void Step(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s, BicycleFindings& findings);
 
-  CornerInput CornerInputOf(const BicycleChassis& chassis, std::size_t wheel) const;
-  BicycleContact ContactOf(const BicycleChassis& chassis, std::size_t wheel, double steering_wheel_rad) const;
-  TyreMotion MotionOf(const BicycleChassis& chassis, const BicycleContacts& contacts, std::size_t wheel) const;
+  BicyclePose PoseOf(const BicycleChassis& chassis, double steering_wheel_rad) const;
+  CornerInput CornerInputOf(const BicycleChassis& chassis, const BicyclePose& pose, std::size_t wheel) const;
+  BicycleContact ContactOf(const BicyclePose& pose, std::size_t wheel) const;
+  // Both wheels of an axle share the motion of its middle.
+  std::array<TyreMotion, kWheels> MotionOf(const BicycleChassis& chassis, const BicycleContacts& contacts) const;
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);

@@ -70,16 +70,18 @@ BicycleEquilibrium::Unknowns BicycleEquilibrium::OnThePlane() const {
 }
 
 void BicycleEquilibrium::SettleCorners() {
+  const BicyclePose pose = model_.car_.PoseOf(model_.chassis_, 0.0);
   for (int turn = 0; turn < kBarTurns; ++turn) {
     for (std::size_t i = 0; i < kWheels; ++i) {
-      model_.car_.wheels[i].corner.Settle(model_.chassis_.settings.suspension[i / 2], model_.car_.CornerInputOf(model_.chassis_, i));
+      model_.car_.wheels[i].corner.Settle(model_.chassis_.settings.suspension[i / 2], model_.car_.CornerInputOf(model_.chassis_, pose, i));
     }
   }
 }
 
 BicycleContacts BicycleEquilibrium::FindContacts() const {
+  const BicyclePose pose = model_.car_.PoseOf(model_.chassis_, 0.0);
   BicycleContacts contacts;
-  for (std::size_t i = 0; i < kWheels; ++i) contacts[i] = model_.car_.ContactOf(model_.chassis_, i, 0.0);
+  for (std::size_t i = 0; i < kWheels; ++i) contacts[i] = model_.car_.ContactOf(pose, i);
   return contacts;
 }
 
@@ -223,8 +225,8 @@ void BicycleEquilibrium::SetInMotion() {
     BicycleContact& contact = model_.findings_.contacts[i];
     const TyreSettings& tyre = model_.chassis_.tyres[i];
     const double bears = wheel.corner.load_N();
-    wheel.spin_radps = rests ? 0.0 : model_.car_.MotionOf(model_.chassis_, model_.findings_.contacts, i).vx_mps / model_.chassis_.settings.wheel.rolling_radius_m;
-    TyreMotion motion = model_.car_.MotionOf(model_.chassis_, model_.findings_.contacts, i);
+    wheel.spin_radps = rests ? 0.0 : model_.car_.MotionOf(model_.chassis_, model_.findings_.contacts)[i].vx_mps / model_.chassis_.settings.wheel.rolling_radius_m;
+    TyreMotion motion = model_.car_.MotionOf(model_.chassis_, model_.findings_.contacts)[i];
     if (cruises && bears > 0.0) {
       const TyreForces wanted{holding[i].dot(contact.along_W), holding[i].dot(contact.across_W)};
       motion = wheel.tyre.SetToRollAndBear(tyre, wanted, motion.vx_mps, bears, wheel.friction);

@@ -34,6 +34,7 @@ void BicycleModel::Publish(const Controls& controls, double dt_s) {
   s.w_WB_B = car_.body.w_WG_G;
   s.odometer_m += dt_s * std::fabs(s.speed_mps());
   s.inside_world = true;
+  const BicyclePose pose = car_.PoseOf(chassis_, 0.0);
   for (std::size_t i = 0; i < kWheels; ++i) {
     const BicycleCar::Wheel& wheel = car_.wheels[i];
     WheelState& w = s.wheels[i];
@@ -51,7 +52,7 @@ void BicycleModel::Publish(const Controls& controls, double dt_s) {
     w.suspension_N = wheel.corner.suspension_N();
     w.damper_N = wheel.corner.damper_N();
     w.travel_m = wheel.corner.travel_m();
-    w.contact_W = car_.ContactOf(chassis_, i, 0.0).point_W;  // under the pose that is published
+    w.contact_W = car_.ContactOf(pose, i).point_W;  // under the pose that is published
     w.contact_normal_W = wheel.normal_W;
     w.friction = wheel.friction;
     w.surface = wheel.surface;
