@@ -9,6 +9,7 @@
 #include "common/base/suggest.hpp"
 #include "launch/ctl_command.hpp"
 #include "launch/doctor.hpp"
+#include "launch/edit_command.hpp"
 #include "launch/export_command.hpp"
 #include "launch/info_command.hpp"
 #include "launch/input_command.hpp"
@@ -241,6 +242,12 @@ void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
   joysticks->callback([&options] { options.asked = true; });
 }
 
+void AddEdit(CLI::App& app, EditOptions& options) {
+  CLI::App* edit = app.add_subcommand("edit", "draw a traffic map in a window");
+  edit->add_option("FILE.motors", options.file, "traffic map; a new one otherwise");
+  edit->callback([&options] { options.asked = true; });
+}
+
 CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::string>& changes) {
   CLI::App* replay = app.add_subcommand("replay", "watch a recording, or run it again");
   replay->add_option("FILE.mcap", options.file, "recording")->required();
@@ -314,6 +321,8 @@ int Main(int argc, char** argv) {
   AddJoysticks(app, joysticks);
   InputOptions input;
   AddInput(app, input);
+  EditOptions edit;
+  AddEdit(app, edit);
   CtlOptions ctl_options;
   const CLI::App* ctl = AddCtl(app, ctl_options);
   RecordingOptions recording;
@@ -336,6 +345,7 @@ int Main(int argc, char** argv) {
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);
   if (input.asked) return SetUpInput(input);
+  if (edit.asked) return Edit(edit);
   if (ctl->parsed()) return Ctl(ctl_options);
   if (app.got_subcommand("info")) return Info(recording.info_file);
   if (app.got_subcommand("export")) return Export(recording.exported);

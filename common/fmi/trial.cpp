@@ -9,10 +9,14 @@
 #include <array>
 #include <cerrno>
 
+#include "common/fmi/guard.hpp"
+
 namespace rodeira::fmi {
 namespace {
 
+// A crash kills it, also where the code is guarded.
 void LimitThisProcess(unsigned most_s) {
+  (void)CallGuarded([] {});  // whatever installs itself does so before
   for (const int each : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGALRM, SIGXCPU}) ::signal(each, SIG_DFL);
   const rlimit no_dump{0, 0}, time{most_s, most_s + 1};
   (void)::setrlimit(RLIMIT_CORE, &no_dump);

@@ -13,6 +13,7 @@
 
 #include "common/fmi/archive.hpp"
 #include "common/fmi/fmi2.hpp"
+#include "common/fmi/guard.hpp"
 #include "common/fmi/trial.hpp"
 
 namespace rodeira::fmi {
@@ -41,6 +42,7 @@ struct Functions {
   StateSizeFunction* state_size = nullptr;
   SerializeFunction* serialize = nullptr;
   DeserializeFunction* deserialize = nullptr;
+  bool crashed = false;  // one of them has: none is called again, and the library stays where it is
 };
 
 const char* Word(fmi2Status status) {
@@ -62,78 +64,93 @@ void Log(fmi2ComponentEnvironment environment, fmi2String, fmi2Status status, fm
 
 class LoadedInstance final : public Instance {
  public:
-  LoadedInstance(const Functions& functions, const Description& description, std::string file)
+  LoadedInstance(Functions& functions, const Description& description, std::string file)
       : f_(functions), description_(description), file_(std::move(file)) {}
   ~LoadedInstance() override {
     if (component_ == nullptr || dead_) return;  // after "fatal" nothing may be called
-    if (runs_ && !failed_) (void)f_.terminate(component_);
-    f_.free_instance(component_);
+    const int signal = CallGuarded([this] {
+      if (runs_ && !failed_) (void)f_.terminate(component_);
+      f_.free_instance(component_);
+    });
+    if (signal != 0) f_.crashed = true;
   }
   LoadedInstance(const LoadedInstance&) = delete;
   LoadedInstance& operator=(const LoadedInstance&) = delete;
 
   base::Status Make(const std::string& name, const fs::path& resources) {
     callbacks_ = {&Log, &std::calloc, &std::free, nullptr, &said_};
-    component_ = f_.instantiate(name.c_str(), fmi2CoSimulation, description_.guid.c_str(), ("file://" + resources.string()).c_str(), &callbacks_, 0, 0);
+    const std::string where = "file://" + resources.string();
+    const int signal = CallGuarded([&] { component_ = f_.instantiate(name.c_str(), fmi2CoSimulation, description_.guid.c_str(), where.c_str(), &callbacks_, 0, 0); });
+    if (signal != 0) return Crashed("fmi2Instantiate", signal);
     if (component_ != nullptr) return {};
     return base::WrongInput(fmt::format("fmi2Instantiate: the FMU makes no instance of itself{}", said_.empty() ? "" : ": " + said_), file_);
   }
 
   base::Status EnterInitialisation(double time_s) override {
-    if (auto status = Check("fmi2SetupExperiment", f_.setup_experiment(component_, 0, 0.0, time_s, 0, 0.0)); !status) return status;
-    return Check("fmi2EnterInitializationMode", f_.enter_initialisation(component_));
+    if (auto status = Call("fmi2SetupExperiment", [&] { return f_.setup_experiment(component_, 0, 0.0, time_s, 0, 0.0); }); !status) return status;
+    return Call("fmi2EnterInitializationMode", [&] { return f_.enter_initialisation(component_); });
   }
   base::Status ExitInitialisation() override {
     runs_ = true;
-    return Check("fmi2ExitInitializationMode", f_.exit_initialisation(component_));
+    return Call("fmi2ExitInitializationMode", [&] { return f_.exit_initialisation(component_); });
   }
   base::Status Set(const Variable& variable, double value) override {
     const fmi2ValueReference reference = variable.reference;
-    if (variable.type == VariableType::kReal) return Check("fmi2SetReal", f_.set_real(component_, &reference, 1, &value), variable.name);
+    if (variable.type == VariableType::kReal) return Call("fmi2SetReal", [&] { return f_.set_real(component_, &reference, 1, &value); }, &variable);
     const auto whole = static_cast<fmi2Integer>(std::lround(std::clamp(value, -1e9, 1e9)));
-    if (variable.type == VariableType::kInteger) return Check("fmi2SetInteger", f_.set_integer(component_, &reference, 1, &whole), variable.name);
+    if (variable.type == VariableType::kInteger) return Call("fmi2SetInteger", [&] { return f_.set_integer(component_, &reference, 1, &whole); }, &variable);
     const fmi2Boolean truth = value != 0.0;
-    return Check("fmi2SetBoolean", f_.set_boolean(component_, &reference, 1, &truth), variable.name);
+    return Call("fmi2SetBoolean", [&] { return f_.set_boolean(component_, &reference, 1, &truth); }, &variable);
   }
   base::Result<double> Get(const Variable& variable) override {
     const fmi2ValueReference reference = variable.reference;
     double real = 0.0;
     int whole = 0;
     base::Status status;
-    if (variable.type == VariableType::kReal) status = Check("fmi2GetReal", f_.get_real(component_, &reference, 1, &real), variable.name);
-    else if (variable.type == VariableType::kInteger) status = Check("fmi2GetInteger", f_.get_integer(component_, &reference, 1, &whole), variable.name);
-    else status = Check("fmi2GetBoolean", f_.get_boolean(component_, &reference, 1, &whole), variable.name);
+    if (variable.type == VariableType::kReal) status = Call("fmi2GetReal", [&] { return f_.get_real(component_, &reference, 1, &real); }, &variable);
+    else if (variable.type == VariableType::kInteger) status = Call("fmi2GetInteger", [&] { return f_.get_integer(component_, &reference, 1, &whole); }, &variable);
+    else status = Call("fmi2GetBoolean", [&] { return f_.get_boolean(component_, &reference, 1, &whole); }, &variable);
     if (!status) return status.error();
     return variable.type == VariableType::kReal ? real : static_cast<double>(whole);
   }
-  base::Status DoStep(double time_s, double step_s) override { return Check("fmi2DoStep", f_.do_step(component_, time_s, step_s, 0)); }
+  base::Status DoStep(double time_s, double step_s) override { return Call("fmi2DoStep", [&] { return f_.do_step(component_, time_s, step_s, 0); }); }
 
   base::Result<base::Bytes> State() override {
     fmi2FMUstate state = nullptr;
     std::size_t size = 0;
-    if (auto status = Check("fmi2GetFMUstate", f_.get_state(component_, &state)); !status) return status.error();
-    if (auto status = Check("fmi2SerializedFMUstateSize", f_.state_size(component_, state, &size)); !status) return status.error();
+    if (auto status = Call("fmi2GetFMUstate", [&] { return f_.get_state(component_, &state); }); !status) return status.error();
+    if (auto status = Call("fmi2SerializedFMUstateSize", [&] { return f_.state_size(component_, state, &size); }); !status) return status.error();
     base::Bytes bytes(size);
-    if (auto status = Check("fmi2SerializeFMUstate", f_.serialize(component_, state, reinterpret_cast<fmi2Byte*>(bytes.data()), size)); !status) return status.error();
-    if (auto status = Check("fmi2FreeFMUstate", f_.free_state(component_, &state)); !status) return status.error();
+    if (auto status = Call("fmi2SerializeFMUstate", [&] { return f_.serialize(component_, state, reinterpret_cast<fmi2Byte*>(bytes.data()), size); }); !status)
+      return status.error();
+    if (auto status = Call("fmi2FreeFMUstate", [&] { return f_.free_state(component_, &state); }); !status) return status.error();
     return bytes;
   }
   base::Status SetState(std::span<const std::byte> bytes) override {
     fmi2FMUstate state = nullptr;
-    if (auto status = Check("fmi2DeSerializeFMUstate", f_.deserialize(component_, reinterpret_cast<const fmi2Byte*>(bytes.data()), bytes.size(), &state)); !status) return status;
-    if (auto status = Check("fmi2SetFMUstate", f_.set_state(component_, state)); !status) return status;
-    return Check("fmi2FreeFMUstate", f_.free_state(component_, &state));
+    const auto* raw = reinterpret_cast<const fmi2Byte*>(bytes.data());
+    if (auto status = Call("fmi2DeSerializeFMUstate", [&] { return f_.deserialize(component_, raw, bytes.size(), &state); }); !status) return status;
+    if (auto status = Call("fmi2SetFMUstate", [&] { return f_.set_state(component_, state); }); !status) return status;
+    return Call("fmi2FreeFMUstate", [&] { return f_.free_state(component_, &state); });
   }
 
  private:
-  base::Status Check(const char* function, fmi2Status status, const std::string& variable = "") {
+  template <class Function>
+  base::Status Call(const char* name, const Function& function, const Variable* variable = nullptr) {
+    if (dead_) return base::Failed(fmt::format("{}: not called, the FMU has ended with a fatal error before", name), file_);
+    fmi2Status status = fmi2OK;
+    if (const int signal = CallGuarded([&] { status = function(); }); signal != 0) return Crashed(name, signal);
     if (status == fmi2OK || status == fmi2Warning) return {};
     failed_ = true;
-    dead_ = dead_ || status == fmi2Fatal;
-    return base::Failed(fmt::format("{}{}: {}{}", function, variable.empty() ? "" : " of '" + variable + "'", Word(status), said_.empty() ? "" : ": " + said_), file_);
+    dead_ = status == fmi2Fatal;
+    return base::Failed(fmt::format("{}{}: {}{}", name, variable == nullptr ? "" : " of '" + variable->name + "'", Word(status), said_.empty() ? "" : ": " + said_), file_);
+  }
+  base::Status Crashed(const char* name, int signal) {
+    dead_ = f_.crashed = true;
+    return base::Failed(fmt::format("{}: it crashes (signal {}){}", name, signal, said_.empty() ? "" : "; before, it said: " + said_), file_);
   }
 
-  const Functions& f_;
+  Functions& f_;
   const Description& description_;
   std::string file_;
   std::string said_;
@@ -158,7 +175,7 @@ class LoadedUnit final : public Unit {
   LoadedUnit(base::TemporaryFolder folder, Description description, std::string file)
       : folder_(std::move(folder)), description_(std::move(description)), file_(std::move(file)) {}
   ~LoadedUnit() override {
-    if (library_ != nullptr) (void)::dlclose(library_);
+    if (library_ != nullptr && !f_.crashed) (void)::dlclose(library_);
   }
   LoadedUnit(const LoadedUnit&) = delete;
   LoadedUnit& operator=(const LoadedUnit&) = delete;

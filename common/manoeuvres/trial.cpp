@@ -17,6 +17,7 @@ Trial::Trial(vehicle::VehicleModel& car, const ProvingGroundSettings& ground, do
   table_.names = {"time_s",      "x_m",          "y_m",       "heading_deg", "speed_kmph", "acceleration_mps2", "lateral_mps2", "yaw_rate_degps",
                   "sideslip_deg", "roll_deg",    "pitch_deg", "height_m",    "steering_wheel_deg", "throttle", "brake",         "gear",
                   "engine_rpm",  "load_fl_N",    "load_fr_N", "load_rl_N",   "load_rr_N"};
+  for (const std::string& name : car.output_names()) table_.names.push_back(name);
 }
 
 base::Result<Trial> Trial::Begin(vehicle::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps, double step_s) {
@@ -53,6 +54,7 @@ void Trial::Write() {
                              s.wheels[0].load_N, s.wheels[1].load_N, s.wheels[2].load_N, s.wheels[3].load_N}) {
     table_.values.push_back(value);
   }
+  for (const double value : car_->Outputs()) table_.values.push_back(value);
 }
 
 void SpeedHold::Press(double wanted_mps, const Trial& trial, vehicle::Controls& controls) {

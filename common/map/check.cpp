@@ -14,6 +14,8 @@ std::string NameOf(const Finding& finding) {
     case Element::kConnection: return fmt::format("connection {} to {}", finding.number, finding.to);
     case Element::kHeights: return fmt::format("heights of curve {}", finding.number);
     case Element::kLights: return "lights";
+    case Element::kSign: return fmt::format("sign of lane {}", finding.number);
+    case Element::kFlow: return fmt::format("flow of lane {}", finding.number);
     case Element::kMap: break;
   }
   return "map";
@@ -24,7 +26,8 @@ std::string NameOf(const Finding& finding) {
 std::string Finding::Text() const { return NameOf(*this) + ": " + sentence; }
 
 std::string Finding::Place(const std::string& file) const {
-  const std::string name = element == Element::kHeights || element == Element::kLights ? file + ".yaml" : file;
+  const bool beside = element == Element::kHeights || element == Element::kLights || element == Element::kSign || element == Element::kFlow;
+  const std::string name = beside ? file + ".yaml" : file;
   return line == 0 ? name : fmt::format("{}:{}", name, line);
 }
 

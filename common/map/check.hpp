@@ -10,13 +10,13 @@
 namespace rodeira::map {
 
 enum class Severity { kError, kWarning };  // an error: no traffic can use the map; a warning: it can, but is that meant?
-enum class Element { kMap, kCurve, kLane, kConnection, kHeights, kLights };
+enum class Element { kMap, kCurve, kLane, kConnection, kHeights, kLights, kSign, kFlow };
 
 // Something that is wrong with one element of a map.
 struct Finding {
   Severity severity = Severity::kError;
   Element element = Element::kMap;
-  std::int32_t number = 0;  // of the curve or lane; of a connection the lane that it comes from
+  std::int32_t number = 0;  // of the curve or lane (also of its sign or flow); of a connection the lane that it comes from
   std::int32_t to = 0;      // of a connection the lane that it goes to
   std::size_t line = 0;     // of the file; 0: the whole map, or an element that is in no file yet
   std::string sentence;

@@ -80,6 +80,19 @@ void CheckLights(const MapFile& map, const Heights& heights, Findings& findings)
   }
 }
 
+// Signs and flows of lanes that are there; flows where vehicles begin.
+void CheckSigns(const MapFile& map, const Heights& heights, Findings& findings) {
+  const NumberIndex lanes(map.lanes);
+  for (const LaneSign& sign : heights.signs) {
+    if (!lanes.Find(sign.lane)) findings.Add(Severity::kError, sign, "the map has no such lane");
+  }
+  for (const LaneFlow& flow : heights.flows) {
+    const auto lane = lanes.Find(flow.lane);
+    if (!lane) findings.Add(Severity::kError, flow, "the map has no such lane");
+    else if (map.lanes[*lane].value.mode != LaneMode::kStart) findings.Add(Severity::kWarning, flow, "it is no start lane: nobody begins there");
+  }
+}
+
 }  // namespace
 
 void CheckNumbers(const MapFile& map, const Heights& heights, Findings& findings) {
@@ -99,6 +112,7 @@ void CheckNumbers(const MapFile& map, const Heights& heights, Findings& findings
     if (!used[i] && curves.Find(map.curves[i].value.id) == i) findings.Add(Severity::kWarning, map.curves[i], "no lane uses it");
   }
   CheckLights(map, heights, findings);
+  CheckSigns(map, heights, findings);
   for (const CurveHeights& one : heights.curves) {
     if (!curves.Find(one.curve)) findings.Add(Severity::kError, one, "the map has no such curve");
   }

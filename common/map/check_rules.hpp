@@ -27,6 +27,12 @@ class Findings {
   void Add(Severity severity, const lights::Phase& phase, std::string sentence) {
     all_.push_back({severity, Element::kLights, 0, 0, LineOf(phase.place), std::move(sentence)});
   }
+  void Add(Severity severity, const LaneSign& sign, std::string sentence) {
+    all_.push_back({severity, Element::kSign, sign.lane, 0, sign.line, std::move(sentence)});
+  }
+  void Add(Severity severity, const LaneFlow& flow, std::string sentence) {
+    all_.push_back({severity, Element::kFlow, flow.lane, 0, flow.line, std::move(sentence)});
+  }
   void AddToMap(Severity severity, std::string sentence) {
     all_.push_back({severity, Element::kMap, 0, 0, 0, std::move(sentence)});
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 
 #include "common/config/config.hpp"
 
@@ -11,21 +12,23 @@ namespace rodeira::map {
 namespace {
 
 constexpr double kMostHeight_m = 1e4;
+constexpr double kMostDistance_m = 1e5;
 
 bool Below(const CurveHeights& heights, std::int32_t curve) { return heights.curve < curve; }
 
-base::Result<Heights> Read(config::File& file) {
-  const config::Map root = file.root();
-  (void)root.Choice("rodeira", {"motors/1"});
-  const config::Map all = root.OptionalChild("heights_m");
-  Heights heights;
-  const config::List lights = root.OptionalItems("lights");
-  for (std::size_t i = 0; i < lights.size(); ++i) heights.lights.push_back(lights::ReadLightPlan(lights.At(i)));
+// A key that is an element's number; nothing, after a problem, where it is none.
+std::optional<std::int32_t> NumberOf(const config::Map& map, const std::string& key, std::string_view what) {
+  std::int32_t number = 0;
+  const auto [end, problem] = std::from_chars(key.data(), key.data() + key.size(), number);
+  if (problem == std::errc() && end == key.data() + key.size()) return number;
+  map.Problem(key, fmt::format("'{}' is not a {}'s number", key, what));
+  return std::nullopt;
+}
+
+void ReadCurves(const config::Map& all, Heights& heights) {
   for (const std::string& key : all.Keys()) {
     CurveHeights one;
-    const auto [end, problem] = std::from_chars(key.data(), key.data() + key.size(), one.curve);
-    if (problem != std::errc() || end != key.data() + key.size())
-      all.Problem(key, fmt::format("'{}' is not a curve's number", key));
+    if (const auto number = NumberOf(all, key, "curve")) one.curve = *number;
     const std::vector<double> z = all.Numbers(key, {-kMostHeight_m, kMostHeight_m});
     if (z.size() == one.z_m.size()) {
       std::copy(z.begin(), z.end(), one.z_m.begin());
@@ -38,11 +41,52 @@ base::Result<Heights> Read(config::File& file) {
       all.Problem(key, fmt::format("curve {} has heights already", one.curve));
     heights.curves.insert(at, one);
   }
+}
+
+LaneSign ReadSign(const config::Map& item) {
+  std::vector<std::string> kinds;
+  for (int i = 0; i < kSignKinds; ++i) kinds.emplace_back(NameOf(static_cast<SignKind>(i)));
+  LaneSign sign;
+  sign.line = LineOf(item.Place());
+  sign.lane = static_cast<std::int32_t>(item.Integer("lane", INT32_MIN, INT32_MAX));
+  const auto kind = std::find(kinds.begin(), kinds.end(), item.Choice("kind", kinds));
+  if (kind != kinds.end()) sign.kind = static_cast<SignKind>(kind - kinds.begin());
+  sign.before_end_m = item.Number("before_end_m", {0.0, kMostDistance_m}, 0.0);
+  if (sign.kind == SignKind::kSpeedLimit) sign.limit_kmh = item.Number("limit_kmh", {5.0, 200.0});
+  return sign;
+}
+
+void ReadFlows(const config::Map& all, Heights& heights) {
+  for (const std::string& key : all.Keys()) {
+    LaneFlow flow;
+    if (const auto number = NumberOf(all, key, "lane")) flow.lane = *number;
+    flow.vehph = all.Number(key, {0.0, 10'000.0});
+    flow.line = LineOf(all.Place(key));
+    const auto at = std::lower_bound(heights.flows.begin(), heights.flows.end(), flow.lane, [](const LaneFlow& f, std::int32_t lane) { return f.lane < lane; });
+    if (at != heights.flows.end() && at->lane == flow.lane) all.Problem(key, fmt::format("lane {} has a flow already", flow.lane));
+    heights.flows.insert(at, flow);
+  }
+}
+
+base::Result<Heights> Read(config::File& file) {
+  const config::Map root = file.root();
+  (void)root.Choice("rodeira", {"motors/1"});
+  Heights heights;
+  const config::List lights = root.OptionalItems("lights"), signs = root.OptionalItems("signs");
+  for (std::size_t i = 0; i < lights.size(); ++i) heights.lights.push_back(lights::ReadLightPlan(lights.At(i)));
+  for (std::size_t i = 0; i < signs.size(); ++i) heights.signs.push_back(ReadSign(signs.At(i)));
+  ReadCurves(root.OptionalChild("heights_m"), heights);
+  ReadFlows(root.OptionalChild("flows_vehph"), heights);
   if (const base::Status status = file.Finish(); !status) return status.error();
   return heights;
 }
 
 }  // namespace
+
+std::string_view NameOf(SignKind kind) {
+  constexpr std::array<std::string_view, kSignKinds> kNames = {"stop", "give_way", "priority", "speed_limit"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
 
 std::size_t LineOf(const std::string& place) {
   std::size_t line = 0;

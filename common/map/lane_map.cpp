@@ -53,6 +53,10 @@ base::Result<LaneMap> MakeLaneMap(const MapFile& file, const Heights& heights, c
   for (const lights::LightPlan& plan : heights.lights) {
     for (const std::string& lane : plan.Names()) map.lights.push_back({*lanes.Find(std::stoi(lane)), *lights::TimesOf(plan, lane)});
   }
+  for (const LaneSign& sign : heights.signs) {
+    const std::size_t lane = *lanes.Find(sign.lane);
+    map.signs.push_back({lane, sign.kind, std::max(0.0, map.lanes[lane].shape.length_m() - sign.before_end_m), sign.limit_kmh});
+  }
   if (const auto picture = ReadPictureInfo(file.picture)) {
     map.picture_height_m = 10.0 * static_cast<double>(file.scale.value.value);
     map.picture_width_m = map.picture_height_m * picture->width_px / picture->height_px;

@@ -54,6 +54,14 @@ struct MapLight {
   network::LightTimes times;
 };
 
+// A sign for the traffic of a lane.
+struct MapSign {
+  std::size_t lane = 0;
+  SignKind kind = SignKind::kGiveWay;
+  double s_m = 0.0;  // along the lane
+  double limit_kmh = 0.0;  // of a speed limit
+};
+
 // A map as traffic uses it: every number resolved, every lane with its shape. Lanes and connections stand in the file's
 // order. Immutable after it is made.
 struct LaneMap {
@@ -62,6 +70,7 @@ struct LaneMap {
   std::vector<std::size_t> start_lanes;
   std::vector<std::size_t> end_lanes;
   std::vector<MapLight> lights;  // at most one a lane
+  std::vector<MapSign> signs;    // in the file's order; STOP of connections stands there
   // The picture on the ground, centred on the origin; no size where there is none that can be read.
   double picture_width_m = 0.0;
   double picture_height_m = 0.0;

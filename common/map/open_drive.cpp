@@ -94,10 +94,27 @@ class Writer {
     WriteLanes(road.append_child("lanes"), lane, pieces, from_road, to_road);
     const bool lit = std::any_of(map_.lights.begin(), map_.lights.end(), [&](const MapLight& l) { return &map_.lanes[l.lane] == &lane; });
     const bool stop = std::any_of(lane.onward.begin(), lane.onward.end(), [&](std::size_t i) { return map_.connections[i].stop; });
-    if (!lit && !stop) return;
+    const std::vector<MapSign> signs = SignsOf(lane, stop);
+    if (!lit && !stop && signs.empty()) return;
     pugi::xml_node signals = road.append_child("signals");
-    if (stop) WriteSignal(signals, lane, fmt::format("{}", lane.id), "STOP", "206");
-    if (lit) WriteSignal(signals, lane, fmt::format("light {}", lane.id), "light", "1000001");
+    if (stop) WriteSignal(signals, lane, lane.shape.length_m(), fmt::format("{}", lane.id), "STOP", "206");
+    for (std::size_t i = 0; i < signs.size(); ++i) {
+      constexpr std::array<const char*, kSignKinds> kNames = {"STOP", "give way", "priority", "speed limit"}, kTypes = {"206", "205", "301", "274"};
+      const auto kind = static_cast<std::size_t>(signs[i].kind);
+      pugi::xml_node signal = WriteSignal(signals, lane, signs[i].s_m, fmt::format("{} sign {}", lane.id, i + 1), kNames[kind], kTypes[kind]);
+      if (signs[i].kind == SignKind::kSpeedLimit) Set(signal, "value", signs[i].limit_kmh), Set(signal, "unit", "km/h");
+    }
+    if (lit) WriteSignal(signals, lane, lane.shape.length_m(), fmt::format("light {}", lane.id), "light", "1000001");
+  }
+
+  // Along the lane; none that says what a STOP flag says already.
+  std::vector<MapSign> SignsOf(const MapLane& lane, bool stop) const {
+    std::vector<MapSign> signs;
+    for (const MapSign& sign : map_.signs) {
+      if (&map_.lanes[sign.lane] == &lane && !(stop && sign.kind == SignKind::kStop)) signs.push_back(sign);
+    }
+    std::stable_sort(signs.begin(), signs.end(), [](const MapSign& a, const MapSign& b) { return a.s_m < b.s_m; });
+    return signs;
   }
 
   // Whether it is a road, and not a junction, that lies there.
@@ -164,8 +181,8 @@ class Writer {
     }
   }
 
-  static void WriteLanes(pugi::xml_node lanes, const MapLane& lane, const std::vector<DrivePiece>& pieces, bool from_road,
-                         bool to_road) {
+  void WriteLanes(pugi::xml_node lanes, const MapLane& lane, const std::vector<DrivePiece>& pieces, bool from_road,
+                  bool to_road) const {
     for (const DrivePiece& piece : pieces) {
       pugi::xml_node offset = lanes.append_child("laneOffset");
       Set(offset, "s", piece.s_m);
@@ -191,13 +208,21 @@ class Writer {
       SetCubic(width, piece.width);
     }
     WriteMark(right, lane.right_type);
+    for (const MapSign& sign : SignsOf(lane, false)) {
+      if (sign.kind != SignKind::kSpeedLimit) continue;
+      pugi::xml_node speed = right.append_child("speed");
+      Set(speed, "sOffset", sign.s_m);
+      Set(speed, "max", sign.limit_kmh);
+      Set(speed, "unit", "km/h");
+    }
   }
 
-  static void WriteSignal(pugi::xml_node signals, const MapLane& lane, const std::string& id, const char* name, const char* type) {
+  static pugi::xml_node WriteSignal(pugi::xml_node signals, const MapLane& lane, double s_m, const std::string& id, const char* name,
+                                    const char* type) {
     const bool light = std::string_view(name) == "light";
     pugi::xml_node signal = signals.append_child("signal");
-    Set(signal, "s", lane.shape.length_m());
-    Set(signal, "t", lane.shape.AtParameter(1.0).right_m - 0.6);
+    Set(signal, "s", s_m);
+    Set(signal, "t", lane.shape.At(s_m).right_m - 0.6);
     Set(signal, "id", id);
     Set(signal, "name", name);
     Set(signal, "dynamic", light ? "yes" : "no");
@@ -207,6 +232,7 @@ class Writer {
     Set(signal, "type", type);
     Set(signal, "subtype", "-1");
     if (light) Set(signal, "height", 0.9), Set(signal, "width", 0.3);
+    return signal;
   }
 
   // OpenDRIVE has no times of lights: they stand in the data of users.

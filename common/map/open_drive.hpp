@@ -20,7 +20,8 @@ struct OpenDrive {
 
 // Every lane is a road with the lane's number as its id: its reference line is the lane's middle as paramPoly3 by distance,
 // lane -1 reaches from border to border (laneOffset, width). Where a lane has one successor that has no other predecessor, the
-// roads are linked; everywhere else a direct junction links them. STOP is a signal of type 206. The pieces are cut until
+// roads are linked; everywhere else a direct junction links them. STOP is a signal of type 206, other signs are 205, 301 and
+// 274, which is the lane's speed from there on too. The pieces are cut until
 // every error is below 5 mm. Wrong input where a lane cannot be fitted so (a cusp).
 base::Result<OpenDrive> ToOpenDrive(const LaneMap& map, const std::string& name);
 

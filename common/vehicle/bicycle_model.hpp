@@ -1,14 +1,7 @@
 #pragma once
 
-#include <array>
-
-#include "common/vehicle/bicycle_settings.hpp"
-#include "common/vehicle/powertrain.hpp"
-#include "common/vehicle/rigid_body.hpp"
-#include "common/vehicle/suspension.hpp"
-#include "common/vehicle/tyre.hpp"
+#include "common/vehicle/bicycle_car.hpp"
 #include "common/vehicle/vehicle_model.hpp"
-#include "common/vehicle/wheel_ground.hpp"
 
 namespace rodeira::vehicle {
 
@@ -20,77 +13,34 @@ namespace rodeira::vehicle {
 // it is bounded. Not modelled: bump steer, camber, aligning moments on the body, lift, wind, gyroscopes of the wheels.
 class BicycleModel final : public VehicleModel {
  public:
-  explicit BicycleModel(const BicycleSettings& settings);
+  explicit BicycleModel(const BicycleSettings& settings) : chassis_(settings) {}
 
   base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) override;
   void Step(const Controls& controls, terrain::Ground& ground, double dt_s) override;
   void SetPush(const Wrench& push) override { push_ = push; }
   bool can_be_pushed() const override { return true; }
   const VehicleState& state() const override { return state_; }
-  const VehicleDimensions& dimensions() const override { return settings_.dimensions; }
+  const VehicleDimensions& dimensions() const override { return chassis_.settings.dimensions; }
   void Save(base::StateWriter& writer) const override;
   void Restore(base::StateReader& reader) override;
 
-  const BicycleSettings& settings() const { return settings_; }
+  const BicycleSettings& settings() const { return chassis_.settings; }
+  // All of it that moves.
+  const BicycleCar& car() const { return car_; }
 
  private:
   friend class BicycleEquilibrium;
 
-  struct Wheel : WheelGround {
-    Corner corner;
-    Tyre tyre;
-    double spin_rad = 0.0;
-    double spin_radps = 0.0;
-
-    void Save(base::StateWriter& writer) const;
-    void Restore(base::StateReader& reader);
-  };
-  // Where a wheel meets the ground, for one substep.
-  struct Contact {
-    Eigen::Vector3d point_W = Eigen::Vector3d::Zero();
-    Eigen::Vector3d along_W = Eigen::Vector3d::UnitX();
-    Eigen::Vector3d across_W = Eigen::Vector3d::UnitY();
-    TyreForces forces;
-  };
-  using Contacts = std::array<Contact, kWheels>;
-  struct WheelTorques {
-    std::array<double, kWheels> brake_Nm{};
-    std::array<double, kWheels> drive_Nm{};
-  };
-
-  double SteerAngle(std::size_t wheel, double steering_wheel_rad) const;
-  Eigen::Vector3d HubAtRest_B(std::size_t wheel) const;
-  Eigen::Vector3d HubAtRest_W(std::size_t wheel) const;
-  // Ground.
-  void AskGround(terrain::Ground& ground);
-  CornerInput CornerInputOf(std::size_t wheel) const;
-  Contact ContactOf(std::size_t wheel, double steering_wheel_rad) const;
-  Eigen::Vector3d RoadNormal(const Contacts& contacts) const;
-  // One substep.
-  void Substep(const Controls& controls, double dt_s);
-  TyreMotion MotionOf(const Contacts& contacts, std::size_t wheel) const;
-  WheelTorques TurnWheels(const Controls& controls, const Contacts& contacts, double dt_s);
-  void PushBody(const Contacts& contacts, double dt_s);
-  void KeepUpright(const Contacts& contacts);
-  // Published state.
-  Eigen::Vector3d p_WB_W() const;
-  Eigen::Vector3d v_WB_W() const;
+  Eigen::Vector3d p_WB_W() const { return car_.p_WB_W(chassis_); }
+  Eigen::Vector3d v_WB_W() const { return car_.body.VelocityAt(p_WB_W()); }
+  void AskGround(terrain::Ground& ground, double steering_wheel_rad);
   void Publish(const Controls& controls, double dt_s);
   double SteeringTorque() const;
 
-  BicycleSettings settings_;
-  std::array<TyreSettings, kWheels> tyres_;
-  Eigen::Vector3d p_BG_B_;  // centre of gravity in the body frame
-  std::array<double, kWheels> static_load_N_{};
-
-  RigidBody body_;
-  std::array<Wheel, kWheels> wheels_;
-  Powertrain powertrain_;
-  double forward_mps2_ = 0.0;  // acceleration of the last substep along the car
-  Contacts contacts_;          // of the last substep
-  WheelTorques torques_;
-  double drag_N_ = 0.0;
-  Wrench push_;  // of the next step
+  BicycleChassis chassis_;
+  BicycleCar car_;
+  BicycleFindings findings_;  // of the last substep
+  Wrench push_;               // of the next step
   VehicleState state_;
 };
 

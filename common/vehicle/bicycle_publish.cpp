@@ -10,15 +10,15 @@ namespace rodeira::vehicle {
 
 // The front tyres turn their carriers by side force × trail; the pneumatic part vanishes as the tyre slides.
 double BicycleModel::SteeringTorque() const {
-  const SteeringSettings& steering = settings_.steering;
+  const SteeringSettings& steering = settings().steering;
   double torque = 0.0;
   for (const std::size_t i : {kFrontLeft, kFrontRight}) {
-    const double load = wheels_[i].corner.load_N();
-    const double peak = LateralPeak(settings_.tyre[0], load, wheels_[i].friction);
-    const double stiffness = std::max(1.0, CorneringStiffness(settings_.tyre[0], load));
-    const double sliding = peak > 0.0 ? std::min(1.0, std::fabs(wheels_[i].tyre.slip_angle_tan()) * stiffness / (3.0 * peak)) : 1.0;
+    const double load = car_.wheels[i].corner.load_N();
+    const double peak = LateralPeak(settings().tyre[0], load, car_.wheels[i].friction);
+    const double stiffness = std::max(1.0, CorneringStiffness(settings().tyre[0], load));
+    const double sliding = peak > 0.0 ? std::min(1.0, std::fabs(car_.wheels[i].tyre.slip_angle_tan()) * stiffness / (3.0 * peak)) : 1.0;
     const double trail = steering.mechanical_trail_m + steering.pneumatic_trail_m * (1.0 - sliding);
-    torque -= trail * contacts_[i].forces.lateral_N / steering.ratio;
+    torque -= trail * findings_.contacts[i].forces.lateral_N / steering.ratio;
   }
   return torque;
 }
@@ -27,73 +27,52 @@ void BicycleModel::Publish(const Controls& controls, double dt_s) {
   VehicleState& s = state_;
   const Eigen::Vector3d v = v_WB_W();
   s.a_WB_W = dt_s > 0.0 ? Eigen::Vector3d((v - s.v_WB_W) / dt_s) : Eigen::Vector3d::Zero();
-  s.alpha_WB_B = dt_s > 0.0 ? Eigen::Vector3d((body_.w_WG_G - s.w_WB_B) / dt_s) : Eigen::Vector3d::Zero();
+  s.alpha_WB_B = dt_s > 0.0 ? Eigen::Vector3d((car_.body.w_WG_G - s.w_WB_B) / dt_s) : Eigen::Vector3d::Zero();
   s.p_WB_W = p_WB_W();
-  s.q_WB = body_.q_WG;
+  s.q_WB = car_.body.q_WG;
   s.v_WB_W = v;
-  s.w_WB_B = body_.w_WG_G;
+  s.w_WB_B = car_.body.w_WG_G;
   s.odometer_m += dt_s * std::fabs(s.speed_mps());
   s.inside_world = true;
+  const BicyclePose pose = car_.PoseOf(chassis_, 0.0);
   for (std::size_t i = 0; i < kWheels; ++i) {
-    const Wheel& wheel = wheels_[i];
+    const BicycleCar::Wheel& wheel = car_.wheels[i];
     WheelState& w = s.wheels[i];
-    w.hub_B = HubAtRest_B(i) + Eigen::Vector3d(0.0, 0.0, wheel.corner.travel_m());
-    w.steer_rad = SteerAngle(i, controls.steering_wheel_rad);
+    w.hub_B = chassis_.HubAtRest_B(i) + Eigen::Vector3d(0.0, 0.0, wheel.corner.travel_m());
+    w.steer_rad = chassis_.SteerAngle(i, controls.steering_wheel_rad);
     w.spin_rad = wheel.spin_rad;
     w.spin_radps = wheel.spin_radps;
-    w.longitudinal_N = contacts_[i].forces.longitudinal_N;
-    w.lateral_N = contacts_[i].forces.lateral_N;
+    w.longitudinal_N = findings_.contacts[i].forces.longitudinal_N;
+    w.lateral_N = findings_.contacts[i].forces.lateral_N;
     w.load_N = wheel.corner.load_N();
     w.slip = wheel.tyre.slip();
     w.slip_angle_tan = wheel.tyre.slip_angle_tan();
-    w.brake_torque_Nm = torques_.brake_Nm[i];
-    w.drive_torque_Nm = torques_.drive_Nm[i];
+    w.brake_torque_Nm = findings_.brake_Nm[i];
+    w.drive_torque_Nm = findings_.drive_Nm[i];
     w.suspension_N = wheel.corner.suspension_N();
     w.damper_N = wheel.corner.damper_N();
     w.travel_m = wheel.corner.travel_m();
-    w.contact_W = ContactOf(i, 0.0).point_W;  // under the pose that is published
+    w.contact_W = car_.ContactOf(pose, i).point_W;  // under the pose that is published
     w.contact_normal_W = wheel.normal_W;
     w.friction = wheel.friction;
     w.surface = wheel.surface;
     s.inside_world = s.inside_world && wheel.inside;
   }
-  PublishPowertrain(powertrain_, s);
+  PublishPowertrain(car_.powertrain, s);
   s.brake = controls.brake;
-  s.steering_wheel_rad = SteerAngle(kFrontLeft, controls.steering_wheel_rad) * settings_.steering.ratio;
+  s.steering_wheel_rad = chassis_.SteerAngle(kFrontLeft, controls.steering_wheel_rad) * settings().steering.ratio;
   s.steering_torque_Nm = SteeringTorque();
-  s.drag_N = drag_N_;
+  s.drag_N = findings_.drag_N;
 }
 
-void BicycleModel::Wheel::Save(base::StateWriter& writer) const {
-  WheelGround::Save(writer);
-  writer.Put("corner", corner);
-  writer.Put("tyre", tyre);
-  writer.Put("spin_rad", spin_rad);
-  writer.Put("spin_radps", spin_radps);
-}
-
-void BicycleModel::Wheel::Restore(base::StateReader& reader) {
-  WheelGround::Restore(reader);
-  reader.Get("corner", corner);
-  reader.Get("tyre", tyre);
-  reader.Get("spin_rad", spin_rad);
-  reader.Get("spin_radps", spin_radps);
-}
-
-// Contacts and torques of the last substep need not be kept: they are found anew before they are used.
+// What the last substep found need not be kept: it is found anew before it is used.
 void BicycleModel::Save(base::StateWriter& writer) const {
-  writer.Put("body", body_);
-  for (const Wheel& wheel : wheels_) writer.Put("wheel", wheel);
-  writer.Put("powertrain", powertrain_);
-  writer.Put("forward_mps2", forward_mps2_);
+  car_.Save(writer);
   writer.Put("published", state_);
 }
 
 void BicycleModel::Restore(base::StateReader& reader) {
-  reader.Get("body", body_);
-  for (Wheel& wheel : wheels_) reader.Get("wheel", wheel);
-  reader.Get("powertrain", powertrain_);
-  reader.Get("forward_mps2", forward_mps2_);
+  car_.Restore(reader);
   reader.Get("published", state_);
 }
 

@@ -8,6 +8,7 @@
 #include "common/base/assert.hpp"
 #include "common/base/suggest.hpp"
 #include "common/geometry/angle.hpp"
+#include "common/vehicle/enveloping.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -46,13 +47,15 @@ Eigen::Vector3d FmuModel::HubAtRest_B(std::size_t wheel) const {
 }
 
 void FmuModel::AskGround(terrain::Ground& ground) {
-  std::array<Eigen::Vector3d, kWheels> hubs_W;
+  WheelPlaces places;
   std::array<WheelGround*, kWheels> wheels{};
   for (std::size_t i = 0; i < kWheels; ++i) {
-    hubs_W[i] = state_.p_WB_W + state_.q_WB * state_.wheels[i].hub_B;
+    const WheelState& wheel = state_.wheels[i];
+    places.hubs_W[i] = state_.p_WB_W + state_.q_WB * wheel.hub_B;
+    places.axles_W[i] = state_.q_WB * Eigen::Vector3d(-std::sin(wheel.steer_rad), std::cos(wheel.steer_rad), 0.0);
     wheels[i] = &wheels_[i];
   }
-  vehicle::AskGround(ground, hubs_W, wheels);
+  vehicle::AskGround(ground, settings_.enveloping, settings_.dimensions.wheel_radius_m, places, wheels);
 }
 
 base::Status FmuModel::Set(const fmi::Variable* variable, double value) { return variable == nullptr ? base::Status() : instance_->Set(*variable, value); }

@@ -9,6 +9,7 @@
 #include "common/fmi/unit.hpp"
 #include "common/vehicle/fmu_variables.hpp"
 #include "common/vehicle/vehicle_model.hpp"
+#include "common/vehicle/wheel.hpp"
 #include "common/vehicle/wheel_ground.hpp"
 
 namespace rodeira::vehicle {
@@ -18,6 +19,7 @@ struct FmuSettings {
   std::filesystem::path fmu;
   std::map<std::string, std::string> names;    // our names of variables to the FMU's own
   std::map<std::string, double> parameters;    // of the FMU, by its names: set before the first step
+  Enveloping enveloping = Enveloping::kNone;   // of the ground that it is told
   VehicleDimensions dimensions;
 };
 FmuSettings ReadFmu(const config::Map& root);

@@ -1,4 +1,5 @@
 #include "common/vehicle/fmu_model.hpp"
+#include "common/vehicle/parts_file.hpp"
 
 namespace rodeira::vehicle {
 
@@ -11,6 +12,7 @@ FmuSettings ReadFmu(const config::Map& root) {
   for (const std::string& name : names.Keys()) fmu.names[name] = names.Text(name);
   const config::Map parameters = root.OptionalChild("parameters");
   for (const std::string& name : parameters.Keys()) fmu.parameters[name] = parameters.Number(name);
+  fmu.enveloping = ReadEnveloping(root);
   const config::Map map = root.Child("dimensions");
   VehicleDimensions& d = fmu.dimensions;
   d.wheelbase_m = map.Number("wheelbase_m", {0.5, 20.0});

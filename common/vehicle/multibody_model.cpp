@@ -5,6 +5,7 @@
 
 #include "common/base/assert.hpp"
 #include "common/geometry/angle.hpp"
+#include "common/vehicle/enveloping.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -86,13 +87,14 @@ void MultibodyModel::GiveGround(std::size_t wheel) {
 }
 
 void MultibodyModel::AskGround(terrain::Ground& ground) {
-  std::array<Eigen::Vector3d, kWheels> hubs_W;
+  WheelPlaces places;
   std::array<WheelGround*, kWheels> wheels{};
   for (std::size_t i = 0; i < kWheels; ++i) {
-    hubs_W[i] = Hub_W(i);
+    places.hubs_W[i] = Hub_W(i);
+    places.axles_W[i] = system_->motion().At(settings_.wheels[i].axle);
     wheels[i] = &wheels_[i];
   }
-  vehicle::AskGround(ground, hubs_W, wheels);
+  vehicle::AskGround(ground, settings_.wheel.enveloping, settings_.wheel.radius_m, places, wheels);
 }
 
 void MultibodyModel::Step(const Controls& controls, terrain::Ground& ground, double dt_s) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "common/multibody/output.hpp"
 #include "common/multibody/system.hpp"
 #include "common/vehicle/multibody_body_load.hpp"
 #include "common/vehicle/multibody_loads.hpp"
@@ -24,6 +25,8 @@ class MultibodyModel final : public VehicleModel {
   explicit MultibodyModel(const MultibodySettings& settings) : settings_(settings), tyres_(OnWheels(settings.tyre)) {}
   // Refused where the mechanism cannot be assembled or cannot stand on level ground.
   base::Status Build();
+  // After it: the file's `mechanism: outputs`, as of a mechanism file but none where it names none. Problems stay in the file's collection.
+  void ReadOutputs(const config::Map& root);
 
   base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) override;
   void Step(const Controls& controls, terrain::Ground& ground, double dt_s) override;
@@ -31,6 +34,8 @@ class MultibodyModel final : public VehicleModel {
   bool can_be_pushed() const override { return true; }
   const VehicleState& state() const override { return state_; }
   const VehicleDimensions& dimensions() const override { return settings_.dimensions; }
+  std::vector<std::string> output_names() const override;
+  std::vector<double> Outputs() const override;
   void Save(base::StateWriter& writer) const override;
   void Restore(base::StateReader& reader) override;
 
@@ -95,6 +100,7 @@ class MultibodyModel final : public VehicleModel {
   multibody::Form origin_;                                  // chassis point drawn at the file's origin
   Eigen::Isometry3d X_CB_ = Eigen::Isometry3d::Identity();  // body frame in the chassis as drawn: what rests level on z = 0
   std::array<Eigen::Vector3d, kWheels> hub_rest_B_;
+  std::vector<multibody::Output> outputs_;
 
   std::array<Wheel, kWheels> wheels_;
   Powertrain powertrain_;

@@ -5,6 +5,7 @@
 
 #include "common/base/assert.hpp"
 #include "common/geometry/angle.hpp"
+#include "common/vehicle/enveloping.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -48,13 +49,14 @@ double OdeModel::StrutExtra(std::size_t wheel) const {
 }
 
 void OdeModel::AskGround(terrain::Ground& ground) {
-  std::array<Eigen::Vector3d, kWheels> hubs_W;
+  WheelPlaces places;
   std::array<WheelGround*, kWheels> wheels{};
   for (std::size_t i = 0; i < kWheels; ++i) {
-    hubs_W[i] = now_.bodies[i].p_WG_W;
+    places.hubs_W[i] = now_.bodies[i].p_WG_W;
+    places.axles_W[i] = now_.bodies[i].q_WG * Eigen::Vector3d::UnitY();
     wheels[i] = &now_.wheels[i];
   }
-  vehicle::AskGround(ground, hubs_W, wheels);
+  vehicle::AskGround(ground, settings_.car.wheel.enveloping, settings_.car.wheel.radius_m, places, wheels);
 }
 
 OdeModel::Contact OdeModel::ContactOf(std::size_t wheel) const {

@@ -140,6 +140,10 @@ SuspensionSettings ReadSuspension(const Map& map) {
   return suspension;
 }
 
+Enveloping ReadEnveloping(const Map& map) {
+  return map.Choice("enveloping", {"none", "ring"}, "none") == "ring" ? Enveloping::kRing : Enveloping::kNone;
+}
+
 WheelSettings ReadWheel(const Map& map) {
   WheelSettings wheel;
   wheel.radius_m = map.Number("radius_m", {0.05, 2.0});
@@ -148,6 +152,7 @@ WheelSettings ReadWheel(const Map& map) {
   wheel.inertia_kgm2 = map.Number("inertia_kgm2", {0.05, 1000.0});
   wheel.vertical_Npm = map.Number("vertical_Npm", {1e4, 1e7});
   wheel.rolling_resistance = map.Number("rolling_resistance", {0.0, 0.5});
+  wheel.enveloping = ReadEnveloping(map);
   return wheel;
 }
 

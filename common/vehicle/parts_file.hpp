@@ -13,6 +13,7 @@ namespace rodeira::vehicle {
 PowertrainSettings ReadPowertrain(const config::Map& root);
 SuspensionSettings ReadSuspension(const config::Map& map);
 WheelSettings ReadWheel(const config::Map& map);
+Enveloping ReadEnveloping(const config::Map& map);
 BrakeSettings ReadBrakes(const config::Map& map);
 TyreSettings ReadTyre(const config::Map& map);
 

@@ -63,10 +63,12 @@ TyreForces Tyre::Forces(const TyreSettings& tyre, const TyreMotion& motion, doub
     return {};
   }
   const double damping = tyre.low_speed_damping_Nspm * LowSpeedShare(tyre, motion.vx_mps);
-  const double along = std::max(LongitudinalStiffness(tyre, load_N), kTiny_N);
-  const double across = std::max(CorneringStiffness(tyre, load_N), kTiny_N);
-  slip_ = u_m_ / tyre.relaxation_longitudinal_m - damping / along * motion.vsx_mps;
-  slip_angle_tan_ = v_m_ / tyre.relaxation_lateral_m + damping / across * motion.vsy_mps;
+  slip_ = u_m_ / tyre.relaxation_longitudinal_m;
+  slip_angle_tan_ = v_m_ / tyre.relaxation_lateral_m;
+  if (damping > 0.0) {
+    slip_ -= damping / std::max(LongitudinalStiffness(tyre, load_N), kTiny_N) * motion.vsx_mps;
+    slip_angle_tan_ += damping / std::max(CorneringStiffness(tyre, load_N), kTiny_N) * motion.vsy_mps;
+  }
   return SteadyForces(tyre, {slip_, slip_angle_tan_, motion.camber_rad}, load_N, friction);
 }
 

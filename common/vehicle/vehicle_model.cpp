@@ -38,11 +38,16 @@ std::vector<ModelKind> AllKinds(std::span<const ModelKind> more) {
   std::vector<ModelKind> kinds;
   kinds.push_back({"bicycle", [](const config::Map& root) { return std::make_unique<BicycleModel>(ReadBicycle(root)); }});
   kinds.push_back({"multibody", [](const config::Map& root) { return std::make_unique<MultibodyModel>(ReadMultibody(root)); },
-                   [](VehicleModel& model) { return static_cast<MultibodyModel&>(model).Build(); }});
+                   [](VehicleModel& model, const config::Map& root) {
+                     auto& car = static_cast<MultibodyModel&>(model);
+                     if (auto status = car.Build(); !status) return status;
+                     car.ReadOutputs(root);
+                     return base::Status();
+                   }});
   kinds.push_back({"fmu", [](const config::Map& root) { return std::make_unique<FmuModel>(ReadFmu(root)); },
-                   [](VehicleModel& model) { return static_cast<FmuModel&>(model).Build(); }});
+                   [](VehicleModel& model, const config::Map&) { return static_cast<FmuModel&>(model).Build(); }});
   kinds.push_back({"ode", [](const config::Map& root) { return std::make_unique<OdeModel>(ReadOde(root)); },
-                   [](VehicleModel& model) { return static_cast<OdeModel&>(model).Build(); }});
+                   [](VehicleModel& model, const config::Map&) { return static_cast<OdeModel&>(model).Build(); }});
   kinds.insert(kinds.end(), more.begin(), more.end());
   return kinds;
 }
@@ -83,9 +88,10 @@ base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& pa
     // Keys that a broken file keeps the reader from asking for are no news to the user: his first problem is.
     if (const base::Status status = file.value().Finish(); !status) return status.error();
     if (kind.complete) {
-      if (const base::Status status = kind.complete(*model); !status) {
+      if (const base::Status status = kind.complete(*model, root); !status) {
         return status.error().context.empty() ? base::Error{status.error().code, status.error().message, path.string()} : status.error();
       }
+      if (const base::Status status = file.value().Finish(); !status) return status.error();
     }
     return model;
   }

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/base/result.hpp"
 #include "common/base/state.hpp"
@@ -69,7 +70,7 @@ class VehicleModel {
   // number is not finite; the model is then as before.
   virtual base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) = 0;
 
-  // CALCULO: advances by dt_s (over 0, at most 0.1 s) with the controls held. Asks the ground exactly once, one batch of
+  // CALCULO: advances by dt_s (over 0, at most 0.1 s) with the controls held. Asks the ground exactly once, one batch for
   // four wheels (law L4). Outside of the world a wheel goes on upon the last plane that it knew.
   virtual void Step(const Controls& controls, terrain::Ground& ground, double dt_s) = 0;
 
@@ -87,17 +88,20 @@ class VehicleModel {
   // False: the state cannot be read out. Save then writes what is known of it, Restore is never called, and a run with this car is
   // computed again from its first step only.
   virtual bool can_save() const { return true; }
+  // What the car's file asks for beside the state (`outputs`: forces within a mechanism): names with their units, and the values now.
+  virtual std::vector<std::string> output_names() const { return {}; }
+  virtual std::vector<double> Outputs() const { return {}; }
   // Why the last Step was not made (a laboratory's own model has failed): the car stays where it is. Ok otherwise.
   virtual base::Status problem() const { return {}; }
 };
 
 // A kind of model that a vehicle file may name, and what makes one of it from the file's mapping. Problems of the file
 // are left in its collection (config::File); `make` may then return anything, even null. `complete`, where there is one,
-// is called when the file has no problems: what takes sound numbers to build.
+// is called when the file has no problems: what takes sound numbers to build, and what can be read only then.
 struct ModelKind {
   std::string name;
   std::function<std::unique_ptr<VehicleModel>(const config::Map& root)> make;
-  std::function<base::Status(VehicleModel& model)> complete = nullptr;
+  std::function<base::Status(VehicleModel& model, const config::Map& root)> complete = nullptr;
 };
 
 // Reads a vehicle file (`rodeira: vehicle/1`, `model: bicycle`). `wanted`: another model than the file's own; the file names the one

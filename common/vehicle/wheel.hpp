@@ -4,6 +4,12 @@
 
 namespace rodeira::vehicle {
 
+// What a wheel feels of ground that is rougher than it is round (common/vehicle/enveloping).
+enum class Enveloping {
+  kNone,  // the plane of the ground below the hub
+  kRing,  // the plane that a rigid ring of the wheel's radius touches
+};
+
 struct WheelSettings {
   double radius_m = 0.29;          // unloaded
   double rolling_radius_m = 0.283;  // distance rolled for a radian, and lever arm of the longitudinal force
@@ -11,6 +17,7 @@ struct WheelSettings {
   double inertia_kgm2 = 0.8;  // about the axle, with hub and brake disc
   double vertical_Npm = 180000.0;
   double rolling_resistance = 0.012;  // force over load
+  Enveloping enveloping = Enveloping::kNone;
 };
 
 // Torques at one wheel with the pedal (or lever) at its end.

@@ -20,20 +20,21 @@ void WheelGround::Restore(base::StateReader& reader) {
   reader.Get("inside", inside);
 }
 
+void WheelGround::Take(const terrain::GroundQuery& query, const terrain::GroundPoint& point) {
+  inside = point.inside;
+  surface = point.surface;
+  if (!inside) return;
+  plane_W = {query.x_m, query.y_m, point.z_m};
+  normal_W = point.normal_W;
+  friction = point.friction;
+}
+
 void AskGround(terrain::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W, const std::array<WheelGround*, kWheels>& wheels) {
   std::array<terrain::GroundQuery, kWheels> queries;
   std::array<terrain::GroundPoint, kWheels> points;
   for (std::size_t i = 0; i < kWheels; ++i) queries[i] = {hubs_W[i].x(), hubs_W[i].y(), hubs_W[i].z()};
   ground.Query(queries, points);
-  for (std::size_t i = 0; i < kWheels; ++i) {
-    WheelGround& wheel = *wheels[i];
-    wheel.inside = points[i].inside;
-    wheel.surface = points[i].surface;
-    if (!wheel.inside) continue;
-    wheel.plane_W = {queries[i].x_m, queries[i].y_m, points[i].z_m};
-    wheel.normal_W = points[i].normal_W;
-    wheel.friction = points[i].friction;
-  }
+  for (std::size_t i = 0; i < kWheels; ++i) wheels[i]->Take(queries[i], points[i]);
 }
 
 Plane PlaneUnder(const std::array<const WheelGround*, kWheels>& wheels) {

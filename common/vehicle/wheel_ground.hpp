@@ -17,6 +17,9 @@ struct WheelGround {
   terrain::Surface surface = terrain::Surface::kOutside;
   bool inside = false;
 
+  // SUELO's answer to the question below the hub. Outside of the world the plane stays.
+  void Take(const terrain::GroundQuery& query, const terrain::GroundPoint& point);
+
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
 };

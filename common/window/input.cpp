@@ -88,6 +88,11 @@ bool Input::Take(int wait_ms) {
     full = Give(events_.front());
     events_.pop_front();
   }
+  // The letter of a key comes with it: a key that opens a field does not write into it.
+  while (!events_.empty() && events_.front().type == SDL_TEXTINPUT) {
+    Give(events_.front());
+    events_.pop_front();
+  }
   return !closing_;
 }
 

@@ -52,10 +52,15 @@ TEST_F(FmuRun, OneThatHangsIsNamedByTheWatchdog) {
 
 TEST_F(FmuRun, OneThatCrashesIsNamedAndTheOthersEnd) {
   const std::string recording = (folder_.path() / "crash.mcap").string();
-  const Ended run = RunCommand(Command("parameters: {crash_at_s: 1.5}\n", {"--for", "5", "--record", recording}));
-  EXPECT_EQ(run.status, 1) << run.out;
-  EXPECT_THAT(run.out, HasSubstr("node 'ego' was killed by signal 11"));
-  EXPECT_EQ(RunCommand({Bin("rodeira"), "info", recording}).status, 0) << "what was complete is there";
+  for (const bool in_process : {false, true}) {
+    auto command = Command("parameters: {crash_at_s: 1.5}\n", {"--for", "5", "--record", recording});
+    if (in_process) command.push_back("--in-process");
+    const Ended run = RunCommand(command);
+    EXPECT_EQ(run.status, 1) << run.out;
+    EXPECT_THAT(run.out, HasSubstr("node 'ego' failed at step 150"));
+    EXPECT_THAT(run.out, HasSubstr("car.fmu: fmi2DoStep: it crashes (signal 11)"));
+    EXPECT_EQ(RunCommand({Bin("rodeira"), "info", recording}).status, 0) << "what was complete is there";
+  }
 }
 
 // Already where it makes an instance of itself: also a run of one process says so, and is not dragged along.

@@ -10,6 +10,7 @@
 #include "common/base/state.hpp"
 #include "common/terrain/ground.hpp"
 #include "common/vehicle/bicycle_model.hpp"
+#include "common/vehicle/car_array.hpp"
 #include "common/vehicle/multibody_model.hpp"
 
 namespace rodeira::vehicle {
@@ -99,6 +100,38 @@ void BM_MagicFormula(benchmark::State& state) {
   }
 }
 
+// A decision's 10 ms of many cars: ground asked once, ten steps of 1 ms each. Argument: how many; with the slip curve's tyres or the file's formula.
+// Counter: how many cars go in real time on this core.
+void BM_CarArray(benchmark::State& state) {
+  constexpr double kDecision_s = 0.01;
+  terrain::PlaneGround ground;
+  auto loaded = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/default.yaml");
+  BicycleSettings settings = static_cast<BicycleModel&>(*loaded.value()).settings();
+  if (state.range(1) != 0) {
+    for (TyreSettings& tyre : settings.tyre) tyre.slip_curve = SlipCurveSettings{};
+  }
+  const auto count = static_cast<std::size_t>(state.range(0));
+  CarArray cars;
+  const auto kind = cars.AddKind(settings);
+  for (std::size_t i = 0; i < count; ++i) (void)cars.Add(kind.value(), {.y_m = 4.0 * static_cast<double>(i), .speed_mps = 8.0 + 0.02 * static_cast<double>(i)}, ground);
+  std::vector<Controls> controls(count);
+  int step = 0;
+  for (auto _ : state) {
+    // Speeds are held at 8 to 18 m/s, by bends to and fro.
+    for (std::size_t i = 0; i < count; ++i) {
+      const double wanted = 8.0 + 0.02 * static_cast<double>(i % 500);
+      controls[i].throttle = std::clamp(0.3 * (wanted - cars.speed_mps(i)) + 0.15, 0.0, 1.0);
+      controls[i].steering_wheel_rad = 0.5 * std::sin(0.005 * step + 0.1 * static_cast<double>(i));
+    }
+    cars.Step(controls, ground, kDecision_s);
+    ++step;
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<long>(count));
+  state.counters["cars_in_real_time"] = benchmark::Counter(kDecision_s * static_cast<double>(state.iterations()) * static_cast<double>(count), benchmark::Counter::kIsRate);
+  state.counters["bytes_a_car"] = sizeof(BicycleCar) + sizeof(BicycleFindings);
+}
+
+BENCHMARK(BM_CarArray)->Args({500, 0})->Args({500, 1})->Args({1000, 1})->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_StepStanding);
 BENCHMARK(BM_StepDriving);
 BENCHMARK(BM_StepWithDigest);

@@ -56,6 +56,45 @@ TEST(Prototype, HasTheCoordinatesOfItsSource) {
   EXPECT_EQ(system.degrees_of_freedom(), 11);
 }
 
+// The prototype with other outputs than its own (lines of `outputs`).
+base::Result<std::unique_ptr<VehicleModel>> WithOutputs(const std::string& outputs) {
+  std::string text = base::ReadText(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/prototype.yaml").value();
+  const auto from = text.find("  outputs:\n"), to = text.find("\nbody:");
+  text.replace(from, to - from, "  outputs:\n" + outputs);
+  const auto path = std::filesystem::temp_directory_path() / ("rodeira-outputs-" + std::to_string(::getpid()) + ".yaml");
+  EXPECT_TRUE(base::WriteWhole(path, text).ok());
+  auto model = LoadVehicle(path);
+  std::filesystem::remove(path);
+  return model;
+}
+
+// C5, in a car that drives: what acts on a carrier at its points bears its weight; on the chassis, at the damper's top, acts the damper alone.
+TEST(Prototype, ForcesInItsJointsAreOutputs) {
+  auto made = WithOutputs(
+      "    low_N: joint fl_carrier fl_lower_ball.z\n    high_N: joint fl_carrier fl_upper_ball.z\n    tie_N: joint fl_carrier fl_tie_outer.z\n"
+      "    hub_N: joint fl_carrier fl_hub.z\n    top_x_N: joint chassis fl_damper_top.x\n    top_y_N: joint chassis fl_damper_top.y\n"
+      "    top_z_N: joint chassis fl_damper_top.z\n");
+  ASSERT_TRUE(made.ok()) << made.error().Text();
+  VehicleModel& car = *made.value();
+  EXPECT_EQ(car.output_names()[3], "hub_N");
+  PlaneGround ground;
+  ASSERT_TRUE(car.Initialise({}, ground).ok());
+  const std::vector<double> rests = car.Outputs();
+  EXPECT_NEAR(rests[0] + rests[1] + rests[2] + rests[3], 23.0 * kG, 0.1);
+  const auto top = [&](const std::vector<double>& at) { return Eigen::Vector3d(at[4], at[5], at[6]).norm(); };
+  EXPECT_NEAR(top(rests), car.state().wheels[kFrontLeft].suspension_N, 1.0);
+  ASSERT_TRUE(car.Initialise({.speed_mps = 25.0}, ground).ok());
+  Controls controls;
+  controls.brake = 0.7;
+  DriveFor(car, ground, controls, 0.1);
+  EXPECT_GT(std::fabs(car.state().wheels[kFrontLeft].damper_N), 100.0) << "it dives";
+  EXPECT_NEAR(top(car.Outputs()), car.state().wheels[kFrontLeft].suspension_N, 1.0);
+  const auto wrong = WithOutputs("    low_N: joint fl_carrier fl_lower_bal.z\n");
+  ASSERT_FALSE(wrong.ok());
+  EXPECT_NE(wrong.error().Text().find("did you mean 'fl_lower_ball'?"), std::string::npos) << wrong.error().Text();
+  EXPECT_EQ(wrong.error().exit_status(), 2);
+}
+
 TEST(PrototypeAtRest, StandsInEquilibrium) {
   auto car = Prototype();
   const double weight = Multibody(*car).settings().mass_kg * kG;

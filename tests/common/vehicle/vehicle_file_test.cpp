@@ -54,6 +54,8 @@ TEST(VehicleFile, RefusalsNamePlaceAndRemedy) {
   EXPECT_THAT(ProblemAfter("automatic:  #", "differential: {locking_drive: 1.3}\nautomatic:  #"), HasSubstr("'differential.locking_drive' is 1.3"));
   EXPECT_THAT(ProblemAfter("automatic:  #", "differential: {locking: 0.3}\nautomatic:  #"), HasSubstr("locking_drive"));
   EXPECT_EQ(ProblemAfter("automatic:  #", "differential: {preload_Nm: 40, locking_drive: 0.3, locking_overrun: 0.15}\nautomatic:  #"), "");
+  EXPECT_EQ(ProblemAfter("vertical_Npm: 180000", "enveloping: ring\n  vertical_Npm: 180000"), "");
+  EXPECT_THAT(ProblemAfter("vertical_Npm: 180000", "enveloping: rings\n  vertical_Npm: 180000"), HasSubstr("'wheel.enveloping' is 'rings'; did you mean 'ring'?"));
   EXPECT_THAT(ProblemAfter("driven_axle: front", "driven_axle: frnt"), HasSubstr("did you mean 'front'?"));
   EXPECT_THAT(ProblemAfter("cg_to_front_axle_m: 1.0 ", "cg_to_front_axle_m: 3.0 "), HasSubstr("between the axles"));
   EXPECT_EQ(LoadVehicle("/no/such/car.yaml").error().exit_status(), 2);

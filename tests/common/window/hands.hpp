@@ -46,9 +46,11 @@ inline void Key(SDL_Scancode scancode, bool down, Uint16 modifiers = KMOD_NONE) 
   SDL_PushEvent(&event);
 }
 
+// A key with Ctrl or Shift held; they are let go at last.
 inline void Press(SDL_Scancode scancode, Uint16 modifiers = KMOD_NONE) {
   Key(scancode, true, modifiers);
   Key(scancode, false, modifiers);
+  if (modifiers != KMOD_NONE) Key((modifiers & KMOD_CTRL) != 0 ? SDL_SCANCODE_LCTRL : SDL_SCANCODE_LSHIFT, false);
 }
 
 // ASCII.

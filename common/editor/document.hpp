@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/map/heights.hpp"
+#include "common/map/lane_map.hpp"
+#include "common/map/map_file.hpp"
+
+namespace rodeira::editor {
+
+// A map as it is drawn: what the `.motors` file says, and what its companion `.motors.yaml` says beside it. It may be faulty:
+// numbers twice, elements that are named and not there; of equal numbers the first element counts.
+struct Document {
+  map::MapFile map;
+  map::Heights companion;
+};
+
+// What was loaded of the companion: what is not edited keeps these bytes.
+struct LoadedCompanion {
+  map::Heights value;
+  std::string text;  // empty: there was no such file
+};
+
+// Where the first element with a number stands.
+template <class Value>
+std::optional<std::size_t> Find(const std::vector<map::Line<Value>>& lines, std::int32_t number) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].value.id == number) return i;
+  }
+  return std::nullopt;
+}
+std::optional<std::size_t> Find(const std::vector<map::Line<map::Connection>>& lines, std::int32_t from, std::int32_t to);
+
+// The number after the highest one, as the original editor counts; the lowest free one where there is none after it.
+template <class Value>
+std::int32_t NextNumber(const std::vector<map::Line<Value>>& lines) {
+  std::int32_t highest = 0;
+  for (const auto& line : lines) highest = line.value.id > highest ? line.value.id : highest;
+  if (highest < INT32_MAX) return highest + 1;
+  std::int32_t number = 1;
+  while (Find(lines, number)) ++number;
+  return number;
+}
+
+// A new map: nothing on it, the picture's scale 10.
+Document EmptyDocument();
+
+// Both files' bytes, one behind the other: equal documents have equal bytes.
+std::string BytesOf(const Document& document);
+
+// A lane's two borders in the direction of its traffic; nothing where one of its curves does not exist.
+struct Borders {
+  map::Cubic left, right;
+
+  map::Cubic Middle() const;
+};
+std::optional<Borders> BordersOf(const Document& document, const map::Lane& lane);
+map::Cubic CubicOf(const map::Curve& curve);
+
+}  // namespace rodeira::editor

@@ -1,0 +1,72 @@
+#include "common/editor/store.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "common/base/files.hpp"
+#include "common/map/companion_text.hpp"
+
+namespace rodeira::editor {
+namespace {
+
+constexpr std::size_t kMostCompanionBytes = 16u << 20;
+
+base::Status PutInPlace(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code problem;
+  std::filesystem::rename(from, to, problem);
+  if (problem) return base::Failed("the file cannot be put in its place: " + problem.message(), to.string());
+  return {};
+}
+
+}  // namespace
+
+std::filesystem::path CompanionPath(const std::filesystem::path& map_file) { return map_file.string() + ".yaml"; }
+
+base::Result<Opened> Open(const std::filesystem::path& map_file) {
+  auto file = map::LoadMap(map_file);
+  if (!file) return file.error();
+  Opened opened;
+  opened.document.map = std::move(file).value();
+  const std::filesystem::path beside = CompanionPath(map_file);
+  std::error_code problem;
+  if (!std::filesystem::exists(beside, problem)) return opened;
+  auto text = base::ReadText(beside, kMostCompanionBytes);
+  if (!text) return text.error();
+  const auto heights = map::ParseHeights(text.value(), beside);
+  if (!heights) return heights.error();
+  opened.document.companion = heights.value();
+  opened.companion = {heights.value(), std::move(text).value()};
+  return opened;
+}
+
+base::Result<LoadedCompanion> Save(const Document& document, const LoadedCompanion& loaded, const std::filesystem::path& map_file) {
+  const std::filesystem::path beside = CompanionPath(map_file);
+  const std::string tail = fmt::format(".{}.new", ::getpid());
+  const std::filesystem::path new_map = map_file.string() + tail, new_beside = beside.string() + tail;
+  std::error_code ignored;
+  const auto clean = [&] { std::filesystem::remove(new_map, ignored), std::filesystem::remove(new_beside, ignored); };
+  const auto fail = [&](const base::Error& error) {
+    clean();
+    return base::Error{error.code, error.message, map_file.string()};
+  };
+  const std::string text = map::CompanionText(document.companion, loaded.value, loaded.text);
+  if (!text.empty()) {
+    // Nothing is written that could not be read again.
+    const auto again = map::ParseHeights(text, beside);
+    if (!again) return fail(base::Failed("the companion file would not be readable: " + again.error().message));
+    if (auto status = base::WriteWhole(new_beside, text); !status) return fail(status.error());
+  }
+  if (auto status = map::SaveMap(document.map, new_map); !status) return fail(status.error());
+  if (!text.empty()) {
+    if (auto status = PutInPlace(new_beside, beside); !status) return fail(status.error());
+  }
+  if (auto status = PutInPlace(new_map, map_file); !status) return fail(status.error());
+  if (text.empty()) std::filesystem::remove(beside, ignored);  // another map's
+  return LoadedCompanion{document.companion, text};
+}
+
+}  // namespace rodeira::editor

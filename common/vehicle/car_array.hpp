@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/base/result.hpp"
+#include "common/base/state.hpp"
+#include "common/terrain/ground.hpp"
+#include "common/vehicle/bicycle_car.hpp"
+#include "common/vehicle/controls.hpp"
+
+namespace rodeira::vehicle {
+
+// Many cars of model `bicycle`, each with the bits that BicycleModel gives it alone, whoever else is in the array: four wheels with suspension and
+// tyres on SUELO's planes, engine, clutch, gears. Arrays of one kind of value each, one element a car.
+class CarArray {
+ public:
+  // A kind of car that others may be of: its number. Wrong input where its wheels envelop the ground, which takes more questions than an array asks.
+  base::Result<std::uint32_t> AddKind(const BicycleSettings& settings);
+  // INI of one more car; its index. Refused as by BicycleModel::Initialise; the array is then as before.
+  base::Result<std::size_t> Add(std::uint32_t kind, const InitialCondition& initial, terrain::Ground& ground);
+
+  // Each car with its controls (of the array's size) held for dt_s, over 0 and at most 0.1 s. The ground is asked once, one batch of all wheels in the
+  // order of the cars (law L4); then each car goes by itself, in substeps of at most 1 ms on these planes. On how many threads changes no bit.
+  void Step(std::span<const Controls> controls, terrain::Ground& ground, double dt_s, unsigned threads = 1);
+
+  std::size_t size() const { return cars_.size(); }
+  const BicycleCar& car(std::size_t i) const { return cars_[i]; }
+  const BicycleChassis& chassis(std::size_t i) const { return *chassis_[kinds_[i]]; }
+  // Steer angles, forces and torques of its last substep.
+  const BicycleFindings& findings(std::size_t i) const { return findings_[i]; }
+  Eigen::Vector3d p_WB_W(std::size_t i) const { return cars_[i].p_WB_W(chassis(i)); }
+  // Along the car.
+  double speed_mps(std::size_t i) const { return (cars_[i].body.q_WG.conjugate() * cars_[i].body.v_WG_W).x(); }
+
+  // The cars' motion; Restore is meant for an array with the same kinds, into which the same cars have been put.
+  void Save(base::StateWriter& writer) const;
+  void Restore(base::StateReader& reader);
+
+ private:
+  void AskGround(terrain::Ground& ground);
+  void StepRange(std::span<const Controls> controls, double dt_s, std::size_t from, std::size_t to);
+
+  std::vector<std::unique_ptr<const BicycleChassis>> chassis_;  // by kind
+  std::vector<std::uint32_t> kinds_;
+  std::vector<BicycleCar> cars_;
+  std::vector<BicycleFindings> findings_;
+  std::vector<terrain::GroundQuery> queries_;  // scratch
+  std::vector<terrain::GroundPoint> points_;
+};
+
+}  // namespace rodeira::vehicle

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+namespace rodeira::front {
+
+struct EditOptions {
+  bool asked = false;
+  std::string file;  // empty: a new map
+};
+
+// `rodeira edit`: the path editor in its window. The exit status.
+int Edit(const EditOptions& options);
+
+}  // namespace rodeira::front

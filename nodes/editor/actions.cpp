@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "common/base/files.hpp"
+#include "common/map/lane_map.hpp"
+#include "common/map/open_drive.hpp"
+#include "nodes/editor/work.hpp"
+
+namespace rodeira::desk {
+namespace {
+
+using editor::Document;
+
+// The map as OpenDRIVE, which is a world of this project too.
+void Export(Work& work, const std::filesystem::path& path) {
+  const Document& document = work.session.document();
+  const auto lanes = map::MakeLaneMap(document.map, document.companion, "map");
+  if (!lanes) return work.session.Say("not exported: " + lanes.error().message, false);
+  const auto drive = map::ToOpenDrive(lanes.value(), path.stem().string());
+  if (!drive) return work.session.Say("not exported: " + drive.error().message, false);
+  if (auto status = base::WriteWhole(path, drive.value().xml); !status) return work.session.Say("not exported: " + status.error().Text(), false);
+  work.session.Say(fmt::format("exported {}: {} roads, {} junctions", path.filename().string(), drive.value().roads, drive.value().junctions));
+}
+
+std::filesystem::path Start(const Work& work, const char* otherwise) {
+  if (!work.session.path().empty()) return work.session.path();
+  std::error_code problem;
+  return std::filesystem::current_path(problem) / otherwise;
+}
+
+}  // namespace
+
+void NewCurve(Work& work) {
+  // A third of the view long, through its middle; below the last one where that one lies there still.
+  const double third_m = work.view.width_m() / 6.0, below_m = 30.0 * work.view.metres_per_px;
+  Eigen::Vector2d middle = work.view.middle_W;
+  const auto taken = [&](const Eigen::Vector2d& at) { return editor::HandleAt(work.session.document(), at - Eigen::Vector2d(third_m, 0.0), 0.4 * below_m).has_value(); };
+  for (int i = 0; i < 20 && taken(middle); ++i) middle.y() -= below_m;
+  editor::Points points;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = middle + Eigen::Vector2d((static_cast<double>(i) - 1.5) * third_m * 2.0 / 3.0, 0.0);
+  if (!work.session.Do([&](Document& document) { return editor::NewCurve(document, points); })) return;
+  work.session.selection = {};
+  work.session.selection.curves.insert(work.session.document().map.curves.back().value.id);
+}
+
+void DeleteChosen(Work& work) {
+  editor::Selection chosen = work.session.selection;
+  if (work.session.Do([&](Document& document) { return editor::Remove(document, chosen); })) work.session.selection = {};
+}
+
+void ChooseAll(Work& work) {
+  constexpr double kEverything_m = 2e6;
+  work.session.selection = editor::Inside(work.session.document(), {-kEverything_m, -kEverything_m}, {kEverything_m, kEverything_m});
+  work.session.Say(fmt::format("{} curves, {} lanes and {} connections chosen", work.session.selection.curves.size(), work.session.selection.lanes.size(), work.session.selection.connections.size()));
+}
+
+void ShowAll(Work& work) {
+  Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
+  for (const auto& line : work.session.document().map.curves) {
+    for (const auto& point : editor::CubicOf(line.value).p_W) low = low.cwiseMin(point), high = high.cwiseMax(point);
+  }
+  const auto& picture = work.picture.picture();
+  if (picture != nullptr) {
+    const double half_y = 5.0 * static_cast<double>(work.session.document().map.scale.value.value);
+    const double half_x = half_y * picture->level(0).width_px / picture->level(0).height_px;
+    low = low.cwiseMin(Eigen::Vector2d(-half_x, -half_y)), high = high.cwiseMax(Eigen::Vector2d(half_x, half_y));
+  }
+  if (low.x() <= high.x()) work.view.Show(low, high);
+}
+
+void ProposeConnections(Work& work) {
+  const auto missing = editor::MissingConnections(work.session.document());
+  work.session.Do([&](Document& document) { return editor::Connect(document, missing); });
+}
+
+void SaveOrAsk(Work& work) {
+  if (work.session.path().empty()) return AskToSave(work, false);
+  work.session.Save(work.session.path());
+}
+
+void AskToOpen(Work& work) {
+  work.files.Ask("Open a map", {".motors"}, false, Start(work, ""), [&work](const std::filesystem::path& path) {
+    StopTraffic(work);
+    if (work.session.Open(path)) ShowAll(work);
+  });
+}
+
+void AskToSave(Work& work, bool despite_errors) {
+  work.files.Ask(despite_errors ? "Save a draft" : "Save the map", {".motors"}, true, Start(work, "map.motors"),
+                 [&work, despite_errors](const std::filesystem::path& path) { work.session.Save(path, despite_errors); });
+}
+
+void AskToImport(Work& work) {
+  work.files.Ask("Import a background", {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"}, false, Start(work, "").parent_path() / "", [&work](const std::filesystem::path& path) {
+    auto bytes = editor::ImportPicture(path);
+    if (!bytes) return work.session.Say(bytes.error().Text(), false);
+    work.session.SetPicture(std::move(bytes).value(), work.session.document().map.scale.value.value);
+  });
+}
+
+void AskToExport(Work& work) {
+  std::filesystem::path start = Start(work, "map.xodr");
+  start.replace_extension(".xodr");
+  work.files.Ask("Export as OpenDRIVE", {".xodr"}, true, start, [&work](const std::filesystem::path& path) { Export(work, path); });
+}
+
+void AskToClose(Work& work) {
+  if (work.session.unsaved()) work.Open(Form::kQuit);
+  else work.closing = true;
+}
+
+void RunOrPause(Work& work) {
+  Traffic& traffic = work.traffic;
+  if (traffic.preview && traffic.of_state == work.session.state()) {
+    traffic.runs = !traffic.runs;
+    return work.session.Say(traffic.runs ? "traffic runs" : "traffic pauses");
+  }
+  auto preview = editor::Preview::Start(work.session.document(), {static_cast<std::uint32_t>(traffic.vehicles), 1});
+  if (!preview) {
+    for (const map::Finding& finding : work.session.Findings()) {
+      if (finding.severity != map::Severity::kError) continue;
+      work.session.selection = editor::Chosen(finding);
+      break;
+    }
+    return work.session.Say("no traffic: " + preview.error().Text(), false);
+  }
+  traffic.preview.emplace(std::move(preview).value());
+  traffic.of_state = work.session.state();
+  traffic.runs = true;
+  traffic.heat.clear();
+  traffic.heat_of_s = -1.0;
+  work.session.Say(fmt::format("traffic runs with {} vehicles", traffic.vehicles));
+}
+
+void StopTraffic(Work& work) {
+  work.traffic.preview.reset();
+  work.traffic.heat.clear();
+  work.traffic.runs = false;
+}
+
+}  // namespace rodeira::desk

@@ -1,0 +1,133 @@
+#include "nodes/editor/desk.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <system_error>
+
+#include "common/base/user_folders.hpp"
+#include "nodes/editor/panels.hpp"
+
+namespace rodeira::desk {
+namespace {
+
+constexpr float kSide_px = 300.0f, kStatus_px = 30.0f;
+constexpr int kIdle_ms = 100, kMoving_ms = 0;
+constexpr double kHeatEvery_s = 0.5;
+constexpr double kMostTrafficTime_s = 0.025;  // of a picture
+
+}  // namespace
+
+Desk::Desk(window::Window& window, const std::filesystem::path& file, const std::filesystem::path& kept) : window_(window) {
+  work_.view.width_px = window.width_px() - kSide_px;
+  work_.view.height_px = window.height_px();
+  if (!kept.empty()) {
+    auto keeper = editor::Keeper::Make(kept);
+    if (keeper) {
+      keeper_.emplace(std::move(keeper).value());
+      work_.left = keeper_->Found();
+    } else {
+      work_.session.Say(keeper.error().Text(), false);
+    }
+  }
+  std::error_code problem;
+  if (!file.empty() && work_.session.Open(file)) ShowAll(work_);
+  if (!work_.left.empty()) work_.Open(Form::kRecover);
+  kept_state_ = work_.session.state();
+}
+
+bool Desk::moves() const { return work_.traffic.runs || work_.picture.loading() || canvas_.incomplete() || window_.busy() || ImGui::GetIO().WantTextInput; }
+
+bool Desk::Frame(int wait_ms, window::Image* seen) {
+  if (!window_.BeginFrame(wait_ms)) {
+    window_.AskToStay();
+    AskToClose(work_);
+    if (work_.closing) {
+      if (keeper_) keeper_->Forget();
+      return false;
+    }
+    if (!window_.BeginFrame(0)) return false;
+  }
+  work_.picture.Want(work_.session.document().map.picture, work_.session.picture_state());
+  const bool was_loading = work_.picture.loading();
+  work_.picture.Look();
+  if (const std::string problem = work_.picture.TakeProblem(); !problem.empty()) work_.session.Say(problem, false);
+  if (was_loading && work_.picture.picture() != nullptr && work_.session.document().map.curves.empty()) ShowAll(work_);
+  RunTraffic();
+  if (!work_.left.empty() && work_.form == Form::kNone) work_.Open(Form::kRecover);
+  Layout();
+  KeepWork();
+  window_.EndFrame(seen);
+  if (work_.closing && keeper_) keeper_->Forget();
+  return !work_.closing;
+}
+
+void Desk::Layout() {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  TakeShortcuts(work_);
+  const float top = ImGui::GetFrameHeight();
+  const float height = std::max(1.0f, size.y - top - kStatus_px), width = std::max(1.0f, size.x - kSide_px);
+  canvas_.Draw(work_, {kSide_px, top, width, height}, window_.height_px());
+  DrawMenu(work_);
+  DrawSide(work_, canvas_.proposals(), top, kSide_px, height);
+  DrawStatus(work_, size.y - kStatus_px, size.x, kStatus_px);
+  DrawForms(work_);
+  work_.files.Draw();
+  const std::string name = work_.session.path().empty() ? "new map" : work_.session.path().filename().string();
+  const std::string title = fmt::format("{}{} - Rodeira", work_.session.unsaved() ? "*" : "", name);
+  if (title != title_) window_.SetTitle(title);
+  title_ = title;
+}
+
+void Desk::RunTraffic() {
+  Traffic& traffic = work_.traffic;
+  if (!traffic.preview) return;
+  if (traffic.runs && traffic.of_state != work_.session.state()) {
+    traffic.runs = false;
+    work_.session.Say("traffic pauses: the map was edited");
+  }
+  if (traffic.runs) {
+    // No more than the machine can do in a part of a picture's time: then traffic is slower than wished, the desk is not.
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    double left_s = static_cast<double>(ImGui::GetIO().DeltaTime) * static_cast<double>(traffic.pace);
+    while (left_s > 0.0 && std::chrono::duration<double>(Clock::now() - begin).count() < kMostTrafficTime_s) {
+      const double piece_s = std::min(left_s, 0.1);
+      traffic.preview->Run(piece_s);
+      left_s -= piece_s;
+    }
+  }
+  if (traffic.preview->time_s() < traffic.heat_of_s + kHeatEvery_s && traffic.heat_of_s >= 0.0) return;
+  traffic.heat = traffic.preview->Heat();
+  traffic.heat_of_s = traffic.preview->time_s();
+}
+
+void Desk::KeepWork() {
+  if (!keeper_) return;
+  since_kept_s_ += static_cast<double>(ImGui::GetIO().DeltaTime);
+  if (since_kept_s_ < keep_every_s_ || kept_state_ == work_.session.state()) return;
+  since_kept_s_ = 0.0;
+  kept_state_ = work_.session.state();
+  if (!work_.session.unsaved()) return keeper_->Forget();
+  if (auto status = keeper_->Keep(work_.session.document(), work_.session.path(), work_.session.picture_state()); !status)
+    work_.session.Say("unsaved work cannot be kept: " + status.error().Text(), false);
+}
+
+int RunDesk(const std::filesystem::path& file) {
+  window::Settings settings;
+  settings.title = "Rodeira";
+  auto opened = window::Window::Open(settings);
+  if (!opened) {
+    fmt::print(stderr, "rodeira: {}\n", opened.error().Text());
+    return opened.error().exit_status();
+  }
+  Desk desk(*opened.value(), file, base::UserDataFolder() / "editor");
+  int wait_ms = kMoving_ms;
+  while (desk.Frame(wait_ms)) wait_ms = desk.moves() ? kMoving_ms : kIdle_ms;
+  return 0;
+}
+
+}  // namespace rodeira::desk

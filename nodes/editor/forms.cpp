@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "nodes/editor/panels.hpp"
+
+namespace rodeira::desk {
+namespace {
+
+using editor::Document;
+
+enum class Answer { kNone, kYes, kNo };
+
+// The buttons at a form's end; Enter and Escape say the same.
+Answer Buttons(const char* yes) {
+  const bool enter = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false);
+  if (ImGui::Button(yes, ImVec2(110.0f, 0.0f)) || enter) return Answer::kYes;
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", ImVec2(110.0f, 0.0f)) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) return Answer::kNo;
+  return Answer::kNone;
+}
+
+void SideFields(const char* name, int& curve, bool& inverted, int& type) {
+  ImGui::PushID(name);
+  ImGui::SetNextItemWidth(110.0f);
+  ImGui::InputInt(name, &curve, 0);
+  ImGui::SameLine(220.0f);
+  ImGui::Checkbox("inverted", &inverted);
+  ImGui::SetNextItemWidth(160.0f);
+  ImGui::Combo("border", &type, kBorderNames, map::kBorderTypes);
+  ImGui::PopID();
+}
+
+Answer DrawLaneForm(Work& work) {
+  LaneForm& form = work.lane_form;
+  if (work.form_opens) ImGui::SetKeyboardFocusHere();
+  SideFields("left curve", form.left, form.left_inverted, form.left_type);
+  SideFields("right curve", form.right, form.right_inverted, form.right_type);
+  for (int mode = 0; mode < 3; ++mode) {
+    if (mode > 0) ImGui::SameLine();
+    ImGui::RadioButton(kModeNames[mode], &form.mode, mode);
+    Note(work, std::string("mode ") + kModeNames[mode]);
+  }
+  const Answer answer = Buttons("Make the lane");
+  if (answer != Answer::kYes) return answer;
+  const map::LaneSide left{form.left, form.left_inverted, static_cast<map::BorderType>(form.left_type)}, right{form.right, form.right_inverted, static_cast<map::BorderType>(form.right_type)};
+  work.session.Do([&](Document& document) { return editor::NewLane(document, left, right, static_cast<map::LaneMode>(form.mode)); });
+  return answer;
+}
+
+Answer DrawConnectionForm(Work& work) {
+  ConnectionForm& form = work.connection_form;
+  ImGui::SetNextItemWidth(110.0f);
+  if (work.form_opens) ImGui::SetKeyboardFocusHere();
+  ImGui::InputInt("from lane", &form.from, 0);
+  ImGui::SetNextItemWidth(110.0f);
+  ImGui::InputInt("to lane", &form.to, 0);
+  ImGui::Checkbox("STOP", &form.stop);
+  Note(work, "STOP");
+  const Answer answer = Buttons("Connect");
+  if (answer == Answer::kYes) work.session.Do([&](Document& document) { return editor::NewConnection(document, form.from, form.to, form.stop); });
+  return answer;
+}
+
+Answer DrawMeasured(Work& work) {
+  ImGui::Text("The line is %.2f m long. How long is it really?", (work.measured[0] - work.measured[1]).norm());
+  if (work.form_opens) ImGui::SetKeyboardFocusHere();
+  ImGui::InputDouble("m", &work.known_m, 0.0, 0.0, "%.3f");
+  const Answer answer = Buttons("Scale");
+  if (answer == Answer::kYes) work.session.Do([&](Document& document) { return editor::ScaleByDistance(document, work.measured[0], work.measured[1], work.known_m); });
+  return answer;
+}
+
+Answer DrawReset(Work& work) {
+  ImGui::TextUnformatted("All curves, lanes and connections go; the background stays.");
+  const Answer answer = Buttons("Reset");
+  if (answer == Answer::kYes) work.session.selection = {}, work.session.Do([](Document& document) { return editor::Reset(document); });
+  return answer;
+}
+
+Answer DrawQuit(Work& work) {
+  ImGui::TextUnformatted("There is unsaved work. Leave without it?");
+  const Answer answer = Buttons("Leave without");
+  if (answer == Answer::kYes) work.closing = true;
+  return answer;
+}
+
+Answer DrawRecover(Work& work) {
+  const editor::Keeper::Left left = work.left.front();
+  ImGui::Text("Unsaved work was left behind: %s", left.of.empty() ? "a new map" : left.of.c_str());
+  const Answer answer = Buttons("Take it up");
+  if (answer == Answer::kNone) return answer;
+  work.left.erase(work.left.begin());
+  if (answer == Answer::kYes) {
+    auto restored = editor::Keeper::Restore(left);
+    if (restored) {
+      work.session.Take(std::move(restored).value(), left.of, false);
+      work.session.Say("taken up again: what was not saved");
+      ShowAll(work);
+      editor::Keeper::Discard(left);
+    } else {
+      work.session.Say(restored.error().Text(), false);
+    }
+  } else {
+    editor::Keeper::Discard(left);
+  }
+  return answer;
+}
+
+Answer DrawKeys() {
+  ImGui::TextUnformatted(
+      "W A S D, or drag the empty ground     go\n"
+      "wheel                                 zoom about the pointer\n"
+      "drag a handle                         joined ends move together; Alt: this one alone\n"
+      "click, Ctrl click                     choose, choose more\n"
+      "Shift and drag                        choose all within a rectangle\n"
+      "All other keys stand in the menus.");
+  return Buttons("Good");
+}
+
+}  // namespace
+
+void DrawForms(Work& work) {
+  if (work.form == Form::kNone) return;
+  constexpr const char* kTitles[] = {"", "New lane", "New connection", "Reset the map", "Scale of the background", "Leave", "Recovery", "Keys and mouse"};
+  const char* title = kTitles[static_cast<int>(work.form)];
+  if (work.form_opens) ImGui::OpenPopup(title);
+  ImGui::SetNextWindowPos(ImVec2(0.5f * ImGui::GetIO().DisplaySize.x, 0.4f * ImGui::GetIO().DisplaySize.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+  if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+    work.form = Form::kNone;
+    return;
+  }
+  Answer answer = Answer::kNone;
+  const Form form = work.form;
+  switch (form) {
+    case Form::kLane: answer = DrawLaneForm(work); break;
+    case Form::kConnection: answer = DrawConnectionForm(work); break;
+    case Form::kMeasured: answer = DrawMeasured(work); break;
+    case Form::kReset: answer = DrawReset(work); break;
+    case Form::kQuit: answer = DrawQuit(work); break;
+    case Form::kRecover: answer = DrawRecover(work); break;
+    case Form::kKeys: answer = DrawKeys(); break;
+    case Form::kNone: break;
+  }
+  work.form_opens = false;
+  if (answer != Answer::kNone) {
+    work.form = Form::kNone;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+}  // namespace rodeira::desk

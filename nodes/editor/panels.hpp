@@ -1,0 +1,32 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "nodes/editor/work.hpp"
+
+// What stands around the canvas. Each draws itself with Dear ImGui and does what is asked there.
+namespace rodeira::desk {
+
+void DrawMenu(Work& work);
+// Keys that stand in the menu.
+void TakeShortcuts(Work& work);
+// Left: new elements, lists, what is chosen, traffic. `proposals`: connections that could be made.
+void DrawSide(Work& work, const std::vector<std::pair<std::int32_t, std::int32_t>>& proposals, float top, float width, float height);
+void DrawLists(Work& work);
+void DrawChosenPanel(Work& work);
+void DrawBesidePanel(Work& work);  // heights, signs, flows of what is chosen
+void DrawLightsPanel(Work& work);
+void DrawTrafficPanel(Work& work);
+void DrawBackgroundPanel(Work& work);
+// Below: the last action in green or red, the visible width, what is loading.
+void DrawStatus(const Work& work, float top, float width, float height);
+void DrawForms(Work& work);
+
+// Writes down where the item that was drawn last stands.
+void Note(Work& work, const std::string& name);
+
+extern const char* const kBorderNames[map::kBorderTypes];
+extern const char* const kModeNames[3];
+
+}  // namespace rodeira::desk

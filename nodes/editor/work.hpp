@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/editor/lane_tools.hpp"
+#include "common/editor/preview.hpp"
+#include "common/editor/session.hpp"
+#include "common/editor/templates.hpp"
+#include "common/editor/viewport.hpp"
+#include "nodes/editor/file_dialog.hpp"
+#include "nodes/editor/picture_loader.hpp"
+
+namespace rodeira::desk {
+
+// What the left button does on the canvas.
+enum class Tool { kChoose, kLane, kMeasure, kTemplate };
+
+// What stands open over the canvas, at most one at a time.
+enum class Form { kNone, kLane, kConnection, kReset, kMeasured, kQuit, kRecover, kKeys };
+
+// A form's fields, until they are confirmed.
+struct LaneForm {
+  int left = 0, right = 0;
+  bool left_inverted = false, right_inverted = false;
+  int left_type = 1, right_type = 1, mode = 0;
+  std::int32_t of = 0;  // the lane that is changed; 0: a new one
+};
+struct ConnectionForm {
+  int from = 0, to = 0;
+  bool stop = false;
+};
+
+// Traffic on the map as it was when it was started.
+struct Traffic {
+  std::optional<editor::Preview> preview;
+  std::uint64_t of_state = 0;  // of the document
+  bool runs = false;
+  int vehicles = 30;
+  float pace = 1.0f;  // times real time
+  std::vector<editor::HeatPatch> heat;
+  double heat_of_s = -1.0;
+};
+
+// Everything that a person at the drawing desk has before him; the panels and the canvas draw and change it.
+struct Work {
+  editor::Session session;
+  editor::Viewport view;
+  Tool tool = Tool::kChoose;
+  editor::Template placing = editor::Template::kCrossing;
+  editor::TemplatePlace place;
+  editor::LaneLook look;
+  bool handles = true, numbers = true, centre = true, heat = true, snap = true;
+  Form form = Form::kNone;
+  bool form_opens = false;  // in this frame
+  LaneForm lane_form;
+  ConnectionForm connection_form;
+  std::array<Eigen::Vector2d, 2> measured{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  double known_m = 100.0;
+  FileDialog files;
+  Traffic traffic;
+  PictureLoader picture;
+  std::vector<editor::Keeper::Left> left;  // unsaved work of editors that live no more
+  bool closing = false;                    // the window should close, and nothing hinders that
+  std::map<std::string, Eigen::Vector2d> places;  // of buttons and fields in the last picture, pixels of the window: for scripted hands
+
+  void Open(Form what) { form = what, form_opens = true; }
+};
+
+// Actions that a menu, a key and a panel share.
+void NewCurve(Work& work);
+void DeleteChosen(Work& work);
+void ChooseAll(Work& work);
+void ShowAll(Work& work);
+void ProposeConnections(Work& work);
+void SaveOrAsk(Work& work);
+void AskToOpen(Work& work);
+void AskToSave(Work& work, bool despite_errors);
+void AskToImport(Work& work);
+void AskToExport(Work& work);
+// Asks where something is unsaved.
+void AskToClose(Work& work);
+void RunOrPause(Work& work);
+void StopTraffic(Work& work);
+
+}  // namespace rodeira::desk

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include "common/base/files.hpp"
+#include "common/base/temporary_folder.hpp"
+#include "nodes/editor/desk.hpp"
+#include "tests/common/window/hands.hpp"
+
+namespace rodeira::desk {
+
+namespace hands = window::hands;
+
+// A desk without a display, and a person's hands on it.
+class ADesk : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto made = base::TemporaryFolder::Make("desk");
+    ASSERT_TRUE(made.ok());
+    folder_.emplace(std::move(made).value());
+    auto opened = window::Window::Open({window::Kind::kOffscreen, 1280, 800, "test"});
+    if (!opened) GTEST_SKIP() << "no OpenGL here: " << opened.error().Text();
+    window_ = std::move(opened).value();
+    Sit();
+  }
+  void TearDown() override { desk_.reset(); }
+
+  void Sit(const std::filesystem::path& file = {}) {
+    desk_.reset();
+    desk_ = std::make_unique<Desk>(*window_, file, folder_->path() / "kept");
+    Show();
+  }
+  // Until nothing waits any more.
+  void Show() {
+    for (int i = 0; i < 2000; ++i) {
+      open_ = desk_->Frame(0);
+      if (!open_ || (!window_->busy() && !work().picture.loading())) break;
+    }
+    if (open_) open_ = desk_->Frame(0);
+  }
+  Work& work() { return desk_->work(); }
+  const editor::Document& document() { return work().session.document(); }
+  std::string Said() { return work().session.said().text; }
+
+  std::filesystem::path At(const std::string& name) const { return folder_->path() / name; }
+  // A place of the plane, in pixels of the window.
+  Eigen::Vector2i On(double x_m, double y_m) {
+    const Eigen::Vector2d px = work().view.ToPixels({x_m, y_m});
+    return {static_cast<int>(std::lround(px.x() + kLeft_px)), static_cast<int>(std::lround(px.y() + kTop_px))};
+  }
+  void Drag(const Eigen::Vector2i& from, const Eigen::Vector2i& to, Uint8 button = SDL_BUTTON_LEFT) {
+    hands::MoveTo(from.x(), from.y());
+    Show();
+    hands::Button(from.x(), from.y(), true, button);
+    for (int i = 1; i <= 2; ++i) {
+      const Eigen::Vector2i at = from + (to - from) * i / 2;
+      Show();
+      hands::MoveTo(at.x(), at.y());
+    }
+    Show();
+    hands::Button(to.x(), to.y(), false, button);
+    Show();
+  }
+  void Press(SDL_Scancode key, Uint16 modifiers = KMOD_NONE) {
+    hands::Press(key, modifiers);
+    Show();
+  }
+  void Click(const std::string& place) {
+    ASSERT_TRUE(work().places.contains(place)) << place;
+    const Eigen::Vector2d at = work().places[place];
+    hands::Click(static_cast<int>(at.x()), static_cast<int>(at.y()));
+    Show();
+  }
+  // Over what stands in the field that has the keys.
+  void Write(const std::string& text) {
+    hands::Press(SDL_SCANCODE_A, KMOD_CTRL);
+    Show();
+    hands::Type(text);
+    Show();
+  }
+  // Writes the picture where RODEIRA_PICTURES names a folder.
+  void Keep(const std::string& name) {
+    const char* folder = std::getenv("RODEIRA_PICTURES");
+    window::Image seen;
+    desk_->Frame(0, &seen);
+    EXPECT_TRUE(folder == nullptr || window::WritePng(std::filesystem::path(folder) / name, seen).ok());
+  }
+
+  static constexpr double kLeft_px = 300.0, kTop_px = 19.0;
+  std::optional<base::TemporaryFolder> folder_;
+  std::unique_ptr<window::Window> window_;
+  std::unique_ptr<Desk> desk_;
+  bool open_ = true;
+};
+
+}  // namespace rodeira::desk
