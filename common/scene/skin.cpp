@@ -53,10 +53,10 @@ bool IsPatched(const network::Road& road, double s_m, double t_m) {
   });
 }
 
-// A patch looks like what it is made of: a slippery one pale, another one a little darker than the road.
+// A patch looks like what it is made of; asphalt pale where it is slippery, otherwise a little darker than the road.
 void Patch(double friction, Skin& skin) {
   skin.picture.reset();
-  skin.grown = false;
+  if (skin.material != Material::kRoad) return;
   skin.colour = friction < kSlippery ? Mix(skin.colour, Colour::Of(0xd3dfe6), 0.8) : Shade(skin.colour, 0.8);
 }
 
