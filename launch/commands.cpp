@@ -20,6 +20,7 @@
 #include "launch/repair_command.hpp"
 #include "launch/replay_command.hpp"
 #include "launch/run_command.hpp"
+#include "launch/start_window.hpp"
 #include "launch/surface_command.hpp"
 #include "launch/traffic_command.hpp"
 #include "launch/vehicle_command.hpp"
@@ -330,11 +331,14 @@ int Main(int argc, char** argv) {
   ReplayOptions replay_options;
   std::vector<std::string> changes;
   CLI::App* replay = AddReplay(app, replay_options, changes);
+  const CLI::App* view = app.add_subcommand("view", "the start window: choose what to drive, or what to watch");
+  if (argc == 1 && CanStartByWindow()) return StartByWindow();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? 0 : 2;
   }
+  if (view->parsed()) return StartByWindow();
   if (!world.command.empty()) return World(world);
   if (!map.command.empty()) return MapCommand(map);
   if (traffic.asked) return TrafficRun(traffic);

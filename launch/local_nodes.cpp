@@ -11,8 +11,8 @@ namespace {
 class LocalContext final : public launch::NodeContext {
  public:
   LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world, launch::LiveKeysBoard& keys,
-               launch::RunLogBoard* log)
-      : NodeContext(launch, index), world_(std::move(world)), keys_(keys), log_(log) {
+               launch::LiveRequestsBoard& requests, launch::RunLogBoard* log)
+      : NodeContext(launch, index), world_(std::move(world)), keys_(keys), requests_(requests), log_(log) {
     if (world_ != nullptr) ground_ = world_->MakeGround();
   }
   terrain::Ground& Ground() override {
@@ -26,12 +26,15 @@ class LocalContext final : public launch::NodeContext {
   }
   std::unique_ptr<launch::LiveKeysSender> KeysSender() override { return keys_.MakeSender(); }
   std::unique_ptr<launch::LiveKeysReceiver> KeysReceiver() override { return keys_.MakeReceiver(); }
+  std::unique_ptr<launch::LiveRequestsSender> RequestsSender() override { return requests_.MakeSender(); }
+  std::unique_ptr<launch::LiveRequestsReceiver> RequestsReceiver() override { return requests_.MakeReceiver(); }
   std::unique_ptr<launch::RunLogReceiver> RunLog() override { return log_ == nullptr ? nullptr : log_->MakeReceiver(); }
 
  private:
   std::shared_ptr<const road::World> world_;
   std::unique_ptr<terrain::Ground> ground_;
   launch::LiveKeysBoard& keys_;
+  launch::LiveRequestsBoard& requests_;
   launch::RunLogBoard* log_;
 };
 
@@ -57,7 +60,7 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const St
   LocalNodes made;
   if (world.value() != nullptr) made.world_hash_ = world.value()->content_hash();
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    made.contexts_.push_back(std::make_unique<LocalContext>(launch, n, world.value(), *made.keys_, log));
+    made.contexts_.push_back(std::make_unique<LocalContext>(launch, n, world.value(), *made.keys_, *made.requests_, log));
     made.nodes_.push_back(nullptr);
     if (roster.node(n).role == lockstep::Role::kService) continue;
     if (auto other = stand_in ? stand_in(n) : nullptr) {

@@ -26,10 +26,12 @@ class LocalNodes {
   base::Digest world_hash() const { return world_hash_; }
   // Where the windows' keys pass.
   launch::LiveKeysBoard& keys() { return *keys_; }
+  launch::LiveRequestsBoard& requests() { return *requests_; }
 
  private:
   LocalNodes() = default;
-  std::unique_ptr<launch::LiveKeysBoard> keys_ = std::make_unique<launch::LiveKeysBoard>();  // the nodes use it
+  std::unique_ptr<launch::LiveKeysBoard> keys_ = std::make_unique<launch::LiveKeysBoard>();              // the nodes use it
+  std::unique_ptr<launch::LiveRequestsBoard> requests_ = std::make_unique<launch::LiveRequestsBoard>();  // likewise
   std::vector<std::unique_ptr<launch::NodeContext>> contexts_;
   std::vector<std::unique_ptr<lockstep::Node>> owned_;
   std::vector<lockstep::Node*> nodes_;

@@ -81,7 +81,7 @@ int Build(const WorldOptions& options) {
     return status != 0 ? status : Written(copy, base::ReadText(options.world_file));
   }
   if (road::IsGenerated(options.world_file) || world.value()->network() == nullptr) {
-    const auto written = road::BuildWorld(options.world_file, options.out);
+    const auto written = road::BuildWorld(*world.value(), options.world_file, options.out);
     if (!written) return Complain(written.error());
     fmt::print("{}", written.value());
   }

@@ -12,6 +12,7 @@
 #include "common/dds/remote_ground.hpp"
 #include "common/dds/remote_keys.hpp"
 #include "common/dds/remote_log.hpp"
+#include "common/dds/remote_requests.hpp"
 #include "common/dds/run.hpp"
 #include "common/launch/agreement.hpp"
 #include "common/lockstep/pump.hpp"
@@ -72,6 +73,16 @@ class ProcessContext final : public launch::NodeContext {
   }
   std::unique_ptr<launch::LiveKeysReceiver> KeysReceiver() override {
     auto receiver = OpenKeysReceiver(participant_);
+    RODEIRA_ASSERT(receiver.ok());
+    return std::move(receiver).value();
+  }
+  std::unique_ptr<launch::LiveRequestsSender> RequestsSender() override {
+    auto sender = OpenRequestsSender(participant_);
+    RODEIRA_ASSERT(sender.ok());
+    return std::move(sender).value();
+  }
+  std::unique_ptr<launch::LiveRequestsReceiver> RequestsReceiver() override {
+    auto receiver = OpenRequestsReceiver(participant_);
     RODEIRA_ASSERT(receiver.ok());
     return std::move(receiver).value();
   }

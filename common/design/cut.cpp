@@ -110,7 +110,13 @@ void CutFurniture(const network::RoadSpec& whole, double from_m, double length_m
   }
   part.objects.clear();
   for (network::Object object : whole.objects) {
-    if (object.repeats.empty()) {
+    if (object.type == "roadSurface") {  // lies on a stretch about its place
+      const double begin = std::max(object.s_m - 0.5 * object.length_m, from_m), end = std::min(object.s_m + 0.5 * object.length_m, from_m + length_m);
+      if (!(end > begin)) continue;
+      if (end - begin < object.length_m) object.id += "@" + part.id;
+      object.s_m = 0.5 * (begin + end) - from_m;
+      object.length_m = end - begin;
+    } else if (object.repeats.empty()) {
       if (!within(object.s_m)) continue;
       object.s_m -= from_m;
     } else {

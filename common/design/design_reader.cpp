@@ -192,6 +192,31 @@ std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const
   return std::nullopt;
 }
 
+// What is laid on the roads that are left between junctions. A bump that a junction would cut is a problem of its road.
+std::vector<network::Laid> LayOn(const std::vector<RoadDesign>& designs, const Layout& layout) {
+  std::vector<network::Laid> laid;
+  if (std::all_of(designs.begin(), designs.end(), [](const RoadDesign& road) { return road.laid.empty(); })) return laid;
+  laid.resize(layout.network.roads.size());  // the ways through junctions, which are the last ones, have nothing
+  std::vector<std::size_t> bumps(designs.size(), 0);
+  for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
+    const Piece& piece = layout.pieces[i];
+    laid[i] = network::CutLaid(designs[piece.design].laid, piece.from_s_m, piece.to_s_m);
+    bumps[piece.design] += laid[i].bumps.size();
+  }
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    if (bumps[i] == designs[i].laid.bumps.size()) continue;
+    for (const network::Bump& bump : designs[i].laid.bumps) {
+      const bool whole = std::any_of(layout.pieces.begin(), layout.pieces.end(), [&](const Piece& piece) {
+        return piece.design == i && !network::CutLaid({{}, {bump}}, piece.from_s_m, piece.to_s_m).empty();
+      });
+      if (whole) continue;
+      designs[i].map.Problem("bumps", fmt::format("the bump from s = {:g} to {:g} m lies in a junction, or reaches into it; it was expected beside it",
+                                                  bump.piece.from_s_m, bump.piece.to_s_m));
+    }
+  }
+  return laid;
+}
+
 }  // namespace
 
 Design ReadDesign(const config::File& file, const std::array<double, 7>& friction, const std::string& name,
@@ -247,6 +272,7 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
   Layout layout = BuildLayout(designs, roads, junctions);
   if (!sound()) return design;
   JoinRoads(links, designs, layout);
+  design.laid = LayOn(designs, layout);
   if (start_map.Has("x_m") == false) design.start = FindStart(start, start_map, designs, layout);
   if (!sound()) return design;
   layout.network.name = name;

@@ -9,6 +9,7 @@
 #include "common/base/result.hpp"
 #include "common/config/config.hpp"
 #include "common/design/junction_surface.hpp"
+#include "common/network/laid.hpp"
 #include "common/network/network.hpp"
 
 namespace rodeira::design {
@@ -28,6 +29,7 @@ struct StartPlace {
 // Roads and junctions of a world file of version 2.
 struct Design {
   std::shared_ptr<const network::Network> network;  // null: the file has no roads, or problems
+  std::vector<network::Laid> laid;  // by the network's road; empty: nothing is laid on any of them
   std::vector<std::shared_ptr<const JunctionSurface>> junctions;
   std::optional<StartPlace> start;
   std::vector<std::string> warnings;

@@ -54,7 +54,7 @@ void Paint(double s_m, double length_m, double road_m, const Edges& edges, netwo
   if (from < to) spec.lines.push_back({from, to, Constant(0.5 * (edges.right_m + edges.left_m)), edges.width_m(), 0.0, 0.0, "white"});
 }
 
-// Stripes along the road, spread evenly about the middle of all that is driven on.
+// Stripes along the road, spread evenly about the middle of all that is driven on; and an object that names the place, whose paint they are.
 void ReadCrossing(const Map& item, double s_m, double road_m, network::RoadSpec& spec) {
   const double length = item.Number("length_m", {1.0, 20.0}, 4.0);
   Edges all{1e9, -1e9};
@@ -66,6 +66,15 @@ void ReadCrossing(const Map& item, double s_m, double road_m, network::RoadSpec&
   const double period = kStripe_m + kStripeGap_m, count = std::floor((all.width_m() + kStripeGap_m) / period + 1e-9);
   const double first = 0.5 * (all.right_m + all.left_m) - 0.5 * (count * period - kStripeGap_m);
   for (double i = 0.0; i < count; i += 1.0) Paint(s_m, length, road_m, {first + i * period, first + i * period + kStripe_m}, spec);
+  network::Object object;
+  object.id = fmt::format("{}-object{}", spec.id, spec.objects.size());
+  object.type = "crosswalk";
+  object.subtype = "virtual";
+  object.name = "crossing";
+  object.orientation = "none";
+  object.s_m = s_m, object.t_m = 0.5 * (all.right_m + all.left_m);
+  object.length_m = length, object.width_m = all.width_m();
+  spec.objects.push_back(std::move(object));
 }
 
 // Before those who come along, or against, where no lane is said.

@@ -7,6 +7,7 @@
 #include "common/base/suggest.hpp"
 #include "common/design/axis_reader.hpp"
 #include "common/design/furniture_reader.hpp"
+#include "common/design/laid_reader.hpp"
 #include "common/design/marking_reader.hpp"
 #include "common/design/profile_reader.hpp"
 #include "common/design/section_reader.hpp"
@@ -102,6 +103,7 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
   ReadSection(map, own, length, spec);
   ReadFurniture(map, own, length, spec);
   ReadMarkings(map, length, spec);
+  design.laid = ReadLaid(map, own, length, spec);
   return design;
 }
 

@@ -5,6 +5,7 @@
 
 #include "common/config/config.hpp"
 #include "common/design/context.hpp"
+#include "common/network/laid.hpp"
 #include "common/network/road.hpp"
 
 namespace rodeira::design {
@@ -14,6 +15,7 @@ struct RoadDesign {
   network::RoadSpec spec;
   std::vector<geometry::PlanElement> elements;
   config::Map map;  // for what is found to be wrong later
+  network::Laid laid = {};  // on its surface
 };
 
 // Reads one road; `before` are those that it may be placed at. What is wrong is a problem of the map's file; where there is

@@ -42,6 +42,7 @@ vehicle::Controls KeyboardDriver::Step(const KeyboardInput& input, double dt_s) 
   handbrake_ = held(Action::kHandbrake);
   starter_ = held(Action::kStarter);
   lever_.Step(input.lever);
+  (void)signals_.Step(input.signals, wheel_rad_);
   return controls();
 }
 
@@ -57,7 +58,7 @@ vehicle::Controls KeyboardDriver::controls() const {
   return controls;
 }
 
-void KeyboardDriver::TakeOver(const vehicle::Controls& last) {
+void KeyboardDriver::TakeOver(const vehicle::Controls& last, const Signals& signals) {
   wheel_rad_ = last.steering_wheel_rad;
   throttle_ = last.throttle;
   brake_ = last.brake;
@@ -65,6 +66,7 @@ void KeyboardDriver::TakeOver(const vehicle::Controls& last) {
   handbrake_ = false;
   starter_ = false;
   lever_.TakeOver(last);
+  signals_.TakeOver(signals);
 }
 
 void KeyboardDriver::Save(base::StateWriter& out) const {
@@ -75,6 +77,7 @@ void KeyboardDriver::Save(base::StateWriter& out) const {
   out.Put("handbrake", handbrake_);
   out.Put("starter", starter_);
   out.Put("lever", lever_);
+  out.Put("signals", signals_);
 }
 
 void KeyboardDriver::Restore(base::StateReader& in) {
@@ -85,6 +88,7 @@ void KeyboardDriver::Restore(base::StateReader& in) {
   in.Get("handbrake", handbrake_);
   in.Get("starter", starter_);
   in.Get("lever", lever_);
+  in.Get("signals", signals_);
 }
 
 }  // namespace rodeira::hands

@@ -10,6 +10,7 @@
 #include "common/config/config.hpp"
 #include "common/hands/gear_selector.hpp"
 #include "common/hands/key_names.hpp"
+#include "common/hands/signals.hpp"
 #include "common/vehicle/controls.hpp"
 
 namespace rodeira::hands {
@@ -24,9 +25,14 @@ enum class Action : std::size_t {
   kStarter,
   kGearUp,
   kGearDown,
-  kGearboxMode
+  kGearboxMode,
+  kIndicateLeft,
+  kIndicateRight,
+  kHazard,
+  kHeadlights,
+  kHorn
 };
-inline constexpr std::size_t kActions = 10;
+inline constexpr std::size_t kActions = 15;
 
 // From nothing to the floor, and back.
 struct PedalRates {
@@ -61,6 +67,7 @@ std::string KeyboardHelp(const KeyboardSettings& settings);
 struct KeyboardInput {
   bool held[kActions] = {};
   LeverRequests lever;
+  SignalRequests signals;
   double speed_mps = 0.0;  // of the car, forward
 };
 
@@ -77,8 +84,9 @@ class KeyboardDriver {
   vehicle::Controls Step(const KeyboardInput& input, double dt_s);
   // The controls as they are.
   vehicle::Controls controls() const;
-  // Goes on from where others have left hands, feet and lever.
-  void TakeOver(const vehicle::Controls& last);
+  Signals signals() const { return signals_.signals(); }
+  // Goes on from where others have left hands, feet and levers.
+  void TakeOver(const vehicle::Controls& last, const Signals& signals = {});
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);
@@ -86,6 +94,7 @@ class KeyboardDriver {
  private:
   KeyboardSettings settings_;
   GearSelector lever_;
+  SignalSwitch signals_;
   double wheel_rad_ = 0.0;
   double throttle_ = 0.0;
   double brake_ = 0.0;

@@ -11,11 +11,13 @@
 namespace rodeira::hands {
 namespace {
 
-constexpr std::array<const char*, kActions> kNames{"steer_left", "steer_right", "throttle", "brake",     "clutch",
-                                                   "handbrake",  "starter",     "gear_up",  "gear_down", "gearbox_mode"};
-constexpr std::array<const char*, kActions> kHelp{"steer left", "steer right",        "throttle", "brake",
-                                                  "clutch",     "handbrake",          "starter",  "gear up (R N D)",
-                                                  "gear down",  "automatic or manual"};
+constexpr std::array<const char*, kActions> kNames{"steer_left",   "steer_right",   "throttle",       "brake",  "clutch",
+                                                   "handbrake",    "starter",       "gear_up",        "gear_down", "gearbox_mode",
+                                                   "indicate_left", "indicate_right", "hazard_lights", "headlights", "horn"};
+constexpr std::array<const char*, kActions> kHelp{"steer left",      "steer right",    "throttle",       "brake",
+                                                  "clutch",          "handbrake",      "starter",        "gear up (R N D)",
+                                                  "gear down",       "automatic or manual", "indicator left", "indicator right",
+                                                  "hazard lights",   "headlights: off, dipped, full", "horn"};
 
 // Which keys do what; a key does one thing, and not what the window keeps for itself.
 void ReadKeys(const config::Map& map, KeyboardSettings& settings) {

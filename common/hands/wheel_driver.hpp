@@ -12,7 +12,9 @@
 #include "common/base/state.hpp"
 #include "common/config/config.hpp"
 #include "common/hands/axis.hpp"
+#include "common/hands/force_feedback.hpp"
 #include "common/hands/gear_selector.hpp"
+#include "common/hands/signals.hpp"
 #include "common/vehicle/controls.hpp"
 
 namespace rodeira::hands {
@@ -33,8 +35,10 @@ struct DeviceUse {
 
 enum class WheelAxis : std::size_t { kSteering, kThrottle, kBrake, kClutch, kHandbrake, kPedals };
 inline constexpr std::size_t kWheelAxes = 6;
-enum class WheelButton : std::size_t { kGearUp, kGearDown, kGearboxMode, kClutch, kHandbrake, kStarter };
-inline constexpr std::size_t kWheelButtons = 6;
+enum class WheelButton : std::size_t {
+  kGearUp, kGearDown, kGearboxMode, kClutch, kHandbrake, kStarter, kIndicateLeft, kIndicateRight, kHazard, kHeadlights, kHorn, kReverse, kNeutral, kDrive
+};
+inline constexpr std::size_t kWheelButtons = 14;
 
 // `rodeira: wheel/1` (docs/formats.md).
 struct WheelSettings {
@@ -45,6 +49,10 @@ struct WheelSettings {
   double lock_rad = 7.85;                   // of the car's steering wheel where the axis is at its end
   std::int32_t gears = 5;
   vehicle::GearboxMode gearbox = vehicle::GearboxMode::kAutomatic;
+  ForceSettings force;          // of the steering's device, where it has motors
+  double force_lock_rad = 7.85;  // where they hold the wheel: at the car's own lock
+  bool has_force = true;        // false: its motors rest
+  bool force_inverted = false;
 
   const std::optional<AxisUse>& AxisOf(WheelAxis axis) const { return axes[static_cast<std::size_t>(axis)]; }
 };
@@ -72,9 +80,12 @@ class WheelDriver {
   // left, a device's axis to the right.
   vehicle::Controls Step(std::span<const DeviceReading> devices, std::int32_t engaged);
   const vehicle::Controls& controls() const { return controls_; }
+  Signals signals() const { return signals_.signals(); }
+  // Of the rim itself, from its axis, beyond the car's lock too; nothing before it has moved.
+  std::optional<double> rim_rad() const { return rim_rad_; }
   // Goes on from where others have left steering and lever: the steering stays there until the wheel is moved. Pedals are
   // released.
-  void TakeOver(const vehicle::Controls& last);
+  void TakeOver(const vehicle::Controls& last, const Signals& signals = {});
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);
@@ -86,12 +97,16 @@ class WheelDriver {
   bool Down(std::span<const DeviceReading> devices, WheelButton button) const;
   bool Pressed(std::span<const DeviceReading> devices, WheelButton button);
   void ReleasePedals();
+  void StepLever(std::span<const DeviceReading> devices, std::int32_t engaged);
+  void StepSignals(std::span<const DeviceReading> devices);
 
   WheelSettings settings_;
   GearSelector lever_;
+  SignalSwitch signals_;
   AxisWatch watches_[kWheelAxes];
   bool down_[kWheelButtons] = {};
   vehicle::Controls controls_;
+  std::optional<double> rim_rad_;  // no state: only the hands feel it
 };
 
 }  // namespace rodeira::hands

@@ -81,6 +81,20 @@ void ReadLever(const config::Map& map, WheelSettings& settings) {
   }
 }
 
+void ReadForce(const config::Map& force, WheelSettings& settings) {
+  ForceSettings& f = settings.force;
+  settings.has_force = force.Flag("on", true);
+  settings.force_inverted = force.Flag("inverted", false);
+  settings.force_lock_rad = force.Number("lock_deg", {10.0, 1800.0}, settings.lock_rad * 180.0 / std::numbers::pi) * std::numbers::pi / 180.0;
+  f.device_Nm = force.Number("device_Nm", {0.1, 50.0}, f.device_Nm);
+  f.most_Nm = force.Number("most_Nm", {0.0, f.device_Nm}, std::min(f.most_Nm, f.device_Nm));
+  f.share = force.Number("share", {0.0, 2.0}, f.share);
+  f.friction_Nm = force.Number("friction_Nm", {0.0, 5.0}, f.friction_Nm);
+  f.damping_Nmsprad = force.Number("damping_Nmsprad", {0.0, 1.0}, f.damping_Nmsprad);
+  f.stop_Nmprad = force.Number("stop_Nmprad", {0.0, 100.0}, f.stop_Nmprad);
+  f.fade_s = force.Number("fade_s", {0.1, 10.0}, f.fade_s);
+}
+
 }  // namespace
 
 bool IsGuid(std::string_view text) {
@@ -111,6 +125,7 @@ WheelSettings ReadWheel(const config::Map& root) {
     if (buttons.Has(kButtonNames[button])) s.buttons[button] = ReadButton(buttons.Child(kButtonNames[button]), s.devices);
   }
   ReadLever(root.OptionalChild("lever"), s);
+  ReadForce(root.OptionalChild("force"), s);
   return s;
 }
 

@@ -8,6 +8,8 @@ namespace rodeira::hands {
 
 // As wheel files call them, in the order of WheelAxis and WheelButton.
 inline constexpr std::array<const char*, kWheelAxes> kAxisNames{"steering", "throttle", "brake", "clutch", "handbrake", "pedals"};
-inline constexpr std::array<const char*, kWheelButtons> kButtonNames{"gear_up", "gear_down", "gearbox_mode", "clutch", "handbrake", "starter"};
+inline constexpr std::array<const char*, kWheelButtons> kButtonNames{
+    "gear_up",        "gear_down",     "gearbox_mode", "clutch", "handbrake", "starter", "indicate_left",
+    "indicate_right", "hazard_lights", "headlights",   "horn",   "reverse",   "neutral", "drive"};
 
 }  // namespace rodeira::hands

@@ -116,9 +116,12 @@ void ExceptLiveInput(const std::vector<config::Map>& maps, std::vector<LaunchNod
 }  // namespace
 
 bool LaunchNode::is_live() const {
+  if (kind->name == "scenario") return takes_requests();
   const auto source = config->Peek({"config", "source"});
   return kind->name == "input" && source && (*source == "keyboard" || *source == "joystick");
 }
+
+bool LaunchNode::takes_requests() const { return kind->name == "scenario" && config->Peek({"config", "requests"}) == "true"; }
 
 std::vector<lockstep::Policy> Launch::policies() const {
   std::vector<lockstep::Policy> policies;

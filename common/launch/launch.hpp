@@ -29,6 +29,8 @@ struct LaunchNode {
 
   // Driven by a person: what it publishes cannot be computed again.
   bool is_live() const;
+  // A scenario that makes events of what windows ask for.
+  bool takes_requests() const;
 };
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;

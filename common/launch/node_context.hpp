@@ -6,6 +6,7 @@
 #include "common/base/result.hpp"
 #include "common/launch/launch.hpp"
 #include "common/launch/live_keys.hpp"
+#include "common/launch/live_requests.hpp"
 #include "common/launch/run_log_border.hpp"
 #include "common/lockstep/node.hpp"
 #include "common/terrain/ground.hpp"
@@ -45,6 +46,9 @@ class NodeContext {
   // border.
   virtual std::unique_ptr<LiveKeysSender> KeysSender() { return nullptr; }
   virtual std::unique_ptr<LiveKeysReceiver> KeysReceiver() { return nullptr; }
+  // What windows ask for in the run, likewise for who asks and for who makes events of it.
+  virtual std::unique_ptr<LiveRequestsSender> RequestsSender() { return nullptr; }
+  virtual std::unique_ptr<LiveRequestsReceiver> RequestsReceiver() { return nullptr; }
   // What the clock, the operator and faults did on the wall's clock, for who writes it down. Null where the host tells it
   // to nobody.
   virtual std::unique_ptr<RunLogReceiver> RunLog() { return nullptr; }

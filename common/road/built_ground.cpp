@@ -58,6 +58,7 @@ SurfacePoint BuiltGround::OnRoad(const network::Surfacing& surfacing) const {
   if (!detail_.empty()) {
     detail_.Add(road, place.lane.road, network_->Section(place.lane), place.s_m, place.t_m, sample);
     ground.friction = detail_.FrictionAt(place.lane.road, place.s_m, place.t_m, sample.p_W.head<2>()).value_or(ground.friction);
+    detail_.Cover(place.lane.road, place.s_m, place.t_m, ground);
   }
   const Eigen::Vector3d normal = sample.ds_W.cross(sample.dt_W);
   const double down = -1.0 / normal.z();

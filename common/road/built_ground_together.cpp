@@ -10,7 +10,7 @@ namespace rodeira::road {
 
 // Whether no junction is near, no bridge or tunnel, and nothing stands on the road or in its place.
 bool BuiltGround::OneRoadAlone(const network::Cluster& cluster) const {
-  if (in_junction_[cluster.road] || detail_.On(cluster.road)) return false;
+  if (in_junction_[cluster.road] || detail_.On(cluster.road, cluster.low_s_m, cluster.high_s_m)) return false;
   const auto near = [&](const network::Structure& structure) {
     return cluster.high_s_m >= structure.s_m && cluster.low_s_m <= structure.s_m + structure.length_m;
   };

@@ -1,6 +1,7 @@
 #include "common/road/hills.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,23 +14,31 @@ namespace {
 constexpr double kAxisStep_m = 20.0;
 constexpr double kNetworkStep_m = 40.0;
 
-// The roads' height at (x, y) and the distance to them.
-struct Base {
-  double z_m, distance_m;
+// The roads' heights at places north of one another, and the distances to them.
+constexpr std::size_t kTogether = 8;
+using Several = std::array<double, kTogether>;
+struct Bases {
+  Several z_m, distance_m;
 };
 
-Base BaseAt(std::span<const Eigen::Vector3d> points, double x_m, double y_m, double softness_m2) {
-  double weights = 0.0, heights = 0.0, nearest = std::numeric_limits<double>::infinity();
+Bases BasesAt(std::span<const Eigen::Vector3d> points, double x_m, const Several& y_m, double softness_m2) {
+  Several weights{}, heights{}, nearest;
+  nearest.fill(std::numeric_limits<double>::infinity());
   for (const Eigen::Vector3d& point : points) {
-    const double dx = x_m - point.x(), dy = y_m - point.y();
-    const double squared = dx * dx + dy * dy;
-    const double soft = squared + softness_m2;
-    const double weight = 1.0 / (soft * soft);
-    weights += weight;
-    heights += weight * point.z();
-    nearest = std::min(nearest, squared);
+    const double dx = x_m - point.x(), z = point.z();
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      const double dy = y_m[k] - point.y();
+      const double squared = dx * dx + dy * dy;
+      const double soft = squared + softness_m2;
+      const double weight = 1.0 / (soft * soft);
+      weights[k] += weight;
+      heights[k] += weight * z;
+      nearest[k] = std::min(nearest[k], squared);
+    }
   }
-  return {heights / weights, std::sqrt(nearest)};
+  Bases bases;
+  for (std::size_t k = 0; k < kTogether; ++k) bases.z_m[k] = heights[k] / weights[k], bases.distance_m[k] = std::sqrt(nearest[k]);
+  return bases;
 }
 
 // Gradient noise (K. Perlin, SIGGRAPH 1985, with the fifth-degree fade of 2002) with random gradients on a lattice.
@@ -101,19 +110,25 @@ terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const Eigen::V
   for (std::size_t layer = 0; layer < spec.relief.size(); ++layer) layers.emplace_back(spec, layer);
   std::vector<float> heights;
   heights.reserve(static_cast<std::size_t>(spec.columns) * static_cast<std::size_t>(spec.rows));
+  Bases bases{};
   for (int column = 0; column < spec.columns; ++column) {
+    const double east = column * spec.spacing_m;
     for (int row = 0; row < spec.rows; ++row) {
-      const double east = column * spec.spacing_m, north = row * spec.spacing_m;
+      const auto k = static_cast<std::size_t>(row) % kTogether;
+      if (k == 0 && !axis.empty()) {
+        Several y{};
+        for (std::size_t i = 0; i < kTogether; ++i) y[i] = spec.south_m + (row + static_cast<double>(i)) * spec.spacing_m;
+        bases = BasesAt(axis, spec.west_m + east, y, spec.flat_m * spec.flat_m);
+      }
       double z = spec.base_z_m, grown = 1.0;
       if (!axis.empty()) {
-        const Base base = BaseAt(axis, spec.west_m + east, spec.south_m + north, spec.flat_m * spec.flat_m);
-        const double u = std::clamp((base.distance_m - spec.flat_m) / (spec.full_m - spec.flat_m), 0.0, 1.0);
-        z = base.z_m - spec.below_m;
+        const double u = std::clamp((bases.distance_m[k] - spec.flat_m) / (spec.full_m - spec.flat_m), 0.0, 1.0);
+        z = bases.z_m[k] - spec.below_m;
         grown = u * u * (3.0 - 2.0 * u);
       }
       if (grown > 0.0) {
         for (std::size_t layer = 0; layer < layers.size(); ++layer) {
-          z += grown * spec.relief[layer].amplitude_m * layers[layer].At(east, north);
+          z += grown * spec.relief[layer].amplitude_m * layers[layer].At(east, row * spec.spacing_m);
         }
       }
       heights.push_back(static_cast<float>(z));

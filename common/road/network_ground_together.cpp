@@ -9,7 +9,7 @@ bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& g
                            std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) {
   network::Cluster cluster;
   SetPlaces(queries, cluster);
-  if (!network.Together(cluster) || (detail != nullptr && detail->On(cluster.road))) return false;
+  if (!network.Together(cluster) || (detail != nullptr && detail->On(cluster.road, cluster.low_s_m, cluster.high_s_m))) return false;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     if (cluster.z_m[i] > queries[i].z_hint_m + terrain::kHintAbove_m) return false;  // what is below is asked for
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "common/base/bytes.hpp"
 #include "common/base/suggest.hpp"
@@ -65,6 +66,55 @@ std::pair<double, double> FadeAt(double distance_m, double over_m) {
   return {u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u) / over_m};
 }
 
+// The road's outermost edges at s, and how they move with it.
+struct Edges {
+  double right_m, right_slope, left_m, left_slope;
+
+  Edges(const network::Road& road, const network::LaneSection& section, double s_m) {
+    const geometry::CubicPoint centre = road.CentreAt(s_m);
+    const auto edge = [&](double far) {
+      double outside;
+      const network::LaneSpan span = section.At(far, centre, s_m, outside);
+      return std::pair(far + (far > 0.0 ? -outside : outside), span.outer_slope);
+    };
+    std::tie(left_m, left_slope) = edge(1e4);
+    std::tie(right_m, right_slope) = edge(-1e4);
+  }
+  // To nothing at both edges.
+  void Fade(double t_m, Raise& raise) const {
+    const auto [from_left, fade_left] = FadeAt(left_m - t_m, kAcross_m);
+    raise.Fade(from_left, fade_left * left_slope, -fade_left);
+    const auto [from_right, fade_right] = FadeAt(t_m - right_m, kAcross_m);
+    raise.Fade(from_right, -fade_right * right_slope, fade_right);
+  }
+};
+
+// What is laid on a road, as numbers.
+void PutLaid(const network::Laid& laid, base::ByteWriter& out) {
+  const auto put = [&out](double value) { out.Put(value + 0.0); };  // -0 is 0
+  const auto put_piece = [&put](const network::LaidPiece& piece) { put(piece.from_s_m), put(piece.to_s_m), put(piece.right_t_m), put(piece.left_t_m); };
+  out.Put(static_cast<std::uint64_t>(laid.patches.size()));
+  for (const network::Patch& patch : laid.patches) {
+    put_piece(patch.piece);
+    out.PutString(patch.surface);
+    put(patch.friction);
+  }
+  out.Put(static_cast<std::uint64_t>(laid.bumps.size()));
+  for (const network::Bump& bump : laid.bumps) {
+    put_piece(bump.piece);
+    put(bump.side_m);
+    for (const geometry::Cubic& cubic : bump.height.records()) put(cubic.from), put(cubic.a), put(cubic.b), put(cubic.c), put(cubic.d);
+  }
+}
+
+std::optional<terrain::Surface> SurfaceByName(std::string_view name) {
+  for (const terrain::Surface surface : {terrain::Surface::kAsphalt, terrain::Surface::kConcrete, terrain::Surface::kGravel, terrain::Surface::kGrass,
+                                         terrain::Surface::kSoil}) {
+    if (name == terrain::SurfaceName(surface)) return surface;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 // What a measured surface says at a place, over z = 0.
@@ -101,7 +151,7 @@ base::Result<SurfaceDetail::Stretch> SurfaceDetail::Place(const network::Road& r
   return stretch;
 }
 
-base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network, const std::filesystem::path& folder) {
+base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network, const std::filesystem::path& folder, std::span<const network::Laid> laid) {
   SurfaceDetail detail;
   std::map<std::string, std::shared_ptr<const surface::CrgSurface>> files;
   base::ByteWriter numbers;
@@ -130,6 +180,8 @@ base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network,
     detail.roads_.resize(network.roads().size());
     detail.roads_[i] = std::move(stretches);
   }
+  detail.laid_.assign(laid.begin(), laid.end());
+  for (const network::Laid& on_road : laid) PutLaid(on_road, numbers);
   if (!numbers.bytes().empty()) detail.digest_ = base::Hash(numbers.bytes());
   return detail;
 }
@@ -166,14 +218,14 @@ std::optional<double> SurfaceDetail::FrictionAt(std::uint32_t road, double s_m, 
 
 void SurfaceDetail::Add(const network::Road& road, std::uint32_t index, const network::LaneSection& section, double s_m, double t_m,
                         network::SurfaceSample& sample) const {
-  if (roads_.empty() || roads_[index].empty()) return;
-  const geometry::CubicPoint centre = road.CentreAt(s_m);
-  const auto edge = [&](double far) {
-    double outside;
-    const network::LaneSpan span = section.At(far, centre, s_m, outside);
-    return std::pair(far + (far > 0.0 ? -outside : outside), span.outer_slope);
+  const auto add = [&](Raise& raise) {
+    Edges(road, section, s_m).Fade(t_m, raise);
+    sample.p_W.z() += raise.z;
+    sample.ds_W.z() += raise.by_s;
+    sample.dt_W.z() += raise.by_t;
   };
-  for (const Stretch& stretch : roads_[index]) {
+  static const std::vector<Stretch> kNone;
+  for (const Stretch& stretch : roads_.empty() ? kNone : roads_[index]) {
     if (stretch.friction || s_m <= stretch.begin_m || s_m >= stretch.end_m) continue;
     Raise raise;
     if (stretch.made != nullptr) {
@@ -185,19 +237,33 @@ void SurfaceDetail::Add(const network::Road& road, std::uint32_t index, const ne
       raise = measured.height;
       if (stretch.lay != Lay::kOnTop) raise.Replace(sample);
     }
-    const auto [left, left_slope] = edge(1e4);
-    const auto [right, right_slope] = edge(-1e4);
     const auto [from_begin, begin_slope] = FadeAt(s_m - stretch.begin_m, kAlong_m);
     raise.Fade(from_begin, begin_slope, 0.0);
     const auto [to_end, end_slope] = FadeAt(stretch.end_m - s_m, kAlong_m);
     raise.Fade(to_end, -end_slope, 0.0);
-    const auto [from_left, fade_left] = FadeAt(left - t_m, kAcross_m);
-    raise.Fade(from_left, fade_left * left_slope, -fade_left);
-    const auto [from_right, fade_right] = FadeAt(t_m - right, kAcross_m);
-    raise.Fade(from_right, -fade_right * right_slope, fade_right);
-    sample.p_W.z() += raise.z;
-    sample.ds_W.z() += raise.by_s;
-    sample.dt_W.z() += raise.by_t;
+    add(raise);
+  }
+  if (laid_.empty()) return;
+  for (const network::Bump& bump : laid_[index].bumps) {
+    const network::Bump::Height height = bump.At(s_m, t_m);
+    Raise raise{height.z_m, height.by_s, height.by_t};
+    if (bump.piece.Holds(s_m, t_m)) add(raise);
+  }
+}
+
+bool SurfaceDetail::On(std::uint32_t road, double low_s_m, double high_s_m) const {
+  if (!roads_.empty() && !roads_[road].empty()) return true;
+  const auto near = [&](const auto& laid) { return high_s_m >= laid.piece.from_s_m && low_s_m <= laid.piece.to_s_m; };
+  if (laid_.empty()) return false;
+  return std::any_of(laid_[road].patches.begin(), laid_[road].patches.end(), near) || std::any_of(laid_[road].bumps.begin(), laid_[road].bumps.end(), near);
+}
+
+void SurfaceDetail::Cover(std::uint32_t road, double s_m, double t_m, LaneGround& ground) const {
+  if (laid_.empty()) return;
+  for (const network::Patch& patch : laid_[road].patches) {
+    if (!patch.piece.Holds(s_m, t_m)) continue;
+    ground.surface = SurfaceByName(patch.surface).value_or(ground.surface);
+    ground.friction = patch.friction;
   }
 }
 

@@ -4,34 +4,42 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/base/hash.hpp"
 #include "common/base/result.hpp"
+#include "common/network/laid.hpp"
 #include "common/network/network.hpp"
+#include "common/road/lane_grounds.hpp"
+#include "common/road/surface_point.hpp"
 #include "common/surface/crg_surface.hpp"
 #include "common/surface/roughness.hpp"
 
 namespace rodeira::road {
 
-// What stands on top of a network's roads, or takes the place of their heights: measured surfaces (OpenCRG) and made roughness.
+// What stands on top of a network's roads, or takes the place of their heights: measured surfaces (OpenCRG), made roughness, and what
+// an author lays on them: bumps, and patches of another ground.
 class SurfaceDetail {
  public:
   SurfaceDetail() = default;
   // Wrong input where a measured surface cannot be read, or is laid in a way that OpenDRIVE does not know. Relative names are those of
-  // files beside `folder`.
-  static base::Result<SurfaceDetail> Load(const network::Network& network, const std::filesystem::path& folder);
+  // files beside `folder`. laid: by road, or nothing.
+  static base::Result<SurfaceDetail> Load(const network::Network& network, const std::filesystem::path& folder, std::span<const network::Laid> laid = {});
 
-  bool empty() const { return roads_.empty(); }
-  bool On(std::uint32_t road) const { return !roads_.empty() && !roads_[road].empty(); }
-  // Of every number of the measured surfaces; how they are laid is the network's. 0: there are none.
+  bool empty() const { return roads_.empty() && laid_.empty(); }
+  // Whether anything is there between two stations of a road.
+  bool On(std::uint32_t road, double low_s_m, double high_s_m) const;
+  // Of every number of the measured surfaces, whose places are the network's, and of what is laid. 0: there are none.
   base::Digest digest() const { return digest_; }
   // What stands over the road at (s, t) between its outermost edges, added to the sample. Over the first and last metre of a
-  // stretch, and the last half metre to the road's edges, it passes into nothing.
+  // measured or made stretch, and of all the last half metre to the road's edges, it passes into nothing.
   void Add(const network::Road& road, std::uint32_t index, const network::LaneSection& section, double s_m, double t_m,
            network::SurfaceSample& sample) const;
   // The measured coefficient of friction there; nothing where none is.
   std::optional<double> FrictionAt(std::uint32_t road, double s_m, double t_m, const Eigen::Vector2d& p_W) const;
+  // A patch at (s, t) takes the place of the ground.
+  void Cover(std::uint32_t road, double s_m, double t_m, LaneGround& ground) const;
 
  private:
   // How a measured surface lies (OpenDRIVE's `mode`).
@@ -57,6 +65,7 @@ class SurfaceDetail {
   static Measured Measure(const Stretch& stretch, double s_m, double t_m, const network::SurfaceSample& sample);
 
   std::vector<std::vector<Stretch>> roads_;  // by road; empty: there is none at all
+  std::vector<network::Laid> laid_;           // the same
   base::Digest digest_ = 0;
 };
 

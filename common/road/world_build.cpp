@@ -7,7 +7,6 @@
 #include "common/base/files.hpp"
 #include "common/config/config.hpp"
 #include "common/road/network_world.hpp"
-#include "common/road/world_reader.hpp"
 #include "common/road/world_report.hpp"
 #include "common/terrain/bt.hpp"
 
@@ -67,15 +66,19 @@ std::string WithWholePaths(std::string text, const config::File& file) {
 bool IsGenerated(const std::filesystem::path& world_file) {
   if (IsOpenDrive(world_file)) return false;
   const auto file = config::File::Load(world_file);
-  return file.ok() && ReadWorld(file.value()).hills.has_value();
+  return file.ok() && file.value().root().OptionalChild("terrain").Has("generate");
 }
 
 base::Result<std::string> BuildWorld(const std::filesystem::path& world_yaml, const std::filesystem::path& folder) {
+  const auto world = World::Load(world_yaml);
+  if (!world) return world.error();
+  return BuildWorld(*world.value(), world_yaml, folder);
+}
+
+base::Result<std::string> BuildWorld(const World& wanted, const std::filesystem::path& world_yaml, const std::filesystem::path& folder) {
   const auto file = config::File::Load(world_yaml);
   if (!file) return file.error();
-  WorldReading reading = ReadWorld(file.value());
-  if (!reading.spec) return reading.problems.front();
-  if (!reading.hills) {
+  if (!IsGenerated(world_yaml)) {
     return base::WrongInput("there is nothing to build: a world whose 'terrain' says 'generate' was expected", world_yaml.string());
   }
   std::error_code problem;
@@ -87,22 +90,20 @@ base::Result<std::string> BuildWorld(const std::filesystem::path& world_yaml, co
   }
   auto elevation = target;
   elevation.replace_extension(".bt");
-  const auto surface = terrain::SurfaceName(reading.spec->terrain_surface);
+  const auto surface = terrain::SurfaceName(wanted.terrain_surface());
   std::string terrain = fmt::format("terrain:\n  surface: {}\n  file: {}\n", surface, elevation.filename().string());
-  if (reading.spec->ground_picture) terrain += TextureText(*reading.spec->ground_picture);
+  if (wanted.ground_picture() != nullptr) terrain += TextureText(*wanted.ground_picture());
   const std::string text = WithTerrain(WithWholePaths(file.value().text(), file.value()), terrain);
-  const auto wanted = World::Make(*reading.spec);
-
-  if (const auto written = terrain::WriteBt(elevation, *wanted->grid()); !written) return written.error();
+  if (const auto written = terrain::WriteBt(elevation, *wanted.grid()); !written) return written.error();
   const auto again = World::Parse(text, target);
   if (!again) return base::Failed(fmt::format("the world built cannot be read: {}", again.error().Text()), world_yaml.string());
-  if (again.value()->content_hash() != wanted->content_hash()) {
+  if (again.value()->content_hash() != wanted.content_hash()) {
     return base::Failed("the world built is not the same world; write 'terrain:' as a block of its own at the top level", world_yaml.string());
   }
   if (const auto written = base::WriteWhole(target, text); !written) return written.error();
   std::string report = fmt::format("{}\n", elevation.string());
-  if (!wanted->grid()->projection_wkt().empty()) report += fmt::format("{}\n", std::filesystem::path(elevation).replace_extension(".prj").string());
-  return report + fmt::format("{}\ncontent_hash: {}\n", target.string(), base::Hex(wanted->content_hash()));
+  if (!wanted.grid()->projection_wkt().empty()) report += fmt::format("{}\n", std::filesystem::path(elevation).replace_extension(".prj").string());
+  return report + fmt::format("{}\ncontent_hash: {}\n", target.string(), base::Hex(wanted.content_hash()));
 }
 
 }  // namespace rodeira::road

@@ -238,7 +238,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   if (design.start) PutStart(*design.network, *design.start, keys.spec.start);
   else PutStart(root, {}, keys.spec, keys.spec.start);
   if (design.network != nullptr) {
-    auto detail = SurfaceDetail::Load(*design.network, file.path().parent_path());
+    auto detail = SurfaceDetail::Load(*design.network, file.path().parent_path(), design.laid);
     if (!detail) {
       reading.problems.push_back(detail.error());
       return reading;

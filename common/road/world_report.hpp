@@ -28,7 +28,7 @@ std::string DescribePoint(const World& world, double x_m, double y_m, std::optio
 // not know it, or the projection has no such place.
 base::Result<Eigen::Vector2d> PlaceOnMap(const World& world, double longitude_deg, double latitude_deg);
 
-// Whether a world file's terrain is generated, so that there is something for BuildWorld to write. False for what cannot be read.
+// Whether a world file says that its terrain is generated, so that there is something for BuildWorld to write. False for what cannot be read.
 bool IsGenerated(const std::filesystem::path& world_file);
 
 // Writes the generated terrain of a world as STEM.bt and STEM.prj into `folder` and beside them STEM.yaml, the same
@@ -36,5 +36,7 @@ bool IsGenerated(const std::filesystem::path& world_file);
 // or it is a failure and no world file is written. Returns what was written. Wrong input where the terrain is no
 // generated one, or where the world file itself would be overwritten.
 base::Result<std::string> BuildWorld(const std::filesystem::path& world_yaml, const std::filesystem::path& folder);
+// The same of a world that was loaded from that file.
+base::Result<std::string> BuildWorld(const World& world, const std::filesystem::path& world_yaml, const std::filesystem::path& folder);
 
 }  // namespace rodeira::road

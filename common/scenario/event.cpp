@@ -1,8 +1,15 @@
 #include "common/scenario/event.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "common/base/suggest.hpp"
+#include "common/weather/named_weather.hpp"
 
 namespace rodeira::scenario {
 namespace {
@@ -10,11 +17,31 @@ namespace {
 constexpr std::uint32_t kMostAgents = 100'000;
 
 constexpr std::array kKinds = std::to_array<EventKind>({
-    {kMark, "text", false, "", 0.0, 0.0},
-    {kTrafficBrake, "agent", true, "deceleration_mps2", 0.1, 10.0},
-    {kTrafficSpeed, "agent", true, "speed_mps", 0.5, 100.0},
-    {kTrafficRelease, "agent", true, "", 0.0, 0.0},
+    {kMark, "text", ArgumentKind::kText, "", 0.0, 0.0},
+    {kTrafficBrake, "agent", ArgumentKind::kAgent, "deceleration_mps2", 0.1, 10.0},
+    {kTrafficSpeed, "agent", ArgumentKind::kAgent, "speed_mps", 0.5, 100.0},
+    {kTrafficRelease, "agent", ArgumentKind::kAgent, "", 0.0, 0.0},
+    {kVehiclePlace, "place", ArgumentKind::kPlace, "heading_deg", -360.0, 360.0},
+    {kWeatherChange, "becomes", ArgumentKind::kWeather, "over_s", 0.0, 3600.0},
 });
+
+// Words between single spaces.
+std::vector<std::string_view> WordsOf(std::string_view text) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    words.push_back(text.substr(begin, end - begin));
+    if (end == text.size()) return words;
+    begin = end + 1;
+  }
+}
+
+std::optional<double> NumberIn(std::string_view word) {
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (problem != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
 
 }  // namespace
 
@@ -34,6 +61,44 @@ base::Result<AgentChoice> ParseAgent(std::string_view text) {
     return base::WrongInput("'" + std::string(text.substr(0, 40)) + "' is no agent; its number, all or ahead was expected");
   }
   return AgentChoice{AgentChoice::Kind::kOne, id};
+}
+
+base::Result<PlaceChoice> ParsePlace(std::string_view text) {
+  const auto words = WordsOf(text);
+  PlaceChoice place;
+  if ((words.size() == 3 || words.size() == 4) && !words[0].empty()) {
+    const auto x = NumberIn(words[1]), y = NumberIn(words[2]);
+    if (words.size() == 4) place.z_m = NumberIn(words[3]);
+    if (x && y && place.z_m.has_value() == (words.size() == 4)) {
+      place.vehicle = words[0];
+      place.x_m = *x, place.y_m = *y;
+      return place;
+    }
+  }
+  return base::WrongInput(fmt::format("'{}' is no place; the name of a vehicle node and metres to the east and north were expected, as in 'ego 12.5 -3.25'", text.substr(0, 60)));
+}
+
+std::string PlaceText(const PlaceChoice& place) {
+  const std::string plan = fmt::format("{} {} {}", place.vehicle, place.x_m, place.y_m);
+  return place.z_m ? fmt::format("{} {}", plan, *place.z_m) : plan;
+}
+
+base::Status CheckEvent(const Event& event) {
+  const EventKind* kind = FindEventKind(event.name);
+  if (kind == nullptr) {
+    std::vector<std::string> names;
+    for (const EventKind& known : kKinds) names.emplace_back(known.name);
+    return base::WrongInput(fmt::format("there is no event '{}'{}", event.name, base::DidYouMean(event.name, names)));
+  }
+  if (kind->argument == ArgumentKind::kAgent) {
+    if (const auto agent = ParseAgent(event.argument); !agent) return agent.error();
+  } else if (kind->argument == ArgumentKind::kPlace) {
+    if (const auto place = ParsePlace(event.argument); !place) return place.error();
+  } else if (kind->argument == ArgumentKind::kWeather) {
+    if (const auto named = weather::FindWeather(event.argument); !named) return named.error();
+  }
+  if (kind->value_key.empty() || (event.value >= kind->low && event.value <= kind->high)) return {};
+  return base::WrongInput(fmt::format("'{}' of '{}' is {}; {} to {} was expected", kind->value_key, event.name, event.value, kind->low, kind->high));
 }
 
 }  // namespace rodeira::scenario

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,8 @@ inline constexpr std::string_view kMark = "mark";                       // a tex
 inline constexpr std::string_view kTrafficBrake = "traffic.brake";      // at a deceleration down to rest, and stay
 inline constexpr std::string_view kTrafficSpeed = "traffic.speed";      // drive no faster than this
 inline constexpr std::string_view kTrafficRelease = "traffic.release";  // forget both
+inline constexpr std::string_view kVehiclePlace = "vehicle.place";      // a driver's car stands elsewhere: INI there
+inline constexpr std::string_view kWeatherChange = "weather";           // becomes one that has a name, within so many seconds
 
 // As on the wire (idl/scenario.idl).
 struct Event {
@@ -22,11 +25,13 @@ struct Event {
   double value = 0.0;
 };
 
+enum class ArgumentKind { kText, kAgent, kPlace, kWeather };
+
 // What a kind of event is told, and under which keys a person writes it.
 struct EventKind {
   std::string_view name;
-  std::string_view argument_key;   // text or agent
-  bool argument_is_agent = false;  // otherwise any text
+  std::string_view argument_key;
+  ArgumentKind argument = ArgumentKind::kText;
   std::string_view value_key;      // with its unit; empty: it has none
   double low = 0.0, high = 0.0;    // of the value
 };
@@ -42,5 +47,17 @@ struct AgentChoice {
   std::uint32_t id = 0;
 };
 base::Result<AgentChoice> ParseAgent(std::string_view text);
+
+// Which car, and where: "ego 12.5 -3.25", metres; with a third number the height near which the ground is meant.
+struct PlaceChoice {
+  std::string vehicle;
+  double x_m = 0.0, y_m = 0.0;
+  std::optional<double> z_m;
+};
+base::Result<PlaceChoice> ParsePlace(std::string_view text);
+std::string PlaceText(const PlaceChoice& place);
+
+// Wrong input with what was expected where an event's name, argument or value cannot be obeyed.
+base::Status CheckEvent(const Event& event);
 
 }  // namespace rodeira::scenario

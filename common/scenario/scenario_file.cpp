@@ -49,10 +49,11 @@ Event ReadEvent(const config::Map& map) {
   if (kind == nullptr) return event;
   const std::string argument_key(kind->argument_key);
   event.argument = map.Text(argument_key);
-  if (kind->argument_is_agent && map.Has(argument_key)) {
-    if (const auto agent = ParseAgent(event.argument); !agent) map.Problem(argument_key, agent.error().message);
-  }
+  const bool told = map.Has(argument_key);
   if (!kind->value_key.empty()) event.value = map.Number(kind->value_key, {kind->low, kind->high});
+  // A value out of its range is said already.
+  const Event argument_only{event.name, event.argument, std::clamp(event.value, kind->low, kind->high)};
+  if (const base::Status sound = CheckEvent(argument_only); told && !sound) map.Problem(argument_key, sound.error().message);
   return event;
 }
 

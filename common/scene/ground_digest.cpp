@@ -22,6 +22,16 @@ double Nearest(const Eigen::Vector2d& low, const Eigen::Vector2d& box_low, const
   return (box_low - high).cwiseMax(low - box_high).cwiseMax(0.0).norm();
 }
 
+// No point of the box has its farthest point of the tile nearer than this.
+double LeastFarthest(const Eigen::Vector2d& low, const Eigen::Vector2d& box_low, const Eigen::Vector2d& box_high) {
+  double least = 0.0;
+  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(kTile_m, 0.0), Eigen::Vector2d(0.0, kTile_m), Eigen::Vector2d(kTile_m, kTile_m)}) {
+    const Eigen::Vector2d p = low + corner;
+    least = std::max(least, (box_low - p).cwiseMax(p - box_high).cwiseMax(0.0).norm());
+  }
+  return least;
+}
+
 }  // namespace
 
 base::Digest PaintDigest(const TilePaint& paint) {
@@ -84,7 +94,10 @@ base::Digest GroundPlan::SourceDigest(const TileKey& tile) const {
   double reach = 1e9;  // no point of the tile is farther from its nearest road, or from one whose slopes reach it
   for (const RoadTrace& trace : traces_) {
     if (Nearest(low, trace.low_W, trace.high_W) > reach) continue;
-    for (const Eigen::Vector2d& p : trace.points_W) reach = std::min(reach, Farthest(low, p));
+    for (const TracePiece& piece : trace.pieces) {
+      if (LeastFarthest(low, piece.low_W, piece.high_W) > reach) continue;
+      for (const Eigen::Vector2d& p : std::span(trace.points_W).subspan(piece.first, piece.count)) reach = std::min(reach, Farthest(low, p));
+    }
   }
   reach = std::max(reach, slopes_reach_m_);
   base::Digest digest = base::Combine(base::Hash(fmt::format("{} {} {}", kGroundVersion, tile.column, tile.row)), terrain_digest_);

@@ -9,6 +9,7 @@
 #include "common/base/assert.hpp"
 #include "common/partition/noding.hpp"
 #include "common/scene/ground_digest.hpp"
+#include "common/scene/laid_lines.hpp"
 #include "common/scene/levels_at.hpp"
 #include "common/scene/road_paint.hpp"
 
@@ -49,12 +50,13 @@ void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void
   for (std::thread& other : others) other.join();
 }
 
-GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(world), things_(world) {
+GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(world), things_(world), posts_(world), edges_(posts_) {
   const auto roads = world.network()->roads();
   std::vector<std::vector<Line3>> lines(roads.size());
   std::vector<std::array<TilePaint, kGroundLevels - 1>> paint(roads.size());
   ForEachAtOnce(roads.size(), threads, [&](std::size_t i) {
     lines[i] = RoadLinesOf(roads[i], kRoadTolerances[0]);
+    AddLaidLines(world, roads[i], kRoadTolerances[0], lines[i]);
     for (std::size_t level = 0; level < paint[i].size(); ++level) PaintRoad(roads[i], kPaintChords_m[level], paint[i][level]);
   });
   for (const network::Placed& placed : network::PlaceFurniture(*world.network()).things) {
@@ -83,6 +85,7 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(worl
         trace.points_W.emplace_back(p.head<2>());
       }
     }
+    trace.pieces = PiecesOf(trace.points_W);
     for (const auto& [key, painted] : paint[i][0]) {  // crossings and arrows may reach beyond the lanes
       for (const PaintPiece& piece : painted) {
         for (const Eigen::Vector3d& p : piece.p_W) trace.low_W = trace.low_W.cwiseMin(p.head<2>()), trace.high_W = trace.high_W.cwiseMax(p.head<2>());
@@ -107,6 +110,17 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(worl
   }
 }
 
+std::vector<GroundPlan::TracePiece> GroundPlan::PiecesOf(std::span<const Eigen::Vector2d> points_W) {
+  constexpr std::size_t kPiece = 64;
+  std::vector<TracePiece> pieces;
+  for (std::size_t first = 0; first < points_W.size(); first += kPiece) {
+    TracePiece piece{first, std::min(kPiece, points_W.size() - first), points_W[first], points_W[first]};
+    for (const Eigen::Vector2d& p : points_W.subspan(first, piece.count)) piece.low_W = piece.low_W.cwiseMin(p), piece.high_W = piece.high_W.cwiseMax(p);
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
 TileBall GroundPlan::BallOf(const TileKey& key) const {
   TileBall ball;
   const Eigen::Vector2d middle = key.south_west_W() + Eigen::Vector2d::Constant(0.5 * kTile_m);
@@ -126,7 +140,7 @@ GroundTile GroundPlan::Build(const TileKey& key) const {
   for (int level = 0; level < kGroundLevels; ++level) {
     const auto at = static_cast<std::size_t>(level);
     const auto segments = level == 0 || finest.empty() ? finest : Simplify(finest, key, world_, kRoadTolerances[at]);
-    const TilePlan plan = PlanTile(world_, key, segments, edge, level);
+    const TilePlan plan = PlanTile(world_, posts_, key, segments, edge, level);
     WovenTile woven = WeaveTile(world_, plan);
     if (at < paint_.size()) {
       if (const auto paint = paint_[at].find(key); paint != paint_[at].end()) tile.levels[at].marks = LayPaint(paint->second, key, woven.triangles);

@@ -57,15 +57,24 @@ class GroundPlan {
   base::Digest SourceDigest(const TileKey& tile) const;
 
  private:
+  // Points of a trace that follow one another, and a box around them.
+  struct TracePiece {
+    std::size_t first = 0, count = 0;
+    Eigen::Vector2d low_W, high_W;
+  };
   struct RoadTrace {
     Eigen::Vector2d low_W, high_W;        // a box around it
     std::vector<Eigen::Vector2d> points_W;
+    std::vector<TracePiece> pieces;
     base::Digest digest = 0;
   };
+  static std::vector<TracePiece> PiecesOf(std::span<const Eigen::Vector2d> points_W);
+
   const road::World& world_;
   Things things_;
   std::vector<TileKey> tiles_;  // ascending
   std::map<TileKey, std::vector<partition::GridSegment>> segments_;
+  PostLines posts_;
   TileEdges edges_;
   std::vector<RoadTrace> traces_;  // by road
   base::Digest terrain_digest_ = 0;

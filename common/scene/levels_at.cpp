@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/network/network.hpp"
+#include "common/road/built_ground.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -13,6 +14,19 @@ namespace {
 constexpr double kDeeper_m[] = {2.6, 4.6, 8.0};
 constexpr double kWithin_m = 0.02;  // so far from a corner a face is asked
 constexpr double kSteepest = 4.0;   // slopes beyond this are a step's, not the ground's
+
+// Whether SUELO knows nothing below its highest answer, so that no hint finds more: on terrain of its own, where no road is, or where
+// the one that stands on the ground is what it answers from.
+bool IsAlone(const road::World& world, const Eigen::Vector2d& p_W, double z_m) {
+  if (world.network() == nullptr || world.open_drive() || !world.roads().empty()) return false;
+  thread_local std::vector<network::Surfacing> surfaces;
+  world.network()->Surfaces(p_W.x(), p_W.y(), surfaces);
+  if (surfaces.empty()) return true;
+  const network::Place& place = surfaces[0].place;
+  const network::RoadSpec& road = world.network()->roads()[place.lane.road].spec();
+  const bool answers = place.lane.lane != 0 && std::fabs(surfaces[0].sample.p_W.z() - z_m) < kLevelApart_m;
+  return surfaces.size() == 1 && answers && road.junction.empty() && !road::IsExempt(road, place.s_m);
+}
 
 }  // namespace
 
@@ -28,6 +42,7 @@ void LevelsAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t 
     return;
   }
   levels.push_back(top);
+  if (most > 1 && IsAlone(world, p_W, top.z_m)) return;
   while (levels.size() < most) {
     const double z = levels.back().z_m;
     bool deeper = false;

@@ -26,8 +26,15 @@ WheelPose BetweenWheels(const WheelPose& a, const WheelPose& b, double alpha, do
   return wheel;
 }
 
+// Somebody has put it elsewhere: no car drives so far.
+bool WasPlaced(const CarPose& a, const CarPose& b, double interval_s) {
+  constexpr double kFastest_mps = 150.0, kLeast_m = 1.0;
+  return (b.p_WB_W - a.p_WB_W).norm() > kLeast_m + kFastest_mps * interval_s;
+}
+
 CarPose BetweenCars(const CarPose& a, const CarPose& b, double alpha, double interval_s) {
   CarPose car = alpha < 0.5 ? a : b;  // what does not move smoothly
+  if (WasPlaced(a, b, interval_s)) return car;
   car.blow = std::max(a.blow, b.blow);
   car.p_WB_W = a.p_WB_W + alpha * (b.p_WB_W - a.p_WB_W);
   car.q_WB = a.q_WB.slerp(alpha, b.q_WB);

@@ -34,6 +34,7 @@ struct CarPose {
   double odometer_m = 0.0;
   double steering_wheel_rad = 0.0;  // positive to the left
   double throttle = 0.0;            // 0 … 1
+  bool horn = false;
   double sliding = 0.0, blow = 0.0;  // of its tyres, and against its body: 0 none … 1
   double length_m = 3.85, front_m = 2.01, width_m = 1.65;  // front bumper from B's origin
   double height_m = 1.42, wheelbase_m = 2.46, wheel_radius_m = 0.2915;       // at rest
@@ -72,7 +73,8 @@ struct Moment {
 };
 
 // (1 - alpha) a + alpha b with the same alpha for everything; alpha in [0, 1], 0 is exactly a and 1 exactly b. Attitudes
-// turn on the shortest way, wheels turn on as fast as they did; lights and weather are a's below 0.5. Who is only in one of the two is not in the result, unless
+// turn on the shortest way, wheels turn on as fast as they did; lights and weather are a's below 0.5, and so is a car that was placed
+// elsewhere in between. Who is only in one of the two is not in the result, unless
 // alpha is 0 or 1.
 Moment Interpolate(const Moment& a, const Moment& b, double alpha);
 

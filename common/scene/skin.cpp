@@ -1,9 +1,11 @@
 #include "common/scene/skin.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/network/network.hpp"
 #include "common/scene/colours.hpp"
+#include "common/scene/laid_lines.hpp"
 #include "common/scene/lay_picture.hpp"
 
 namespace rodeira::scene {
@@ -12,6 +14,7 @@ namespace {
 using network::LaneType;
 
 constexpr double kSame_m = 0.5;
+constexpr double kSlippery = 0.5;  // coefficients of friction below it are those of ice and snow
 
 Colour PavedColour(LaneType type, terrain::Surface surface) {
   if (surface == terrain::Surface::kGravel || surface == terrain::Surface::kSoil) return SurfaceColour(surface);
@@ -43,6 +46,20 @@ std::optional<terrain::LaidPicture> PictureAt(const network::Lane& lane, double 
   return found == nullptr ? std::nullopt : PictureOf(*found);
 }
 
+// Whether a patch lies at a place of a road.
+bool IsPatched(const network::Road& road, double s_m, double t_m) {
+  return std::any_of(road.spec().objects.begin(), road.spec().objects.end(), [&](const network::Object& object) {
+    return IsLaid(object) && object.subtype == "patch" && std::fabs(s_m - object.s_m) <= 0.5 * object.length_m && std::fabs(t_m - object.t_m) <= 0.5 * object.width_m;
+  });
+}
+
+// A patch looks like what it is made of; asphalt pale where it is slippery, otherwise a little darker than the road.
+void Patch(double friction, Skin& skin) {
+  skin.picture.reset();
+  if (skin.material != Material::kRoad) return;
+  skin.colour = friction < kSlippery ? Mix(skin.colour, Colour::Of(0xd3dfe6), 0.8) : Shade(skin.colour, 0.8);
+}
+
 }  // namespace
 
 Material MaterialOf(terrain::Surface surface) {
@@ -59,6 +76,7 @@ Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::Su
   Skin skin;
   skin.surface = level.surface == terrain::Surface::kOutside ? terrain::Surface::kGrass : level.surface;
   LaneType type = LaneType::kNone;
+  bool patched = false;
   if (world.network() != nullptr && level.inside) {
     thread_local std::vector<network::Surfacing> surfaces;
     world.network()->Surfaces(p_W.x(), p_W.y(), surfaces);
@@ -68,6 +86,7 @@ Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::Su
       skin.land = false;
       type = lane->type;
       skin.picture = PictureAt(*lane, surfacing.place.s_m);
+      patched = !world.open_drive() && IsPatched(world.network()->roads()[surfacing.place.lane.road], surfacing.place.s_m, surfacing.place.t_m);
       break;
     }
   }
@@ -77,6 +96,7 @@ Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::Su
   if (skin.land && world.ground_picture() != nullptr) skin.picture = *world.ground_picture();
   skin.colour = paved ? PavedColour(type, skin.surface == terrain::Surface::kRoadMark ? terrain::Surface::kAsphalt : skin.surface)
                       : SurfaceColour(skin.surface);
+  if (patched) Patch(level.friction, skin);
   return skin;
 }
 

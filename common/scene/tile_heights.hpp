@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "common/scene/tile_plan.hpp"
@@ -27,28 +25,46 @@ class TileHeights {
   TileHeights(const road::World& world, const TilePlan& plan);
 
   // From the highest to the lowest, as many as the face has levels.
-  const std::vector<CornerHeight>& At(std::uint32_t point, std::uint32_t face) const { return corners_.at({point, face}); }
+  std::span<const CornerHeight> At(std::uint32_t point, std::uint32_t face) const;
   // The way from one height to another straight up or down at a point, over all heights that any face has there between them:
   // walls that meet at a point have the same vertices.
   std::vector<double> Way(std::uint32_t point, double from_m, double to_m) const;
 
  private:
-  struct Aim {
+  // A face at a point: from where it is asked there, and what it then has.
+  struct Corner {
+    std::uint32_t face = 0;
+    std::uint32_t next = partition::Triangulation::kNone;  // of the same point
+    int on_edge = -1;  // which of the point's sides on the tile's edge the face has
     double thickness = -1.0;
     Eigen::Vector2d towards_W = Eigen::Vector2d::Zero();
-    int on_edge = -1;  // which of the point's sides on the tile's edge the face has
+    std::uint32_t first = 0, count = 0;  // of heights_
   };
-  using Corner = std::pair<std::uint32_t, std::uint32_t>;  // point, face
+  // A point on the tile's edge: the middles of its two sides there, in order.
+  struct OnEdge {
+    std::vector<Eigen::Vector2d> halves_W;
+  };
+  // Calls use(corner) for each face at a point.
+  template <class Use>
+  void ForEachCorner(std::uint32_t point, const Use& use) {
+    for (std::uint32_t i = first_[point]; i != partition::Triangulation::kNone; i = corners_[i].next) use(corners_[i]);
+  }
+  Corner& CornerOf(std::uint32_t point, std::uint32_t face);
+  OnEdge& EdgeOf(std::uint32_t point);
+  void FindSides();
   void FindAims();
-  std::vector<CornerHeight> Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count) const;
-  void AskInside(std::uint32_t point, std::span<const Corner> here);
-  void AskOnEdge(std::uint32_t point, std::span<const Corner> here);
+  void Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count, std::vector<CornerHeight>& heights) const;
+  std::span<CornerHeight> HeightsOf(const Corner& corner) { return std::span(heights_).subspan(corner.first, corner.count); }
+  void AskInside(std::uint32_t point);
+  void AskOnEdge(std::uint32_t point);
 
   const road::World& world_;
   const TilePlan& plan_;
-  std::map<Corner, Aim> aims_;
-  std::map<std::uint32_t, std::vector<Eigen::Vector2d>> sides_W_;  // middles of a point's sides on the tile's edge, in order
-  std::map<Corner, std::vector<CornerHeight>> corners_;
+  std::vector<Corner> corners_;
+  std::vector<std::uint32_t> first_;          // by point: of corners_
+  std::vector<std::uint32_t> edge_of_;        // by point: where in edges_, one more; 0: not on the tile's edge
+  std::vector<OnEdge> edges_;
+  std::vector<CornerHeight> heights_;
 };
 
 }  // namespace rodeira::scene

@@ -88,11 +88,25 @@ void TileEdges::Add(const TileKey& tile, std::span<const partition::GridSegment>
   }
 }
 
+// Both tiles at an edge must know the terrain there.
+std::vector<std::int32_t> TileEdges::Usual(const Edge& edge) const {
+  const TileKey& tile = edge.tile;
+  const TileKey beside{tile.column - (edge.west ? 1 : 0), tile.row - (edge.west ? 0 : 1)};
+  if (posts_.Holds(tile) && posts_.Holds(beside)) {
+    std::vector<std::int32_t> places = edge.west ? posts_.OnWest(tile) : posts_.OnSouth(tile);
+    places.insert(places.end(), {0, static_cast<std::int32_t>(kTileSteps)});
+    return places;
+  }
+  std::vector<std::int32_t> places;
+  for (std::int32_t k = 0; k <= kTileSteps; k += kEvery) places.push_back(k);
+  return places;
+}
+
 std::vector<GridPoint> TileEdges::Of(const TileKey& tile) const {
   const auto size = static_cast<std::int32_t>(kTileSteps);
   std::set<GridPoint> points;
   const auto add = [&](const Edge& edge, auto&& point_at) {
-    for (std::int32_t k = 0; k <= size; k += kEvery) points.insert(point_at(k));
+    for (const std::int32_t k : Usual(edge)) points.insert(point_at(k));
     if (const auto found = places_.find(edge); found != places_.end()) {
       for (const std::int32_t k : found->second) points.insert(point_at(k));
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/partition/grid_point.hpp"
+#include "common/scene/post_lines.hpp"
 #include "common/scene/road_lines.hpp"
 #include "common/scene/tile_grid.hpp"
 
@@ -20,7 +21,11 @@ void AddToTiles(std::span<const Line3> lines, TileLines& tiles);
 // The points on tiles' edges, of both neighbours together: a tile triangulates all of its edges' points, at every level.
 class TileEdges {
  public:
-  static constexpr std::int32_t kEvery = static_cast<std::int32_t>(kTileSteps / 16);  // and there is always one this often
+  // There is always one this often; where land is made of the terrain's posts, these and its diagonals take their place.
+  static constexpr std::int32_t kEvery = static_cast<std::int32_t>(kTileSteps / 16);
+
+  TileEdges() = default;
+  explicit TileEdges(const PostLines& posts) : posts_(posts) {}
 
   void Add(const TileKey& tile, std::span<const partition::GridSegment> segments);
   // All points on the tile's four edges.
@@ -33,6 +38,9 @@ class TileEdges {
 
     auto operator<=>(const Edge&) const = default;
   };
+  std::vector<std::int32_t> Usual(const Edge& edge) const;
+
+  PostLines posts_;
   std::map<Edge, std::set<std::int32_t>> places_;
 };
 

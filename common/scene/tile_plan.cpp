@@ -13,13 +13,21 @@ using partition::GridPoint;
 using partition::Triangulation;
 
 constexpr double kLongSide = 8.0;  // times as long as the thinnest triangle is thick: such a side of a thin one is looked at
+constexpr std::uint32_t kNone = Triangulation::kNone;
 constexpr int kRounds = 5;  // of points put in where the ground is not met
 // In the middle of thinner triangles nothing is put: on roads, and on land.
 constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.15, 0.5, 1.5, 4.0}, kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
 
+double Squared(const GridPoint& a, const GridPoint& b) {
+  const double dx = a.x - b.x, dy = a.y - b.y;
+  return dx * dx + dy * dy;
+}
+
 class Planner {
  public:
-  Planner(const road::World& world, const TileKey& key, int level) : world_(world), level_(static_cast<std::size_t>(level)) { plan_.key = key; }
+  Planner(const road::World& world, const PostLines& posts, const TileKey& key, int level) : world_(world), posts_(posts), level_(static_cast<std::size_t>(level)) {
+    plan_.key = key;
+  }
 
   TilePlan Plan(std::span<const partition::GridSegment> segments, std::span<const GridPoint> edge) {
     Triangulation& t = plan_.triangles;
@@ -77,19 +85,36 @@ class Planner {
     for (std::size_t i = 0; i < now.size(); ++i) plan_.face_of[i] = before[now[i]];
   }
 
-  void SpreadOverLand() {
+  // The lines on which land has its points: the terrain's own, or evenly spaced ones.
+  struct LandLines {
+    std::vector<std::int32_t> x, y;
+    double room = 0.0;  // nearer to another point there is none
+  };
+  LandLines LinesOverLand() const {
+    LandLines lines;
+    if (posts_.Holds(plan_.key)) {
+      const int every = std::max(1, static_cast<int>(kLandSpacings_m[level_] / posts_.spacing_m()));
+      return {posts_.Columns(plan_.key, every), posts_.Rows(plan_.key, every), 1.0 / kStep_m};
+    }
     const auto every = static_cast<std::int32_t>(std::lround(kLandSpacings_m[level_] / kStep_m));
-    const double room = 0.4 * every;
+    for (std::int32_t k = every; k < kTileSteps; k += every) lines.x.push_back(k), lines.y.push_back(k);
+    lines.room = 0.4 * every;
+    return lines;
+  }
+
+  void SpreadOverLand() {
+    const LandLines lines = LinesOverLand();
+    const double room2 = lines.room * lines.room;
     std::vector<GridPoint> fresh;
-    for (std::int32_t x = every; x < kTileSteps; x += every) {
-      for (std::int32_t y = every; y < kTileSteps; y += every) {
+    for (const std::int32_t x : lines.x) {
+      for (const std::int32_t y : lines.y) {
         const GridPoint p{x, y};
         const std::uint32_t at = plan_.triangles.Find(p);
         if (!plan_.faces[plan_.face_of[at]].land) continue;
         const auto& corner = plan_.triangles.triangles()[at].corner;
         const bool close = std::any_of(corner.begin(), corner.end(), [&](std::uint32_t c) {
           const GridPoint q = plan_.triangles.points()[c];
-          return std::hypot(static_cast<double>(q.x - p.x), static_cast<double>(q.y - p.y)) < room;
+          return Squared(q, p) < room2;
         });
         if (!close) fresh.push_back(p);
       }
@@ -112,13 +137,15 @@ class Planner {
     std::vector<GridPoint> fresh;
     const auto triangles = plan_.triangles.triangles();
     tried_.resize(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
       if (tried_[i] == triangles[i].corner) continue;
       tried_[i] = triangles[i].corner;
       const bool land = plan_.faces[plan_.face_of[i]].land;
       const bool thin = ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < (land ? kThinnestLand_m : kThinnestRoad_m)[level_];
-      if (!land) CheckSides(triangles[i], thin ? kLongSide * kThinnestRoad_m[level_] : 0.0, fresh);
-      if (!thin) CheckMiddle(triangles[i], land ? kLandTolerances_m[level_] : RoadTolerance(), fresh);
+      std::optional<Corners> corners;  // asked where they are needed
+      const auto know = [&]() -> const Corners& { return corners ? *corners : corners.emplace(CornersOf(triangles[i], plan_.face_of[i], thin)); };
+      if (!land) CheckSides(triangles[i], thin ? kLongSide * kThinnestRoad_m[level_] : 0.0, know, fresh);
+      if (!thin) CheckMiddle(triangles[i], land ? kLandTolerances_m[level_] : RoadTolerance(), know(), fresh);
     }
     for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
     if (!fresh.empty()) CarryFaces();
@@ -127,41 +154,52 @@ class Planner {
 
   double RoadTolerance() const { return 0.8 * kRoadTolerances[level_].height_m; }
 
-  // The triangle's corners, and their heights as they are seen from its middle.
+  // The triangle's corners, and their heights as they are seen from within it; of a thin one from its own middle.
   struct Corners {
     Eigen::Vector2d middle_W;
     std::array<Eigen::Vector2d, 3> at;
     std::array<double, 3> z{};
   };
-  Corners CornersOf(const Triangulation::Triangle& t) {
+  Corners CornersOf(const Triangulation::Triangle& t, std::uint32_t face, bool thin) {
     Corners corners;
     corners.middle_W = ToWorld(plan_.key, Middle(t));
     for (std::size_t k = 0; k < 3; ++k) {
       corners.at[k] = ToWorld(plan_.key, plan_.triangles.points()[t.corner[k]]);
-      corners.z[k] = HeightWithin(corners.at[k], corners.middle_W);
+      corners.z[k] = thin ? HeightWithin(corners.at[k], corners.middle_W) : CornerHeight(t.corner[k], face, corners.at[k], corners.middle_W);
     }
     return corners;
   }
 
-  void CheckMiddle(const Triangulation::Triangle& t, double tolerance, std::vector<GridPoint>& fresh) {
-    const Corners c = CornersOf(t);
+  // Of a face at one of its points, asked from within the first triangle there.
+  double CornerHeight(std::uint32_t point, std::uint32_t face, const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) {
+    if (first_known_.size() < plan_.triangles.points().size()) first_known_.resize(plan_.triangles.points().size(), kNone);
+    for (std::uint32_t i = first_known_[point]; i != kNone; i = known_[i].next) {
+      if (known_[i].face == face) return known_[i].z_m;
+    }
+    const double z = HeightWithin(p_W, towards_W);
+    known_.push_back({face, first_known_[point], z});
+    first_known_[point] = static_cast<std::uint32_t>(known_.size() - 1);
+    return z;
+  }
+
+  void CheckMiddle(const Triangulation::Triangle& t, double tolerance, const Corners& c, std::vector<GridPoint>& fresh) {
     if (std::fabs(Height(c.middle_W) - (c.z[0] + c.z[1] + c.z[2]) / 3.0) > tolerance) fresh.push_back(Middle(t));
   }
 
   // An S, as two vertical curves make it, is met in its middle: its quarters are looked at too.
-  void CheckSides(const Triangulation::Triangle& t, double longer_m, std::vector<GridPoint>& fresh) {
+  template <class Know>
+  void CheckSides(const Triangulation::Triangle& t, double longer_m, const Know& know, std::vector<GridPoint>& fresh) {
     const auto points = plan_.triangles.points();
-    std::optional<Corners> c;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t n = (k + 1) % 3;
       if (t.fixed[k] || t.across[k] == Triangulation::kNone || t.corner[k] > t.corner[n]) continue;
       const GridPoint &p = points[t.corner[k]], &q = points[t.corner[n]];
-      if (std::hypot(static_cast<double>(q.x - p.x), static_cast<double>(q.y - p.y)) * kStep_m <= longer_m) continue;
-      if (!c) c = CornersOf(t);
+      if (std::sqrt(Squared(p, q)) * kStep_m <= longer_m) continue;
+      const Corners& c = know();
       for (const int quarter : {2, 1, 3}) {
         const double part = 0.25 * quarter;
-        const double z = HeightWithin(c->at[k] + part * (c->at[n] - c->at[k]), c->middle_W);
-        if (std::fabs(z - (c->z[k] + part * (c->z[n] - c->z[k]))) <= RoadTolerance()) continue;
+        const double z = HeightWithin(c.at[k] + part * (c.at[n] - c.at[k]), c.middle_W);
+        if (std::fabs(z - (c.z[k] + part * (c.z[n] - c.z[k]))) <= RoadTolerance()) continue;
         fresh.push_back({p.x + (q.x - p.x) * quarter / 4, p.y + (q.y - p.y) * quarter / 4});
         if (quarter == 2) break;
       }
@@ -169,10 +207,18 @@ class Planner {
   }
 
   const road::World& world_;
+  const PostLines& posts_;
   std::size_t level_;
   TilePlan plan_;
   std::vector<std::array<std::uint32_t, 2>> fixed_;
   std::vector<std::array<std::uint32_t, 3>> tried_;
+  struct Known {
+    std::uint32_t face;
+    std::uint32_t next;  // of the same point
+    double z_m;
+  };
+  std::vector<Known> known_;
+  std::vector<std::uint32_t> first_known_;  // by point
   std::vector<road::SurfacePoint> levels_;
 };
 
@@ -183,14 +229,14 @@ double ThicknessOf(const Triangulation& triangles, const Triangulation::Triangle
   double longest = 1.0;
   for (std::size_t k = 0; k < 3; ++k) {
     const GridPoint &a = p[triangle.corner[k]], &b = p[triangle.corner[(k + 1) % 3]];
-    longest = std::max(longest, std::hypot(static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y)));
+    longest = std::max(longest, Squared(a, b));
   }
-  return static_cast<double>(partition::Turn(p[triangle.corner[0]], p[triangle.corner[1]], p[triangle.corner[2]])) / longest;
+  return static_cast<double>(partition::Turn(p[triangle.corner[0]], p[triangle.corner[1]], p[triangle.corner[2]])) / std::sqrt(longest);
 }
 
-TilePlan PlanTile(const road::World& world, const TileKey& key, std::span<const partition::GridSegment> segments,
+TilePlan PlanTile(const road::World& world, const PostLines& posts, const TileKey& key, std::span<const partition::GridSegment> segments,
                   std::span<const GridPoint> edge, int level) {
-  return Planner(world, key, level).Plan(segments, edge);
+  return Planner(world, posts, key, level).Plan(segments, edge);
 }
 
 }  // namespace rodeira::scene

@@ -7,6 +7,7 @@
 
 #include "common/partition/triangulation.hpp"
 #include "common/road/world.hpp"
+#include "common/scene/post_lines.hpp"
 #include "common/scene/road_lines.hpp"
 #include "common/scene/skin.hpp"
 #include "common/scene/tile_grid.hpp"
@@ -40,7 +41,7 @@ struct TilePlan {
 double ThicknessOf(const partition::Triangulation& triangles, const partition::Triangulation::Triangle& triangle);
 
 // segments: noded, of the finest level. edge: all points on the tile's edges.
-TilePlan PlanTile(const road::World& world, const TileKey& key, std::span<const partition::GridSegment> segments,
+TilePlan PlanTile(const road::World& world, const PostLines& posts, const TileKey& key, std::span<const partition::GridSegment> segments,
                   std::span<const partition::GridPoint> edge, int level);
 
 // The same lines with fewer points, none farther from what it leaves out than the tolerance; ends, crossings and points on

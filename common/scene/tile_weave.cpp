@@ -22,7 +22,7 @@ constexpr std::size_t kNobody = 99;
 
 class Weaver {
  public:
-  Weaver(const road::World& world, const TilePlan& plan) : plan_(plan), heights_(world, plan), vertices_(plan.triangles.points().size()) {
+  Weaver(const road::World& world, const TilePlan& plan) : plan_(plan), heights_(world, plan), first_(plan.triangles.points().size(), Triangulation::kNone) {
     const Face& first = plan.faces.front();
     origin_W_ = TileOrigin(plan.key, first.levels.empty() ? 0.0 : first.levels.front().z_m);
     wall_.material = Material::kRoad;
@@ -55,16 +55,16 @@ class Weaver {
   }
 
   std::uint32_t Vertex(Mesh& mesh, std::uint32_t point, std::uint32_t face, std::size_t level) {
-    std::vector<Known>& here = vertices_[point];
-    for (const Known& known : here) {
-      if (known.face == face && known.level == level) return known.vertex;
+    for (std::uint32_t i = first_[point]; i != Triangulation::kNone; i = vertices_[i].next) {
+      if (vertices_[i].face == face && vertices_[i].level == level) return vertices_[i].vertex;
     }
     const CornerHeight& height = heights_.At(point, face)[level];
     const Skin& skin = plan_.faces[face].skins[level];
     const Eigen::Vector3d p_W = Place(point, height.z_m);
     const Colour colour = skin.grown ? GroundColour(skin.surface, p_W.x(), p_W.y(), height.normal_W) : skin.colour;
-    here.push_back({face, level, mesh.Add(p_W, height.normal_W, colour)});
-    return here.back().vertex;
+    vertices_.push_back({face, static_cast<std::uint32_t>(level), mesh.Add(p_W, height.normal_W, colour), first_[point]});
+    first_[point] = static_cast<std::uint32_t>(vertices_.size() - 1);
+    return vertices_.back().vertex;
   }
 
   // One for each material, and for each way that a picture lies.
@@ -161,10 +161,12 @@ class Weaver {
   Mesh wall_;
   struct Known {
     std::uint32_t face;
-    std::size_t level;
+    std::uint32_t level;
     std::uint32_t vertex;
+    std::uint32_t next;  // of the same point
   };
-  std::vector<std::vector<Known>> vertices_;  // by point: what is there already, mostly one
+  std::vector<Known> vertices_;       // what is there already
+  std::vector<std::uint32_t> first_;  // by point
 };
 
 }  // namespace

@@ -19,7 +19,17 @@ double Between(double a, double b, double share) { return a + (b - a) * share; }
 
 Voice Between(const Voice& a, const Voice& b, double share) {
   return {Between(a.engine_rpm, b.engine_rpm, share), Between(a.load, b.load, share), Between(a.speed_mps, b.speed_mps, share),
-          Between(a.sliding, b.sliding, share),       Between(a.gain, b.gain, share), Between(a.pan, b.pan, share)};
+          Between(a.sliding, b.sliding, share),       Between(a.gain, b.gain, share), Between(a.pan, b.pan, share),
+          Between(a.horn, b.horn, share)};
+}
+
+// A membrane's note: bright, its n-th overtone falling as 1/n; `cycle` goes on by one sample.
+double HornNote(double& cycle, double frequency_Hz) {
+  cycle += frequency_Hz * kSample_s;
+  cycle -= std::floor(cycle);
+  double note = 0.0;
+  for (int overtone = 1; overtone <= 8; ++overtone) note += std::sin(2.0 * std::numbers::pi * overtone * cycle) / overtone;
+  return note;
 }
 
 }  // namespace
@@ -48,6 +58,7 @@ double Synth::OneSample(const Voice& voice, State& state) {
   q.second += kTune * q.band;
   q.band += kTune * (Noise() - q.second - q.band / kSquealSharpness);
   out += 0.32 * voice.sliding * q.band;
+  if (voice.horn > 0.0) out += 0.22 * voice.horn * (HornNote(state.low_horn, kLowHorn_Hz) + HornNote(state.high_horn, kHighHorn_Hz));
   return voice.gain * out;
 }
 

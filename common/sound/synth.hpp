@@ -10,6 +10,7 @@
 namespace rodeira::sound {
 
 inline constexpr int kRate_Hz = 48'000;
+inline constexpr double kLowHorn_Hz = 420.0, kHighHorn_Hz = 500.0;  // of a pair of electric horns
 
 // A car as it is heard.
 struct Voice {
@@ -19,6 +20,7 @@ struct Voice {
   double sliding = 0.0;     // of its tyres: 0 they roll … 1
   double gain = 1.0;        // 1: as loud as from inside of it
   double pan = 0.0;         // -1 left … 1 right
+  double horn = 0.0;        // 0 … 1: it sounds
 };
 
 struct Heard {
@@ -43,6 +45,7 @@ class Synth {
   struct State {
     Voice last;
     double cycle = 0.0;  // share of the engine's
+    double low_horn = 0.0, high_horn = 0.0;  // shares of the two notes' cycles
     Filtered road, squeal;
   };
   double Noise();  // in [-1, 1)

@@ -61,6 +61,11 @@ Weather WeatherPlan::At(double time_s) const {
   return {wetness.At(time_s), rain.At(time_s), visibility.At(time_s), clouds.At(time_s), WrapHour(hour.At(time_s))};
 }
 
+void WeatherPlan::Add(const Change& change) {
+  const auto later = std::upper_bound(changes_.begin(), changes_.end(), change.at_s, [](double at_s, const Change& other) { return at_s < other.at_s; });
+  changes_.insert(later, change);
+}
+
 WeatherPlan ReadWeather(const config::List& items) {
   std::vector<Change> changes;
   for (std::size_t i = 0; i < items.size(); ++i) {

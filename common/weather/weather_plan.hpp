@@ -24,6 +24,8 @@ class WeatherPlan {
   explicit WeatherPlan(std::vector<Change> changes) : changes_(std::move(changes)) {}
 
   Weather At(double time_s) const;
+  // One more, behind those of its time and before later ones.
+  void Add(const Change& change);
 
  private:
   std::vector<Change> changes_;

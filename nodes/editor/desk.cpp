@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <system_error>
+#include <utility>
 
 #include "common/base/user_folders.hpp"
 #include "nodes/editor/panels.hpp"
@@ -15,7 +16,6 @@ namespace rodeira::desk {
 namespace {
 
 constexpr float kSide_px = 300.0f, kStatus_px = 30.0f;
-constexpr int kIdle_ms = 100, kMoving_ms = 0;
 constexpr double kHeatEvery_s = 0.5;
 constexpr double kMostTrafficTime_s = 0.025;  // of a picture
 
@@ -39,7 +39,11 @@ Desk::Desk(window::Window& window, const std::filesystem::path& file, const std:
   kept_state_ = work_.session.state();
 }
 
-bool Desk::moves() const { return work_.traffic.runs || work_.picture.loading() || canvas_.incomplete() || window_.busy() || ImGui::GetIO().WantTextInput; }
+int Desk::wait_ms() const {
+  constexpr int kIdle_ms = 100, kLoading_ms = 60;
+  if (work_.traffic.runs || canvas_.incomplete() || window_.busy() || ImGui::GetIO().WantTextInput) return 0;
+  return work_.picture.loading() ? kLoading_ms : kIdle_ms;
+}
 
 bool Desk::Frame(int wait_ms, window::Image* seen) {
   if (!window_.BeginFrame(wait_ms)) {
@@ -60,7 +64,11 @@ bool Desk::Frame(int wait_ms, window::Image* seen) {
   if (!work_.left.empty() && work_.form == Form::kNone) work_.Open(Form::kRecover);
   Layout();
   KeepWork();
-  window_.EndFrame(seen);
+  const bool keeps = std::exchange(work_.take_picture, false);
+  window::Image picture;
+  window_.EndFrame(keeps ? &picture : seen);
+  if (keeps) WritePicture(picture);
+  if (keeps && seen != nullptr) *seen = std::move(picture);
   if (work_.closing && keeper_) keeper_->Forget();
   return !work_.closing;
 }
@@ -105,6 +113,16 @@ void Desk::RunTraffic() {
   traffic.heat_of_s = traffic.preview->time_s();
 }
 
+void Desk::WritePicture(const window::Image& picture) {
+  const std::filesystem::path folder = base::UserDataFolder() / "pictures";
+  const std::string name = work_.session.path().empty() ? "map" : work_.session.path().stem().string();
+  std::error_code problem;
+  std::filesystem::path file = folder / (name + ".png");
+  for (int number = 2; std::filesystem::exists(file, problem); ++number) file = folder / fmt::format("{}-{}.png", name, number);
+  if (auto status = window::WritePng(file, picture); !status) work_.session.Say(status.error().Text(), false);
+  else work_.session.Say("the window's picture is " + file.string());
+}
+
 void Desk::KeepWork() {
   if (!keeper_) return;
   since_kept_s_ += static_cast<double>(ImGui::GetIO().DeltaTime);
@@ -125,8 +143,8 @@ int RunDesk(const std::filesystem::path& file) {
     return opened.error().exit_status();
   }
   Desk desk(*opened.value(), file, base::UserDataFolder() / "editor");
-  int wait_ms = kMoving_ms;
-  while (desk.Frame(wait_ms)) wait_ms = desk.moves() ? kMoving_ms : kIdle_ms;
+  while (desk.Frame(desk.wait_ms())) {
+  }
   return 0;
 }
 

@@ -18,8 +18,8 @@ class Desk {
 
   // One picture: takes what hands did, does it, draws. False: the desk is closed.
   bool Frame(int wait_ms, window::Image* seen = nullptr);
-  // Something moves: the next picture should not wait.
-  bool moves() const;
+  // How long the next picture may wait for hands, ms: not at all where something moves, a little while the background is read beside it.
+  int wait_ms() const;
 
   // How long unsaved work may be kept nowhere, s; 10 otherwise.
   void KeepEvery(double seconds) { keep_every_s_ = seconds; }
@@ -29,6 +29,7 @@ class Desk {
   void Layout();
   void RunTraffic();
   void KeepWork();
+  void WritePicture(const window::Image& picture);
 
   window::Window& window_;
   Work work_;

@@ -41,6 +41,20 @@ bool PhaseFields(lights::LightPlan& plan, std::size_t number, const std::set<std
   return changed;
 }
 
+bool TimeFields(lights::LightPlan& plan) {
+  bool changed = false;
+  const auto field = [&changed](const char* name, double& value, bool beside) {
+    if (beside) ImGui::SameLine();
+    ImGui::SetNextItemWidth(45.0f);
+    changed |= ImGui::InputDouble(name, &value, 0.0, 0.0, "%g", ImGuiInputTextFlags_EnterReturnsTrue);
+  };
+  field("offset, s", plan.offset_s, false);
+  field("amber, s", plan.amber_s, true);
+  field("all red, s", plan.all_red_s, false);
+  field("red and amber, s", plan.red_amber_s, true);
+  return changed;
+}
+
 }  // namespace
 
 void DrawLightsPanel(Work& work) {
@@ -55,6 +69,7 @@ void DrawLightsPanel(Work& work) {
       plans.erase(plans.begin() + static_cast<std::ptrdiff_t>(i));
       changed = true;
     }
+    changed = changed || TimeFields(plans[i]);
     for (std::size_t phase = 0; !changed && phase < plans[i].phases.size(); ++phase) changed = PhaseFields(plans[i], phase, chosen);
     if (!changed && ImGui::SmallButton("Add a phase")) plans[i].phases.emplace_back(), changed = true;
     ImGui::PopID();

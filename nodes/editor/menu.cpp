@@ -64,6 +64,7 @@ constexpr Shortcut kShortcuts[] = {
     {"View", "Centre mark", "O", SDL_SCANCODE_O, false, false, [](Work& w) { Turn(w.centre); }},
     {"View", "Snap", "G", SDL_SCANCODE_G, false, false, [](Work& w) { Turn(w.snap); }},
     {"View", "Show everything", "F", SDL_SCANCODE_F, false, false, ShowAll},
+    {"View", "Picture of the window", "F12", SDL_SCANCODE_F12, false, false, [](Work& w) { w.take_picture = true; }},
     {"Traffic", "Run, pause", "Space", SDL_SCANCODE_SPACE, false, false, RunOrPause},
     {"Traffic", "Stop", "Shift+Space", SDL_SCANCODE_SPACE, false, true, StopTraffic},
     {"Traffic", "Heat map", "T", SDL_SCANCODE_T, false, false, [](Work& w) { Turn(w.heat); }},

@@ -65,6 +65,7 @@ struct Work {
   Traffic traffic;
   PictureLoader picture;
   std::vector<editor::Keeper::Left> left;  // unsaved work of editors that live no more
+  bool take_picture = false;               // of the window, when it is drawn next
   bool closing = false;                    // the window should close, and nothing hinders that
   std::map<std::string, Eigen::Vector2d> places;  // of buttons and fields in the last picture, pixels of the window: for scripted hands
 

@@ -65,7 +65,7 @@ class AutopilotSource final : public Source {
 
   void Save(base::StateWriter& out) const override { out.Put("autopilot", autopilot_); }
   void Restore(base::StateReader& in) override { in.Get("autopilot", autopilot_); }
-  void TakeOver(const vehicle::Controls& last) override { autopilot_.TakeOver(last); }
+  void TakeOver(const vehicle::Controls& last, const hands::Signals& /*signals*/) override { autopilot_.TakeOver(last); }
 
  private:
   // Lights that nobody tells of are dark.

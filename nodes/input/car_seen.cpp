@@ -15,7 +15,7 @@ base::Result<CarSeen> SeeCar(const lockstep::Inbox& inbox) {
   // The first column of the rotation is the car's own x axis.
   const double forward = (1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z())) * v.x() + 2.0 * (q.x() * q.y() + q.w() * q.z()) * v.y() +
                          2.0 * (q.x() * q.z() - q.w() * q.y()) * v.z();
-  return CarSeen{forward, state.value().gear()};
+  return CarSeen{forward, state.value().gear(), static_cast<double>(state.value().steering_torque_nm())};
 }
 
 }  // namespace rodeira::nodes

@@ -11,6 +11,7 @@ namespace rodeira::nodes {
 struct CarSeen {
   double speed_mps = 0.0;  // forward
   std::int32_t gear = 1;   // that is in
+  double steering_torque_Nm = 0.0;  // what the road gives back to its steering wheel, positive to the left
 };
 base::Result<CarSeen> SeeCar(const lockstep::Inbox& inbox);
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace topics = idl::topics;
 
-msg::Controls ToWire(const vehicle::Controls& in) {
+msg::Controls ToWire(const vehicle::Controls& in, const hands::Signals& signals) {
   msg::Controls out;
   out.steering_wheel_rad(in.steering_wheel_rad);
   out.throttle(in.throttle);
@@ -27,6 +27,9 @@ msg::Controls ToWire(const vehicle::Controls& in) {
   out.gear(in.gear);
   out.gearbox_mode(static_cast<std::uint32_t>(in.gearbox));
   out.starter(in.starter ? 1 : 0);
+  out.indicators(static_cast<std::uint32_t>(signals.indicators));
+  out.headlights(static_cast<std::uint32_t>(signals.headlights));
+  out.horn(signals.horn ? 1 : 0);
   return out;
 }
 
@@ -43,25 +46,30 @@ vehicle::Controls FromWire(const msg::Controls& in) {
   return vehicle::Cut(out);
 }
 
+hands::Signals SignalsOf(const msg::Controls& in) {
+  return {static_cast<hands::Indicators>(in.indicators() % 4), static_cast<hands::Headlights>(in.headlights() % 3), in.horn() != 0};
+}
+
 class InputNode final : public lockstep::Node {
  public:
   InputNode(std::unique_ptr<Source> source, std::int64_t base_step_ns) : source_(std::move(source)), base_step_ns_(base_step_ns) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
-    outbox.Put(topics::kControls, idl::Encode(ToWire(source_->First())));
+    const vehicle::Controls first = source_->First();
+    outbox.Put(topics::kControls, idl::Encode(ToWire(first, source_->signals())));
     return {};
   }
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
     const auto controls = source_->Step(step, step.output_valid * base_step_ns_, inbox);
     if (!controls) return controls.error();
-    outbox.Put(topics::kControls, idl::Encode(ToWire(controls.value())));
+    outbox.Put(topics::kControls, idl::Encode(ToWire(controls.value(), source_->signals())));
     return {};
   }
   base::Status TakeOver(const std::vector<lockstep::Sample>& published) override {
     if (published.empty()) return base::WrongInput("no published controls were found");
     const auto last = idl::Decode<msg::Controls>(*published.back().payload);
     if (!last) return last.error();
-    source_->TakeOver(FromWire(last.value()));
+    source_->TakeOver(FromWire(last.value()), SignalsOf(last.value()));
     return {};
   }
   bool is_brief() const override { return source_->is_brief(); }

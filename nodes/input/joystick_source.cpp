@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cstdio>
 #include <utility>
 
 #include "common/base/suggest.hpp"
+#include "common/hands/force_device.hpp"
 #include "common/hands/wheel_driver.hpp"
 #include "common/hands/wheel_setup.hpp"
 #include "nodes/input/car_seen.hpp"
+#include "nodes/input/haptic_force.hpp"
 #include "nodes/input/joysticks.hpp"
 
 namespace rodeira::nodes {
@@ -23,7 +26,8 @@ class JoystickSource final : public Source {
         settings_(settings),
         driver_(settings),
         joysticks_(std::move(joysticks)),
-        there_(settings.devices.size(), true) {}
+        there_(settings.devices.size(), true),
+        force_(settings.force, nullptr) {}
 
   vehicle::Controls First() override { return driver_.controls(); }
 
@@ -36,15 +40,29 @@ class JoystickSource final : public Source {
       readings_.push_back(joysticks_->reading(place));
       Tell(place, readings_.back().connected);
     }
-    return driver_.Step(readings_, car.value().gear);
+    const vehicle::Controls controls = driver_.Step(readings_, car.value().gear);
+    Feel(car.value());
+    return controls;
   }
 
+  hands::Signals signals() const override { return driver_.signals(); }
   bool is_brief() const override { return false; }  // SDL wants one thread
   void Save(base::StateWriter& out) const override { out.Put("wheel", driver_); }
   void Restore(base::StateReader& in) override { in.Get("wheel", driver_); }
-  void TakeOver(const vehicle::Controls& last) override { driver_.TakeOver(last); }
+  void TakeOver(const vehicle::Controls& last, const hands::Signals& signals) override { driver_.TakeOver(last, signals); }
 
  private:
+  // What the road gives back, to the hands: no part of the run. A wheel that is back has its motor anew.
+  void Feel(const CarSeen& car) {
+    if (!settings_.has_force) return;
+    _SDL_Joystick* wheel = joysticks_->joystick(settings_.AxisOf(hands::WheelAxis::kSteering)->device);
+    if (wheel != felt_) force_.Change(OpenHapticForce(wheel, settings_.force_inverted));
+    felt_ = wheel;
+    if (!driver_.rim_rad()) return;
+    const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    force_.Tell({*driver_.rim_rad(), settings_.force_lock_rad, car.steering_torque_Nm}, now_s);
+  }
+
   // To the person, once for each time.
   void Tell(std::size_t place, bool there) {
     if (there_[place] == there) return;
@@ -58,7 +76,9 @@ class JoystickSource final : public Source {
   hands::WheelDriver driver_;
   std::unique_ptr<Joysticks> joysticks_;
   std::vector<bool> there_;
+  _SDL_Joystick* felt_ = nullptr;  // the wheel whose motor that is
   std::vector<hands::DeviceReading> readings_;
+  hands::ForceDriver force_;  // before its joystick in dying
 };
 
 // GUIDs of the launch file stand above those of the wheel file: the same file then serves several seats.

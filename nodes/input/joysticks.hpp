@@ -40,6 +40,8 @@ class Joysticks {
   // The one of this place in the list; empty where it is not there.
   const hands::DeviceReading& reading(std::size_t place) const { return used_[place].reading; }
   const std::string& name(std::size_t place) const { return used_[place].name; }
+  // SDL's own; null where it is not there. Another one, or none, after each Update.
+  _SDL_Joystick* joystick(std::size_t place) const { return used_[place].joystick; }
 
  private:
   struct Used {

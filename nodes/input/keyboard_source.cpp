@@ -31,13 +31,19 @@ class KeyboardSource final : public Source {
     input.lever.down = Presses(now, Action::kGearDown);
     input.lever.mode = Presses(now, Action::kGearboxMode);
     input.lever.engaged = car.value().gear;
+    input.signals.left = Presses(now, Action::kIndicateLeft);
+    input.signals.right = Presses(now, Action::kIndicateRight);
+    input.signals.hazard = Presses(now, Action::kHazard);
+    input.signals.headlights = Presses(now, Action::kHeadlights);
+    input.signals.horn = input.held[static_cast<std::size_t>(Action::kHorn)];
     input.speed_mps = car.value().speed_mps;
     return driver_.Step(input, step.dt_s);
   }
 
+  hands::Signals signals() const override { return driver_.signals(); }
   void Save(base::StateWriter& out) const override { out.Put("keyboard", driver_); }
   void Restore(base::StateReader& in) override { in.Get("keyboard", driver_); }
-  void TakeOver(const vehicle::Controls& last) override { driver_.TakeOver(last); }
+  void TakeOver(const vehicle::Controls& last, const hands::Signals& signals) override { driver_.TakeOver(last, signals); }
 
  private:
   std::uint32_t Presses(const launch::KeysNow& now, Action action) const {

@@ -148,7 +148,7 @@ class ScriptSource final : public Source {
   }
   void Save(base::StateWriter&) const override {}  // a function of time alone
   void Restore(base::StateReader&) override {}
-  void TakeOver(const Controls&) override {}
+  void TakeOver(const Controls&, const hands::Signals&) override {}
 
  private:
   Script script_;

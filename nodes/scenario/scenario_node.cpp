@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
 #include "common/base/suggest.hpp"
 #include "common/road/world.hpp"
+#include "common/scenario/request.hpp"
 #include "common/scenario/scenario_file.hpp"
+#include "common/weather/named_weather.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -52,10 +55,21 @@ class Gate {
   bool done_ = false;
 };
 
+// The car that is to be placed is one that hears of it.
+base::Status CheckVehicle(const scenario::Event& event, const std::vector<std::string>& vehicles) {
+  const auto place = scenario::ParsePlace(event.argument);
+  if (!place) return place.error();
+  if (std::find(vehicles.begin(), vehicles.end(), place.value().vehicle) != vehicles.end()) return {};
+  return base::WrongInput(fmt::format("no vehicle '{}' is wired to this scenario{}", place.value().vehicle, base::DidYouMean(place.value().vehicle, vehicles)));
+}
+
 class ScenarioNode final : public lockstep::Node {
  public:
-  ScenarioNode(scenario::Scenario scenario, std::int64_t base_step_ns, std::shared_ptr<const road::World> world, std::vector<Gate> gates)
-      : scenario_(std::move(scenario)), base_step_ns_(base_step_ns), world_(std::move(world)), gates_(std::move(gates)) {}
+  // `requests`: what windows ask for; null: nobody may.
+  ScenarioNode(std::string name, scenario::Scenario scenario, std::int64_t base_step_ns, std::shared_ptr<const road::World> world, std::vector<Gate> gates,
+               std::unique_ptr<launch::LiveRequestsReceiver> requests, std::vector<std::string> vehicles)
+      : name_(std::move(name)), scenario_(std::move(scenario)), base_step_ns_(base_step_ns), world_(std::move(world)), gates_(std::move(gates)),
+        requests_(std::move(requests)), vehicles_(std::move(vehicles)), weather_(scenario_.weather) {}
 
   // The initial sample may stand at several steps (law L1), so no event is said in it; the weather is that of the run's beginning.
   base::Status Initialise(lockstep::Outbox& outbox) override {
@@ -69,15 +83,16 @@ class ScenarioNode final : public lockstep::Node {
     const auto due = std::lower_bound(scenario_.scheduled.begin(), scenario_.scheduled.end(), step.output_valid,
                                       [](const scenario::ScheduledEvent& event, lockstep::Step at) { return event.step < at; });
     for (auto event = due; event != scenario_.scheduled.end() && event->step == step.output_valid; ++event)
-      Add(event->event, events);
+      Add(event->event, step.output_valid, events);
     if (!gates_.empty()) {
       const auto car = idl::Decode<msg::VehicleState>(*inbox.Latest(topics::kVehicleState).payload);
       if (!car) return car.error();
       for (std::size_t i = 0; i < gates_.size(); ++i) {
         if (gates_[i].Passed(car.value().position_w_m().x(), car.value().position_w_m().y()))
-          Add(scenario_.conditional[i].event, events);
+          Add(scenario_.conditional[i].event, step.output_valid, events);
       }
     }
+    if (requests_ != nullptr) TakeRequests(step.output_valid, events);
     outbox.Put(topics::kScenarioEvents, idl::Encode(events));
     outbox.Put(topics::kWeatherState, idl::Encode(WeatherAt(step.output_valid)));
     return {};
@@ -86,14 +101,41 @@ class ScenarioNode final : public lockstep::Node {
   bool is_brief() const override { return true; }
   void Save(base::StateWriter& out) const override {
     for (const Gate& gate : gates_) out.Put("gate", gate);
+    out.Put("weathers", static_cast<std::uint32_t>(became_.size()));
+    for (const Became& became : became_) {
+      out.Put("name", became.name);
+      out.Put("step", became.step);
+      out.Put("over_s", became.over_s);
+    }
   }
   void Restore(base::StateReader& in) override {
     for (Gate& gate : gates_) in.Get("gate", gate);
+    weather_ = scenario_.weather;
+    became_.clear();
+    std::uint32_t count = 0;
+    in.Get("weathers", count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      Became became;
+      in.Get("name", became.name);
+      in.Get("step", became.step);
+      in.Get("over_s", became.over_s);
+      if (became.name.empty()) break;  // it cannot be read
+      Become(became);
+    }
   }
 
  private:
+  // A weather that an event has brought, from its step on.
+  struct Became {
+    std::string name;
+    lockstep::Step step = 0;
+    double over_s = 0.0;
+  };
+
+  double Seconds(lockstep::Step step) const { return static_cast<double>(step * base_step_ns_) * 1e-9; }
+
   msg::WeatherState WeatherAt(lockstep::Step step) const {
-    const weather::Weather now = scenario_.weather.At(static_cast<double>(step * base_step_ns_) * 1e-9);
+    const weather::Weather now = weather_.At(Seconds(step));
     msg::WeatherState out;
     out.wetness(now.wetness);
     out.rain_mmph(now.rain_mmph);
@@ -103,7 +145,29 @@ class ScenarioNode final : public lockstep::Node {
     return out;
   }
 
-  static void Add(const scenario::Event& event, msg::ScenarioEvents& events) {
+  void Become(const Became& became) {
+    const auto named = weather::FindWeather(became.name);
+    if (!named) return;  // a state of other words than ours
+    weather::Change change = named.value();
+    change.at_s = Seconds(became.step);
+    change.over_s = became.over_s;
+    weather_.Add(change);
+    became_.push_back(became);
+  }
+
+  // What cannot be obeyed is told, and is no event.
+  void TakeRequests(lockstep::Step valid, msg::ScenarioEvents& events) {
+    for (const launch::LiveRequest& request : requests_->Take()) {
+      const auto event = scenario::EventOf({request.name, request.argument, request.x_m, request.y_m, request.value});
+      base::Status sound = event ? base::Status() : event.error();
+      if (sound && event.value().name == scenario::kVehiclePlace) sound = CheckVehicle(event.value(), vehicles_);
+      if (sound) Add(event.value(), valid, events);
+      else fmt::print(stderr, "rodeira: node '{}': a request is refused: {}\n", name_, sound.error().Text());
+    }
+  }
+
+  void Add(const scenario::Event& event, lockstep::Step valid, msg::ScenarioEvents& events) {
+    if (event.name == scenario::kWeatherChange) Become({event.argument, valid, event.value});
     msg::ScenarioEvent out;
     out.name(event.name);
     out.argument(event.argument);
@@ -112,30 +176,42 @@ class ScenarioNode final : public lockstep::Node {
     events.events().push_back(std::move(out));
   }
 
+  std::string name_;
   scenario::Scenario scenario_;
   std::int64_t base_step_ns_;
   std::shared_ptr<const road::World> world_;
   std::vector<Gate> gates_;  // one for each conditional event
+  std::unique_ptr<launch::LiveRequestsReceiver> requests_;
+  std::vector<std::string> vehicles_;  // that obey it
+  weather::WeatherPlan weather_;       // the file's and what became of it
+  std::vector<Became> became_;
 };
 
-// Whether somebody of this kind obeys the node's events.
-bool Obeyed(const launch::NodeContext& context, std::string_view kind) {
+// The nodes of this kind that obey the node's events.
+std::vector<std::string> Obedient(const launch::NodeContext& context, std::string_view kind) {
+  std::vector<std::string> names;
   for (const lockstep::NodeSpec& node : context.roster().nodes()) {
     if (node.kind != kind) continue;
     for (const lockstep::Port& port : node.inputs) {
+      if (port.topic != topics::kScenarioEvents) continue;
       for (const lockstep::SourceIndex source : port.sources) {
-        if (context.roster().source(source).node == context.index()) return true;
+        if (context.roster().source(source).node == context.index()) names.push_back(node.name);
       }
     }
   }
-  return false;
+  return names;
 }
 
 base::Status CheckObeyed(const launch::NodeContext& context, const scenario::Scenario& scenario,
                          const std::filesystem::path& file) {
-  if (Obeyed(context, "traffic")) return {};
+  const bool traffic = !Obedient(context, "traffic").empty();
+  const std::vector<std::string> vehicles = Obedient(context, "vehicle");
   const auto check = [&](const scenario::Event& event) -> base::Status {
-    if (!event.name.starts_with("traffic.")) return {};
+    if (event.name == scenario::kVehiclePlace) {
+      const base::Status known = CheckVehicle(event, vehicles);
+      return known ? known : base::WrongInput(known.error().message, file.string());
+    }
+    if (traffic || !event.name.starts_with("traffic.")) return {};
     return base::WrongInput(
         fmt::format("'{}' speaks to the traffic, but no node of kind 'traffic' is wired to this scenario", event.name),
         file.string());
@@ -180,9 +256,11 @@ base::Result<std::vector<Gate>> MakeGates(const launch::NodeContext& context, co
 }  // namespace
 
 base::Result<std::unique_ptr<lockstep::Node>> MakeScenarioNode(launch::NodeContext& context) {
-  const std::filesystem::path file = context.config().Path("scenario");
+  const bool takes_requests = context.config().Flag("requests", false);
+  const std::filesystem::path file = takes_requests ? context.config().OptionalPath("scenario").value_or("") : context.config().Path("scenario");
   if (auto status = context.launch().file().Finish(); !status) return status.error();
-  auto scenario = scenario::LoadScenario(file, {context.roster().base_step_ns(), context.spec().period, context.spec().delay});
+  const scenario::Timing timing{context.roster().base_step_ns(), context.spec().period, context.spec().delay};
+  auto scenario = file.empty() ? scenario::Scenario() : scenario::LoadScenario(file, timing);
   if (!scenario) return scenario.error();
   if (auto status = CheckObeyed(context, scenario.value(), file); !status) return status.error();
   std::shared_ptr<const road::World> world;
@@ -199,7 +277,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeScenarioNode(launch::NodeConte
     gates = std::move(made).value();
   }
   return std::unique_ptr<lockstep::Node>(
-      std::make_unique<ScenarioNode>(std::move(scenario).value(), context.roster().base_step_ns(), std::move(world), std::move(gates)));
+      std::make_unique<ScenarioNode>(context.spec().name, std::move(scenario).value(), context.roster().base_step_ns(), std::move(world), std::move(gates),
+                                     takes_requests ? context.RequestsReceiver() : nullptr, Obedient(context, "vehicle")));
 }
 
 }  // namespace rodeira::nodes

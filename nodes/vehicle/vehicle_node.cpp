@@ -9,6 +9,7 @@
 
 #include "common/geometry/angle.hpp"
 #include "common/road/world.hpp"
+#include "common/scenario/event.hpp"
 #include "common/vehicle/vehicle_model.hpp"
 #include "common/weather/wet_ground.hpp"
 #include "idl/codec.hpp"
@@ -25,9 +26,9 @@ namespace topics = idl::topics;
 class VehicleNode final : public lockstep::Node {
  public:
   // `own`: null where the ground is asked for elsewhere.
-  VehicleNode(lockstep::SourceIndex state_source, std::unique_ptr<vehicle::VehicleModel> model, const vehicle::InitialCondition& initial, std::unique_ptr<terrain::Ground> own,
+  VehicleNode(std::string name, lockstep::SourceIndex state_source, std::unique_ptr<vehicle::VehicleModel> model, const vehicle::InitialCondition& initial, std::unique_ptr<terrain::Ground> own,
               terrain::Ground& ground, std::optional<Collisions> collisions)
-      : state_source_(state_source), model_(std::move(model)), initial_(initial), own_ground_(std::move(own)), ground_(ground), collisions_(std::move(collisions)) {}
+      : name_(std::move(name)), state_source_(state_source), model_(std::move(model)), initial_(initial), own_ground_(std::move(own)), ground_(ground), collisions_(std::move(collisions)) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     if (auto status = model_->Initialise(initial_, ground_); !status) return status;  // INI
@@ -38,6 +39,7 @@ class VehicleNode final : public lockstep::Node {
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
     const auto controls = idl::Decode<msg::Controls>(*inbox.Latest(topics::kControls).payload);
     if (!controls) return controls.error();
+    if (auto status = Obey(inbox); !status) return status;
     msg::Collisions touched;
     if (collisions_) {
       auto found = collisions_->Find(model_->state(), inbox, step);
@@ -75,6 +77,29 @@ class VehicleNode final : public lockstep::Node {
   bool can_save() const override { return model_->can_save(); }
 
  private:
+  // Where a scenario places this car, INI there: at rest, in equilibrium. A place where it cannot stand is told; then it stays as it is.
+  base::Status Obey(const lockstep::Inbox& inbox) {
+    if (!inbox.Has(topics::kScenarioEvents)) return {};
+    for (const lockstep::Sample& sample : inbox.All(topics::kScenarioEvents)) {
+      const auto events = idl::Decode<msg::ScenarioEvents>(*sample.payload);
+      if (!events) return events.error();
+      for (const msg::ScenarioEvent& event : events.value().events()) {
+        if (event.name() != scenario::kVehiclePlace) continue;
+        const auto place = scenario::ParsePlace(event.argument());
+        if (!place) return base::WrongInput(place.error().message, fmt::format("event '{}' at step {}", event.name(), sample.valid()));
+        if (place.value().vehicle == name_) Place(place.value(), event.value());
+      }
+    }
+    return {};
+  }
+  void Place(const scenario::PlaceChoice& place, double heading_deg) {
+    vehicle::InitialCondition there;
+    there.x_m = place.x_m, there.y_m = place.y_m;
+    if (place.z_m) there.z_hint_m = *place.z_m;
+    there.heading_rad = heading_deg * geometry::kPi / 180.0;
+    const base::Status placed = model_->Initialise(there, ground_);
+    if (!placed) fmt::print(stderr, "rodeira: node '{}': it stays where it is: {}\n", name_, placed.error().Text());
+  }
   void Publish(lockstep::Outbox& outbox, const msg::Controls& controls, const msg::Collisions& touched) const {
     msg::VehicleState state = ToWire(model_->state(), model_->dimensions());
     state.lights(LightsOf(controls, state.gear()));
@@ -83,6 +108,7 @@ class VehicleNode final : public lockstep::Node {
     outbox.Put(topics::kCollisions, idl::Encode(touched));
   }
 
+  std::string name_;
   lockstep::SourceIndex state_source_;
   std::unique_ptr<vehicle::VehicleModel> model_;
   vehicle::InitialCondition initial_;
@@ -164,7 +190,7 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContex
   std::unique_ptr<terrain::Ground> own = own_ground ? world->MakeGround() : nullptr;
   terrain::Ground& ground = own != nullptr ? *own : context.Ground();
   std::optional<Collisions> collisions = CollisionsOf(settings.hits, *model.value(), world.get(), context.spec().name);
-  return std::unique_ptr<lockstep::Node>(std::make_unique<VehicleNode>(context.spec().outputs.front(), std::move(model).value(), settings.initial,
+  return std::unique_ptr<lockstep::Node>(std::make_unique<VehicleNode>(context.spec().name, context.spec().outputs.front(), std::move(model).value(), settings.initial,
                                                                        std::move(own), ground, std::move(collisions)));
 }
 

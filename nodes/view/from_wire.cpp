@@ -65,6 +65,7 @@ scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, 
   car.odometer_m = message.odometer_m();
   car.steering_wheel_rad = message.steering_wheel_rad();
   car.throttle = std::clamp(Double(message.throttle()), 0.0, 1.0);
+  car.horn = message.horn() != 0;
   car.sliding = Sliding(message);
   car.blow = Blow(message);
   if (message.length_m() > 0.0F && message.width_m() > 0.0F) {

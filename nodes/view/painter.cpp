@@ -16,6 +16,7 @@
 #include "nodes/view/built_world.hpp"
 #include "nodes/view/cabin_node.hpp"
 #include "nodes/view/car_node.hpp"
+#include "nodes/view/heat_node.hpp"
 #include "nodes/view/instruments.hpp"
 #include "nodes/view/lights_node.hpp"
 #include "nodes/view/look.hpp"
@@ -94,6 +95,7 @@ struct Painter::Parts {
   LightsNode lights;
   osg::ref_ptr<osg::Camera> overlay = MakeOverlay();
   Instruments instruments{*overlay};
+  HeatNode heat{*overlay};
   TimelineBar timeline{*overlay};
   osg::ref_ptr<osg::Group> root = new osg::Group;
   osg::ref_ptr<osg::Group> scene = new osg::Group;  // the world and what moves in it: all that mirrors show too
@@ -138,6 +140,7 @@ void Painter::SetUp() {
   osg::Group& group = *parts_->scene;
   group.addChild(parts_->fleet.node());
   group.addChild(parts_->lights.node());
+  group.addChild(parts_->heat.node());
   group.addChild(look.MakeSky());
   root.addChild(&group);
   root.addChild(parts_->cabin.node());
@@ -197,6 +200,7 @@ void Painter::Draw(const Picture& picture) {
   FitOverlay(*parts_->overlay, width, height);
   parts_->mirrors.Show(picture, body, air, width, height);
   parts_->instruments.Show(picture, width, height, picture.timeline ? TimelinePlace::kHeight_px : 0.0F);
+  parts_->heat.Show(picture.heat, height);
   parts_->timeline.Show(picture.timeline, width);
   parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);
 }

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/scene/camera.hpp"
+#include "common/scene/heat_map.hpp"
 #include "common/scene/mirror.hpp"
 #include "common/scene/moment.hpp"
 
@@ -19,6 +21,13 @@ struct Timeline {
   std::string where;          // time, speed, direction
   std::string note;           // the mark that is near
   std::string keys;           // the most important ones
+};
+
+// A statistic over the ground, as it was gathered up to a moment.
+struct HeatPicture {
+  scene::HeatKind kind = scene::HeatKind::kSpeed;
+  double watched_s = 0.0;
+  std::vector<scene::HeatSquare> squares;
 };
 
 // What one picture shows.
@@ -34,6 +43,7 @@ struct Picture {
   bool cabin = false;               // dashboard and steering wheel before the driver's camera
   std::array<bool, scene::kMirrors> mirrors = {true, true, true};  // left, inside, right: shown with the driver's camera
   std::string text;                 // more lines for a person: help, statistics
+  std::shared_ptr<const HeatPicture> heat;  // null: none
   std::optional<Timeline> timeline;  // of a recording that is watched
 };
 

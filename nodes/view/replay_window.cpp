@@ -115,13 +115,17 @@ void ReplayWindow::Take(const SDL_Event& event, scene::Player& player, const std
       drags_ = event.button.button == SDL_BUTTON_LEFT;
       drags_ = drags_ && TimelinePlace::Holds(screen_->surface().height_px() - 1 - event.button.y);
       if (drags_) Drag(event.button.x, player);
+      else (void)screen_->TakeMouse(event, false);
       break;
     case SDL_MOUSEMOTION:
       if (drags_) Drag(event.motion.x, player);
       else (void)screen_->TakeMouse(event, false);
       break;
     case SDL_MOUSEWHEEL: (void)screen_->TakeMouse(event, false); break;
-    case SDL_MOUSEBUTTONUP: drags_ = false; break;
+    case SDL_MOUSEBUTTONUP:
+      if (!drags_) (void)screen_->TakeMouse(event, false);
+      drags_ = false;
+      break;
     case SDL_WINDOWEVENT:
       if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) drags_ = false;
       break;

@@ -11,6 +11,7 @@
 #include "common/hands/key_names.hpp"
 #include "common/launch/live_keys.hpp"
 #include "common/scene/pick.hpp"
+#include "common/weather/named_weather.hpp"
 #include "nodes/view/heard.hpp"
 #include "nodes/view/png.hpp"
 
@@ -21,6 +22,9 @@ constexpr double kNote_s = 3.0;      // how long a note stands
 constexpr int kClick_px = 4;          // moved farther it is no click
 constexpr double kZoom = 1.15;       // a notch of the mouse's wheel
 constexpr double kTurn_rad = 0.006;  // a pixel that it is drawn
+constexpr double kWeather_s = 8.0;   // until another weather is there
+constexpr const char* kNobodyTakes = "nobody in this run takes requests: a node of kind scenario with 'requests: true' does";
+constexpr const char* kTooMany = "the run has not taken what was asked before";
 
 // A car where the world's start is: what the first picture is drawn with, so that everything is loaded before it counts.
 Picture FirstPicture(const road::World& world) {
@@ -50,7 +54,8 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   auto surface = Surface::Open(kind, settings.width_px, settings.height_px, title, resizable, settings.display);
   if (!surface) return surface.error();
   if (settings.full_screen) surface.value()->ToggleFullScreen();
-  std::unique_ptr<Screen> screen(new Screen());
+  std::unique_ptr<Screen> screen(new Screen(world));
+  screen->cars_ = settings.cars;
   screen->surface_ = std::move(surface).value();
   auto painter = PainterOf(*screen->surface_, world, settings.built);
   if (!painter) return painter.error();
@@ -74,6 +79,7 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
 bool Screen::TakeKey(int symbol, bool driven) {
   switch (symbol) {
     case SDLK_k:
+      before_above_.reset();
       live_.camera = scene::NextCamera(live_.camera);
       return true;
     case SDLK_TAB: {
@@ -86,6 +92,13 @@ bool Screen::TakeKey(int symbol, bool driven) {
     case SDLK_F4: live_.mirrors = live_.mirrors == kNoMirrors ? mirrors_ : kNoMirrors; return true;
     case SDLK_F12: picture_wanted_ = true; return true;
     case SDLK_F5: muted_ = !muted_; return true;
+    case SDLK_F6:
+      placing_ = !placing_;
+      Note(placing_ ? "click where the car is to stand" : "the car stays where it is");
+      return true;
+    case SDLK_F7: AskForWeather(); return true;
+    case SDLK_F8: NextHeat(); return true;
+    case SDLK_F9: FromAboveOrBack(); return true;
     case SDLK_F3: statistics_ = !statistics_; return true;
     case SDLK_s:
       if (driven) return false;
@@ -101,6 +114,17 @@ bool Screen::TakeMouse(const SDL_Event& event, bool driven) {
     live_.aim.Zoom(std::pow(kZoom, -event.wheel.y));
     return true;
   }
+  const bool left = (event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP) && event.button.button == SDL_BUTTON_LEFT;
+  if (left && event.type == SDL_MOUSEBUTTONDOWN && (placing_ || (SDL_GetModState() & KMOD_CTRL) != 0)) {
+    placing_ = false;
+    swallows_up_ = true;
+    AskForPlace(event.button.x, event.button.y);
+    return true;
+  }
+  if (left && event.type == SDL_MOUSEBUTTONUP && swallows_up_) {
+    swallows_up_ = false;
+    return true;
+  }
   if (driven) return false;
   if (event.type == SDL_MOUSEBUTTONDOWN && event.button.button == SDL_BUTTON_LEFT) {
     dragged_px_ = 0;
@@ -109,7 +133,7 @@ bool Screen::TakeMouse(const SDL_Event& event, bool driven) {
   if (event.type == SDL_MOUSEBUTTONUP && event.button.button == SDL_BUTTON_LEFT && dragged_px_ <= kClick_px) {
     // Nobody who is looked at from the driver's seat sits in its own way.
     const bool inside = live_.camera == scene::CameraKind::kDriver || live_.camera == scene::CameraKind::kBonnet;
-    const scene::Ray ray = scene::RayAt(painter_->CameraOf(live_), {event.button.x, event.button.y}, surface_->width_px(), surface_->height_px());
+    const scene::Ray ray = RayAt(event.button.x, event.button.y);
     chosen_.Choose(live_.moment, scene::BodyOn(live_.moment, ray, inside ? std::optional(live_.followed) : std::nullopt));
     return true;
   }
@@ -118,6 +142,62 @@ bool Screen::TakeMouse(const SDL_Event& event, bool driven) {
   if (!turns) return false;
   live_.aim.Turn(kTurn_rad * event.motion.xrel, kTurn_rad * event.motion.yrel);
   return true;
+}
+
+scene::Ray Screen::RayAt(int x_px, int y_px) const {
+  return scene::RayAt(painter_->CameraOf(live_), {x_px, y_px}, surface_->width_px(), surface_->height_px());
+}
+
+void Screen::Note(std::string note) {
+  note_ = std::move(note);
+  note_until_s_ = launch::WallSeconds() + kNote_s;
+}
+
+void Screen::AskForPlace(int x_px, int y_px) {
+  const auto request = AskPlace(world_, live_.moment, live_.followed, RayAt(x_px, y_px), cars_);
+  if (!request) return Note(request.error().message);
+  if (!ask_) return Note(kNobodyTakes);
+  const scenario::Request& place = request.value();
+  if (ask_(place)) Note(fmt::format("{} to {:.1f}, {:.1f}", cars_.at(live_.moment.cars[live_.followed < live_.moment.cars.size() ? live_.followed : 0].id), place.x_m, place.y_m));
+  else Note(kTooMany);
+}
+
+// The one behind that which was asked for last; within some seconds.
+void Screen::AskForWeather() {
+  if (!ask_) return Note(kNobodyTakes);
+  const auto all = weather::NamedWeathers();
+  weather_ = (weather_ + 1) % all.size();
+  if (ask_(scenario::WeatherRequest(all[weather_].name, kWeather_s))) Note(fmt::format("weather: {}", all[weather_].name));
+  else Note(kTooMany);
+}
+
+// None, then one statistic after the other.
+void Screen::NextHeat() {
+  const std::size_t next = heat_shown_ ? static_cast<std::size_t>(*heat_shown_) + 1 : 0;
+  heat_shown_ = next < scene::kHeatKinds ? std::optional(static_cast<scene::HeatKind>(next)) : std::nullopt;
+  live_.heat.reset();
+  if (!heat_shown_) Note("no statistics over the ground");
+}
+
+// What was seen since the window opened, whether it is shown or not; a new picture of it every half second of the simulation.
+void Screen::GatherHeat() {
+  constexpr std::int64_t kAgain_ns = 500'000'000;
+  heat_.Add(live_.moment);
+  const std::int64_t now_ns = live_.moment.time_ns;
+  if (!heat_shown_ || (live_.heat != nullptr && std::abs(now_ns - heat_laid_ns_) < kAgain_ns)) return;
+  live_.heat = std::make_shared<const HeatPicture>(HeatPicture{*heat_shown_, heat_.watched_s(), heat_.Squares(*heat_shown_)});
+  heat_laid_ns_ = now_ns;
+}
+
+void Screen::FromAboveOrBack() {
+  if (before_above_) {
+    live_.camera = before_above_->camera;
+    live_.aim = before_above_->aim;
+    before_above_.reset();
+  } else {
+    before_above_ = Before{live_.camera, live_.aim};
+    live_.camera = scene::CameraKind::kTop;
+  }
 }
 
 // A car of the traffic that has left is followed no more.
@@ -147,8 +227,7 @@ void Screen::TakePicture() {
   std::filesystem::path file = folder / (stem + ".png");
   for (int number = 2; std::filesystem::exists(file); ++number) file = folder / fmt::format("{}-{}.png", stem, number);
   const base::Status written = WritePng(file, painter_->Read());
-  note_ = written ? "written: " + file.string() : written.error().Text();
-  note_until_s_ = launch::WallSeconds() + kNote_s;
+  Note(written ? "written: " + file.string() : written.error().Text());
 }
 
 void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> timeline) {
@@ -156,6 +235,7 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
   live_.moment = std::move(moment);
   live_.timeline = std::move(timeline);
   Follow();
+  GatherHeat();
   live_.chosen = chosen_.In(live_.moment);
   live_.panel = chosen_.Panel(live_.moment);
   live_.text = help_ ? help_text_ : "";

@@ -2,11 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "common/base/result.hpp"
+#include "common/scenario/request.hpp"
+#include "nodes/view/ask_place.hpp"
 #include "nodes/view/chosen.hpp"
 #include "nodes/view/painter.hpp"
 #include "nodes/view/speaker.hpp"
@@ -25,19 +28,44 @@ class Screen {
   static base::Result<std::unique_ptr<Screen>> Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
                                                     bool resizable, std::string help);
 
+  // To whom the person's requests go (false: it takes no more). Without one a key that asks says that nobody does.
+  void set_ask(std::function<bool(const scenario::Request&)> ask) { ask_ = std::move(ask); }
   Surface& surface() { return *surface_; }
   Painter& painter() { return *painter_; }
   // The picture changes without the world's time going on: camera, car, texts. False where the key is not the window's own.
   // `driven`: somebody drives by this window, and s is the brake.
   bool TakeKey(int symbol, bool driven);
   // The wheel brings free cameras nearer and farther; the left button, held, turns the one about the car, where the mouse's
-  // buttons do not drive; there a click chooses the vehicle that is seen at its place, or nobody. False where nothing changed.
+  // buttons do not drive; there a click chooses the vehicle that is seen at its place, or nobody. Behind the placing key, or with ctrl
+  // held, a click places the car instead, whoever drives. False where nothing changed.
   bool TakeMouse(const SDL_Event& event, bool driven);
   // Draws the moment as the person wishes to see it, and shows it. `rate`: simulated seconds a second, for the statistics.
   void Show(scene::Moment moment, double rate, std::optional<Timeline> timeline = std::nullopt);
 
  private:
-  Screen() = default;
+  explicit Screen(const road::World& world) : world_(world), heat_(world) {}
+  void Note(std::string note);
+  void AskForPlace(int x_px, int y_px);
+  void AskForWeather();
+  scene::Ray RayAt(int x_px, int y_px) const;
+  void NextHeat();
+  void GatherHeat();
+  void FromAboveOrBack();
+
+  const road::World& world_;
+  std::function<bool(const scenario::Request&)> ask_;
+  CarNames cars_;
+  bool placing_ = false;      // the next click says where
+  bool swallows_up_ = false;  // of a button whose press was the window's
+  std::size_t weather_ = 0;   // that was asked for last
+  scene::HeatMap heat_;
+  std::optional<scene::HeatKind> heat_shown_;
+  std::int64_t heat_laid_ns_ = 0;  // when its picture was made
+  struct Before {                  // from where one went to look from above
+    scene::CameraKind camera;
+    scene::Aim aim;
+  };
+  std::optional<Before> before_above_;
 
   std::unique_ptr<Surface> surface_;
   std::unique_ptr<Painter> painter_;  // before its surface in dying
@@ -55,7 +83,7 @@ class Screen {
   static constexpr std::array<bool, scene::kMirrors> kNoMirrors{};
   std::array<bool, scene::kMirrors> mirrors_ = {true, true, true};  // those that the key brings back
   bool picture_wanted_ = false;
-  std::string note_;  // of the last one
+  std::string note_;  // what the window says for a while
   double note_until_s_ = 0.0;
   bool help_ = false;
   bool statistics_ = false;

@@ -3,7 +3,9 @@
 #include <SDL.h>
 
 #include <chrono>
+#include <utility>
 
+#include "nodes/view/asker.hpp"
 #include "nodes/view/key_forwarder.hpp"
 #include "nodes/view/png.hpp"
 #include "nodes/view/screen.hpp"
@@ -18,16 +20,19 @@ constexpr double kLongestRate_Hz = 60.0;
 struct Stage::Hand {
   std::unique_ptr<Screen> screen;
   std::unique_ptr<KeyForwarder> keys;  // null: nobody drives by this window
+  std::unique_ptr<Asker> asker;        // null: nobody takes requests
 };
 
-Stage::Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world, std::unique_ptr<launch::LiveKeysSender> keys)
-    : settings_(settings), world_(std::move(world)), keys_(std::move(keys)) {
+Stage::Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world, std::unique_ptr<launch::LiveKeysSender> keys,
+             std::unique_ptr<launch::LiveRequestsSender> requests)
+    : settings_(settings), world_(std::move(world)), keys_(std::move(keys)), requests_(std::move(requests)) {
   thread_ = std::thread([this] { Run(); });
 }
 
 base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, std::shared_ptr<const road::World> world,
-                                                 std::unique_ptr<launch::LiveKeysSender> keys) {
-  std::unique_ptr<Stage> stage(new Stage(settings, std::move(world), std::move(keys)));
+                                                 std::unique_ptr<launch::LiveKeysSender> keys,
+                                                 std::unique_ptr<launch::LiveRequestsSender> requests) {
+  std::unique_ptr<Stage> stage(new Stage(settings, std::move(world), std::move(keys), std::move(requests)));
   {
     std::unique_lock lock(stage->mutex_);
     stage->changed_.wait(lock, [&] { return stage->ready_; });
@@ -56,6 +61,11 @@ void Stage::Show(scene::Moment moment) {
   const std::lock_guard lock(mutex_);
   history_.Add(std::move(moment));
   clock_.Arrived(wall_s, static_cast<double>(history_.newest_ns()) * 1e-9, static_cast<double>(history_.interval_ns()) * 1e-9);
+}
+
+void Stage::Tell(const std::vector<scenario::Event>& events) {
+  const std::lock_guard lock(mutex_);
+  told_.insert(told_.end(), events.begin(), events.end());
 }
 
 base::Status Stage::Order(Picture picture, std::filesystem::path file) {
@@ -106,6 +116,10 @@ base::Status Stage::SetUp(Hand& hand) {
     if (auto status = open(SurfaceKind::kOffscreen); !status) return status;
   }
   if (keys_ != nullptr) hand.keys = std::make_unique<KeyForwarder>(std::move(keys_));
+  if (requests_ != nullptr) {
+    hand.asker = std::make_unique<Asker>(std::move(requests_));
+    hand.screen->set_ask([&asker = *hand.asker](const scenario::Request& request) { return asker.Ask(request); });
+  }
   return {};
 }
 
@@ -119,6 +133,10 @@ void Stage::Loop(Hand& hand) {
     } else {
       changed_.wait_for(lock, std::chrono::milliseconds(window_ ? 10 : 1000), [&] { return quit_ || !orders_.empty(); });
       if (window_) window_ = ReadKeys(hand);
+    }
+    if (hand.asker != nullptr) {
+      hand.asker->See(std::exchange(told_, {}));
+      hand.asker->Tell(launch::WallSeconds());
     }
   }
 }

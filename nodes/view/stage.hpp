@@ -9,6 +9,7 @@
 
 #include "common/base/result.hpp"
 #include "common/launch/live_keys.hpp"
+#include "common/launch/live_requests.hpp"
 #include "common/road/world.hpp"
 #include "common/scene/display_clock.hpp"
 #include "common/scene/moment.hpp"
@@ -23,15 +24,19 @@ class Stage {
  public:
   // Starts the thread and waits until everything is loaded and drawn once. Null where the settings want no picture here:
   // no frames, and no window or no display for one. Wrong input where a display or OpenGL is missing.
-  // `keys` is told what is held in the window; null where nobody drives by it.
+  // `keys` is told what is held in the window; null where nobody drives by it. `requests`: what is asked for there; null where nobody
+  // takes any.
   static base::Result<std::unique_ptr<Stage>> Open(const ViewSettings& settings, std::shared_ptr<const road::World> world,
-                                                   std::unique_ptr<launch::LiveKeysSender> keys = nullptr);
+                                                   std::unique_ptr<launch::LiveKeysSender> keys = nullptr,
+                                                   std::unique_ptr<launch::LiveRequestsSender> requests = nullptr);
   ~Stage();
 
   // Whether there is a window, now.
   bool has_window() const;
   // What the window shows next. Never waits for the drawing.
   void Show(scene::Moment moment);
+  // What the run's scenario has said. Never waits.
+  void Tell(const std::vector<scenario::Event>& events);
   // Orders exactly this picture as a PNG file. Waits where kMostOrders are not yet written: a slow disk slows the run. The
   // first order that failed is every later one's answer.
   base::Status Order(Picture picture, std::filesystem::path file);
@@ -45,7 +50,8 @@ class Stage {
     Picture picture;
     std::filesystem::path file;
   };
-  Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world, std::unique_ptr<launch::LiveKeysSender> keys);
+  Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world, std::unique_ptr<launch::LiveKeysSender> keys,
+        std::unique_ptr<launch::LiveRequestsSender> requests);
   void Run();
   base::Status SetUp(Hand& hand);
   void Loop(Hand& hand);
@@ -55,7 +61,8 @@ class Stage {
 
   const ViewSettings settings_;
   const std::shared_ptr<const road::World> world_;
-  std::unique_ptr<launch::LiveKeysSender> keys_;  // until the thread takes it
+  std::unique_ptr<launch::LiveKeysSender> keys_;          // until the thread takes it
+  std::unique_ptr<launch::LiveRequestsSender> requests_;  // likewise
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -66,7 +73,8 @@ class Stage {
   bool nothing_to_draw_ = false;
   scene::PoseHistory history_;
   scene::DisplayClock clock_;
-  std::deque<Ordered> orders_;  // the first is being drawn
+  std::vector<scenario::Event> told_;  // by the run, not yet seen by the window
+  std::deque<Ordered> orders_;         // the first is being drawn
   base::Status written_;
   std::thread thread_;  // last: it starts when all else is there
 };

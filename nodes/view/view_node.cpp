@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "nodes/view/find_built.hpp"
 #include "nodes/view/from_wire.hpp"
@@ -19,6 +21,14 @@ using lockstep::Sample;
 using lockstep::SourceIndex;
 using lockstep::Step;
 
+base::Result<std::vector<scenario::Event>> EventsOf(const base::Bytes& payload) {
+  const auto message = idl::Decode<msg::ScenarioEvents>(payload);
+  if (!message) return message.error();
+  std::vector<scenario::Event> events;
+  for (const msg::ScenarioEvent& event : message.value().events()) events.push_back({event.name(), event.argument(), event.value()});
+  return events;
+}
+
 class ViewNode final : public lockstep::Node {
  public:
   ViewNode(const lockstep::Roster& roster, std::string name, view::ViewSettings settings, std::unique_ptr<view::Stage> stage)
@@ -29,6 +39,7 @@ class ViewNode final : public lockstep::Node {
   base::Status Step(const lockstep::StepInfo& info, const lockstep::Inbox& inbox, lockstep::Outbox&) override {
     if (auto status = Take(inbox, info.step - info.period, info.step); !status) return status;
     if (stage_ == nullptr || !stage_->has_window()) return {};
+    if (auto status = TellEvents(inbox); !status) return status;
     auto moment = view::MakeMoment(roster_, info.step, newest_);
     if (!moment) return moment.error();
     stage_->Show(std::move(moment).value());
@@ -96,6 +107,17 @@ class ViewNode final : public lockstep::Node {
     return {};
   }
 
+  // A window that has asked for something waits for it here.
+  base::Status TellEvents(const lockstep::Inbox& inbox) {
+    if (!settings_.can_ask || !inbox.Has(topics::kScenarioEvents)) return {};
+    for (const Sample& sample : inbox.All(topics::kScenarioEvents)) {
+      auto events = EventsOf(*sample.payload);
+      if (!events) return events.error();
+      if (!events.value().empty()) stage_->Tell(events.value());
+    }
+    return {};
+  }
+
   base::Status WriteFrame(lockstep::Step step) {
     auto moment = view::MakeMoment(roster_, step, newest_);
     if (!moment) return moment.error();
@@ -121,7 +143,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeViewNode(launch::NodeContext& 
   view::FoundBuilt built = view::FindBuilt(context.launch().world(), *world.value());
   if (!built.remark.empty()) fmt::print(stderr, "rodeira: node '{}': {}\n", context.spec().name, built.remark);
   settings.value().built = std::move(built.folder);
-  auto stage = view::Stage::Open(settings.value(), world.value(), settings.value().drives ? context.KeysSender() : nullptr);
+  auto stage = view::Stage::Open(settings.value(), world.value(), settings.value().drives ? context.KeysSender() : nullptr,
+                                 settings.value().can_ask ? context.RequestsSender() : nullptr);
   if (!stage) return stage.error();
   return std::unique_ptr<lockstep::Node>(
       std::make_unique<ViewNode>(context.roster(), context.spec().name, std::move(settings).value(), std::move(stage).value()));

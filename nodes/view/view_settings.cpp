@@ -93,6 +93,8 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& 
   if (map.Has("mirrors")) ReadMirrors(map, settings);
   ReadFollowed(launch.roster(), view, map, settings);
   ReadDriving(launch, settings);
+  for (const launch::LaunchNode& node : launch.nodes()) settings.can_ask = settings.can_ask || node.takes_requests();
+  for (const lockstep::SourceIndex car : CarSources(view)) settings.cars[car] = launch.roster().node(launch.roster().source(car).node).name;
   return settings;
 }
 

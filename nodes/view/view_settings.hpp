@@ -11,6 +11,7 @@
 #include "common/road/world.hpp"
 #include "common/scene/camera.hpp"
 #include "common/scene/mirror.hpp"
+#include "nodes/view/ask_place.hpp"
 #include "nodes/view/picture.hpp"
 
 namespace rodeira::view {
@@ -37,6 +38,8 @@ struct ViewSettings {
   std::filesystem::path built;               // the folder of a database of the world; empty: its ground is built in memory
   bool drives = false;                       // somebody in this run drives by the keys of its windows …
   std::string driving_help;                  // … by these
+  bool can_ask = false;                      // a scenario of this run makes events of what windows ask for
+  CarNames cars;                             // wired to the view
 };
 
 // Reads the settings. Wrong input where a frame's time is not one at which every car wired to the view has a sample, where

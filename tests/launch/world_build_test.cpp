@@ -2,7 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <pty.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
 #include <filesystem>
+#include <sstream>
 
 #include "common/base/files.hpp"
 #include "common/road/world.hpp"
@@ -53,6 +59,57 @@ TEST(WorldBuild, AnOpenDriveWorldIsWrittenAsItIsSeen) {
   EXPECT_TRUE(fs::exists(out / "tiles" / "0_0_0.osgb"));
   EXPECT_EQ(base::ReadText(out / "world.xodr").value(), text);
   EXPECT_THAT(Build(file, out).out, HasSubstr(" 0 built, "));
+}
+
+// What is said on a terminal while `work` goes on.
+template <class Work>
+std::string OnTerminal(const Work& work) {
+  int terminal = -1, end = -1;
+  EXPECT_EQ(::openpty(&terminal, &end, nullptr, nullptr, nullptr), 0);
+  const int before = ::dup(STDERR_FILENO);
+  ::dup2(end, STDERR_FILENO);
+  ::close(end);
+  testing::internal::CaptureStdout();
+  work();
+  testing::internal::GetCapturedStdout();
+  std::fflush(stderr);
+  ::dup2(before, STDERR_FILENO);
+  ::close(before);
+  std::string said;
+  std::array<char, 4096> buffer{};
+  for (ssize_t count; (count = ::read(terminal, buffer.data(), buffer.size())) > 0;) said.append(buffer.data(), static_cast<std::size_t>(count));
+  ::close(terminal);
+  return said;
+}
+
+// On a terminal a bar grows with the tiles that are done, one after the other to the last; `--quiet` says nothing.
+TEST(WorldBuild, ABarShowsHowFarItIs) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "w.yaml";
+  ASSERT_TRUE(base::WriteWhole(file, std::string("rodeira: world/2\nname: w\nground: {kind: plane}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n"
+                                                 "    axis: [line: {length_m: 20}]\n    z_m: 0\n    section: {template: rural}\n")).ok());
+  WorldOptions options;
+  options.command = "build";
+  options.world_file = file;
+  options.out = folder.path() / "out";
+  options.threads = 2;
+  const std::string said = OnTerminal([&] { EXPECT_EQ(World(options), 0); });
+  std::size_t done = 0, of = 0;
+  std::istringstream bars(said);
+  for (std::string bar; std::getline(bars, bar, '\r');) {
+    if (bar.empty() || bar == "\n") continue;
+    char drawn[64] = {};
+    std::size_t now = 0, all = 0;
+    ASSERT_EQ(std::sscanf(bar.c_str(), "[%40[= ]] %zu of %zu tiles", drawn, &now, &all), 3) << bar;
+    EXPECT_EQ(now, ++done) << bar;
+    EXPECT_EQ(std::string(drawn), std::string(now * 40 / all, '=') + std::string(40 - now * 40 / all, ' ')) << bar;
+    of = all;
+  }
+  EXPECT_GT(of, 8u);
+  EXPECT_EQ(done, of);
+  EXPECT_EQ(said.substr(said.size() - 1), "\n");
+  options.quiet = true;
+  EXPECT_EQ(OnTerminal([&] { EXPECT_EQ(World(options), 0); }), "");
 }
 
 TEST(WorldBuild, AWorldFilesRoadsAndHills) {

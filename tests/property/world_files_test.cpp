@@ -53,6 +53,8 @@ roads:
     signs: [{type: speed_limit, value: 70, s_m: 100}, {type: chevron, t_m: 6, from_s_m: 170, every_m: 10}]
     objects: [{type: tree, t_m: 14, from_s_m: 50, every_m: 15, to_s_m: 150}, {type: guard_rail, side: left, from_s_m: 160}]
     bridges: [{from_s_m: 170, to_s_m: 180}]
+    patches: [{from_s_m: 20, to_s_m: 40, to_t_m: 1, friction: 0.2}, {from_s_m: 30, to_s_m: 50, material: worn}]
+    bumps: [{from_s_m: 30, to_s_m: 34, height_m: 0.1}, {from_s_m: 42, to_s_m: 48, heights: [{s_m: 0, z_m: 0}, {s_m: 3, z_m: 0.1}, {s_m: 6, z_m: 0}]}]
     surfaces: [{iso_8608: B, seed: 7, from_s_m: 10, to_s_m: 30}, {crg: bumps.crg, from_s_m: 120, to_s_m: 140}]
   - id: street
     place: {road: main, s_m: 80, turn_deg: 80, own_s_m: 0}

@@ -10,7 +10,9 @@
 #include "common/base/files.hpp"
 #include "common/dds/participant.hpp"
 #include "common/dds/remote_keys.hpp"
+#include "common/dds/remote_requests.hpp"
 #include "common/record/mcap_reader.hpp"
+#include "common/scenario/request.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -104,6 +106,42 @@ TEST_F(Live, KeysOfAWindowInAnotherProcessBecomeRecordedControls) {
   EXPECT_EQ(verified.status, 0) << verified.out;
   EXPECT_NE(verified.out.find("live input taken from the recording: driver"), std::string::npos) << verified.out;
   EXPECT_NE(verified.out.find("identical: 7000 steps, "), std::string::npos) << verified.out;
+}
+
+// Said by a window in another process, again and again: the event is recorded once, the car stands there, and the recording is computed
+// again to the bit.
+TEST_F(Live, WhatAWindowAsksForBecomesARecordedEvent) {
+  std::string text = base::ReadText(Path("live.yaml")).value();
+  text += "  story: {kind: scenario, config: {requests: true}}\n";
+  ASSERT_TRUE(base::WriteWhole(Path("asked.yaml"), std::string_view(text)).ok());
+  Started run({Bin("rodeira"), "run", Path("asked.yaml"), "--for", "4", "--pace", "real", "--record", Path("asked.mcap"), "--run", "live-requests", "--domain",
+               std::to_string(kDomain)});
+  auto participant = dds::Participant::Open({kDomain, "live-requests", "a window", launch::Transport::kSharedMemory, {}});
+  ASSERT_TRUE(participant.ok()) << participant.error().Text();
+  auto window = dds::OpenRequestsSender(*participant.value());
+  ASSERT_TRUE(window.ok()) << window.error().Text();
+  const scenario::Request place = scenario::PlaceRequest({"ego", 61.25, -40.5, std::nullopt}, 135.0), rain = scenario::WeatherRequest("rain", 1.0);
+  const auto until = std::chrono::steady_clock::now() + 4s;
+  while (std::chrono::steady_clock::now() < until) {
+    window.value()->Say({{1, place.name, place.argument, place.x_m, place.y_m, place.value}, {2, rain.name, rain.argument, rain.x_m, rain.y_m, rain.value}});
+    std::this_thread::sleep_for(50ms);
+  }
+  const Ended ended = run.Wait(30s);
+  ASSERT_EQ(ended.status, 0) << ended.out;
+  std::vector<msg::ScenarioEvent> events;
+  for (const auto& sample : Recorded<msg::ScenarioEvents>(Path("asked.mcap"), idl::topics::kScenarioEvents)) {
+    events.insert(events.end(), sample.events().begin(), sample.events().end());
+  }
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].name(), "vehicle.place");
+  EXPECT_EQ(events[0].argument(), "ego 61.25 -40.5");
+  EXPECT_EQ(events[1].argument(), "rain");
+  const auto states = Recorded<msg::VehicleState>(Path("asked.mcap"), idl::topics::kVehicleState);
+  EXPECT_NEAR(states.back().position_w_m().x(), 61.25, 0.05) << "nobody touches a pedal";
+  EXPECT_NEAR(states.back().position_w_m().y(), -40.5, 0.05);
+  const Ended verified = RunCommand({Bin("rodeira"), "replay", Path("asked.mcap"), "--verify"});
+  EXPECT_EQ(verified.status, 0) << verified.out;
+  EXPECT_NE(verified.out.find("identical: 4000 steps, "), std::string::npos) << verified.out;
 }
 
 TEST_F(Live, NobodyTouchesAKeyAndTwoRunsAreEqual) {

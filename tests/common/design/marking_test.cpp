@@ -33,6 +33,19 @@ TEST(Markings, ACrossingIsStripesOverWhatIsDrivenOn) {
   }
 }
 
+// Its stripes are lines; the object, which paints nothing, says where people cross.
+TEST(Markings, ACrossingIsAnObjectToo) {
+  const Design design = SoundDesign(RoadWith("      - {type: crossing, s_m: 40, length_m: 3}\n"));
+  const auto& objects = SpecOf(design).objects;
+  ASSERT_EQ(objects.size(), 1u);
+  EXPECT_EQ(objects[0].type, "crosswalk");
+  EXPECT_EQ(objects[0].subtype, "virtual");
+  EXPECT_EQ(objects[0].s_m, 40.0);
+  EXPECT_EQ(objects[0].length_m, 3.0);
+  EXPECT_NEAR(objects[0].t_m, -0.25, 1e-12);
+  EXPECT_NEAR(objects[0].width_m, 6.5, 1e-12);
+}
+
 TEST(Markings, AStopLineIsBeforeThoseWhomItIsFor) {
   const auto only = [](const std::string& keys) {
     const Design design = SoundDesign(RoadWith("      - {type: stop_line, s_m: 50" + keys + "}\n"));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "common/base/random.hpp"
@@ -133,6 +134,43 @@ TEST(WheelDriver, AButtonHeldIsOnePress) {
   readings[1].buttons[0] = 1;
   EXPECT_EQ(driver.Step(readings, 0).handbrake, 1.0);
   EXPECT_TRUE(driver.controls().starter);
+}
+
+// Buttons for lamps, horn and R N D: presses count once each, the horn sounds while its button is down, and where the wheel is unplugged
+// nobody holds it.
+TEST(WheelDriver, ButtonsForLampsHornAndGearsDoWhatTheySay) {
+  WheelSettings settings = Settings();
+  const std::array uses{WheelButton::kIndicateLeft, WheelButton::kHeadlights, WheelButton::kHorn, WheelButton::kReverse, WheelButton::kNeutral, WheelButton::kDrive};
+  for (std::size_t i = 0; i < uses.size(); ++i) settings.buttons[static_cast<std::size_t>(uses[i])] = ButtonUse{0, 10 + i, ""};
+  WheelDriver driver(settings);
+  auto readings = Rest();
+  readings[0].buttons.assign(16, 0);
+  const auto press = [&](std::size_t button) {
+    readings[0].buttons[10 + button] = 1;
+    for (int i = 0; i < 5; ++i) (void)driver.Step(readings, 1);
+    const Signals held = driver.signals();
+    readings[0].buttons[10 + button] = 0;
+    (void)driver.Step(readings, 1);
+    return held;
+  };
+  EXPECT_EQ(press(0).indicators, Indicators::kLeft);
+  EXPECT_EQ(press(0).indicators, Indicators::kOff);
+  EXPECT_EQ(press(1).headlights, Headlights::kDipped);
+  EXPECT_EQ(press(1).headlights, Headlights::kFull);
+  EXPECT_TRUE(press(2).horn);
+  EXPECT_FALSE(driver.signals().horn);
+  (void)press(3);
+  EXPECT_EQ(driver.controls().gear, -1);
+  (void)press(5);
+  EXPECT_EQ(driver.controls().gear, 1);
+  (void)press(4);
+  EXPECT_EQ(driver.controls().gear, 0);
+  readings[0].buttons[12] = 1;
+  (void)driver.Step(readings, 1);
+  EXPECT_TRUE(driver.signals().horn);
+  readings[0].connected = false;
+  (void)driver.Step(readings, 1);
+  EXPECT_EQ(driver.signals(), (Signals{Indicators::kOff, Headlights::kFull, false}));
 }
 
 TEST(WheelDriver, ALeverWithPlacesIsWhereItStands) {

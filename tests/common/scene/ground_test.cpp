@@ -131,6 +131,65 @@ TEST(Ground, VergesOfSmallRadiiAreWhereTheTyresAre) {
   EXPECT_LT(verges.worst_m, 0.005) << "at " << verges.where.transpose();
 }
 
+// Beyond the slopes land is made of the terrain's own triangles: where a tile and those around it are whole within the terrain.
+TEST(Ground, LandIsTheTerrainsOwnTriangles) {
+  const auto parsed = road::World::Parse(
+      "rodeira: world/2\nname: land\nterrain:\n  generate: {seed: 4, columns: 49, rows: 61, spacing_m: 20, west_m: -300, south_m: -300, full_m: 60, flat_m: 10, relief: [{wavelength_m: 150, amplitude_m: 20}]}\n"
+      "roads:\n  - id: a\n    start: {x_m: -280, y_m: -200, heading_deg: 0}\n    axis: [line: {length_m: 120}]\n    z_m: 0\n    section: {template: rural, slopes: {reach_m: 40}}\n", "land.yaml");
+  ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
+  const road::World& world = *parsed.value();
+  const Correlation land = Correlate(world, BuildAll(world), Points(), 5, [&](const Mesh& mesh, std::size_t i) {
+    const auto corners = CornersOf(mesh, i);
+    const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    return middle.x() > 0.0 && middle.x() < 256.0 && middle.y() > 0.0 && middle.y() < 512.0;
+  });
+  EXPECT_EQ(land.asked, Points());
+  EXPECT_LT(land.worst_m, 0.005) << "at " << land.where.transpose();
+}
+
+// A hump, a ramp and a sheet of ice, on a straight and in a bend.
+TEST(Ground, WhatIsLaidOnRoadsIsWhereTheTyresAre) {
+  const auto parsed = road::World::Parse(
+      "rodeira: world/2\nname: laid\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 10, heading_deg: 20}\n    axis: [line: {length_m: 60}, arc: {turn_deg: 80, radius_m: 40}]\n    z_m: 0\n"
+      "    section: {template: rural}\n    patches: [{from_s_m: 20, to_s_m: 30, from_t_m: -2.5, to_t_m: 1, friction: 0.1}, {from_s_m: 10, to_s_m: 14, from_t_m: -2, to_t_m: 2, material: soil, friction: 0.3}]\n"
+      "    bumps:\n      - {from_s_m: 40, to_s_m: 43.7, height_m: 0.1}\n      - {from_s_m: 80, to_s_m: 90, from_t_m: -3, to_t_m: 2, side_m: 0.2, heights: [{s_m: 0, z_m: 0}, {s_m: 2, z_m: 0.15}, {s_m: 8, z_m: 0.15}, {s_m: 10, z_m: 0}]}\n", "laid.yaml");
+  ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
+  const road::World& world = *parsed.value();
+  const std::vector<GroundTile> tiles = BuildAll(world);
+  const Correlation found = Correlate(world, tiles, Points(), 7);
+  EXPECT_EQ(found.asked, Points());
+  EXPECT_EQ(found.stepped, 0);
+  EXPECT_LT(found.worst_m, 0.005) << "at " << found.where.transpose();
+  int raised = 0, pale = 0, earth = 0;
+  for (const GroundTile& tile : tiles) {
+    for (const Mesh& mesh : tile.levels[0].ground) {
+      for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
+        if (!IsRoad(mesh) && !IsWall(mesh, i)) {  // of earth, on the road
+          const Eigen::Vector3d at = (CornersOf(mesh, i)[0] + CornersOf(mesh, i)[1] + CornersOf(mesh, i)[2]) / 3.0;
+          const auto place = world.network()->Locate(at.x(), at.y());
+          if (place && place->distance_m == 0.0 && std::fabs(place->t_m) < 2.0) {
+            EXPECT_TRUE(place->s_m > 10.0 && place->s_m < 14.0) << place->s_m;
+            EXPECT_LT(mesh.colours[mesh.triangles[3 * i]].red, 160);
+            ++earth;
+          }
+        }
+        if (!IsRoad(mesh)) continue;
+        const auto corners = CornersOf(mesh, i);
+        const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+        const auto place = world.network()->Locate(middle.x(), middle.y());
+        ASSERT_TRUE(place);
+        const bool iced = place->s_m > 20.0 && place->s_m < 30.0 && place->t_m > -2.5 && place->t_m < 1.0;
+        EXPECT_EQ(mesh.colours[mesh.triangles[3 * i]].red > 170, iced) << place->s_m << " " << place->t_m;
+        pale += iced;
+        raised += middle.z() > 0.09;
+      }
+    }
+  }
+  EXPECT_GT(pale, 3);
+  EXPECT_GT(earth, 1);
+  EXPECT_GT(raised, 50);
+}
+
 // In files of other programs surfaces of overlapping roads cross and step anywhere: nearly all points agree, not all.
 TEST(Ground, IsNearlyWhereTheTyresAreOnRealFiles) {
   std::uint64_t files = Setting("RODEIRA_GROUND_FILES", 2);

@@ -53,6 +53,20 @@ TEST(Synth, TheEngineSoundsAtItsFiringFrequency) {
   }
 }
 
+// Two notes and their overtones, and nothing between; let go of, it is silent.
+TEST(Synth, TheHornHasTwoNotes) {
+  Heard heard;
+  heard.own.horn = 1.0;
+  const std::vector<float> sound = Played(heard, 2.0);
+  const double low = At(sound, kLowHorn_Hz), high = At(sound, kHighHorn_Hz);
+  EXPECT_GT(low, 0.1);
+  EXPECT_NEAR(high / low, 1.0, 0.1);
+  EXPECT_GT(At(sound, 2.0 * kLowHorn_Hz), 0.2 * low);
+  EXPECT_LT(At(sound, 455.0), 0.02 * low);
+  EXPECT_GT(At(sound, kLowHorn_Hz), 20.0 * At(Played({}, 1.0), kLowHorn_Hz));
+  EXPECT_LT(*std::max_element(sound.begin(), sound.end()), 1.0F);
+}
+
 TEST(Synth, UnderLoadItIsLouderAndBrighter) {
   const std::vector<float> coasting = Played(Engine(3000.0, 0.0), 1.0), pulling = Played(Engine(3000.0, 1.0), 1.0);
   EXPECT_GT(Loudness(pulling), 1.5 * Loudness(coasting));

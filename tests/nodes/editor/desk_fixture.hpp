@@ -17,6 +17,9 @@ namespace hands = window::hands;
 
 // A desk without a display, and a person's hands on it.
 class ADesk : public testing::Test {
+ public:
+  static constexpr double kLeft_px = 300.0, kTop_px = 19.0;  // the canvas' corner
+
  protected:
   void SetUp() override {
     auto made = base::TemporaryFolder::Make("desk");
@@ -90,7 +93,6 @@ class ADesk : public testing::Test {
     EXPECT_TRUE(folder == nullptr || window::WritePng(std::filesystem::path(folder) / name, seen).ok());
   }
 
-  static constexpr double kLeft_px = 300.0, kTop_px = 19.0;
   std::optional<base::TemporaryFolder> folder_;
   std::unique_ptr<window::Window> window_;
   std::unique_ptr<Desk> desk_;

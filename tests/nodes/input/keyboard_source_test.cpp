@@ -72,6 +72,21 @@ TEST(KeyboardSource, AGearIsChangedOncePerPressAndTheCarGoesBackward) {
   EXPECT_LT(drive.last.velocity_w_mps().x(), -0.5) << "the plane's start looks east";
 }
 
+// Indicators, headlights and horn stand in the controls, and the car publishes what shines.
+TEST(KeyboardSource, LampsAndHornAreInTheControlsAndOnTheCar) {
+  const LiveDrive drive = Drive({{100, {"comma"}}, {200, {}}, {300, {"l", "g"}}, {600, {}}, {700, {"slash"}}, {800, {}}}, 1000);
+  EXPECT_EQ(drive.controls.at(100).indicators(), 0u);
+  EXPECT_EQ(drive.controls.at(110).indicators(), 1u);
+  EXPECT_EQ(drive.controls.at(300).headlights(), 0u);
+  EXPECT_EQ(drive.controls.at(310).headlights(), 1u);
+  EXPECT_EQ(drive.controls.at(600).horn(), 1u);
+  EXPECT_EQ(drive.controls.at(610).horn(), 0u);
+  EXPECT_EQ(drive.controls.at(690).indicators(), 1u);
+  EXPECT_EQ(drive.controls.at(1000).indicators(), 3u);
+  EXPECT_EQ(drive.last.lights(), 2u + 4u + 16u) << "both indicators and dipped beam (vehicle.idl)";
+  EXPECT_EQ(drive.last.horn(), 0u);
+}
+
 TEST(KeyboardSource, NobodyTouchesAKeyAndTwoRunsAreEqual) {
   const base::Digest digest = Drive({}, 1500).outcome.digest;
   EXPECT_EQ(Drive({}, 1500).outcome.digest, digest);

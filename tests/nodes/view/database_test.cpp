@@ -9,6 +9,7 @@
 #include <osgDB/WriteFile>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -17,6 +18,7 @@
 #include "nodes/view/find_built.hpp"
 #include "tests/common/scene/ground_worlds.hpp"
 #include "tests/nodes/view/pictures.hpp"
+#include "tests/setting.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -255,6 +257,44 @@ TEST_F(Database, OpenSceneGraphReadsIt) {
   const auto* lod = dynamic_cast<const osg::PagedLOD*>(group->getChild(0));
   ASSERT_NE(lod, nullptr);
   EXPECT_EQ(lod->getNumFileNames(), static_cast<unsigned>(scene::kGroundLevels));
+}
+
+// The smallest files of other programs, or as many as are asked for: every tile is written, read again by OpenSceneGraph, and ground.
+TEST_F(Database, RealFilesAreWrittenAndReadAgain) {
+  std::vector<fs::path> files;
+  std::error_code problem;
+  for (const auto& entry : fs::directory_iterator(scene::SharedXodr("x").parent_path(), problem)) {
+    if (entry.path().extension() == ".xodr") files.push_back(entry.path());
+  }
+  if (files.empty()) GTEST_SKIP() << "the files of other programs (../shared/data/road/xodr) are not here";
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) { return std::pair(fs::file_size(a), a) < std::pair(fs::file_size(b), b); });
+  files.resize(std::min<std::size_t>(files.size(), Setting("RODEIRA_BUILT_FILES", 2)));
+  struct Reach : osg::NodeVisitor {
+    osg::BoundingBox box;
+    Reach() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Geometry& geometry) override { box.expandBy(geometry.getBoundingBox()); }
+  };
+  for (const fs::path& file : files) {
+    const auto world = road::World::Load(file);
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    const std::string name = file.stem().string();
+    const DatabaseReport report = Write(*world.value(), name);
+    EXPECT_GT(report.tiles, 0u) << name;
+    EXPECT_EQ(report.built, report.tiles) << name;
+    std::size_t ground = 0;
+    for (const auto& entry : fs::directory_iterator(folder_ / name / "tiles")) {
+      const osg::ref_ptr<osg::Node> node = osgDB::readNodeFile(entry.path().string());
+      ASSERT_TRUE(node.valid()) << entry.path();
+      Reach reach;
+      node->accept(reach);
+      if (!reach.box.valid()) continue;
+      ++ground;
+      EXPECT_LT(reach.box.radius(), 2000.0) << entry.path();  // a square of 256 m, with what stands in it and reaches out of it
+    }
+    EXPECT_GT(ground, report.tiles) << name;
+    EXPECT_EQ(Write(*world.value(), name).built, 0u) << name;
+    fs::remove_all(folder_ / name);
+  }
 }
 
 // The pager, the files and the look that is put on them against the ground that is built in memory: pixel by pixel.

@@ -2,9 +2,12 @@
 #include <SDL.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <tuple>
 
 #include "common/base/temporary_folder.hpp"
+#include "nodes/view/asker.hpp"
 #include "nodes/view/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
@@ -84,6 +87,183 @@ TEST(Screen, AClickChoosesAVehicle) {
   EXPECT_TRUE(ProbeAt(shown(), camera, tail_W).IsBlue()) << "between two pulses";
   moment.time_ns = 400'000'000;
   EXPECT_TRUE(click({480.0, 20.0}));
+  EXPECT_EQ(shown().rgb, before.rgb);
+}
+
+SDL_Event ButtonAt(const Eigen::Vector2d& at, bool down) {
+  SDL_Event event{};
+  event.type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
+  event.button.button = SDL_BUTTON_LEFT;
+  event.button.x = static_cast<int>(at.x());
+  event.button.y = static_cast<int>(at.y());
+  return event;
+}
+
+// Behind its key, or with ctrl held, a click asks for the place on the ground that is seen there, whoever drives; the next one does not.
+TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml").value();
+  ViewSettings settings;
+  settings.width_px = 320;
+  settings.height_px = 180;
+  settings.camera = scene::CameraKind::kTop;
+  settings.cars = {{0, "ego"}};
+  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  ASSERT_TRUE(screen.ok()) << screen.error().Text();
+  std::vector<scenario::Request> asked;
+  screen.value()->set_ask([&](const scenario::Request& request) {
+    asked.push_back(request);
+    return true;
+  });
+  const road::Road& road = world->roads()[0];
+  const Eigen::Vector3d here = road.Position(300.0, road.LaneCentre(-1, 300.0));
+  scene::Moment moment;
+  moment.cars.push_back(CarAt(here, 1.0));
+  screen.value()->Show(moment, 1.0);
+  const scene::Camera camera = scene::TopCamera(moment.cars[0], {});
+  const Eigen::Vector3d there = road.Position(312.0, road.LaneCentre(1, 312.0));
+  const auto click = [&](bool driven) {
+    const bool down = screen.value()->TakeMouse(ButtonAt(*camera.Project(there, 320, 180), true), driven);
+    const bool up = screen.value()->TakeMouse(ButtonAt(*camera.Project(there, 320, 180), false), driven);
+    return down && up;
+  };
+  EXPECT_FALSE(click(true)) << "the car's own";
+  EXPECT_TRUE(screen.value()->TakeKey(SDLK_F6, true));
+  EXPECT_TRUE(click(true));
+  ASSERT_EQ(asked.size(), 1u);
+  EXPECT_EQ(asked[0].name, "place");
+  EXPECT_NEAR(asked[0].x_m, there.x(), 0.6) << "a pixel is 0.44 m";
+  EXPECT_NEAR(asked[0].y_m, there.y(), 0.6);
+  EXPECT_NEAR(std::remainder(asked[0].value - (road.Evaluate(312.0).heading_rad * 180.0 / 3.14159265358979 + 180.0), 360.0), 0.0, 1.0) << "against the axis, as lane 1 drives";
+  EXPECT_EQ(scenario::ParsePlace("ego 0 0" + asked[0].argument.substr(3)).value().z_m.has_value(), true);
+  EXPECT_FALSE(click(true));
+  SDL_SetModState(KMOD_LCTRL);
+  EXPECT_TRUE(click(false));
+  SDL_SetModState(KMOD_NONE);
+  EXPECT_EQ(asked.size(), 2u);
+  EXPECT_TRUE(screen.value()->TakeKey(SDLK_F7, true));
+  ASSERT_EQ(asked.size(), 3u);
+  EXPECT_EQ(asked[2].name, "weather");
+  EXPECT_EQ(asked[2].argument, "overcast");
+}
+
+TEST(AskPlace, WhereTheWorldEndsItSaysThatTheCarStays) {
+  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml").value();
+  scene::Moment moment;
+  moment.cars.push_back(CarAt({0.0, 0.0, 0.0}, 0.6));
+  const scene::Ray down{{world->extents().east_m - 0.5, 0.5 * (world->extents().south_m + world->extents().north_m), 5'000.0}, -Eigen::Vector3d::UnitZ()};
+  const auto at_the_edge = AskPlace(*world, moment, 0, down, {{0, "ego"}});
+  ASSERT_FALSE(at_the_edge.ok()) << "half of the car would stand beyond it";
+  EXPECT_EQ(at_the_edge.error().message, "there is no ground of this world: the car stays where it is");
+  const auto sky = AskPlace(*world, moment, 0, {{0.0, 0.0, 900.0}, Eigen::Vector3d::UnitZ()}, {{0, "ego"}});
+  EXPECT_FALSE(sky.ok());
+  EXPECT_EQ(AskPlace(*world, {}, 0, down, {}).error().message, "nobody drives here: there is no car to be placed");
+}
+
+// It is said again until the run has said it.
+TEST(Asker, ARequestIsRepeatedUntilItHasHappened) {
+  class Ear final : public launch::LiveRequestsSender {
+   public:
+    explicit Ear(std::vector<std::vector<launch::LiveRequest>>& heard) : heard_(heard) {}
+    void Say(std::vector<launch::LiveRequest> requests) override { heard_.push_back(std::move(requests)); }
+
+   private:
+    std::vector<std::vector<launch::LiveRequest>>& heard_;
+  };
+  std::vector<std::vector<launch::LiveRequest>> heard;
+  Asker asker(std::make_unique<Ear>(heard));
+  asker.Tell(0.0);
+  EXPECT_TRUE(heard.empty());
+  const scenario::Request place = scenario::PlaceRequest({"ego", 0.1, 0.2, 3.0}, 45.0), rain = scenario::WeatherRequest("rain", 8.0);
+  EXPECT_TRUE(asker.Ask(place));
+  EXPECT_TRUE(asker.Ask(rain));
+  EXPECT_FALSE(asker.Ask(scenario::WeatherRequest("hail", 8.0)));
+  for (double now_s = 0.0; now_s < 0.999; now_s += 0.01) asker.Tell(now_s);
+  EXPECT_NEAR(static_cast<double>(heard.size()), 20.0, 1.0);
+  ASSERT_EQ(heard.back().size(), 2u);
+  EXPECT_EQ(heard.back()[0].number, 1u);
+  EXPECT_EQ(heard.back()[1].number, 2u);
+  asker.See({scenario::EventOf(place).value(), {"mark", "x", 0.0}});
+  asker.Tell(1.1);
+  ASSERT_EQ(heard.back().size(), 1u);
+  EXPECT_EQ(heard.back()[0].name, "weather");
+  asker.See({scenario::EventOf(rain).value()});
+  const std::size_t said = heard.size();
+  asker.Tell(2.0);
+  EXPECT_EQ(heard.size(), said);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(asker.Ask(rain), i < 16);
+}
+
+// Agents drive along a line; its ground becomes green where they are at the limit, and the ground beside it stays as it was.
+TEST(Screen, TheHeatMapColoursTheGroundThatWasDrivenOn) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+  ViewSettings settings;
+  settings.width_px = 640;
+  settings.height_px = 360;
+  settings.instruments = false;
+  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  ASSERT_TRUE(screen.ok()) << screen.error().Text();
+  const auto shown = [&](int i) {
+    scene::Moment moment;
+    moment.time_ns = i * 50'000'000;
+    moment.cars.push_back(CarAt({0.0, 0.0, 0.0}, 0.0));
+    for (const auto& [id, y, speed] : {std::tuple(1, 22.0, 26.0), std::tuple(2, -22.0, 3.0)}) {
+      scene::AgentPose agent;
+      agent.id = static_cast<std::uint64_t>(id);
+      agent.p_WB_W = {-30.0 + 0.05 * i * speed, y, 0.0};
+      moment.agents.push_back(agent);
+    }
+    screen.value()->Show(moment, 1.0);
+    return screen.value()->painter().Read();
+  };
+  (void)shown(0);
+  EXPECT_TRUE(screen.value()->TakeKey(SDLK_F9, true));
+  for (int i = 1; i < 40; ++i) (void)shown(i);
+  const Image before = shown(40);
+  EXPECT_TRUE(screen.value()->TakeKey(SDLK_F8, true));
+  const Image heat = shown(41);
+  scene::Aim aim;
+  const scene::Camera camera = scene::TopCamera(CarAt({0.0, 0.0, 0.0}, 0.0), aim);
+  const Eigen::Vector3d fast(2.0, 22.0, 0.0), slow(-27.5, -22.0, 0.0), beside(20.0, -10.0, 0.0);
+  EXPECT_GT(ProbeAt(heat, camera, fast).green, ProbeAt(before, camera, fast).green + 30.0) << ProbeAt(heat, camera, fast);
+  EXPECT_LT(ProbeAt(heat, camera, fast).red, 0.6 * ProbeAt(before, camera, fast).red) << ProbeAt(heat, camera, fast);
+  EXPECT_GT(ProbeAt(heat, camera, slow).red, ProbeAt(before, camera, slow).red + 30.0) << ProbeAt(heat, camera, slow);
+  EXPECT_LT(ProbeAt(heat, camera, slow).green, ProbeAt(before, camera, slow).green) << ProbeAt(heat, camera, slow);
+  EXPECT_NEAR(ProbeAt(heat, camera, beside).green, ProbeAt(before, camera, beside).green, 3.0);
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(screen.value()->TakeKey(SDLK_F8, true));
+}
+
+TEST(Screen, FromAboveAndBackToTheSameCamera) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+  ViewSettings settings;
+  settings.width_px = 320;
+  settings.height_px = 180;
+  settings.camera = scene::CameraKind::kOrbit;
+  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  ASSERT_TRUE(screen.ok()) << screen.error().Text();
+  scene::Moment moment;
+  moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
+  const auto shown = [&] {
+    screen.value()->Show(moment, 1.0);
+    return screen.value()->painter().Read();
+  };
+  SDL_Event turned{};
+  turned.type = SDL_MOUSEMOTION;
+  turned.motion.state = SDL_BUTTON_LMASK;
+  turned.motion.xrel = 70;
+  EXPECT_TRUE(screen.value()->TakeMouse(turned, false));
+  const Image before = shown();
+  EXPECT_TRUE(screen.value()->TakeKey(SDLK_F9, true));
+  const Image above = shown();
+  EXPECT_NE(above.rgb, before.rgb);
+  SDL_Event wheel{};
+  wheel.type = SDL_MOUSEWHEEL;
+  wheel.wheel.y = 3;
+  EXPECT_TRUE(screen.value()->TakeMouse(wheel, false));
+  EXPECT_NE(shown().rgb, above.rgb) << "the map can be zoomed";
+  EXPECT_TRUE(screen.value()->TakeKey(SDLK_F9, true));
   EXPECT_EQ(shown().rgb, before.rgb);
 }
 

@@ -46,6 +46,15 @@ TEST(Heard, ItsOwnCarAndTheFourNearest) {
   }
 }
 
+TEST(Heard, ADriversHornIsHeardInsideAndByOthers) {
+  scene::Moment moment = Among();
+  moment.cars[0].horn = true;
+  EXPECT_EQ(HeardBy(moment, 0, 1.0).own.horn, 1.0);
+  const sound::Heard outside = HeardBy(moment, 1, 1.0);
+  EXPECT_EQ(outside.own.horn, 0.0);
+  EXPECT_EQ(outside.others.rbegin()->second.horn, 1.0);
+}
+
 TEST(Heard, NobodyHearsNothingAndATrafficCarHearsTheOthers) {
   EXPECT_EQ(HeardBy(Among(), 99, 1.0).own.engine_rpm, 0.0);
   EXPECT_EQ(HeardBy({}, 0, 1.0).others.size(), 0u);

@@ -1,0 +1,45 @@
+#include "nodes/view/ask_place.hpp"
+
+#include <cmath>
+
+#include "common/geometry/angle.hpp"
+#include "common/scene/placing.hpp"
+
+namespace rodeira::view {
+namespace {
+
+constexpr const char* kOutside = "there is no ground of this world: the car stays where it is";
+
+// Under all of the car's corners.
+bool HasGround(terrain::Ground& ground, const scene::CarPlace& place, const scene::CarPose& car) {
+  const Eigen::Vector2d along(std::cos(place.heading_rad), std::sin(place.heading_rad)), left(-along.y(), along.x());
+  for (const double forward_m : {car.front_m, car.front_m - car.length_m}) {
+    for (const double aside_m : {0.5 * car.width_m, -0.5 * car.width_m}) {
+      const Eigen::Vector2d at = Eigen::Vector2d(place.x_m, place.y_m) + forward_m * along + aside_m * left;
+      if (!ground.At(at.x(), at.y(), place.z_m).inside) return false;
+    }
+  }
+  return true;
+}
+
+double HeadingOf(const scene::CarPose& car) {
+  const Eigen::Vector3d forward = car.q_WB * Eigen::Vector3d::UnitX();
+  return std::atan2(forward.y(), forward.x());
+}
+
+}  // namespace
+
+base::Result<scenario::Request> AskPlace(const road::World& world, const scene::Moment& moment, std::size_t followed, const scene::Ray& ray, const CarNames& names) {
+  if (moment.cars.empty()) return base::WrongInput("nobody drives here: there is no car to be placed");
+  const scene::CarPose& car = moment.cars[followed < moment.cars.size() ? followed : 0];
+  const auto name = names.find(car.id);
+  if (name == names.end()) return base::WrongInput("a recording cannot be changed: the car stays where it was");
+  const auto ground = world.MakeGround();
+  const auto met = scene::GroundOn(*ground, ray);
+  if (!met) return base::WrongInput(kOutside);
+  const scene::CarPlace place = scene::PlaceAt(world, *met, HeadingOf(car));
+  if (!HasGround(*ground, place, car)) return base::WrongInput(kOutside);
+  return scenario::PlaceRequest({name->second, place.x_m, place.y_m, place.z_m}, place.heading_rad * 180.0 / geometry::kPi);
+}
+
+}  // namespace rodeira::view

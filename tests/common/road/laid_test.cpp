@@ -1,0 +1,160 @@
+// Patches and bumps on a road, under SUELO: against their closed forms.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "common/base/random.hpp"
+#include "common/road/world_export.hpp"
+#include "common/road/world_report.hpp"
+#include "tests/common/road/sample_world.hpp"
+
+namespace rodeira::road {
+namespace {
+
+using testing::HasSubstr;
+
+// A level road to the east with lanes of 3.5 m, its axis at y = 0, and shoulders and verges beside them.
+std::string Straight(const std::string& laid) {
+  return "rodeira: world/2\nname: laid\nground: {kind: plane, z_m: 5}\nmaterials:\n  mud: {surface: soil, friction: 0.4}\n"
+         "roads:\n  - id: main\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 200}]\n    z_m: 5\n"
+         "    section: {lanes: [{id: -1, width_m: 3.5}, {id: 1, width_m: 3.5}], crossfall: {kind: crown, fall: 0},\n"
+         "      shoulders: {left: {width_m: 1, fall: 0}, right: {width_m: 1, fall: 0}}, verge: {width_m: 1, fall: 0}}\n" + laid;
+}
+
+double Ease(double u) { return u <= 0.0 ? 0.0 : u >= 1.0 ? 1.0 : u * u * (3.0 - 2.0 * u); }
+
+TEST(Laid, APatchOfIceIsWhereItIsSaid) {
+  const auto world = MustParse(Straight("    patches:\n      - {from_s_m: 40, to_s_m: 70, from_t_m: -3, to_t_m: -0.5, friction: 0.12}\n"
+                                        "      - {from_s_m: 60, to_s_m: 90, from_t_m: -2, to_t_m: 3, material: mud}\n"
+                                        "      - {from_s_m: 100, to_s_m: 110, friction: 0.3}\n"));
+  int iced = 0;
+  for (std::uint64_t i = 0; i < 30'000; ++i) {
+    const double x = base::RandomUniform({i, 1}, 20.0, 130.0), y = base::RandomUniform({i, 2}, -4.4, 4.4);
+    const bool ice = x >= 40.0 && x <= 70.0 && y >= -3.0 && y <= -0.5, mud = x >= 60.0 && x <= 90.0 && y >= -2.0 && y <= 3.0;
+    const bool across = x >= 100.0 && x <= 110.0 && std::fabs(y) <= 3.5;  // all lanes that are driven on
+    const SurfacePoint at = world->At(x, y);
+    EXPECT_EQ(at.friction, mud ? 0.4 : ice ? 0.12 : across ? 0.3 : 1.0) << x << " " << y;
+    EXPECT_EQ(at.surface, mud ? terrain::Surface::kSoil : terrain::Surface::kAsphalt) << x << " " << y;
+    EXPECT_NEAR(at.z_m, 5.0, 1e-12);
+    iced += ice && !mud;
+  }
+  EXPECT_GT(iced, 1000);
+}
+
+TEST(Laid, APatchCoversPaint) {
+  const std::string lines = "    lines: [{lane: 0, kind: continuous, width_m: 0.2}]\n";
+  const auto world = MustParse(Straight(lines + "    patches: [{from_s_m: 50, to_s_m: 60, friction: 0.1}, {from_s_m: 70, to_s_m: 80, material: mud}]\n"));
+  EXPECT_EQ(world->At(45.0, 0.0).surface, terrain::Surface::kRoadMark);
+  EXPECT_EQ(world->At(55.0, 0.0).friction, 0.1);
+  EXPECT_EQ(world->At(55.0, 0.0).surface, terrain::Surface::kRoadMark);  // under the ice
+  EXPECT_EQ(world->At(75.0, 0.0).surface, terrain::Surface::kSoil);
+}
+
+// Three kinds of profile, each with its formula.
+TEST(Laid, BumpsAreTheirClosedForms) {
+  const auto world = MustParse(Straight("    bumps:\n      - {from_s_m: 40, to_s_m: 44, from_t_m: -3.5, to_t_m: 3, height_m: 0.1, side_m: 0.5}\n"
+                                        "      - {from_s_m: 60, to_s_m: 63, from_t_m: -3.5, to_t_m: 3, height_m: -0.08, shape: smooth, side_m: 0.5}\n"
+                                        "      - from_s_m: 80\n        to_s_m: 92\n        from_t_m: -3.5\n        to_t_m: 3\n        side_m: 0.5\n"
+                                        "        heights: [{s_m: 0, z_m: 0}, {s_m: 3, z_m: 0.15}, {s_m: 9, z_m: 0.15}, {s_m: 12, z_m: 0}]\n"));
+  const auto along = [](double s) {
+    if (s > 40.0 && s < 44.0) return 0.1 * (1.0 - std::pow((s - 42.0) / 2.0, 2));
+    if (s > 60.0 && s < 63.0) return -0.08 * Ease(s < 61.5 ? (s - 60.0) / 1.5 : (63.0 - s) / 1.5);
+    if (s > 80.0 && s < 92.0) return std::min({0.15, 0.05 * (s - 80.0), 0.05 * (92.0 - s)});
+    return 0.0;
+  };
+  const auto height = [&](double x, double y) { return along(x) * Ease((y + 3.5) / 0.5) * Ease((3.0 - y) / 0.5); };
+  double highest = 0.0;
+  for (std::uint64_t i = 0; i < 30'000; ++i) {
+    const double x = base::RandomUniform({i, 3}, 35.0, 95.0), y = base::RandomUniform({i, 4}, -5.0, 5.0);
+    const SurfacePoint at = world->At(x, y);
+    EXPECT_NEAR(at.z_m, 5.0 + height(x, y), 1e-12) << x << " " << y;
+    highest = std::max(highest, at.z_m);
+    constexpr double kStep = 1e-6;
+    const double kink = std::min({std::fabs(x - 40.0), std::fabs(x - 44.0), std::fabs(x - 80.0), std::fabs(x - 83.0), std::fabs(x - 89.0), std::fabs(x - 92.0)});
+    if (kink < 1e-5) continue;
+    EXPECT_NEAR(at.slope_x, (height(x + kStep, y) - height(x - kStep, y)) / (2.0 * kStep), 1e-8) << x << " " << y;
+    EXPECT_NEAR(at.slope_y, (height(x, y + kStep) - height(x, y - kStep)) / (2.0 * kStep), 1e-8) << x << " " << y;
+  }
+  EXPECT_GT(highest, 5.149);
+}
+
+// On a bend the stations are those of the axis: the crest of a hump lies along the radius.
+TEST(Laid, OnABendTheyFollowTheRoad) {
+  const auto world = MustParse("rodeira: world/2\nname: bend\nground: {kind: plane}\nroads:\n  - id: main\n    start: {x_m: 0, y_m: -50, heading_deg: 0}\n"
+                               "    axis: [arc: {length_m: 140, radius_m: 50}]\n    section: {template: rural, crossfall: {kind: crown, fall: 0}}\n"
+                               "    patches: [{from_s_m: 20, to_s_m: 30, from_t_m: 0, to_t_m: 2, friction: 0.2}]\n"
+                               "    bumps: [{from_s_m: 60, to_s_m: 64, from_t_m: -2, to_t_m: 2, height_m: 0.1}]\n");
+  for (std::uint64_t i = 0; i < 5'000; ++i) {
+    const double s = base::RandomUniform({i, 5}, 10.0, 80.0), t = base::RandomUniform({i, 6}, -2.5, 2.5);
+    const double angle = s / 50.0, r = 50.0 - t;
+    const double edge = std::min({std::fabs(s - 20.0), std::fabs(s - 30.0), std::fabs(t), std::fabs(t - 2.0)});
+    if (edge < 1e-6) continue;
+    const SurfacePoint at = world->At(r * std::sin(angle), -r * std::cos(angle));
+    EXPECT_EQ(at.friction == 0.2, s > 20.0 && s < 30.0 && t > 0.0 && t < 2.0) << s << " " << t;
+    const double hump = s > 60.0 && s < 64.0 ? 0.1 * (1.0 - std::pow((s - 62.0) / 2.0, 2)) * Ease((t + 2.0) / 0.3) * Ease((2.0 - t) / 0.3) : 0.0;
+    EXPECT_NEAR(at.z_m, hump, 1e-9) << s << " " << t;
+  }
+}
+
+TEST(Laid, APatchOfPointsIsItsPoints) {
+  const auto world = MustParse(Straight("    patches: [{from_s_m: 50, to_s_m: 60, friction: 0.1}]\n    bumps: [{from_s_m: 80, to_s_m: 84, height_m: 0.1}]\n"));
+  const auto ground = world->MakeGround();
+  for (const double x : {30.0, 49.9, 55.0, 60.0, 79.95, 82.0, 90.0}) {
+    std::vector<terrain::GroundQuery> queries;
+    for (int i = 0; i < 400; ++i) queries.push_back({x + 0.01 * (i % 20), -1.5 + 0.01 * (i / 20), 5.2});
+    std::vector<terrain::GroundPoint> points(queries.size());
+    ground->Query(queries, points);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const SurfacePoint alone = world->At(queries[i].x_m, queries[i].y_m, queries[i].z_hint_m);
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(points[i].z_m), std::bit_cast<std::uint64_t>(alone.z_m));
+      EXPECT_EQ(points[i].friction, alone.friction);
+    }
+  }
+}
+
+TEST(Laid, TheyArePartOfTheContentHash) {
+  const auto hash = [](const std::string& laid) { return MustParse(Straight(laid))->content_hash(); };
+  const std::string patch = "    patches: [{from_s_m: 50, to_s_m: 60, friction: 0.1}]\n", bump = "    bumps: [{from_s_m: 80, to_s_m: 84, height_m: 0.1}]\n";
+  EXPECT_NE(hash(""), hash(patch));
+  EXPECT_NE(hash(patch), hash("    patches: [{from_s_m: 50, to_s_m: 60, friction: 0.2}]\n"));
+  EXPECT_NE(hash(bump), hash("    bumps: [{from_s_m: 80, to_s_m: 84, height_m: 0.11}]\n"));
+  EXPECT_NE(hash(bump), hash("    bumps: [{from_s_m: 80, to_s_m: 84, height_m: 0.1, shape: smooth}]\n"));
+  EXPECT_EQ(hash(bump), hash("    bumps: [{height_m: 0.1, to_s_m: 84.0, from_s_m: 80}]   # the same\n"));
+}
+
+// A road that a junction cuts keeps what lies beside it; a bump that the junction would cut is refused.
+TEST(Laid, JunctionsCutPatchesAndRefuseBumps) {
+  const std::string crossing = "  - id: cross\n    place: {road: main, s_m: 100, turn_deg: 90, own_s_m: 60}\n    axis: [line: {length_m: 120}]\n    section: {template: rural}\n"
+                               "junctions:\n  - {id: j, roads: [{road: main, s_m: 100}, {road: cross, s_m: 60}]}\n";
+  const auto world = MustParse(Straight("    patches: [{from_s_m: 60, to_s_m: 180, friction: 0.1}]\n    bumps: [{from_s_m: 150, to_s_m: 154, height_m: 0.1}]\n" + crossing));
+  EXPECT_EQ(world->At(65.0, 1.0).friction, 0.1);
+  EXPECT_EQ(world->At(175.0, 1.0).friction, 0.1);
+  EXPECT_EQ(world->At(55.0, 1.0).friction, 1.0);
+  EXPECT_NEAR(world->At(152.0, 1.0).z_m, 5.1, 1e-12);
+  const auto refused = World::Parse(Straight("    bumps: [{from_s_m: 95, to_s_m: 99, height_m: 0.1}]\n" + crossing), "w.yaml");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().Text(), HasSubstr("the bump from s = 95 to 99 m lies in a junction"));
+}
+
+TEST(Laid, WhatIsWrongIsSaid) {
+  const auto error = [](const std::string& laid) { return World::Parse(Straight(laid), "w.yaml").error().Text(); };
+  EXPECT_THAT(error("    patches: [{from_s_m: 50, to_s_m: 60}]\n"), HasSubstr("another 'material', or has another 'friction'"));
+  EXPECT_THAT(error("    patches: [{from_s_m: 60, to_s_m: 50, friction: 0.1}]\n"), HasSubstr("'to_s_m' must lie behind 'from_s_m'"));
+  EXPECT_THAT(error("    patches: [{from_s_m: 50, to_s_m: 60, to_t_m: 9, friction: 0.1}]\n"), HasSubstr("the road reaches from t = -5.50 to 5.50 m only"));
+  EXPECT_THAT(error("    bumps: [{from_s_m: 50, to_s_m: 54}]\n"), HasSubstr("either one 'height_m' or a list of 'heights'"));
+  EXPECT_THAT(error("    bumps: [{from_s_m: 50, to_s_m: 54, heights: [{s_m: 0, z_m: 0}, {s_m: 2, z_m: 0.1}]}]\n"), HasSubstr("end at s_m 4"));
+  EXPECT_THAT(error("    bumps: [{from_s_m: 50, to_s_m: 54, height_m: 0.1, from_t_m: 0, to_t_m: 0.4}]\n"), HasSubstr("narrower than twice its 'side_m'"));
+}
+
+TEST(Laid, OpenDriveNamesThem) {
+  const auto text = ExportOpenDrive(*MustParse(Straight("    patches: [{from_s_m: 50, to_s_m: 60, friction: 0.1}]\n    bumps: [{from_s_m: 80, to_s_m: 84, height_m: 0.1}]\n")));
+  ASSERT_TRUE(text.ok());
+  EXPECT_THAT(text.value(), HasSubstr("type=\"roadSurface\" subtype=\"patch\" s=\"55\" t=\"0\""));
+  EXPECT_THAT(text.value(), HasSubstr("type=\"roadSurface\" subtype=\"speedBump\" s=\"82\" t=\"0\""));
+}
+
+}  // namespace
+}  // namespace rodeira::road

@@ -1,0 +1,51 @@
+#include "common/scenario/event.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace rodeira::scenario {
+namespace {
+
+TEST(Event, APlaceIsReadBackToTheBit) {
+  for (const double x : {0.1, -1234.5678901234567, 1e-300, 4.0e7, std::numeric_limits<double>::denorm_min()}) {
+    const PlaceChoice place{"ego", x, -x / 3.0, x * 7.0};
+    const auto read = ParsePlace(PlaceText(place));
+    ASSERT_TRUE(read.ok()) << read.error().Text();
+    EXPECT_EQ(read.value().vehicle, "ego");
+    EXPECT_EQ(read.value().x_m, place.x_m);
+    EXPECT_EQ(read.value().y_m, place.y_m);
+    EXPECT_EQ(read.value().z_m, place.z_m);
+  }
+  const auto flat = ParsePlace("car 12.5 -3.25");
+  ASSERT_TRUE(flat.ok());
+  EXPECT_FALSE(flat.value().z_m);
+}
+
+TEST(Event, WhatIsNoPlaceIsRefused) {
+  for (const char* text : {"", "ego", "ego 1", "ego 1 2 3 4", "ego  1 2", " 1 2", "ego 1 nan", "ego inf 2", "ego 1x 2", "ego 1 2 x", "ego 1,5 2", "ego 1 2 "}) {
+    const auto read = ParsePlace(text);
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_EQ(read.error().exit_status(), 2);
+    EXPECT_NE(read.error().Text().find("is no place; the name of a vehicle node and metres"), std::string::npos) << read.error().Text();
+  }
+}
+
+TEST(Event, WhatCannotBeObeyedIsSaid) {
+  EXPECT_TRUE(CheckEvent({"vehicle.place", "ego 1 2", 90.0}));
+  EXPECT_TRUE(CheckEvent({"weather", "fog", 5.0}));
+  EXPECT_TRUE(CheckEvent({"mark", "anything", 0.0}));
+  const auto complaint = [](const Event& event) {
+    const auto status = CheckEvent(event);
+    return status ? std::string() : status.error().Text();
+  };
+  EXPECT_NE(complaint({"vehicle.plce", "ego 1 2", 0.0}).find("did you mean 'vehicle.place'?"), std::string::npos);
+  EXPECT_EQ(complaint({"vehicle.place", "ego 1 2", 400.0}), "'heading_deg' of 'vehicle.place' is 400; -360 to 360 was expected");
+  EXPECT_NE(complaint({"vehicle.place", "ego 1 2", std::numeric_limits<double>::quiet_NaN()}).find("heading_deg"), std::string::npos);
+  EXPECT_NE(complaint({"vehicle.place", "ego", 0.0}).find("is no place"), std::string::npos);
+  EXPECT_NE(complaint({"weather", "fogg", 5.0}).find("'fogg' is no weather; did you mean 'fog'?"), std::string::npos) << complaint({"weather", "fogg", 5.0});
+  EXPECT_NE(complaint({"traffic.brake", "nobody", 5.0}).find("is no agent"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rodeira::scenario

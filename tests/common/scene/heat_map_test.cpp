@@ -1,0 +1,115 @@
+#include "common/scene/heat_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/common/scene/worlds.hpp"
+
+namespace rodeira::scene {
+namespace {
+
+constexpr std::int64_t kStep_ns = 20'000'000;
+
+Moment At(std::int64_t time_ns, const std::vector<Eigen::Vector3d>& places) {
+  Moment moment;
+  moment.time_ns = time_ns;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    AgentPose agent;
+    agent.id = i;
+    agent.p_WB_W = places[i];
+    moment.agents.push_back(agent);
+  }
+  return moment;
+}
+
+TEST(HeatMap, ColoursGoFromRedThroughYellowToGreen) {
+  const auto is = [](double share, int red, int green) {
+    const Colour c = HeatColour(share);
+    return c.red == red && c.green == green && c.blue == 0;
+  };
+  EXPECT_TRUE(is(0.0, 255, 0));
+  EXPECT_TRUE(is(0.25, 255, 128));
+  EXPECT_TRUE(is(0.5, 255, 255));
+  EXPECT_TRUE(is(0.75, 128, 255));
+  EXPECT_TRUE(is(1.0, 0, 255));
+  EXPECT_TRUE(is(-3.0, 255, 0));
+  EXPECT_TRUE(is(7.0, 0, 255));
+}
+
+// A car that drives evenly, and one that stands, for ten seconds: distance, time and the identity q = k v in every square.
+TEST(HeatMap, SumsAreWhatWasDrivenAndFlowIsDensityTimesSpeed) {
+  const auto world = PlaneWithRoad();
+  HeatMap map(*world);
+  constexpr double kSpeed = 12.5;
+  for (int i = 0; i <= 500; ++i) map.Add(At(i * kStep_ns, {{-60.0 + kSpeed * 0.02 * i, -70.0, 0.0}, {5.0, 60.0, 0.0}}));
+  EXPECT_NEAR(map.watched_s(), 10.0, 1e-9);
+  double time_s = 0.0, distance_m = 0.0;
+  for (const auto& [key, cell] : map.cells()) {
+    time_s += cell.time_s, distance_m += cell.distance_m;
+    const double q = *map.Value(HeatKind::kFlow, cell), k = *map.Value(HeatKind::kDensity, cell), v_kmh = 3.6 * cell.distance_m / cell.time_s;
+    EXPECT_NEAR(q, k * v_kmh, 1e-6 * std::max(q, 1.0));
+    EXPECT_FALSE(map.Value(HeatKind::kFuel, cell)) << "the traffic does not say what it burns";
+  }
+  EXPECT_NEAR(time_s, 20.0, 1e-9);
+  EXPECT_NEAR(distance_m, 10.0 * kSpeed, 1e-6);
+  // One vehicle passes a square once in 10 s: 360 an hour, where the square was crossed whole.
+  const HeatCell& crossed = map.cells().at({-5, -18, 0});
+  EXPECT_NEAR(*map.Value(HeatKind::kFlow, crossed), 360.0, 360.0 * 0.26 / 4.0) << "but for the step at either edge";
+  EXPECT_NEAR(*map.Value(HeatKind::kSpeed, crossed), 100.0 * kSpeed / (100.0 / 3.6), 1e-6);
+  const HeatCell& stood = map.cells().at({1, 15, 0});
+  EXPECT_NEAR(*map.Value(HeatKind::kDensity, stood), 1000.0 / 4.0, 1e-6) << "one vehicle on 4 m all the time";
+  EXPECT_EQ(*map.Value(HeatKind::kSpeed, stood), 0.0);
+}
+
+TEST(HeatMap, GreenIsTheLimitOfTheLane) {
+  const auto world = PlaneWithRoad();
+  const road::Road& road = world->roads()[0];
+  HeatMap map(*world);
+  const double speed = 0.5 * 70.0 / 3.6;
+  for (int i = 0; i <= 100; ++i) map.Add(At(i * kStep_ns, {road.Position(20.0 + 0.02 * i * speed, road.LaneCentre(-1, 20.0))}));
+  for (const auto& [key, cell] : map.cells()) EXPECT_NEAR(*map.Value(HeatKind::kSpeed, cell), 50.0, 0.5);
+  for (const HeatSquare& square : map.Squares(HeatKind::kSpeed)) {
+    EXPECT_EQ(square.colour.red, 255);
+    EXPECT_GT(square.colour.green, 250) << "half of the limit is yellow";
+    for (const Eigen::Vector3d& corner : square.corners_W) EXPECT_NEAR(corner.z(), world->At(corner.x(), corner.y()).z_m, 0.1);
+    EXPECT_GT((square.corners_W[1] - square.corners_W[0]).cross(square.corners_W[3] - square.corners_W[0]).z(), 0.0);
+  }
+}
+
+// In a recording one goes there and back: each way counts. A leap begins anew, a car that is placed drives nowhere.
+TEST(HeatMap, BackwardCountsALeapBeginsAnewAndPlacingIsNoWay) {
+  const auto world = PlaneWithRoad();
+  const auto at = [](int i) { return At(i * kStep_ns, {{0.2 * i, -70.0, 0.0}}); };
+  HeatMap map(*world);
+  for (int i = 0; i <= 100; ++i) map.Add(at(i));
+  for (int i = 99; i >= 0; --i) map.Add(at(i));
+  double distance_m = 0.0;
+  for (const auto& [key, cell] : map.cells()) distance_m += cell.distance_m;
+  EXPECT_NEAR(distance_m, 40.0, 1e-9);
+  map.Add(at(0));
+  EXPECT_NEAR(map.watched_s(), 4.0, 1e-9) << "standing still";
+  map.Add(at(200));
+  EXPECT_TRUE(map.cells().empty());
+  Moment placed = at(201);
+  placed.agents[0].p_WB_W.y() = 40.0;
+  map.Add(placed);
+  EXPECT_TRUE(map.cells().empty());
+}
+
+TEST(HeatMap, ADriversCarSaysWhatItBurns) {
+  const auto world = PlaneWithRoad();
+  HeatMap map(*world);
+  for (int i = 0; i <= 500; ++i) {
+    Moment moment;
+    moment.time_ns = i * kStep_ns;
+    moment.cars.emplace_back();
+    moment.cars[0].p_WB_W = {0.4 * i, -70.0, 0.0};
+    moment.cars[0].fuel_l = 40.0 - 0.4 * i * 7.0 / 1e5;
+    map.Add(moment);
+  }
+  for (const auto& [key, cell] : map.cells()) EXPECT_NEAR(*map.Value(HeatKind::kFuel, cell), 7.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace rodeira::scene

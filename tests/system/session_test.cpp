@@ -1,0 +1,146 @@
+// A person's session, by mouse and keyboard in real windows on a virtual display: from the start window to a picture and a recording.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include "common/base/files.hpp"
+#include "common/base/temporary_folder.hpp"
+#include "common/record/mcap_reader.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
+#include "idl/topics.hpp"
+#include "tests/system/command.hpp"
+
+namespace rodeira::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+constexpr int kScreenWidth = 1280, kScreenHeight = 1024;
+
+bool Has(const std::string& program) { return RunCommand({"/bin/sh", "-c", "command -v " + program}).status == 0; }
+
+bool Until(std::chrono::seconds limit, const std::function<bool()>& is) {
+  const auto end = std::chrono::steady_clock::now() + limit;
+  while (std::chrono::steady_clock::now() < end) {
+    if (is()) return true;
+    std::this_thread::sleep_for(100ms);
+  }
+  return false;
+}
+
+std::vector<fs::path> FilesOn(const fs::path& folder, const std::string& ending) {
+  std::vector<fs::path> files;
+  std::error_code problem;
+  for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem)) {
+    if (entry->path().extension() == ending) files.push_back(entry->path());
+  }
+  return files;
+}
+
+class Session : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!Has("Xvfb") || !Has("xdotool")) GTEST_SKIP() << "the packages xvfb and xdotool are not there";
+    const fs::path number = folder_.path() / "display";
+    server_ = std::make_unique<Started>(
+        std::vector<std::string>{"/bin/sh", "-c", "exec Xvfb -displayfd 3 -screen 0 1280x1024x24 3>" + number.string() + " 2>/dev/null"});
+    ASSERT_TRUE(Until(20s, [&] {
+      const auto text = base::ReadText(number);
+      if (!text || text.value().find('\n') == std::string::npos) return false;
+      display_ = text.value().substr(0, text.value().find('\n'));
+      return true;
+    })) << "the virtual display does not start";
+  }
+  void TearDown() override {
+    if (server_ != nullptr) ::kill(server_->pid(), SIGTERM);
+  }
+  std::string Do(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"DISPLAY=:" + display_, "/usr/bin/env", "xdotool"});
+    return RunCommand(words).out;
+  }
+  // Down long enough to be seen by a window that draws slowly.
+  void Click(int x, int y) const {
+    Do({"mousemove", std::to_string(x), std::to_string(y)});
+    std::this_thread::sleep_for(200ms);
+    Do({"mousedown", "1"});
+    std::this_thread::sleep_for(200ms);
+    Do({"mouseup", "1"});
+  }
+  // The window of that name, once it is there; it has the keyboard then.
+  bool Focus(const std::string& name, std::chrono::seconds limit) const {
+    std::string window;
+    const bool there = Until(limit, [&] {
+      window = Do({"search", "--name", name});
+      return !window.empty();
+    });
+    if (there) Do({"windowfocus", window.substr(0, window.find('\n'))});
+    return there;
+  }
+
+  base::TemporaryFolder folder_ = base::TemporaryFolder::Make("session").value();
+  std::unique_ptr<Started> server_;
+  std::string display_;
+};
+
+TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
+  const std::string data = folder_.path().string();
+  Started start({"DISPLAY=:" + display_, "XDG_DATA_HOME=" + data, "SDL_AUDIODRIVER=dummy", Bin("rodeira")});
+  ASSERT_TRUE(Focus("^Rodeira$", 30s)) << "the start window";
+  std::this_thread::sleep_for(1s);
+  constexpr int kLeft = (kScreenWidth - 820) / 2, kTop = (kScreenHeight - 640) / 2;
+  Click(kLeft + 77, kTop + 197);  // start
+  ASSERT_TRUE(Focus("^Rodeira: ", 60s)) << "the run's window";
+  ASSERT_TRUE(Until(30s, [&] { return !FilesOn(folder_.path() / "rodeira", ".mcap").empty(); }));
+  std::this_thread::sleep_for(3s);
+  Do({"key", "F6"});
+  std::this_thread::sleep_for(500ms);
+  Click(500, (kScreenHeight - 720) / 2 + 440);  // on the road before the car, or beside it
+  std::this_thread::sleep_for(1s);
+  Do({"keydown", "w"});
+  std::this_thread::sleep_for(3s);
+  Do({"keyup", "w"});
+  for (const char* key : {"Tab", "Tab", "F8", "F9", "F12"}) {
+    Do({"key", key});
+    std::this_thread::sleep_for(400ms);
+  }
+  const fs::path pictures = folder_.path() / "rodeira/pictures";
+  EXPECT_TRUE(Until(20s, [&] { return FilesOn(pictures, ".png").size() == 1 && fs::file_size(FilesOn(pictures, ".png")[0]) > 10'000; })) << "a picture";
+  ::kill(start.pid(), SIGINT);
+  (void)start.Wait(30s);
+
+  const auto recordings = FilesOn(folder_.path() / "rodeira", ".mcap");
+  ASSERT_EQ(recordings.size(), 1u);
+  std::string said;
+  ASSERT_TRUE(Until(30s, [&] {
+    const Ended verified = RunCommand({Bin("rodeira"), "replay", recordings[0].string(), "--verify"});
+    said = verified.out;
+    return verified.status == 0;
+  })) << said;
+  EXPECT_NE(said.find("live input taken from the recording: driver, story"), std::string::npos) << said;
+  EXPECT_NE(said.find("identical: "), std::string::npos) << said;
+  const auto reader = record::McapReader::Open(recordings[0]);
+  ASSERT_TRUE(reader.ok()) << reader.error().Text();
+  int placed = 0;
+  double driven_m = 0.0;
+  auto cursor = reader.value().Messages();
+  for (auto next = cursor.Next(); next.ok() && next.value(); next = cursor.Next()) {
+    const std::string& topic = reader.value().channels().at(next.value()->channel).topic;
+    if (topic == idl::topics::kVehicleState) driven_m = idl::Decode<msg::VehicleState>(next.value()->data).value().odometer_m();
+    if (topic != idl::topics::kScenarioEvents) continue;
+    const auto sample = idl::Decode<msg::ScenarioEvents>(next.value()->data).value();
+    for (const msg::ScenarioEvent& event : sample.events()) placed += event.name() == "vehicle.place" ? 1 : 0;
+  }
+  EXPECT_EQ(placed, 1);
+  EXPECT_GT(driven_m, 2.0);
+}
+
+}  // namespace
+}  // namespace rodeira::system_test
