@@ -48,6 +48,18 @@ void Describe(const TrafficOptions& options, const traffic::StudyResult& r, doub
   for (const std::string& incident : r.incidents) fmt::print("incident         {}\n", incident);
 }
 
+struct FlowsSeen {
+  std::vector<traffic::TrafficModel::FlowCount> flows;
+  std::uint64_t missed = 0;
+};
+
+void Describe(const FlowsSeen& seen) {
+  for (std::size_t f = 0; f < seen.flows.size(); ++f) {
+    fmt::print("flow {:<12}{} arrived, {} of them without a vehicle yet\n", f + 1, seen.flows[f].arrived, seen.flows[f].arrived - seen.flows[f].given);
+  }
+  if (!seen.flows.empty()) fmt::print("lanes missed     {} times a route's lane was not reached\n", seen.missed);
+}
+
 }  // namespace
 
 int TrafficRun(const TrafficOptions& options) {
@@ -59,7 +71,8 @@ int TrafficRun(const TrafficOptions& options) {
     if (!loaded) return Complain(loaded.error());
     settings.traffic = std::move(loaded).value();
   }
-  settings.traffic.vehicles = options.vehicles;
+  constexpr std::uint32_t kVehicles = 50;
+  if (options.vehicles || settings.traffic.demand.flows.empty()) settings.traffic.vehicles = options.vehicles.value_or(kVehicles);
   settings.traffic.seed = options.seed;
   settings.duration_s = options.duration_s;
   settings.step_s = options.step_s;
@@ -71,8 +84,10 @@ int TrafficRun(const TrafficOptions& options) {
   const bool terminal = !options.quiet && ::isatty(STDERR_FILENO) == 1;
   const auto begin = Clock::now();
   bool shown = false;
+  FlowsSeen flows;
   const auto result = traffic::RunStudy(settings, roads.value(), [&](const traffic::StudyMoment& moment) {
     files.Write(moment);
+    flows = {moment.model.flows(), moment.model.missed()};
     if (!terminal || SecondsSince(begin) < 2.0) return;
     fmt::print(stderr, "\r{:3.0f} %", 100.0 * moment.time_s / options.duration_s);
     shown = true;
@@ -83,6 +98,7 @@ int TrafficRun(const TrafficOptions& options) {
   if (!written) return Complain(written.error());
   if (options.quiet) return 0;
   Describe(options, result.value(), SecondsSince(begin));
+  Describe(flows);
   for (const std::string& file : written.value()) fmt::print("wrote            {}\n", file);
   return 0;
 }

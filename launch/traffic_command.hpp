@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace rodeira::front {
@@ -9,7 +10,7 @@ namespace rodeira::front {
 struct TrafficOptions {
   bool asked = false;
   std::string map;  // a world file, .xodr or .motors
-  std::uint32_t vehicles = 50;
+  std::optional<std::uint32_t> vehicles;  // 50, or as many as the settings' flows may have at a time
   double duration_s = 60.0;
   double step_s = 0.01;
   std::uint64_t seed = 1;

@@ -96,7 +96,7 @@ void TrafficFiles::Write(const traffic::StudyMoment& moment) {
 base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Network& network, const traffic::StudyResult& result) {
   std::vector<std::string> written;
   const lanes::Graph graph(network);
-  const std::string title = fmt::format("{}: {} vehicles, {:.0f} s", network.name(), options_.vehicles, options_.duration_s);
+  const std::string title = fmt::format("{}: {} vehicles, {:.0f} s", network.name(), result.on_road + result.waiting, options_.duration_s);
   const auto text = [&](const std::string& file, const std::string& content) {
     written.push_back(file);
     return WriteText(file, content);

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "common/lanes/right_of_way.hpp"
-#include "common/lanes/swath.hpp"
 
 namespace rodeira::lanes {
 namespace {
@@ -43,8 +42,8 @@ bool SamePlace(const CurvePoint& a, const CurvePoint& b) {
 
 }  // namespace
 
-Zones::Zones(const Graph& graph) : of_(graph.tracks().size()) {
-  const double reach = 2.0 * HalfSwath_m(1.0) + kMargin_m + kSpacing_m;
+Zones::Zones(const Graph& graph, const LargestCar& car) : of_(graph.tracks().size()) {
+  const double reach = 2.0 * HalfSwath_m(1.0, car) + kMargin_m + kSpacing_m;
   std::vector<NodeKey> near;
   for (std::uint32_t a = 0; a < graph.tracks().size(); ++a) {
     std::map<std::uint32_t, std::vector<Touch>> touches;  // by the other track
@@ -55,7 +54,7 @@ Zones::Zones(const Graph& graph) : of_(graph.tracks().size()) {
         const Curve& other = graph[key.track].curve;
         const Curve::Node& beside = other.nodes()[key.node];
         if (key.track <= a || std::fabs(beside.p_W.z() - node.p_W.z()) > network::Network::kLevel_m) continue;
-        const double wide = HalfSwath_m(node.curvature_1pm) + HalfSwath_m(beside.curvature_1pm) + kMargin_m;
+        const double wide = HalfSwath_m(node.curvature_1pm, car) + HalfSwath_m(beside.curvature_1pm, car) + kMargin_m;
         if ((beside.p_W.head<2>() - p).norm() > wide + kSpacing_m) continue;
         const Curve::Foot foot = other.FootNear(p, key.node);
         if ((other.At(foot.d_m).p_W.head<2>() - p).norm() < wide) touches[key.track].push_back({node.d_m, foot.d_m});

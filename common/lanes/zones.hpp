@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/lanes/graph.hpp"
+#include "common/lanes/swath.hpp"
 
 namespace rodeira::lanes {
 
@@ -35,7 +36,8 @@ struct ZoneSide {
 // All conflict zones of a network's tracks, and for each track those that it leads through, by where they begin.
 class Zones {
  public:
-  explicit Zones(const Graph& graph);
+  // For cars as large as this one.
+  explicit Zones(const Graph& graph, const LargestCar& car = {});
 
   const std::vector<Zone>& zones() const { return zones_; }
   const Zone& operator[](std::uint32_t zone) const { return zones_[zone]; }

@@ -23,11 +23,15 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("struck_z_m", struck_z_m);
   writer.Put("entry", entry);
   writer.Put("trip", trip);
+  writer.Put("flow", flow);
+  writer.Put("arrival", arrival);
   writer.Put("links", links);
+  writer.Put("leg", leg);
   writer.Put("o_m", o_m);
   writer.Put("speed_mps", speed_mps);
   writer.Put("acceleration_mps2", acceleration_mps2);
   writer.Put("driven_m", driven_m);
+  writer.Put("fuel_mg", fuel_mg);
   writer.Put("brake_mps2", brake_mps2);
   writer.Put("cap_mps", cap_mps);
   writer.Put("granted_m", granted_m);
@@ -47,6 +51,7 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("change_from_m", change.from_m);
   writer.Put("change_to_m", change.to_m);
   writer.Put("settled_ns", settled_ns);
+  writer.Put("seeks", seeks);
   std::vector<std::uint32_t> tracks;
   std::vector<double> numbers;
   for (const Piece& piece : path) {
@@ -64,11 +69,15 @@ void Agent::Restore(base::StateReader& reader) {
   reader.Get("struck_z_m", struck_z_m);
   reader.Get("entry", entry);
   reader.Get("trip", trip);
+  reader.Get("flow", flow);
+  reader.Get("arrival", arrival);
   reader.Get("links", links);
+  reader.Get("leg", leg);
   reader.Get("o_m", o_m);
   reader.Get("speed_mps", speed_mps);
   reader.Get("acceleration_mps2", acceleration_mps2);
   reader.Get("driven_m", driven_m);
+  reader.Get("fuel_mg", fuel_mg);
   reader.Get("brake_mps2", brake_mps2);
   reader.Get("cap_mps", cap_mps);
   reader.Get("granted_m", granted_m);
@@ -87,6 +96,7 @@ void Agent::Restore(base::StateReader& reader) {
   reader.Get("change_from_m", change.from_m);
   reader.Get("change_to_m", change.to_m);
   reader.Get("settled_ns", settled_ns);
+  reader.Get("seeks", seeks);
   std::vector<std::uint32_t> tracks;
   std::vector<double> numbers;
   reader.Get("tracks", tracks);

@@ -68,11 +68,15 @@ struct Agent {
   double struck_z_m = 0.0;  // its height, where no lane is below it
   std::uint32_t entry = 0;  // the track where it waits to enter
   std::uint32_t trip = 0;
+  std::int32_t flow = -1;     // to which it belongs; below 0: none
+  std::uint32_t arrival = 0;  // its number in the flow
   std::uint32_t links = 0;  // passed on this trip: keys of the draws at branches
+  std::uint32_t leg = 0;    // how many roads of its route it has reached, at its front
   double o_m = 0.0;         // odometer of its middle on this trip
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
   double driven_m = 0.0;
+  double fuel_mg = 0.0;     // burnt on this trip
   double brake_mps2 = 0.0;  // commanded; 0: not
   double cap_mps = kNoCap_mps;
   double granted_m = 0.0;   // odometer to which the conflict zones on its way are its own
@@ -81,6 +85,7 @@ struct Agent {
   double waited_s = 0.0;    // at rest for others to go first
   LaneChange change;
   std::int64_t settled_ns = 0;  // until then it keeps to its lane
+  bool seeks = false;           // drives slower to find a gap beside, for its route
   std::vector<Piece> path;  // from the piece under its rear bumper to that under its front bumper
 
   void Save(base::StateWriter& writer) const;

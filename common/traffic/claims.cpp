@@ -75,8 +75,8 @@ void TrafficModel::ComeToZones() {
       const double most = AllowedAt(id, crossing.in_m);
       Touch(static_cast<std::uint32_t>(crossing.zone));
       comers_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)].push_back(
-          {id, TravelTime(crossing.in_m - front, agents_[id].speed_mps, most),
-           TravelTime(crossing.out_m - rear, agents_[id].speed_mps, most)});
+          {id, TravelTime(crossing.in_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2),
+           TravelTime(crossing.out_m - rear, agents_[id].speed_mps, most, traits_[id].start_mps2)});
     }
   }
 }
@@ -107,22 +107,23 @@ void TrafficModel::OthersAtZones() {
         holders_[part.zone][mine].push_back({nobody, {}, 0.0});
       }
       if (block.span.speed_mps < 0.5 || block.span.left_m < -1.0 || block.span.right_m > 1.0) continue;
-      // Where it goes is not known: it comes to all zones within six seconds, on every way.
+      // Where it goes is not known: it comes to all zones within six seconds, on every way; but not past a light that is not green, if it can stop there.
       struct At { std::uint32_t track; double ahead_m; };
       std::vector<At> open{{track, -block.span.front_m}};
       for (std::size_t i = 0; i < open.size() && i < 64; ++i) {
         const At at = open[i];
+        const double stops_m = RedAhead(at.track, -at.ahead_m, block.span.speed_mps);
         for (const lanes::ZoneSide& part : zones().Of(at.track)) {
           const lanes::Zone& zone = zones()[part.zone];
           const auto mine = static_cast<std::size_t>(part.side);
           const double way = at.ahead_m + zone.in_m[mine], length = block.span.front_m - block.span.rear_m;
-          if (zone.kind == lanes::ZoneKind::kDiverge || way < 0.0 || way > 6.0 * block.span.speed_mps) continue;
+          if (zone.kind == lanes::ZoneKind::kDiverge || way < 0.0 || way > 6.0 * block.span.speed_mps || zone.in_m[mine] > stops_m) continue;
           Touch(part.zone);
           comers_[part.zone][mine].push_back(
               {nobody, way / block.span.speed_mps, (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
         }
         const double end = at.ahead_m + graph()[at.track].length_m();
-        if (end > 6.0 * block.span.speed_mps) continue;
+        if (end > 6.0 * block.span.speed_mps || stops_m < kNoBarrier_m) continue;
         for (const lanes::Link& link : graph()[at.track].next) open.push_back({link.to, end - link.from_d_m});
       }
     }

@@ -10,6 +10,7 @@ namespace {
 constexpr double kLeast_mps = 0.01;
 constexpr double kSlow_mps = 0.3;
 constexpr double kLeastGap_m = 0.02;
+constexpr double kSeekingShare = 0.75, kSeeking_mps2 = 1.0;  // of the planned speed, while a gap in the lane beside is looked for; its braking
 
 }  // namespace
 
@@ -53,10 +54,11 @@ double TrafficModel::Wanted(std::uint32_t id) const {
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.end_m >= agent.o_m) { road_limit = graph().SpeedLimit_mps(stretch.track, agent.o_m - stretch.zero_m); break; }
   }
-  const double limit = std::min(road_limit * traits.speed_factor, agent.cap_mps);
+  const double limit = std::min(road_limit * traits.speed_factor, Cap_mps(id));
   double wanted = std::min(driver::IdmFreeAcceleration(traits.idm, v, limit),
                            allowed.slope_1ps * traits.speed_factor * v + (planned - v) / settings_.tracking_s);
-  if (planned > agent.cap_mps) wanted = std::min(wanted, (agent.cap_mps - v) / settings_.tracking_s);
+  if (planned > Cap_mps(id)) wanted = std::min(wanted, (Cap_mps(id) - v) / settings_.tracking_s);
+  if (agent.seeks) wanted = std::min(wanted, std::max(-kSeeking_mps2, (kSeekingShare * planned - v) / settings_.tracking_s));
   const Ahead& ahead = ahead_[id];
   if (ahead.any && ahead.gap_m < settings_.sight_m) wanted = std::min(wanted, driver::IdmAcceleration(traits.idm, v, limit, ahead.gap_m, ahead.speed_mps));
   if (passages_[id].any && passages_[id].due) wanted = std::min(wanted, StopAt(id, passages_[id].line_m));

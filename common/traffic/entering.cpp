@@ -37,6 +37,8 @@ void TrafficModel::Leave(std::uint32_t id) {
   agent = Agent();
   agent.trip = trip;
   agent.driven_m = driven;
+  ++ended_;
+  if (has_flows()) return;  // the next vehicle of a flow is another one
   agent.entry = DrawEntry(id, trip);
   waiting_.push_back(id);
 }
@@ -47,7 +49,7 @@ void TrafficModel::Enter() {
   for (auto& present : present_) present.clear();
   const auto appear = [&](std::uint32_t id) {
     for (const Piece& piece : agents_[id].path) {
-      if (graph()[piece.track].entry) present_[piece.track].push_back(id);
+      if (map_->enters[piece.track]) present_[piece.track].push_back(id);
     }
   };
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
@@ -93,7 +95,7 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
   };
   FindStretches(id, settings_.sight_m);
   const double limit = map_->plans[agent.entry].limit_mps * traits.speed_factor;
-  double speed = kEnteringShare * Allowed(id).speed_mps * traits.speed_factor;
+  double speed = kEnteringShare * std::min(Allowed(id).speed_mps * traits.speed_factor, traits.top_mps);
   // Conflict zones right at the beginning must be free, and are its own from now on.
   for (const lanes::ZoneSide& part : zones().Of(agent.entry)) {
     const lanes::Zone& zone = zones()[part.zone];

@@ -16,6 +16,7 @@ constexpr double kAside = 0.1;              // … nor pointing farther apart
 constexpr double kTightest_1pm = 0.02;      // bends are no tighter
 constexpr double kLook_m = 4.0;             // apart, along the way
 constexpr double kSame_m = 1e-4, kSame = 1e-4;  // lanes that meet so go on as one
+constexpr double kRouteSight_m = 500.0;     // so far ahead a driver thinks of the lane that his route goes on from
 constexpr double kClear_m = 1.3;            // from a lane's middle to what is beside it: half of a wide car and the margin
 
 const lanes::Link* LinkTo(const lanes::Track& track, std::uint32_t to) {
@@ -102,24 +103,57 @@ bool TrafficModel::MayCross(std::uint32_t id, int side, double from_m, double to
   return true;
 }
 
-// Where its lane ends, or goes over into the lane beside; far away where neither is in sight.
-double TrafficModel::LaneEnds(std::uint32_t id) const {
-  const auto& stretches = stretches_[id];
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
-    if (stretches[i].changes) continue;
-    const auto& next = graph()[stretches[i].track].next;
-    if (next.empty()) return stretches[i].end_m;
-    if (i + 1 == stretches.size()) break;
-    const lanes::Link* link = LinkTo(graph()[stretches[i].track], stretches[i + 1].track);
-    if (link != nullptr && link->joins) return stretches[i].end_m;
+// Where the last track ends on which it can still get over to the lane that its route goes on from; far away where that is not in sight, or no
+// change is needed.
+double TrafficModel::RouteEnds(std::uint32_t id) const {
+  const Agent& agent = agents_[id];
+  const Route* route = RouteOf(agent);
+  if (route == nullptr) return kNoBarrier_m;
+  std::uint32_t track = agent.path.back().track;
+  Choice choice{agent.links, route->LegOn(agent.leg, track)};
+  double end = agent.path.back().zero_m + graph()[track].length_m();
+  while (route->Changes(choice.leg, track) > 0) {
+    if (route->MustChange(choice.leg, track)) return end;
+    if (end > agent.o_m + kRouteSight_m || graph()[track].next.empty()) break;
+    const lanes::Link& on = NextLink(id, track, choice);
+    track = on.to;
+    end += graph()[track].length_m() - on.from_d_m;
   }
   return kNoBarrier_m;
 }
 
+// By how many changes of lanes less it comes to its route's end from the lane beside than from its own.
+int TrafficModel::FewerChanges(std::uint32_t id, std::uint32_t track) const {
+  const Agent& agent = agents_[id];
+  const Route* route = RouteOf(agent);
+  if (route == nullptr) return 0;
+  const std::uint32_t leg = route->LegOn(agent.leg, track), own = agent.path.back().track;
+  const bool here = route->Reaches(agent.leg, own), there = route->Reaches(leg, track);
+  if (!here || !there) return (there ? 1 : 0) - (here ? 1 : 0);
+  return route->Changes(agent.leg, own) - route->Changes(leg, track);
+}
+
+// Where its lane ends, goes over into the lane beside, or parts from its route; far away where none is in sight.
+double TrafficModel::LaneEnds(std::uint32_t id) const {
+  const auto& stretches = stretches_[id];
+  const double parts = RouteEnds(id);
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    if (stretches[i].changes) continue;
+    const auto& next = graph()[stretches[i].track].next;
+    if (next.empty()) return std::min(parts, stretches[i].end_m);
+    if (i + 1 == stretches.size()) break;
+    const lanes::Link* link = LinkTo(graph()[stretches[i].track], stretches[i + 1].track);
+    if (link != nullptr && link->joins) return std::min(parts, stretches[i].end_m);
+  }
+  return parts;
+}
+
 void TrafficModel::BeginChange(std::uint32_t id, Sideways&& way) {
   Agent& agent = agents_[id];
+  agent.seeks = false;
   agent.change = {way.side, way.piece.blend_from_m, way.piece.blend_from_m + way.piece.blend_m};
   agent.path.push_back(way.piece);
+  if (const Route* route = RouteOf(agent)) agent.leg = route->LegOn(agent.leg, way.piece.track);
   stretches_[id] = std::move(way.stretches);
   const double front = way.piece.begin_m - way.piece.zero_m;
   Appear(way.piece.track, {id, front - traits_[id].length_m, front, -1});

@@ -21,6 +21,15 @@ void TrafficModel::FindColours() {
   }
 }
 
+// The first line of a track beyond a place whose light is not green, if who comes from there with this speed can stop before it; far away where there
+// is none.
+double TrafficModel::RedAhead(std::uint32_t track, double from_m, double speed_mps) const {
+  for (const StopLine& line : map_->plans[track].lines) {
+    if (line.light >= 0 && !IsGreen(line.light) && speed_mps * speed_mps <= 2.0 * kForAmber_mps2 * (line.d_m - from_m)) return line.d_m;
+  }
+  return kNoBarrier_m;
+}
+
 // Whether all lights on its way between two odometers show green.
 bool TrafficModel::AllGreen(std::uint32_t id, double from_m, double to_m) const {
   for (const Stretch& stretch : stretches_[id]) {

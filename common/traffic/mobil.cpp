@@ -14,13 +14,15 @@ constexpr std::int64_t kSettles_ns = 4'000'000'000;  // after a change
 constexpr double kSlowest_mps = 3.0;
 constexpr double kReaction_s = 2.0, kGentle_mps2 = 1.2;  // before whatever the other lane leads to it can stop by this
 constexpr double kOnLane_m = 1.5;                  // vehicles whose sides are nearer to a lane's middle drive on it
+constexpr double kSeeks_m = 350.0;                 // so far before its lane parts from its route it looks for a gap by driving slower
 constexpr double kSooner_m = 30.0;                 // a lane that ends so much sooner is no choice …
-constexpr double kEnding_mps2 = 1.0;               // … and one that ends is left for so much
+constexpr double kEnding_mps2 = 1.0;               // … and one that ends, or parts from the route, is left for so much …
+constexpr double kAtEnd_mps2 = 5.0, kFrom_m = 400.0;  // … growing to so much over the last part
 
 }  // namespace
 
 double TrafficModel::Limit_mps(std::uint32_t id, std::uint32_t track, double d_m) const {
-  return std::min(graph().SpeedLimit_mps(track, d_m) * traits_[id].speed_factor, agents_[id].cap_mps);
+  return std::min(graph().SpeedLimit_mps(track, d_m) * traits_[id].speed_factor, Cap_mps(id));
 }
 
 double TrafficModel::Following(std::uint32_t id, double limit_mps, bool any, double gap_m, double leader_mps) const {
@@ -93,7 +95,8 @@ std::optional<TrafficModel::Sideways> TrafficModel::Weigh(std::uint32_t id, int 
   const Ahead ahead = plain ? FindAhead(id) : Ahead();
   agent.path.pop_back();
   Sideways way{*piece, side, 0.0, std::exchange(stretches_[id], std::move(own))};
-  if (!plain || ends < own_ends - kSooner_m) return std::nullopt;
+  const int fewer = FewerChanges(id, piece->track);
+  if (!plain || ends < own_ends - kSooner_m || (fewer < 0 && ends < kNoBarrier_m)) return std::nullopt;
   const Behind old_follower = FindBehind(id, agent.path.back().track, agent.o_m - agent.path.back().zero_m, rear - agent.path.back().zero_m);
   const Behind follower = FindBehind(id, piece->track, agent.o_m - piece->zero_m, rear - piece->zero_m);
   if (ahead.any && ahead.gap_m < traits.idm.standing_gap_m) return std::nullopt;
@@ -108,7 +111,8 @@ std::optional<TrafficModel::Sideways> TrafficModel::Weigh(std::uint32_t id, int 
   mobil.old_follower_then_mps2 = FollowerDoes(old_follower, own_ahead.any, old_follower.gap_m + traits.length_m + own_ahead.gap_m, own_ahead.speed_mps);
   if (!driver::MobilIsSafe(settings_.lane_changes, mobil)) return std::nullopt;
   const bool keep = (side < 0) != graph()[piece->track].left_hand;
-  way.surplus_mps2 = driver::MobilSurplus(settings_.lane_changes, mobil, keep) + (own_ends < ends - kSooner_m ? kEnding_mps2 : 0.0);
+  const bool must = own_ends < ends - kSooner_m || (fewer > 0 && own_ends < kNoBarrier_m);
+  way.surplus_mps2 = driver::MobilSurplus(settings_.lane_changes, mobil, keep) + (must ? std::lerp(kAtEnd_mps2, kEnding_mps2, std::clamp((own_ends - to) / kFrom_m, 0.0, 1.0)) : 0.0);
   return way;
 }
 
@@ -132,6 +136,7 @@ void TrafficModel::ChangeLanes(std::int64_t step_ns) {
       auto way = Weigh(id, side);
       if (way && way->surplus_mps2 > 0.0 && (!best || way->surplus_mps2 > best->surplus_mps2)) best = std::move(way);
     }
+    agent.seeks = !best && RouteEnds(id) - agent.o_m < kSeeks_m;
     if (best) BeginChange(id, std::move(*best));
   }
 }

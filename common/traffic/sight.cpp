@@ -31,11 +31,12 @@ void TrafficModel::FindStretches(std::uint32_t id, double range_m) {
     stretches.push_back({piece.track, piece.zero_m, piece.begin_m, end, end < piece.zero_m + graph()[piece.track].length_m() - kWithout_m});
   }
   const double far = agent.o_m + 0.5 * traits_[id].length_m + range_m;
-  for (std::uint32_t link = agent.links; stretches.back().end_m < far; ++link) {
+  const Route* route = RouteOf(agent);
+  Choice choice{agent.links, route != nullptr ? route->LegOn(agent.leg, stretches.back().track) : 0};
+  while (stretches.back().end_m < far) {
     const Stretch& last = stretches.back();
-    const auto& next = graph()[last.track].next;
-    if (next.empty()) break;
-    const lanes::Link& on = next[DrawLink(agent, id, last.track, link)];
+    if (graph()[last.track].next.empty()) break;
+    const lanes::Link& on = NextLink(id, last.track, choice);
     const double zero = last.end_m - on.from_d_m;
     stretches.push_back({on.to, zero, last.end_m, zero + graph()[on.to].length_m(), false});
   }

@@ -31,8 +31,11 @@ void TrafficModel::Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, c
     const driver::Footprint body = FootprintOf(pose, traits_[id]);
     const std::uint32_t trip = agent.trip;
     const double driven = agent.driven_m;
+    const std::int32_t flow = agent.flow;
+    const std::uint32_t arrival = agent.arrival;
     agent = Agent();
     agent.trip = trip;
+    agent.flow = flow, agent.arrival = arrival;
     agent.driven_m = driven;
     agent.is_struck = true;
     agent.struck_z_m = pose.p_WB_W.z();

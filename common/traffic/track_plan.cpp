@@ -3,10 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/lanes/ring.hpp"
+
 namespace rodeira::traffic {
 namespace {
 
 constexpr double kAside_m = 1.0;
+constexpr double kTurn = 0.45;       // rad by which a way must bend to be a turn …
+constexpr double kLongTurn_m = 80.0;  // … no longer than this
+
+// To which side a track turns that is one of several ways on; into and along a roundabout's ring nobody indicates.
+int TurnOf(const lanes::Graph& graph, std::uint32_t track) {
+  const lanes::Track& at = graph[track];
+  const auto branches = [&](std::uint32_t before) { return graph[before].next.size() > 1; };
+  if (at.length_m() > kLongTurn_m || std::none_of(at.before.begin(), at.before.end(), branches)) return 0;
+  const auto on_ring = [&](std::uint32_t other) { return lanes::OnRing(graph, other); };
+  if (on_ring(track)) return 0;
+  if (std::any_of(at.before.begin(), at.before.end(), on_ring)) return at.left_hand ? 1 : -1;
+  if (std::any_of(at.next.begin(), at.next.end(), [&](const lanes::Link& link) { return on_ring(link.to); })) return 0;
+  const Eigen::Vector2d from = at.curve.At(0.0).ahead_W, to = at.curve.At(at.length_m()).ahead_W;
+  const double angle = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+  return std::fabs(angle) < kTurn ? 0 : angle > 0.0 ? 1 : -1;
+}
 
 }  // namespace
 
@@ -47,7 +65,7 @@ std::optional<driver::Way::Place> TrackWay::Locate(double x_m, double y_m, std::
 }
 
 TrackPlan::TrackPlan(const lanes::Graph& graph, std::uint32_t track, const driver::SpeedPlanSettings& settings)
-    : plan(TrackWay(graph, track), settings), limit_mps(graph.SpeedLimit_mps(track, 0.0)) {
+    : plan(TrackWay(graph, track), settings), limit_mps(graph.SpeedLimit_mps(track, 0.0)), turn(TurnOf(graph, track)) {
   for (const lanes::LightPlace& light : lanes::LightsOf(graph, track)) lines.push_back({light.d_m, light.controller});
   if (!lines.empty()) return;
   for (const lanes::SignPlace& sign : lanes::SignsOf(graph, track)) {

@@ -5,6 +5,7 @@
 
 #include "common/base/assert.hpp"
 #include "common/base/random.hpp"
+#include "common/traffic/fuel.hpp"
 #include "common/traffic/road_network.hpp"
 
 namespace rodeira::traffic {
@@ -16,9 +17,9 @@ constexpr double kEntryClear_m = 12.0;  // from a lane's beginning to its first 
 
 }  // namespace
 
-TrafficModel::Map::Map(std::shared_ptr<const network::Network> of, const driver::SpeedPlanSettings& speed)
-    : network(std::move(of)), graph(*network), zones(graph), marks(graph) {
-  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) plans.emplace_back(graph, track, speed);
+TrafficModel::Map::Map(std::shared_ptr<const network::Network> of, const TrafficSettings& settings)
+    : network(std::move(of)), graph(*network), zones(graph, LargestOf(settings)), marks(graph) {
+  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) plans.emplace_back(graph, track, settings.speed);
   for (const bool clear : {true, false}) {
     for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
       const bool early = std::any_of(zones.Of(track).begin(), zones.Of(track).end(), [&](const lanes::ZoneSide& side) {
@@ -28,12 +29,15 @@ TrafficModel::Map::Map(std::shared_ptr<const network::Network> of, const driver:
     }
     if (!entries.empty()) break;
   }
+  enters.resize(graph.tracks().size());
+  for (std::uint32_t track = 0; track < enters.size(); ++track) enters[track] = graph[track].entry;
 }
 
 TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<const Map> map)
     : settings_(settings), map_(std::move(map)), agents_(settings.vehicles) {
   for (std::uint32_t id = 0; id < settings_.vehicles; ++id) traits_.push_back(TraitsOf(settings_, id));
   for (const AgentTraits& traits : traits_) longest_half_m_ = std::max(longest_half_m_, 0.5 * traits.length_m);
+  if (!settings_.demand.flows.empty()) longest_half_m_ = 0.5 * LargestOf(settings_).length_m;
   stretches_.resize(agents_.size());
   ahead_.resize(agents_.size());
   passages_.resize(agents_.size());
@@ -62,22 +66,47 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
 base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
                                               std::span<const driver::Footprint> others) {
   RODEIRA_ASSERT(network != nullptr);
-  TrafficModel model(settings, std::make_shared<const Map>(std::move(network), settings.speed));
+  const auto map = std::make_shared<Map>(std::move(network), settings);
+  auto demand = Demand::Make(map->graph, map->marks, settings.demand);
+  if (!demand) return demand.error();
+  map->demand = std::move(demand).value();
+  for (const Demand::Flow& flow : map->demand.flows()) {
+    if (flow.track >= 0) map->enters[static_cast<std::size_t>(flow.track)] = true;
+  }
+  TrafficModel model(settings, map);
   if (settings.vehicles > 0 && model.map_->entries.empty()) {
     return base::WrongInput("the network '" + model.map_->network->name() + "' has no lane to put traffic on; drivable lanes, or 0 vehicles, were expected");
   }
   if (const auto status = lanes::CheckLights(model.map_->graph, model.map_->zones); !status) return status.error();
   model.FindColours();
-  if (settings.vehicles > 0) model.PlaceAll(others);
+  if (!settings.demand.flows.empty()) model.BeginFlows();
+  else if (settings.vehicles > 0) model.PlaceAll(others);
   model.FindPoses();
   return model;
 }
 
-// Which of a track's links the agent takes as the n-th of its trip: by lot.
-std::size_t TrafficModel::DrawLink(const Agent& agent, std::uint32_t id, std::uint32_t track, std::uint32_t link) const {
+const Route* TrafficModel::RouteOf(const Agent& agent) const {
+  if (agent.flow < 0) return nullptr;
+  const std::int64_t route = map_->demand.flows()[static_cast<std::size_t>(agent.flow)].route;
+  return route < 0 ? nullptr : &map_->demand.route(route);
+}
+
+// How the agent goes on from a track: as its route says; without one, or where that cannot be reached any more, by lot.
+const lanes::Link& TrafficModel::NextLink(std::uint32_t id, std::uint32_t track, Choice& choice) const {
+  const Agent& agent = agents_[id];
   const auto& next = graph()[track].next;
-  const double draw = base::RandomUniform({settings_.seed, id, kDrawLink, agent.trip, link});
-  return static_cast<std::size_t>(draw * static_cast<double>(next.size()));
+  const Route* route = RouteOf(agent);
+  std::optional<std::size_t> chosen = route != nullptr ? route->LinkOn(graph(), choice.leg, track) : std::nullopt;
+  if (!chosen) {
+    const double draw = base::RandomUniform({settings_.seed, id, kDrawLink, agent.trip, choice.link});
+    const auto shares = map_->demand.Shares(track);
+    if (shares.empty()) chosen = static_cast<std::size_t>(draw * static_cast<double>(next.size()));
+    else chosen = std::min<std::size_t>(static_cast<std::size_t>(std::upper_bound(shares.begin(), shares.end(), draw) - shares.begin()), next.size() - 1);
+  }
+  const lanes::Link& link = next[*chosen];
+  ++choice.link;
+  if (route != nullptr) choice.leg = route->LegOn(choice.leg, link.to);
+  return link;
 }
 
 void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) {
@@ -101,6 +130,7 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
     if (AtTheEnd(id)) Leave(id);
   }
   SlideStruck(dt_s);
+  Arrive(time_ns_ + step_ns);
   Enter();
   time_ns_ += step_ns;
   FindColours();
@@ -146,6 +176,7 @@ void TrafficModel::Move(std::uint32_t id, double acceleration_mps2, double dt_s)
   agent.acceleration_mps2 = (after - before) / dt_s;
   agent.speed_mps = after;
   agent.driven_m += travel;
+  agent.fuel_mg += FuelFlow_mgps(traits_[id], 0.5 * (before + after), agent.acceleration_mps2) * dt_s;
   if (travel > 0.0) agent.o_m = Moved(id, travel);
 }
 
@@ -157,9 +188,13 @@ void TrafficModel::Follow(std::uint32_t id) {
     const Piece& last = agent.path.back();
     const lanes::Track& track = graph()[last.track];
     if (agent.o_m + half <= last.zero_m + track.length_m() || track.next.empty()) break;
-    const lanes::Link& link = track.next[DrawLink(agent, id, last.track, agent.links)];
+    const Route* route = RouteOf(agent);
+    if (route != nullptr && route->MustChange(agent.leg, last.track)) ++missed_;
+    Choice choice{agent.links, agent.leg};
+    const lanes::Link& link = NextLink(id, last.track, choice);
     agent.path.push_back(Onward(graph(), agent.path, link, agent.speed_mps));
-    ++agent.links;
+    agent.links = choice.link, agent.leg = choice.leg;
+    agent.seeks = false;
   }
   while (agent.path.size() > 1 && agent.path[1].begin_m < agent.o_m - half - 1.0) agent.path.erase(agent.path.begin());
 }
@@ -176,6 +211,13 @@ void TrafficModel::Save(base::StateWriter& writer) const {
   writer.Put("waiting", waiting_);
   writer.Put("next_grant", next_grant_);
   writer.Put("time_ns", time_ns_);
+  writer.Put("ended", ended_);
+  writer.Put("missed", missed_);
+  for (const FlowCount& flow : flows_) {
+    writer.Put("arrived", flow.arrived);
+    writer.Put("given", flow.given);
+    writer.Put("next_ns", flow.next_ns);
+  }
 }
 
 // A snapshot comes from outside: whatever it says, nothing is read beside the arrays.
@@ -184,10 +226,21 @@ void TrafficModel::Restore(base::StateReader& reader) {
   reader.Get("waiting", waiting_);
   reader.Get("next_grant", next_grant_);
   reader.Get("time_ns", time_ns_);
+  reader.Get("ended", ended_);
+  reader.Get("missed", missed_);
+  for (FlowCount& flow : flows_) {
+    reader.Get("arrived", flow.arrived);
+    reader.Get("given", flow.given);
+    reader.Get("next_ns", flow.next_ns);
+  }
   for (Agent& agent : agents_) {
     const auto tracks = graph().tracks().size();
     if (agent.entry >= tracks || std::any_of(agent.path.begin(), agent.path.end(), [&](const Piece& p) { return p.track >= tracks; })) agent = Agent();
+    if (agent.flow >= static_cast<std::int32_t>(flows_.size())) agent.flow = -1;
+    const Route* route = RouteOf(agent);
+    if (route != nullptr) agent.leg = std::min(agent.leg, route->legs());
   }
+  for (std::uint32_t id = 0; has_flows() && id < agents_.size(); ++id) traits_[id] = TraitsFor(id);
   std::erase_if(waiting_, [&](std::uint32_t id) { return id >= agents_.size(); });
   FindColours();
   FindPoses();

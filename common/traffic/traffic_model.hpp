@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,6 +15,8 @@
 #include "common/lanes/zones.hpp"
 #include "common/road/world.hpp"
 #include "common/traffic/agent.hpp"
+#include "common/traffic/agent_detail.hpp"
+#include "common/traffic/demand.hpp"
 #include "common/traffic/track_plan.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
@@ -23,7 +26,7 @@ namespace rodeira::traffic {
 // speed that limits, bends and crests allow, and enters a stretch that other ways cross only when all of it up to the next
 // place to stand is its own (docs/traffic.md). A car that reaches the end of its last lane leaves and enters again, by lot,
 // where traffic enters the network, as soon as there is a safe gap: their number never changes, and nobody is moved or
-// removed elsewhere. They see other vehicles (the driver's car) by their rectangles, wherever they are. On roads
+// removed elsewhere. With flows (DemandSettings) they come as those say, with a route or without, and are gone at the end of their way. They see other vehicles (the driver's car) by their rectangles, wherever they are. On roads
 // of several lanes they change lanes where that brings them on (MOBIL). Nothing here depends on order of arrival, threads or the clock: the state is Save's, and each
 // step is a function of it and of `others`.
 class TrafficModel {
@@ -57,8 +60,23 @@ class TrafficModel {
   std::size_t on_road() const { return poses_.size(); }
   std::size_t vehicles() const { return agents_.size(); }
   std::size_t waiting() const { return waiting_.size(); }
+  // Of each flow: how many have arrived, and how many of those have been given a vehicle (fewer only where all `vehicles` are in use).
+  // Given = waiting to enter + on the road + ended, always.
+  struct FlowCount {
+    std::uint32_t arrived = 0, given = 0;
+    std::int64_t next_ns = -1;  // when the next one arrives; below 0: none does
+  };
+  const std::vector<FlowCount>& flows() const { return flows_; }
+  std::uint64_t ended() const { return ended_; }
+  // How often somebody did not get over to the lane that his route goes on from.
+  std::uint64_t missed() const { return missed_; }
   // From its front bumper to who is ahead, as it was seen in the last step; 1e9 where nobody is in sight.
   double GapAhead(std::uint32_t id) const { return ahead_[id].gap_m; }
+  // Which lights it shows, bits as in vehicle.idl: brake 1, left 2, right 4. Who changes lanes, or is to turn within 30 m or three seconds,
+  // indicates; in a roundabout only who leaves it.
+  std::uint32_t LightsOf(const AgentPose& pose) const;
+  // Of those on the road, in the order of poses().
+  std::vector<AgentDetail> Details();
   // By the network's controllers: what their lights show. Those without times are dark, and show red here.
   const std::vector<network::LightColour>& colours() const { return colours_; }
   const lanes::Graph& graph() const { return map_->graph; }
@@ -76,14 +94,20 @@ class TrafficModel {
     lanes::EdgeMarks marks;
     std::vector<TrackPlan> plans;  // by track
     std::vector<std::uint32_t> entries;
+    std::vector<bool> enters;  // by track: somebody may begin his way there
+    Demand demand;
 
-    Map(std::shared_ptr<const network::Network> of, const driver::SpeedPlanSettings& speed);
+    Map(std::shared_ptr<const network::Network> of, const TrafficSettings& settings);
   };
   // A track on an agent's way, in its odometer.
   struct Stretch {
     std::uint32_t track = 0;
     double zero_m = 0.0, begin_m = 0.0, end_m = 0.0;
     bool changes = false;  // goes over to the lane beside at its end
+  };
+  // Keys of the next choice of a way: links passed, and legs of the route.
+  struct Choice {
+    std::uint32_t link = 0, leg = 0;
   };
   // Somebody on a track, in its own d, which may lie beyond its ends.
   struct Occupant {
@@ -164,7 +188,8 @@ class TrafficModel {
   void SeeOthers(std::span<const driver::Footprint> others);
   std::span<const Occupant> Beyond(std::uint32_t track, double d_m) const;
   Ahead FindAhead(std::uint32_t id) const;
-  std::size_t DrawLink(const Agent& agent, std::uint32_t id, std::uint32_t track, std::uint32_t link) const;
+  const lanes::Link& NextLink(std::uint32_t id, std::uint32_t track, Choice& choice) const;
+  const Route* RouteOf(const Agent& agent) const;
   double SightOf(const Agent& agent) const;
 
   // Changes to the lane beside.
@@ -174,6 +199,8 @@ class TrafficModel {
   bool IsPlain(std::uint32_t id, double from_m, double to_m) const;
   bool MayCross(std::uint32_t id, int side, double from_m, double to_m) const;
   double LaneEnds(std::uint32_t id) const;
+  double RouteEnds(std::uint32_t id) const;
+  int FewerChanges(std::uint32_t id, std::uint32_t track) const;
   Behind FindBehind(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const;
   double FollowerDoes(const Behind& behind, bool any, double gap_m, double leader_mps) const;
   double Following(std::uint32_t id, double limit_mps, bool any, double gap_m, double leader_mps) const;
@@ -202,6 +229,7 @@ class TrafficModel {
   void FindBarrier(std::uint32_t id);
   void ResolveDeadlocks();
   bool IsGreen(std::int64_t light) const { return colours_[static_cast<std::size_t>(light)] == network::LightColour::kGreen; }
+  double RedAhead(std::uint32_t track, double from_m, double speed_mps) const;
   bool AllGreen(std::uint32_t id, double from_m, double to_m) const;
   void ObeyLights(std::uint32_t id);
   bool Urgent(std::uint32_t id) const;
@@ -210,6 +238,7 @@ class TrafficModel {
   // Driving.
   double Wanted(std::uint32_t id) const;
   driver::SpeedPlan::Allowed Allowed(std::uint32_t id) const;
+  double Cap_mps(std::uint32_t id) const { return std::min(agents_[id].cap_mps, traits_[id].top_mps); }
   double StopAt(std::uint32_t id, double odometer_m) const;
   void Move(std::uint32_t id, double acceleration_mps2, double dt_s);
   double Advance(std::uint32_t id, double odometer_m) const;
@@ -222,6 +251,11 @@ class TrafficModel {
   // Coming and going.
   void PlaceAll(std::span<const driver::Footprint> others);
   void Leave(std::uint32_t id);
+  bool has_flows() const { return !flows_.empty(); }
+  void BeginFlows();
+  void Arrive(std::int64_t until_ns);
+  void Begin(std::uint32_t id, std::uint32_t flow, std::uint32_t arrival);
+  AgentTraits TraitsFor(std::uint32_t id) const;
   std::uint32_t DrawEntry(std::uint32_t id, std::uint32_t trip) const;
   double AtMostForLine(std::uint32_t id);
   void Enter();
@@ -239,6 +273,8 @@ class TrafficModel {
   double longest_half_m_ = 0.0;  // of all agents
   std::vector<std::uint32_t> waiting_;  // to enter, first come first
   std::uint64_t next_grant_ = 1;
+  std::vector<FlowCount> flows_;
+  std::uint64_t ended_ = 0, missed_ = 0;  // trips; lanes for routes
   std::int64_t time_ns_ = 0;  // since the beginning
   std::vector<AgentPose> poses_;
   std::vector<driver::Footprint> bodies_;  // what agents see that does not drive as they do: other vehicles, and who has been struck

@@ -8,6 +8,8 @@
 #include "common/driver/idm.hpp"
 #include "common/driver/mobil.hpp"
 #include "common/driver/speed_plan.hpp"
+#include "common/lanes/swath.hpp"
+#include "common/traffic/demand_settings.hpp"
 
 namespace rodeira::traffic {
 
@@ -25,6 +27,8 @@ struct TrafficSettings {
   double sight_m = 200.0;
   bool changes_lanes = true;
   driver::MobilSettings lane_changes;
+  VehicleMix mix;         // of who does not belong to a flow with a mix of its own
+  DemandSettings demand;  // with flows `vehicles` is how many there are at a time at most; the roads are empty at first
 };
 
 // Reads `vehicles`, `following`, `comfort` … of a mapping; the seed is the run's. Problems stay in the file's collection.
@@ -33,8 +37,9 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed);
 // The same from a file of its own (`rodeira: traffic/1`).
 base::Result<TrafficSettings> LoadTraffic(const std::filesystem::path& path, std::uint64_t seed);
 
-// What does not change about one agent: a pure function of settings and number.
+// What does not change about one agent: a pure function of settings and its number, or of a flow's number in it.
 struct AgentTraits {
+  VehicleKind kind = VehicleKind::kCar;
   double length_m = 4.0;
   double width_m = 1.7;
   double height_m = 1.45;
@@ -43,8 +48,14 @@ struct AgentTraits {
   double mass_kg = 1300.0;
   std::uint32_t colour_rgb = 0x808080;
   double speed_factor = 1.0;
+  double top_mps = 1e3;  // what the law, or its engine, lets it drive at most
+  double start_mps2 = 1.3;  // acceleration by which others, and itself, tell when it comes
   driver::IdmSettings idm;
 };
-AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id);
+AgentTraits TraitsOf(const TrafficSettings& settings, const VehicleMix& mix, std::uint64_t key);
+inline AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id) { return TraitsOf(settings, settings.mix, id); }
+
+// The longest, widest and longest between axles of all kinds that there may be any of.
+lanes::LargestCar LargestOf(const TrafficSettings& settings);
 
 }  // namespace rodeira::traffic

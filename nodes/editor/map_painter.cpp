@@ -3,6 +3,7 @@
 #include <SDL_opengl.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "common/editor/lane_tools.hpp"
@@ -16,7 +17,8 @@ constexpr int kMostPieces = 24;
 constexpr double kPiece_px = 12.0;
 constexpr Colour kStart = {70, 190, 90, 110}, kEnd = {210, 80, 70, 110}, kPlain = {90, 130, 190, 100};
 constexpr Colour kLine = {245, 245, 245, 255}, kUnused = {255, 170, 60, 255}, kHandle = {255, 220, 90, 255}, kArm = {255, 220, 90, 120};
-constexpr Colour kLink = {120, 220, 255, 200}, kStop = {235, 40, 40, 255}, kChosen = {255, 235, 60, 255}, kProposed = {255, 120, 255, 255};
+constexpr Colour kLink = {120, 220, 255, 200}, kStop = {235, 40, 40, 255}, kGiveWay = {255, 255, 255, 255}, kLight = {80, 230, 110, 255};
+constexpr Colour kChosen = {255, 235, 60, 255}, kProposed = {255, 120, 255, 255};
 
 const Colour& ColourOf(map::LaneMode mode) {
   if (mode == map::LaneMode::kStart) return kStart;
@@ -122,9 +124,29 @@ void MapPainter::Build(const editor::Document& document) {
     const auto from = lanes.Find(line.value.from), to = lanes.Find(line.value.to);
     if (!from || !to || !middles[*from] || !middles[*to]) continue;
     AddLink(links_, *middles[*from], *middles[*to], line.value.stop ? kStop : kLink);
-    if (!line.value.stop) continue;
-    const auto borders = editor::BordersOf(document, document.map.lanes[*from].value);
-    AddLine(bars_, borders->left.p_W[3], borders->right.p_W[3], kStop);
+  }
+  AddBars(document, lanes);
+}
+
+// Lines at the ends of lanes: where a STOP or give-way sign stands, or a light.
+void MapPainter::AddBars(const editor::Document& document, const map::NumberIndex& lanes) {
+  const auto add = [&](std::int32_t number, const Colour& colour) {
+    const auto at = lanes.Find(number);
+    const auto borders = at ? editor::BordersOf(document, document.map.lanes[*at].value) : std::nullopt;
+    if (borders) AddLine(bars_, borders->left.p_W[3], borders->right.p_W[3], colour);
+  };
+  for (const auto& line : document.map.connections) {
+    if (line.value.stop) add(line.value.from, kStop);
+  }
+  for (const map::LaneSign& sign : document.companion.signs) {
+    if (sign.kind == map::SignKind::kStop) add(sign.lane, kStop);
+    if (sign.kind == map::SignKind::kGiveWay) add(sign.lane, kGiveWay);
+  }
+  for (const lights::LightPlan& plan : document.companion.lights) {
+    for (const std::string& name : plan.Names()) {
+      std::int32_t number = 0;
+      if (std::from_chars(name.data(), name.data() + name.size(), number).ec == std::errc()) add(number, kLight);
+    }
   }
 }
 

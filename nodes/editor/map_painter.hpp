@@ -43,6 +43,7 @@ class MapPainter {
   void AddCurve(Vertices& lines, const map::Cubic& cubic, const Colour& colour, bool dashed = false) const;
   void AddLink(Vertices& lines, const map::Cubic& from, const map::Cubic& to, const Colour& colour) const;
   void AddRectangle(Vertices& triangles, const Eigen::Vector2d& middle, const Eigen::Vector2d& ahead, double half_length_m, double half_width_m, const Colour& colour) const;
+  void AddBars(const editor::Document& document, const map::NumberIndex& lanes);
   void Build(const editor::Document& document);
   static void Draw(const Vertices& vertices, unsigned mode);
 

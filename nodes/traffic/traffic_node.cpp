@@ -19,7 +19,7 @@ namespace topics = idl::topics;
 
 float Single(double value) { return static_cast<float>(value); }
 
-msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTraits& traits) {
+msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTraits& traits, std::uint32_t lights) {
   const Eigen::Matrix3d rotation = pose.q_WB.toRotationMatrix();
   msg::TrafficAgent out;
   out.id(pose.id);
@@ -40,8 +40,25 @@ msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTra
   out.steer_rad(Single(pose.steer_rad));
   out.wheel_spin_rad(Single(pose.wheel_spin_rad));
   out.colour_rgb(traits.colour_rgb);
-  out.kind(0);
-  out.lights(pose.braking ? 1 : 0);
+  out.kind(static_cast<std::uint32_t>(traits.kind));
+  out.lights(lights);
+  return out;
+}
+
+msg::TrafficDetail ToWire(const traffic::AgentDetail& detail) {
+  constexpr double kKilograms = 1e-6;  // a milligram
+  msg::TrafficDetail out;
+  out.id(detail.id);
+  out.throttle(Single(detail.driving.throttle));
+  out.brake(Single(detail.driving.brake));
+  out.clutch(Single(detail.driving.clutch));
+  out.engine_speed_radps(Single(detail.driving.engine_radps));
+  out.fuel_rate_kgps(Single(kKilograms * detail.fuel_mgps));
+  out.fuel_used_kg(Single(kKilograms * detail.fuel_used_mg));
+  out.target_speed_mps(Single(detail.target_mps));
+  out.look_ahead_x_m(Single(detail.look_ahead_W.x()));
+  out.look_ahead_y_m(Single(detail.look_ahead_W.y()));
+  out.gear(detail.driving.gear);
   return out;
 }
 
@@ -62,7 +79,7 @@ class TrafficNode final : public lockstep::Node {
   TrafficNode(std::string name, lockstep::SourceIndex stream, traffic::TrafficModel model) : name_(std::move(name)), stream_(stream), model_(std::move(model)) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
-    Publish(outbox);
+    Publish(outbox, true);
     return {};
   }
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
@@ -84,7 +101,9 @@ class TrafficNode final : public lockstep::Node {
       }
     }
     model_.Step(step.dt_s, others_);
-    Publish(outbox);
+    constexpr std::int64_t kDetailsEvery_ns = 100'000'000;
+    const std::int64_t period_ns = std::llround(step.dt_s * 1e9), end_ns = step.time_ns + period_ns;
+    Publish(outbox, end_ns / kDetailsEvery_ns > step.time_ns / kDetailsEvery_ns);
     return {};
   }
   void Save(base::StateWriter& out) const override { out.Put("model", model_); }
@@ -141,12 +160,17 @@ class TrafficNode final : public lockstep::Node {
     }
     return agents;
   }
-  void Publish(lockstep::Outbox& outbox) const {
+  void Publish(lockstep::Outbox& outbox, bool with_details) {
     msg::TrafficState state;
     state.agents().reserve(model_.poses().size());
-    for (const traffic::AgentPose& pose : model_.poses()) state.agents().push_back(ToWire(pose, model_.traits(pose.id)));
+    for (const traffic::AgentPose& pose : model_.poses()) state.agents().push_back(ToWire(pose, model_.traits(pose.id), model_.LightsOf(pose)));
     outbox.Put(topics::kTrafficState, idl::Encode(state));
     outbox.Put(topics::kSignalsState, idl::Encode(Lights()));
+    msg::TrafficDetails details;
+    if (with_details) {
+      for (const traffic::AgentDetail& detail : model_.Details()) details.agents().push_back(ToWire(detail));
+    }
+    outbox.Put(topics::kTrafficDetails, idl::Encode(details));
   }
 
   msg::SignalsState Lights() const {

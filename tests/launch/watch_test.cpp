@@ -50,6 +50,7 @@ base::Bytes Payload(const lockstep::Source& source, Step step) {
     return idl::Encode(car);
   }
   if (source.topic == idl::topics::kSignalsState) return idl::Encode(msg::SignalsState());
+  if (source.topic == idl::topics::kTrafficDetails) return idl::Encode(msg::TrafficDetails());
   msg::TrafficState traffic;
   for (const std::uint32_t id : {4U, 9U}) {
     msg::TrafficAgent agent;

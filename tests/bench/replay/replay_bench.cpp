@@ -43,6 +43,7 @@ base::Bytes Payload(const lockstep::Source& source, Step step) {
     return idl::Encode(car);
   }
   if (source.topic == idl::topics::kSignalsState) return idl::Encode(msg::SignalsState());
+  if (source.topic == idl::topics::kTrafficDetails) return idl::Encode(msg::TrafficDetails());
   msg::TrafficState traffic;
   for (std::uint32_t id = 0; id < 20; ++id) {
     msg::TrafficAgent agent;

@@ -35,7 +35,7 @@ TEST(Launch, WiresEverybodyByTopic) {
   const auto& traffic = roster.node(roster.Find("traffic"));
   EXPECT_EQ(traffic.period, 20);
   EXPECT_EQ(traffic.delay, 40);
-  EXPECT_EQ(roster.node(roster.Find("recorder")).inputs.size(), 6u) << "five streams of samples, and the snapshots";
+  EXPECT_EQ(roster.node(roster.Find("recorder")).inputs.size(), 7u) << "six streams of samples, and the snapshots";
   EXPECT_EQ(roster.node(roster.Find("road")).role, lockstep::Role::kService);
   EXPECT_EQ(launch.node(1).config->OptionalChild("config").Text("source"), "script");
 }

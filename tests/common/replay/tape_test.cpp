@@ -29,6 +29,7 @@ base::Bytes Payload(const lockstep::Source& source, Step step) {
   if (source.topic == idl::topics::kTrafficState) return idl::Encode(msg::TrafficState());
   if (source.topic == idl::topics::kCollisions) return idl::Encode(msg::Collisions());
   if (source.topic == idl::topics::kSignalsState) return idl::Encode(msg::SignalsState());
+  if (source.topic == idl::topics::kTrafficDetails) return idl::Encode(msg::TrafficDetails());
   msg::VehicleState car;
   car.position_w_m().x(0.02 * static_cast<double>(step));
   return idl::Encode(car);

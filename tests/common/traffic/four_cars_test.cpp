@@ -69,6 +69,8 @@ class FourCars : public testing::Test {
     writer.Put("waiting", std::vector<std::uint32_t>{});
     writer.Put("next_grant", std::uint64_t{1});
     writer.Put("time_ns", std::int64_t{0});
+    writer.Put("ended", std::uint64_t{0});
+    writer.Put("missed", std::uint64_t{0});
     base::StateReader reader(writer.bytes());
     model_->Restore(reader);
     EXPECT_TRUE(reader.Finish().ok());

@@ -194,6 +194,41 @@ TEST(Lights, RestoredAtAnyColourItGoesOnWithTheSameBits) {
   EXPECT_EQ(digest(a), digest(b));
 }
 
+// A driver's car that comes from the right towards its red light, and can stop, keeps nobody waiting who has green: those drive to the bit as without it.
+TEST(Lights, NobodyYieldsToACarThatComesToARedLight) {
+  constexpr double kBefore_light_m = 25.0, kGhost_mps = 8.0;
+  const auto network = lanes::MapNetwork("lights");
+  const lanes::Graph graph(*network);
+  std::vector<std::uint32_t> arms;
+  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
+    if (!lanes::LightsOf(graph, track).empty() && graph[track].entry) arms.push_back(track);
+  }
+  ASSERT_EQ(arms.size(), 4u);
+  const auto ahead = [&](std::uint32_t track) { return graph[track].curve.At(graph[track].length_m()).ahead_W; };
+  const auto from_the_right = std::find_if(arms.begin(), arms.end(), [&](std::uint32_t arm) {
+    return ahead(arms[0]).x() * ahead(arm).y() - ahead(arms[0]).y() * ahead(arm).x() > 0.9;
+  });
+  ASSERT_NE(from_the_right, arms.end());
+  const auto light = lanes::LightsOf(graph, *from_the_right)[0];
+  const lanes::CurvePoint at = graph[*from_the_right].curve.At(light.d_m - kBefore_light_m);
+  const driver::Footprint ghost{1'000'000, at.p_W.x(), at.p_W.y(), std::atan2(at.ahead_W.y(), at.ahead_W.x()), kGhost_mps, 4.4, 1.8};
+  TrafficSettings settings;
+  settings.vehicles = 30;
+  FlowSettings flow;
+  flow.lane = network->roads()[graph[arms[0]].lane.road].id() + ":" + std::to_string(graph[arms[0]].lane.lane);
+  flow.per_h = {900.0};
+  settings.demand.flows = {flow};
+  TrafficModel without = TrafficModel::Make(settings, network, {}).value(), with = TrafficModel::Make(settings, network, {}).value();
+  for (int i = 0; i < 6000; ++i) {
+    const bool red = with.colours()[light.controller] == LightColour::kRed;
+    without.Step(0.02, {});
+    with.Step(0.02, red ? std::span(&ghost, 1) : std::span<const driver::Footprint>());
+    ASSERT_EQ(with.poses().size(), without.poses().size()) << i;
+    for (std::size_t k = 0; k < with.poses().size(); ++k) ASSERT_EQ(with.poses()[k].p_WB_W, without.poses()[k].p_WB_W) << i;
+  }
+  EXPECT_GT(with.ended(), 5u);
+}
+
 TEST(Lights, ConflictingGreensAreRefused) {
   const auto file = map::LoadMap(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/maps/lights.motors");
   const auto heights = map::ParseHeights("rodeira: motors/1\nlights: [{phases: [{green: [1, 3], for_s: 20}, {green: [5, 7], for_s: 9}]}]\n", "x.yaml");

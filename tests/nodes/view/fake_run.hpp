@@ -53,6 +53,7 @@ class FakeSource final : public lockstep::Node {
       return outbox.Put(topic_, idl::Encode(Car(time_s)));
     }
     outbox.Put(idl::topics::kSignalsState, idl::Encode(msg::SignalsState()));
+    outbox.Put(idl::topics::kTrafficDetails, idl::Encode(msg::TrafficDetails()));
     msg::TrafficState traffic;
     msg::TrafficAgent agent;
     agent.id(7);

@@ -1,0 +1,78 @@
+// What agents do with pedals, engine and lights, as their motion says.
+#include <algorithm>
+#include <cmath>
+
+#include "common/driver/steering.hpp"
+#include "common/traffic/fuel.hpp"
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr std::uint32_t kBrake = 1, kLeft = 2, kRight = 4;
+constexpr double kIndicates_s = 3.0, kIndicates_m = 30.0;  // before the turn
+
+}  // namespace
+
+std::uint32_t TrafficModel::LightsOf(const AgentPose& pose) const {
+  const Agent& agent = agents_[pose.id];
+  std::uint32_t lights = pose.braking ? kBrake : 0;
+  if (!agent.on_road) return lights;
+  int side = agent.change.side != 0 && agent.o_m < agent.change.to_m ? agent.change.side : 0;
+  const double to = agent.o_m + 0.5 * traits_[pose.id].length_m + std::max(kIndicates_m, kIndicates_s * agent.speed_mps);
+  std::uint32_t track = agent.path.front().track;
+  Choice choice{agent.links, agent.leg};
+  double end = 0.0;
+  for (std::size_t i = 0; side == 0; ++i) {
+    if (i < agent.path.size()) {
+      track = agent.path[i].track;
+      if (agent.path[i].begin_m > to) break;
+      end = i + 1 < agent.path.size() ? agent.path[i + 1].begin_m : agent.path[i].zero_m + graph()[track].length_m();
+    } else {
+      if (graph()[track].next.empty() || end > to) break;
+      const lanes::Link& on = NextLink(pose.id, track, choice);
+      track = on.to;
+      end += graph()[track].length_m() - on.from_d_m;
+    }
+    if (end > agent.o_m) side = map_->plans[track].turn;
+  }
+  if (side > 0) lights |= kLeft;
+  if (side < 0) lights |= kRight;
+  return lights;
+}
+
+std::vector<AgentDetail> TrafficModel::Details() {
+  std::vector<AgentDetail> details;
+  details.reserve(poses_.size());
+  const driver::SteeringSettings steering;
+  for (const AgentPose& pose : poses_) {
+    const std::uint32_t id = pose.id;
+    const Agent& agent = agents_[id];
+    AgentDetail detail;
+    detail.id = id;
+    if (agent.on_road) {
+      FindStretches(id, SightOf(agent));
+      std::vector<Piece> path = agent.path;
+      const double at = agent.o_m - HalfBase(id) + driver::PreviewDistance(steering, agent.speed_mps);
+      Choice choice{agent.links, agent.leg};
+      while (true) {
+        const lanes::Track& track = graph()[path.back().track];
+        if (at <= path.back().zero_m + track.length_m() || track.next.empty()) break;
+        path.push_back(Onward(graph(), path, NextLink(id, path.back().track, choice), agent.speed_mps));
+      }
+      detail.look_ahead_W = FrameAt(graph(), path, at).p_W.head<2>();
+      detail.target_mps = std::min(Allowed(id).speed_mps * traits_[id].speed_factor, Cap_mps(id));
+      const Eigen::Vector3d ahead = pose.q_WB * Eigen::Vector3d::UnitX();
+      detail.driving = DrivingFor(traits_[id], agent.speed_mps, agent.acceleration_mps2, ahead.z() / std::max(1e-3, std::hypot(ahead.x(), ahead.y())));
+      detail.fuel_mgps = FuelFlow_mgps(traits_[id], agent.speed_mps, agent.acceleration_mps2);
+      detail.fuel_used_mg = agent.fuel_mg;
+    } else {  // struck: its engine stands, its wheels are locked
+      detail.look_ahead_W = pose.p_WB_W.head<2>();
+      detail.driving = {0.0, 1.0, 1.0, 0.0, 0};
+    }
+    details.push_back(detail);
+  }
+  return details;
+}
+
+}  // namespace rodeira::traffic

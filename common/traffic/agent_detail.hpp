@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "common/traffic/drivetrain.hpp"
+
+namespace rodeira::traffic {
+
+// What an agent's driver and engine do.
+struct AgentDetail {
+  std::uint32_t id = 0;
+  Driving driving;
+  double fuel_mgps = 0.0;
+  double fuel_used_mg = 0.0;  // since it entered
+  double target_mps = 0.0;    // what it plans for here and now, whoever is ahead
+  Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // on its path, as far ahead of its rear axle as the autopilot steers for
+};
+
+}  // namespace rodeira::traffic

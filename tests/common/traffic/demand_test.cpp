@@ -1,0 +1,303 @@
+// Flows, routes, turning shares and mixes on whole networks.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "common/traffic/study.hpp"
+#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/opendrive/sample.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kStep_s = 0.05;
+
+TrafficSettings Settings(const std::string& yaml, std::uint64_t seed = 1) {
+  auto file = config::File::Parse("rodeira: traffic/1\n" + yaml, "t.yaml").value();
+  (void)file.root().Text("rodeira");
+  TrafficSettings settings = ReadTraffic(file.root(), seed);
+  const auto status = file.Finish();
+  EXPECT_TRUE(status.ok()) << (status.ok() ? "" : status.error().Text());
+  return settings;
+}
+
+std::string RefusedBy(const std::string& map, const std::string& yaml) {
+  const auto model = TrafficModel::Make(Settings(yaml), lanes::MapNetwork(map), {});
+  if (model.ok()) return "not refused";
+  EXPECT_EQ(model.error().exit_status(), 2);
+  return model.error().Text();
+}
+
+std::string RefusedSettings(const std::string& yaml) {
+  auto file = config::File::Parse(yaml, "t.yaml").value();
+  (void)ReadTraffic(file.root(), 1);
+  const auto status = file.Finish();
+  return status.ok() ? "not refused" : status.error().Text();
+}
+
+// A road of two lanes to the east; the right one goes on into an exit, the left one straight on.
+std::shared_ptr<const network::Network> Exit(double length_m, const std::string& more = "") {
+  const auto lane = [](int id, int to, double width, const char* mark) {
+    return fmt::format("<lane id=\"{}\" type=\"driving\"><link>{}</link><width sOffset=\"0\" a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/>"
+                       "<roadMark sOffset=\"0\" type=\"{}\" color=\"white\" width=\"0.12\"/><speed sOffset=\"0\" max=\"20\" unit=\"m/s\"/></lane>",
+                       id, to == 0 ? "" : fmt::format("<successor id=\"{}\"/>", to), width, mark);
+  };
+  const auto line = [](double x, double y, double heading, double length) {
+    return fmt::format("<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\"><line/></geometry>", x, y, heading, length);
+  };
+  opendrive::RoadText road, on, off;
+  road.left = on.left = off.left = "";
+  road.length = length_m;
+  road.geometry = line(0.0, 0.0, 0.0, length_m);
+  road.right = lane(-1, 0, 3.5, "broken") + lane(-2, 0, 3.5, "solid");
+  road.link = "<successor elementType=\"junction\" elementId=\"9\"/>";
+  on.id = "2", on.length = 300.0;
+  on.geometry = line(length_m, 0.0, 0.0, 300.0);
+  on.right = lane(-1, 0, 3.5, "solid");
+  off.id = "3", off.length = 300.0;
+  off.geometry = line(length_m, -3.5, 0.0, 300.0);
+  off.right = lane(-1, 0, 3.5, "solid");
+  on.link = off.link = "<predecessor elementType=\"road\" elementId=\"1\" contactPoint=\"end\"/>";
+  const std::string junction =
+      "<junction id=\"9\" name=\"exit\" type=\"direct\">"
+      "<connection id=\"0\" incomingRoad=\"1\" linkedRoad=\"2\" contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>"
+      "<connection id=\"1\" incomingRoad=\"1\" linkedRoad=\"3\" contactPoint=\"start\"><laneLink from=\"-2\" to=\"-1\"/></connection></junction>";
+  on.link = off.link = "<predecessor elementType=\"junction\" elementId=\"9\"/>";
+  return opendrive::MustRead(opendrive::Document(road.Text() + on.Text() + off.Text() + junction + more));
+}
+
+std::string RoadOf(const TrafficModel& model, const AgentPose& pose) { return model.graph().network().roads()[static_cast<std::size_t>(pose.road)].id(); }
+
+// At every step all who were given a vehicle wait, drive, or have ended; who has arrived and was given none finds none free.
+TEST(Demand, VehiclesAreConserved) {
+  const TrafficSettings settings = Settings("vehicles: 30\nflows:\n  - {every_s: [3, 8]}\n  - {lane: \"1:-1\", vehicles_per_h: 600}\n  - {lane: \"3:-1\", by_hour: [500], arrivals: even, to_s: 200}\n", 4);
+  TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("town"), {}).value();
+  EXPECT_EQ(model.on_road() + model.waiting(), 0u);
+  std::set<std::size_t> busy;
+  for (int i = 0; i < 12000; ++i) {
+    model.Step(kStep_s, {});
+    std::uint64_t arrived = 0, given = 0;
+    for (const TrafficModel::FlowCount& flow : model.flows()) arrived += flow.arrived, given += flow.given;
+    ASSERT_EQ(given, model.waiting() + model.on_road() + model.ended()) << i;
+    ASSERT_LE(given, arrived);
+    if (given < arrived) {
+      ASSERT_EQ(model.waiting() + model.on_road(), 30u) << i;
+    }
+    busy.insert(model.on_road());
+  }
+  EXPECT_GT(model.ended(), 100u);
+  EXPECT_EQ(model.flows()[2].arrived, 28u);  // 200 s · 500/h, the first after half a gap
+  EXPECT_GT(busy.size(), 10u);
+}
+
+// Who enters a free road enters when he arrives, and enough of them: Poisson's number of them within four deviations.
+TEST(Demand, ComesAsTheFlowSays) {
+  TrafficModel model = TrafficModel::Make(Settings("flows:\n  - {lane: \"1:-1\", vehicles_per_h: 400}\n"), lanes::MapNetwork("ramp"), {}).value();
+  for (int i = 0; i < 36000; ++i) model.Step(kStep_s, {});
+  EXPECT_NEAR(static_cast<double>(model.flows()[0].arrived), 200.0, 4.0 * std::sqrt(200.0));
+  EXPECT_EQ(model.flows()[0].given, model.flows()[0].arrived);
+  EXPECT_LE(model.waiting(), 2u);
+  EXPECT_GT(model.ended(), 150u);
+}
+
+// Everybody of a flow with a route is last seen on the route's last road, and has passed the one between.
+TEST(Demand, RoutesAreDriven) {
+  const auto network = lanes::MapNetwork("town");
+  const lanes::Graph graph(*network);
+  std::uint32_t from = 0;
+  while (!graph[from].entry) ++from;
+  std::vector<std::uint32_t> open{from};  // every track that can be reached, nearest first
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    for (const lanes::Link& on : graph[open[i]].next) {
+      if (std::find(open.begin(), open.end(), on.to) == open.end()) open.push_back(on.to);
+    }
+  }
+  const auto name = [&](std::uint32_t track) { return network->roads()[graph[track].lane.road].id(); };
+  const std::string via = name(open[open.size() / 2]);
+  std::string to;
+  for (const std::uint32_t track : open) {
+    if (graph[track].next.empty()) to = name(track);
+  }
+  const std::string yaml = fmt::format("routes: {{far: [\"{}\", \"{}\"]}}\nflows:\n  - {{lane: \"{}:{}\", vehicles_per_h: 300, route: far}}\n", via, to, name(from), graph[from].lane.lane);
+  TrafficModel model = TrafficModel::Make(Settings(yaml), network, {}).value();
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::string>> seen;
+  for (int i = 0; i < 12000; ++i) {
+    model.Step(kStep_s, {});
+    for (const AgentPose& pose : model.poses()) {
+      auto& roads = seen[{pose.id, pose.trip}];
+      if (roads.empty() || roads.back() != RoadOf(model, pose)) roads.push_back(RoadOf(model, pose));
+    }
+  }
+  int ended = 0;
+  for (const auto& [key, roads] : seen) {
+    const auto& agent = model.agent(key.first);
+    if (agent.on_road && agent.trip == key.second) continue;
+    EXPECT_EQ(roads.back(), to);
+    EXPECT_NE(std::find(roads.begin(), roads.end(), via), roads.end());
+    ++ended;
+  }
+  EXPECT_EQ(static_cast<std::uint64_t>(ended), model.ended());
+  EXPECT_GT(ended, 20);
+  EXPECT_EQ(model.missed(), 0u);
+}
+
+// Of those without a route so many turn as the shares say, within four deviations.
+TEST(Demand, TurnsHaveTheirShares) {
+  const auto network = lanes::MapNetwork("crossing");
+  const lanes::Graph graph(*network);
+  std::uint32_t from = 0;
+  while (!graph[from].entry || graph[from].next.size() != 3) ++from;
+  const auto name = [&](std::uint32_t track) { return network->roads()[graph[track].lane.road].id(); };
+  const auto& next = graph[from].next;
+  const std::string lane = fmt::format("{}:{}", name(from), graph[from].lane.lane);
+  const std::string yaml = fmt::format("flows:\n  - {{lane: \"{0}\", vehicles_per_h: 700}}\nturns:\n  - {{lane: \"{0}\", shares: {{\"{1}\": 6, \"{2}\": 3, \"{3}\": 1}}}}\n",
+                                       lane, name(next[0].to), name(next[1].to), name(next[2].to));
+  TrafficModel model = TrafficModel::Make(Settings(yaml), network, {}).value();
+  std::map<std::string, std::set<std::pair<std::uint32_t, std::uint32_t>>> taken;
+  for (int i = 0; i < 60000; ++i) {
+    model.Step(kStep_s, {});
+    for (const AgentPose& pose : model.poses()) taken[RoadOf(model, pose)].insert({pose.id, pose.trip});
+  }
+  double all = 0.0;
+  for (const lanes::Link& on : next) all += static_cast<double>(taken[name(on.to)].size());
+  EXPECT_GT(all, 300.0);
+  const double shares[] = {0.6, 0.3, 0.1};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double share = shares[i];
+    EXPECT_NEAR(static_cast<double>(taken[name(next[i].to)].size()), share * all, 4.0 * std::sqrt(all * share * (1.0 - share))) << i;
+  }
+}
+
+// Both lanes full of drivers of whom half want over to the other lane before it parts: nearly all get there, who does not is counted, and nobody touches
+// anybody.
+TEST(Demand, LanesAreChangedForARoute) {
+  const auto network = Exit(900.0);
+  StudySettings study;
+  study.traffic = Settings("routes: {on: [\"2\"], off: [\"3\"]}\nflows:\n"
+                           "  - {lane: \"1:-1\", vehicles_per_h: 350, route: off}\n  - {lane: \"1:-1\", vehicles_per_h: 350, route: on}\n"
+                           "  - {lane: \"1:-2\", vehicles_per_h: 350, route: on}\n  - {lane: \"1:-2\", vehicles_per_h: 350, route: off}\n", 2);
+  study.duration_s = 900.0;
+  study.step_s = 0.05;
+  std::uint64_t ended = 0, missed = 0;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::int32_t, std::string>> last;
+  const StudyResult r = RunStudy(study, network, [&](const StudyMoment& moment) {
+    ended = moment.model.ended(), missed = moment.model.missed();
+    for (const AgentPose& pose : moment.model.poses()) last[{pose.id, pose.trip}] = {moment.model.agent(pose.id).flow, RoadOf(moment.model, pose)};
+  }).value();
+  int right = 0, wrong = 0;
+  for (const auto& [key, way] : last) {
+    if (way.second == "1") continue;
+    const bool off = way.first == 0 || way.first == 3;
+    ++(way.second == (off ? "3" : "2") ? right : wrong);
+  }
+  RecordProperty("missed", static_cast<int>(missed));
+  RecordProperty("ended", static_cast<int>(ended));
+  EXPECT_EQ(static_cast<std::uint64_t>(wrong), missed);
+  EXPECT_GT(right, 250);
+  EXPECT_LT(wrong, 0.08 * (right + wrong));
+  EXPECT_EQ(r.collisions, 0);
+  EXPECT_EQ(r.off_lane, 0);
+  EXPECT_LE(r.hardest_mps2, 3.0);
+}
+
+// Flows on their lanes drive to the bit as before where a road far away is added to the network.
+TEST(Demand, AnUnrelatedRoadChangesNothing) {
+  opendrive::RoadText far;
+  far.id = "50";
+  far.geometry = "<geometry s=\"0\" x=\"5000\" y=\"5000\" hdg=\"1\" length=\"100\"><line/></geometry>";
+  const TrafficSettings settings = Settings("routes: {off: [\"3\"]}\nflows:\n  - {lane: \"1:-1\", vehicles_per_h: 600, route: off}\n  - {lane: \"1:-2\", vehicles_per_h: 600}\n");
+  TrafficModel a = TrafficModel::Make(settings, Exit(600.0), {}).value(), b = TrafficModel::Make(settings, Exit(600.0, far.Text()), {}).value();
+  ASSERT_LT(a.graph().tracks().size(), b.graph().tracks().size());
+  for (int i = 0; i < 6000; ++i) {
+    a.Step(kStep_s, {});
+    b.Step(kStep_s, {});
+    ASSERT_EQ(a.poses().size(), b.poses().size()) << i;
+    for (std::size_t k = 0; k < a.poses().size(); ++k) ASSERT_EQ(a.poses()[k].p_WB_W, b.poses()[k].p_WB_W) << i;
+  }
+  EXPECT_GT(a.ended(), 40u);
+}
+
+// Every kind as often as the mix says, within four deviations, each with its own size; lorries obey their own limit.
+TEST(Demand, TheMixIsWhatItSays) {
+  const TrafficSettings settings = Settings("vehicles: 4000\nmix: {car: 70, van: 10, lorry: 15, bus: 5}\n");
+  std::map<VehicleKind, double> count;
+  for (std::uint32_t id = 0; id < settings.vehicles; ++id) {
+    const AgentTraits traits = TraitsOf(settings, id);
+    count[traits.kind] += 1.0;
+    EXPECT_EQ(traits.length_m > 6.0, traits.kind == VehicleKind::kLorry || traits.kind == VehicleKind::kBus);
+    if (traits.kind == VehicleKind::kLorry) {
+      EXPECT_LT(traits.idm.acceleration_mps2, 1.0);
+    }
+  }
+  for (const auto& [kind, share] : std::map<VehicleKind, double>{{VehicleKind::kCar, 0.7}, {VehicleKind::kVan, 0.1}, {VehicleKind::kLorry, 0.15}, {VehicleKind::kBus, 0.05}}) {
+    EXPECT_NEAR(count[kind], 4000.0 * share, 4.0 * std::sqrt(4000.0 * share * (1.0 - share)));
+  }
+}
+
+// Lorries and buses turn through crossings and a roundabout among cars without touching anybody.
+TEST(Demand, LongVehiclesDriveTheMaps) {
+  for (const std::string map : {"crossing", "roundabout", "town", "ramp", "overpass"}) {
+    StudySettings study;
+    study.traffic = Settings("vehicles: 25\nmix: {car: 50, lorry: 30, bus: 20}\n", 6);
+    study.duration_s = 180.0;
+    study.step_s = 0.02;
+    const StudyResult r = RunStudy(study, lanes::MapNetwork(map)).value();
+    std::string told;
+    for (const std::string& incident : r.incidents) told += "\n  " + incident;
+    EXPECT_EQ(r.collisions, 0) << map << told;
+    EXPECT_EQ(r.off_lane, 0) << map << told;
+    EXPECT_GT(r.arrivals, 10) << map;
+  }
+}
+
+TEST(Demand, RestoredItGoesOnWithTheSameBits) {
+  const TrafficSettings settings = Settings("vehicles: 40\nmix: {car: 80, lorry: 20}\nflows:\n  - {every_s: [1, 3]}\n  - {lane: \"1:-1\", vehicles_per_h: 300, mix: {bus: 1}}\n", 8);
+  TrafficModel a = TrafficModel::Make(settings, lanes::MapNetwork("town"), {}).value();
+  for (int i = 0; i < 3000; ++i) a.Step(kStep_s, {});
+  base::StateWriter writer;
+  a.Save(writer);
+  TrafficModel b = TrafficModel::Make(settings, lanes::MapNetwork("town"), {}).value();
+  base::StateReader reader(writer.bytes());
+  b.Restore(reader);
+  ASSERT_TRUE(reader.Finish().ok());
+  for (int i = 0; i < 2000; ++i) {
+    a.Step(kStep_s, {});
+    b.Step(kStep_s, {});
+  }
+  base::StateWriter one, other;
+  a.Save(one);
+  b.Save(other);
+  EXPECT_EQ(one.digest(), other.digest());
+  for (const AgentPose& pose : a.poses()) EXPECT_EQ(a.traits(pose.id).length_m, b.traits(pose.id).length_m);
+}
+
+TEST(Demand, WhatIsWrongIsSaid) {
+  const auto flow = [](const std::string& lane, const std::string& more = "") { return "flows:\n  - {lane: \"" + lane + "\", vehicles_per_h: 100" + more + "}\n"; };
+  EXPECT_NE(RefusedBy("town", flow("999:-1")).find("t.yaml:3: '999:-1' was found; a drivable lane as ROAD:LANE"), std::string::npos) << RefusedBy("town", flow("999:-1"));
+  EXPECT_NE(RefusedBy("town", flow("1:-1", ", route: west")).find("t.yaml:3: the route 'west' does not exist"), std::string::npos) << RefusedBy("town", flow("1:-1", ", route: west"));
+  EXPECT_NE(RefusedBy("town", "routes: {west: [\"nowhere\"]}\n" + flow("1:-1", ", route: west")).find("'nowhere' was found"), std::string::npos);
+  EXPECT_NE(RefusedBy("ramp", "turns:\n  - {lane: \"1:-1\", shares: {\"1\": 1}}\n" + flow("1:-1")).find("does not go on into '1'"), std::string::npos);
+  // Where traffic enters nobody comes from elsewhere.
+  const auto network = lanes::MapNetwork("town");
+  const lanes::Graph graph(*network);
+  std::vector<std::string> starts;
+  for (const lanes::Track& track : graph.tracks()) {
+    if (track.before.empty()) starts.push_back(network->roads()[track.lane.road].id());
+  }
+  ASSERT_GE(starts.size(), 2u);
+  const std::string there = "routes: {back: [\"" + starts[1] + "\"]}\n" + flow(starts[0] + ":-1", ", route: back");
+  EXPECT_NE(RefusedBy("town", there).find("no way leads from there to '" + starts[1] + "'"), std::string::npos) << RefusedBy("town", there);
+  const std::string between = "routes: {back: [\"" + starts[0] + "\", \"" + starts[1] + "\"]}\n" + flow(starts[0] + ":-1", ", route: back");
+  EXPECT_NE(RefusedBy("town", between).find("no way leads from '" + starts[0] + "' on to '" + starts[1] + "'"), std::string::npos) << RefusedBy("town", between);
+  EXPECT_NE(RefusedSettings("flows:\n  - {lane: a}\n").find("one of 'vehicles_per_h', 'by_hour' and 'every_s'"), std::string::npos);
+  EXPECT_NE(RefusedSettings("flows:\n  - {lane: a, every_s: [8, 3]}\n").find("shortest"), std::string::npos);
+  EXPECT_NE(RefusedSettings("flows:\n  - {lane: a, vehicles_per_h: -3}\n").find("t.yaml:2"), std::string::npos);
+  EXPECT_NE(RefusedSettings("flows:\n  - {lane: a, vehicles_per_h: 3, rout: b}\n").find("rout"), std::string::npos);
+  EXPECT_NE(RefusedSettings("mix: {car: 0}\n").find("no kind of vehicle"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rodeira::traffic
