@@ -58,6 +58,7 @@ std::optional<AskedLine> Operator::Next() {
   if (server_ != nullptr) {
     if (auto asked = server_->Next()) return asked;
   }
+  if (buttons_ != nullptr && buttons_->Pressed()) return AskedLine{CommandOfKey(' '), [this](const std::string& answer) { Show(answer.substr(answer.find(' ') + 1)); }};
   looked_ms_ = now_ms;  // only where everything that was there has been taken
   return std::nullopt;
 }

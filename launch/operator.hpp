@@ -3,9 +3,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "common/lockstep/in_process.hpp"
 #include "launch/control_server.hpp"
+#include "launch/pause_buttons.hpp"
 #include "launch/terminal_keys.hpp"
 
 namespace rodeira::front {
@@ -24,6 +26,8 @@ class Operator {
 
   // The next thing asked for; nothing where there is none. Never waits; looks at most every 10 ms.
   std::optional<AskedLine> Next();
+  // Buttons of wheels pause the run too; null: none do.
+  void Listen(std::unique_ptr<PauseButtons> buttons) { buttons_ = std::move(buttons); }
   bool has_keys() const { return keys_ != nullptr; }
 
  private:
@@ -32,6 +36,7 @@ class Operator {
   bool quiet_;
   std::unique_ptr<TerminalKeys> keys_;
   std::unique_ptr<ControlServer> server_;
+  std::unique_ptr<PauseButtons> buttons_;
   std::int64_t looked_ms_ = 0;
 };
 

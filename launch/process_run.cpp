@@ -43,6 +43,7 @@ class ProcessRun {
     RemoveLeftOvers({});  // of dead runs
     before_ = SharedMemoryFiles();
     if (placement.has_clock()) desk_.emplace(options.run, options.quiet);
+    if (desk_) desk_->Listen(PauseButtons::Open(launch));
   }
 
   int Run() {

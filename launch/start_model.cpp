@@ -112,7 +112,7 @@ std::string WhatIsMissing(const StartFiles& files, const StartChoice& choice) {
 
 std::vector<std::string> CommandOf(const StartFiles& files, const StartChoice& choice) {
   if (choice.way == StartWay::kWatch) return {"replay", choice.recording.string(), "--view"};
-  std::vector<std::string> arguments{"run", (files.root / kBase).string()};
+  std::vector<std::string> arguments{"run", (files.root / kBase).lexically_normal().string()};
   const auto set = [&](const std::string& key, const std::string& value) {
     arguments.emplace_back("--set");
     arguments.push_back(key + "=" + value);

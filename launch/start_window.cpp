@@ -147,7 +147,9 @@ bool CanStartByWindow() { return view::HasDisplay(); }
 
 int StartByWindow() {
   std::error_code problem;
-  const auto root = FindStartRoot({std::filesystem::current_path(problem), ProgramFolder()});
+  const std::filesystem::path here = std::filesystem::current_path(problem);
+  std::filesystem::path root = FindStartRoot({here, ProgramFolder()});
+  if (root == here) root = ".";  // commands are shorter
   auto window = window::Window::Open({window::Kind::kWindow, 820, 640, "Rodeira"});
   if (!window) {
     fmt::print(stderr, "rodeira: {}\n", window.error().Text());

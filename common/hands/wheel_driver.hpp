@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -35,10 +36,11 @@ struct DeviceUse {
 
 enum class WheelAxis : std::size_t { kSteering, kThrottle, kBrake, kClutch, kHandbrake, kPedals };
 inline constexpr std::size_t kWheelAxes = 6;
+// kCamera is the window's and kPause the operator's: they do nothing to the controls.
 enum class WheelButton : std::size_t {
-  kGearUp, kGearDown, kGearboxMode, kClutch, kHandbrake, kStarter, kIndicateLeft, kIndicateRight, kHazard, kHeadlights, kHorn, kReverse, kNeutral, kDrive
+  kGearUp, kGearDown, kGearboxMode, kClutch, kHandbrake, kStarter, kIndicateLeft, kIndicateRight, kHazard, kHeadlights, kHorn, kReverse, kNeutral, kDrive, kCamera, kPause
 };
-inline constexpr std::size_t kWheelButtons = 14;
+inline constexpr std::size_t kWheelButtons = 16;
 
 // `rodeira: wheel/1` (docs/formats.md).
 struct WheelSettings {
@@ -62,6 +64,9 @@ WheelSettings ReadWheel(const config::Map& root);
 base::Result<WheelSettings> LoadWheel(const std::filesystem::path& path);
 // 32 hexadecimal digits.
 bool IsGuid(std::string_view text);
+// The wheel of an input node that names this file, in place of whose GUIDs the launch file may say others: `other_guid` of a device's name, if
+// it does. Nothing where the file cannot be read: that is the input's to say.
+std::optional<WheelSettings> PeekWheel(const std::filesystem::path& path, const std::function<std::optional<std::string>(const std::string&)>& other_guid);
 
 // What one device says now.
 struct DeviceReading {

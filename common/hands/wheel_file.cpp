@@ -129,6 +129,16 @@ WheelSettings ReadWheel(const config::Map& root) {
   return s;
 }
 
+std::optional<WheelSettings> PeekWheel(const std::filesystem::path& path, const std::function<std::optional<std::string>(const std::string&)>& other_guid) {
+  auto settings = LoadWheel(path);
+  if (!settings) return std::nullopt;
+  for (DeviceUse& device : settings.value().devices) {
+    if (auto other = other_guid(device.name); other && IsGuid(*other)) device.guid = std::move(*other);
+    std::transform(device.guid.begin(), device.guid.end(), device.guid.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  }
+  return std::move(settings).value();
+}
+
 base::Result<WheelSettings> LoadWheel(const std::filesystem::path& path) {
   auto file = config::File::Load(path);
   if (!file) return file.error();

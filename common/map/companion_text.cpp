@@ -15,10 +15,23 @@ constexpr std::array<std::string_view, 4> kParts = {"heights_m", "lights", "sign
 
 std::string HeightLine(const CurveHeights& one) { return fmt::format("  {}: [{}]\n", one.curve, fmt::join(one.z_m, ", ")); }
 
+// A name as a YAML scalar that reads as that text.
+std::string Scalar(const std::string& name) {
+  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; });
+  if (plain) return name;
+  std::string text = "'";
+  for (const char c : name) text += c == '\'' ? std::string("''") : std::string(1, c);
+  return text + "'";
+}
+
 std::string LightText(const lights::LightPlan& plan) {
   std::string text = fmt::format("  - offset_s: {}\n    amber_s: {}\n    all_red_s: {}\n    red_amber_s: {}\n    phases:\n", plan.offset_s, plan.amber_s,
                                  plan.all_red_s, plan.red_amber_s);
-  for (const lights::Phase& phase : plan.phases) text += fmt::format("      - {{green: [{}], for_s: {}}}\n", fmt::join(phase.green, ", "), phase.green_s);
+  for (const lights::Phase& phase : plan.phases) {
+    std::vector<std::string> green;
+    for (const std::string& name : phase.green) green.push_back(Scalar(name));
+    text += fmt::format("      - {{green: [{}], for_s: {}}}\n", fmt::join(green, ", "), phase.green_s);
+  }
   return text;
 }
 
@@ -142,20 +155,8 @@ std::string Renewed(const Block& block, const Heights& heights, const Heights& l
   return comments + below;
 }
 
-}  // namespace
-
-std::string CompanionText(const Heights& heights) {
-  std::string text;
-  for (std::size_t part = 0; part < kParts.size(); ++part) text += PartText(heights, part);
-  return text.empty() ? text : std::string(kFirst) + text;
-}
-
-std::string CompanionText(const Heights& heights, const Heights& loaded, const std::string& text) {
-  std::array<bool, kParts.size()> edited{};
-  for (std::size_t part = 0; part < kParts.size(); ++part) edited[part] = PartText(heights, part) != PartText(loaded, part);
-  if (std::find(edited.begin(), edited.end(), true) == edited.end()) return text;
-  const std::vector<Block> blocks = BlocksOf(text);
-  if (blocks.empty()) return CompanionText(heights);
+// The text with the parts that were edited written anew.
+std::string Edited(const Heights& heights, const Heights& loaded, const std::vector<Block>& blocks, const std::array<bool, kParts.size()>& edited) {
   std::string result;
   std::array<bool, kParts.size()> written{};
   for (const Block& block : blocks) {
@@ -172,6 +173,30 @@ std::string CompanionText(const Heights& heights, const Heights& loaded, const s
     if (!written[part]) result += PartText(heights, part);
   }
   return result;
+}
+
+}  // namespace
+
+std::string CompanionText(const Heights& heights) {
+  std::string text;
+  for (std::size_t part = 0; part < kParts.size(); ++part) text += PartText(heights, part);
+  return text.empty() ? text : std::string(kFirst) + text;
+}
+
+std::string CompanionText(const Heights& heights, const Heights& loaded, const std::string& text) {
+  std::array<bool, kParts.size()> edited{};
+  for (std::size_t part = 0; part < kParts.size(); ++part) edited[part] = PartText(heights, part) != PartText(loaded, part);
+  if (std::find(edited.begin(), edited.end(), true) == edited.end()) return text;
+  const std::string anew = CompanionText(heights);
+  const std::string edited_text = Edited(heights, loaded, BlocksOf(text), edited);
+  const auto again = ParseHeights(edited_text, "edited");
+  if (again && CompanionText(again.value()) == anew) return edited_text;
+  // Written in a way that is not seen through here.
+  std::string comments;
+  for (const std::string_view line : LinesOf(text)) {
+    if (const std::string_view comment = CommentOf(line); !comment.empty()) comments += WithLineEnd(comment);
+  }
+  return comments + (anew.empty() ? std::string(kFirst) : anew);
 }
 
 }  // namespace rodeira::map

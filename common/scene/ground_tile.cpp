@@ -8,6 +8,7 @@
 
 #include "common/base/assert.hpp"
 #include "common/partition/noding.hpp"
+#include "common/scene/edge_points.hpp"
 #include "common/scene/ground_digest.hpp"
 #include "common/scene/laid_lines.hpp"
 #include "common/scene/levels_at.hpp"
@@ -136,7 +137,8 @@ GroundTile GroundPlan::Build(const TileKey& key) const {
   static const std::vector<partition::GridSegment> kNone;
   const auto found = segments_.find(key);
   const auto& finest = found == segments_.end() ? kNone : found->second;
-  const std::vector<partition::GridPoint> edge = edges_.Of(key);
+  std::vector<partition::GridPoint> edge = edges_.Of(key);
+  RefineEdges(world_, key, edge);
   for (int level = 0; level < kGroundLevels; ++level) {
     const auto at = static_cast<std::size_t>(level);
     const auto segments = level == 0 || finest.empty() ? finest : Simplify(finest, key, world_, kRoadTolerances[at]);

@@ -21,6 +21,7 @@ struct Stage::Hand {
   std::unique_ptr<Screen> screen;
   std::unique_ptr<KeyForwarder> keys;  // null: nobody drives by this window
   std::unique_ptr<Asker> asker;        // null: nobody takes requests
+  std::unique_ptr<WheelButtons> wheel;  // null: it has no buttons for the window
 };
 
 Stage::Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world, std::unique_ptr<launch::LiveKeysSender> keys,
@@ -116,6 +117,7 @@ base::Status Stage::SetUp(Hand& hand) {
     if (auto status = open(SurfaceKind::kOffscreen); !status) return status;
   }
   if (keys_ != nullptr) hand.keys = std::make_unique<KeyForwarder>(std::move(keys_));
+  if (hand.screen->surface().kind() == SurfaceKind::kWindow) hand.wheel = WheelButtons::Open(settings_.camera_buttons);
   if (requests_ != nullptr) {
     hand.asker = std::make_unique<Asker>(std::move(requests_));
     hand.screen->set_ask([&asker = *hand.asker](const scenario::Request& request) { return asker.Ask(request); });
@@ -178,6 +180,7 @@ bool Stage::ReadKeys(Hand& hand) {
     if (hand.screen->TakeMouse(event, hand.keys != nullptr)) continue;
     if (!own && hand.keys != nullptr) hand.keys->Take(event);
   }
+  if (hand.wheel != nullptr && hand.wheel->Pressed()) (void)hand.screen->TakeKey(SDLK_k, true);
   if (hand.keys != nullptr) {
     if (!open) hand.keys->ReleaseAll();
     hand.keys->Tell(launch::WallSeconds());

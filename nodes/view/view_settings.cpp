@@ -8,6 +8,7 @@
 
 #include "common/base/suggest.hpp"
 #include "common/hands/keyboard_driver.hpp"
+#include "common/hands/wheel_driver.hpp"
 #include "common/launch/lab.hpp"
 #include "idl/topics.hpp"
 
@@ -51,10 +52,21 @@ void ReadTimes(const launch::NodeContext& context, const config::Map& frames, Vi
   settings.frame_steps.erase(std::unique(settings.frame_steps.begin(), settings.frame_steps.end()), settings.frame_steps.end());
 }
 
+// Buttons of a wheel that a launch file names by its file.
+void ReadWheelButtons(const launch::Launch& launch, const launch::LaunchNode& node, ViewSettings& settings) {
+  const auto file = node.config->Peek({"config", "wheel"});
+  if (!file || *file == "~") return;
+  const auto wheel = hands::PeekWheel((launch.path().parent_path() / *file).lexically_normal(),
+                                      [&](const std::string& device) { return node.config->Peek({"config", "devices", device}); });
+  const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(hands::WheelButton::kCamera)] : std::optional<hands::ButtonUse>();
+  if (use) settings.camera_buttons.push_back({wheel->devices[use->device].guid, static_cast<int>(use->button)});
+}
+
 // Whether an input of the run drives by its windows' keys, and by which. What is wrong there the input itself says.
 void ReadDriving(const launch::Launch& launch, ViewSettings& settings) {
   for (const launch::LaunchNode& node : launch.nodes()) {
     if (node.kind->name != "input") continue;
+    if (node.config->Peek({"config", "source"}) == "joystick") ReadWheelButtons(launch, node, settings);
     if (node.config->Peek({"config", "source"}) != "keyboard") continue;
     settings.drives = true;
     const auto file = node.config->Peek({"config", "keyboard"});

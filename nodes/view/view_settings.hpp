@@ -13,6 +13,7 @@
 #include "common/scene/mirror.hpp"
 #include "nodes/view/ask_place.hpp"
 #include "nodes/view/picture.hpp"
+#include "nodes/view/wheel_buttons.hpp"
 
 namespace rodeira::view {
 
@@ -38,6 +39,7 @@ struct ViewSettings {
   std::filesystem::path built;               // the folder of a database of the world; empty: its ground is built in memory
   bool drives = false;                       // somebody in this run drives by the keys of its windows …
   std::string driving_help;                  // … by these
+  std::vector<WheelButtonUse> camera_buttons;  // of wheels that drive in this run
   bool can_ask = false;                      // a scenario of this run makes events of what windows ask for
   CarNames cars;                             // wired to the view
 };

@@ -17,6 +17,7 @@
 #include "common/hands/wheel_driver.hpp"
 #include "common/launch/lab.hpp"
 #include "common/launch/launch.hpp"
+#include "common/map/companion_text.hpp"
 #include "common/map/lane_map.hpp"
 #include "common/map/map_plot.hpp"
 #include "common/multibody/mechanism.hpp"
@@ -327,10 +328,18 @@ TEST(TextFiles, Maps) {
 }
 
 TEST(TextFiles, MapHeights) {
-  Fuzz("heights", {GoodFile("configs/maps/overpass.motors.yaml"), "rodeira: motors/1\nheights_m: {1: [0, 1, 2, 3], -4: [0, 0, 0, 1]}\n"}, [](const std::string& text) -> std::optional<base::Error> {
+  Fuzz("heights", {GoodFile("configs/maps/overpass.motors.yaml"), "rodeira: motors/1\nheights_m: {1: [0, 1, 2, 3], -4: [0, 0, 0, 1]}\n",
+                   "# by hand\nrodeira: motors/1\nheights_m:\n  1: [0, 1, 2, 3]  # ramp\nlights:\n  - phases:\n      - {green: [1, 2], for_s: 20}\nsigns:\n  - {lane: 1, kind: speed_limit, limit_kmh: 30}\n  - lane: 2\n    kind: stop\nflows_vehph:\n  1: 300\n"}, [](const std::string& text) -> std::optional<base::Error> {
     const auto heights = map::ParseHeights(text, "fuzz.motors.yaml");
     if (!heights) return heights.error();
     for (const auto& one : heights.value().curves) EXPECT_EQ(heights.value().Of(one.curve), one.z_m);
+    // Unedited it keeps its bytes; edited it says what it should.
+    EXPECT_EQ(map::CompanionText(heights.value(), heights.value(), text), text);
+    map::Heights edited = heights.value();
+    edited.curves.clear();
+    edited.signs.push_back({7, map::SignKind::kGiveWay, 2.5, 0.0, 0});
+    const auto again = map::ParseHeights(map::CompanionText(edited, heights.value(), text), "again.motors.yaml");
+    EXPECT_TRUE(again.ok() && map::CompanionText(again.value()) == map::CompanionText(edited)) << text;
     return std::nullopt;
   });
 }

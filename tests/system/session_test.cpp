@@ -51,7 +51,7 @@ class Session : public ::testing::Test {
     if (!Has("Xvfb") || !Has("xdotool")) GTEST_SKIP() << "the packages xvfb and xdotool are not there";
     const fs::path number = folder_.path() / "display";
     server_ = std::make_unique<Started>(
-        std::vector<std::string>{"/bin/sh", "-c", "exec Xvfb -displayfd 3 -screen 0 1280x1024x24 3>" + number.string() + " 2>/dev/null"});
+        std::vector<std::string>{"/bin/sh", "-c", "exec Xvfb -noreset -displayfd 3 -screen 0 1280x1024x24 3>" + number.string() + " 2>/dev/null"});
     ASSERT_TRUE(Until(20s, [&] {
       const auto text = base::ReadText(number);
       if (!text || text.value().find('\n') == std::string::npos) return false;

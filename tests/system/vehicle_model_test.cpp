@@ -59,7 +59,9 @@ TEST_F(FmuRun, OneThatCrashesIsNamedAndTheOthersEnd) {
     EXPECT_EQ(run.status, 1) << run.out;
     EXPECT_THAT(run.out, HasSubstr("node 'ego' failed at step 150"));
     EXPECT_THAT(run.out, HasSubstr("car.fmu: fmi2DoStep: it crashes (signal 11)"));
-    EXPECT_EQ(RunCommand({Bin("rodeira"), "info", recording}).status, 0) << "what was complete is there";
+    const Ended info = RunCommand({Bin("rodeira"), "info", recording});
+    EXPECT_EQ(info.status, 0) << "what was complete is there: " << info.out;
+    std::filesystem::remove(recording);
   }
 }
 

@@ -51,6 +51,7 @@ TEST(Companion, NewTextSaysTheSame) {
   all.signs.push_back({1, SignKind::kSpeedLimit, 12.25, 30.0, 0});
   all.signs.push_back({1, SignKind::kPriority, 0.0, 0.0, 0});
   all.lights[0].offset_s = 7.5;
+  all.lights[0].phases[1].green = {"2", "it's [3], #4"};
   const Heights again = Read(CompanionText(all));
   EXPECT_EQ(CompanionText(again), CompanionText(all));
   ASSERT_EQ(again.signs.size(), 3u);
@@ -59,6 +60,7 @@ TEST(Companion, NewTextSaysTheSame) {
   EXPECT_EQ(again.signs[2].kind, SignKind::kPriority);
   EXPECT_EQ(again.flows[1].vehph, 3000.0);
   EXPECT_EQ(again.lights[0].offset_s, 7.5);
+  EXPECT_EQ(again.lights[0].phases[1].green, all.lights[0].phases[1].green);
   EXPECT_EQ(CompanionText(Heights{}), "");
 }
 

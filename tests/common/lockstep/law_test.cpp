@@ -4,6 +4,8 @@
 #include <rapidcheck.h>
 
 #include <atomic>
+#include <chrono>
+#include <thread>
 
 #include "tests/common/lockstep/law.hpp"
 
@@ -166,6 +168,39 @@ TEST(Law, AFailingNodeStopsTheRunAndIsNamed) {
   EXPECT_FALSE(sink.complete());
   EXPECT_EQ(sink.finished_at(), 40);  // activation 39 gave the sample valid at 40
   EXPECT_EQ(sink.seen().size(), 41u);
+}
+
+// A sink (a recorder on a busy machine) that is still busy with a step when the run is broken off.
+class BusySink final : public Node {
+ public:
+  explicit BusySink(law::Rememberer& sink) : sink_(sink) {}
+  base::Status Initialise(Outbox& outbox) override { return sink_.Initialise(outbox); }
+  base::Status Step(const StepInfo& step, const Inbox& inbox, Outbox& outbox) override {
+    auto status = sink_.Step(step, inbox, outbox);
+    if (step.step == 24) std::this_thread::sleep_for(std::chrono::milliseconds(100));  // meanwhile the car goes on within the window, and fails
+    return status;
+  }
+  base::Status Finish(const Inbox& rest, lockstep::Step last, bool complete) override { return sink_.Finish(rest, last, complete); }
+  void Save(base::StateWriter&) const override {}
+  void Restore(base::StateReader&) override {}
+
+ private:
+  law::Rememberer& sink_;
+};
+
+TEST(Law, WhatASinkTookInWhileTheRunWasBrokenOffItTakesOnce) {
+  const auto roster = Roster::Create(1'000'000, 20,
+                                     {{"car", "test", Role::kStepped, 1, 0, 0, {"a"}, {}},
+                                      {"sink", "test", Role::kStepped, 4, 0, 0, {}, {{"a", PortKind::kEvent, {"car"}}}}})
+                          .value();
+  Failing car;
+  law::Rememberer remembers(roster, 1);
+  BusySink sink(remembers);
+  InProcessSettings settings;
+  settings.last_step = 1000;
+  EXPECT_FALSE(RunThreaded(roster, {&car, &sink}, settings).ok);
+  ASSERT_EQ(remembers.seen().size(), 41u);
+  for (std::size_t i = 0; i < remembers.seen().size(); ++i) EXPECT_EQ(remembers.seen()[i].second, static_cast<lockstep::Step>(i));
 }
 
 TEST(Law, StopEndsTheRunAtAGrantedStepForEverybody) {

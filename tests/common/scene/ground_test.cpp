@@ -245,11 +245,9 @@ TEST(Ground, IsClosed) {
 }
 
 // The points on a common edge of two tiles, whatever their levels.
-TEST(Ground, NeighboursFitAtEveryPairOfLevels) {
-  const auto world = OpenDriveWorld(BendUnderBridge(700.0, -300.0));
-  ASSERT_NE(world, nullptr);
+void ExpectNeighboursFit(const road::World& world, std::size_t least_points, int least_pairs) {
   std::map<TileKey, GroundTile> tiles;
-  for (GroundTile& tile : BuildAll(*world)) tiles[tile.key] = std::move(tile);
+  for (GroundTile& tile : BuildAll(world)) tiles[tile.key] = std::move(tile);
   const auto along = [](const GroundTile& tile, std::size_t level, bool column, double at) {
     std::set<Place> places;
     for (const Mesh& mesh : tile.levels[level].ground) {
@@ -267,7 +265,7 @@ TEST(Ground, NeighboursFitAtEveryPairOfLevels) {
       if (other == tiles.end()) continue;
       const double at = column ? other->second.key.south_west_W().x() : other->second.key.south_west_W().y();
       const auto expected = along(tile, 0, column, at);
-      EXPECT_GE(expected.size(), 17u);
+      EXPECT_GE(expected.size(), least_points);
       for (std::size_t level = 0; level < kGroundLevels; ++level) {
         EXPECT_EQ(along(tile, level, column, at), expected) << "level " << level;
         EXPECT_EQ(along(other->second, level, column, at), expected) << "level " << level << " of the neighbour";
@@ -275,7 +273,22 @@ TEST(Ground, NeighboursFitAtEveryPairOfLevels) {
       ++pairs;
     }
   }
-  EXPECT_GT(pairs, 20);
+  EXPECT_GE(pairs, least_pairs);
+}
+
+TEST(Ground, NeighboursFitAtEveryPairOfLevels) {
+  const auto world = OpenDriveWorld(BendUnderBridge(700.0, -300.0));
+  ASSERT_NE(world, nullptr);
+  ExpectNeighboursFit(*world, 17, 21);
+}
+
+// Where land is the terrain's own triangles, and where slopes pass from one tile into another, each tile's edge has points of its own.
+TEST(Ground, NeighboursFitOnATerrain) {
+  const auto parsed = road::World::Parse(
+      "rodeira: world/2\nname: slopes\nterrain:\n  generate: {seed: 6, columns: 81, rows: 81, spacing_m: 15, west_m: -600, south_m: -600, full_m: 50, flat_m: 8, relief: [{wavelength_m: 160, amplitude_m: 15}]}\n"
+      "roads:\n  - id: a\n    start: {x_m: -300, y_m: -100, heading_deg: 20}\n    axis: [line: {length_m: 200}, arc: {length_m: 300, radius_m: 250}]\n    z_m: 2\n    section: {template: rural}\n", "slopes.yaml");
+  ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
+  ExpectNeighboursFit(*parsed.value(), 2, 40);
 }
 
 // 5 000 km away the same file gives the same ground, as exactly: only where a height lies between two steps it may go to

@@ -196,6 +196,84 @@ TEST_F(ADesk, ARectangleChoosesAndDeleteTakesAlong) {
   EXPECT_EQ(document().map.lanes.size(), 20u);
 }
 
+TEST_F(ADesk, JoinedHandlesMoveTogetherAndInOneStepBack) {
+  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
+  Sit(At("a.motors"));
+  const std::string before = editor::BytesOf(document());
+  const auto point = [&](std::int32_t curve, std::size_t index) { return document().map.curves[*editor::Find(document().map.curves, curve)].value.points[index]; };
+  Drag(On(30.0, 1.5), On(31.0, 4.0));  // where curves 1, 3 and 5 meet
+  EXPECT_NEAR(static_cast<double>(point(1, 3).y_m), 4.0, 0.2);
+  EXPECT_EQ(point(3, 3), point(1, 3));
+  EXPECT_EQ(point(5, 0), point(1, 3));
+  Press(SDL_SCANCODE_Z, KMOD_CTRL);
+  EXPECT_EQ(editor::BytesOf(document()), before);
+  hands::Key(SDL_SCANCODE_LALT, true, KMOD_LALT);
+  Drag(On(30.0, 1.5), On(31.0, 4.0));
+  hands::Key(SDL_SCANCODE_LALT, false);
+  Show();
+  int moved = 0;
+  for (const auto& [curve, index] : {std::pair(1, 3u), std::pair(3, 3u), std::pair(5, 0u)}) moved += point(curve, index).y_m > 2.0f ? 1 : 0;
+  EXPECT_EQ(moved, 1);
+  Press(SDL_SCANCODE_Z, KMOD_CTRL);
+  // All that is chosen goes along.
+  Press(SDL_SCANCODE_A, KMOD_CTRL);
+  Drag(On(20.0, 1.5), On(20.0, 21.5));
+  EXPECT_NEAR(static_cast<double>(point(6, 3).y_m), 30.0, 0.2);
+  EXPECT_NEAR(static_cast<double>(point(2, 0).y_m), 18.5, 0.2);
+}
+
+TEST_F(ADesk, TheBackgroundIsScaledByAKnownDistance) {
+  work().view.metres_per_px = 0.1;
+  Press(SDL_SCANCODE_M);
+  Drag(On(-20.0, 5.0), On(20.0, 5.0));
+  ASSERT_EQ(work().form, Form::kMeasured);
+  Write("100");
+  Press(SDL_SCANCODE_RETURN);
+  EXPECT_NEAR(static_cast<double>(document().map.scale.value.value), 25.0, 0.1);
+  Press(SDL_SCANCODE_Z, KMOD_CTRL);
+  EXPECT_EQ(document().map.scale.value.value, 10.0f);
+}
+
+TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
+  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
+  Sit(At("a.motors"));
+  // Of the colour that handles have.
+  const auto yellow = [&] {
+    window::Image seen;
+    desk_->Frame(0, &seen);
+    int count = 0;
+    for (std::size_t i = 0; i + 2 < seen.rgb.size(); i += 3) count += seen.rgb[i] == 255 && seen.rgb[i + 1] == 220 && seen.rgb[i + 2] == 90 ? 1 : 0;
+    return count;
+  };
+  EXPECT_GT(yellow(), 20 * 25);  // some twenty places, seven pixels wide
+  window::Image with, without;
+  Press(SDL_SCANCODE_H);
+  EXPECT_EQ(yellow(), 0);
+  desk_->Frame(0, &with);
+  Press(SDL_SCANCODE_I);
+  desk_->Frame(0, &without);
+  EXPECT_NE(with, without);
+  Press(SDL_SCANCODE_O);
+  desk_->Frame(0, &with);
+  EXPECT_NE(with, without);
+  // A handle that is not seen is not taken: the ground is dragged.
+  const std::string before = editor::BytesOf(document());
+  Drag(On(30.0, 1.5), On(31.0, 4.0));
+  EXPECT_EQ(editor::BytesOf(document()), before);
+}
+
+TEST_F(ADesk, ResetIsAskedFor) {
+  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
+  Sit(At("a.motors"));
+  Press(SDL_SCANCODE_R, KMOD_CTRL);
+  ASSERT_EQ(work().form, Form::kReset);
+  Press(SDL_SCANCODE_ESCAPE);
+  EXPECT_EQ(document().map.lanes.size(), 3u);
+  Press(SDL_SCANCODE_R, KMOD_CTRL);
+  Press(SDL_SCANCODE_RETURN);
+  EXPECT_TRUE(document().map.curves.empty());
+}
+
 TEST_F(ADesk, ABrokenFileAndAPictureThatIsNoneAreSaidInTheStatusLine) {
   ASSERT_TRUE(base::WriteWhole(At("broken.motors"), "p,1,2\n").ok());
   ASSERT_TRUE(base::WriteWhole(At("letter.png"), "Dear all").ok());

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "common/base/files.hpp"
+#include "launch/pause_buttons.hpp"
 #include "nodes/input/joysticks.hpp"
+#include "nodes/view/wheel_buttons.hpp"
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
 
@@ -118,6 +120,51 @@ TEST_F(JoystickSource, UnpluggedInTheRunThePedalsAreReleasedTheSteeringStaysAndT
   EXPECT_NE(said.find("node 'driver': rim '"), std::string::npos) << said;
   EXPECT_NE(said.find("was unplugged: pedals released, steering held"), std::string::npos) << said;
   EXPECT_NE(said.find("is there again"), std::string::npos) << said;
+}
+
+// The operator's button and the window's: a press counts once, one that is held at the beginning does not, and a wheel may come and go.
+TEST_F(JoystickSource, ButtonsForPauseAndCameraArePressesAndNoControls) {
+  VirtualWheel wheel;
+  const std::string config = "{source: joystick, wheel: " + WheelFile(wheel.guid()) + "}";
+  const auto path = folder_ / "wheel.yaml";
+  std::string text = base::ReadText(path).value();
+  const std::string gear = "gear_up: {button: 4}";
+  text.replace(text.find(gear), gear.size(), gear + ", pause: {button: 6}, camera: {button: 7}");
+  ASSERT_TRUE(base::WriteWhole(path, std::string_view(text)).ok());
+  const launch::Launch launch = LaunchOf(config);
+  EXPECT_EQ(Complaint(config), "");
+  wheel.Button(6, true);
+  const auto pause = front::PauseButtons::Open(launch);
+  ASSERT_NE(pause, nullptr);
+  const auto camera = view::WheelButtons::Open({{wheel.guid(), 7}});
+  ASSERT_NE(camera, nullptr);
+  EXPECT_FALSE(pause->Pressed()) << "held as it begins";
+  wheel.Button(6, false);
+  EXPECT_FALSE(pause->Pressed());
+  wheel.Button(6, true);
+  EXPECT_TRUE(pause->Pressed());
+  EXPECT_FALSE(pause->Pressed()) << "still held";
+  EXPECT_FALSE(camera->Pressed());
+  wheel.Button(7, true);
+  EXPECT_FALSE(pause->Pressed());
+  EXPECT_TRUE(camera->Pressed());
+  wheel.Button(7, false);
+  EXPECT_FALSE(camera->Pressed());
+  wheel.Button(7, true);
+  EXPECT_TRUE(camera->Pressed());
+  EXPECT_FALSE(camera->Pressed());
+  wheel.Detach();
+  EXPECT_FALSE(camera->Pressed());
+  EXPECT_FALSE(pause->Pressed());
+  wheel.Attach();
+  EXPECT_FALSE(camera->Pressed());
+  EXPECT_FALSE(pause->Pressed());
+  wheel.Button(7, true);
+  wheel.Button(6, true);
+  EXPECT_TRUE(camera->Pressed());
+  EXPECT_TRUE(pause->Pressed());
+  EXPECT_EQ(front::PauseButtons::Open(LaunchOf("{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}")), nullptr);
+  EXPECT_EQ(view::WheelButtons::Open({}), nullptr);
 }
 
 TEST_F(JoystickSource, AMissingDeviceIsOneSentenceThatListsWhatIsThere) {

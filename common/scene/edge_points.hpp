@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "common/partition/grid_point.hpp"
+#include "common/road/world.hpp"
+#include "common/scene/tile_grid.hpp"
+
+namespace rodeira::scene {
+
+// Puts more points among those on a tile's edges, where the ground is not straight from each to the next: in worlds with a terrain. They follow
+// from the edge's own points and SUELO alone, so that both tiles have the same.
+void RefineEdges(const road::World& world, const TileKey& tile, std::vector<partition::GridPoint>& edge);
+
+}  // namespace rodeira::scene

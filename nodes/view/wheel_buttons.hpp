@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+struct _SDL_Joystick;
+
+namespace rodeira::view {
+
+// A button of a steering wheel on the window's PC.
+struct WheelButtonUse {
+  std::string guid;
+  int button = 0;
+};
+
+// Buttons of the wheel that change what the window shows (`camera` of a wheel file). Used on the thread of the window.
+class WheelButtons {
+ public:
+  // Null where none is named, or SDL cannot look at devices.
+  static std::unique_ptr<WheelButtons> Open(const std::vector<WheelButtonUse>& uses);
+  ~WheelButtons();
+  WheelButtons(const WheelButtons&) = delete;
+  WheelButtons& operator=(const WheelButtons&) = delete;
+
+  // Whether one was pressed since the last call. A wheel may come and go. Never waits.
+  bool Pressed();
+
+ private:
+  struct Button {
+    WheelButtonUse use;
+    _SDL_Joystick* joystick = nullptr;
+    bool down = true;  // one that is held as it begins is no press
+  };
+  WheelButtons() = default;
+  static void Find(Button& button);
+  std::vector<Button> buttons_;
+};
+
+}  // namespace rodeira::view
