@@ -80,7 +80,8 @@ Air MakeAir(const weather::Weather& weather) {
   air.wetness = static_cast<float>(weather.wetness);
   air.rain = static_cast<float>(std::min(1.0, std::sqrt(weather.rain_mmph / 50.0)));
   const bool on = height_deg < 3.0 || weather.visibility_m < 300.0 || weather.rain_mmph > 0.0;
-  air.headlights = on ? static_cast<float>(1.0 - 0.9 * Smooth(0.15, 0.75, Grey(sky.base + sky.sky + 0.5 * sky.sun).x())) : 0.0F;
+  air.dusk = static_cast<float>(1.0 - 0.9 * Smooth(0.15, 0.75, Grey(sky.base + sky.sky + 0.5 * sky.sun).x()));
+  air.headlights = on ? air.dusk : 0.0F;
   return air;
 }
 

@@ -18,7 +18,8 @@ struct Air {
   float fog_per_m = 0.0F;           // a colour at distance d is exp(-fog d) of itself, beside the haze of a clear day
   float wetness = 0.0F;
   float rain = 0.0F;                // 0 … 1: none … a cloudburst (50 mm an hour and more)
-  float headlights = 0.0F;          // 0: off; what they add to what is lit, 1 at night, a tenth by day
+  float dusk = 0.0F;                // what headlights add to what is lit: 1 at night, a tenth by day
+  float headlights = 0.0F;          // the same where people have them on, else 0
 };
 
 // Height of the sun over the horizon: at 42 degrees north (Galicia) at an equinox,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/scene/coachwork.hpp"
 #include "common/scene/loft.hpp"
 
 namespace rodeira::scene {
@@ -86,14 +87,19 @@ void AddGlass(const Body& body, CarMeshes& car) {
 }
 
 void AddTrim(const Body& body, const CarShape& shape, CarMeshes& car) {
-  const Colour lamp = Colour::Of(0xf2f0e2);
   car.body.push_back(body.BoxAt(0.985, 1.002, -0.5, 0.5, 0.33, 0.385, Material::kMatt, kTrimColour));        // grille
   car.body.push_back(body.BoxAt(-0.004, 0.02, -0.72, 0.72, 0.30, 0.375, Material::kMatt, kTrimColour));       // rear bumper
   car.body.push_back(body.BoxAt(-0.006, 0.01, -0.31, 0.31, 0.455, 0.525, Material::kMatt, Colour::Of(0xe6e6e0)));  // plate
-  car.brake_lamps.material = Material::kLamp;
   for (const double side : {-1.0, 1.0}) {
-    car.body.push_back(body.BoxAt(0.955, 0.992, side * 0.46, side * 0.76, 0.425, 0.485, Material::kLamp, lamp));
-    car.brake_lamps.Append(body.BoxAt(-0.003, 0.028, side * 0.60, side * 0.90, 0.51, 0.625, Material::kLamp, Colour::Of(0x7c1410)));
+    const auto lamp = [&](Lamp which, double from, double to, double y_from, double y_to, double low, double top) {
+      car.AddLamp(which, body.BoxAt(from, to, side * y_from, side * y_to, low, top, Material::kCarLamp, {}));
+    };
+    const Lamp indicator = side > 0.0 ? Lamp::kLeft : Lamp::kRight;
+    lamp(Lamp::kHead, 0.955, 0.992, 0.46, 0.76, 0.425, 0.485);
+    lamp(indicator, 0.930, 0.985, 0.77, 0.88, 0.425, 0.485);
+    lamp(Lamp::kBrake, -0.003, 0.028, 0.60, 0.90, 0.545, 0.625);
+    lamp(indicator, -0.003, 0.028, 0.72, 0.90, 0.475, 0.540);
+    lamp(Lamp::kReversing, -0.003, 0.028, 0.56, 0.71, 0.475, 0.540);
   }
   for (const Vector3d& hub : shape.hubs_B) {  // the dark of the wheel arches
     Mesh arch = Disc(1.16 * shape.wheel_radius_m, 0.10, 0.01, 24, Material::kMatt, Colour::Of(0x0d0d0e));
@@ -143,16 +149,26 @@ CarMeshes BuildCar(const CarShape& shape, Colour paint) {
   AddPaint(body, paint, car);
   AddGlass(body, car);
   AddTrim(body, shape, car);
-  const double half = 0.5 * shape.wheel_width_m, radius = shape.wheel_radius_m;
-  car.wheel.push_back(Disc(radius, half, 0.03, 24, Material::kMatt, Colour::Of(0x1d1d1f)));
-  car.wheel.push_back(Disc(0.64 * radius, half + 0.006, 0.02, 20, Material::kMatt, Colour::Of(0xa9abae)));
-  for (int spoke = 0; spoke < 5; ++spoke) {  // gaps between spokes show that it turns
-    const double angle = 2.0 * 3.14159265358979323846 * spoke / 5.0;
-    Mesh gap = Disc(0.13 * radius, half + 0.009, 0.004, 8, Material::kMatt, Colour::Of(0x2a2b2d));
-    for (Eigen::Vector3f& p : gap.positions) p += (0.42 * radius * Vector3d(std::sin(angle), 0.0, std::cos(angle))).cast<float>();
-    car.wheel.push_back(std::move(gap));
-  }
+  AddWheel(shape, car);
   return car;
+}
+
+CarMeshes BuildVehicle(AgentKind kind, const CarShape& shape, Colour paint) {
+  switch (kind) {
+    case AgentKind::kVan: return BuildVan(shape, paint);
+    case AgentKind::kLorry: return BuildLorry(shape, paint);
+    case AgentKind::kBus: return BuildBus(shape, paint);
+    case AgentKind::kCar:
+    case AgentKind::kPedestrian: break;
+  }
+  return BuildCar(shape, paint);
+}
+
+void CarMeshes::AddLamp(Lamp lamp, Mesh part) {
+  part.material = lamps.material = Material::kCarLamp;
+  part.colours.assign(part.positions.size(), ColourOf(lamp));
+  part.on_face.assign(part.positions.size(), {static_cast<float>(lamp), 0.0F});
+  lamps.Append(part);
 }
 
 }  // namespace rodeira::scene

@@ -29,9 +29,14 @@ struct CarShape {
 struct CarMeshes {
   std::vector<Mesh> body;   // paint, glass, trim, lamps
   std::vector<Mesh> frame;  // what would stand in the driver's eyes: posts, mirrors
-  Mesh brake_lamps;        // the same place whether they shine or not
+  Mesh lamps;               // kCarLamp, all of them
   std::vector<Mesh> wheel;  // about its hub, axle along y; the same for all four
+
+  // A closed part that shines as this lamp does.
+  void AddLamp(Lamp lamp, Mesh part);
 };
 CarMeshes BuildCar(const CarShape& shape, Colour paint);
+// Of any kind but somebody on foot.
+CarMeshes BuildVehicle(AgentKind kind, const CarShape& shape, Colour paint);
 
 }  // namespace rodeira::scene

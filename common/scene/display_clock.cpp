@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kRateMemory_s = 1.0;  // on the wall
 constexpr double kPhaseMemory_s = 0.4;
+constexpr double kLate_s = 0.0015;  // so late a sample may come before the picture has to wait for it
 constexpr double kPause_s = 0.5;  // longer without a sample says nothing about the rate
 
 }  // namespace
@@ -33,8 +34,8 @@ void DisplayClock::Arrived(double wall_s, double sample_s, double interval_s) {
 double DisplayClock::Now(double wall_s) {
   const double passed = wall_s - shown_wall_s_;
   shown_wall_s_ = wall_s;
-  const double since = std::min(rate_ * (wall_s - arrived_wall_s_), interval_s_);
-  const double wanted = newest_s_ - interval_s_ + since;
+  const double behind_s = interval_s_ + rate_ * kLate_s;
+  const double wanted = newest_s_ - behind_s + std::min(rate_ * (wall_s - arrived_wall_s_), behind_s);
   double next = shown_s_ + rate_ * passed;
   next += (1.0 - std::exp(-passed / kPhaseMemory_s)) * (wanted - next);
   if (std::fabs(wanted - next) > kLost_s * std::max(rate_, 1.0)) next = wanted;

@@ -33,6 +33,7 @@ void Mesh::Append(const Mesh& other) {
   positions.insert(positions.end(), other.positions.begin(), other.positions.end());
   normals.insert(normals.end(), other.normals.begin(), other.normals.end());
   colours.insert(colours.end(), other.colours.begin(), other.colours.end());
+  on_face.insert(on_face.end(), other.on_face.begin(), other.on_face.end());
   for (const std::uint32_t index : other.triangles) triangles.push_back(first + index);
 }
 

@@ -24,8 +24,9 @@ enum class Material : std::uint32_t {
   kConcrete,
   kGravel,
   kPicture,  // a picture from a file lies on it; where it ends, as kGround
+  kCarLamp,  // dull, or shining as its vehicle says
 };
-inline constexpr int kMaterials = 13;
+inline constexpr int kMaterials = 14;
 
 struct Colour {
   std::uint8_t red = 255;
@@ -53,7 +54,7 @@ struct Mesh {
   std::vector<Colour> colours;
   std::vector<std::uint32_t> triangles;  // three indices each
   // Of kSign and kPicture only: which face (scene::DrawFace) or file, and where on it each vertex lies: (0, 0) its lower left
-  // corner, (1, 1) its upper right one.
+  // corner, (1, 1) its upper right one. Of kCarLamp: which lamp (scene::Lamp) each vertex belongs to, and 0.
   std::string face;
   std::vector<Eigen::Vector2f> on_face;
   bool repeats = false;  // the picture, beyond its edges

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/network/lights.hpp"
+#include "common/scene/car_lights.hpp"
 #include "common/scene/mesh.hpp"
 #include "common/weather/weather.hpp"
 
@@ -29,6 +30,7 @@ struct CarPose {
   std::array<WheelPose, 4> wheels;  // front left, front right, rear left, rear right
   double speed_mps = 0.0;           // forward
   double brake = 0.0;               // 0 … 1
+  CarLights lights;
   std::int32_t gear = 0;
   double engine_rpm = 0.0, fuel_l = 0.0, fuel_lph = 0.0;  // litres, litres an hour
   double odometer_m = 0.0;
@@ -41,16 +43,19 @@ struct CarPose {
   std::array<double, 2> track_m = {1.42, 1.42};             // front, rear
 };
 
-// A car of the traffic: B's origin is the middle of its footprint, between the axles, on the ground.
+enum class AgentKind { kCar, kVan, kLorry, kBus, kPedestrian };
+
+// A car of the traffic, or somebody on foot: B's origin is the middle of its footprint, between the axles, on the ground.
 struct AgentPose {
   std::uint64_t id = 0;  // of one appearance: who leaves and enters again elsewhere has another
+  AgentKind kind = AgentKind::kCar;
   Colour colour;
   Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
   double speed_mps = 0.0;
   double steer_rad = 0.0;  // of the front wheels
-  double wheel_spin_rad = 0.0;
-  bool braking = false;
+  double wheel_spin_rad = 0.0;  // of somebody on foot: a turn in two steps
+  CarLights lights;
   double length_m = 4.0, width_m = 1.7, height_m = 1.45, wheelbase_m = 2.5, wheel_radius_m = 0.3;
 };
 

@@ -15,6 +15,11 @@ osg::Vec3f Turned(const osg::Vec3d& direction, const osg::Matrixd& view) { retur
 void Set(osg::StateSet& state, const char* name, float value) { state.getOrCreateUniform(name, osg::Uniform::FLOAT)->set(value); }
 void Set(osg::StateSet& state, const char* name, const osg::Vec3f& value) { state.getOrCreateUniform(name, osg::Uniform::FLOAT_VEC3)->set(value); }
 
+void Define(osg::StateSet& state, const char* word, bool on) {
+  if (on) state.setDefine(word);
+  else state.removeDefine(word);
+}
+
 }  // namespace
 
 void SetAir(osg::StateSet& state, const scene::Air& air) {
@@ -30,12 +35,16 @@ void SetAir(osg::StateSet& state, const scene::Air& air) {
   Set(state, "fog_per_m", air.fog_per_m);
   Set(state, "wetness", air.wetness);
   Set(state, "rain", air.rain);
+  Define(state, "WET", air.wetness > 0.0F);
 }
 
 void SetEye(osg::StateSet& state, const scene::Air& air, const scene::CarPose* car, const osg::Matrixd& view) {
   Set(state, "sun_eye", Turned(osg::Vec3d(ToOsg(air.sun_W)), view));
   Set(state, "up_eye", Turned({0.0, 0.0, 1.0}, view));
-  Set(state, "headlights", car != nullptr ? air.headlights : 0.0F);
+  const bool switched_on = car != nullptr && (car->lights.dipped || car->lights.main);
+  const float headlights = car == nullptr ? 0.0F : switched_on ? air.dusk : air.headlights;
+  Set(state, "headlights", headlights);
+  Define(state, "HEADLIGHTS", headlights > 0.0F);
   const scene::CarPose none;
   const scene::CarPose& of = car != nullptr ? *car : none;
   const Eigen::Vector3d at = of.p_WB_W + of.q_WB * Eigen::Vector3d(of.front_m, 0.0, kLampHeight_m);

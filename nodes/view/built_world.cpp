@@ -6,6 +6,7 @@
 #include <osgDB/ReadFile>
 
 #include <charconv>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -27,6 +28,7 @@ class Dress : public osg::NodeVisitor {
     std::from_chars(name.data() + begin.size(), name.data() + name.size(), number);
     if (number < 0 || number >= scene::kMaterials) return;
     const auto material = static_cast<scene::Material>(number);
+    if (!ThrowsShadow(material)) geometry.setNodeMask(~kThrowsShadow);
     if (material == scene::Material::kPicture) return LayPicture(geometry);
     if (material == scene::Material::kSign) {
       osg::StateSet* own = geometry.getStateSet();
@@ -96,9 +98,28 @@ base::Result<BuiltWorld> ReadBuilt(const std::filesystem::path& folder, Look& lo
     if (tile == nullptr) return base::Failed("this is no database of tiles", file);
     tile->setDatabasePath(folder.string() + "/");
     tile->setDatabaseOptions(options);
-    ++built.tiles;
   }
   return built;
+}
+
+void GiveBack(osg::Group& root, const osg::Vec3d& eye_W, double far_m, double detail_scale) {
+  constexpr double kBeyond = 1.25;
+  for (unsigned i = 0; i < root.getNumChildren(); ++i) {
+    auto& tile = static_cast<osg::PagedLOD&>(*root.getChild(i));
+    const double distance_m = (tile.getCenter() - eye_W).length();
+    while (tile.getNumChildren() > 0) {  // the finest is the last one, and has the shortest range
+      const unsigned last = tile.getNumChildren() - 1;
+      const double needed_m = last == 0 ? far_m + static_cast<double>(tile.getRadius()) : static_cast<double>(tile.getMaxRange(last)) / detail_scale;
+      osg::NodeList given;
+      if (distance_m <= kBeyond * needed_m || !tile.removeExpiredChildren(std::numeric_limits<double>::max(), std::numeric_limits<unsigned>::max(), given)) break;
+    }
+  }
+}
+
+std::size_t HeldLevels(const osg::Group& root) {
+  std::size_t held = 0;
+  for (unsigned i = 0; i < root.getNumChildren(); ++i) held += static_cast<const osg::PagedLOD&>(*root.getChild(i)).getNumChildren();
+  return held;
 }
 
 }  // namespace rodeira::view

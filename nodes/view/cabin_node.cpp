@@ -63,6 +63,7 @@ CabinNode::CabinNode(Look& look) : look_(look), group_(new osg::MatrixTransform)
   // Nothing but the cabin is nearer to the eye: it has the nearest hundredth of the depths for itself, and the car's body, which is closed
   // where people sit, stays behind it.
   group_->getOrCreateStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 0.01));
+  group_->getOrCreateStateSet()->setDefine("SUN_SHADOW", osg::StateAttribute::OFF);  // the roof would darken it all
 }
 
 void CabinNode::Build(double car_width_m, double eye_left_m) {

@@ -7,16 +7,27 @@ namespace rodeira::view {
 namespace {
 
 constexpr double kPulse_Hz = 1.25;
+constexpr double kPressed = 0.02;  // of a brake pedal
 
 osg::Matrixd ToOsg(const Eigen::Vector3d& p, const Eigen::Quaterniond& q) {
   return osg::Matrixd::rotate(osg::Quat(q.x(), q.y(), q.z(), q.w())) * osg::Matrixd::translate(p.x(), p.y(), p.z());
 }
 
+// The mesh with a uniform of its own. One farther down would win, so it gets a copy of its material's state.
+osg::ref_ptr<osg::Geometry> WithUniform(Look& look, const scene::Mesh& mesh, const osg::ref_ptr<osg::Uniform>& uniform) {
+  osg::ref_ptr<osg::Geometry> geometry = look.GeometryOf(mesh);
+  osg::ref_ptr<osg::StateSet> state = new osg::StateSet(*look.StateOf(mesh.material), osg::CopyOp::SHALLOW_COPY);
+  state->addUniform(uniform);
+  geometry->setStateSet(state);
+  return geometry;
+}
+
 }  // namespace
 
-CarNode::CarNode(Look& look, const scene::CarShape& shape, scene::Colour paint)
-    : shape_(shape), body_(new osg::MatrixTransform), frame_(new osg::Group), brake_glow_(new osg::Uniform("glow", 1.0F)), pulse_(new osg::Uniform("pulse", 0.0F)) {
-  const scene::CarMeshes car = scene::BuildCar(shape, paint);
+CarNode::CarNode(Look& look, scene::AgentKind kind, const scene::CarShape& shape, scene::Colour paint)
+    : shape_(shape), body_(new osg::MatrixTransform), frame_(new osg::Group),
+      glows_(new osg::Uniform(osg::Uniform::FLOAT, "glows", static_cast<int>(scene::kLamps))), pulse_(new osg::Uniform("pulse", 0.0F)) {
+  const scene::CarMeshes car = scene::BuildVehicle(kind, shape, paint);
   std::map<scene::Material, scene::Mesh> parts;  // as few as there are materials: each costs a call a frame
   const auto gather = [&parts](const scene::Mesh& mesh) {
     scene::Mesh& part = parts[mesh.material];
@@ -24,19 +35,12 @@ CarNode::CarNode(Look& look, const scene::CarShape& shape, scene::Colour paint)
     part.Append(mesh);
   };
   for (const scene::Mesh& mesh : car.body) gather(mesh);
-  for (const auto& [material, part] : parts) body_->addChild(material == scene::Material::kCarPaint ? Painted(look, part) : look.GeometryOf(part));
+  for (const auto& [material, part] : parts) body_->addChild(material == scene::Material::kCarPaint ? WithUniform(look, part, pulse_) : look.GeometryOf(part));
   parts.clear();
   for (const scene::Mesh& mesh : car.frame) gather(mesh);
-  for (const auto& [material, part] : parts) frame_->addChild(material == scene::Material::kCarPaint ? Painted(look, part) : look.GeometryOf(part));
+  for (const auto& [material, part] : parts) frame_->addChild(material == scene::Material::kCarPaint ? WithUniform(look, part, pulse_) : look.GeometryOf(part));
   body_->addChild(frame_);
-  const osg::ref_ptr<osg::Geometry> lamps = look.GeometryOf(car.brake_lamps);
-  osg::ref_ptr<osg::Group> lamps_group = new osg::Group;
-  lamps_group->addChild(lamps);
-  // A uniform farther down would win, so the lamps get a copy of their material's state with their own.
-  osg::ref_ptr<osg::StateSet> lamps_state = new osg::StateSet(*look.StateOf(scene::Material::kLamp), osg::CopyOp::SHALLOW_COPY);
-  lamps_state->addUniform(brake_glow_);
-  lamps->setStateSet(lamps_state);
-  body_->addChild(lamps_group);
+  body_->addChild(WithUniform(look, car.lamps, glows_));
   body_->addChild(look.MakeShadow(static_cast<float>(shape.front_m - shape.length_m), static_cast<float>(shape.front_m), static_cast<float>(0.5 * shape.width_m)));
   parts.clear();
   for (const scene::Mesh& mesh : car.wheel) gather(mesh);
@@ -48,15 +52,6 @@ CarNode::CarNode(Look& look, const scene::CarShape& shape, scene::Colour paint)
   }
 }
 
-// A uniform farther down would win, so the paint gets a copy of its material's state with its own.
-osg::ref_ptr<osg::Geometry> CarNode::Painted(Look& look, const scene::Mesh& mesh) {
-  osg::ref_ptr<osg::Geometry> geometry = look.GeometryOf(mesh);
-  osg::ref_ptr<osg::StateSet> state = new osg::StateSet(*look.StateOf(scene::Material::kCarPaint), osg::CopyOp::SHALLOW_COPY);
-  state->addUniform(pulse_);
-  geometry->setStateSet(state);
-  return geometry;
-}
-
 void CarNode::Place(const Eigen::Vector3d& p_WB_W, const Eigen::Quaterniond& q_WB) { body_->setMatrix(ToOsg(p_WB_W, q_WB)); }
 
 void CarNode::Turn(std::size_t wheel, const Eigen::Vector3d& hub_B, double steer_rad, double spin_rad) {
@@ -65,24 +60,46 @@ void CarNode::Turn(std::size_t wheel, const Eigen::Vector3d& hub_B, double steer
   wheels_[wheel]->setMatrix(ToOsg(hub_B + out, Eigen::Quaterniond(q)));
 }
 
-void CarNode::Brake(bool braking) { brake_glow_->set(braking ? 2.1F : 1.0F); }
+void CarNode::Shine(const std::array<float, scene::kLamps>& glows) {
+  for (unsigned i = 0; i < glows.size(); ++i) glows_->setElement(i, glows[i]);
+}
 
 void CarNode::Pulse(double share) { pulse_->set(static_cast<float>(share)); }
 
-template <class Pose, class Update>
-void Fleet::Match(const std::vector<Pose>& poses, std::map<std::uint64_t, CarNode>& nodes, Update update) {
+PersonNode::PersonNode(Look& look, double height_m, scene::Colour clothes)
+    : leg_m_(scene::LegLength_m(height_m)), meshes_(scene::BuildPerson(height_m, clothes)), body_(new osg::MatrixTransform), pulse_(new osg::Uniform("pulse", 0.0F)) {
+  body_->addChild(WithUniform(look, meshes_.trunk, pulse_));
+  for (std::size_t i = 0; i < limbs_.size(); ++i) {
+    limbs_[i] = new osg::MatrixTransform;
+    limbs_[i]->addChild(WithUniform(look, meshes_.limbs[i].mesh, pulse_));
+    body_->addChild(limbs_[i]);
+  }
+}
+
+void PersonNode::Place(const scene::AgentPose& person) {
+  const double swing = scene::LegSwing_rad(person.wheel_spin_rad, person.wheel_radius_m, leg_m_);
+  for (std::size_t i = 0; i < limbs_.size(); ++i) {
+    const scene::Limb& limb = meshes_.limbs[i];
+    limbs_[i]->setMatrix(ToOsg(limb.joint_B, Eigen::Quaterniond(Eigen::AngleAxisd(-limb.swings * swing, Eigen::Vector3d::UnitY()))));
+  }
+  // Legs that part reach less far down.
+  const Eigen::Vector3d lower(0.0, 0.0, leg_m_ * (1.0 - std::cos(swing)));
+  body_->setMatrix(ToOsg(person.p_WB_W - lower, person.q_WB));
+}
+
+template <class Pose, class Node, class Make, class Update>
+void Fleet::Match(const std::vector<const Pose*>& poses, std::map<std::uint64_t, Node>& nodes, Make make, Update update) {
   auto known = nodes.begin();
-  for (const Pose& pose : poses) {  // both ascend by id
-    while (known != nodes.end() && known->first < pose.id) {
+  for (const Pose* pose : poses) {  // both ascend by id
+    while (known != nodes.end() && known->first < pose->id) {
       group_->removeChild(known->second.node());
       known = nodes.erase(known);
     }
-    if (known == nodes.end() || known->first != pose.id) {
-      known = nodes.emplace_hint(known, pose.id, CarNode(look_, scene::CarShape::Of(pose), pose.colour));
+    if (known == nodes.end() || known->first != pose->id) {
+      known = nodes.emplace_hint(known, pose->id, make(*pose));
       group_->addChild(known->second.node());
     }
-    known->second.Place(pose.p_WB_W, pose.q_WB);
-    update(known->second, pose);
+    update(known->second, *pose);
     ++known;
   }
   while (known != nodes.end()) {
@@ -91,20 +108,36 @@ void Fleet::Match(const std::vector<Pose>& poses, std::map<std::uint64_t, CarNod
   }
 }
 
-void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen) {
+void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen, bool dark) {
   const double now = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * kPulse_Hz * static_cast<double>(moment.time_ns) * 1e-9);
   const auto pulse = [&](std::size_t number) { return chosen == number ? now : 0.0; };
-  Match(moment.cars, cars_, [&](CarNode& node, const scene::CarPose& car) {
+  const auto pulse_of = [&](const scene::AgentPose& agent) { return pulse(moment.cars.size() + static_cast<std::size_t>(&agent - moment.agents.data())); };
+  std::vector<const scene::CarPose*> cars;
+  std::vector<const scene::AgentPose*> agents, people;
+  for (const scene::CarPose& car : moment.cars) cars.push_back(&car);
+  for (const scene::AgentPose& agent : moment.agents) (agent.kind == scene::AgentKind::kPedestrian ? people : agents).push_back(&agent);
+  const auto make_car = [&](const scene::CarPose& car) { return CarNode(look_, scene::AgentKind::kCar, scene::CarShape::Of(car), car.colour); };
+  Match(cars, cars_, make_car, [&](CarNode& node, const scene::CarPose& car) {
+    node.Place(car.p_WB_W, car.q_WB);
     node.SeenFromInside(inside && &car == &moment.cars[*inside]);
     for (std::size_t i = 0; i < car.wheels.size(); ++i) node.Turn(i, car.wheels[i].hub_B, car.wheels[i].steer_rad, car.wheels[i].spin_rad);
-    node.Brake(car.brake > 0.02);
+    scene::CarLights lights = car.lights;
+    lights.brake = lights.brake || car.brake > kPressed;  // of recordings that have no lights yet
+    node.Shine(scene::GlowsOf(lights, dark, moment.time_ns));
     node.Pulse(pulse(static_cast<std::size_t>(&car - moment.cars.data())));
   });
-  Match(moment.agents, agents_, [&](CarNode& node, const scene::AgentPose& agent) {
+  const auto make_agent = [&](const scene::AgentPose& agent) { return CarNode(look_, agent.kind, scene::CarShape::Of(agent), agent.colour); };
+  Match(agents, agents_, make_agent, [&](CarNode& node, const scene::AgentPose& agent) {
+    node.Place(agent.p_WB_W, agent.q_WB);
     const scene::CarShape shape = scene::CarShape::Of(agent);
     for (std::size_t i = 0; i < 4; ++i) node.Turn(i, shape.hubs_B[i], i < 2 ? agent.steer_rad : 0.0, agent.wheel_spin_rad);
-    node.Brake(agent.braking);
-    node.Pulse(pulse(moment.cars.size() + static_cast<std::size_t>(&agent - moment.agents.data())));
+    node.Shine(scene::GlowsOf(agent.lights, dark, moment.time_ns));
+    node.Pulse(pulse_of(agent));
+  });
+  const auto make_person = [&](const scene::AgentPose& agent) { return PersonNode(look_, agent.height_m, agent.colour); };
+  Match(people, people_, make_person, [&](PersonNode& node, const scene::AgentPose& person) {
+    node.Place(person);
+    node.Pulse(pulse_of(person));
   });
 }
 

@@ -10,6 +10,7 @@
 
 #include "common/scene/car_mesh.hpp"
 #include "common/scene/moment.hpp"
+#include "common/scene/person_mesh.hpp"
 #include "nodes/view/look.hpp"
 
 namespace rodeira::view {
@@ -17,12 +18,12 @@ namespace rodeira::view {
 // One car in OpenSceneGraph's scene.
 class CarNode {
  public:
-  CarNode(Look& look, const scene::CarShape& shape, scene::Colour paint);
+  CarNode(Look& look, scene::AgentKind kind, const scene::CarShape& shape, scene::Colour paint);
   osg::Node* node() { return body_; }
 
   void Place(const Eigen::Vector3d& p_WB_W, const Eigen::Quaterniond& q_WB);
   void Turn(std::size_t wheel, const Eigen::Vector3d& hub_B, double steer_rad, double spin_rad);
-  void Brake(bool braking);
+  void Shine(const std::array<float, scene::kLamps>& glows);
   // How much of a chosen car's pulse is seen, 0 to 1.
   void Pulse(double share);
   // Leaves away what stands in the eyes of somebody who sits in it.
@@ -35,25 +36,45 @@ class CarNode {
   osg::ref_ptr<osg::MatrixTransform> body_;
   std::array<osg::ref_ptr<osg::MatrixTransform>, 4> wheels_;
   osg::ref_ptr<osg::Group> frame_;
-  osg::ref_ptr<osg::Uniform> brake_glow_, pulse_;
+  osg::ref_ptr<osg::Uniform> glows_, pulse_;
 };
 
-// All cars of a moment: makes those that are new, moves those that are there, removes those that are gone.
+// Somebody on foot.
+class PersonNode {
+ public:
+  PersonNode(Look& look, double height_m, scene::Colour clothes);
+  osg::Node* node() { return body_; }
+
+  // Where it is; its limbs as far as it has walked.
+  void Place(const scene::AgentPose& person);
+  void Pulse(double share) { pulse_->set(static_cast<float>(share)); }
+
+ private:
+  double leg_m_;
+  scene::PersonMeshes meshes_;
+  osg::ref_ptr<osg::MatrixTransform> body_;
+  std::array<osg::ref_ptr<osg::MatrixTransform>, 4> limbs_;
+  osg::ref_ptr<osg::Uniform> pulse_;
+};
+
+// All vehicles and people of a moment: makes those that are new, moves those that are there, removes those that are gone.
 class Fleet {
  public:
   explicit Fleet(Look& look) : look_(look), group_(new osg::Group) {}
   osg::Node* node() { return group_; }
   // `inside`: the number, in the moment, of the car that the camera is in, or none; `chosen`: who pulses, counted behind the cars for the traffic.
-  void Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen);
+  // `dark`: headlights are on.
+  void Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen, bool dark);
 
  private:
-  template <class Pose, class Update>
-  void Match(const std::vector<Pose>& poses, std::map<std::uint64_t, CarNode>& nodes, Update update);
+  template <class Pose, class Node, class Make, class Update>
+  void Match(const std::vector<const Pose*>& poses, std::map<std::uint64_t, Node>& nodes, Make make, Update update);
 
   Look& look_;
   osg::ref_ptr<osg::Group> group_;
   std::map<std::uint64_t, CarNode> cars_;
   std::map<std::uint64_t, CarNode> agents_;
+  std::map<std::uint64_t, PersonNode> people_;
 };
 
 }  // namespace rodeira::view

@@ -48,7 +48,7 @@ std::string Chosen::Panel(const scene::Moment& moment) {
   if (!at) return "";
   if (!who_->is_car) {
     const scene::AgentPose& agent = moment.agents[*at - moment.cars.size()];
-    return fmt::format("traffic {}\n{:.1f} km/h{}\nwheels {:.1f} deg", agent.id >> 24 & 0xffffffU, 3.6 * agent.speed_mps, agent.braking ? "   brakes" : "",
+    return fmt::format("traffic {}\n{:.1f} km/h{}\nwheels {:.1f} deg", agent.id >> 24 & 0xffffffU, 3.6 * agent.speed_mps, agent.lights.brake ? "   brakes" : "",
                        agent.steer_rad * 180.0 / std::numbers::pi);
   }
   const scene::CarPose& car = moment.cars[*at];

@@ -26,6 +26,12 @@ weather::Weather FromWire(const msg::WeatherState& message) {
           cut(message.clouds(), 0.0, 1.0), cut(message.hour(), 0.0, 24.0)};
 }
 
+// Bits as in vehicle.idl.
+scene::CarLights LightsOf(std::uint32_t bits) {
+  const auto on = [bits](std::uint32_t bit) { return (bits & bit) != 0; };
+  return {on(1), on(2), on(4), on(8), on(16), on(32)};
+}
+
 // Tyres begin to be heard beyond the slip of their greatest force, some 0.12, and where the car moves.
 double Sliding(const msg::VehicleState& message) {
   double most = 0.0;
@@ -58,6 +64,7 @@ scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, 
   }
   car.speed_mps = (car.q_WB.conjugate() * ToVector(message.velocity_w_mps())).x();
   car.brake = Double(message.brake());
+  car.lights = LightsOf(message.lights());
   car.gear = message.gear();
   car.engine_rpm = message.engine_speed_radps() * 30.0 / std::numbers::pi;
   car.fuel_l = message.fuel_kg() / kPetrol_kgpl;
@@ -93,7 +100,8 @@ void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::v
     agent.speed_mps = from.speed_mps();
     agent.steer_rad = Double(from.steer_rad());
     agent.wheel_spin_rad = Double(from.wheel_spin_rad());
-    agent.braking = (from.lights() & 1U) != 0;
+    agent.kind = static_cast<scene::AgentKind>(std::min(from.kind(), static_cast<std::uint32_t>(scene::AgentKind::kPedestrian)));
+    agent.lights = LightsOf(from.lights());
     if (from.length_m() > 0.0F) agent.length_m = Double(from.length_m());
     if (from.width_m() > 0.0F) agent.width_m = Double(from.width_m());
     if (from.height_m() > 0.0F) agent.height_m = Double(from.height_m());

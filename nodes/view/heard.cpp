@@ -15,7 +15,7 @@ constexpr std::size_t kNearest = 4;
 constexpr double kFarthest_m = 80.0, kHalf_m = 6.0;  // where another car is half as loud as beside it
 constexpr double kOutside = 0.5;                     // of another car's loudness, through one's own body
 
-sound::Voice VoiceOf(const scene::AgentPose& agent) { return {900.0 + 75.0 * std::fabs(agent.speed_mps), agent.braking ? 0.0 : 0.35, agent.speed_mps, 0.0, 1.0, 0.0, 0.0}; }
+sound::Voice VoiceOf(const scene::AgentPose& agent) { return {900.0 + 75.0 * std::fabs(agent.speed_mps), agent.lights.brake ? 0.0 : 0.35, agent.speed_mps, 0.0, 1.0, 0.0, 0.0}; }
 
 sound::Voice VoiceOf(const scene::CarPose& car) { return {car.engine_rpm, car.throttle, car.speed_mps, car.sliding, 1.0, 0.0, car.horn ? 1.0 : 0.0}; }
 

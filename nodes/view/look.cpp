@@ -14,6 +14,7 @@
 
 #include "common/base/assert.hpp"
 #include "common/base/random.hpp"
+#include "common/scene/car_lights.hpp"
 #include "nodes/view/face_texture.hpp"
 #include "nodes/view/picture_texture.hpp"
 #include "nodes/view/shaders.hpp"
@@ -42,7 +43,8 @@ double RepeatingNoise(int x, int y, int cell, std::uint64_t seed) {
   return (corner(c, r) * (1.0 - a) + corner(c + 1, r) * a) * (1.0 - b) + (corner(c, r + 1) * (1.0 - a) + corner(c + 1, r + 1) * a) * b;
 }
 
-osg::ref_ptr<osg::Texture2D> MakeNoise() {
+// `between`: also between two of its sizes.
+osg::ref_ptr<osg::Texture2D> MakeNoise(bool between) {
   osg::ref_ptr<osg::Image> image = new osg::Image;
   image->allocateImage(kNoiseSize, kNoiseSize, 1, GL_RGB, GL_UNSIGNED_BYTE);
   for (int y = 0; y < kNoiseSize; ++y) {
@@ -58,22 +60,36 @@ osg::ref_ptr<osg::Texture2D> MakeNoise() {
   osg::ref_ptr<osg::Texture2D> made = new osg::Texture2D(image);
   made->setWrap(osg::Texture::WRAP_S, osg::Texture::REPEAT);
   made->setWrap(osg::Texture::WRAP_T, osg::Texture::REPEAT);
-  made->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR);
+  made->setFilter(osg::Texture::MIN_FILTER, between ? osg::Texture::LINEAR_MIPMAP_LINEAR : osg::Texture::LINEAR_MIPMAP_NEAREST);
   made->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
   return made;
 }
 
 }  // namespace
 
-Look::Look() : noise_(MakeNoise()), shadow_(ProgramOf(ShadowVertexShader(), ShadowFragmentShader())) {}
+bool ThrowsShadow(scene::Material material) {
+  switch (material) {
+    case scene::Material::kGround:
+    case scene::Material::kCheckers:
+    case scene::Material::kRoad:
+    case scene::Material::kMark:
+    case scene::Material::kConcrete:
+    case scene::Material::kGravel:
+    case scene::Material::kPicture: return false;
+    default: return true;
+  }
+}
+
+Look::Look(const QualityTraits& quality) : quality_(quality), noise_(MakeNoise(quality.fine)), shadow_(ProgramOf(ShadowVertexShader(), ShadowFragmentShader())) {}
 
 osg::ref_ptr<osg::StateSet> Look::MakeState(scene::Material material) {
   osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
-  state->setAttributeAndModes(ProgramOf(VertexShader(), FragmentShader(material)));
+  state->setAttributeAndModes(ProgramOf(VertexShader(material), FragmentShader(material)));
   state->setTextureAttribute(0, noise_);
   state->addUniform(new osg::Uniform("noise", 0));
   state->setMode(GL_CULL_FACE, osg::StateAttribute::ON);
-  if (material == scene::Material::kCarPaint) state->addUniform(new osg::Uniform("pulse", 0.0F));
+  if (material == scene::Material::kCarPaint || material == scene::Material::kMatt) state->addUniform(new osg::Uniform("pulse", 0.0F));
+  if (material == scene::Material::kCarLamp) state->addUniform(new osg::Uniform(osg::Uniform::FLOAT, "glows", static_cast<int>(scene::kLamps)));
   if (material == scene::Material::kLamp) state->addUniform(new osg::Uniform("glow", 1.0F));
   if (material == scene::Material::kMark) {
     state->setAttributeAndModes(new osg::PolygonOffset(-1.0F, -4.0F));
@@ -140,7 +156,8 @@ osg::ref_ptr<osg::Geometry> Look::BareGeometryOf(const scene::Mesh& mesh) {
   colours->setNormalize(true);
   geometry->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
   geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.triangles.begin(), mesh.triangles.end()));
-  if (mesh.material == scene::Material::kSign || mesh.material == scene::Material::kPicture) geometry->setTexCoordArray(1, PlacesOnFace(mesh));
+  if (!mesh.on_face.empty()) geometry->setTexCoordArray(1, PlacesOnFace(mesh));
+  if (!ThrowsShadow(mesh.material)) geometry->setNodeMask(~kThrowsShadow);
   return geometry;
 }
 
@@ -171,19 +188,19 @@ osg::ref_ptr<osg::MatrixTransform> Look::Placed(std::span<const scene::Mesh* con
 osg::ref_ptr<osg::Node> Look::MakeSky() {
   osg::ref_ptr<osg::Vec3Array> directions = new osg::Vec3Array;
   osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
-  constexpr int kAround = 32, kUp = 16;
-  for (int ring = 0; ring <= kUp; ++ring) {
-    const double height = -0.6 + 2.1707963 * ring / kUp;  // from below the horizon to the zenith
-    for (int k = 0; k < kAround; ++k) {
-      const double angle = 6.283185307179586 * k / kAround;
+  const int around = quality_.fine ? 32 : 96, up = quality_.fine ? 16 : 64;  // where colours belong to vertices those lie closer
+  for (int ring = 0; ring <= up; ++ring) {
+    const double height = -0.6 + 2.1707963 * ring / up;  // from below the horizon to the zenith
+    for (int k = 0; k < around; ++k) {
+      const double angle = 6.283185307179586 * k / around;
       directions->push_back(osg::Vec3(static_cast<float>(std::cos(height) * std::cos(angle)), static_cast<float>(std::cos(height) * std::sin(angle)),
                                       static_cast<float>(std::sin(height))));
     }
   }
-  for (int ring = 0; ring < kUp; ++ring) {
-    for (int k = 0; k < kAround; ++k) {
-      const int a = ring * kAround + k, b = ring * kAround + (k + 1) % kAround;
-      for (const int index : {a, b, b + kAround, a, b + kAround, a + kAround}) triangles->push_back(static_cast<GLushort>(index));
+  for (int ring = 0; ring < up; ++ring) {
+    for (int k = 0; k < around; ++k) {
+      const int a = ring * around + k, b = ring * around + (k + 1) % around;
+      for (const int index : {a, b, b + around, a, b + around, a + around}) triangles->push_back(static_cast<GLushort>(index));
     }
   }
   osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
@@ -199,6 +216,7 @@ osg::ref_ptr<osg::Node> Look::MakeSky() {
   state->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, false));
   state->setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
   state->setRenderBinDetails(kSkyBin, "RenderBin");
+  geometry->setNodeMask(~kThrowsShadow);
   return geometry;
 }
 
@@ -243,6 +261,7 @@ osg::ref_ptr<osg::Node> Look::MakeShadow(float rear_m, float front_m, float half
   state->setAttributeAndModes(new osg::PolygonOffset(-3.0F, -16.0F));
   state->setMode(GL_POLYGON_OFFSET_FILL, osg::StateAttribute::ON);
   state->setRenderBinDetails(kShadowBin, "RenderBin");
+  geometry->setNodeMask(~kThrowsShadow);
   return geometry;
 }
 

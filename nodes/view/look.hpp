@@ -15,13 +15,18 @@
 #include <utility>
 
 #include "common/scene/mesh.hpp"
+#include "nodes/view/quality.hpp"
 
 namespace rodeira::view {
+
+// The bit of node masks by which geometries are in the sun's shadow map: all but the ground, the sky and what lies on the ground.
+inline constexpr unsigned kThrowsShadow = 0x2U;
+bool ThrowsShadow(scene::Material material);
 
 // From the scene's plain meshes to OpenSceneGraph's nodes. What it makes belongs to one OpenGL context.
 class Look {
  public:
-  Look();
+  explicit Look(const QualityTraits& quality);
 
   // How a material is drawn; one shared state for each.
   osg::StateSet* StateOf(scene::Material material);
@@ -47,6 +52,7 @@ class Look {
   osg::ref_ptr<osg::StateSet> MakeState(scene::Material material);
   osg::StateSet* KnownFace(const std::string& face);
 
+  const QualityTraits quality_;
   osg::ref_ptr<osg::Texture2D> noise_;  // repeats: fine in its red part, coarse in its green one
   osg::ref_ptr<osg::Program> shadow_;
   std::array<osg::ref_ptr<osg::StateSet>, scene::kMaterials> states_;

@@ -84,7 +84,7 @@ void Mirrors::Fit(Glass& glass, scene::Mirror mirror, int width_px, int height_p
   corners.dirty();
 }
 
-void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air, int width_px, int height_px) {
+void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air, const SunShadow& shadow, int width_px, int height_px) {
   if (width_px != width_px_ || height_px != height_px_) {
     width_px_ = width_px;
     height_px_ = height_px;
@@ -102,6 +102,7 @@ void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& bod
     AimCamera(*glass.camera, scene::MirrorCamera(*body, mirror), scene::ShapeOf(mirror), kFar_m);
     glass.camera->setClearColor({air.horizon.x(), air.horizon.y(), air.horizon.z(), 1.0F});
     SetEye(*glass.camera->getOrCreateStateSet(), air, lit, glass.camera->getViewMatrix());
+    shadow.SetEye(*glass.camera->getOrCreateStateSet(), glass.camera->getViewMatrix());
     const Boxes::Box box = PixelsOf(mirror, width_px, height_px);
     frames.push_back({box.left - kFrame_px, box.low - kFrame_px, box.right + kFrame_px, box.high + kFrame_px});
   }

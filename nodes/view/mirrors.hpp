@@ -12,6 +12,7 @@
 #include "common/scene/mirror.hpp"
 #include "nodes/view/overlay.hpp"
 #include "nodes/view/picture.hpp"
+#include "nodes/view/sun_shadow.hpp"
 
 namespace rodeira::view {
 
@@ -22,7 +23,7 @@ class Mirrors {
   Mirrors(osg::Group& root, osg::Group& scene, osg::Group& overlay);
 
   // Of the body that the picture goes with; none: no mirrors.
-  void Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air, int width_px, int height_px);
+  void Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air, const SunShadow& shadow, int width_px, int height_px);
 
  private:
   struct Glass {

@@ -5,6 +5,8 @@
 #include <osg/LOD>
 #include <osg/Uniform>
 #include <osgDB/DatabasePager>
+#include <osgUtil/Statistics>
+#include <osgViewer/Renderer>
 #include <osgViewer/Viewer>
 
 #include <chrono>
@@ -23,12 +25,14 @@
 #include "nodes/view/mirrors.hpp"
 #include "nodes/view/model_file.hpp"
 #include "nodes/view/overlay.hpp"
+#include "nodes/view/sun_shadow.hpp"
 #include "nodes/view/timeline_bar.hpp"
 
 namespace rodeira::view {
 namespace {
 
 constexpr double kFar_m = 15'000.0;
+constexpr double kShadowsAhead_m = 35.0;
 constexpr float kMarksSeen_m = 650.0F;
 constexpr float kTreesSeen_m = 1'100.0F;
 constexpr std::array<float, scene::kTerrainLevels> kLevelSeen_m = {450.0F, 1'300.0F, 1e9F};  // up to this distance of the tile's centre
@@ -84,10 +88,17 @@ void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group) {
   group.addChild(lod);
 }
 
+// About which place shadows are seen best: before the eye where it looks along the road, else about the car.
+Eigen::Vector3d ShadowsAbout(const Picture& picture, const std::optional<scene::Body>& body, const scene::Camera& camera) {
+  if (!body) return camera.eye_W;
+  const bool ahead = picture.camera == scene::CameraKind::kDriver || picture.camera == scene::CameraKind::kBonnet || picture.camera == scene::CameraKind::kChase;
+  return body->p_WB_W + (ahead ? kShadowsAhead_m : 0.0) * (body->q_WB * Eigen::Vector3d::UnitX());
+}
+
 }  // namespace
 
 struct Painter::Parts {
-  explicit Parts(const road::World& world) : lights(look, world) {}
+  Parts(const road::World& world, const QualityTraits& quality) : look(quality), lights(look, world), shadow(*root, *scene, quality) {}
 
   Look look;
   Fleet fleet{look};
@@ -99,13 +110,14 @@ struct Painter::Parts {
   TimelineBar timeline{*overlay};
   osg::ref_ptr<osg::Group> root = new osg::Group;
   osg::ref_ptr<osg::Group> scene = new osg::Group;  // the world and what moves in it: all that mirrors show too
+  SunShadow shadow;
   Mirrors mirrors{*root, *scene, *overlay};
   osg::ref_ptr<osg::Node> rain = look.MakeRain();
-  unsigned built_tiles = 0;  // 0: the ground is in memory
+  osg::ref_ptr<osg::Group> built;  // the tiles of a database; null: the ground is in memory
   osgViewer::Viewer viewer;
 };
 
-Painter::Painter(Surface& surface, const road::World& world) : surface_(surface), world_(world), parts_(std::make_unique<Parts>(world)) {}
+Painter::Painter(Surface& surface, const road::World& world) : surface_(surface), world_(world), parts_(std::make_unique<Parts>(world, TraitsOf(surface.quality()))) {}
 
 Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing) : Painter(surface, world) {
   Look& look = parts_->look;
@@ -126,8 +138,8 @@ base::Result<std::unique_ptr<Painter>> Painter::Make(Surface& surface, const roa
   std::unique_ptr<Painter> painter(new Painter(surface, world));
   auto ground = ReadBuilt(built, painter->parts_->look);
   if (!ground) return ground.error();
+  painter->parts_->built = ground.value().root;
   painter->parts_->scene->addChild(ground.value().root);
-  painter->parts_->built_tiles = ground.value().tiles;
   painter->SetUp();
   return painter;
 }
@@ -149,6 +161,7 @@ void Painter::SetUp() {
   osg::StateSet* state = root.getOrCreateStateSet();
   state->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
   state->setMode(GL_MULTISAMPLE, osg::StateAttribute::ON);
+  if (TraitsOf(surface.quality()).fine) state->setDefine("FINE");
 
   osgViewer::Viewer& viewer = parts_->viewer;
   viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
@@ -159,9 +172,10 @@ void Painter::SetUp() {
   osg::Camera& camera = *viewer.getCamera();
   camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
   camera.setClearColor({0.8F, 0.86F, 0.91F, 1.0F});
+  camera.setLODScale(TraitsOf(surface.quality()).detail_scale);
   viewer.setSceneData(&root);
-  // Tiles that were read stay, as they do in memory: turning round shows no gaps.
-  if (parts_->built_tiles > 0) viewer.getDatabasePager()->setTargetMaximumNumberOfPageLOD(parts_->built_tiles);
+  // What was read stays until the eye has left it (GiveBack), also behind its back: turning round shows no gaps.
+  if (parts_->built) viewer.getDatabasePager()->setTargetMaximumNumberOfPageLOD(parts_->built->getNumChildren());
   viewer.realize();
 }
 
@@ -192,27 +206,42 @@ void Painter::Draw(const Picture& picture) {
   osg::StateSet& state = *parts_->root->getOrCreateStateSet();
   SetAir(state, air);
   SetEye(state, air, is_car ? &picture.moment.cars[picture.followed] : nullptr, eye.getViewMatrix());
+  parts_->shadow.Show(state, air, ShadowsAbout(picture, body, camera));
+  parts_->shadow.SetEye(state, eye.getViewMatrix());
   SetRain(state, picture.moment.time_ns, aspect);
   parts_->rain->setNodeMask(air.rain > 0.0F ? ~0U : 0U);
-  parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt, picture.chosen);
+  parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt, picture.chosen, air.headlights > 0.0F);
   parts_->cabin.Show(is_car && picture.cabin && picture.camera == scene::CameraKind::kDriver ? &picture.moment.cars[picture.followed] : nullptr);
   parts_->lights.Show(picture.moment.lights);
   FitOverlay(*parts_->overlay, width, height);
-  parts_->mirrors.Show(picture, body, air, width, height);
+  parts_->mirrors.Show(picture, body, air, parts_->shadow, width, height);
   parts_->instruments.Show(picture, width, height, picture.timeline ? TimelinePlace::kHeight_px : 0.0F);
   parts_->heat.Show(picture.heat, height);
   parts_->timeline.Show(picture.timeline, width);
   parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);
+  if (parts_->built && !parts_->viewer.getDatabasePager()->getRequestsInProgress()) GiveBack(*parts_->built, ToOsg(camera.eye_W), kFar_m, static_cast<double>(eye.getLODScale()));
 }
 
 void Painter::DrawWhole(const Picture& picture) {
   Draw(picture);
-  if (parts_->built_tiles == 0) return;
+  if (!parts_->built) return;
   // Each level of a tile is asked for when the one before it is there.
   while (parts_->viewer.getDatabasePager()->getRequestsInProgress()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     Draw(picture);
   }
+}
+
+std::size_t Painter::HeldLevels() const { return parts_->built ? view::HeldLevels(*parts_->built) : 0; }
+
+PictureCost Painter::CostOfLast() const {
+  auto& renderer = dynamic_cast<osgViewer::Renderer&>(*parts_->viewer.getCamera()->getRenderer());
+  osgUtil::Statistics counted;
+  renderer.getSceneView(0)->getStats(counted);  // the one that a single thread draws by
+  PictureCost cost;
+  cost.calls = static_cast<std::size_t>(counted.numDrawables + counted.numFastDrawables);
+  for (const auto& [mode, primitives] : counted.getPrimitiveValueMap()) cost.triangles += primitives.second / 3;
+  return cost;
 }
 
 Image Painter::Read() const {
@@ -247,8 +276,8 @@ base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::W
   return std::make_unique<Painter>(surface, world, standing);
 }
 
-base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px, const std::filesystem::path& built) {
-  auto surface = Surface::Open(SurfaceKind::kOffscreen, width_px, height_px, "Rodeira");
+base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px, const std::filesystem::path& built, Quality quality) {
+  auto surface = Surface::Open(SurfaceKind::kOffscreen, width_px, height_px, "Rodeira", false, 0, quality);
   if (!surface) return surface.error();
   auto painter = PainterOf(*surface.value(), world, built);
   if (!painter) return painter.error();

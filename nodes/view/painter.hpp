@@ -11,6 +11,12 @@
 
 namespace rodeira::view {
 
+// What the last picture asked of the renderer, mirrors and shadow map included.
+struct PictureCost {
+  std::size_t calls = 0;  // of drawing
+  std::size_t triangles = 0;
+};
+
 // Draws a world and what moves in it. Everything happens on the thread that made it, which is the surface's.
 class Painter {
  public:
@@ -26,6 +32,9 @@ class Painter {
   void DrawWhole(const Picture& picture);
   // From where such a picture is seen.
   scene::Camera CameraOf(const Picture& picture) const;
+  PictureCost CostOfLast() const;
+  // How many files of a built database's tiles are in memory, each a tile at one level; 0 where the ground was built there.
+  std::size_t HeldLevels() const;
   // What was drawn last, from before any Surface::Swap.
   Image Read() const;
 
@@ -46,6 +55,7 @@ base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::W
 
 // One picture of a world, without a window and without a run.
 // `built`: the folder of a database whose ground is shown; empty: the ground is built in memory.
-base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px, const std::filesystem::path& built = {});
+base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px, const std::filesystem::path& built = {},
+                                Quality quality = Quality::kMedium);
 
 }  // namespace rodeira::view

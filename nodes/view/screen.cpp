@@ -51,7 +51,7 @@ std::string WindowHelp() {
 base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
                                                    bool resizable, std::string help) {
   const std::string title = world.name().empty() ? "Rodeira" : fmt::format("Rodeira: {}", world.name());
-  auto surface = Surface::Open(kind, settings.width_px, settings.height_px, title, resizable, settings.display);
+  auto surface = Surface::Open(kind, settings.width_px, settings.height_px, title, resizable, settings.display, settings.quality);
   if (!surface) return surface.error();
   if (settings.full_screen) surface.value()->ToggleFullScreen();
   std::unique_ptr<Screen> screen(new Screen(world));
@@ -71,6 +71,11 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
     if (speaker) screen->speaker_ = std::move(speaker).value();
     else fmt::print(stderr, "rodeira: no sound: {}\n", speaker.error().Text());
     screen->volume_ = settings.volume;
+  }
+  if (!settings.frame_log.empty()) {
+    auto log = FrameLog::Open(settings.frame_log);
+    if (!log) return log.error();
+    screen->log_ = std::move(log).value();
   }
   if (settings.mirrors != screen->kNoMirrors) screen->mirrors_ = settings.mirrors;
   return screen;
@@ -250,6 +255,7 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
   painter_->Draw(live_);
   surface_->Swap();
   const double end_s = launch::WallSeconds();
+  if (log_) log_->Add(end_s, live_.moment, live_.followed, painter_->CameraOf(live_));
   frame_s_ += 0.1 * (end_s - begin_s - frame_s_);
   interval_s_ += 0.1 * (std::min(end_s - shown_wall_s_, 1.0) - interval_s_);
   shown_wall_s_ = end_s;

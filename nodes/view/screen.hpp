@@ -11,6 +11,7 @@
 #include "common/scenario/request.hpp"
 #include "nodes/view/ask_place.hpp"
 #include "nodes/view/chosen.hpp"
+#include "nodes/view/frame_log.hpp"
 #include "nodes/view/painter.hpp"
 #include "nodes/view/speaker.hpp"
 #include "nodes/view/surface.hpp"
@@ -69,6 +70,7 @@ class Screen {
 
   std::unique_ptr<Surface> surface_;
   std::unique_ptr<Painter> painter_;  // before its surface in dying
+  std::unique_ptr<FrameLog> log_;     // null: nobody wants it
   std::unique_ptr<Speaker> speaker_;  // null: nothing is heard
   double volume_ = 0.0;
   bool muted_ = false;

@@ -1,5 +1,9 @@
 #include "nodes/view/shaders.hpp"
 
+#include <fmt/format.h>
+
+#include "common/scene/car_lights.hpp"
+
 namespace rodeira::view {
 namespace {
 
@@ -11,26 +15,52 @@ uniform float fog_per_m;
 vec3 FogColour() { return horizon_colour * vec3(0.93, 0.96, 1.0); }
 vec3 SkyColour(float up) { return mix(horizon_colour, zenith_colour, pow(clamp(up, 0.0, 1.0), 0.55)); }
 vec3 Hazy(vec3 colour, float distance_m) {
-  float clear = exp(-pow(distance_m * 1.6e-4, 1.3) - fog_per_m * distance_m);
+  float haze = distance_m * 1.6e-4;
+#ifdef FINE
+  float clear = exp(-pow(haze, 1.3) - fog_per_m * distance_m);
+#else
+  float clear = exp(-haze * sqrt(sqrt(haze)) - fog_per_m * distance_m);  // nearly the same, for a third of the time
+#endif
   return mix(FogColour(), colour, clear);
 }
 )";
 
 constexpr const char* kHead = R"(#version 120
+#pragma import_defines(HEADLIGHTS, WET, SUN_SHADOW, SOFT_SHADOW, FINE)
 varying vec3 at_eye;
 varying vec3 normal_eye;
 varying vec3 daylight;
 varying vec2 ground;
 uniform vec3 sun_eye;
 uniform vec3 up_eye;
+#ifdef SUN_SHADOW
+varying vec3 sunlight;
+varying vec3 in_sun;
+#endif
 )";
 
-// What falls on a surface by day and from the headlights of the car that is watched: a dipped beam, bright to some 60 m.
+// What falls on a surface by day and from the headlights of the car that is watched: a dipped beam, bright to some 60 m. `sunny`: how much
+// of the sun gets there past what throws shadows; beyond the map everything does.
 constexpr const char* kLight = R"(
+vec3 light;
+float sunny = 1.0;
+#ifdef SUN_SHADOW
+uniform sampler2DShadow sun_map;
+uniform float sun_map_texel;
+float Sunny() {
+#ifdef SOFT_SHADOW
+  float soft = sun_map_texel * 0.75;
+  return 0.25 * (shadow2D(sun_map, in_sun + vec3(soft, soft, 0.0)).r + shadow2D(sun_map, in_sun + vec3(-soft, soft, 0.0)).r +
+                 shadow2D(sun_map, in_sun + vec3(soft, -soft, 0.0)).r + shadow2D(sun_map, in_sun + vec3(-soft, -soft, 0.0)).r);
+#else
+  return shadow2D(sun_map, in_sun).r;
+#endif
+}
+#endif
+#ifdef HEADLIGHTS
 uniform float headlights;
 uniform vec3 lamp_eye;
 uniform vec3 lamp_ahead_eye;
-vec3 light;
 vec3 Beam() {
   vec3 from = at_eye - lamp_eye;
   float distance_m = length(from);
@@ -41,14 +71,17 @@ vec3 Beam() {
   float facing = 0.3 + 0.7 * max(dot(-ray, normalize(normal_eye)), 0.0);
   return vec3(1.0, 0.95, 0.84) * (headlights * 2.4 * cone * facing / (1.0 + pow(distance_m / 24.0, 2.0)));
 }
+#endif
 )";
 
 // Water darkens stone and mirrors the sky the more, the flatter one looks at it; most where it stands.
 constexpr const char* kWater = R"(
 uniform sampler2D noise;
 uniform float wetness;
+#ifndef WET
+vec3 Wet(vec3 dry) { return dry; }
+#else
 vec3 Wet(vec3 dry) {
-  if (wetness <= 0.0) return dry;
   vec3 view = normalize(at_eye);
   vec3 n = normalize(normal_eye);
   float flat_look = pow(1.0 - max(dot(-view, n), 0.0), 10.0);
@@ -56,6 +89,7 @@ vec3 Wet(vec3 dry) {
   vec3 mirrored = SkyColour(dot(reflect(view, n), up_eye));
   return mix(dry * (1.0 - 0.42 * wetness), mirrored, wetness * standing * (0.02 + 0.70 * flat_look));
 }
+#endif
 )";
 
 const char* FragmentBody(scene::Material material) {
@@ -63,7 +97,11 @@ const char* FragmentBody(scene::Material material) {
     case scene::Material::kGround: return R"(
 uniform sampler2D noise;
 vec3 Look() {
+#ifdef FINE
   float near = texture2D(noise, ground / 4.0).r + texture2D(noise, ground / 32.0).g;
+#else
+  float near = 0.5 + texture2D(noise, ground / 8.0).r;
+#endif
   return gl_Color.rgb * light * (0.62 + 0.38 * near);
 })";
     case scene::Material::kCheckers: return R"(
@@ -79,8 +117,12 @@ vec3 Look() {
 })";
     case scene::Material::kRoad: return R"(
 vec3 Look() {
+#ifdef FINE
   float grain = texture2D(noise, ground / 2.0).r;
   float wear = texture2D(noise, ground / 16.0).g;
+#else
+  float grain = texture2D(noise, ground / 2.0).r, wear = 0.5;
+#endif
   return Wet(gl_Color.rgb * light * (0.80 + 0.24 * grain + 0.16 * wear));
 })";
     // Slabs are even and pale, with pores and large soft stains.
@@ -127,7 +169,7 @@ vec3 Look() {
   float fresnel = 0.04 + 0.5 * pow(1.0 - max(dot(-view, n), 0.0), 4.0);
   float up = dot(mirrored, up_eye);
   vec3 around = mix(vec3(0.25, 0.27, 0.22), SkyColour(up), smoothstep(-0.05, 0.05, up));
-  float shine = pow(max(dot(mirrored, sun_eye), 0.0), 60.0);
+  float shine = sunny * pow(max(dot(mirrored, sun_eye), 0.0), 60.0);
   return mix(gl_Color.rgb * light + fresnel * around + 0.7 * shine, vec3(1.0, 0.95, 0.55), 0.65 * pulse);
 })";
     case scene::Material::kGlass: return R"(
@@ -138,31 +180,78 @@ vec3 Look() {
   float fresnel = 0.10 + 0.75 * pow(1.0 - max(dot(-view, n), 0.0), 3.0);
   float up = dot(mirrored, up_eye);
   vec3 around = mix(vec3(0.20, 0.23, 0.17), SkyColour(up), smoothstep(-0.05, 0.05, up));
-  return gl_Color.rgb * 0.6 * light + fresnel * around + 0.8 * pow(max(dot(mirrored, sun_eye), 0.0), 120.0);
+  return gl_Color.rgb * 0.6 * light + fresnel * around + 0.8 * sunny * pow(max(dot(mirrored, sun_eye), 0.0), 120.0);
 })";
     case scene::Material::kLamp: return R"(
 uniform float glow;
 vec3 Look() { return gl_Color.rgb * glow; })";
+    case scene::Material::kCarLamp: return R"(
+varying float glowing;
+vec3 Look() { return gl_Color.rgb * max(light * 0.85, vec3(glowing)); })";
     case scene::Material::kSign: return R"(
 uniform sampler2D face;
 varying vec2 on_face;
 // Signs throw light back: they are never as dark as what stands in the shade.
 vec3 Look() { return texture2D(face, on_face).rgb * max(light, vec3(0.72)); })";
-    case scene::Material::kMatt:
+    case scene::Material::kMatt: return R"(
+uniform float pulse;
+vec3 Look() { return mix(gl_Color.rgb * light, vec3(1.0, 0.95, 0.55), 0.65 * pulse); })";
     case scene::Material::kFoliage: break;
   }
   return R"(
 vec3 Look() { return gl_Color.rgb * light; })";
 }
 
+// The sky without the sun itself. `FINE`: asked at every pixel, otherwise at the dome's vertices.
+std::string SkyHead() {
+  return std::string(R"(#version 120
+#pragma import_defines(FINE)
+varying vec3 direction;
+uniform vec3 sun_world;
+uniform float sun_disc;
+uniform float clouds;
+uniform float cloud_light;
+uniform sampler2D noise;
+#ifndef FINE
+varying vec3 sky;
+#endif
+)") + kAir + R"(
+vec3 CloudySky(vec3 d) {
+  vec3 colour = SkyColour(d.z);
+  vec2 cloud_at = d.xy / (max(d.z, 0.0) + 0.12);
+  float cloud = texture2D(noise, cloud_at * 0.11).g * 0.6 + texture2D(noise, cloud_at * 0.31 + 0.37).g * 0.3 + texture2D(noise, cloud_at * 0.9).g * 0.1;
+  float low = 0.52 + (0.3 - clouds) * (clouds < 0.3 ? 1.2 : 0.6);
+  float cover = smoothstep(low, low + 0.26, cloud) * smoothstep(0.02, 0.25, d.z);
+  return mix(colour, vec3(0.97, 0.97, 0.98) * cloud_light, 0.75 * cover);
+}
+vec3 SunLit(vec3 colour, vec3 d) {
+  float towards = max(dot(d, sun_world), 0.0);
+  return colour + sun_disc * vec3(1.0, 0.92, 0.75) * (0.25 * pow(towards, 24.0) + 2.0 * pow(towards, 1800.0));
+}
+// Beyond the edge of the world there is land, far and hazy. The fog is 300 m thick.
+vec3 OverLand(vec3 colour, vec3 d) {
+  float bright = dot(horizon_colour, vec3(0.30, 0.59, 0.11)) / 0.85;
+  colour = mix(colour, vec3(0.52, 0.57, 0.42) * bright, 0.85 * (1.0 - smoothstep(-0.06, 0.0, d.z)));
+  return mix(FogColour(), colour, exp(-fog_per_m * 300.0 / max(d.z, 0.02)));
+}
+)";
+}
+
 }  // namespace
 
-std::string VertexShader() {
-  return std::string(kHead) + R"(
+std::string VertexShader(scene::Material material) {
+  return std::string(kHead) + (material == scene::Material::kCarLamp ? fmt::format("#define LAMPS {}\n", scene::kLamps) : std::string()) + R"(
 varying vec2 on_face;
+#ifdef LAMPS
+uniform float glows[LAMPS];
+varying float glowing;
+#endif
 uniform vec3 base_light;
 uniform vec3 sky_light;
 uniform vec3 sun_light;
+#ifdef SUN_SHADOW
+uniform mat4 eye_to_sun;
+#endif
 void main() {
   vec4 p = gl_ModelViewMatrix * gl_Vertex;
   gl_Position = gl_ProjectionMatrix * p;
@@ -170,10 +259,19 @@ void main() {
   normal_eye = normalize(gl_NormalMatrix * gl_Normal);
   float sun = max(dot(normal_eye, sun_eye), 0.0);
   float sky = 0.5 + 0.5 * dot(normal_eye, up_eye);
-  daylight = base_light + sky * sky_light + sun * sun_light;
+  daylight = base_light + sky * sky_light;
+#ifdef SUN_SHADOW
+  sunlight = sun * sun_light;
+  in_sun = (eye_to_sun * vec4(p.xyz + 0.05 * normal_eye, 1.0)).xyz;  // a little before the surface, which else would shade itself
+#else
+  daylight += sun * sun_light;
+#endif
   ground = gl_Vertex.xy;
   gl_FrontColor = gl_Color;
   on_face = gl_MultiTexCoord1.xy;
+#ifdef LAMPS
+  glowing = glows[int(gl_MultiTexCoord1.x + 0.5)];
+#endif
 }
 )";
 }
@@ -183,17 +281,25 @@ std::string FragmentShader(scene::Material material) {
   return std::string(kHead) + kAir + kLight + (stone ? kWater : "") + FragmentBody(material) + R"(
 void main() {
   light = daylight;
-  if (headlights > 0.0) light += Beam();
+#ifdef SUN_SHADOW
+  sunny = Sunny();
+  light += sunny * sunlight;
+#endif
+#ifdef HEADLIGHTS
+  light += Beam();
+#endif
   gl_FragColor = vec4(Hazy(Look(), length(at_eye)), 1.0);
 }
 )";
 }
 
 std::string SkyVertexShader() {
-  return R"(#version 120
-varying vec3 direction;
+  return SkyHead() + R"(
 void main() {
   direction = gl_Vertex.xyz;
+#ifndef FINE
+  sky = OverLand(SunLit(CloudySky(direction), direction), direction);
+#endif
   vec4 p = gl_ProjectionMatrix * vec4(mat3(gl_ModelViewMatrix) * gl_Vertex.xyz, 1.0);
   gl_Position = vec4(p.xy, p.w * 0.999999, p.w);
 }
@@ -201,30 +307,14 @@ void main() {
 }
 
 std::string SkyFragmentShader() {
-  return std::string(R"(#version 120
-varying vec3 direction;
-uniform vec3 sun_world;
-uniform float sun_disc;
-uniform float clouds;
-uniform float cloud_light;
-uniform sampler2D noise;
-)") + kAir + R"(
+  return SkyHead() + R"(
 void main() {
+#ifdef FINE
   vec3 d = normalize(direction);
-  vec3 colour = SkyColour(d.z);
-  vec2 cloud_at = d.xy / (max(d.z, 0.0) + 0.12);
-  float cloud = texture2D(noise, cloud_at * 0.11).g * 0.6 + texture2D(noise, cloud_at * 0.31 + 0.37).g * 0.3 + texture2D(noise, cloud_at * 0.9).g * 0.1;
-  float low = 0.52 + (0.3 - clouds) * (clouds < 0.3 ? 1.2 : 0.6);
-  float cover = smoothstep(low, low + 0.26, cloud) * smoothstep(0.02, 0.25, d.z);
-  colour = mix(colour, vec3(0.97, 0.97, 0.98) * cloud_light, 0.75 * cover);
-  float towards = max(dot(d, sun_world), 0.0);
-  colour += sun_disc * vec3(1.0, 0.92, 0.75) * (0.25 * pow(towards, 24.0) + 2.0 * pow(towards, 1800.0));
-  // Beyond the edge of the world there is land, far and hazy.
-  float bright = dot(horizon_colour, vec3(0.30, 0.59, 0.11)) / 0.85;
-  colour = mix(colour, vec3(0.52, 0.57, 0.42) * bright, 0.85 * (1.0 - smoothstep(-0.06, 0.0, d.z)));
-  // The fog is 300 m thick.
-  colour = mix(FogColour(), colour, exp(-fog_per_m * 300.0 / max(d.z, 0.02)));
-  gl_FragColor = vec4(min(colour, 1.0), 1.0);
+  gl_FragColor = vec4(min(OverLand(SunLit(CloudySky(d), d), d), 1.0), 1.0);
+#else
+  gl_FragColor = vec4(min(sky, 1.0), 1.0);
+#endif
 }
 )";
 }
@@ -241,12 +331,30 @@ void main() {
 
 std::string ShadowFragmentShader() {
   return R"(#version 120
+#pragma import_defines(SUN_SHADOW)
 varying vec2 part;
 uniform vec3 sun_light;
 void main() {
+#ifdef SUN_SHADOW
+  float dark = 0.3;  // of the sky, which the car hides; the sun's own shadow is elsewhere
+#else
+  float dark = 0.25 + 0.37 * sun_light.g / 0.73;
+#endif
   vec2 inner = 1.0 - smoothstep(vec2(0.62, 0.45), vec2(1.0), abs(part));
-  gl_FragColor = vec4(0.05, 0.06, 0.09, (0.25 + 0.37 * sun_light.g / 0.73) * inner.x * inner.y);
+  gl_FragColor = vec4(0.05, 0.06, 0.09, dark * inner.x * inner.y);
 }
+)";
+}
+
+std::string DepthVertexShader() {
+  return R"(#version 120
+void main() { gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex; }
+)";
+}
+
+std::string DepthFragmentShader() {
+  return R"(#version 120
+void main() { gl_FragColor = vec4(1.0); }
 )";
 }
 

@@ -60,7 +60,8 @@ bool HasDisplay() {
   return display;
 }
 
-base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable, int display) {
+base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable, int display,
+                                                       std::optional<Quality> quality) {
   std::unique_ptr<Surface> surface(new Surface());
   surface->kind_ = kind;
   if (kind == SurfaceKind::kWindow && !NamesDisplay()) return base::WrongInput(kNoDisplay);
@@ -72,37 +73,50 @@ base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width
   if (kind == SurfaceKind::kWindow && !IsDisplay(SDL_GetCurrentVideoDriver())) {
     return base::WrongInput(kNoDisplay);
   }
-  if (auto status = surface->MakeWindow(width_px, height_px, title, resizable, display); !status) return status.error();
+  if (auto status = surface->MakeWindow(width_px, height_px, title, resizable, display, quality); !status) return status.error();
   return surface;
 }
 
-base::Status Surface::MakeWindow(int width_px, int height_px, const std::string& title, bool resizable, int display) {
-  resizable_ = resizable;
+bool Surface::MakeContext(int width_px, int height_px, const std::string& title, int display, int samples) {
   Uint32 flags = SDL_WINDOW_OPENGL;
   if (kind_ == SurfaceKind::kWindow) flags |= SDL_WINDOW_SHOWN;
-  if (resizable) flags |= SDL_WINDOW_RESIZABLE;
+  if (resizable_) flags |= SDL_WINDOW_RESIZABLE;
   const int place = static_cast<int>(SDL_WINDOWPOS_CENTERED_DISPLAY(display < SDL_GetNumVideoDisplays() ? display : 0));
-  for (const int samples : {4, 0}) {  // smooth edges where they are to be had
-    AskForContext(samples);
-    window_ = SDL_CreateWindow(title.c_str(), place, place, width_px, height_px, flags);
-    if (window_ != nullptr) context_ = SDL_GL_CreateContext(window_);
-    // A window drawn by the processor needs its time for more pictures a second, not for smooth edges.
-    const bool too_dear = samples > 0 && kind_ == SurfaceKind::kWindow && context_ != nullptr && IsSoftware(RendererName());
-    if (context_ != nullptr && !too_dear) break;
-    if (context_ != nullptr) SDL_GL_DeleteContext(context_);
-    if (window_ != nullptr) SDL_DestroyWindow(window_);
-    context_ = nullptr;
-    window_ = nullptr;
+  AskForContext(samples);
+  window_ = SDL_CreateWindow(title.c_str(), place, place, width_px, height_px, flags);
+  if (window_ != nullptr) context_ = SDL_GL_CreateContext(window_);
+  if (context_ == nullptr) DropContext();
+  return context_ != nullptr;
+}
+
+void Surface::DropContext() {
+  if (context_ != nullptr) SDL_GL_DeleteContext(context_);
+  if (window_ != nullptr) SDL_DestroyWindow(window_);
+  context_ = nullptr;
+  window_ = nullptr;
+}
+
+base::Status Surface::MakeWindow(int width_px, int height_px, const std::string& title, bool resizable, int display, std::optional<Quality> wish) {
+  resizable_ = resizable;
+  const auto make = [&](int samples) {  // smooth edges where they are to be had
+    return (samples > 0 && MakeContext(width_px, height_px, title, display, samples)) || MakeContext(width_px, height_px, title, display, 0);
+  };
+  const Quality guess = wish.value_or(kind_ == SurfaceKind::kWindow ? Quality::kHigh : Quality::kMedium);
+  bool made = make(TraitsOf(guess).samples);
+  quality_ = guess;
+  if (made && !wish && kind_ == SurfaceKind::kWindow && IsSoftware(RendererName())) {  // it needs its time for more pictures a second
+    DropContext();
+    quality_ = Quality::kLow;
+    made = make(TraitsOf(quality_).samples);
   }
-  if (context_ == nullptr) return base::WrongInput(std::string("no OpenGL context can be made (") + SDL_GetError() + "); the package libgl1-mesa-dri was expected");
+  if (!made) return base::WrongInput(std::string("no OpenGL context can be made (") + SDL_GetError() + "); the package libgl1-mesa-dri was expected");
   if (kind_ == SurfaceKind::kWindow && SDL_GL_SetSwapInterval(1) != 0) SDL_ClearError();
   renderer_ = RendererName();
   return {};
 }
 
 Surface::~Surface() {
-  if (context_ != nullptr) SDL_GL_DeleteContext(context_);
-  if (window_ != nullptr) SDL_DestroyWindow(window_);
+  DropContext();
   if (video_) SDL_VideoQuit();
 }
 

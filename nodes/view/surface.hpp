@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/base/result.hpp"
+#include "nodes/view/quality.hpp"
 
 struct SDL_Window;
 
@@ -16,8 +18,10 @@ enum class SurfaceKind { kWindow, kOffscreen };
 class Surface {
  public:
   // A window appears on the display of that number, on the first one where the PC has fewer. One that is not resizable keeps its size, full screen included: frames are read from it.
+  // `quality`: none for the renderer's own: of a window low where the processor draws and high where a graphics card does; medium for what is no window.
   // Wrong input where there is no display (kWindow) or no OpenGL: a sentence that says what is missing.
-  static base::Result<std::unique_ptr<Surface>> Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable = false, int display = 0);
+  static base::Result<std::unique_ptr<Surface>> Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable = false, int display = 0,
+                                                     std::optional<Quality> quality = std::nullopt);
   ~Surface();
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
@@ -32,10 +36,13 @@ class Surface {
   void Hide();
   // "llvmpipe (LLVM 15.0.6, 256 bits)" or the like.
   const std::string& renderer() const { return renderer_; }
+  Quality quality() const { return quality_; }
 
  private:
   Surface() = default;
-  base::Status MakeWindow(int width_px, int height_px, const std::string& title, bool resizable, int display);
+  base::Status MakeWindow(int width_px, int height_px, const std::string& title, bool resizable, int display, std::optional<Quality> wish);
+  bool MakeContext(int width_px, int height_px, const std::string& title, int display, int samples);
+  void DropContext();
 
   SurfaceKind kind_ = SurfaceKind::kOffscreen;
   SDL_Window* window_ = nullptr;
@@ -44,6 +51,7 @@ class Surface {
   bool resizable_ = false;
   bool full_screen_ = false;
   std::string renderer_;
+  Quality quality_ = Quality::kMedium;
 };
 
 // Whether a window could be opened: a display server answers. Cheap; must not be called while a Surface is open.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/base/suggest.hpp"
 #include "common/hands/keyboard_driver.hpp"
@@ -40,6 +41,14 @@ void ReadScreen(const launch::Launch& launch, const config::Map& map, ViewSettin
   if (!screen) return map.Problem("screen", screen.error().Text());
   const launch::LabScreen& s = screen.value();
   settings.screen = scene::ScreenPlane{s.width_m, s.height_m, s.distance_m, s.angle_rad, s.eye_height_m, s.aside_m};
+}
+
+// A film instead of single pictures.
+void ReadFilm(const launch::NodeContext& context, const config::Map& frames, ViewSettings& settings) {
+  const double fps = frames.Number("fps", {0.01, kMostFps}), from_s = frames.Number("from_s", {0.0, 1e6}, 0.0), to_s = frames.Number("to_s", {0.0, 1e6});
+  auto steps = FilmSteps(context.roster(), CarSources(context.spec()), fps, from_s, to_s);
+  if (steps) settings.frame_steps = std::move(steps).value();
+  else frames.Problem("fps", steps.error().message);
 }
 
 void ReadTimes(const launch::NodeContext& context, const config::Map& frames, ViewSettings& settings) {
@@ -94,6 +103,8 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& 
   const auto cameras = scene::CameraNames();
   ReadScreen(launch, map, settings);
   settings.camera = scene::CameraOf(map.Choice("camera", {cameras.begin(), cameras.end()}, settings.screen ? "driver" : "chase")).value_or(scene::CameraKind::kChase);
+  if (map.Has("quality")) settings.quality = QualityOf(map.Choice("quality", {QualityNames().begin(), QualityNames().end()}, "medium"));
+  if (map.Has("frame_log")) settings.frame_log = map.Path("frame_log");
   settings.full_screen = map.Flag("full_screen", false);
   settings.display = static_cast<int>(map.Integer("display", 0, 15, 0));
   const std::string window = map.Choice("window", {"auto", "always", "never"}, "auto");
@@ -117,7 +128,8 @@ base::Result<ViewSettings> ReadViewSettings(const launch::NodeContext& context) 
   ViewSettings settings = ReadWindow(context.launch(), context.spec(), map);
   if (map.Has("frames")) {
     const config::Map frames = map.Child("frames");
-    ReadTimes(context, frames, settings);
+    if (frames.Has("fps")) ReadFilm(context, frames, settings);
+    else ReadTimes(context, frames, settings);
     settings.folder = frames.Path("folder");
     if (auto status = context.launch().file().Finish(); !status) return status.error();
     if (auto status = PrepareFolder(settings.folder); !status) frames.Problem("folder", status.error().message);
@@ -156,6 +168,22 @@ base::Result<lockstep::Step> FrameStep(const lockstep::Roster& roster, const std
                                         static_cast<double>(period) * base_step_s));
   }
   return step;
+}
+
+base::Result<std::vector<lockstep::Step>> FilmSteps(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars, double fps, double from_s, double to_s) {
+  lockstep::Step grid = 1;
+  for (const lockstep::SourceIndex source : cars) grid = std::lcm(grid, roster.source(source).period);
+  const double grid_s = static_cast<double>(grid * roster.base_step_ns()) * 1e-9;
+  if (!(to_s >= from_s)) return base::WrongInput(fmt::format("a film from {} s to {} s was found; an end behind its beginning was expected", from_s, to_s));
+  if (!(fps > 0.0 && fps * grid_s <= 1.0 + 1e-9)) {
+    return base::WrongInput(fmt::format("{} pictures a second were found; at most {:g} were expected, as many as all cars have samples", fps, 1.0 / grid_s));
+  }
+  std::vector<lockstep::Step> steps;
+  for (std::int64_t k = 0;; ++k) {
+    const double time_s = from_s + static_cast<double>(k) / fps;
+    if (time_s > to_s + 1e-9) return steps;
+    steps.push_back(grid * static_cast<lockstep::Step>(std::llround(time_s / grid_s)));
+  }
 }
 
 base::Status PrepareFolder(const std::filesystem::path& folder) {

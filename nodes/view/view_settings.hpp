@@ -13,6 +13,7 @@
 #include "common/scene/mirror.hpp"
 #include "nodes/view/ask_place.hpp"
 #include "nodes/view/picture.hpp"
+#include "nodes/view/quality.hpp"
 #include "nodes/view/wheel_buttons.hpp"
 
 namespace rodeira::view {
@@ -25,6 +26,7 @@ struct ViewSettings {
   int height_px = 720;
   scene::CameraKind camera = scene::CameraKind::kChase;
   std::optional<scene::ScreenPlane> screen;  // of the laboratory, for the driver's camera
+  std::optional<Quality> quality;            // none: the renderer's own (Surface::Open)
   bool full_screen = false;
   int display = 0;                           // of the PC, for the window
   WindowWish window = WindowWish::kAuto;
@@ -36,6 +38,7 @@ struct ViewSettings {
   std::size_t followed = 0;                  // which of the cars wired to the view, in the roster's order
   std::vector<lockstep::Step> frame_steps;   // ascending, each once
   std::filesystem::path folder;              // of the frames
+  std::filesystem::path frame_log;           // of a window's pictures; empty: none
   std::filesystem::path built;               // the folder of a database of the world; empty: its ground is built in memory
   bool drives = false;                       // somebody in this run drives by the keys of its windows …
   std::string driving_help;                  // … by these
@@ -56,6 +59,11 @@ base::Result<std::size_t> FindFollowed(const lockstep::Roster& roster, const std
 
 // The step of a frame's time. Wrong input where it is no multiple of the base step, or a car has no sample then.
 base::Result<lockstep::Step> FrameStep(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars, double time_s);
+
+// The steps of a film's pictures: the one at which all cars have samples that is nearest to from_s + k / fps, for each k up to to_s. Wrong input
+// where they have fewer samples a second than it has pictures, or the end lies before the beginning.
+base::Result<std::vector<lockstep::Step>> FilmSteps(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars, double fps, double from_s, double to_s);
+inline constexpr double kMostFps = 1'000.0;
 
 // Makes a folder for frames where it is missing, and tries to write there before time is spent.
 base::Status PrepareFolder(const std::filesystem::path& folder);

@@ -1,8 +1,10 @@
 // What pictures cost: a world's meshes once, a frame of 1280 x 720 pixels each time, its PNG file.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "common/road/world.hpp"
 #include "common/scene/world_scene.hpp"
@@ -37,24 +39,50 @@ void Meshes(benchmark::State& state) {
 }
 BENCHMARK(Meshes)->Unit(benchmark::kMillisecond)->UseRealTime();
 
+// Fifty cars of the traffic along the road, in both lanes.
+void AddTraffic(Picture& picture) {
+  const road::Road& road = N222().roads()[0];
+  constexpr int kCars = 50;
+  for (int i = 0; i < kCars; ++i) {
+    const double s_m = road.length_m() * (i + 0.5) / kCars;
+    const bool back = i % 2 == 1;
+    const road::RoadFrame frame = road.Evaluate(s_m);
+    scene::AgentPose agent;
+    agent.id = static_cast<std::uint64_t>(i);
+    agent.colour = scene::Colour::Of(0x203040U + 0x031507U * static_cast<std::uint32_t>(i));
+    agent.p_WB_W = road.Position(s_m, back ? 1.45 : -1.45);
+    agent.q_WB = scene::Attitude(frame.heading_rad + (back ? 3.14159265358979 : 0.0), back ? std::atan(frame.grade) : -std::atan(frame.grade), 0.0);
+    picture.moment.agents.push_back(agent);
+  }
+}
+
+// Pictures along N222 among fifty cars; first argument: quality, second: chase, driver, driver with three mirrors.
 void Frame(benchmark::State& state) {
-  auto surface = Surface::Open(SurfaceKind::kOffscreen, 1280, 720, "bench");
+  const auto quality = static_cast<Quality>(state.range(0));
+  auto surface = Surface::Open(SurfaceKind::kOffscreen, 1280, 720, "bench", false, 0, quality);
   if (!surface) return state.SkipWithError(surface.error().Text().c_str());
   const scene::WorldScene standing = scene::BuildWorldScene(N222());
   Painter painter(*surface.value(), N222(), standing);
-  const auto camera = state.range(0) == 0 ? scene::CameraKind::kChase : scene::CameraKind::kDriver;
-  const bool mirrors = state.range(0) == 2;
+  const auto camera = state.range(1) == 0 ? scene::CameraKind::kChase : scene::CameraKind::kDriver;
+  const bool mirrors = state.range(1) == 2;
   double s_m = 30.0;
-  for (auto _ : state) {
+  const auto draw_next = [&] {
     Picture picture = AlongTheRoad(s_m, camera);
+    AddTraffic(picture);
     picture.mirrors.fill(mirrors);
     painter.Draw(picture);
     benchmark::DoNotOptimize(painter.Read());
     s_m = std::fmod(s_m + 37.0, N222().roads()[0].length_m() - 60.0);
-  }
-  state.SetLabel(surface.value()->renderer() + (state.range(0) == 0 ? ", chase" : mirrors ? ", driver with three mirrors" : ", driver"));
+  };
+  for (int i = 0; i < 12; ++i) draw_next();  // the renderer compiles what it needs
+  for (auto _ : state) draw_next();
+  const PictureCost cost = painter.CostOfLast();
+  state.counters["calls"] = static_cast<double>(cost.calls);
+  state.counters["triangles"] = static_cast<double>(cost.triangles);
+  state.SetLabel(surface.value()->renderer() + ", " + std::string(QualityNames()[static_cast<std::size_t>(quality)]) +
+                 (state.range(1) == 0 ? ", chase" : mirrors ? ", driver with three mirrors" : ", driver"));
 }
-BENCHMARK(Frame)->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK(Frame)->ArgsProduct({{0, 1, 2}, {0, 1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(30);
 
 // From a loaded HASTE to its first picture: the ground built in memory (0), or the built database found, checked and read (1).
 void FirstPictureOfHaste(benchmark::State& state) {
@@ -84,6 +112,53 @@ void FirstPictureOfHaste(benchmark::State& state) {
   std::filesystem::remove_all(folder);
 }
 BENCHMARK(FirstPictureOfHaste)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(2);
+
+// Memory of this process that is in the machine's, in megabytes.
+double Resident_MB() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0.0, resident = 0.0;
+  file >> all >> resident;
+  return resident * 4096.0 / 1e6;
+}
+
+// HASTE's longest road from end to end, a picture each 50 m, from its built database: what is held of it.
+void DriveHaste(benchmark::State& state) {
+  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/haste.yaml").value();
+  const auto folder = std::filesystem::temp_directory_path() / "rodeira-view-bench-drive";
+  DatabaseOptions options;
+  options.folder = folder;
+  if (auto written = WriteDatabase(*world, options); !written) return state.SkipWithError(written.error().Text().c_str());
+  const auto& roads = world->network()->roads();
+  const auto longest = std::max_element(roads.begin(), roads.end(), [](const auto& a, const auto& b) { return a.length_m() < b.length_m(); });
+  for (auto _ : state) {
+    auto surface = Surface::Open(SurfaceKind::kOffscreen, 640, 360, "bench", false, 0, Quality::kLow);
+    if (!surface) return state.SkipWithError(surface.error().Text().c_str());
+    auto painter = PainterOf(*surface.value(), *world, folder);
+    if (!painter) return state.SkipWithError(painter.error().Text().c_str());
+    double first_MB = 0.0, half_MB = 0.0, most_MB = 0.0;
+    std::size_t most = 0, pictures = 0;
+    for (double s_m = 25.0; s_m < longest->length_m(); s_m += 50.0, ++pictures) {
+      Picture picture;
+      scene::CarPose car;
+      car.p_WB_W = longest->Surface(s_m, -1.75).p_W;
+      car.q_WB = scene::Attitude(longest->axis().Evaluate(s_m).heading_rad, 0.0, 0.0);
+      picture.moment.cars.push_back(car);
+      painter.value()->DrawWhole(picture);
+      const double now_MB = Resident_MB();
+      if (pictures == 0) first_MB = now_MB;
+      if (s_m < 0.5 * longest->length_m()) half_MB = std::max(half_MB, now_MB);
+      most_MB = std::max(most_MB, now_MB);
+      most = std::max(most, painter.value()->HeldLevels());
+    }
+    state.counters["km"] = 1e-3 * longest->length_m();
+    state.counters["held_most"] = static_cast<double>(most);
+    state.counters["first_MB"] = first_MB;
+    state.counters["first_half_MB"] = half_MB;
+    state.counters["most_MB"] = most_MB;
+  }
+  std::filesystem::remove_all(folder);
+}
+BENCHMARK(DriveHaste)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
 
 void Png(benchmark::State& state) {
   const auto image = RenderStill(N222(), AlongTheRoad(300.0, scene::CameraKind::kChase), 1280, 720);

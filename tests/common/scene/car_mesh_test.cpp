@@ -41,11 +41,13 @@ TEST(CarMesh, EveryPartIsClosedAndLooksOutward) {
   van.height_m = 2.0;
   van.width_m = 1.95;
   for (const CarShape& shape : {CarShape::Of(SmallCar()), CarShape::Of(AgentPose{}), CarShape::Of(van)}) {
-    const CarMeshes car = BuildCar(shape, Colour::Of(0x123456));
-    for (const Mesh& mesh : car.body) ExpectClosed(mesh, "a part of the body");
-    for (const Mesh& mesh : car.frame) ExpectClosed(mesh, "a post or a mirror");
-    ExpectClosed(car.brake_lamps, "the brake lamps");
-    for (const Mesh& mesh : car.wheel) ExpectClosed(mesh, "a part of the wheel");
+    for (const AgentKind kind : {AgentKind::kCar, AgentKind::kVan, AgentKind::kLorry, AgentKind::kBus}) {
+      const CarMeshes car = BuildVehicle(kind, shape, Colour::Of(0x123456));
+      for (const Mesh& mesh : car.body) ExpectClosed(mesh, "a part of the body");
+      for (const Mesh& mesh : car.frame) ExpectClosed(mesh, "a post or a mirror");
+      ExpectClosed(car.lamps, "the lamps");
+      for (const Mesh& mesh : car.wheel) ExpectClosed(mesh, "a part of the wheel");
+    }
   }
 }
 

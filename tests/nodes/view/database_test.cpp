@@ -327,6 +327,43 @@ TEST_F(Database, TheViewShowsWhatItWouldShowFromMemory) {
   EXPECT_NE(memory[0].rgb, memory[2].rgb);
 }
 
+// The eye goes away, by more than any fine level is seen from, and comes back: what it has left is no longer held, and what is shown is the same.
+TEST_F(Database, WhatTheEyeHasLeftIsGivenBack) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = scene::OpenDriveWorld(BendWithThings());
+  ASSERT_NE(world, nullptr);
+  const std::size_t tiles = Write(*world, "world").tiles;
+  const auto surface = Surface::Open(SurfaceKind::kOffscreen, 320, 180, "test");
+  const auto painter = PainterOf(*surface.value(), *world, folder_ / "world");
+  ASSERT_TRUE(painter.ok());
+  const network::Road& road = world->network()->roads()[0];
+  Picture picture;
+  picture.show_instruments = false;
+  picture.camera = scene::CameraKind::kOrbit;
+  picture.moment.cars.push_back(CarAt(road.Surface(70.0, -1.75).p_W, road.axis().Evaluate(70.0).heading_rad));
+  const Eigen::Vector3d near = picture.moment.cars[0].p_WB_W;
+  const auto held_at = [&](double away_m) {
+    picture.moment.cars[0].p_WB_W = near + Eigen::Vector3d(-away_m, 0.0, 0.0);
+    painter.value()->DrawWhole(picture);
+    painter.value()->Draw(picture);
+    return painter.value()->HeldLevels();
+  };
+  const std::size_t first = held_at(0.0);
+  const Image before = painter.value()->Read();
+  EXPECT_GT(first, tiles / 2);
+  const std::size_t away = held_at(3'000.0), far = held_at(30'000.0);
+  EXPECT_LT(away, first);
+  EXPECT_LE(away, tiles) << "the coarsest level of each at most";
+  EXPECT_EQ(far, 0u) << "beyond the farthest that is drawn";
+  // Back and forth ten times, it never holds more than the first time.
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_LE(held_at(0.0), first) << i;
+    EXPECT_LE(held_at(3'000.0), away) << i;
+  }
+  held_at(0.0);
+  EXPECT_EQ(painter.value()->Read().rgb, before.rgb);
+}
+
 TEST_F(Database, OnlyThatOfTheWorldAsItIsIsFound) {
   const auto world = scene::OpenDriveWorld(BendWithThings(30.0)), moved = scene::OpenDriveWorld(BendWithThings(31.0));
   ASSERT_TRUE(world != nullptr && moved != nullptr);

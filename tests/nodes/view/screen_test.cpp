@@ -2,8 +2,10 @@
 #include <SDL.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <tuple>
 
 #include "common/base/temporary_folder.hpp"
@@ -293,6 +295,49 @@ TEST(Chosen, SaysWhatTheCarDoesAndSinceWhen) {
   car.id = 4;
   EXPECT_EQ(chosen.Panel(moment), "") << "it has left";
   EXPECT_FALSE(chosen.In(moment));
+}
+
+// The log has a line for each picture: what was shown, with the eye of the same moment.
+TEST(Screen, TheFrameLogSaysWhatWasShown) {
+  RODEIRA_NEEDS_PICTURES();
+  auto folder = base::TemporaryFolder::Make("frame_log");
+  ASSERT_TRUE(folder.ok());
+  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+  ViewSettings settings;
+  settings.width_px = 160;
+  settings.height_px = 90;
+  settings.frame_log = folder.value().path() / "frames.csv";
+  {
+    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+    ASSERT_TRUE(screen.ok()) << screen.error().Text();
+    for (int k = 0; k < 3; ++k) {
+      scene::Moment moment;
+      moment.time_ns = 20'000'000 * k;
+      moment.cars.push_back(CarAt({0.6 * k, 7.0, 0.0}, 0.0));
+      screen.value()->Show(moment, 1.0);
+    }
+  }
+  std::ifstream log(settings.frame_log);
+  std::string line;
+  std::getline(log, line);
+  EXPECT_EQ(line, "wall_s,simulated_s,x_m,y_m,z_m,eye_x_m,eye_y_m,eye_z_m");
+  double before_s = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    std::array<double, 8> v{};
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      ASSERT_TRUE(std::getline(log, line, i + 1 < v.size() ? ',' : '\n'));
+      v[i] = std::stod(line);
+    }
+    EXPECT_GT(v[0], before_s);
+    before_s = v[0];
+    EXPECT_NEAR(v[1], 0.02 * k, 1e-9);
+    EXPECT_NEAR(v[2], 0.6 * k, 1e-6);
+    const Eigen::Vector3d eye = scene::MakeCamera(settings.camera, CarAt({0.6 * k, 7.0, 0.0}, 0.0), {}, *world).eye_W;
+    EXPECT_LT((Eigen::Vector3d(v[5], v[6], v[7]) - eye).norm(), 2e-6);
+  }
+  EXPECT_FALSE(std::getline(log, line)) << "as many lines as pictures";
+  settings.frame_log = folder.value().path() / "none" / "frames.csv";
+  EXPECT_FALSE(Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help").ok());
 }
 
 TEST(Screen, MirrorsGoAndComeBackByTheirKey) {

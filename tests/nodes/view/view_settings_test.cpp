@@ -37,6 +37,7 @@ TEST(ViewSettings, NothingNeedsToBeSaid) {
 TEST(ViewSettings, WrongOnesAreRefusedWithTheirPlace) {
   EXPECT_EQ(Complaint("{widht_px: 800}"), "fake.yaml:9: unknown key 'nodes.picture.config.widht_px'; did you mean 'width_px'?");
   EXPECT_NE(Complaint("{camera: chaise}").find("did you mean 'chase'"), std::string::npos) << Complaint("{camera: chaise}");
+  EXPECT_NE(Complaint("{quality: hihg}").find("did you mean 'high'"), std::string::npos) << Complaint("{quality: hihg}");
   EXPECT_NE(Complaint("{width_px: 10}").find("width_px"), std::string::npos);
   EXPECT_EQ(Complaint("{follow: egg}"), "fake.yaml:9: 'egg' is no vehicle that this view is wired to; did you mean 'ego'?");
   EXPECT_EQ(Complaint("{mirrors: [left, middle]}"), "fake.yaml:9: 'middle' is no mirror; left, inside or right was expected");
@@ -72,6 +73,27 @@ TEST(ViewSettings, AFramesTimeMustBeASampleOfTheCar) {
   EXPECT_EQ(Complaint(with("[1.003]"), "0.005"), "fake.yaml:9: at 1.003 s ego.rodeira/vehicle_state has no sample; a multiple of its period of 0.005 s was expected");
   EXPECT_NE(Complaint(with("[-1]")), "");
   std::filesystem::remove_all(folder);
+}
+
+// 30 pictures a second of samples every 4 ms: each at the sample nearest to its time, none twice, and as many as the time has.
+TEST(ViewSettings, AFilmsPicturesAreEvenlyApart) {
+  const auto launch = launch::Launch::Parse(LaunchText("{}", "0.004"), "fake.yaml");
+  ASSERT_TRUE(launch.ok());
+  const lockstep::Roster& roster = launch.value().roster();
+  std::vector<lockstep::SourceIndex> cars;
+  for (lockstep::SourceIndex source = 0; source < roster.sources().size(); ++source) {
+    if (roster.source(source).topic == idl::topics::kVehicleState) cars.push_back(source);
+  }
+  const auto steps = FilmSteps(roster, cars, 30.0, 2.0, 4.0);
+  ASSERT_TRUE(steps.ok()) << steps.error().Text();
+  ASSERT_EQ(steps.value().size(), 61u);
+  for (std::size_t k = 0; k < 61; ++k) {
+    EXPECT_EQ(steps.value()[k] % 4, 0);
+    EXPECT_NEAR(static_cast<double>(steps.value()[k]) * 1e-3, 2.0 + static_cast<double>(k) / 30.0, 0.002 + 1e-9);
+  }
+  EXPECT_NE(Complaint("{frames: {fps: 25, to_s: 3, from_s: 4, folder: out}}").find("an end behind its beginning"), std::string::npos);
+  EXPECT_NE(Complaint("{frames: {fps: 300, to_s: 3, folder: out}}", "0.004").find("at most 250"), std::string::npos);
+  EXPECT_NE(Complaint("{frames: {fps: 25, folder: out}}").find("to_s"), std::string::npos);
 }
 
 TEST(ViewSettings, AFolderThatCannotBeIsRefusedAtTheStart) {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace rodeira::view {
+
+// What a picture may cost; docs/view.md lists what each of them leaves out.
+enum class Quality { kLow, kMedium, kHigh };
+
+// "low", "medium", "high": as settings and options name them.
+std::span<const std::string_view> QualityNames();
+std::optional<Quality> QualityOf(std::string_view name);
+
+struct QualityTraits {
+  int samples = 0;           // a pixel, at most; 0: one, edges are steps
+  float detail_scale = 1.0F;  // levels of detail change at so much smaller distances
+  bool fine = true;          // the sky's clouds and the ground's grain of every pixel, from the sharpest textures
+  int shadow_px = 0;         // side of the sun's shadow map; 0: none, soft spots below the cars instead
+  double shadow_m = 0.0;     // side of the square of ground on which it lies
+  float soft_px = 0.0F;      // of its pixels, over which a shadow's edge is drawn softly
+};
+const QualityTraits& TraitsOf(Quality quality);
+
+}  // namespace rodeira::view

@@ -1,0 +1,92 @@
+#include "nodes/view/sun_shadow.hpp"
+
+#include <osg/CullFace>
+#include <osg/PolygonOffset>
+#include <osg/Program>
+#include <osg/Shader>
+
+#include "nodes/view/look.hpp"
+#include "nodes/view/shaders.hpp"
+
+namespace rodeira::view {
+namespace {
+
+constexpr unsigned kMapUnit = 2;     // of textures; noise and faces have those before it
+constexpr float kLeastLight = 0.03F;  // of the sun, below which nobody sees its shadows
+constexpr float kLeastHeight = 0.04F;  // of the sun's direction: 2 degrees
+
+osg::ref_ptr<osg::Texture2D> MakeMap(int side_px) {
+  osg::ref_ptr<osg::Texture2D> map = new osg::Texture2D;
+  map->setTextureSize(side_px, side_px);
+  map->setInternalFormat(GL_DEPTH_COMPONENT24);
+  map->setSourceFormat(GL_DEPTH_COMPONENT);
+  map->setSourceType(GL_UNSIGNED_INT);
+  map->setShadowComparison(true);
+  map->setShadowTextureMode(osg::Texture::LUMINANCE);
+  map->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
+  map->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+  map->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_BORDER);
+  map->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_BORDER);
+  map->setBorderColor({1.0, 1.0, 1.0, 1.0});  // beyond it nothing is in shadow
+  return map;
+}
+
+osg::ref_ptr<osg::Camera> MakeCamera(osg::Texture2D& map, int side_px) {
+  osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+  camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF_INHERIT_VIEWPOINT);  // levels of detail as in the picture
+  camera->setRenderOrder(osg::Camera::PRE_RENDER, -1);                       // before mirrors, which show shadows too
+  camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+  camera->setImplicitBufferAttachmentMask(0, 0);
+  camera->attach(osg::Camera::DEPTH_BUFFER, &map);
+  camera->setClearMask(GL_DEPTH_BUFFER_BIT);
+  camera->setViewport(0, 0, side_px, side_px);
+  camera->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
+  camera->setCullMask(kThrowsShadow);
+  const auto mine = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
+  osg::StateSet* state = camera->getOrCreateStateSet();
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, DepthVertexShader()));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, DepthFragmentShader()));
+  state->setAttributeAndModes(program, mine);
+  state->setAttributeAndModes(new osg::PolygonOffset(1.5F, 4.0F), mine);
+  state->setMode(GL_POLYGON_OFFSET_FILL, mine);
+  state->setMode(GL_CULL_FACE, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+  return camera;
+}
+
+osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+SunShadow::SunShadow(osg::Group& root, osg::Group& scene, const QualityTraits& traits) : traits_(traits) {
+  if (traits.shadow_px == 0) return;
+  const osg::ref_ptr<osg::Texture2D> map = MakeMap(traits.shadow_px);
+  camera_ = MakeCamera(*map, traits.shadow_px);
+  camera_->addChild(&scene);
+  root.addChild(camera_);
+  osg::StateSet& state = *root.getOrCreateStateSet();
+  state.setTextureAttribute(kMapUnit, map);
+  state.addUniform(new osg::Uniform("sun_map", static_cast<int>(kMapUnit)));
+  state.addUniform(new osg::Uniform("sun_map_texel", traits.soft_px / static_cast<float>(traits.shadow_px)));
+  if (traits.soft_px > 0.0F) state.setDefine("SOFT_SHADOW");
+}
+
+void SunShadow::Show(osg::StateSet& state, const scene::Air& air, const Eigen::Vector3d& about_W) {
+  if (!camera_) return;
+  const bool shines = air.sun_light.maxCoeff() > kLeastLight && air.sun_W.z() > kLeastHeight;
+  camera_->setNodeMask(shines ? ~0U : 0U);
+  if (!shines) return state.removeDefine("SUN_SHADOW");
+  state.setDefine("SUN_SHADOW");
+  const scene::SunView sun = scene::MakeSunView(air.sun_W.cast<double>(), about_W, traits_.shadow_m, traits_.shadow_px);
+  const double half_m = 0.5 * sun.side_m;
+  camera_->setViewMatrixAsLookAt(ToOsg(sun.middle_W), ToOsg(sun.middle_W + sun.forward_W), ToOsg(sun.up_W));
+  camera_->setProjectionMatrixAsOrtho(-half_m, half_m, -half_m, half_m, -sun.depth_m, sun.depth_m);
+  const osg::Matrixd to_shares = osg::Matrixd::translate(1.0, 1.0, 1.0) * osg::Matrixd::scale(0.5, 0.5, 0.5);
+  world_to_map_ = camera_->getViewMatrix() * camera_->getProjectionMatrix() * to_shares;
+}
+
+void SunShadow::SetEye(osg::StateSet& state, const osg::Matrixd& view) const {
+  if (camera_) state.getOrCreateUniform("eye_to_sun", osg::Uniform::FLOAT_MAT4)->set(osg::Matrixd::inverse(view) * world_to_map_);
+}
+
+}  // namespace rodeira::view
