@@ -9,6 +9,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
 #include <vector>
 
 #include "common/fmi/archive.hpp"
@@ -62,17 +63,31 @@ void Log(fmi2ComponentEnvironment environment, fmi2String, fmi2Status status, fm
   *static_cast<std::string*>(environment) = text.data();
 }
 
+// What an FMU that is called no more still holds stays held to the end of the program.
+void Abandon(fmi2Component component) {
+  static std::mutex mutex;
+  static auto* const all = new std::vector<fmi2Component>;
+  const std::lock_guard lock(mutex);
+  all->push_back(component);
+}
+
 class LoadedInstance final : public Instance {
  public:
   LoadedInstance(Functions& functions, const Description& description, std::string file)
       : f_(functions), description_(description), file_(std::move(file)) {}
   ~LoadedInstance() override {
-    if (component_ == nullptr || dead_) return;  // after "fatal" nothing may be called
+    if (component_ == nullptr) return;
+    if (dead_) {  // after "fatal" nothing may be called
+      Abandon(component_);
+      return;
+    }
     const int signal = CallGuarded([this] {
       if (runs_ && !failed_) (void)f_.terminate(component_);
       f_.free_instance(component_);
     });
-    if (signal != 0) f_.crashed = true;
+    if (signal == 0) return;
+    f_.crashed = true;
+    Abandon(component_);
   }
   LoadedInstance(const LoadedInstance&) = delete;
   LoadedInstance& operator=(const LoadedInstance&) = delete;

@@ -83,8 +83,11 @@ void Canvas::Press(Work& work, const Eigen::Vector2d& px) {
   if (!handle) return;
   hold_ = Hold::kHandles;
   grip_W_ = Position(document, *handle);
-  const std::vector<editor::Handle> chosen = editor::HandlesOf(document, work.session.selection);
-  const bool of_chosen = std::find(chosen.begin(), chosen.end(), *handle) != chosen.end() && (chosen.size() != 4 || !work.session.selection.curves.contains(handle->curve) || work.session.selection.curves.size() > 1);
+  // Of a single chosen curve (the one just made) its handles are still dragged one by one; of more, all go along.
+  const editor::Selection& selection = work.session.selection;
+  const bool one_curve = selection.curves.size() == 1 && selection.lanes.empty() && selection.handles.empty();
+  const std::vector<editor::Handle> chosen = editor::HandlesOf(document, selection);
+  const bool of_chosen = !one_curve && std::find(chosen.begin(), chosen.end(), *handle) != chosen.end();
   // Ends that were joined stay so, but for who holds Alt.
   dragged_ = of_chosen ? chosen : io.KeyAlt ? std::vector{*handle} : editor::HandlesTogether(document, grip_W_);
   const auto first = std::find(dragged_.begin(), dragged_.end(), *handle);
