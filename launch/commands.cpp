@@ -135,7 +135,7 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
   traffic->require_subcommand(1);
   CLI::App* run = traffic->add_subcommand("run", "drive cars on a map's roads and say what came out");
   run->add_option("MAP", options.map, "world file, OpenDRIVE file (.xodr) or traffic map (.motors)")->required();
-  run->add_option("--vehicles", options.vehicles, "how many cars")->check(CLI::Range(0, 100000));
+  run->add_option("--vehicles", options.vehicles, "how many there are; where there are flows, at most at a time")->check(CLI::Range(0, 100000));
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
   run->add_option("--step", options.step_s, "seconds a step, to 0.1")->check(CLI::Range(0.001, 0.1));
   run->add_option("--seed", options.seed, "seed of everything that is drawn");

@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "common/map/heights.hpp"
 #include "common/map/map_network.hpp"
+#include "common/traffic/map_demand.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
 #include "launch/traffic_files.hpp"
@@ -28,11 +30,33 @@ int Complain(const base::Error& error) {
 
 double SecondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
+bool IsTrafficMap(const std::string& map) { return std::filesystem::path(map).extension() == ".motors"; }
+
 base::Result<std::shared_ptr<const network::Network>> Roads(const std::string& map) {
-  if (std::filesystem::path(map).extension() == ".motors") return map::LoadNetwork(map);
+  if (IsTrafficMap(map)) return map::LoadNetwork(map);
   const auto world = road::World::Load(map);
   if (!world) return world.error();
   return traffic::NetworkOf(world.value());
+}
+
+// As the file of settings says; without flows there those of a traffic map's companion.
+base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& options) {
+  traffic::TrafficSettings settings;
+  settings.vehicles = 50;
+  if (!options.settings.empty()) {
+    auto loaded = traffic::LoadTraffic(options.settings, options.seed);
+    if (!loaded) return loaded.error();
+    settings = std::move(loaded).value();
+  }
+  settings.seed = options.seed;
+  if (settings.demand.flows.empty() && IsTrafficMap(options.map)) {
+    const auto companion = map::LoadHeightsOf(options.map);
+    if (!companion) return companion.error();
+    settings.demand.flows = traffic::DemandOf(companion.value(), options.map + ".yaml").flows;
+    if (!settings.demand.flows.empty()) settings.vehicles = traffic::TrafficSettings::kMostOfFlows;
+  }
+  if (options.vehicles) settings.vehicles = *options.vehicles;
+  return settings;
 }
 
 void Describe(const TrafficOptions& options, const traffic::StudyResult& r, double wall_s) {
@@ -65,15 +89,10 @@ void Describe(const FlowsSeen& seen) {
 int TrafficRun(const TrafficOptions& options) {
   const auto roads = Roads(options.map);
   if (!roads) return Complain(roads.error());
+  auto how = HowTrafficIs(options);
+  if (!how) return Complain(how.error());
   traffic::StudySettings settings;
-  if (!options.settings.empty()) {
-    auto loaded = traffic::LoadTraffic(options.settings, options.seed);
-    if (!loaded) return Complain(loaded.error());
-    settings.traffic = std::move(loaded).value();
-  }
-  constexpr std::uint32_t kVehicles = 50;
-  if (options.vehicles || settings.traffic.demand.flows.empty()) settings.traffic.vehicles = options.vehicles.value_or(kVehicles);
-  settings.traffic.seed = options.seed;
+  settings.traffic = std::move(how).value();
   settings.duration_s = options.duration_s;
   settings.step_s = options.step_s;
   settings.watch_s = std::max(0.1, options.step_s);

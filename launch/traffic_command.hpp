@@ -10,7 +10,7 @@ namespace rodeira::front {
 struct TrafficOptions {
   bool asked = false;
   std::string map;  // a world file, .xodr or .motors
-  std::optional<std::uint32_t> vehicles;  // 50, or as many as the settings' flows may have at a time
+  std::optional<std::uint32_t> vehicles;  // as the settings say; without settings 50, or with flows at most 1000 at a time
   double duration_s = 60.0;
   double step_s = 0.01;
   std::uint64_t seed = 1;

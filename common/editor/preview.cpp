@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/map/map_network.hpp"
+#include "common/traffic/map_demand.hpp"
 
 namespace rodeira::editor {
 namespace {
@@ -20,6 +21,7 @@ base::Result<Preview> Preview::Start(const Document& document, const PreviewSett
   traffic::TrafficSettings how;
   how.vehicles = settings.vehicles;
   how.seed = settings.seed;
+  how.demand = traffic::DemandOf(document.companion, "map");
   auto model = traffic::TrafficModel::Make(how, network.value(), {});
   if (!model) return model.error();
   Preview preview;

@@ -1,17 +1,11 @@
 #include "common/traffic/traffic_settings.hpp"
 
 namespace rodeira::traffic {
-namespace {
-
-constexpr std::uint32_t kMostOfFlows = 1000;  // vehicles at a time where a file says none
-
-}  // namespace
-
 TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   TrafficSettings t;
   t.seed = seed;
   t.demand = ReadDemand(map);
-  if (!t.demand.flows.empty()) t.vehicles = kMostOfFlows;
+  if (!t.demand.flows.empty()) t.vehicles = TrafficSettings::kMostOfFlows;
   t.vehicles = static_cast<std::uint32_t>(map.Integer("vehicles", 0, 100000, t.vehicles));
   t.variety = map.Number("variety", {0.0, 0.5}, t.variety);
   t.speed_factor_low = map.Number("speed_factor_low", {0.2, 2.0}, t.speed_factor_low);

@@ -15,6 +15,8 @@ namespace rodeira::traffic {
 
 // What a traffic source is told. Each agent draws its own values from the ranges, by seed and number.
 struct TrafficSettings {
+  static constexpr std::uint32_t kMostOfFlows = 1000;  // vehicles at a time where there are flows and nothing says how many
+
   std::uint64_t seed = 1;
   std::uint32_t vehicles = 20;  // on the road and waiting to enter, together; never more, never fewer
   driver::IdmSettings idm;      // the middle of what agents draw: time gap and accelerations vary by `variety`

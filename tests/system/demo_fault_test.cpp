@@ -70,7 +70,7 @@ TEST_P(DemoFault, IsNamedWithinASecondAndTheRecordingIsReadable) {
   for (const Recorded& sample : SamplesOf(recording)) {
     if (sample.topic != idl::topics::kSnapshot) newest[{sample.topic, sample.source}] = sample.step;  // they are a second apart
   }
-  EXPECT_EQ(newest.size(), 5u) << "controls, the car and what it touches, traffic and its lights";
+  EXPECT_EQ(newest.size(), 6u) << "controls, the car and what it touches, traffic, its details and its lights";
   for (const auto& [stream, step] : newest) {
     EXPECT_LE(step, last) << stream.first;
     EXPECT_GT(step, last - 10) << stream.first << ": the slowest period is ten steps";

@@ -74,15 +74,16 @@ TEST_F(ExportTest, ControlsOfTwoSourcesInOneTable) {
   controls.steering_wheel_rad(-0.1);
   controls.throttle(1.0 / 3.0);
   controls.gear(-1);
+  controls.indicators(2);
   recording.Put(a, controls, 0);
   recording.Put(b, controls, 1500);
   const auto reader = recording.Reader();
   const auto report = ExportCsv(reader, Out());
   ASSERT_TRUE(report.ok()) << report.error().Text();
   EXPECT_EQ(Table("controls.csv"),
-            "time_s,step,source,steering_wheel_rad,throttle,brake,clutch,handbrake,gear,gearbox_mode,starter,state_digest\n"
-            "0,0,driver,-0.1,0.3333333333333333,0,0,0,-1,0,0,0000000000abcdef\n"
-            "1.5000015,1500,\"other, one\",-0.1,0.3333333333333333,0,0,0,-1,0,0,0000000000abd3cb\n");
+            "time_s,step,source,steering_wheel_rad,throttle,brake,clutch,handbrake,gear,gearbox_mode,starter,indicators,headlights,horn,state_digest\n"
+            "0,0,driver,-0.1,0.3333333333333333,0,0,0,-1,0,0,2,0,0,0000000000abcdef\n"
+            "1.5000015,1500,\"other, one\",-0.1,0.3333333333333333,0,0,0,-1,0,0,2,0,0,0000000000abd3cb\n");
   ASSERT_EQ(report.value().tables.size(), 1u);
   EXPECT_EQ(report.value().tables[0].messages, 2u);
   EXPECT_EQ(report.value().tables[0].rows, 2u);

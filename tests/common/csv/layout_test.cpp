@@ -58,7 +58,7 @@ TEST(Layout, OfTheProjectsTopics) {
   EXPECT_EQ(of(idl::topics::kTrafficState).rows, "agents");
   EXPECT_EQ(of(idl::topics::kScenarioEvents).rows, "events");
   EXPECT_EQ(of(idl::topics::kVehicleState).rows, "");
-  EXPECT_EQ(Columns(of(idl::topics::kControls)), "steering_wheel_rad throttle brake clutch handbrake gear gearbox_mode starter");
+  EXPECT_EQ(Columns(of(idl::topics::kControls)), "steering_wheel_rad throttle brake clutch handbrake gear gearbox_mode starter indicators headlights horn");
 }
 
 }  // namespace

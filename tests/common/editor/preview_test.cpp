@@ -7,6 +7,7 @@
 #include "common/editor/templates.hpp"
 #include "common/lanes/signs.hpp"
 #include "common/map/map_network.hpp"
+#include "common/traffic/arrivals.hpp"
 #include "tests/common/editor/drawing.hpp"
 
 namespace rodeira::editor {
@@ -70,6 +71,27 @@ TEST(Preview, SignsAreObeyed) {
       EXPECT_NEAR(graph.SpeedLimit_mps(track, end_m - 19.5), 5.0, 1e-9);
     }
   }
+}
+
+// Nobody is there before somebody has arrived, and who arrives is whom the flow's own law says.
+TEST(Preview, FlowsOfStartLanesBringTheVehicles) {
+  const Document document = Parsed(map::GoodMap(), "rodeira: motors/1\nflows_vehph: {1: 600}\n");
+  auto preview = Preview::Start(document, {20, 5});
+  ASSERT_TRUE(preview.ok()) << preview.error().Text();
+  traffic::FlowSettings flow;
+  flow.per_h = {600.0};
+  std::uint64_t arrived = 0;
+  std::int64_t next_ns = traffic::NextArrival_ns(flow, 5, 0, 0, 0);
+  for (int second = 0; second <= 60; ++second) {
+    ASSERT_EQ(preview.value().model().flows().size(), 1u);
+    for (; next_ns < std::llround(preview.value().time_s() * 1e9); next_ns = traffic::NextArrival_ns(flow, 5, 0, arrived, next_ns)) ++arrived;
+    EXPECT_EQ(preview.value().model().flows()[0].arrived, arrived) << second;
+    if (arrived == 0) {
+      EXPECT_TRUE(preview.value().model().poses().empty()) << second;
+    }
+    preview.value().Run(1.0);
+  }
+  EXPECT_GT(arrived, 3u);
 }
 
 TEST(Preview, SlowIsRedAndFastIsGreen) {

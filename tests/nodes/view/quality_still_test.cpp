@@ -32,35 +32,48 @@ Picture FromAbove(double hour, bool with) {
   return picture;
 }
 
-// How bright the ground is where the shadow of a point over the second car's middle falls, against the same place without that car. From
-// the hour alone: the sun stands asin(cos 42 cos H) high, and a shadow is as long as the height over the tangent of that.
-double WithAgainstWithout(double hour, double height_m, Quality quality = Quality::kMedium, double clouds = 0.0) {
-  static const auto world = World("plane.yaml");
-  Picture with = FromAbove(hour, true), without = FromAbove(hour, false);
-  with.moment.weather.clouds = without.moment.weather.clouds = clouds;
-  const scene::Camera camera = scene::MakeCamera(with.camera, with.moment.cars[0], with.aim, *world);
-  const Eigen::Vector3d sun = scene::MakeAir(with.moment.weather).sun_W.cast<double>(), away = -Eigen::Vector3d(sun.x(), sun.y(), 0.0).normalized();
-  const Eigen::Vector3d place = with.moment.cars[1].p_WB_W + height_m / std::tan(scene::SunHeight_rad(hour)) * away;
-  const auto shown = [&](const Picture& picture) {
-    const auto image = RenderStill(*world, picture, kWidth, kHeight, {}, quality);
-    return Brightness(ProbeAt(image.value(), camera, place, 3));
-  };
-  return shown(with) / shown(without);
-}
+// The plane from above at one quality: one surface and painter for all of a test's pictures.
+class SeenFromAbove {
+ public:
+  explicit SeenFromAbove(Quality quality)
+      : world_(World("plane.yaml")), surface_(Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test", false, 0, quality).value()),
+        painter_(std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_))) {}
+
+  // How bright the ground is where the shadow of a point over the second car's middle falls, against the same place without that car. From
+  // the hour alone: the sun stands asin(cos 42 cos H) high, and a shadow is as long as the height over the tangent of that.
+  double WithAgainstWithout(double hour, double height_m, double clouds = 0.0) {
+    Picture with = FromAbove(hour, true), without = FromAbove(hour, false);
+    with.moment.weather.clouds = without.moment.weather.clouds = clouds;
+    const scene::Camera camera = scene::MakeCamera(with.camera, with.moment.cars[0], with.aim, *world_);
+    const Eigen::Vector3d sun = scene::MakeAir(with.moment.weather).sun_W.cast<double>(), away = -Eigen::Vector3d(sun.x(), sun.y(), 0.0).normalized();
+    const Eigen::Vector3d place = with.moment.cars[1].p_WB_W + height_m / std::tan(scene::SunHeight_rad(hour)) * away;
+    const auto shown = [&](const Picture& picture) {
+      painter_->Draw(picture);
+      return Brightness(ProbeAt(painter_->Read(), camera, place, 3));
+    };
+    return shown(with) / shown(without);
+  }
+
+ private:
+  std::shared_ptr<const road::World> world_;
+  std::unique_ptr<Surface> surface_;
+  std::unique_ptr<Painter> painter_;
+};
 
 TEST(SunShadow, FallsAwayFromTheSunAsLongAsItIsLow) {
   RODEIRA_NEEDS_PICTURES();
+  SeenFromAbove seen(Quality::kMedium);
   for (const double hour : {8.0, 16.0}) {
-    EXPECT_LT(WithAgainstWithout(hour, 1.2), 0.75) << hour;
-    EXPECT_NEAR(WithAgainstWithout(hour, 2.4), 1.0, 0.02) << "beyond the roof's shadow, at " << hour;
-    EXPECT_NEAR(WithAgainstWithout(hour, -1.2), 1.0, 0.02) << "on the sun's side, at " << hour;
+    EXPECT_LT(seen.WithAgainstWithout(hour, 1.2), 0.75) << hour;
+    EXPECT_NEAR(seen.WithAgainstWithout(hour, 2.4), 1.0, 0.02) << "beyond the roof's shadow, at " << hour;
+    EXPECT_NEAR(seen.WithAgainstWithout(hour, -1.2), 1.0, 0.02) << "on the sun's side, at " << hour;
   }
 }
 
 TEST(SunShadow, ThereIsNoneWithoutTheSunNorAtLowQuality) {
   RODEIRA_NEEDS_PICTURES();
-  EXPECT_NEAR(WithAgainstWithout(8.0, 1.2, Quality::kLow), 1.0, 0.02);
-  EXPECT_NEAR(WithAgainstWithout(8.0, 1.2, Quality::kMedium, 1.0), 1.0, 0.02);
+  EXPECT_NEAR(SeenFromAbove(Quality::kLow).WithAgainstWithout(8.0, 1.2), 1.0, 0.02);
+  EXPECT_NEAR(SeenFromAbove(Quality::kMedium).WithAgainstWithout(8.0, 1.2, 1.0), 1.0, 0.02);
 }
 
 // Nothing of the world is left away: each of the places that are asked has its colour, at any quality.

@@ -1,0 +1,19 @@
+#include "common/traffic/map_demand.hpp"
+
+#include <fmt/format.h>
+
+namespace rodeira::traffic {
+
+DemandSettings DemandOf(const map::Heights& companion, const std::filesystem::path& file) {
+  DemandSettings demand;
+  for (const map::LaneFlow& wish : companion.flows) {
+    FlowSettings flow;
+    flow.lane = std::to_string(wish.lane);  // the road that the lane becomes
+    flow.per_h = {wish.vehph};
+    flow.place = fmt::format("{}:{}", file.string(), wish.line);
+    demand.flows.push_back(std::move(flow));
+  }
+  return demand;
+}
+
+}  // namespace rodeira::traffic
