@@ -60,6 +60,15 @@ base::Status TakeWishes(const lockstep::Roster& roster, const WatchOptions& opti
     }
     seen.settings.camera = *camera;
   }
+  if (options.quality) {
+    const auto names = view::QualityNames();
+    seen.settings.quality = view::QualityOf(*options.quality);
+    if (!seen.settings.quality) {
+      return base::WrongInput(fmt::format("'{}' was found; {} was expected{}", *options.quality, fmt::join(names, ", "),
+                                          base::DidYouMean(*options.quality, {names.begin(), names.end()})),
+                              "--quality");
+    }
+  }
   if (options.follow) {
     const auto followed = view::FindFollowed(roster, seen.cars, *options.follow);
     if (!followed) return base::WrongInput(followed.error().message, "--follow");

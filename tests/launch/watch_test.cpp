@@ -240,6 +240,23 @@ TEST_F(WatchTest, TheDemosFramesComeOutOfItsRecordingPixelByPixel) {
                base::ReadBytes(folder_.path() / "live" / view::FrameName(5'000)).value());
 }
 
+// A film has one picture for each 1 / fps of simulated time, whatever the machine's speed, and each of them is the frame of its step.
+TEST_F(WatchTest, AFilmIsInStepWithSimulatedTime) {
+  if (!view::Surface::Open(view::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
+  const std::string file = Made();
+  const auto film = Replay({file, "--frames", Path("film"), "--fps", "25", "--from", "1", "--for", "0.4", "--size", "96x64"});
+  ASSERT_EQ(film.status, 0) << film.out;
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "film")) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  ASSERT_EQ(names.size(), 11u);
+  for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(names[k], view::FrameName(1'000 + 40 * static_cast<Step>(k)));
+  EXPECT_EQ(Replay({file, "--frames", Path("end"), "--fps", "250", "--from", "6.004", "--size", "64x64"}).status, 0) << "6.01 s has no sample: the film ends before";
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "end" / view::FrameName(6'008)));
+  ASSERT_EQ(Replay({file, "--frames", Path("single"), "--at", "1.2", "--size", "96x64"}).status, 0);
+  EXPECT_TRUE(base::ReadBytes(folder_.path() / "film" / view::FrameName(1'200)).value() == base::ReadBytes(folder_.path() / "single" / view::FrameName(1'200)).value());
+}
+
 TEST_F(WatchTest, WhatIsAskedWronglyIsOneSentence) {
   const std::string file = Made();
   const auto complaint = [&](std::vector<std::string> words) {
@@ -258,6 +275,10 @@ TEST_F(WatchTest, WhatIsAskedWronglyIsOneSentence) {
   EXPECT_THAT(complaint({file, "--view", "--speed", "0.05"}), HasSubstr("0.05 was found"));
   EXPECT_THAT(complaint({file, "--view", "--speed", "nan"}), HasSubstr("nan was found"));
   EXPECT_THAT(complaint({file, "--view", "--verify"}), HasSubstr("more than one thing to do was named"));
+  EXPECT_THAT(complaint({file, "--frames", out}), HasSubstr("--at S or --fps N was expected"));
+  EXPECT_THAT(complaint({file, "--frames", out, "--fps", "300"}), HasSubstr("at most 250 were expected, as many as all cars have samples"));
+  EXPECT_THAT(complaint({file, "--frames", out, "--fps", "-2"}), HasSubstr("--fps: -2 pictures a second were found"));
+  EXPECT_THAT(complaint({file, "--frames", out, "--at", "1", "--quality", "meduim"}), HasSubstr("did you mean 'medium'?"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "6.014"}), HasSubstr("--at 6.014 s was found"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "-1"}), HasSubstr("--at -1 s was found"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "1.0005"}),
