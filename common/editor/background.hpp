@@ -36,6 +36,8 @@ class Pyramid {
 
   explicit Pyramid(Pixels pixels);
 
+  int width_px() const { return levels_.front().width_px; }
+  int height_px() const { return levels_.front().height_px; }
   const Pixels& level(std::size_t number) const { return levels_[number]; }
   std::size_t levels() const { return levels_.size(); }
   // The coarsest level whose pixels are no larger on the screen than a screen's pixel; one of the picture is `pixel_px` wide there.

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "common/map/check.hpp"
-#include "tests/common/map/sample_map.hpp"
 #include "tests/nodes/editor/desk_fixture.hpp"
 
 namespace rodeira::desk {
@@ -108,24 +107,12 @@ TEST_F(ADesk, TheThesisExampleIsDrawnByHand) {
   Keep("editor_traffic.png");
 }
 
-TEST_F(ADesk, UndoByKeysAndTheQuestionBeforeLeaving) {
+TEST_F(ADesk, UndoByKeys) {
   Press(SDL_SCANCODE_C);
   Press(SDL_SCANCODE_Z, KMOD_CTRL);
   EXPECT_TRUE(document().map.curves.empty());
   Press(SDL_SCANCODE_Y, KMOD_CTRL);
   EXPECT_EQ(document().map.curves.size(), 1u);
-  SDL_Event quit{};
-  quit.type = SDL_QUIT;
-  SDL_PushEvent(&quit);
-  Show();
-  EXPECT_TRUE(open_);
-  EXPECT_EQ(work().form, Form::kQuit);
-  Press(SDL_SCANCODE_ESCAPE);
-  EXPECT_EQ(work().form, Form::kNone);
-  EXPECT_EQ(document().map.curves.size(), 1u);
-  Press(SDL_SCANCODE_Q, KMOD_CTRL);
-  Press(SDL_SCANCODE_RETURN);
-  EXPECT_FALSE(open_);
 }
 
 TEST_F(ADesk, PanAndZoomHoldThePlane) {
@@ -197,8 +184,7 @@ TEST_F(ADesk, ARectangleChoosesAndDeleteTakesAlong) {
 }
 
 TEST_F(ADesk, JoinedHandlesMoveTogetherAndInOneStepBack) {
-  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
-  Sit(At("a.motors"));
+  OpenTheGoodMap();
   const std::string before = editor::BytesOf(document());
   const auto point = [&](std::int32_t curve, std::size_t index) { return document().map.curves[*editor::Find(document().map.curves, curve)].value.points[index]; };
   Drag(On(30.0, 1.5), On(31.0, 4.0));  // where curves 1, 3 and 5 meet
@@ -235,8 +221,7 @@ TEST_F(ADesk, TheBackgroundIsScaledByAKnownDistance) {
 }
 
 TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
-  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
-  Sit(At("a.motors"));
+  OpenTheGoodMap();
   // Of the colour that handles have.
   const auto yellow = [&] {
     window::Image seen;
@@ -263,8 +248,7 @@ TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
 }
 
 TEST_F(ADesk, ResetIsAskedFor) {
-  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
-  Sit(At("a.motors"));
+  OpenTheGoodMap();
   Press(SDL_SCANCODE_R, KMOD_CTRL);
   ASSERT_EQ(work().form, Form::kReset);
   Press(SDL_SCANCODE_ESCAPE);
@@ -296,26 +280,6 @@ TEST_F(ADesk, ABrokenFileAndAPictureThatIsNoneAreSaidInTheStatusLine) {
   EXPECT_NE(Said().find("the background cannot be shown"), std::string::npos) << Said();
 }
 
-TEST_F(ADesk, UnsavedWorkIsOfferedAgain) {
-  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
-  Sit(At("a.motors"));
-  {
-    auto keeper = editor::Keeper::Make(At("kept"));
-    ASSERT_TRUE(keeper.ok());
-    editor::Document document = work().session.document();
-    document.map.scale.value.value = 77.0f;
-    ASSERT_TRUE(keeper.value().Keep(document, At("a.motors"), 1).ok());
-  }
-  Sit();
-  ASSERT_EQ(work().form, Form::kRecover);
-  Press(SDL_SCANCODE_RETURN);
-  EXPECT_EQ(document().map.scale.value.value, 77.0f);
-  EXPECT_EQ(work().session.path(), At("a.motors"));
-  EXPECT_TRUE(work().session.unsaved());
-  Sit();
-  EXPECT_EQ(work().form, Form::kNone) << "offered once";
-}
-
 // By default every ten seconds.
 TEST_F(ADesk, WorkIsKeptWhileItIsUnsaved) {
   Press(SDL_SCANCODE_C);
@@ -328,15 +292,6 @@ TEST_F(ADesk, WorkIsKeptWhileItIsUnsaved) {
   const auto found = other.value().Found();
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(editor::Keeper::Restore(found[0]).value().document.map.curves.size(), 1u);
-}
-
-TEST_F(ADesk, ExportedIsAWorldThatRuns) {
-  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
-  Sit(At("a.motors"));
-  Press(SDL_SCANCODE_E, KMOD_CTRL);
-  Press(SDL_SCANCODE_RETURN);
-  EXPECT_EQ(Said(), "exported a.xodr: 3 roads, 1 junctions");
-  EXPECT_TRUE(std::filesystem::exists(At("a.xodr")));
 }
 
 }  // namespace
