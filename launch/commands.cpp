@@ -257,14 +257,15 @@ CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::stri
   replay->add_flag("--paused", options.watch.paused, "begin standing still")->needs(view);
   CLI::Option* frames = replay->add_option("--frames", options.watch.frames, "folder: write pictures (PNG) as the run's view would have");
   CLI::Option* at = replay->add_option("--at", options.watch.at_s, "simulated seconds of the pictures")->needs(frames);
-  frames->needs(at);
+  replay->add_option("--fps", options.watch.fps, "instead: a film of so many pictures a simulated second, from --from on")->needs(frames)->excludes(at);
   replay->add_option("--camera", options.watch.camera, "chase, driver, bonnet, orbit, top or trackside; otherwise as the run's view");
   replay->add_option("--follow", options.watch.follow, "name of a vehicle node; otherwise as the run's view");
+  replay->add_option("--quality", options.watch.quality, "low, medium or high; otherwise as the run's view");
   replay->add_option("--size", options.watch.size, "WIDTHxHEIGHT in pixels; otherwise as the run's view");
   replay->add_flag("--verify", options.verify, "compute everything again and compare every sample and state");
   replay->add_option("--from", options.from_s, "simulated seconds at which to begin");
   replay->add_option("--branch", changes, "KEY=VALUE: go on from --from with another value of the launch file");
-  replay->add_option("--for", options.for_s, "simulated seconds of the branch")->check(Positive);
+  replay->add_option("--for", options.for_s, "simulated seconds of the branch or film")->check(Positive);
   replay->add_option("--record", options.record, "recording of the branch (MCAP)");
   replay->add_option("--pace", options.pace, "of the branch: max, real or a factor; otherwise real where a person drives or watches, or max");
   replay->add_flag("--quiet", options.quiet, "no progress");

@@ -32,7 +32,7 @@ std::optional<lockstep::NodeIndex> ViewOf(const lockstep::Roster& roster) {
 void AddSource(const lockstep::Roster& roster, lockstep::SourceIndex source, Seen& seen) {
   const std::string& topic = roster.source(source).topic;
   if (topic == topics::kVehicleState) seen.cars.push_back(source);
-  if (topic == topics::kVehicleState || topic == topics::kTrafficState || topic == topics::kSignalsState || topic == topics::kWeatherState) seen.sources.push_back(source);
+  if (topic == topics::kVehicleState || topic == topics::kTrafficState || topic == topics::kTrafficDetails || topic == topics::kSignalsState || topic == topics::kWeatherState) seen.sources.push_back(source);
 }
 
 // "1280x720"
@@ -59,6 +59,15 @@ base::Status TakeWishes(const lockstep::Roster& roster, const WatchOptions& opti
                               "--camera");
     }
     seen.settings.camera = *camera;
+  }
+  if (options.quality) {
+    const auto names = view::QualityNames();
+    seen.settings.quality = view::QualityOf(*options.quality);
+    if (!seen.settings.quality) {
+      return base::WrongInput(fmt::format("'{}' was found; {} was expected{}", *options.quality, fmt::join(names, ", "),
+                                          base::DidYouMean(*options.quality, {names.begin(), names.end()})),
+                              "--quality");
+    }
   }
   if (options.follow) {
     const auto followed = view::FindFollowed(roster, seen.cars, *options.follow);

@@ -45,6 +45,7 @@ int Watch(const ReplayOptions& options) {
   WatchOptions watch = options.watch;
   watch.file = options.file;
   watch.from_s = options.from_s.value_or(0.0);
+  watch.for_s = options.for_s;
   return options.view ? WatchRecording(watch) : WriteRecordedFrames(watch);
 }
 

@@ -75,13 +75,25 @@ base::Result<std::vector<Step>> FrameSteps(const replay::RecordedRun& run, const
   return steps;
 }
 
+// Of single times, or of a film.
+base::Result<std::vector<Step>> StepsOf(const replay::RecordedRun& run, const std::vector<lockstep::SourceIndex>& cars, const WatchOptions& options) {
+  if (!options.at_s.empty()) return FrameSteps(run, cars, options.at_s);
+  if (!options.fps) return base::WrongInput("--at S or --fps N was expected beside it", "--frames");
+  if (auto status = CheckTime(run, "--from", options.from_s); !status) return status.error();
+  const double last_s = static_cast<double>(run.last_step() * run.roster().base_step_ns()) * 1e-9;
+  auto steps = view::FilmSteps(run.roster(), cars, *options.fps, options.from_s, std::min(last_s, options.from_s + options.for_s.value_or(last_s)));
+  if (!steps) return base::WrongInput(steps.error().message, "--fps");
+  std::erase_if(steps.value(), [&](Step step) { return step > run.last_step(); });  // the sample nearest to the run's end may lie behind it
+  return steps;
+}
+
 base::Status WriteFrames(const WatchOptions& options) {
   const auto run = replay::RecordedRun::Open(options.file);
   if (!run) return run.error();
   auto seen = LookAt(run.value(), options);
   if (!seen) return seen.error();
   view::ViewSettings& settings = seen.value().settings;
-  auto steps = FrameSteps(run.value(), seen.value().cars, options.at_s);
+  auto steps = StepsOf(run.value(), seen.value().cars, options);
   if (!steps) return steps.error();
   settings.frame_steps = std::move(steps).value();
   settings.folder = options.frames;

@@ -78,7 +78,7 @@ int Build(const WorldOptions& options) {
   const std::filesystem::path copy = std::filesystem::path(options.out) / "world.xodr";
   if (world.value()->open_drive()) {
     const int status = BuildDatabase(options, *world.value());
-    return status != 0 ? status : Written(copy, base::ReadText(options.world_file));
+    return status != 0 ? status : Written(copy, base::ReadText(road::OpenDriveOf(options.world_file)));
   }
   if (road::IsGenerated(options.world_file) || world.value()->network() == nullptr) {
     const auto written = road::BuildWorld(*world.value(), options.world_file, options.out);

@@ -7,6 +7,7 @@ namespace rodeira::driver {
 namespace {
 
 constexpr double kNodeStep_m = 1.0;
+constexpr double kSame_m2ps2 = 1e-9;  // a step
 constexpr double kLeastSquared_m2ps2 = 1e-4;
 
 double AllowedSquared(const Way& path, const SpeedPlanSettings& settings, double d_m) {
@@ -25,27 +26,30 @@ double AllowedSquared(const Way& path, const SpeedPlanSettings& settings, double
 
 SpeedPlan::SpeedPlan(const Way& path, const SpeedPlanSettings& settings) {
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(path.length_m() / kNodeStep_m)));
-  step_m_ = path.length_m() / static_cast<double>(count);
+  const double step = path.length_m() / static_cast<double>(count);
+  std::vector<double> squared;
   for (std::size_t i = 0; i <= count; ++i) {
-    const double d = static_cast<double>(i) * step_m_;
-    double squared = AllowedSquared(path, settings, d);
-    if (settings.stop_at_end && d >= path.length_m() - settings.end_margin_m) squared = 0.0;
-    squared_m2ps2_.push_back(squared);
+    const double d = static_cast<double>(i) * step;
+    const bool stops = settings.stop_at_end && d >= path.length_m() - settings.end_margin_m;
+    squared.push_back(stops ? 0.0 : AllowedSquared(path, settings, d));
   }
-  for (std::size_t i = count; i-- > 0;) {
-    squared_m2ps2_[i] = std::min(squared_m2ps2_[i], squared_m2ps2_[i + 1] + 2.0 * settings.braking_mps2 * step_m_);
+  for (std::size_t i = count; i-- > 0;) squared[i] = std::min(squared[i], squared[i + 1] + 2.0 * settings.braking_mps2 * step);
+  double rise = 0.0;  // a step, behind the node that was kept last
+  for (std::size_t i = 0; i <= count; ++i) {
+    const bool goes_on = i > 0 && i < count && std::fabs(squared[i + 1] - squared[i] - rise) < kSame_m2ps2;
+    if (goes_on) continue;
+    nodes_.push_back({static_cast<double>(i) * step, squared[i]});
+    if (i < count) rise = squared[i + 1] - squared[i];
   }
 }
 
 SpeedPlan::Allowed SpeedPlan::At(double d_m) const {
-  const double position = std::max(0.0, d_m) / step_m_;
-  const auto last = squared_m2ps2_.size() - 1;
-  const auto i = std::min(static_cast<std::size_t>(position), last);
-  if (i == last) return {std::sqrt(squared_m2ps2_[last]), 0.0};
-  const double share = position - static_cast<double>(i);
-  const double squared = squared_m2ps2_[i] + share * (squared_m2ps2_[i + 1] - squared_m2ps2_[i]);
-  const double rise = (squared_m2ps2_[i + 1] - squared_m2ps2_[i]) / step_m_;  // d(v²)/dd = 2 v dv/dd
-  return {std::sqrt(squared), 0.5 * rise / std::sqrt(std::max(squared, kLeastSquared_m2ps2))};
+  if (d_m >= nodes_.back().d_m) return {std::sqrt(nodes_.back().squared_m2ps2), 0.0};
+  const auto after = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, d_m, [](double d, const Node& node) { return d < node.d_m; });
+  const Node &a = *(after - 1), &b = *after;
+  const double rise = (b.squared_m2ps2 - a.squared_m2ps2) / (b.d_m - a.d_m);  // d(v²)/dd = 2 v dv/dd
+  const double squared = a.squared_m2ps2 + (std::max(0.0, d_m) - a.d_m) * rise;
+  return {std::sqrt(std::max(0.0, squared)), 0.5 * rise / std::sqrt(std::max(squared, kLeastSquared_m2ps2))};
 }
 
 }  // namespace rodeira::driver

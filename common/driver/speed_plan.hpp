@@ -29,8 +29,11 @@ class SpeedPlan {
   Allowed At(double d_m) const;
 
  private:
-  double step_m_ = 1.0;
-  std::vector<double> squared_m2ps2_;  // v² at the nodes, linear between: constant acceleration
+  // v² there; linear between: constant acceleration. Only where it bends: near memory holds a street then.
+  struct Node {
+    double d_m = 0.0, squared_m2ps2 = 0.0;
+  };
+  std::vector<Node> nodes_;
 };
 
 }  // namespace rodeira::driver

@@ -18,6 +18,8 @@ void Viewport::Zoom(double times, const Eigen::Vector2d& px) {
   Go(held_W - ToWorld(px));
 }
 
+void Viewport::ShowWidth(double width_m) { metres_per_px = std::clamp(width_m / width_px, kFinest_m, kCoarsest_m); }
+
 void Viewport::Show(const Eigen::Vector2d& low_W, const Eigen::Vector2d& high_W) {
   constexpr double kRoom = 1.1, kLeast_m = 20.0;
   const Eigen::Vector2d size = (high_W - low_W).cwiseMax(kLeast_m) * kRoom;

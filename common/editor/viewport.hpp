@@ -24,6 +24,8 @@ struct Viewport {
   void Go(const Eigen::Vector2d& by_W);
   // So many times larger (above 0); the point below `px` stays where it is.
   void Zoom(double times, const Eigen::Vector2d& px);
+  // So much of the plane from edge to edge, about the same middle.
+  void ShowWidth(double width_m);
   // All of a rectangle, with some room around it.
   void Show(const Eigen::Vector2d& low_W, const Eigen::Vector2d& high_W);
 };

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kNode_m = 1.0;
 constexpr double kShortest_m = 1e-6;  // between nodes
+constexpr double kTold = 1e-6;         // m, and of directions, grades, banks; 1/m
 constexpr double kAside_m = 0.7;      // over twice this the bank is measured
 
 struct Motion {
@@ -61,6 +62,21 @@ Motion MotionAt(const network::Network& network, const network::LaneKey& lane, i
   return {at.p_W, at.ds_W + slope * at.dt_W, bank, width};
 }
 
+// The cubic with both nodes' tangents; curvature and bank go over evenly.
+CurvePoint Between(const Curve::Node& a, const Curve::Node& b, double d_m) {
+  const double h = b.d_m - a.d_m, x = (d_m - a.d_m) / h, y = 1.0 - x;
+  CurvePoint point;
+  point.p_W = y * y * (1.0 + 2.0 * x) * a.p_W + x * x * (3.0 - 2.0 * x) * b.p_W + h * x * y * (y * a.along_W - x * b.along_W);
+  const Eigen::Vector3d v = 6.0 * x * y / h * (b.p_W - a.p_W) + y * (y - 2.0 * x) * a.along_W + x * (x - 2.0 * y) * b.along_W;
+  const double speed = std::max(1e-9, v.head<2>().norm());
+  point.ahead_W = v.head<2>() / speed;
+  point.rate = speed;
+  point.grade = v.z() / speed;
+  point.curvature_1pm = y * a.curvature_1pm + x * b.curvature_1pm;
+  point.bank = y * a.bank + x * b.bank;
+  return point;
+}
+
 }  // namespace
 
 Curve::Curve(const network::Network& network, const network::LaneKey& lane, bool along) {
@@ -82,12 +98,14 @@ Curve::Curve(const network::Network& network, const network::LaneKey& lane, bool
     nodes_.push_back({d, station(i), at.p_W, (along ? at.v_W : Eigen::Vector3d(-at.v_W)) / speed, 0.0, along ? at.bank : -at.bank,
                       at.width_m});
   }
+  length_m_ = nodes_.back().d_m;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& low = nodes_[i == 0 ? 0 : i - 1];
     const Node& high = nodes_[std::min(i + 1, nodes_.size() - 1)];
     const Eigen::Vector2d a = low.along_W.head<2>(), b = high.along_W.head<2>();
     nodes_[i].curvature_1pm = std::atan2(geometry::Cross(a, b), a.dot(b)) / (high.d_m - low.d_m);
   }
+  FindBends();
 }
 
 std::size_t Curve::Before(double d_m) const {
@@ -99,29 +117,48 @@ std::size_t Curve::Before(double d_m) const {
   return i;
 }
 
+bool Curve::Tells(std::size_t from, std::size_t to) const {
+  for (std::size_t i = from + 1; i < to; ++i) {
+    const CurvePoint at = Between(nodes_[from], nodes_[to], nodes_[i].d_m);
+    const Node& node = nodes_[i];
+    if ((at.p_W - node.p_W).cwiseAbs().maxCoeff() > kTold || (at.ahead_W - node.along_W.head<2>()).cwiseAbs().maxCoeff() > kTold) return false;
+    if (std::fabs(at.grade - node.along_W.z()) > kTold || std::fabs(at.rate - 1.0) > kTold) return false;
+    if (std::fabs(at.curvature_1pm - node.curvature_1pm) > kTold || std::fabs(at.bank - node.bank) > kTold) return false;
+  }
+  return true;
+}
+
+// From each the farthest that is found by doubling, then halving.
+void Curve::FindBends() {
+  const std::size_t last = nodes_.size() - 1;
+  std::size_t from = 0;
+  bends_.push_back(nodes_[0]);
+  while (from < last) {
+    std::size_t step = 1;
+    while (from + 2 * step <= last && Tells(from, from + 2 * step)) step *= 2;
+    std::size_t to = from + step;
+    for (; step > 0; step /= 2) {
+      if (to + step <= last && Tells(from, to + step)) to += step;
+    }
+    bends_.push_back(nodes_[to]);
+    from = to;
+  }
+  for (const Node& bend : bends_) bends_d_m_.push_back(bend.d_m);
+}
+
 CurvePoint Curve::At(double d_m) const {
   CurvePoint point;
   if (d_m < 0.0 || d_m > length_m()) {
-    const Node& end = d_m < 0.0 ? nodes_.front() : nodes_.back();
+    const Node& end = d_m < 0.0 ? bends_.front() : bends_.back();
     point.p_W = end.p_W + (d_m - end.d_m) * end.along_W;
     point.ahead_W = end.along_W.head<2>();
     point.grade = end.along_W.z();
     point.bank = end.bank;
     return point;
   }
-  const std::size_t i = Before(d_m);
-  const Node& a = nodes_[i];
-  const Node& b = nodes_[i + 1];
-  const double h = b.d_m - a.d_m, x = (d_m - a.d_m) / h, y = 1.0 - x;
-  point.p_W = y * y * (1.0 + 2.0 * x) * a.p_W + x * x * (3.0 - 2.0 * x) * b.p_W + h * x * y * (y * a.along_W - x * b.along_W);
-  const Eigen::Vector3d v = 6.0 * x * y / h * (b.p_W - a.p_W) + y * (y - 2.0 * x) * a.along_W + x * (x - 2.0 * y) * b.along_W;
-  const double speed = std::max(1e-9, v.head<2>().norm());
-  point.ahead_W = v.head<2>() / speed;
-  point.rate = speed;
-  point.grade = v.z() / speed;
-  point.curvature_1pm = y * a.curvature_1pm + x * b.curvature_1pm;
-  point.bank = y * a.bank + x * b.bank;
-  return point;
+  const auto after = std::upper_bound(bends_d_m_.begin() + 1, bends_d_m_.end() - 1, d_m);
+  const Node* a = &bends_[static_cast<std::size_t>(after - bends_d_m_.begin()) - 1];
+  return Between(a[0], a[1], d_m);
 }
 
 double Curve::WidthAt(double d_m) const {

@@ -22,8 +22,8 @@ struct CurvePoint {
 
 // The line on which a lane's traffic keeps, by its own length in plan, d = 0 where it enters: the middle of the lane; where the
 // lane opens beside another one of its direction, or narrows to nothing, so far towards that one that a car has room (at no
-// width 1.25 m beside the edge, from 3 m on the middle). Nodes at most a metre apart are exact; between them position is the
-// cubic with the nodes' tangents: within 1e-5 m for radii over 8 m.
+// width 1.25 m beside the edge, from 3 m on the middle). Nodes at most a metre apart are exact; At is the cubic with the tangents
+// of as few of them as tell the others within 1e-6 (of a straight line the first and the last): within 1e-5 m for radii over 8 m.
 class Curve {
  public:
   struct Node {
@@ -39,7 +39,7 @@ class Curve {
   // The lane must be one of the network's. along: its traffic goes with growing s.
   Curve(const network::Network& network, const network::LaneKey& lane, bool along);
 
-  double length_m() const { return nodes_.back().d_m; }
+  double length_m() const { return length_m_; }
   const std::vector<Node>& nodes() const { return nodes_; }
   // Beyond the ends straight on.
   CurvePoint At(double d_m) const;
@@ -56,8 +56,13 @@ class Curve {
 
  private:
   std::size_t Before(double d_m) const;  // the node at or before d, not the last
+  bool Tells(std::size_t from, std::size_t to) const;  // the cubic from node to node tells those between
+  void FindBends();
 
   std::vector<Node> nodes_;  // at least two
+  std::vector<Node> bends_;  // of them those that At needs: few where the line is straight, so that they stay in near memory
+  std::vector<double> bends_d_m_;
+  double length_m_ = 0.0;    // as the last node says: asked for far more often than that node
 };
 
 }  // namespace rodeira::lanes

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/config/config.hpp"
 #include "common/geometry/angle.hpp"
 #include "common/opendrive/import.hpp"
 #include "common/road/surface_detail.hpp"
@@ -34,26 +35,39 @@ StartPose StartOn(const network::Network& network) {
     if (leads_on < goes_on || (leads_on == goes_on && section.end_s_m - section.s_m <= length)) continue;
     length = section.end_s_m - section.s_m, longest = &key, goes_on = leads_on;
   }
-  StartPose start;
-  if (longest == nullptr) return start;
-  const bool against = network.Find(*longest)->direction < 0;
-  start.lane = longest->lane;
-  start.s_m = StationIn(network, *longest);
-  const Eigen::Vector3d p = network.Centre(*longest, start.s_m);
-  start.x_m = p.x();
-  start.y_m = p.y();
-  const double heading = network.roads()[longest->road].axis().Evaluate(start.s_m).heading_rad;
-  start.heading_rad = geometry::WrapAngle(heading + (against ? geometry::kPi : 0.0));
+  if (longest == nullptr) return {};
+  StartPose start = PoseOn(network, *longest, StationIn(network, *longest));
+  start.road = -1;  // nobody named one
   return start;
 }
 
 }  // namespace
+
+StartPose PoseOn(const network::Network& network, const network::LaneKey& key, double s_m) {
+  const Eigen::Vector3d p = network.Centre(key, s_m);
+  const double turned = network.Find(key)->direction < 0 ? geometry::kPi : 0.0;
+  StartPose start;
+  start.road = static_cast<int>(key.road);
+  start.lane = key.lane;
+  start.s_m = s_m;
+  start.x_m = p.x();
+  start.y_m = p.y();
+  start.heading_rad = geometry::WrapAngle(network.roads()[key.road].axis().Evaluate(s_m).heading_rad + turned);
+  return start;
+}
 
 bool IsOpenDrive(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
   return extension == ".xodr";
+}
+
+std::filesystem::path OpenDriveOf(const std::filesystem::path& world_file) {
+  if (IsOpenDrive(world_file)) return world_file;
+  const auto file = config::File::Load(world_file);
+  if (!file || !file.value().root().Has("network")) return {};
+  return file.value().root().Child("network").Path("file");
 }
 
 base::Result<WorldSpec> ReadNetworkWorld(const std::filesystem::path& file) {

@@ -14,6 +14,11 @@ namespace rodeira::road {
 
 // By its name: `.xodr`, in letters of either case.
 bool IsOpenDrive(const std::filesystem::path& file);
+// The OpenDRIVE file whose roads a world is: the file itself, or the `network` of a world file. Empty: of neither kind.
+std::filesystem::path OpenDriveOf(const std::filesystem::path& world_file);
+
+// In the middle of a lane, facing its traffic.
+StartPose PoseOn(const network::Network& network, const network::LaneKey& key, double s_m);
 
 // A world of the file's roads. The car starts on the drivable lane that is longest in one lane section outside of
 // junctions, of those that lead on if there are any, 10 m behind its beginning

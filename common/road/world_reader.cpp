@@ -8,6 +8,8 @@
 #include "common/base/suggest.hpp"
 #include "common/design/design_reader.hpp"
 #include "common/geometry/angle.hpp"
+#include "common/road/named_network.hpp"
+#include "common/road/network_world.hpp"
 #include "common/road/picture_reader.hpp"
 #include "common/road/road_reader.hpp"
 #include "common/road/surface_detail.hpp"
@@ -118,7 +120,7 @@ design::StartWish ReadStartWish(const Map& map, StartPose& start) {
 struct Keys {
   WorldSpec spec;
   std::optional<HillsSpec> hills;
-  std::optional<std::filesystem::path> elevation_file;
+  std::optional<std::filesystem::path> elevation_file, network_file;
   terrain::Registration registration = terrain::Registration::kUsual;
   bool second = false;  // version 2: the roads are read by common/design
   design::StartWish start;
@@ -131,8 +133,11 @@ Keys ReadKeys(const Map& root) {
   keys.spec.name = root.Text("name");
   (void)root.Text("description", "");
   ReadFriction(root.OptionalChild("friction"), keys.spec);
-  if (root.Has("ground") == root.Has("terrain")) {
-    root.Problem(root.Has("ground") ? "ground" : "", "a world stands either on 'terrain' (an elevation file, or hills) or on 'ground' (a plane)");
+  if (root.Has("network")) keys.network_file = root.Child("network").Path("file");
+  const int grounds = (root.Has("ground") ? 1 : 0) + (root.Has("terrain") ? 1 : 0) + (keys.network_file ? 1 : 0);
+  if (grounds != 1) {
+    root.Problem(grounds == 0 ? "" : keys.network_file ? "network" : "ground",
+                 "a world stands either on 'terrain' (an elevation file, or hills) or on 'ground' (a plane), or is the 'network' of an OpenDRIVE file");
   }
   if (root.Has("ground")) {
     ReadPlane(root.Child("ground"), keys.spec);
@@ -151,6 +156,7 @@ Keys ReadKeys(const Map& root) {
     if (terrain.Has("generate")) keys.hills = ReadHills(hills);
     if (terrain.Has("generate") == terrain.Has("file")) terrain.Problem("file", "'terrain' needs either 'file' or 'generate'");
   }
+  if (keys.network_file && !keys.second) root.Problem("network", "'network' needs 'rodeira: world/2'");
   if (keys.second) {
     if (root.Has("start")) keys.start = ReadStartWish(root.Child("start"), keys.spec.start);
     return keys;
@@ -206,20 +212,6 @@ bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
   return true;
 }
 
-// Where on its lane the car of a second version's file stands.
-void PutStart(const network::Network& network, const design::StartPlace& place, StartPose& start) {
-  const network::LaneKey key{place.road, 0, place.lane};
-  const network::Lane& lane = *network.Find(key);
-  const Eigen::Vector3d p = network.Centre(key, place.s_m);
-  start.road = static_cast<int>(place.road);
-  start.lane = place.lane;
-  start.s_m = place.s_m;
-  start.x_m = p.x();
-  start.y_m = p.y();
-  const double turned = lane.direction < 0 ? geometry::kPi : 0.0;
-  start.heading_rad = geometry::WrapAngle(network.roads()[place.road].axis().Evaluate(place.s_m).heading_rad + turned);
-}
-
 WorldReading ReadSecond(const config::File& file, Keys keys) {
   const Map root = file.root();
   WorldReading reading;
@@ -235,7 +227,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   keys.spec.network = design.network;
   keys.spec.junctions = std::move(design.junctions);
   if (keys.hills && !PutTerrain(keys, design.network == nullptr ? std::vector<Eigen::Vector3d>() : AxisPoints(*design.network), reading)) return reading;
-  if (design.start) PutStart(*design.network, *design.start, keys.spec.start);
+  if (design.start) keys.spec.start = PoseOn(*design.network, {design.start->road, 0, design.start->lane}, design.start->s_m);
   else PutStart(root, {}, keys.spec, keys.spec.start);
   if (design.network != nullptr) {
     auto detail = SurfaceDetail::Load(*design.network, file.path().parent_path(), design.laid);
@@ -256,6 +248,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
 WorldReading ReadWorld(const config::File& file) {
   const Map root = file.root();
   Keys keys = ReadKeys(root);
+  if (keys.network_file) return ReadNamedNetwork(file, *keys.network_file, std::move(keys.spec), keys.start);
   if (keys.second) return ReadSecond(file, std::move(keys));
   WorldReading reading;
   reading.missing = std::move(keys.missing);

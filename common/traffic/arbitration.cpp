@@ -91,30 +91,38 @@ bool TrafficModel::Grant(std::uint32_t id, bool yields) {
   return true;
 }
 
-void TrafficModel::Arbitrate(double dt_s) {
+// Its grants and its next passage, and whether it has come to rest at a STOP line or waits for others.
+void TrafficModel::ComeToLine(std::uint32_t id, double dt_s) {
+  Agent& agent = agents_[id];
+  const double half = 0.5 * traits_[id].length_m;
+  std::erase_if(agent.grants, [&](const ZoneGrant& grant) { return grant.to_m <= agent.o_m - half; });
+  ObeyLights(id);
+  FindPassage(id);
+  Passage& passage = passages_[id];
+  const double to_line = passage.line_m - agent.o_m - half;
+  if (passage.any && passage.must_stop && agent.speed_mps < kAtRest_mps && to_line < kAtLine_m) {
+    agent.stopped_m = passage.line_m;
+    passage.must_stop = false;
+  }
+  if (!passage.any || agent.speed_mps > 1.0) agent.waited_s = 0.0;
+  else if (agent.speed_mps < kAtRest_mps && !passage.red) agent.waited_s += dt_s;
+}
+
+void TrafficModel::ForgetZones() {
   for (const std::uint32_t zone : touched_) {
     for (const int side : {0, 1}) holders_[zone][side].clear(), comers_[zone][side].clear(), awaited_[zone][side] = false;
     is_touched_[zone] = 0;
   }
   touched_.clear();
+}
+
+void TrafficModel::Arbitrate(double dt_s) {
+  ForgetZones();
+  for (std::uint32_t id = 0; id < agents_.size(); ++id) passages_[id].any = false;
+  EachDriving([&](std::uint32_t id) { ComeToLine(id, dt_s); });
   std::vector<std::uint32_t> order;
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    Agent& agent = agents_[id];
-    passages_[id].any = false;
-    if (!agent.on_road) continue;
-    const double rear = agent.o_m - 0.5 * traits_[id].length_m;
-    std::erase_if(agent.grants, [&](const ZoneGrant& grant) { return grant.to_m <= rear; });
-    ObeyLights(id);
-    FindPassage(id);
-    HoldZones(id);
-    Passage& passage = passages_[id];
-    const double to_line = passage.line_m - agent.o_m - 0.5 * traits_[id].length_m;
-    if (passage.any && passage.must_stop && agent.speed_mps < kAtRest_mps && to_line < kAtLine_m) {
-      agent.stopped_m = passage.line_m;
-      passage.must_stop = false;
-    }
-    if (!passage.any || agent.speed_mps > 1.0) agent.waited_s = 0.0;
-    else if (agent.speed_mps < kAtRest_mps && !passage.red) agent.waited_s += dt_s;
+    if (agents_[id].on_road) HoldZones(id);
   }
   std::fill(reaches_.begin(), reaches_.end(), -1.0);
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
@@ -150,9 +158,7 @@ void TrafficModel::Arbitrate(double dt_s) {
     if (passages_[id].any && passages_[id].able) Grant(id, true);
   }
   ResolveDeadlocks();
-  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    if (agents_[id].on_road) FindBarrier(id);
-  }
+  EachDriving([&](std::uint32_t id) { FindBarrier(id); });
 }
 
 // Where the chain of who waits for whom closes, the one of it that has waited longest (of equals the first) goes although it

@@ -20,17 +20,29 @@ double TrafficModel::SightOf(const Agent& agent) const {
   return std::min(settings_.sight_m, agent.speed_mps * agent.speed_mps / (2.0 * kComfort_mps2) + 3.0 * agent.speed_mps + kSpare_m);
 }
 
+// Whether those of the last time, without some at their end, are still what FindStretches would find.
+bool TrafficModel::KeepStretches(std::uint32_t id, double far_m) {
+  const Agent& agent = agents_[id];
+  auto& stretches = stretches_[id];
+  const WayKey key{agent.trip, agent.links, agent.leg, agent.path.back().track, agent.path.size(), agent.path.front().begin_m, agent.path.back().zero_m};
+  if (key != std::exchange(way_keys_[id], key) || stretches.size() < key.pieces) return false;
+  if (stretches.back().end_m < far_m && !graph()[stretches.back().track].next.empty()) return false;
+  while (stretches.size() > key.pieces && stretches[stretches.size() - 2].end_m >= far_m) stretches.pop_back();
+  return true;
+}
+
 // From the piece under the rear bumper to `range` beyond the front one.
 void TrafficModel::FindStretches(std::uint32_t id, double range_m) {
   const Agent& agent = agents_[id];
   auto& stretches = stretches_[id];
+  const double far = agent.o_m + 0.5 * traits_[id].length_m + range_m;
+  if (KeepStretches(id, far)) return;
   stretches.clear();
   for (std::size_t i = 0; i < agent.path.size(); ++i) {
     const Piece& piece = agent.path[i];
     const double end = i + 1 < agent.path.size() ? agent.path[i + 1].begin_m : piece.zero_m + graph()[piece.track].length_m();
     stretches.push_back({piece.track, piece.zero_m, piece.begin_m, end, end < piece.zero_m + graph()[piece.track].length_m() - kWithout_m});
   }
-  const double far = agent.o_m + 0.5 * traits_[id].length_m + range_m;
   const Route* route = RouteOf(agent);
   Choice choice{agent.links, route != nullptr ? route->LegOn(agent.leg, stretches.back().track) : 0};
   while (stretches.back().end_m < far) {
@@ -63,10 +75,10 @@ void TrafficModel::SeeOthers(std::span<const driver::Footprint> others) {
 void TrafficModel::See(std::span<const driver::Footprint> others) {
   SeeOthers(others);
   for (auto& occupants : occupants_) occupants.clear();
+  EachDriving([&](std::uint32_t id) { FindStretches(id, SightOf(agents_[id])); });
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     const Agent& agent = agents_[id];
     if (!agent.on_road) continue;
-    FindStretches(id, SightOf(agent));
     const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
     std::int64_t from = -1;
     for (const Stretch& stretch : stretches_[id]) {
@@ -81,9 +93,7 @@ void TrafficModel::See(std::span<const driver::Footprint> others) {
       return a.middle_m() != b.middle_m() ? a.middle_m() < b.middle_m() : a.id < b.id;
     });
   }
-  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    if (agents_[id].on_road) ahead_[id] = FindAhead(id);
-  }
+  EachDriving([&](std::uint32_t id) { ahead_[id] = FindAhead(id); });
 }
 
 // Those on a track whose middles lie beyond d, and perhaps a few more.

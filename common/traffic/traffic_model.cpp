@@ -38,10 +38,14 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   for (std::uint32_t id = 0; id < settings_.vehicles; ++id) traits_.push_back(TraitsOf(settings_, id));
   for (const AgentTraits& traits : traits_) longest_half_m_ = std::max(longest_half_m_, 0.5 * traits.length_m);
   if (!settings_.demand.flows.empty()) longest_half_m_ = 0.5 * LargestOf(settings_).length_m;
+  if (settings_.threads > 1) crew_ = std::make_shared<base::Crew>(settings_.threads);
   stretches_.resize(agents_.size());
+  way_keys_.resize(agents_.size());
   ahead_.resize(agents_.size());
   passages_.resize(agents_.size());
   reaches_.resize(agents_.size());
+  wanted_.resize(agents_.size());
+  missed_now_.resize(agents_.size());
   barriers_.resize(agents_.size());
   occupants_.resize(graph().tracks().size());
   present_.resize(graph().tracks().size());
@@ -119,14 +123,14 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
   Arbitrate(dt_s);
   const std::int64_t step_ns = std::llround(dt_s * 1e9);
   ChangeLanes(step_ns);
-  std::vector<double> wanted(agents_.size(), 0.0);  // read the old state …
+  EachDriving([&](std::uint32_t id) { wanted_[id] = Wanted(id); });  // reads the old state …
+  EachDriving([&](std::uint32_t id) {                                 // … writes the new one
+    Move(id, wanted_[id], dt_s);
+    missed_now_[id] = Follow(id);
+  });
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    if (agents_[id].on_road) wanted[id] = Wanted(id);
-  }
-  for (std::uint32_t id = 0; id < agents_.size(); ++id) {  // … write the new one
     if (!agents_[id].on_road) continue;
-    Move(id, wanted[id], dt_s);
-    Follow(id);
+    missed_ += missed_now_[id];
     if (AtTheEnd(id)) Leave(id);
   }
   SlideStruck(dt_s);
@@ -180,8 +184,9 @@ void TrafficModel::Move(std::uint32_t id, double acceleration_mps2, double dt_s)
   if (travel > 0.0) agent.o_m = Moved(id, travel);
 }
 
-// The path grows under the front bumper and is forgotten behind the rear one.
-void TrafficModel::Follow(std::uint32_t id) {
+// The path grows under the front bumper and is forgotten behind the rear one. How many lanes for its route it has missed.
+std::uint32_t TrafficModel::Follow(std::uint32_t id) {
+  std::uint32_t missed = 0;
   Agent& agent = agents_[id];
   const double half = 0.5 * traits_[id].length_m;
   while (true) {
@@ -189,7 +194,7 @@ void TrafficModel::Follow(std::uint32_t id) {
     const lanes::Track& track = graph()[last.track];
     if (agent.o_m + half <= last.zero_m + track.length_m() || track.next.empty()) break;
     const Route* route = RouteOf(agent);
-    if (route != nullptr && route->MustChange(agent.leg, last.track)) ++missed_;
+    if (route != nullptr && route->MustChange(agent.leg, last.track)) ++missed;
     Choice choice{agent.links, agent.leg};
     const lanes::Link& link = NextLink(id, last.track, choice);
     agent.path.push_back(Onward(graph(), agent.path, link, agent.speed_mps));
@@ -197,6 +202,7 @@ void TrafficModel::Follow(std::uint32_t id) {
     agent.seeks = false;
   }
   while (agent.path.size() > 1 && agent.path[1].begin_m < agent.o_m - half - 1.0) agent.path.erase(agent.path.begin());
+  return missed;
 }
 
 bool TrafficModel::AtTheEnd(std::uint32_t id) const {
@@ -223,6 +229,7 @@ void TrafficModel::Save(base::StateWriter& writer) const {
 // A snapshot comes from outside: whatever it says, nothing is read beside the arrays.
 void TrafficModel::Restore(base::StateReader& reader) {
   for (Agent& agent : agents_) reader.Get("agent", agent);
+  way_keys_.assign(agents_.size(), {});
   reader.Get("waiting", waiting_);
   reader.Get("next_grant", next_grant_);
   reader.Get("time_ns", time_ns_);

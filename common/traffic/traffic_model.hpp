@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "common/base/crew.hpp"
 #include "common/base/result.hpp"
 #include "common/base/state.hpp"
 #include "common/driver/footprint.hpp"
@@ -105,6 +106,14 @@ class TrafficModel {
     double zero_m = 0.0, begin_m = 0.0, end_m = 0.0;
     bool changes = false;  // goes over to the lane beside at its end
   };
+  // Of what the stretches of a way were found from: as long as it is the same they are as well, but for how far they go.
+  struct WayKey {
+    std::uint32_t trip = 0, links = 0, leg = 0, track = 0;
+    std::size_t pieces = 0;
+    double begin_m = 0.0, zero_m = 0.0;  // of the first piece; of the last one
+
+    bool operator==(const WayKey&) const = default;
+  };
   // Keys of the next choice of a way: links passed, and legs of the route.
   struct Choice {
     std::uint32_t link = 0, leg = 0;
@@ -182,9 +191,14 @@ class TrafficModel {
 
   TrafficModel(const TrafficSettings& settings, std::shared_ptr<const Map> map);
 
+  // tell(id) for all that drive, by several threads: it may write what is that agent's alone, and read what nobody writes meanwhile.
+  template <class Tell>
+  void EachDriving(const Tell& tell);
+
   // Sight: who is where.
   void See(std::span<const driver::Footprint> others);
   void FindStretches(std::uint32_t id, double range_m);
+  bool KeepStretches(std::uint32_t id, double far_m);
   void SeeOthers(std::span<const driver::Footprint> others);
   std::span<const Occupant> Beyond(std::uint32_t track, double d_m) const;
   Ahead FindAhead(std::uint32_t id) const;
@@ -212,6 +226,8 @@ class TrafficModel {
 
   // Right of way.
   void Arbitrate(double dt_s);
+  void ComeToLine(std::uint32_t id, double dt_s);
+  void ForgetZones();
   void FindPassage(std::uint32_t id);
   void Touch(std::uint32_t zone);
   void HoldZones(std::uint32_t id);
@@ -244,7 +260,7 @@ class TrafficModel {
   double Advance(std::uint32_t id, double odometer_m) const;
   double Moved(std::uint32_t id, double travel_m) const;
   double HalfBase(std::uint32_t id) const { return 0.5 * traits_[id].wheelbase_m; }  // of the odometer
-  void Follow(std::uint32_t id);
+  std::uint32_t Follow(std::uint32_t id);
   bool AtTheEnd(std::uint32_t id) const;
   void SlideStruck(double dt_s);
 
@@ -268,6 +284,7 @@ class TrafficModel {
 
   TrafficSettings settings_;
   std::shared_ptr<const Map> map_;
+  std::shared_ptr<base::Crew> crew_;  // null: one thread
   std::vector<AgentTraits> traits_;
   std::vector<Agent> agents_;
   double longest_half_m_ = 0.0;  // of all agents
@@ -282,11 +299,14 @@ class TrafficModel {
   // Found anew each step.
   std::vector<network::LightColour> colours_;          // by controller
   std::vector<std::vector<Stretch>> stretches_;        // by agent
+  std::vector<WayKey> way_keys_;                       // by agent
   std::vector<std::vector<Occupant>> occupants_;       // by track, ascending by their middles
   std::vector<std::vector<Block>> blocks_;             // by track
   std::vector<Ahead> ahead_;                           // by agent
   std::vector<Passage> passages_;                      // by agent
   std::vector<double> reaches_;                        // by agent: how far its front comes whatever others decide; below 0 not yet told
+  std::vector<double> wanted_;                         // by agent: acceleration
+  std::vector<std::uint32_t> missed_now_;              // by agent
   std::vector<double> barriers_;                       // by agent: odometer at which it waits for who holds a zone before it
   std::vector<std::array<std::vector<Holder>, 2>> holders_;         // by zone
   std::vector<std::array<std::vector<Claim>, 2>> comers_;           // by zone
@@ -295,5 +315,16 @@ class TrafficModel {
   std::vector<std::uint8_t> is_touched_;                            // by zone
   std::vector<std::array<bool, 2>> awaited_;                        // by zone: an urgent agent waits for that side to end
 };
+
+template <class Tell>
+void TrafficModel::EachDriving(const Tell& tell) {
+  const auto some = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t id = begin; id < end; ++id) {
+      if (agents_[id].on_road) tell(static_cast<std::uint32_t>(id));
+    }
+  };
+  if (crew_ == nullptr) some(0, agents_.size());
+  else crew_->Share(agents_.size(), some);
+}
 
 }  // namespace rodeira::traffic

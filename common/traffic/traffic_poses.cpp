@@ -48,11 +48,16 @@ AgentPose TrafficModel::PoseOf(std::uint32_t id) const {
 }
 
 void TrafficModel::FindPoses() {
-  poses_.clear();
+  std::vector<std::uint32_t> ids;
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    if (agents_[id].on_road) poses_.push_back(PoseOf(id));
-    else if (agents_[id].is_struck) poses_.push_back(PoseOfStruck(id));
+    if (agents_[id].on_road || agents_[id].is_struck) ids.push_back(id);
   }
+  poses_.resize(ids.size());
+  const auto some = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) poses_[i] = agents_[ids[i]].on_road ? PoseOf(ids[i]) : PoseOfStruck(ids[i]);
+  };
+  if (crew_ == nullptr) some(0, ids.size());
+  else crew_->Share(ids.size(), some);
 }
 
 }  // namespace rodeira::traffic

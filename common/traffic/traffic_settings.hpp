@@ -19,6 +19,7 @@ struct TrafficSettings {
 
   std::uint64_t seed = 1;
   std::uint32_t vehicles = 20;  // on the road and waiting to enter, together; never more, never fewer
+  std::uint32_t threads = 1;    // that work on a step; changes no result
   driver::IdmSettings idm;      // the middle of what agents draw: time gap and accelerations vary by `variety`
   double variety = 0.15;        // ± share
   driver::SpeedPlanSettings speed;

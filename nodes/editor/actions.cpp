@@ -2,27 +2,15 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
-#include "common/base/files.hpp"
-#include "common/map/lane_map.hpp"
-#include "common/map/open_drive.hpp"
+#include "common/editor/export.hpp"
 #include "nodes/editor/work.hpp"
 
 namespace rodeira::desk {
 namespace {
 
 using editor::Document;
-
-// The map as OpenDRIVE, which is a world of this project too.
-void Export(Work& work, const std::filesystem::path& path) {
-  const Document& document = work.session.document();
-  const auto lanes = map::MakeLaneMap(document.map, document.companion, "map");
-  if (!lanes) return work.session.Say("not exported: " + lanes.error().message, false);
-  const auto drive = map::ToOpenDrive(lanes.value(), path.stem().string());
-  if (!drive) return work.session.Say("not exported: " + drive.error().message, false);
-  if (auto status = base::WriteWhole(path, drive.value().xml); !status) return work.session.Say("not exported: " + status.error().Text(), false);
-  work.session.Say(fmt::format("exported {}: {} roads, {} junctions", path.filename().string(), drive.value().roads, drive.value().junctions));
-}
 
 std::filesystem::path Start(const Work& work, const char* otherwise) {
   if (!work.session.path().empty()) return work.session.path();
@@ -64,7 +52,7 @@ void ShowAll(Work& work) {
   const auto& picture = work.picture.picture();
   if (picture != nullptr) {
     const double half_y = 5.0 * static_cast<double>(work.session.document().map.scale.value.value);
-    const double half_x = half_y * picture->level(0).width_px / picture->level(0).height_px;
+    const double half_x = half_y * picture->width_px() / picture->height_px();
     low = low.cwiseMin(Eigen::Vector2d(-half_x, -half_y)), high = high.cwiseMax(Eigen::Vector2d(half_x, half_y));
   }
   if (low.x() <= high.x()) work.view.Show(low, high);
@@ -75,9 +63,20 @@ void ProposeConnections(Work& work) {
   work.session.Do([&](Document& document) { return editor::Connect(document, missing); });
 }
 
-void SaveOrAsk(Work& work) {
-  if (work.session.path().empty()) return AskToSave(work, false);
-  work.session.Save(work.session.path());
+void SaveOrAsk(Work& work, const Action& then) {
+  if (work.session.path().empty()) return AskToSave(work, false, then);
+  if (work.session.Save(work.session.path()) && then) then(work);
+}
+
+void UnlessUnsaved(Work& work, Action act) {
+  if (!work.session.unsaved()) return act(work);
+  work.after = std::move(act);
+  work.Open(Form::kUnsaved);
+}
+
+void NewMap(Work& work) {
+  StopTraffic(work);
+  work.session.New();
 }
 
 void AskToOpen(Work& work) {
@@ -87,9 +86,11 @@ void AskToOpen(Work& work) {
   });
 }
 
-void AskToSave(Work& work, bool despite_errors) {
+void AskToSave(Work& work, bool despite_errors, const Action& then) {
   work.files.Ask(despite_errors ? "Save a draft" : "Save the map", {".motors"}, true, Start(work, "map.motors"),
-                 [&work, despite_errors](const std::filesystem::path& path) { work.session.Save(path, despite_errors); });
+                 [&work, despite_errors, then](const std::filesystem::path& path) {
+                   if (work.session.Save(path, despite_errors) && then) then(work);
+                 });
 }
 
 void AskToImport(Work& work) {
@@ -101,14 +102,16 @@ void AskToImport(Work& work) {
 }
 
 void AskToExport(Work& work) {
-  std::filesystem::path start = Start(work, "map.xodr");
-  start.replace_extension(".xodr");
-  work.files.Ask("Export as OpenDRIVE", {".xodr"}, true, start, [&work](const std::filesystem::path& path) { Export(work, path); });
+  std::filesystem::path start = Start(work, "map.motors");
+  start.replace_extension(".yaml");
+  work.files.Ask("Export as a world", {".yaml", ".xodr"}, true, start, [&work](const std::filesystem::path& path) {
+    const auto exported = editor::Export(work.session.document(), path);
+    work.session.Say(exported ? exported.value() : "not exported: " + exported.error().Text(), exported.ok());
+  });
 }
 
 void AskToClose(Work& work) {
-  if (work.session.unsaved()) work.Open(Form::kQuit);
-  else work.closing = true;
+  UnlessUnsaved(work, [](Work& w) { w.closing = true; });
 }
 
 void RunOrPause(Work& work) {

@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cfloat>
 
 #include "nodes/editor/panels.hpp"
 
@@ -10,14 +11,14 @@ namespace {
 
 using editor::Document;
 
-bool SideFields(const char* name, map::LaneSide& side) {
-  ImGui::PushID(name);
+bool SideFields(Work& work, const std::string& name, map::LaneSide& side) {
+  ImGui::PushID(name.c_str());
   int type = static_cast<int>(side.type);
-  ImGui::Text("%s curve %d", name, side.curve);
+  ImGui::AlignTextToFramePadding();
+  ImGui::Text("%s curve %d", name.c_str(), side.curve);
   ImGui::SameLine();
-  bool changed = ImGui::Checkbox("inverted", &side.inverted);
-  ImGui::SetNextItemWidth(150.0f);
-  if (ImGui::Combo("border", &type, kBorderNames, map::kBorderTypes)) side.type = static_cast<map::BorderType>(type), changed = true;
+  bool changed = Tick(work, name + " inverted", "inverted", side.inverted);
+  if (OneOf(work, name + " border", "border", type, kBorderNames, 150.0f)) side.type = static_cast<map::BorderType>(type), changed = true;
   ImGui::PopID();
   return changed;
 }
@@ -27,11 +28,10 @@ void DrawLane(Work& work, std::int32_t number) {
   if (!at) return;
   map::Lane lane = work.session.document().map.lanes[*at].value;
   ImGui::Text("lane %d", number);
-  bool changed = SideFields("left", lane.left);
-  changed |= SideFields("right", lane.right);
+  bool changed = SideFields(work, "left", lane.left);
+  changed |= SideFields(work, "right", lane.right);
   int mode = static_cast<int>(lane.mode);
-  ImGui::SetNextItemWidth(150.0f);
-  if (ImGui::Combo("mode", &mode, kModeNames, 3)) lane.mode = static_cast<map::LaneMode>(mode), changed = true;
+  if (OneOf(work, "mode", "mode", mode, kModeNames, 150.0f)) lane.mode = static_cast<map::LaneMode>(mode), changed = true;
   if (changed) work.session.Do([&](Document& document) { return editor::SetLane(document, lane); });
 }
 
@@ -39,53 +39,55 @@ void DrawConnection(Work& work, const std::pair<std::int32_t, std::int32_t>& pai
   const auto at = editor::Find(work.session.document().map.connections, pair.first, pair.second);
   if (!at) return;
   bool stop = work.session.document().map.connections[*at].value.stop;
+  ImGui::AlignTextToFramePadding();
   ImGui::Text("connection %d to %d", pair.first, pair.second);
   ImGui::SameLine();
-  if (ImGui::Checkbox("STOP", &stop)) work.session.Do([&](Document& document) { return editor::SetStop(document, pair.first, pair.second, stop); });
+  if (Tick(work, "STOP", "STOP", stop)) work.session.Do([&](Document& document) { return editor::SetStop(document, pair.first, pair.second, stop); });
 }
 
 // Heights at the four handles, and a drawing of them along the curve.
 void DrawHeights(Work& work, std::int32_t curve) {
   std::array<double, 4> z_m = work.session.document().companion.Of(curve);
-  std::array<float, 4> fields{};
-  for (std::size_t i = 0; i < z_m.size(); ++i) fields[i] = static_cast<float>(z_m[i]);
-  ImGui::SetNextItemWidth(-90.0f);
-  if (ImGui::InputFloat4("heights, m", fields.data(), "%.2f", ImGuiInputTextFlags_EnterReturnsTrue)) {
-    for (std::size_t i = 0; i < z_m.size(); ++i) z_m[i] = static_cast<double>(fields[i]);
-    work.session.Do([&](Document& document) { return editor::SetHeights(document, curve, z_m); });
+  bool changed = false;
+  for (std::size_t i = 0; i < z_m.size(); ++i) {
+    const std::string name = fmt::format("height {}", i + 1);
+    changed |= Number(work, name, i + 1 < z_m.size() ? "" : "heights, m", z_m[i], "%.2f", 48.0f);
+    if (i + 1 < z_m.size()) ImGui::SameLine(0.0f, 3.0f);
   }
+  if (changed) work.session.Do([&](Document& document) { return editor::SetHeights(document, curve, z_m); });
   std::array<float, 33> profile{};
   for (std::size_t i = 0; i < profile.size(); ++i) {
     const double t = static_cast<double>(i) / static_cast<double>(profile.size() - 1), u = 1.0 - t;
     profile[i] = static_cast<float>(u * u * u * z_m[0] + 3.0 * u * u * t * z_m[1] + 3.0 * u * t * t * z_m[2] + t * t * t * z_m[3]);
   }
-  ImGui::PlotLines("profile", profile.data(), static_cast<int>(profile.size()), 0, nullptr, 3.4e38f, 3.4e38f, ImVec2(0.0f, 50.0f));
+  ImGui::PlotLines("profile", profile.data(), static_cast<int>(profile.size()), 0, nullptr, FLT_MAX, FLT_MAX, ImVec2(0.0f, 50.0f));
+  Note(work, "profile");
 }
 
 void DrawSigns(Work& work, std::int32_t lane) {
   constexpr const char* kKinds[map::kSignKinds] = {"STOP", "give way", "priority", "speed limit"};
   std::vector<map::LaneSign> signs = work.session.document().companion.signs;
   bool changed = false;
+  int number = 0;  // among this lane's
   for (std::size_t i = 0; i < signs.size() && !changed; ++i) {
     if (signs[i].lane != lane) continue;
     ImGui::PushID(static_cast<int>(i));
     int kind = static_cast<int>(signs[i].kind);
-    ImGui::SetNextItemWidth(100.0f);
-    if (ImGui::Combo("##kind", &kind, kKinds, map::kSignKinds)) {
+    const std::string name = fmt::format("sign {}", ++number);
+    if (OneOf(work, name, "##kind", kind, kKinds, 100.0f)) {
       signs[i].kind = static_cast<map::SignKind>(kind);
       if (signs[i].kind == map::SignKind::kSpeedLimit && signs[i].limit_kmh == 0.0) signs[i].limit_kmh = 30.0;
       changed = true;
     }
     if (signs[i].kind == map::SignKind::kSpeedLimit) {
       ImGui::SameLine();
-      ImGui::SetNextItemWidth(60.0f);
-      changed |= ImGui::InputDouble("km/h", &signs[i].limit_kmh, 0.0, 0.0, "%.0f", ImGuiInputTextFlags_EnterReturnsTrue);
+      changed |= Number(work, name + " limit", "km/h", signs[i].limit_kmh, "%.0f", 60.0f);
     }
     ImGui::SameLine();
-    if (ImGui::SmallButton("Delete")) signs.erase(signs.begin() + static_cast<std::ptrdiff_t>(i)), changed = true;
+    if (SmallButton(work, "delete " + name, "Delete")) signs.erase(signs.begin() + static_cast<std::ptrdiff_t>(i)), changed = true;
     ImGui::PopID();
   }
-  if (ImGui::SmallButton("Add a sign at its end")) signs.push_back({lane, map::SignKind::kGiveWay, 0.0, 0.0, 0}), changed = true;
+  if (SmallButton(work, "add sign", "Add a sign at its end")) signs.push_back({lane, map::SignKind::kGiveWay, 0.0, 0.0, 0}), changed = true;
   if (changed) work.session.Do([&](Document& document) { return editor::SetSigns(document, signs); });
 }
 
@@ -93,8 +95,7 @@ void DrawFlow(Work& work, std::int32_t lane) {
   const auto& flows = work.session.document().companion.flows;
   const auto at = std::find_if(flows.begin(), flows.end(), [lane](const map::LaneFlow& flow) { return flow.lane == lane; });
   double vehph = at != flows.end() ? at->vehph : 0.0;
-  ImGui::SetNextItemWidth(100.0f);
-  if (ImGui::InputDouble("vehicles an hour", &vehph, 0.0, 0.0, "%.0f", ImGuiInputTextFlags_EnterReturnsTrue))
+  if (Number(work, "flow", "vehicles an hour", vehph, "%.0f", 100.0f))
     work.session.Do([&](Document& document) { return editor::SetFlow(document, lane, vehph); });
 }
 
@@ -110,7 +111,7 @@ void DrawChosenPanel(Work& work) {
   if (chosen.connections.size() == 1) DrawConnection(work, *chosen.connections.begin());
   if (chosen.curves.size() == 1) ImGui::Text("curve %d", *chosen.curves.begin());
   if (chosen.curves.size() + chosen.lanes.size() + chosen.connections.size() > 1) ImGui::Text("%zu curves, %zu lanes, %zu connections", chosen.curves.size(), chosen.lanes.size(), chosen.connections.size());
-  if (ImGui::Button("Delete")) DeleteChosen(work);
+  if (Button(work, "delete chosen", "Delete")) DeleteChosen(work);
 }
 
 void DrawBesidePanel(Work& work) {

@@ -56,10 +56,10 @@ bool Desk::Frame(int wait_ms, window::Image* seen) {
     if (!window_.BeginFrame(0)) return false;
   }
   work_.picture.Want(work_.session.document().map.picture, work_.session.picture_state());
-  const bool was_loading = work_.picture.loading();
+  const bool had_one = work_.picture.picture() != nullptr;
   work_.picture.Look();
   if (const std::string problem = work_.picture.TakeProblem(); !problem.empty()) work_.session.Say(problem, false);
-  if (was_loading && work_.picture.picture() != nullptr && work_.session.document().map.curves.empty()) ShowAll(work_);
+  if (!had_one && work_.picture.picture() != nullptr && work_.session.document().map.curves.empty()) ShowAll(work_);
   RunTraffic();
   if (!work_.left.empty() && work_.form == Form::kNone) work_.Open(Form::kRecover);
   Layout();
@@ -75,6 +75,7 @@ bool Desk::Frame(int wait_ms, window::Image* seen) {
 
 void Desk::Layout() {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
+  work_.places.clear();
   TakeShortcuts(work_);
   const float top = ImGui::GetFrameHeight();
   const float height = std::max(1.0f, size.y - top - kStatus_px), width = std::max(1.0f, size.x - kSide_px);
@@ -126,12 +127,14 @@ void Desk::WritePicture(const window::Image& picture) {
 void Desk::KeepWork() {
   if (!keeper_) return;
   since_kept_s_ += static_cast<double>(ImGui::GetIO().DeltaTime);
-  if (since_kept_s_ < keep_every_s_ || kept_state_ == work_.session.state()) return;
+  if (!work_.taken_up && (since_kept_s_ < keep_every_s_ || kept_state_ == work_.session.state())) return;
   since_kept_s_ = 0.0;
   kept_state_ = work_.session.state();
+  const auto taken_up = std::exchange(work_.taken_up, {});
   if (!work_.session.unsaved()) return keeper_->Forget();
-  if (auto status = keeper_->Keep(work_.session.document(), work_.session.path(), work_.session.picture_state()); !status)
-    work_.session.Say("unsaved work cannot be kept: " + status.error().Text(), false);
+  const auto kept = keeper_->Keep(work_.session.document(), work_.session.path(), work_.session.picture_state());
+  if (!kept) return work_.session.Say("unsaved work cannot be kept: " + kept.error().Text(), false);
+  if (taken_up) editor::Keeper::Discard(*taken_up);
 }
 
 int RunDesk(const std::filesystem::path& file) {

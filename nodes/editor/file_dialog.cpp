@@ -65,6 +65,7 @@ void FileDialog::Confirm() {
   if (to_write_ && fs::exists(path, problem) && asked_ != path) {
     asked_ = path;
     why_not_ = "the file is there already; once more to replace it";
+    focuses_ = true;
     return;
   }
   open_ = false;
@@ -79,7 +80,10 @@ void FileDialog::Draw() {
   const ImVec2 middle(0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y);
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowSize(ImVec2(560.0f, 420.0f));
-  if (!ImGui::BeginPopupModal(name.c_str(), &open_, ImGuiWindowFlags_NoResize)) return;
+  if (!ImGui::BeginPopupModal(name.c_str(), &open_, ImGuiWindowFlags_NoResize)) {
+    open_ = false;  // something else was asked meanwhile
+    return;
+  }
   ImGui::TextUnformatted(folder_.c_str());
   bool lists = false;
   ImGui::BeginChild("entries", ImVec2(0.0f, -62.0f), true);
@@ -96,8 +100,8 @@ void FileDialog::Draw() {
   }
   ImGui::EndChild();
   if (lists) List();
-  if (opens_) ImGui::SetKeyboardFocusHere();
-  opens_ = false;
+  if (opens_ || focuses_) ImGui::SetKeyboardFocusHere();
+  opens_ = focuses_ = false;
   ImGui::SetNextItemWidth(-150.0f);
   const bool entered = ImGui::InputText("##name", name_.data(), name_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::SameLine();

@@ -23,7 +23,7 @@ class FileDialog {
   void List();
   void Confirm();
 
-  bool open_ = false, opens_ = false, to_write_ = false;
+  bool open_ = false, opens_ = false, focuses_ = false, to_write_ = false;
   std::string title_, why_not_;
   std::vector<std::string> endings_;
   std::filesystem::path folder_;

@@ -22,31 +22,30 @@ Plans WithNewLights(const Plans& plans, const std::set<std::int32_t>& lanes) {
   return more;
 }
 
-bool PhaseFields(lights::LightPlan& plan, std::size_t number, const std::set<std::int32_t>& chosen) {
+bool PhaseFields(Work& work, const std::string& of, lights::LightPlan& plan, std::size_t number) {
   lights::Phase& phase = plan.phases[number];
+  const std::string name = fmt::format("{} phase {}", of, number + 1);
   ImGui::PushID(static_cast<int>(number));
-  ImGui::SetNextItemWidth(60.0f);
-  bool changed = ImGui::InputDouble("s", &phase.green_s, 0.0, 0.0, "%.0f", ImGuiInputTextFlags_EnterReturnsTrue);
+  bool changed = Number(work, name, "s", phase.green_s, "%.0f", 60.0f);
   ImGui::SameLine();
   ImGui::Text("green: %s", fmt::format("{}", fmt::join(phase.green, " ")).c_str());
   ImGui::SameLine();
-  if (ImGui::SmallButton("chosen lanes")) {
+  if (SmallButton(work, name + " chosen", "chosen lanes")) {
     phase.green.clear();
-    for (const std::int32_t lane : chosen) phase.green.push_back(std::to_string(lane));
+    for (const std::int32_t lane : work.session.selection.lanes) phase.green.push_back(std::to_string(lane));
     changed = true;
   }
   ImGui::SameLine();
-  if (ImGui::SmallButton("x") && plan.phases.size() > 1) plan.phases.erase(plan.phases.begin() + static_cast<std::ptrdiff_t>(number)), changed = true;
+  if (SmallButton(work, "delete " + name, "x") && plan.phases.size() > 1) plan.phases.erase(plan.phases.begin() + static_cast<std::ptrdiff_t>(number)), changed = true;
   ImGui::PopID();
   return changed;
 }
 
-bool TimeFields(lights::LightPlan& plan) {
+bool TimeFields(Work& work, const std::string& of, lights::LightPlan& plan) {
   bool changed = false;
-  const auto field = [&changed](const char* name, double& value, bool beside) {
+  const auto field = [&](const char* name, double& value, bool beside) {
     if (beside) ImGui::SameLine();
-    ImGui::SetNextItemWidth(45.0f);
-    changed |= ImGui::InputDouble(name, &value, 0.0, 0.0, "%g", ImGuiInputTextFlags_EnterReturnsTrue);
+    changed |= Number(work, of + " " + name, name, value, "%g", 45.0f);
   };
   field("offset, s", plan.offset_s, false);
   field("amber, s", plan.amber_s, true);
@@ -65,17 +64,18 @@ void DrawLightsPanel(Work& work) {
     ImGui::PushID(static_cast<int>(i));
     ImGui::Text("lights %zu, cycle %.0f s", i + 1, plans[i].cycle_s());
     ImGui::SameLine();
-    if (ImGui::SmallButton("Delete")) {
+    const std::string name = fmt::format("lights {}", i + 1);
+    if (SmallButton(work, "delete " + name, "Delete")) {
       plans.erase(plans.begin() + static_cast<std::ptrdiff_t>(i));
       changed = true;
     }
-    changed = changed || TimeFields(plans[i]);
-    for (std::size_t phase = 0; !changed && phase < plans[i].phases.size(); ++phase) changed = PhaseFields(plans[i], phase, chosen);
-    if (!changed && ImGui::SmallButton("Add a phase")) plans[i].phases.emplace_back(), changed = true;
+    changed = changed || TimeFields(work, name, plans[i]);
+    for (std::size_t phase = 0; !changed && phase < plans[i].phases.size(); ++phase) changed = PhaseFields(work, name, plans[i], phase);
+    if (!changed && SmallButton(work, name + " add phase", "Add a phase")) plans[i].phases.emplace_back(), changed = true;
     ImGui::PopID();
   }
   if (chosen.empty()) ImGui::TextDisabled("choose lanes to give them lights");
-  else if (ImGui::SmallButton("New lights, chosen lanes first")) plans = WithNewLights(plans, chosen), changed = true;
+  else if (SmallButton(work, "new lights", "New lights, chosen lanes first")) plans = WithNewLights(plans, chosen), changed = true;
   if (changed) work.session.Do([&](editor::Document& document) { return editor::SetLights(document, plans); });
 }
 

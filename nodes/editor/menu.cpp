@@ -33,12 +33,12 @@ void LaneBesideChosen(Work& work, bool on_left, bool same_way) {
 }
 
 constexpr Shortcut kShortcuts[] = {
-    {"File", "New map", "Ctrl+N", SDL_SCANCODE_N, true, false, [](Work& w) { w.session.unsaved() ? w.session.Say("there is unsaved work: save it, or reset the map", false) : void(w.session.New()); }},
-    {"File", "Open…", "Ctrl+O", SDL_SCANCODE_O, true, false, [](Work& w) { w.session.unsaved() ? w.session.Say("there is unsaved work: save it, or undo it", false) : AskToOpen(w); }},
-    {"File", "Save", "Ctrl+S", SDL_SCANCODE_S, true, false, SaveOrAsk},
+    {"File", "New map", "Ctrl+N", SDL_SCANCODE_N, true, false, [](Work& w) { UnlessUnsaved(w, NewMap); }},
+    {"File", "Open…", "Ctrl+O", SDL_SCANCODE_O, true, false, [](Work& w) { UnlessUnsaved(w, AskToOpen); }},
+    {"File", "Save", "Ctrl+S", SDL_SCANCODE_S, true, false, [](Work& w) { SaveOrAsk(w); }},
     {"File", "Save as…", "Ctrl+Shift+S", SDL_SCANCODE_S, true, true, [](Work& w) { AskToSave(w, false); }},
     {"File", "Save a draft despite errors…", "Ctrl+Shift+D", SDL_SCANCODE_D, true, true, [](Work& w) { AskToSave(w, true); }},
-    {"File", "Export as OpenDRIVE, a world…", "Ctrl+E", SDL_SCANCODE_E, true, false, AskToExport},
+    {"File", "Export as a world (OpenDRIVE)…", "Ctrl+E", SDL_SCANCODE_E, true, false, AskToExport},
     {"File", "Quit", "Ctrl+Q", SDL_SCANCODE_Q, true, false, AskToClose},
     {"Edit", "Undo", "Ctrl+Z", SDL_SCANCODE_Z, true, false, [](Work& w) { w.session.Undo(); }},
     {"Edit", "Redo", "Ctrl+Y", SDL_SCANCODE_Y, true, false, [](Work& w) { w.session.Redo(); }},

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "nodes/editor/items.hpp"
 #include "nodes/editor/work.hpp"
 
 // What stands around the canvas. Each draws itself with Dear ImGui and does what is asked there.
@@ -20,11 +21,8 @@ void DrawLightsPanel(Work& work);
 void DrawTrafficPanel(Work& work);
 void DrawBackgroundPanel(Work& work);
 // Below: the last action in green or red, the visible width, what is loading.
-void DrawStatus(const Work& work, float top, float width, float height);
+void DrawStatus(Work& work, float top, float width, float height);
 void DrawForms(Work& work);
-
-// Writes down where the item that was drawn last stands.
-void Note(Work& work, const std::string& name);
 
 extern const char* const kBorderNames[map::kBorderTypes];
 extern const char* const kModeNames[3];

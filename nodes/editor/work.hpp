@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,7 +22,7 @@ namespace rodeira::desk {
 enum class Tool { kChoose, kLane, kMeasure, kTemplate };
 
 // What stands open over the canvas, at most one at a time.
-enum class Form { kNone, kLane, kConnection, kReset, kMeasured, kQuit, kRecover, kKeys };
+enum class Form { kNone, kLane, kConnection, kReset, kMeasured, kUnsaved, kRecover, kKeys };
 
 // A form's fields, until they are confirmed.
 struct LaneForm {
@@ -46,6 +47,15 @@ struct Traffic {
   double heat_of_s = -1.0;
 };
 
+// What stands in a field of a number that has not been left yet.
+struct Written {
+  double value = 0.0;
+  int picture = 0;  // the last one in which it had the keys
+};
+
+struct Work;
+using Action = std::function<void(Work&)>;
+
 // Everything that a person at the drawing desk has before him; the panels and the canvas draw and change it.
 struct Work {
   editor::Session session;
@@ -57,6 +67,7 @@ struct Work {
   bool handles = true, numbers = true, centre = true, heat = true, snap = true;
   Form form = Form::kNone;
   bool form_opens = false;  // in this frame
+  Action after;             // what waits for the question about unsaved work
   LaneForm lane_form;
   ConnectionForm connection_form;
   std::array<Eigen::Vector2d, 2> measured{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
@@ -65,8 +76,10 @@ struct Work {
   Traffic traffic;
   PictureLoader picture;
   std::vector<editor::Keeper::Left> left;  // unsaved work of editors that live no more
+  std::optional<editor::Keeper::Left> taken_up;  // of it, which stays there until our own keeper has it
   bool take_picture = false;               // of the window, when it is drawn next
   bool closing = false;                    // the window should close, and nothing hinders that
+  std::map<std::string, Written> written;         // by the field's name
   std::map<std::string, Eigen::Vector2d> places;  // of buttons and fields in the last picture, pixels of the window: for scripted hands
 
   void Open(Form what) { form = what, form_opens = true; }
@@ -78,12 +91,15 @@ void DeleteChosen(Work& work);
 void ChooseAll(Work& work);
 void ShowAll(Work& work);
 void ProposeConnections(Work& work);
-void SaveOrAsk(Work& work);
+// `then`, if any, is done as soon as the map is saved.
+void SaveOrAsk(Work& work, const Action& then = {});
+void AskToSave(Work& work, bool despite_errors, const Action& then = {});
+// At once, or, where something is unsaved, after asking whether to save it, to give it up, or to stay.
+void UnlessUnsaved(Work& work, Action act);
+void NewMap(Work& work);
 void AskToOpen(Work& work);
-void AskToSave(Work& work, bool despite_errors);
 void AskToImport(Work& work);
 void AskToExport(Work& work);
-// Asks where something is unsaved.
 void AskToClose(Work& work);
 void RunOrPause(Work& work);
 void StopTraffic(Work& work);

@@ -50,7 +50,18 @@ base::Bytes Payload(const lockstep::Source& source, Step step) {
     return idl::Encode(car);
   }
   if (source.topic == idl::topics::kSignalsState) return idl::Encode(msg::SignalsState());
-  if (source.topic == idl::topics::kTrafficDetails) return idl::Encode(msg::TrafficDetails());
+  if (source.topic == idl::topics::kTrafficDetails) {  // ten times a second; nothing between
+    msg::TrafficDetails details;
+    for (const std::uint32_t id : {4U, 9U}) {
+      if (step % 100 != 0) break;
+      msg::TrafficDetail detail;
+      detail.id(id);
+      detail.gear(static_cast<std::int32_t>(id));
+      detail.target_speed_mps(static_cast<float>(t));
+      details.agents().push_back(detail);
+    }
+    return idl::Encode(details);
+  }
   msg::TrafficState traffic;
   for (const std::uint32_t id : {4U, 9U}) {
     msg::TrafficAgent agent;
@@ -138,6 +149,22 @@ TEST_F(WatchTest, MovesAsTheLiveViewMovedInWhateverOrder) {
   }
 }
 
+// The traffic says ten times a second what its drivers do; in between that holds, whichever way one comes.
+TEST_F(WatchTest, WhatDriversDoHoldsUntilItIsSaidAgain) {
+  const auto run = replay::RecordedRun::Open(Made());
+  RecordedMoments moments = MomentsOf(run.value());
+  for (const Step step : {5'490, 5'500, 5'599, 20, 0, 6'010}) {
+    const auto moment = moments.Exactly(step);
+    ASSERT_TRUE(moment.ok()) << moment.error().Text();
+    ASSERT_EQ(moment.value().agents.size(), 2u);
+    const auto& details = moment.value().agents;
+    ASSERT_TRUE(details[0].detail && details[1].detail) << step;
+    EXPECT_FLOAT_EQ(static_cast<float>(details[0].detail->target_speed_mps), static_cast<float>(0.1 * static_cast<double>(step / 100))) << step;
+    EXPECT_EQ(details[0].detail->gear, 4);
+    EXPECT_EQ(details[1].detail->gear, 9);
+  }
+}
+
 TEST_F(WatchTest, TheRunsEndIsAPicture) {
   const auto run = replay::RecordedRun::Open(Made());
   RecordedMoments moments = MomentsOf(run.value());
@@ -171,7 +198,7 @@ TEST_F(WatchTest, LooksAsTheRecordedViewDid) {
   EXPECT_EQ(seen.value().settings.camera, scene::CameraKind::kDriver);
   EXPECT_FALSE(seen.value().settings.instruments);
   EXPECT_EQ(seen.value().period, 20);
-  EXPECT_EQ(seen.value().sources.size(), 3u) << "a car, traffic and lights, no hands";
+  EXPECT_EQ(seen.value().sources.size(), 4u) << "a car, traffic, its details and lights, no hands";
   WatchOptions wishes;
   wishes.camera = "chase";
   wishes.size = "800x600";
@@ -188,7 +215,7 @@ TEST_F(WatchTest, ARunWithoutAViewIsSeenWhole) {
   ASSERT_TRUE(run.ok()) << run.error().Text();
   const auto seen = LookAt(run.value(), {});
   ASSERT_TRUE(seen.ok()) << seen.error().Text();
-  EXPECT_EQ(seen.value().sources.size(), 3u);
+  EXPECT_EQ(seen.value().sources.size(), 4u);
   EXPECT_EQ(seen.value().period, 20);
   EXPECT_EQ(seen.value().settings.width_px, 1280);
 }
@@ -240,6 +267,23 @@ TEST_F(WatchTest, TheDemosFramesComeOutOfItsRecordingPixelByPixel) {
                base::ReadBytes(folder_.path() / "live" / view::FrameName(5'000)).value());
 }
 
+// A film has one picture for each 1 / fps of simulated time, whatever the machine's speed, and each of them is the frame of its step.
+TEST_F(WatchTest, AFilmIsInStepWithSimulatedTime) {
+  if (!view::Surface::Open(view::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
+  const std::string file = Made();
+  const auto film = Replay({file, "--frames", Path("film"), "--fps", "25", "--from", "1", "--for", "0.4", "--size", "96x64"});
+  ASSERT_EQ(film.status, 0) << film.out;
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "film")) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  ASSERT_EQ(names.size(), 11u);
+  for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(names[k], view::FrameName(1'000 + 40 * static_cast<Step>(k)));
+  EXPECT_EQ(Replay({file, "--frames", Path("end"), "--fps", "250", "--from", "6.004", "--size", "64x64"}).status, 0) << "6.01 s has no sample: the film ends before";
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "end" / view::FrameName(6'008)));
+  ASSERT_EQ(Replay({file, "--frames", Path("single"), "--at", "1.2", "--size", "96x64"}).status, 0);
+  EXPECT_TRUE(base::ReadBytes(folder_.path() / "film" / view::FrameName(1'200)).value() == base::ReadBytes(folder_.path() / "single" / view::FrameName(1'200)).value());
+}
+
 TEST_F(WatchTest, WhatIsAskedWronglyIsOneSentence) {
   const std::string file = Made();
   const auto complaint = [&](std::vector<std::string> words) {
@@ -258,6 +302,10 @@ TEST_F(WatchTest, WhatIsAskedWronglyIsOneSentence) {
   EXPECT_THAT(complaint({file, "--view", "--speed", "0.05"}), HasSubstr("0.05 was found"));
   EXPECT_THAT(complaint({file, "--view", "--speed", "nan"}), HasSubstr("nan was found"));
   EXPECT_THAT(complaint({file, "--view", "--verify"}), HasSubstr("more than one thing to do was named"));
+  EXPECT_THAT(complaint({file, "--frames", out}), HasSubstr("--at S or --fps N was expected"));
+  EXPECT_THAT(complaint({file, "--frames", out, "--fps", "300"}), HasSubstr("at most 250 were expected, as many as all cars have samples"));
+  EXPECT_THAT(complaint({file, "--frames", out, "--fps", "-2"}), HasSubstr("--fps: -2 pictures a second were found"));
+  EXPECT_THAT(complaint({file, "--frames", out, "--at", "1", "--quality", "meduim"}), HasSubstr("did you mean 'medium'?"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "6.014"}), HasSubstr("--at 6.014 s was found"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "-1"}), HasSubstr("--at -1 s was found"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "1.0005"}),

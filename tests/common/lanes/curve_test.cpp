@@ -48,6 +48,24 @@ TEST(LaneCurve, MeasuresItsOwnLength) {
   }
 }
 
+// The nodes are the network's own answers, a metre apart; At leaves out those of them that it tells without.
+TEST(LaneCurve, GoesThroughAllOfItsNodes) {
+  for (const std::string& name : MapNames()) {
+    const auto network = MapNetwork(name);
+    const Graph graph(*network);
+    for (const Track& track : graph.tracks()) {
+      for (const Curve::Node& node : track.curve.nodes()) {
+        const CurvePoint at = track.curve.At(node.d_m);
+        EXPECT_LT((at.p_W - node.p_W).norm(), 2e-6) << name << " road " << track.lane.road << " d " << node.d_m;
+        EXPECT_LT((at.ahead_W - node.along_W.head<2>()).norm(), 2e-6);
+        EXPECT_NEAR(at.grade, node.along_W.z(), 1e-6);
+        EXPECT_NEAR(at.curvature_1pm, node.curvature_1pm, 1e-6);
+        EXPECT_NEAR(at.bank, node.bank, 1e-6);
+      }
+    }
+  }
+}
+
 TEST(LaneCurve, FindsTheFootOfAPointBesideIt) {
   const auto network = MapNetwork("town");
   const Graph graph(*network);

@@ -134,6 +134,34 @@ base::Digest DigestOf(const TrafficModel& model) {
   return writer.digest();
 }
 
+// Junctions, changes of lanes, lorries and flows with routes: the state, and what is published of it.
+TEST(NetworkTraffic, AnyNumberOfThreadsGivesTheSameBits) {
+  for (const char* name : {"town", "roundabout", "ramp"}) {
+    const auto network = lanes::MapNetwork(name);
+    std::vector<TrafficModel> models;
+    for (const std::uint32_t threads : {1u, 2u, 4u}) {
+      TrafficSettings settings;
+      settings.vehicles = 45;
+      settings.threads = threads;
+      settings.mix.shares = {0.7, 0.1, 0.1, 0.1};
+      models.push_back(TrafficModel::Make(settings, network, {}).value());
+    }
+    for (int i = 0; i < 1200; ++i) {
+      for (TrafficModel& model : models) model.Step(0.05, {});
+      if (i % 100 != 99) continue;
+      for (const TrafficModel& model : models) {
+        ASSERT_EQ(DigestOf(model), DigestOf(models[0])) << name << " step " << i;
+        ASSERT_EQ(model.poses().size(), models[0].poses().size());
+        for (std::size_t k = 0; k < model.poses().size(); ++k) {
+          ASSERT_EQ(model.poses()[k].p_WB_W, models[0].poses()[k].p_WB_W);
+          ASSERT_EQ(model.poses()[k].q_WB.coeffs(), models[0].poses()[k].q_WB.coeffs());
+        }
+      }
+    }
+    EXPECT_GT(models[0].ended(), 3u) << name;
+  }
+}
+
 TEST(NetworkTraffic, RestoredAmongCrossingTrafficItGoesOnWithTheSameBits) {
   TrafficSettings settings;
   settings.vehicles = 40;

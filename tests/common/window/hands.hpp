@@ -53,13 +53,16 @@ inline void Press(SDL_Scancode scancode, Uint16 modifiers = KMOD_NONE) {
   if (modifiers != KMOD_NONE) Key((modifiers & KMOD_CTRL) != 0 ? SDL_SCANCODE_LCTRL : SDL_SCANCODE_LSHIFT, false);
 }
 
-// ASCII.
+// UTF-8, a letter an event.
 inline void Type(const std::string& text) {
-  for (const char letter : text) {
+  for (std::size_t at = 0; at < text.size();) {
     SDL_Event event{};
     event.type = SDL_TEXTINPUT;
-    event.text.text[0] = letter;
+    std::size_t length = 1;
+    while (at + length < text.size() && (static_cast<unsigned char>(text[at + length]) & 0xC0) == 0x80) ++length;
+    text.copy(event.text.text, length, at);
     SDL_PushEvent(&event);
+    at += length;
   }
 }
 

@@ -9,6 +9,7 @@
 #include "common/base/files.hpp"
 #include "common/base/temporary_folder.hpp"
 #include "nodes/editor/desk.hpp"
+#include "tests/common/map/sample_map.hpp"
 #include "tests/common/window/hands.hpp"
 
 namespace rodeira::desk {
@@ -72,7 +73,18 @@ class ADesk : public testing::Test {
     hands::Press(key, modifiers);
     Show();
   }
+  // By the wheel over the panels, until an item is seen there.
+  void Reveal(const std::string& place) {
+    constexpr double kLowest_px = 740.0;
+    const auto seen = [&] { return work().places.contains(place) && work().places[place].y() < kLowest_px; };
+    for (int i = 0; i < 40 && !seen(); ++i) {
+      hands::MoveTo(294, 500);
+      hands::Wheel(-1);
+      Show();
+    }
+  }
   void Click(const std::string& place) {
+    Reveal(place);
     ASSERT_TRUE(work().places.contains(place)) << place;
     const Eigen::Vector2d at = work().places[place];
     hands::Click(static_cast<int>(at.x()), static_cast<int>(at.y()));
@@ -84,6 +96,27 @@ class ADesk : public testing::Test {
     Show();
     hands::Type(text);
     Show();
+  }
+  // One of a list that opens.
+  void ChooseOne(const std::string& place, const std::string& one) {
+    Click(place);
+    Click(place + ": " + one);
+  }
+  // Into a field; it counts when the field is left.
+  void Fill(const std::string& place, const std::string& text) {
+    Click(place);
+    Write(text);
+    Press(SDL_SCANCODE_RETURN);
+  }
+  // On the ground.
+  void ClickOn(double x_m, double y_m) {
+    const Eigen::Vector2i at = On(x_m, y_m);
+    hands::Click(at.x(), at.y());
+    Show();
+  }
+  void OpenTheGoodMap() {
+    ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
+    Sit(At("a.motors"));
   }
   // Writes the picture where RODEIRA_PICTURES names a folder.
   void Keep(const std::string& name) {

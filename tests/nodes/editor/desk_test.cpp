@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "common/map/check.hpp"
-#include "tests/common/map/sample_map.hpp"
 #include "tests/nodes/editor/desk_fixture.hpp"
 
 namespace rodeira::desk {
@@ -108,24 +107,12 @@ TEST_F(ADesk, TheThesisExampleIsDrawnByHand) {
   Keep("editor_traffic.png");
 }
 
-TEST_F(ADesk, UndoByKeysAndTheQuestionBeforeLeaving) {
+TEST_F(ADesk, UndoByKeys) {
   Press(SDL_SCANCODE_C);
   Press(SDL_SCANCODE_Z, KMOD_CTRL);
   EXPECT_TRUE(document().map.curves.empty());
   Press(SDL_SCANCODE_Y, KMOD_CTRL);
   EXPECT_EQ(document().map.curves.size(), 1u);
-  SDL_Event quit{};
-  quit.type = SDL_QUIT;
-  SDL_PushEvent(&quit);
-  Show();
-  EXPECT_TRUE(open_);
-  EXPECT_EQ(work().form, Form::kQuit);
-  Press(SDL_SCANCODE_ESCAPE);
-  EXPECT_EQ(work().form, Form::kNone);
-  EXPECT_EQ(document().map.curves.size(), 1u);
-  Press(SDL_SCANCODE_Q, KMOD_CTRL);
-  Press(SDL_SCANCODE_RETURN);
-  EXPECT_FALSE(open_);
 }
 
 TEST_F(ADesk, PanAndZoomHoldThePlane) {
@@ -197,8 +184,7 @@ TEST_F(ADesk, ARectangleChoosesAndDeleteTakesAlong) {
 }
 
 TEST_F(ADesk, JoinedHandlesMoveTogetherAndInOneStepBack) {
-  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
-  Sit(At("a.motors"));
+  OpenTheGoodMap();
   const std::string before = editor::BytesOf(document());
   const auto point = [&](std::int32_t curve, std::size_t index) { return document().map.curves[*editor::Find(document().map.curves, curve)].value.points[index]; };
   Drag(On(30.0, 1.5), On(31.0, 4.0));  // where curves 1, 3 and 5 meet
@@ -235,8 +221,7 @@ TEST_F(ADesk, TheBackgroundIsScaledByAKnownDistance) {
 }
 
 TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
-  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
-  Sit(At("a.motors"));
+  OpenTheGoodMap();
   // Of the colour that handles have.
   const auto yellow = [&] {
     window::Image seen;
@@ -262,9 +247,30 @@ TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
   EXPECT_EQ(editor::BytesOf(document()), before);
 }
 
+// White where the road has it: a bar of 0.3 m before a STOP, strokes of 0.5 m with gaps of 0.3 m where one gives way (4 on a lane of 3 m).
+TEST_F(ADesk, LinesWhereOneStopsOrGivesWayArePainted) {
+  OpenTheGoodMap();
+  work().session.Do([](editor::Document& document) { return editor::SetSigns(document, {{2, map::SignKind::kGiveWay, 0.0, 0.0, 0}}); });
+  work().handles = work().numbers = work().centre = false;
+  work().view.metres_per_px = 0.02;
+  const auto white = [&](double x_m, double y_m) {
+    work().view.middle_W = {x_m, 0.0};
+    window::Image seen;
+    desk_->Frame(0, &seen);
+    const Eigen::Vector2i at = On(x_m, y_m);
+    const std::uint8_t* pixel = seen.At(at.x(), at.y());
+    return pixel[0] > 240 && pixel[1] > 240 && pixel[2] > 240;
+  };
+  for (const double y_m : {-1.3, -0.8, 0.3, 1.3}) {
+    EXPECT_TRUE(white(29.7, y_m)) << y_m;
+    EXPECT_FALSE(white(29.5, y_m)) << y_m;
+  }
+  for (const double y_m : {-1.2, -0.4, 0.4, 1.2}) EXPECT_TRUE(white(59.7, y_m)) << y_m;
+  for (const double y_m : {-0.8, 0.1, 0.8}) EXPECT_FALSE(white(59.7, y_m)) << y_m;
+}
+
 TEST_F(ADesk, ResetIsAskedFor) {
-  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
-  Sit(At("a.motors"));
+  OpenTheGoodMap();
   Press(SDL_SCANCODE_R, KMOD_CTRL);
   ASSERT_EQ(work().form, Form::kReset);
   Press(SDL_SCANCODE_ESCAPE);
@@ -296,26 +302,6 @@ TEST_F(ADesk, ABrokenFileAndAPictureThatIsNoneAreSaidInTheStatusLine) {
   EXPECT_NE(Said().find("the background cannot be shown"), std::string::npos) << Said();
 }
 
-TEST_F(ADesk, UnsavedWorkIsOfferedAgain) {
-  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
-  Sit(At("a.motors"));
-  {
-    auto keeper = editor::Keeper::Make(At("kept"));
-    ASSERT_TRUE(keeper.ok());
-    editor::Document document = work().session.document();
-    document.map.scale.value.value = 77.0f;
-    ASSERT_TRUE(keeper.value().Keep(document, At("a.motors"), 1).ok());
-  }
-  Sit();
-  ASSERT_EQ(work().form, Form::kRecover);
-  Press(SDL_SCANCODE_RETURN);
-  EXPECT_EQ(document().map.scale.value.value, 77.0f);
-  EXPECT_EQ(work().session.path(), At("a.motors"));
-  EXPECT_TRUE(work().session.unsaved());
-  Sit();
-  EXPECT_EQ(work().form, Form::kNone) << "offered once";
-}
-
 // By default every ten seconds.
 TEST_F(ADesk, WorkIsKeptWhileItIsUnsaved) {
   Press(SDL_SCANCODE_C);
@@ -328,15 +314,6 @@ TEST_F(ADesk, WorkIsKeptWhileItIsUnsaved) {
   const auto found = other.value().Found();
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(editor::Keeper::Restore(found[0]).value().document.map.curves.size(), 1u);
-}
-
-TEST_F(ADesk, ExportedIsAWorldThatRuns) {
-  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
-  Sit(At("a.motors"));
-  Press(SDL_SCANCODE_E, KMOD_CTRL);
-  Press(SDL_SCANCODE_RETURN);
-  EXPECT_EQ(Said(), "exported a.xodr: 3 roads, 1 junctions");
-  EXPECT_TRUE(std::filesystem::exists(At("a.xodr")));
 }
 
 }  // namespace
