@@ -7,7 +7,7 @@
 
 namespace rodeira::scene {
 
-// How near a bend may come to the ends of a way.
+// How closely the ground is to be followed.
 struct BendRange {
   double tolerance_m = 0.003;  // so far from straight the ground may be
   double margin_m = 0.1;       // to either end; a way of less than four of these is left as it is
