@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/replay/tape.hpp"
@@ -20,6 +21,8 @@ class RecordedMoments {
   const replay::Tape& tape() const { return tape_; }
 
  private:
+  // Instead of a sample that says nothing, the newest one of its source before it that does.
+  base::Status FindWhatSays(std::optional<lockstep::Sample>& sample);
   const replay::RecordedRun& run_;
   replay::Tape tape_;
   lockstep::Step view_period_;

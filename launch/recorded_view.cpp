@@ -32,7 +32,7 @@ std::optional<lockstep::NodeIndex> ViewOf(const lockstep::Roster& roster) {
 void AddSource(const lockstep::Roster& roster, lockstep::SourceIndex source, Seen& seen) {
   const std::string& topic = roster.source(source).topic;
   if (topic == topics::kVehicleState) seen.cars.push_back(source);
-  if (topic == topics::kVehicleState || topic == topics::kTrafficState || topic == topics::kSignalsState || topic == topics::kWeatherState) seen.sources.push_back(source);
+  if (topic == topics::kVehicleState || topic == topics::kTrafficState || topic == topics::kTrafficDetails || topic == topics::kSignalsState || topic == topics::kWeatherState) seen.sources.push_back(source);
 }
 
 // "1280x720"

@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <thread>
 
 #include "common/base/files.hpp"
 #include "common/map/map_file.hpp"
@@ -81,24 +84,45 @@ void PaintByTable(const GDALColorTable& table, std::uint8_t* rgb, std::size_t pi
   }
 }
 
-base::Result<Pixels> ReadAll(GDALDataset& set, const Progress& progress) {
+// All three bands at once where they are bytes.
+bool ReadColours(GDALDataset& set, int first, int rows, int width, std::uint8_t* rgb, std::size_t row_bytes) {
+  int bands[] = {1, 2, 3};
+  return set.RasterIO(GF_Read, 0, first, width, rows, rgb, width, rows, GDT_Byte, 3, bands, 3, static_cast<GSpacing>(row_bytes), 1, nullptr) == CE_None;
+}
+
+// Row by row from the top; `ready(rows)` is told how many there are, and may say false.
+base::Status ReadAll(GDALDataset& set, Pixels& pixels, const std::function<bool(int)>& ready) {
   constexpr int kRows = 256;
-  Pixels pixels{set.GetRasterXSize(), set.GetRasterYSize(), {}};
   const std::size_t row_bytes = 3 * static_cast<std::size_t>(pixels.width_px);
-  pixels.rgb.resize(row_bytes * static_cast<std::size_t>(pixels.height_px));
-  const bool coloured = set.GetRasterCount() >= 3;
+  const bool coloured = set.GetRasterCount() >= 3, bytes = set.GetRasterBand(1)->GetRasterDataType() == GDT_Byte;
   const GDALColorTable* table = set.GetRasterBand(1)->GetColorTable();
   for (int first = 0; first < pixels.height_px; first += kRows) {
     const int rows = std::min(kRows, pixels.height_px - first);
     std::uint8_t* into = &pixels.rgb[static_cast<std::size_t>(first) * row_bytes];
-    for (int channel = 0; channel < 3; ++channel) {
-      if (!ReadRows(*set.GetRasterBand(coloured ? channel + 1 : 1), first, rows, pixels.width_px, into + channel, row_bytes))
-        return base::WrongInput(fmt::format("the picture cannot be read beyond line {} of {}", first, pixels.height_px));
-    }
+    bool good = true;
+    if (coloured && bytes) good = ReadColours(set, first, rows, pixels.width_px, into, row_bytes);
+    for (int channel = 0; good && channel < 3 && !(coloured && bytes); ++channel)
+      good = ReadRows(*set.GetRasterBand(coloured ? channel + 1 : 1), first, rows, pixels.width_px, into + channel, row_bytes);
+    if (!good) return base::WrongInput(fmt::format("the picture cannot be read beyond line {} of {}", first, pixels.height_px));
     if (table != nullptr && !coloured) PaintByTable(*table, into, static_cast<std::size_t>(rows) * static_cast<std::size_t>(pixels.width_px));
-    if (progress && !progress(static_cast<double>(first + rows) / pixels.height_px)) return base::Failed("the picture was not read to its end: somebody stopped that");
+    if (!ready(first + rows)) return base::Failed("the picture was not read to its end: somebody stopped that");
   }
-  return pixels;
+  return {};
+}
+
+// A picture that its file gives at an eighth of its size without being read whole; nothing where there is none.
+std::optional<Pyramid> ReadSmall(GDALDataset& set) {
+  constexpr std::size_t kLevel = 3;
+  const int width = Pyramid::SizeAt(set.GetRasterXSize(), kLevel), height = Pyramid::SizeAt(set.GetRasterYSize(), kLevel);
+  if (set.GetRasterCount() != 3) return std::nullopt;
+  Pixels pixels{width, height, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
+  for (int channel = 0; channel < 3; ++channel) {
+    GDALRasterBand& band = *set.GetRasterBand(channel + 1);
+    if (band.GetRasterDataType() != GDT_Byte || band.GetOverviewCount() != static_cast<int>(kLevel)) return std::nullopt;
+    GDALRasterBand* small = band.GetOverview(static_cast<int>(kLevel) - 1);
+    if (small == nullptr || small->GetXSize() != width || small->GetYSize() != height || !ReadRows(*small, 0, height, width, pixels.rgb.data() + channel, 3 * static_cast<std::size_t>(width))) return std::nullopt;
+  }
+  return Pyramid(set.GetRasterXSize(), set.GetRasterYSize(), kLevel, std::move(pixels));
 }
 
 base::Result<std::string> ToPng(Pixels& pixels) {
@@ -127,7 +151,45 @@ base::Result<Pixels> DecodePicture(std::string_view bytes, const Progress& progr
   const MemoryFile file(bytes);
   auto set = Open(file.name());
   if (!set) return set.error();
-  return ReadAll(*set.value(), progress);
+  Pixels pixels{set.value()->GetRasterXSize(), set.value()->GetRasterYSize(), {}};
+  pixels.rgb.resize(3 * static_cast<std::size_t>(pixels.width_px) * static_cast<std::size_t>(pixels.height_px));
+  const auto ready = [&](int rows) { return !progress || progress(static_cast<double>(rows) / pixels.height_px); };
+  if (auto status = ReadAll(*set.value(), pixels, ready); !status) return status.error();
+  return pixels;
+}
+
+base::Result<std::shared_ptr<const Pyramid>> ReadPyramid(std::string_view bytes, const Progress& progress, const Sooner& preview) {
+  const Quiet quiet;
+  const MemoryFile file(bytes);
+  auto set = Open(file.name());
+  if (!set) return set.error();
+  if (auto small = preview ? ReadSmall(*set.value()) : std::nullopt) preview(std::make_shared<const Pyramid>(std::move(*small)));
+  PyramidBuilder builder(set.value()->GetRasterXSize(), set.value()->GetRasterYSize());
+  const int height = builder.finest().height_px;
+  std::atomic<int> filled{0};
+  std::atomic<bool> ended{false};
+  std::thread grower([&] {
+    for (int grown = 0; grown < height;) {
+      filled.wait(grown);
+      if (ended) return;
+      grown = filled;
+      builder.Grow(grown);
+    }
+  });
+  const auto ready = [&](int rows) {
+    filled = rows;
+    filled.notify_one();
+    return !progress || progress(static_cast<double>(rows) / height);
+  };
+  const base::Status status = ReadAll(*set.value(), builder.finest(), ready);
+  if (!status) {
+    ended = true;
+    filled = -1;
+    filled.notify_one();
+  }
+  grower.join();
+  if (!status) return status.error();
+  return std::make_shared<const Pyramid>(std::move(builder).Finish());
 }
 
 base::Result<std::string> ImportPicture(const std::filesystem::path& path) {
@@ -140,32 +202,6 @@ base::Result<std::string> ImportPicture(const std::filesystem::path& path) {
   auto png = ToPng(pixels.value());
   if (!png) return base::Failed(png.error().message, path.string());
   return png;
-}
-
-Pyramid::Pyramid(Pixels pixels) {
-  levels_.push_back(std::move(pixels));
-  while (std::max(levels_.back().width_px, levels_.back().height_px) > kTile_px) {
-    const Pixels& fine = levels_.back();
-    Pixels coarse{(fine.width_px + 1) / 2, (fine.height_px + 1) / 2, {}};
-    coarse.rgb.resize(3 * static_cast<std::size_t>(coarse.width_px) * static_cast<std::size_t>(coarse.height_px));
-    const std::size_t fine_row = 3 * static_cast<std::size_t>(fine.width_px);
-    std::uint8_t* out = coarse.rgb.data();
-    for (int y = 0; y < coarse.height_px; ++y) {
-      const std::uint8_t* upper = &fine.rgb[static_cast<std::size_t>(2 * y) * fine_row];
-      const std::uint8_t* lower = 2 * y + 1 < fine.height_px ? upper + fine_row : upper;
-      for (int x = 0; x < coarse.width_px; ++x) {
-        const std::size_t left = 6 * static_cast<std::size_t>(x), right = 2 * x + 1 < fine.width_px ? left + 3 : left;
-        for (std::size_t c = 0; c < 3; ++c) *out++ = static_cast<std::uint8_t>((upper[left + c] + upper[right + c] + lower[left + c] + lower[right + c] + 2) / 4);
-      }
-    }
-    levels_.push_back(std::move(coarse));
-  }
-}
-
-std::size_t Pyramid::LevelFor(double pixel_px) const {
-  std::size_t level = 0;
-  while (level + 1 < levels_.size() && pixel_px * static_cast<double>(2u << level) <= 1.0) ++level;
-  return level;
 }
 
 }  // namespace rodeira::editor

@@ -1,23 +1,15 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "common/base/result.hpp"
+#include "common/editor/pyramid.hpp"
 
 namespace rodeira::editor {
-
-// Pixels from the top row on, red, green, blue.
-struct Pixels {
-  int width_px = 0;
-  int height_px = 0;
-  std::vector<std::uint8_t> rgb;
-};
 
 constexpr int kLargestPicture_px = 16384;  // each way
 
@@ -29,22 +21,9 @@ base::Result<std::string> ImportPicture(const std::filesystem::path& path);
 using Progress = std::function<bool(double)>;
 base::Result<Pixels> DecodePicture(std::string_view bytes, const Progress& progress = {});
 
-// A picture in levels: the first as it is, each further one half as large (means of four), the last at most one tile.
-class Pyramid {
- public:
-  static constexpr int kTile_px = 512;
-
-  explicit Pyramid(Pixels pixels);
-
-  int width_px() const { return levels_.front().width_px; }
-  int height_px() const { return levels_.front().height_px; }
-  const Pixels& level(std::size_t number) const { return levels_[number]; }
-  std::size_t levels() const { return levels_.size(); }
-  // The coarsest level whose pixels are no larger on the screen than a screen's pixel; one of the picture is `pixel_px` wide there.
-  std::size_t LevelFor(double pixel_px) const;
-
- private:
-  std::vector<Pixels> levels_;
-};
+// The same in levels, which are worked out on a second thread while the picture is read. A picture of which a small one can be had sooner
+// (JPEG) gives that first, to `preview`: a pyramid without the finer levels.
+using Sooner = std::function<void(std::shared_ptr<const Pyramid>)>;
+base::Result<std::shared_ptr<const Pyramid>> ReadPyramid(std::string_view bytes, const Progress& progress = {}, const Sooner& preview = {});
 
 }  // namespace rodeira::editor

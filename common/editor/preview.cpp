@@ -57,9 +57,4 @@ std::vector<HeatPatch> Preview::Heat() const {
   return patches;
 }
 
-std::array<std::uint8_t, 3> Preview::ColourOf(double share) {
-  const auto byte = [](double value) { return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0))); };
-  return {byte(2.0 - 2.0 * share), byte(2.0 * share), 0};
-}
-
 }  // namespace rodeira::editor

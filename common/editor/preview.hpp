@@ -39,8 +39,6 @@ class Preview {
   const traffic::LaneStatistics& statistics() const { return *statistics_; }
   // Where somebody has been; in the order of the lanes.
   std::vector<HeatPatch> Heat() const;
-  // Red for a share of 0, yellow for a half, green for 1 (MOTORS, 5.2): three bytes.
-  static std::array<std::uint8_t, 3> ColourOf(double share);
 
  private:
   Preview() = default;

@@ -14,4 +14,7 @@ constexpr const network::LineKind& PaintOf(BorderType type) {
   return network::LineKindByName(kNames[static_cast<std::size_t>(type)]);
 }
 
+// The middle of a line across a lane lies so far before its sign or light, or the lane's end.
+inline constexpr double kLineBefore_m = 0.3;
+
 }  // namespace rodeira::map

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <pugixml.hpp>
+#include <set>
 #include <sstream>
 
 #include "common/map/border_paint.hpp"
@@ -105,6 +106,33 @@ class Writer {
       if (signs[i].kind == SignKind::kSpeedLimit) Set(signal, "value", signs[i].limit_kmh), Set(signal, "unit", "km/h");
     }
     if (lit) WriteSignal(signals, lane, lane.shape.length_m(), fmt::format("light {}", lane.id), "light", "1000001");
+    WriteLinesAcross(signals, lane, stop || lit, signs);
+  }
+
+  // What is painted where one stops or gives way: before the sign, or at the end of the lane; nothing twice.
+  static void WriteLinesAcross(pugi::xml_node signals, const MapLane& lane, bool stops_at_end, const std::vector<MapSign>& signs) {
+    std::set<std::pair<double, bool>> lines;  // s, and whether one stops there
+    const auto line = [&](double s_m, bool stops) { lines.emplace(std::max(s_m - kLineBefore_m, 0.0), stops); };
+    if (stops_at_end) line(lane.shape.length_m(), true);
+    for (const MapSign& sign : signs) {
+      if (sign.kind == SignKind::kStop || sign.kind == SignKind::kGiveWay) line(sign.s_m, sign.kind == SignKind::kStop);
+    }
+    int number = 0;
+    for (const auto& [s_m, stops] : lines) {
+      const LanePoint at = lane.shape.At(s_m);
+      pugi::xml_node signal = signals.append_child("signal");
+      Set(signal, "s", s_m);
+      Set(signal, "t", at.left_m);
+      Set(signal, "id", fmt::format("{} line {}", lane.id, ++number));
+      Set(signal, "name", stops ? "stop line" : "give way line");
+      Set(signal, "dynamic", "no");
+      Set(signal, "orientation", "+");
+      Set(signal, "zOffset", 0.0);
+      Set(signal, "country", "DE");
+      Set(signal, "type", stops ? "294" : "341");
+      Set(signal, "subtype", "-1");
+      Set(signal, "width", at.width_m());
+    }
   }
 
   // Along the lane; none that says what a STOP flag says already.

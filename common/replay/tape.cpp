@@ -20,18 +20,22 @@ Tape::Tape(const RecordedRun& run, std::vector<lockstep::SourceIndex> sources) :
 base::Result<std::vector<std::optional<Sample>>> Tape::At(lockstep::Step step) {
   std::vector<std::optional<Sample>> samples;
   for (const lockstep::SourceIndex source : sources_) {
-    auto sample = Newest(source, std::min(step, run_.last_step()));
-    if (!sample) {
-      base::Error error = sample.error();
-      if (error.context.empty()) error.context = run_.path().string();
-      return error;
-    }
+    auto sample = Newest(source, step);
+    if (!sample) return sample.error();
     samples.push_back(std::move(sample).value());
   }
   return samples;
 }
 
 base::Result<std::optional<Sample>> Tape::Newest(lockstep::SourceIndex source, lockstep::Step step) {
+  auto sample = Find(source, std::min(step, run_.last_step()));
+  if (sample || !sample.error().context.empty()) return sample;
+  base::Error error = sample.error();
+  error.context = run_.path().string();
+  return error;
+}
+
+base::Result<std::optional<Sample>> Tape::Find(lockstep::SourceIndex source, lockstep::Step step) {
   std::optional<Sample> best;
   const auto channel = run_.ChannelOf(source);
   if (!channel || step < 0) return best;

@@ -23,6 +23,8 @@ class Tape {
   // Of each source, in their order, its newest sample valid at or before `step`: in a whole recording the one that the
   // step law names. Nothing where there is none. Wrong input where the file is damaged there.
   base::Result<std::vector<std::optional<lockstep::Sample>>> At(lockstep::Step step);
+  // The same of one source, whichever it is.
+  base::Result<std::optional<lockstep::Sample>> Newest(lockstep::SourceIndex source, lockstep::Step step);
   // Chunks read so far, those read again included.
   std::uint64_t chunks_read() const { return chunks_read_; }
 
@@ -37,7 +39,7 @@ class Tape {
     std::map<record::ChannelId, std::vector<Place>> places;  // ascending times
   };
 
-  base::Result<std::optional<lockstep::Sample>> Newest(lockstep::SourceIndex source, lockstep::Step step);
+  base::Result<std::optional<lockstep::Sample>> Find(lockstep::SourceIndex source, lockstep::Step step);
   base::Result<const Loaded*> Load(std::size_t chunk);
 
   const RecordedRun& run_;

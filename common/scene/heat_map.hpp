@@ -30,6 +30,7 @@ const HeatScale& ScaleOf(HeatKind kind);
 
 // From 0 (red) through one half (yellow) to 1 (green); cut outside.
 Colour HeatColour(double share);
+inline constexpr double kHeatShare = 0.7;  // of that colour, over 0.3 of the ground (MOTORS, 5.2)
 
 // What a square of the ground has seen: sums over all vehicles' middles (Edie 1963).
 struct HeatCell {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "common/network/lights.hpp"
@@ -45,6 +46,16 @@ struct CarPose {
 
 enum class AgentKind { kCar, kVan, kLorry, kBus, kPedestrian };
 
+// What an agent's driver and engine do.
+struct AgentDetail {
+  double throttle = 0.0, brake = 0.0, clutch = 0.0;  // 0 … 1; of the clutch 1 is disengaged
+  std::int32_t gear = 0;
+  double engine_rpm = 0.0, fuel_lph = 0.0;
+  double fuel_used_l = 0.0;       // since it entered
+  double target_speed_mps = 0.0;  // what its driver plans for here and now
+  Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // the point that it steers for
+};
+
 // A car of the traffic, or somebody on foot: B's origin is the middle of its footprint, between the axles, on the ground.
 struct AgentPose {
   std::uint64_t id = 0;  // of one appearance: who leaves and enters again elsewhere has another
@@ -57,6 +68,7 @@ struct AgentPose {
   double wheel_spin_rad = 0.0;  // of somebody on foot: a turn in two steps
   CarLights lights;
   double length_m = 4.0, width_m = 1.7, height_m = 1.45, wheelbase_m = 2.5, wheel_radius_m = 0.3;
+  std::optional<AgentDetail> detail;  // as it was said last; none where nothing is said of it
 };
 
 // Heading from east counter-clockwise, pitch positive nose down, roll positive left side up (ISO 8855).

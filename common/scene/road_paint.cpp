@@ -76,7 +76,9 @@ void PaintCrossing(const network::Road& road, const network::Signal& signal, Til
   Lay(ZebraShape(Rectangle(length, -half, half)), Spot::At(road, s, middle, road.axis().Evaluate(s).heading_rad), paint);
 }
 
-void PaintStopLine(const network::Road& road, const network::Placed& placed, TilePaint& paint) {
+bool IsLineAcross(const network::Signal& signal) { return signal.type == "294" || signal.type == "341"; }
+
+void PaintLineAcross(const network::Road& road, const network::Placed& placed, TilePaint& paint) {
   const network::Signal& signal = *placed.signal;
   const bool against = signal.orientation == "-";
   const bool on_left = against != road.spec().left_hand;  // of the axis: where its traffic drives
@@ -97,7 +99,8 @@ void PaintStopLine(const network::Road& road, const network::Placed& placed, Til
   }
   if (!(to > from)) return;
   const double middle = 0.5 * (from + to);
-  Lay({Rectangle(kStopLine_m, from - middle, to - middle)}, Spot::At(road, signal.s_m, middle, road.axis().Evaluate(signal.s_m).heading_rad), paint);
+  const auto shape = signal.type == "294" ? StopLineShape(from - middle, to - middle) : GiveWayShape(from - middle, to - middle);
+  Lay(shape, Spot::At(road, signal.s_m, middle, road.axis().Evaluate(signal.s_m).heading_rad), paint);
 }
 
 void PaintArrow(const network::Road& road, const network::Placed& placed, const ArrowWays& ways, double heading_rad, double length_m, TilePaint& paint) {
@@ -119,7 +122,7 @@ void PaintSignal(const network::Road& road, const network::Placed& placed, TileP
   const network::Signal& signal = *placed.signal;
   if (!IsPaint(signal) || signal.s_m < 0.0 || signal.s_m > road.length_m()) return;
   if (IsCrossing(signal)) return PaintCrossing(road, signal, paint);
-  if (signal.type == "294") return PaintStopLine(road, placed, paint);
+  if (IsLineAcross(signal)) return PaintLineAcross(road, placed, paint);
   const ArrowWays ways = ArrowOf(signal);
   PaintArrow(road, placed, ways, placed.heading_rad + geometry::kPi, 0.0, paint);
 }
@@ -157,7 +160,7 @@ void PaintObject(const network::Road& road, const network::Placed& placed, TileP
 
 }  // namespace
 
-bool IsPaint(const network::Signal& signal) { return !signal.dynamic && (IsCrossing(signal) || signal.type == "294" || ArrowOf(signal).any()); }
+bool IsPaint(const network::Signal& signal) { return !signal.dynamic && (IsCrossing(signal) || IsLineAcross(signal) || ArrowOf(signal).any()); }
 
 bool IsPaint(const network::Object& object) { return object.type == "crosswalk" || object.type == "roadMark"; }
 

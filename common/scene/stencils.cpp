@@ -63,6 +63,25 @@ std::vector<Polygon2> ArrowShape(const ArrowWays& ways, double length_m, double 
   return shape;
 }
 
+std::vector<Polygon2> StopLineShape(double right_m, double left_m) {
+  if (!(left_m > right_m)) return {};
+  constexpr double kHalf = 0.5 * kStopLine_m;
+  return {{{-kHalf, right_m}, {kHalf, right_m}, {kHalf, left_m}, {-kHalf, left_m}}};
+}
+
+std::vector<Polygon2> GiveWayShape(double right_m, double left_m) {
+  std::vector<Polygon2> strokes;
+  if (!(left_m > right_m)) return strokes;
+  constexpr double kHalf = 0.5 * kGiveWayLine_m, kPeriod_m = kGiveWayStroke_m + kGiveWayGap_m;
+  const double count = std::clamp(std::floor((left_m - right_m + kGiveWayGap_m) / kPeriod_m + 1e-9), 1.0, 1000.0), stroke = std::min(kGiveWayStroke_m, left_m - right_m);
+  const double first = 0.5 * (right_m + left_m) - 0.5 * ((count - 1.0) * kPeriod_m + stroke);
+  for (double i = 0.0; i < count; i += 1.0) {
+    const double right = first + i * kPeriod_m;
+    strokes.push_back({{-kHalf, right}, {kHalf, right}, {kHalf, right + stroke}, {-kHalf, right + stroke}});
+  }
+  return strokes;
+}
+
 std::vector<Polygon2> ZebraShape(const Polygon2& outline) {
   std::vector<Polygon2> stripes;
   if (outline.size() < 3) return stripes;

@@ -72,6 +72,7 @@ base::Status Window::Make(const Settings& settings) {
   panels_ = ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // where panels stand is nobody's file
   Paint();
+  UseFont(settings.font);
   input_ = std::make_unique<Input>();
   drawn_with_ = ImGui_ImplOpenGL2_Init();
   SDL_StartTextInput();

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "common/base/result.hpp"
+#include "common/window/font.hpp"
 #include "common/window/image.hpp"
 
 struct SDL_Window;
@@ -21,6 +23,7 @@ struct Settings {
   int width_px = 1280;
   int height_px = 800;
   std::string title = "Rodeira";
+  std::filesystem::path font = FontFile();
 };
 
 // A window with panels: SDL2, an OpenGL 2 context, Dear ImGui. Made, used and destroyed on one thread, where its contexts

@@ -24,6 +24,8 @@ class Canvas {
   const std::vector<std::pair<std::int32_t, std::int32_t>>& proposals() const { return map_.proposals(); }
 
  private:
+  static constexpr double kSnap_px = 12.0;
+
   // What the left button, held down, does.
   enum class Hold { kNone, kHandles, kPan, kRectangle, kTool };
 

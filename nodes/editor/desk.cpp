@@ -56,10 +56,10 @@ bool Desk::Frame(int wait_ms, window::Image* seen) {
     if (!window_.BeginFrame(0)) return false;
   }
   work_.picture.Want(work_.session.document().map.picture, work_.session.picture_state());
-  const bool was_loading = work_.picture.loading();
+  const bool had_one = work_.picture.picture() != nullptr;
   work_.picture.Look();
   if (const std::string problem = work_.picture.TakeProblem(); !problem.empty()) work_.session.Say(problem, false);
-  if (was_loading && work_.picture.picture() != nullptr && work_.session.document().map.curves.empty()) ShowAll(work_);
+  if (!had_one && work_.picture.picture() != nullptr && work_.session.document().map.curves.empty()) ShowAll(work_);
   RunTraffic();
   if (!work_.left.empty() && work_.form == Form::kNone) work_.Open(Form::kRecover);
   Layout();

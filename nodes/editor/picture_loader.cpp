@@ -22,21 +22,31 @@ void PictureLoader::Want(const std::string& bytes, std::uint64_t state) {
   share_ = 0.0;
   done_ = false;
   thread_ = std::thread([this, bytes] {
-    auto pixels = editor::DecodePicture(bytes, [this](double share) {
+    const auto progress = [this](double share) {
       share_ = share;
       return !stop_;
-    });
-    if (pixels) made_ = std::make_shared<const editor::Pyramid>(std::move(pixels).value());
-    else found_problem_ = "the background cannot be shown: " + pixels.error().Text();
+    };
+    const auto sooner = [this](std::shared_ptr<const editor::Pyramid> preview) {
+      const std::lock_guard guard(lock_);
+      made_ = std::move(preview);
+    };
+    auto picture = editor::ReadPyramid(bytes, progress, sooner);
+    if (picture) sooner(std::move(picture).value());
+    else found_problem_ = "the background cannot be shown: " + picture.error().Text();
     done_ = true;
   });
 }
 
 void PictureLoader::Look() {
-  if (!thread_.joinable() || !done_) return;
-  thread_.join();
-  picture_ = std::move(made_);
-  made_.reset();
+  if (!thread_.joinable()) return;
+  const bool ended = done_;
+  if (ended) thread_.join();
+  {
+    const std::lock_guard guard(lock_);
+    if (made_ != nullptr) picture_ = std::exchange(made_, nullptr);
+  }
+  if (!ended) return;
+  if (!found_problem_.empty()) picture_.reset();  // of what is broken not even the preview
   problem_ = std::exchange(found_problem_, {});
 }
 

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -25,7 +26,8 @@ class PictureLoader {
   // Takes what has become ready.
   void Look();
 
-  const std::shared_ptr<const editor::Pyramid>& picture() const { return picture_; }  // none: there is no picture, or not yet
+  // None: there is no picture, or not yet. While it is loading it may be a preview.
+  const std::shared_ptr<const editor::Pyramid>& picture() const { return picture_; }
   bool loading() const { return thread_.joinable(); }
   double share() const { return share_; }
   // Once, why a picture could not be read.
@@ -35,7 +37,8 @@ class PictureLoader {
   void Stop();
 
   std::uint64_t state_ = 0;
-  std::shared_ptr<const editor::Pyramid> picture_, made_;
+  std::shared_ptr<const editor::Pyramid> picture_, made_;  // the latter by the thread, under the lock
+  std::mutex lock_;
   std::string problem_, found_problem_;
   std::thread thread_;
   std::atomic<double> share_{0.0};

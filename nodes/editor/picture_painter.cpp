@@ -48,10 +48,9 @@ const PicturePainter::Tile* PicturePainter::TileOf(const Key& key, bool make) {
 void PicturePainter::DrawLevel(std::size_t number, double metres_per_px, const editor::Viewport& view, bool all_at_once) {
   constexpr int kTile = editor::Pyramid::kTile_px;
   const editor::Pixels& level = picture_->level(number);
-  const editor::Pixels& finest = picture_->level(0);
   // Pixels of this level; its last column and row may reach beyond the picture by a part of one.
   const double pixel_m = metres_per_px * static_cast<double>(1u << number);
-  const double west_m = -0.5 * finest.width_px * metres_per_px, north_m = 0.5 * finest.height_px * metres_per_px;
+  const double west_m = -0.5 * picture_->width_px() * metres_per_px, north_m = 0.5 * picture_->height_px() * metres_per_px;
   const Eigen::Vector2d seen_low = view.ToWorld({0.0, view.height_px}), seen_high = view.ToWorld({view.width_px, 0.0});
   const auto tile_of = [&](double m, int count_px) { return static_cast<int>(std::clamp(std::floor(m / pixel_m / kTile), -1.0, std::ceil(static_cast<double>(count_px) / kTile))); };
   const int columns = (level.width_px + kTile - 1) / kTile, rows = (level.height_px + kTile - 1) / kTile;
@@ -93,7 +92,7 @@ void PicturePainter::Draw(const std::shared_ptr<const editor::Pyramid>& picture,
   glDisable(GL_BLEND);
   glEnable(GL_TEXTURE_2D);
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
-  const double metres_per_px = height_m / picture->level(0).height_px;
+  const double metres_per_px = height_m / picture->height_px();
   const std::size_t fitting = picture->LevelFor(metres_per_px / view.metres_per_px), coarsest = picture->levels() - 1;
   DrawLevel(fitting, metres_per_px, view, fitting == coarsest);
   if (incomplete_) {

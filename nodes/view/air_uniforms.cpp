@@ -36,6 +36,7 @@ void SetAir(osg::StateSet& state, const scene::Air& air) {
   Set(state, "wetness", air.wetness);
   Set(state, "rain", air.rain);
   Define(state, "WET", air.wetness > 0.0F);
+  Define(state, "FOG", air.fog_per_m > 0.0F);  // too much from one vertex to the next
 }
 
 void SetEye(osg::StateSet& state, const scene::Air& air, const scene::CarPose* car, const osg::Matrixd& view) {
@@ -44,6 +45,7 @@ void SetEye(osg::StateSet& state, const scene::Air& air, const scene::CarPose* c
   const bool switched_on = car != nullptr && (car->lights.dipped || car->lights.main);
   const float headlights = car == nullptr ? 0.0F : switched_on ? air.dusk : air.headlights;
   Set(state, "headlights", headlights);
+  Set(state, "main_beam", car != nullptr && car->lights.main ? 1.0F : 0.0F);
   Define(state, "HEADLIGHTS", headlights > 0.0F);
   const scene::CarPose none;
   const scene::CarPose& of = car != nullptr ? *car : none;

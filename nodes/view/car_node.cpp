@@ -1,7 +1,12 @@
 #include "nodes/view/car_node.hpp"
 
+#include <osg/NodeVisitor>
+
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "nodes/view/model_file.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -22,6 +27,20 @@ osg::ref_ptr<osg::Geometry> WithUniform(Look& look, const scene::Mesh& mesh, con
   return geometry;
 }
 
+// The first node of that name.
+class FindNamed final : public osg::NodeVisitor {
+ public:
+  explicit FindNamed(std::string name) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), name_(std::move(name)) {}
+  void apply(osg::Node& node) override {
+    if (!found && node.getName() == name_) found = &node;
+    if (!found) traverse(node);
+  }
+  osg::ref_ptr<osg::Node> found;
+
+ private:
+  std::string name_;
+};
+
 }  // namespace
 
 CarNode::CarNode(Look& look, scene::AgentKind kind, const scene::CarShape& shape, scene::Colour paint)
@@ -41,7 +60,8 @@ CarNode::CarNode(Look& look, scene::AgentKind kind, const scene::CarShape& shape
   for (const auto& [material, part] : parts) frame_->addChild(material == scene::Material::kCarPaint ? WithUniform(look, part, pulse_) : look.GeometryOf(part));
   body_->addChild(frame_);
   body_->addChild(WithUniform(look, car.lamps, glows_));
-  body_->addChild(look.MakeShadow(static_cast<float>(shape.front_m - shape.length_m), static_cast<float>(shape.front_m), static_cast<float>(0.5 * shape.width_m)));
+  shadow_ = look.MakeShadow(static_cast<float>(shape.front_m - shape.length_m), static_cast<float>(shape.front_m), static_cast<float>(0.5 * shape.width_m));
+  body_->addChild(shadow_);
   parts.clear();
   for (const scene::Mesh& mesh : car.wheel) gather(mesh);
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
@@ -49,6 +69,25 @@ CarNode::CarNode(Look& look, scene::AgentKind kind, const scene::CarShape& shape
     for (const auto& [material, part] : parts) wheels_[i]->addChild(look.GeometryOf(part));
     body_->addChild(wheels_[i]);
     Turn(i, shape.hubs_B[i], 0.0, 0.0);
+  }
+}
+
+void CarNode::Wear(osg::Node& model) {
+  static constexpr std::array kWheels = {"wheel_front_left", "wheel_front_right", "wheel_rear_left", "wheel_rear_right"};
+  body_->removeChildren(0, body_->getNumChildren());
+  frame_->removeChildren(0, frame_->getNumChildren());
+  body_->addChild(shadow_);
+  body_->addChild(&model);
+  shape_.tread_out_m = 0.0;
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    wheels_[i]->removeChildren(0, wheels_[i]->getNumChildren());
+    body_->addChild(wheels_[i]);
+    FindNamed find(kWheels[i]);
+    model.accept(find);
+    if (!find.found) continue;
+    const osg::Node::ParentList parents = find.found->getParents();
+    for (osg::Group* parent : parents) parent->removeChild(find.found);
+    wheels_[i]->addChild(find.found);
   }
 }
 
@@ -108,6 +147,12 @@ void Fleet::Match(const std::vector<const Pose*>& poses, std::map<std::uint64_t,
   }
 }
 
+void Fleet::WearModel(const std::string& file) {
+  car_model_ = file;
+  for (auto& [id, car] : cars_) group_->removeChild(car.node());
+  cars_.clear();  // they are made anew
+}
+
 void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen, bool dark) {
   const double now = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * kPulse_Hz * static_cast<double>(moment.time_ns) * 1e-9);
   const auto pulse = [&](std::size_t number) { return chosen == number ? now : 0.0; };
@@ -116,7 +161,11 @@ void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside,
   std::vector<const scene::AgentPose*> agents, people;
   for (const scene::CarPose& car : moment.cars) cars.push_back(&car);
   for (const scene::AgentPose& agent : moment.agents) (agent.kind == scene::AgentKind::kPedestrian ? people : agents).push_back(&agent);
-  const auto make_car = [&](const scene::CarPose& car) { return CarNode(look_, scene::AgentKind::kCar, scene::CarShape::Of(car), car.colour); };
+  const auto make_car = [&](const scene::CarPose& car) {
+    CarNode node(look_, scene::AgentKind::kCar, scene::CarShape::Of(car), car.colour);
+    if (const auto model = car_model_.empty() ? nullptr : CopyOfModel(car_model_)) node.Wear(*model);
+    return node;
+  };
   Match(cars, cars_, make_car, [&](CarNode& node, const scene::CarPose& car) {
     node.Place(car.p_WB_W, car.q_WB);
     node.SeenFromInside(inside && &car == &moment.cars[*inside]);

@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <string>
 
 #include "common/scene/car_mesh.hpp"
 #include "common/scene/moment.hpp"
@@ -26,6 +27,9 @@ class CarNode {
   void Shine(const std::array<float, scene::kLamps>& glows);
   // How much of a chosen car's pulse is seen, 0 to 1.
   void Pulse(double share);
+  // Shows this model instead of the procedural car, in its frame B (x forward, z up, metres, the ground at z = 0). Its nodes that are called
+  // wheel_front_left, wheel_front_right, wheel_rear_left and wheel_rear_right, each about its hub, turn, steer and move as wheels do.
+  void Wear(osg::Node& model);
   // Leaves away what stands in the eyes of somebody who sits in it.
   void SeenFromInside(bool inside) { frame_->setNodeMask(inside ? 0U : ~0U); }
 
@@ -36,6 +40,7 @@ class CarNode {
   osg::ref_ptr<osg::MatrixTransform> body_;
   std::array<osg::ref_ptr<osg::MatrixTransform>, 4> wheels_;
   osg::ref_ptr<osg::Group> frame_;
+  osg::ref_ptr<osg::Node> shadow_;
   osg::ref_ptr<osg::Uniform> glows_, pulse_;
 };
 
@@ -62,6 +67,8 @@ class Fleet {
  public:
   explicit Fleet(Look& look) : look_(look), group_(new osg::Group) {}
   osg::Node* node() { return group_; }
+  // A model for driven cars, which ReadModel can read.
+  void WearModel(const std::string& file);
   // `inside`: the number, in the moment, of the car that the camera is in, or none; `chosen`: who pulses, counted behind the cars for the traffic.
   // `dark`: headlights are on.
   void Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen, bool dark);
@@ -71,6 +78,7 @@ class Fleet {
   void Match(const std::vector<const Pose*>& poses, std::map<std::uint64_t, Node>& nodes, Make make, Update update);
 
   Look& look_;
+  std::string car_model_;  // empty: the procedural one
   osg::ref_ptr<osg::Group> group_;
   std::map<std::uint64_t, CarNode> cars_;
   std::map<std::uint64_t, CarNode> agents_;

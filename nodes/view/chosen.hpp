@@ -15,11 +15,12 @@ class Chosen {
   void Choose(const scene::Moment& moment, std::optional<std::size_t> number);
   // Where it is among the moment's now; nobody where it has left.
   std::optional<std::size_t> In(const scene::Moment& moment) const;
-  // Lines about it: speed, pedals, gear, engine, consumption of a driver's car (at the moment, and since it was chosen); of the traffic what is
-  // published. Empty where it is not there.
+  // Lines about it: speed, pedals, gear, engine, consumption of a driver's car (at the moment, and since it was chosen); of the traffic the
+  // same where it says so, and what its driver plans. Empty where it is not there.
   std::string Panel(const scene::Moment& moment);
 
  private:
+  std::string AgentPanel(const scene::Moment& moment, const scene::AgentPose& agent);
   struct Who {
     bool is_car = false;
     std::uint64_t id = 0;
@@ -28,6 +29,10 @@ class Chosen {
   // Since when its mean consumption is counted.
   std::int64_t since_ns_ = 0;
   double since_l_ = 0.0, since_m_ = 0.0;
+  // Of the traffic, which does not say how far it has gone: as far as it was seen.
+  std::int64_t seen_ns_ = 0;
+  Eigen::Vector3d seen_W_ = Eigen::Vector3d::Zero();
+  double seen_m_ = 0.0;
 };
 
 }  // namespace rodeira::view

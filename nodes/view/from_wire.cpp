@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
@@ -13,6 +15,7 @@ namespace {
 
 constexpr std::array<scene::Colour, 4> kPaints = {scene::Colour::Of(0xb01e26), scene::Colour::Of(0x1e4fa0), scene::Colour::Of(0xd9b11e), scene::Colour::Of(0x2b7a3d)};
 
+constexpr std::uint64_t kIdBits = 0xffffffU;  // of an agent's own number within the scene's
 constexpr double kPetrol_kgpl = 0.745;  // as gauges count it
 
 double Double(float value) { return static_cast<double>(value); }
@@ -24,6 +27,31 @@ weather::Weather FromWire(const msg::WeatherState& message) {
   const auto cut = [](double value, double low, double high) { return value >= low ? std::min(value, high) : low; };
   return {cut(message.wetness(), 0.0, 1.0), cut(message.rain_mmph(), 0.0, 200.0), cut(message.visibility_m(), 10.0, weather::kClear_m),
           cut(message.clouds(), 0.0, 1.0), cut(message.hour(), 0.0, 24.0)};
+}
+
+scene::AgentDetail FromWire(const msg::TrafficDetail& message) {
+  scene::AgentDetail detail;
+  detail.throttle = std::clamp(Double(message.throttle()), 0.0, 1.0);
+  detail.brake = std::clamp(Double(message.brake()), 0.0, 1.0);
+  detail.clutch = std::clamp(Double(message.clutch()), 0.0, 1.0);
+  detail.gear = message.gear();
+  detail.engine_rpm = Double(message.engine_speed_radps()) * 30.0 / std::numbers::pi;
+  detail.fuel_lph = 3600.0 * Double(message.fuel_rate_kgps()) / kPetrol_kgpl;
+  detail.fuel_used_l = Double(message.fuel_used_kg()) / kPetrol_kgpl;
+  detail.target_speed_mps = Double(message.target_speed_mps());
+  detail.look_ahead_W = {Double(message.look_ahead_x_m()), Double(message.look_ahead_y_m())};
+  return detail;
+}
+
+// The traffic of a node and what it says of it are two of its streams.
+void AddDetails(const lockstep::Roster& roster, lockstep::NodeIndex node, const msg::TrafficDetails& message, std::vector<scene::AgentPose>& agents) {
+  std::map<std::uint64_t, const msg::TrafficDetail*> by_id;
+  for (const msg::TrafficDetail& detail : message.agents()) by_id[detail.id() & kIdBits] = &detail;
+  for (scene::AgentPose& agent : agents) {
+    if (roster.source(static_cast<lockstep::SourceIndex>(agent.id >> 48)).node != node) continue;
+    const auto found = by_id.find(agent.id >> 24 & kIdBits);
+    if (found != by_id.end()) agent.detail = FromWire(*found->second);
+  }
 }
 
 // Bits as in vehicle.idl.
@@ -93,7 +121,7 @@ void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::v
   const auto first = static_cast<std::ptrdiff_t>(agents.size());
   for (const msg::TrafficAgent& from : message.agents()) {
     scene::AgentPose agent;
-    agent.id = (static_cast<std::uint64_t>(source) << 48) | (static_cast<std::uint64_t>(from.id() & 0xffffffU) << 24) | (from.trip() & 0xffffffU);
+    agent.id = (static_cast<std::uint64_t>(source) << 48) | ((from.id() & kIdBits) << 24) | (from.trip() & kIdBits);
     agent.colour = scene::Colour::Of(from.colour_rgb());
     agent.p_WB_W = {from.position_x_m(), from.position_y_m(), from.position_z_m()};
     agent.q_WB = scene::Attitude(Double(from.heading_rad()), Double(from.pitch_rad()), Double(from.roll_rad()));
@@ -118,9 +146,16 @@ void AddLights(const msg::SignalsState& message, std::vector<scene::LightShown>&
   std::stable_sort(lights.begin(), lights.end(), [](const scene::LightShown& a, const scene::LightShown& b) { return a.controller < b.controller; });
 }
 
+bool SaysSomething(std::string_view topic, const base::Bytes& payload) {
+  if (topic != idl::topics::kTrafficDetails) return true;
+  const auto message = idl::Decode<msg::TrafficDetails>(payload);
+  return !message || !message.value().agents().empty();  // what cannot be read is said where it is used
+}
+
 base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep::Step step, const NewestSamples& newest) {
   scene::Moment moment;
   moment.time_ns = step * roster.base_step_ns();
+  std::vector<std::pair<lockstep::NodeIndex, msg::TrafficDetails>> details;
   for (const auto& [source, payload] : newest) {
     if (roster.source(source).topic == idl::topics::kVehicleState) {
       const auto message = idl::Decode<msg::VehicleState>(*payload);
@@ -134,12 +169,17 @@ base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep:
       const auto message = idl::Decode<msg::WeatherState>(*payload);
       if (!message) return message.error();
       moment.weather = FromWire(message.value());
+    } else if (roster.source(source).topic == idl::topics::kTrafficDetails) {
+      auto message = idl::Decode<msg::TrafficDetails>(*payload);
+      if (!message) return message.error();
+      details.emplace_back(roster.source(source).node, std::move(message).value());
     } else {
       const auto message = idl::Decode<msg::TrafficState>(*payload);
       if (!message) return message.error();
       AppendAgents(message.value(), source, moment.agents);
     }
   }
+  for (const auto& [node, said] : details) AddDetails(roster, node, said, moment.agents);
   return moment;
 }
 

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <string_view>
 
 #include "common/base/bytes.hpp"
 #include "common/base/result.hpp"
@@ -19,7 +20,10 @@ void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::v
 // Adds what one source says of the lights; they stay ascending.
 void AddLights(const msg::SignalsState& message, std::vector<scene::LightShown>& lights);
 
-// The newest sample of each source that a view looks at: cars, traffic, lights, weather.
+// Whether a sample is kept as its source's newest: but for details of the traffic that say nothing, which come between those that do.
+bool SaysSomething(std::string_view topic, const base::Bytes& payload);
+
+// The newest sample of each source that a view looks at: cars, traffic and its details, lights, weather.
 using NewestSamples = std::map<lockstep::SourceIndex, std::shared_ptr<const base::Bytes>>;
 // Everything as they tell it, at a step. Wrong input where one of them cannot be read.
 base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep::Step step, const NewestSamples& newest);

@@ -8,7 +8,6 @@
 namespace rodeira::view {
 namespace {
 
-constexpr float kColour = 0.7F;  // and 0.3 of the ground
 constexpr int kBin = 3;          // behind the sky, with the shadows
 constexpr float kLeft_px = 18.0F, kWidth_px = 380.0F, kBarHeight_px = 14.0F, kText_px = 17.0F, kHeight_px = 72.0F, kGap_px = 10.0F;
 constexpr float kFromTop_px = 120.0F;  // below the lines of help and notes
@@ -55,7 +54,7 @@ void HeatNode::Lay(const HeatPicture& heat) {
     for (const Eigen::Vector3d& corner : square.corners_W) {
       const Eigen::Vector3f near = (corner - origin).cast<float>();
       corners->push_back({near.x(), near.y(), near.z()});
-      colours->push_back(Of(square.colour, kColour));
+      colours->push_back(Of(square.colour, static_cast<float>(scene::kHeatShare)));
     }
   }
   place_->setMatrix(osg::Matrixd::translate(origin.x(), origin.y(), origin.z()));

@@ -23,15 +23,18 @@ base::Status ReadModel(const std::string& file) {
   return {};
 }
 
+osg::ref_ptr<osg::Node> CopyOfModel(const std::string& file) {
+  if (!ReadModel(file)) return {};
+  const std::lock_guard lock(mutex);
+  return osg::clone(known.at(file).get(), osg::CopyOp(osg::CopyOp::DEEP_COPY_ALL));
+}
+
 osg::ref_ptr<osg::Group> PlaceModels(const std::vector<scene::PlacedModel>& models) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   std::map<std::string, osg::ref_ptr<osg::Node>> copies;
   for (const scene::PlacedModel& model : models) {
     auto& copy = copies[model.file];
-    if (!copy && ReadModel(model.file)) {
-      const std::lock_guard lock(mutex);
-      copy = osg::clone(known.at(model.file).get(), osg::CopyOp(osg::CopyOp::DEEP_COPY_ALL));
-    }
+    if (!copy) copy = CopyOfModel(model.file);
     if (!copy) continue;
     const auto& [foot, x] = model.stand;
     // Row vectors, as OpenSceneGraph has them: the model's axes in the world, then its place.

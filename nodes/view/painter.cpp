@@ -27,6 +27,7 @@
 #include "nodes/view/overlay.hpp"
 #include "nodes/view/sun_shadow.hpp"
 #include "nodes/view/timeline_bar.hpp"
+#include "nodes/view/vectors_node.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -98,12 +99,13 @@ Eigen::Vector3d ShadowsAbout(const Picture& picture, const std::optional<scene::
 }  // namespace
 
 struct Painter::Parts {
-  Parts(const road::World& world, const QualityTraits& quality) : look(quality), lights(look, world), shadow(*root, *scene, quality) {}
+  Parts(const road::World& world, const QualityTraits& quality) : look(quality), lights(look, world), vectors(look, world), shadow(*root, *scene, quality) {}
 
   Look look;
   Fleet fleet{look};
   CabinNode cabin{look};
   LightsNode lights;
+  VectorsNode vectors;
   osg::ref_ptr<osg::Camera> overlay = MakeOverlay();
   Instruments instruments{*overlay};
   HeatNode heat{*overlay};
@@ -152,6 +154,7 @@ void Painter::SetUp() {
   osg::Group& group = *parts_->scene;
   group.addChild(parts_->fleet.node());
   group.addChild(parts_->lights.node());
+  group.addChild(parts_->vectors.node());
   group.addChild(parts_->heat.node());
   group.addChild(look.MakeSky());
   root.addChild(&group);
@@ -190,6 +193,12 @@ scene::Camera Painter::CameraOf(const Picture& picture) const {
   return scene::MakeCamera(picture.camera, *body, picture.aim, world_);
 }
 
+base::Status Painter::WearCarModel(const std::filesystem::path& file) {
+  if (auto status = ReadModel(file.string()); !status) return status;
+  parts_->fleet.WearModel(file.string());
+  return {};
+}
+
 void Painter::Draw(const Picture& picture) {
   const int width = surface_.width_px(), height = surface_.height_px();
   const scene::Camera camera = CameraOf(picture);
@@ -213,6 +222,7 @@ void Painter::Draw(const Picture& picture) {
   parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt, picture.chosen, air.headlights > 0.0F);
   parts_->cabin.Show(is_car && picture.cabin && picture.camera == scene::CameraKind::kDriver ? &picture.moment.cars[picture.followed] : nullptr);
   parts_->lights.Show(picture.moment.lights);
+  parts_->vectors.Show(picture.moment, picture.chosen);
   FitOverlay(*parts_->overlay, width, height);
   parts_->mirrors.Show(picture, body, air, parts_->shadow, width, height);
   parts_->instruments.Show(picture, width, height, picture.timeline ? TimelinePlace::kHeight_px : 0.0F);

@@ -26,6 +26,8 @@ class Painter {
   static base::Result<std::unique_ptr<Painter>> Make(Surface& surface, const road::World& world, const std::filesystem::path& built);
   ~Painter();
 
+  // Shows a model from a file for driven cars (CarNode::Wear says what is expected). Wrong input where it cannot be read: nothing is changed.
+  base::Status WearCarModel(const std::filesystem::path& file);
   // Draws; nothing is shown yet. Of a built database what has been read so far; the rest is asked for.
   void Draw(const Picture& picture);
   // Draws, and waits for all that is to be seen: a pure function of the world and the picture, built or not.

@@ -60,6 +60,9 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   auto painter = PainterOf(*screen->surface_, world, settings.built);
   if (!painter) return painter.error();
   screen->painter_ = std::move(painter).value();
+  if (!settings.car_model.empty()) {
+    if (auto status = screen->painter_->WearCarModel(settings.car_model); !status) fmt::print(stderr, "rodeira: {}; the car is drawn without it\n", status.error().Text());
+  }
   screen->painter_->DrawWhole(FirstPicture(world));
   (void)screen->painter_->Read();
   screen->help_text_ = std::move(help);

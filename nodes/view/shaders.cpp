@@ -14,23 +14,22 @@ uniform vec3 zenith_colour;
 uniform float fog_per_m;
 vec3 FogColour() { return horizon_colour * vec3(0.93, 0.96, 1.0); }
 vec3 SkyColour(float up) { return mix(horizon_colour, zenith_colour, pow(clamp(up, 0.0, 1.0), 0.55)); }
-vec3 Hazy(vec3 colour, float distance_m) {
-  float haze = distance_m * 1.6e-4;
-#ifdef FINE
-  float clear = exp(-pow(haze, 1.3) - fog_per_m * distance_m);
-#else
-  float clear = exp(-haze * sqrt(sqrt(haze)) - fog_per_m * distance_m);  // nearly the same, for a third of the time
-#endif
-  return mix(FogColour(), colour, clear);
-}
+// How much of what is so far off is seen through the haze.
+float Clear(float distance_m) { return exp(-pow(distance_m * 1.6e-4, 1.3) - fog_per_m * distance_m); }
 )";
 
 constexpr const char* kHead = R"(#version 120
-#pragma import_defines(HEADLIGHTS, WET, SUN_SHADOW, SOFT_SHADOW, FINE)
+#pragma import_defines(HEADLIGHTS, WET, SUN_SHADOW, SOFT_SHADOW, FINE, FOG)
+#if defined(FINE) || defined(FOG)
+#define HAZE_BY_PIXEL
+#endif
 varying vec3 at_eye;
 varying vec3 normal_eye;
 varying vec3 daylight;
 varying vec2 ground;
+#ifndef HAZE_BY_PIXEL
+varying float clear;
+#endif
 uniform vec3 sun_eye;
 uniform vec3 up_eye;
 #ifdef SUN_SHADOW
@@ -39,7 +38,8 @@ varying vec3 in_sun;
 #endif
 )";
 
-// What falls on a surface by day and from the headlights of the car that is watched: a dipped beam, bright to some 60 m. `sunny`: how much
+// What falls on a surface by day and from the headlights of the car that is watched: a dipped beam, bright to some 60 m, or the main beam,
+// which has no upper edge and reaches two and a half times as far. `sunny`: how much
 // of the sun gets there past what throws shadows; beyond the map everything does.
 constexpr const char* kLight = R"(
 vec3 light;
@@ -59,6 +59,7 @@ float Sunny() {
 #endif
 #ifdef HEADLIGHTS
 uniform float headlights;
+uniform float main_beam;
 uniform vec3 lamp_eye;
 uniform vec3 lamp_ahead_eye;
 vec3 Beam() {
@@ -67,9 +68,9 @@ vec3 Beam() {
   vec3 ray = from / max(distance_m, 0.1);
   float ahead = dot(ray, lamp_ahead_eye);
   float above = dot(ray - lamp_ahead_eye * ahead, up_eye);
-  float cone = smoothstep(0.80, 0.97, ahead) * (1.0 - 0.9 * smoothstep(-0.01, 0.02, above));
+  float cone = smoothstep(0.80, 0.97, ahead) * (1.0 - 0.9 * (1.0 - main_beam) * smoothstep(-0.01, 0.02, above));
   float facing = 0.3 + 0.7 * max(dot(-ray, normalize(normal_eye)), 0.0);
-  return vec3(1.0, 0.95, 0.84) * (headlights * 2.4 * cone * facing / (1.0 + pow(distance_m / 24.0, 2.0)));
+  return vec3(1.0, 0.95, 0.84) * (headlights * 2.4 * cone * facing / (1.0 + pow(distance_m / (24.0 + 36.0 * main_beam), 2.0)));
 }
 #endif
 )";
@@ -240,7 +241,7 @@ vec3 OverLand(vec3 colour, vec3 d) {
 }  // namespace
 
 std::string VertexShader(scene::Material material) {
-  return std::string(kHead) + (material == scene::Material::kCarLamp ? fmt::format("#define LAMPS {}\n", scene::kLamps) : std::string()) + R"(
+  return std::string(kHead) + kAir + (material == scene::Material::kCarLamp ? fmt::format("#define LAMPS {}\n", scene::kLamps) : std::string()) + R"(
 varying vec2 on_face;
 #ifdef LAMPS
 uniform float glows[LAMPS];
@@ -267,6 +268,9 @@ void main() {
   daylight += sun * sun_light;
 #endif
   ground = gl_Vertex.xy;
+#ifndef HAZE_BY_PIXEL
+  clear = Clear(length(at_eye));
+#endif
   gl_FrontColor = gl_Color;
   on_face = gl_MultiTexCoord1.xy;
 #ifdef LAMPS
@@ -288,7 +292,10 @@ void main() {
 #ifdef HEADLIGHTS
   light += Beam();
 #endif
-  gl_FragColor = vec4(Hazy(Look(), length(at_eye)), 1.0);
+#ifdef HAZE_BY_PIXEL
+  float clear = Clear(length(at_eye));
+#endif
+  gl_FragColor = vec4(mix(FogColour(), Look(), clear), 1.0);
 }
 )";
 }

@@ -88,9 +88,11 @@ class ViewNode final : public lockstep::Node {
   // Takes the samples in their order and orders the frames of steps in (after, through] on the way.
   base::Status Take(const lockstep::Inbox& inbox, lockstep::Step after, lockstep::Step through) {
     std::vector<const Sample*> samples;
-    for (const std::string_view topic : {topics::kVehicleState, topics::kTrafficState, topics::kSignalsState, topics::kWeatherState}) {
+    for (const std::string_view topic : {topics::kVehicleState, topics::kTrafficState, topics::kTrafficDetails, topics::kSignalsState, topics::kWeatherState}) {
       if (!inbox.Has(topic)) continue;
-      for (const Sample& sample : inbox.All(topic)) samples.push_back(&sample);
+      for (const Sample& sample : inbox.All(topic)) {
+        if (view::SaysSomething(topic, *sample.payload)) samples.push_back(&sample);
+      }
     }
     std::stable_sort(samples.begin(), samples.end(), [](const Sample* a, const Sample* b) { return a->valid() < b->valid(); });
     auto next = samples.begin();

@@ -40,6 +40,7 @@ struct ViewSettings {
   std::filesystem::path folder;              // of the frames
   std::filesystem::path frame_log;           // of a window's pictures; empty: none
   std::filesystem::path built;               // the folder of a database of the world; empty: its ground is built in memory
+  std::filesystem::path car_model;           // of driven cars; empty: the procedural one
   bool drives = false;                       // somebody in this run drives by the keys of its windows …
   std::string driving_help;                  // … by these
   std::vector<WheelButtonUse> camera_buttons;  // of wheels that drive in this run

@@ -50,7 +50,18 @@ base::Bytes Payload(const lockstep::Source& source, Step step) {
     return idl::Encode(car);
   }
   if (source.topic == idl::topics::kSignalsState) return idl::Encode(msg::SignalsState());
-  if (source.topic == idl::topics::kTrafficDetails) return idl::Encode(msg::TrafficDetails());
+  if (source.topic == idl::topics::kTrafficDetails) {  // ten times a second; nothing between
+    msg::TrafficDetails details;
+    for (const std::uint32_t id : {4U, 9U}) {
+      if (step % 100 != 0) break;
+      msg::TrafficDetail detail;
+      detail.id(id);
+      detail.gear(static_cast<std::int32_t>(id));
+      detail.target_speed_mps(static_cast<float>(t));
+      details.agents().push_back(detail);
+    }
+    return idl::Encode(details);
+  }
   msg::TrafficState traffic;
   for (const std::uint32_t id : {4U, 9U}) {
     msg::TrafficAgent agent;
@@ -138,6 +149,22 @@ TEST_F(WatchTest, MovesAsTheLiveViewMovedInWhateverOrder) {
   }
 }
 
+// The traffic says ten times a second what its drivers do; in between that holds, whichever way one comes.
+TEST_F(WatchTest, WhatDriversDoHoldsUntilItIsSaidAgain) {
+  const auto run = replay::RecordedRun::Open(Made());
+  RecordedMoments moments = MomentsOf(run.value());
+  for (const Step step : {5'490, 5'500, 5'599, 20, 0, 6'010}) {
+    const auto moment = moments.Exactly(step);
+    ASSERT_TRUE(moment.ok()) << moment.error().Text();
+    ASSERT_EQ(moment.value().agents.size(), 2u);
+    const auto& details = moment.value().agents;
+    ASSERT_TRUE(details[0].detail && details[1].detail) << step;
+    EXPECT_FLOAT_EQ(static_cast<float>(details[0].detail->target_speed_mps), static_cast<float>(0.1 * static_cast<double>(step / 100))) << step;
+    EXPECT_EQ(details[0].detail->gear, 4);
+    EXPECT_EQ(details[1].detail->gear, 9);
+  }
+}
+
 TEST_F(WatchTest, TheRunsEndIsAPicture) {
   const auto run = replay::RecordedRun::Open(Made());
   RecordedMoments moments = MomentsOf(run.value());
@@ -171,7 +198,7 @@ TEST_F(WatchTest, LooksAsTheRecordedViewDid) {
   EXPECT_EQ(seen.value().settings.camera, scene::CameraKind::kDriver);
   EXPECT_FALSE(seen.value().settings.instruments);
   EXPECT_EQ(seen.value().period, 20);
-  EXPECT_EQ(seen.value().sources.size(), 3u) << "a car, traffic and lights, no hands";
+  EXPECT_EQ(seen.value().sources.size(), 4u) << "a car, traffic, its details and lights, no hands";
   WatchOptions wishes;
   wishes.camera = "chase";
   wishes.size = "800x600";
@@ -188,7 +215,7 @@ TEST_F(WatchTest, ARunWithoutAViewIsSeenWhole) {
   ASSERT_TRUE(run.ok()) << run.error().Text();
   const auto seen = LookAt(run.value(), {});
   ASSERT_TRUE(seen.ok()) << seen.error().Text();
-  EXPECT_EQ(seen.value().sources.size(), 3u);
+  EXPECT_EQ(seen.value().sources.size(), 4u);
   EXPECT_EQ(seen.value().period, 20);
   EXPECT_EQ(seen.value().settings.width_px, 1280);
 }

@@ -84,6 +84,43 @@ void Frame(benchmark::State& state) {
 }
 BENCHMARK(Frame)->ArgsProduct({{0, 1, 2}, {0, 1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(30);
 
+// Each world of the project from behind a car at its start, looking round once; argument: quality.
+void EveryWorld(benchmark::State& state, const std::filesystem::path& file) {
+  const auto quality = static_cast<Quality>(state.range(0));
+  const auto world = road::World::Load(file.string());
+  if (!world) return state.SkipWithError(world.error().Text().c_str());
+  auto surface = Surface::Open(SurfaceKind::kOffscreen, 1280, 720, "bench", false, 0, quality);
+  if (!surface) return state.SkipWithError(surface.error().Text().c_str());
+  auto painter = PainterOf(*surface.value(), *world.value(), {});
+  if (!painter) return state.SkipWithError(painter.error().Text().c_str());
+  const road::StartPose& start = world.value()->start();
+  int pictures = 0;
+  PictureCost most;
+  const auto draw_next = [&] {
+    Picture picture;
+    scene::CarPose car;
+    car.p_WB_W = {start.x_m, start.y_m, world.value()->At(start.x_m, start.y_m).z_m};
+    car.q_WB = scene::Attitude(start.heading_rad + 0.6283185307 * pictures++, 0.0, 0.0);
+    picture.moment.cars.push_back(car);
+    painter.value()->Draw(picture);
+    benchmark::DoNotOptimize(painter.value()->Read());
+    const PictureCost cost = painter.value()->CostOfLast();
+    most = {std::max(most.calls, cost.calls), std::max(most.triangles, cost.triangles)};
+  };
+  for (int i = 0; i < 10; ++i) draw_next();  // the renderer compiles what it needs
+  for (auto _ : state) draw_next();
+  state.counters["calls"] = static_cast<double>(most.calls);
+  state.counters["triangles"] = static_cast<double>(most.triangles);
+}
+[[maybe_unused]] const bool kWorlds = [] {
+  for (const auto& entry : std::filesystem::directory_iterator(RODEIRA_SOURCE_DIR "/configs/worlds")) {
+    if (entry.path().extension() != ".yaml" && entry.path().extension() != ".xodr") continue;
+    benchmark::RegisterBenchmark(("EveryWorld/" + entry.path().stem().string()).c_str(), [file = entry.path()](benchmark::State& state) { EveryWorld(state, file); })
+        ->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(20);
+  }
+  return true;
+}();
+
 // From a loaded HASTE to its first picture: the ground built in memory (0), or the built database found, checked and read (1).
 void FirstPictureOfHaste(benchmark::State& state) {
   static const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/haste.yaml").value();

@@ -15,6 +15,12 @@ namespace {
 
 constexpr int kWidth = 37, kHeight = 23;
 
+Pixels Patterned(int width_px, int height_px) {
+  Pixels pixels{width_px, height_px, {}};
+  for (int i = 0; i < 3 * width_px * height_px; ++i) pixels.rgb.push_back(static_cast<std::uint8_t>((i * 37) % 251));
+  return pixels;
+}
+
 std::uint8_t Value(int x, int y, int channel) { return static_cast<std::uint8_t>(2 * x + 3 * y + 20 * channel); }
 
 // A picture of Value, written by GDAL in a kind that it knows.
@@ -97,9 +103,7 @@ TEST(Background, ReadingCanBeStopped) {
 }
 
 TEST(Pyramid, EachLevelHasTheMeansOfTheOneBefore) {
-  Pixels pixels{1301, 700, {}};
-  for (int i = 0; i < 3 * 1301 * 700; ++i) pixels.rgb.push_back(static_cast<std::uint8_t>((i * 37) % 251));
-  const Pyramid pyramid(pixels);
+  const Pyramid pyramid(Patterned(1301, 700));
   ASSERT_EQ(pyramid.levels(), 3u);
   EXPECT_EQ(pyramid.level(1).width_px, 651);
   EXPECT_EQ(pyramid.level(1).height_px, 350);
@@ -113,6 +117,84 @@ TEST(Pyramid, EachLevelHasTheMeansOfTheOneBefore) {
   EXPECT_EQ(pyramid.LevelFor(0.51), 0u);
   EXPECT_EQ(pyramid.LevelFor(0.5), 1u);
   EXPECT_EQ(pyramid.LevelFor(0.01), 2u);
+}
+
+TEST(Pyramid, GrownInStripsItIsTheSame) {
+  for (const auto& [width, height] : {std::pair(1301, 701), std::pair(2048, 1025), std::pair(513, 1), std::pair(1, 1400), std::pair(7, 5)}) {
+    const Pyramid whole(Patterned(width, height));
+    for (const int strip : {1, 3, 256, 5000}) {
+      PyramidBuilder builder(width, height);
+      const Pixels all = Patterned(width, height);
+      for (int rows = 0; rows < height;) {
+        const int to = std::min(height, rows + strip);
+        std::copy(all.rgb.begin() + 3L * width * rows, all.rgb.begin() + 3L * width * to, builder.finest().rgb.begin() + 3L * width * rows);
+        builder.Grow(rows = to);
+      }
+      const Pyramid grown = std::move(builder).Finish();
+      ASSERT_EQ(grown.levels(), whole.levels());
+      for (std::size_t level = 0; level < whole.levels(); ++level) {
+        EXPECT_EQ(grown.level(level).width_px, Pyramid::SizeAt(width, level));
+        EXPECT_TRUE(grown.level(level).rgb == whole.level(level).rgb) << width << " by " << height << " in strips of " << strip << ", level " << level;
+      }
+    }
+  }
+}
+
+// A photograph's bytes: large forms, 3000 by 2100 pixels.
+std::string Photograph(const char* kind) {
+  constexpr int kWide = 3000, kHigh = 2100;
+  GDALAllRegister();
+  const std::unique_ptr<GDALDataset> set(GetGDALDriverManager()->GetDriverByName("MEM")->Create("", kWide, kHigh, 3, GDT_Byte, nullptr));
+  std::vector<std::uint8_t> values(static_cast<std::size_t>(kWide) * kHigh);
+  for (int band = 1; band <= 3; ++band) {
+    for (int y = 0; y < kHigh; ++y) {
+      for (int x = 0; x < kWide; ++x) values[static_cast<std::size_t>(y) * kWide + static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(40 * band + x / 40 + y / 40);
+    }
+    EXPECT_EQ(set->GetRasterBand(band)->RasterIO(GF_Write, 0, 0, kWide, kHigh, values.data(), kWide, kHigh, GDT_Byte, 0, 0), CE_None);
+  }
+  auto folder = base::TemporaryFolder::Make("editor");
+  const auto path = folder.value().path() / "photo";
+  std::unique_ptr<GDALDataset>(GetGDALDriverManager()->GetDriverByName(kind)->CreateCopy(path.c_str(), set.get(), FALSE, nullptr, nullptr, nullptr)).reset();
+  return base::ReadText(path, 1u << 26).value();
+}
+
+TEST(Pyramid, ReadOnTwoThreadsItIsTheSameAndAJpegIsSeenSooner) {
+  for (const char* kind : {"PNG", "JPEG"}) {
+    const std::string bytes = Photograph(kind);
+    std::shared_ptr<const Pyramid> preview;
+    double last = 0.0;
+    const auto read = ReadPyramid(bytes, [&](double share) { return last = share, true; }, [&](auto small) { preview = std::move(small); });
+    ASSERT_TRUE(read.ok()) << read.error().Text();
+    EXPECT_EQ(last, 1.0);
+    const Pyramid expected(DecodePicture(bytes).value());
+    ASSERT_EQ(read.value()->levels(), expected.levels());
+    for (std::size_t level = 0; level < expected.levels(); ++level) EXPECT_TRUE(read.value()->level(level).rgb == expected.level(level).rgb) << kind << level;
+    EXPECT_EQ(preview != nullptr, std::string(kind) == "JPEG");
+    if (preview == nullptr) continue;
+    EXPECT_EQ(preview->first(), 3u);
+    EXPECT_EQ(preview->width_px(), 3000);
+    EXPECT_EQ(preview->levels(), std::max<std::size_t>(expected.levels(), 4));
+    EXPECT_EQ(preview->LevelFor(1.0), 3u);
+    // What it shows is the picture: the level's own means within JPEG's and a pixel's differences.
+    double worst = 0.0;
+    for (int y = 0; y < 2100; y += 7) {
+      for (int x = 0; x < 3000; x += 7) {
+        const auto small = preview->level(3).rgb[3 * (static_cast<std::size_t>(y / 8) * 375 + static_cast<std::size_t>(x / 8))];
+        worst = std::max(worst, std::abs(small - (40.0 + x / 40.0 + y / 40.0)));
+      }
+    }
+    EXPECT_LT(worst, 12.0);
+  }
+}
+
+TEST(Pyramid, OfABrokenPictureThereIsNone) {
+  EXPECT_FALSE(ReadPyramid(Photograph("JPEG").substr(0, 20)).ok());
+  EXPECT_FALSE(ReadPyramid("no picture").ok());
+  const std::string png = Photograph("PNG");
+  EXPECT_FALSE(ReadPyramid(png.substr(0, png.size() / 2)).ok());
+  int told = 0;
+  EXPECT_FALSE(ReadPyramid(png, [&](double) { return ++told < 3; }).ok());
+  EXPECT_EQ(told, 3);
 }
 
 }  // namespace

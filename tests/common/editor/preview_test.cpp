@@ -94,13 +94,6 @@ TEST(Preview, FlowsOfStartLanesBringTheVehicles) {
   EXPECT_GT(arrived, 3u);
 }
 
-TEST(Preview, SlowIsRedAndFastIsGreen) {
-  using Colour = std::array<std::uint8_t, 3>;
-  EXPECT_EQ(Preview::ColourOf(0.0), (Colour{255, 0, 0}));
-  EXPECT_EQ(Preview::ColourOf(0.5), (Colour{255, 255, 0}));
-  EXPECT_EQ(Preview::ColourOf(1.0), (Colour{0, 255, 0}));
-}
-
 TEST(Preview, AFaultyMapIsRefusedWithTheFault) {
   Document document = Parsed(map::GoodMap());
   document.map.lanes[0].value.mode = map::LaneMode::kNone;

@@ -2,6 +2,7 @@
 #include "common/map/open_drive.hpp"
 
 #include <gmock/gmock.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -154,10 +155,36 @@ TEST(OpenDrive, StopAndMarks) {
   const pugi::xml_node road = document.child("OpenDRIVE").child("road");
   EXPECT_STREQ(road.child("signals").child("signal").attribute("type").value(), "206");
   EXPECT_NEAR(road.child("signals").child("signal").attribute("s").as_double(), 30.0, 1e-9);
+  const pugi::xml_node line = road.child("signals").child("signal").next_sibling("signal");
+  EXPECT_STREQ(line.attribute("type").value(), "294");
+  EXPECT_NEAR(line.attribute("s").as_double(), 29.7, 1e-9);
+  EXPECT_NEAR(line.attribute("t").as_double(), 1.5, 1e-9);
+  EXPECT_NEAR(line.attribute("width").as_double(), 3.0, 1e-9);
+  EXPECT_FALSE(line.next_sibling("signal"));
   EXPECT_FALSE(road.next_sibling("road").child("signals"));
   const pugi::xml_node section = road.child("lanes").child("laneSection");
   EXPECT_STREQ(section.child("center").child("lane").child("roadMark").attribute("type").value(), "broken");
   EXPECT_STREQ(section.child("right").child("lane").child("roadMark").attribute("type").value(), "solid");
+}
+
+TEST(OpenDrive, LinesWhereOneStopsOrGivesWayAreSaidOnce) {
+  const auto companion = ParseHeights("rodeira: motors/1\nsigns:\n  - {lane: 1, kind: stop}\n  - {lane: 1, kind: give_way, before_end_m: 10}\n  - {lane: 2, kind: give_way}\n"
+                                      "lights:\n  - phases: [{green: [3], for_s: 10}, {green: [], for_s: 10}]\n", "x.motors.yaml");
+  ASSERT_TRUE(companion.ok()) << companion.error().Text();
+  const auto map = MakeLaneMap(ParseMap(GoodMap(), "x.motors").value(), companion.value(), "x.motors");
+  ASSERT_TRUE(map.ok()) << map.error().Text();
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(ToOpenDrive(map.value(), "a").value().xml.c_str()));
+  std::vector<std::string> lines;
+  for (const pugi::xml_node road : document.child("OpenDRIVE").children("road")) {
+    for (const pugi::xml_node signal : road.child("signals").children("signal")) {
+      const std::string type = signal.attribute("type").value();
+      if (type == "294" || type == "341") lines.push_back(fmt::format("{} {} {:.1f}", road.attribute("id").value(), type, signal.attribute("s").as_double()));
+    }
+  }
+  // Lane 1 has a STOP flag and a STOP sign at one place; lane 3 a light, and is the arc that the cubic makes.
+  const double turn_m = map.value().lanes[2].shape.length_m();
+  EXPECT_EQ(lines, (std::vector<std::string>{"1 341 19.7", "1 294 29.7", "2 341 29.7", fmt::format("3 294 {:.1f}", turn_m - 0.3)}));
 }
 
 // What docs/formats.md says of a border type: lines, their width, strokes and gaps.

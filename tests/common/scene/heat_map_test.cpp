@@ -62,6 +62,26 @@ TEST(HeatMap, SumsAreWhatWasDrivenAndFlowIsDensityTimesSpeed) {
   EXPECT_EQ(*map.Value(HeatKind::kSpeed, stood), 0.0);
 }
 
+// 7.2 l/h at 72 km/h is 10 l for 100 km, in every square; who says nothing of its fuel counts for the other statistics alone.
+TEST(HeatMap, WhatTheTrafficSaysThatItBurns) {
+  const auto world = PlaneWithRoad();
+  HeatMap map(*world);
+  for (int i = 0; i <= 300; ++i) {
+    Moment moment = At(i * kStep_ns, {{-60.0 + 0.4 * i, -70.0, 0.0}, {-60.0 + 0.4 * i, 60.0, 0.0}});
+    moment.agents[0].detail.emplace().fuel_lph = 7.2;
+    map.Add(moment);
+  }
+  std::size_t known = 0;
+  for (const auto& [key, cell] : map.cells()) {
+    const auto burnt = map.Value(HeatKind::kFuel, cell);
+    ASSERT_EQ(burnt.has_value(), key.row < 0);
+    if (!burnt) continue;
+    EXPECT_NEAR(*burnt, 10.0, 1e-9);
+    ++known;
+  }
+  EXPECT_GE(known, 30u);
+}
+
 TEST(HeatMap, GreenIsTheLimitOfTheLane) {
   const auto world = PlaneWithRoad();
   const road::Road& road = world->roads()[0];

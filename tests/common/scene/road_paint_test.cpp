@@ -150,6 +150,29 @@ TEST(RoadPaint, ACrossingThatIsASignalStaysOnItsRoadsLanes) {
   ExpectBox(painted, 10.0, 20.0 - 3.25, 14.0, 20.0 + 3.25);
 }
 
+TEST(Stencils, AGiveWayLineHasWholeStrokesEvenlyOnBothSides) {
+  static_assert(kGiveWayLine_m >= 0.2 && kGiveWayLine_m <= 0.6 && kStopLine_m >= 0.2 && kStopLine_m <= 0.6);
+  for (const double width : {0.3, 2.5, 2.1, 3.5, 7.0}) {
+    const double count = width < 0.5 ? 1.0 : std::floor((width + 0.3) / 0.8 + 1e-9);
+    const auto strokes = GiveWayShape(1.0, 1.0 + width);
+    ASSERT_EQ(strokes.size(), static_cast<std::size_t>(count)) << width;
+    EXPECT_NEAR(AreaOf(strokes), 0.4 * std::min(width, 0.5) * count, 1e-12);
+    EXPECT_NEAR(strokes.front()[0].y() - 1.0, 1.0 + width - strokes.back()[2].y(), 1e-12);
+    EXPECT_GE(strokes.front()[0].y(), 1.0 - 1e-12);
+    EXPECT_NEAR(AreaOf(StopLineShape(1.0, 1.0 + width)), 0.3 * width, 1e-12);
+  }
+  EXPECT_TRUE(GiveWayShape(1.0, 1.0).empty());
+  EXPECT_TRUE(StopLineShape(1.0, 0.5).empty());
+}
+
+TEST(RoadPaint, AGiveWayLineIsStrokesAcrossItsLane) {
+  const auto world = WorldWith(R"(<signals><signal id="l" s="40" t="0" zOffset="0" orientation="-" dynamic="no" type="341" subtype="-1" country="DE" width="3.5"/></signals>)");
+  ASSERT_NE(world, nullptr);
+  const Painted painted = PaintOf(*world);
+  EXPECT_NEAR(painted.area_m2, 4.0 * 0.5 * 0.4, 1e-2);  // four strokes and three gaps are 2.9 m
+  ExpectBox(painted, 50.0 - 0.2, 20.0 + 0.3, 50.0 + 0.2, 20.0 + 3.2);
+}
+
 TEST(RoadPaint, AStopLineLiesOnTheSideOfItsTraffic) {
   for (const auto& [t, south] : {std::pair(0.0, 20.0), std::pair(1.75, 20.0)}) {  // t at its left end, or in its middle
     const auto world = WorldWith(fmt::format(R"(<signals><signal id="l" s="40" t="{}" zOffset="0" orientation="-" dynamic="no" type="294" subtype="-1" country="DE" height="0.03" width="3.5"/></signals>)", t));

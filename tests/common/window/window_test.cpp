@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include "common/base/files.hpp"
 #include "common/base/temporary_folder.hpp"
@@ -109,6 +110,42 @@ TEST_F(AWindow, APictureIsWrittenAsPng) {
   ASSERT_TRUE(bytes.ok());
   EXPECT_EQ(bytes.value().substr(0, 8), "\x89PNG\r\n\x1a\n");
   EXPECT_FALSE(WritePng("/dev/null/seen.png", seen).ok());
+}
+
+// The picture of one word.
+Image Written(const std::filesystem::path& font, const char* word) {
+  auto opened = Window::Open({Kind::kOffscreen, 120, 40, "test", font});
+  if (!opened) return {};
+  Image seen;
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_TRUE(opened.value()->BeginFrame(0));
+    ImGui::GetBackgroundDrawList()->AddText(ImVec2(8.0f, 8.0f), IM_COL32(255, 255, 255, 255), word);
+    opened.value()->EndFrame(&seen);
+  }
+  return seen;
+}
+
+TEST_F(AWindow, GreekAndPortugueseAreWritten) {
+  window_.reset();
+  if (FontFile().empty()) GTEST_SKIP() << "the package fonts-dejavu-core is not here";
+  // No two words look alike, as they would with a mark in place of letters that the font lacks.
+  const char* words[] = {"Οδός", "Πάτρα", "πάτρα", "ὁδός", "São João", "Sao Joao", "Coruña", "Город", "a → b", "…", "??", "????", "?????"};
+  std::vector<Image> pictures;
+  for (const char* word : words) pictures.push_back(Written(FontFile(), word));
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(pictures[i], pictures[j]) << words[i] << " " << words[j];
+  }
+}
+
+TEST_F(AWindow, WithoutTheFontItsOwnLettersAreThere) {
+  window_.reset();
+  auto folder = base::TemporaryFolder::Make("font");
+  ASSERT_TRUE(folder.ok());
+  for (const std::filesystem::path& font : {std::filesystem::path(), folder.value().path() / "none.ttf", folder.value().path()}) {
+    EXPECT_NE(Written(font, "road"), Written(font, "lane")) << font;
+    EXPECT_NE(Written(font, "São"), Written(font, "Sao")) << font;
+    EXPECT_EQ(Written(font, "ω"), Written(font, "ψ")) << font;
+  }
 }
 
 TEST(Window, WithoutADisplayThereIsASentence) {

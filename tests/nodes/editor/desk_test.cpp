@@ -247,6 +247,28 @@ TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
   EXPECT_EQ(editor::BytesOf(document()), before);
 }
 
+// White where the road has it: a bar of 0.3 m before a STOP, strokes of 0.5 m with gaps of 0.3 m where one gives way (4 on a lane of 3 m).
+TEST_F(ADesk, LinesWhereOneStopsOrGivesWayArePainted) {
+  OpenTheGoodMap();
+  work().session.Do([](editor::Document& document) { return editor::SetSigns(document, {{2, map::SignKind::kGiveWay, 0.0, 0.0, 0}}); });
+  work().handles = work().numbers = work().centre = false;
+  work().view.metres_per_px = 0.02;
+  const auto white = [&](double x_m, double y_m) {
+    work().view.middle_W = {x_m, 0.0};
+    window::Image seen;
+    desk_->Frame(0, &seen);
+    const Eigen::Vector2i at = On(x_m, y_m);
+    const std::uint8_t* pixel = seen.At(at.x(), at.y());
+    return pixel[0] > 240 && pixel[1] > 240 && pixel[2] > 240;
+  };
+  for (const double y_m : {-1.3, -0.8, 0.3, 1.3}) {
+    EXPECT_TRUE(white(29.7, y_m)) << y_m;
+    EXPECT_FALSE(white(29.5, y_m)) << y_m;
+  }
+  for (const double y_m : {-1.2, -0.4, 0.4, 1.2}) EXPECT_TRUE(white(59.7, y_m)) << y_m;
+  for (const double y_m : {-0.8, 0.1, 0.8}) EXPECT_FALSE(white(59.7, y_m)) << y_m;
+}
+
 TEST_F(ADesk, ResetIsAskedFor) {
   OpenTheGoodMap();
   Press(SDL_SCANCODE_R, KMOD_CTRL);

@@ -92,6 +92,61 @@ TEST(Screen, AClickChoosesAVehicle) {
   EXPECT_EQ(shown().rgb, before.rgb);
 }
 
+// The driver of a chosen car of the traffic: the point that it steers for, the way there, the speed that it plans; gone with the choice.
+TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+  ViewSettings settings;
+  settings.width_px = 960;
+  settings.height_px = 540;
+  settings.instruments = false;
+  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  ASSERT_TRUE(screen.ok()) << screen.error().Text();
+  scene::Moment moment;
+  moment.time_ns = 800'000'000;  // between two pulses
+  moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
+  const auto from_car = [&](double ahead, double left, double up) -> Eigen::Vector3d { return moment.cars[0].p_WB_W + moment.cars[0].q_WB * Eigen::Vector3d(ahead, left, up); };
+  scene::AgentPose agent;
+  agent.id = 5;
+  agent.colour = scene::Colour::Of(0x1040e0);
+  agent.p_WB_W = from_car(14.0, 4.0, 0.0);
+  agent.q_WB = moment.cars[0].q_WB;
+  agent.detail.emplace();
+  agent.detail->look_ahead_W = from_car(26.0, 1.0, 0.0).head<2>();
+  agent.detail->target_speed_mps = 15.0;
+  moment.agents.push_back(agent);
+  const scene::Camera camera = scene::ChaseCamera(moment.cars[0], *world);
+  const auto shown = [&] {
+    screen.value()->Show(moment, 1.0);
+    return screen.value()->painter().Read();
+  };
+  const auto click = [&](const Eigen::Vector2d& at) {
+    SDL_Event event{};
+    event.type = SDL_MOUSEBUTTONDOWN;
+    event.button.button = SDL_BUTTON_LEFT;
+    (void)screen.value()->TakeMouse(event, false);
+    event.type = SDL_MOUSEBUTTONUP;
+    event.button.x = static_cast<int>(at.x());
+    event.button.y = static_cast<int>(at.y());
+    return screen.value()->TakeMouse(event, false);
+  };
+  const Image before = shown();
+  EXPECT_TRUE(click(*camera.Project(from_car(12.05, 4.0, 0.8), 960, 540)));
+  const Image chosen = shown();
+  const auto post = ProbeAt(chosen, camera, from_car(26.0, 1.0, 1.1), 1), tip = ProbeAt(chosen, camera, from_car(28.7, 4.0, agent.height_m + 0.4), 0);
+  EXPECT_TRUE(post.green > post.red + 60.0 && post.blue > post.red + 60.0) << "cyan: " << post;
+  EXPECT_TRUE(tip.green > tip.red + 60.0 && tip.green > tip.blue + 60.0) << "green, a second of 15 m/s ahead: " << tip;
+  const Eigen::Vector3d on_path_W = from_car(16.0 + 0.8 * 10.0, 4.0 - 0.8 * 3.0, 0.5);
+  const auto path = ProbeAt(chosen, camera, on_path_W, 0);
+  EXPECT_TRUE(path.red > path.blue + 60.0 && path.green > path.blue + 60.0) << "yellow: " << path;
+  moment.agents[0].detail.reset();
+  const auto bare = ProbeAt(shown(), camera, from_car(26.0, 1.0, 1.1), 1);
+  EXPECT_LT(bare.blue, bare.red + 60.0) << "nothing is said of it: " << bare;
+  moment.agents[0].detail = agent.detail;
+  EXPECT_TRUE(click({480.0, 20.0}));
+  EXPECT_EQ(shown().rgb, before.rgb);
+}
+
 SDL_Event ButtonAt(const Eigen::Vector2d& at, bool down) {
   SDL_Event event{};
   event.type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
@@ -295,6 +350,29 @@ TEST(Chosen, SaysWhatTheCarDoesAndSinceWhen) {
   car.id = 4;
   EXPECT_EQ(chosen.Panel(moment), "") << "it has left";
   EXPECT_FALSE(chosen.In(moment));
+}
+
+TEST(Chosen, SaysOfTheTrafficWhatItPublishes) {
+  scene::Moment moment;
+  moment.agents.emplace_back();
+  scene::AgentPose& agent = moment.agents[0];
+  agent.id = std::uint64_t{7} << 24;
+  agent.speed_mps = 10.0;
+  Chosen chosen;
+  chosen.Choose(moment, 0);
+  EXPECT_EQ(chosen.Panel(moment), "traffic 7\n36.0 km/h\nwheels 0.0 deg") << "of recordings that say no more";
+  agent.detail = scene::AgentDetail{0.3, 0.0, 0.0, 2, 2100.0, 2.88, 1.5, 12.5, {0.0, 0.0}};
+  chosen.Choose(moment, 0);
+  EXPECT_EQ(chosen.Panel(moment), "traffic 7   36.0 km/h of 45\ngear 2   2100 1/min\nthrottle 30 %   brake 0 %\nclutch 0 %   wheels 0.0 deg\nnow 8.0 l/100 km\nmean -");
+  for (int i = 1; i <= 100; ++i) {  // 1 km in 100 s; it burns 0.07 l
+    moment.time_ns = i * 1'000'000'000LL;
+    agent.p_WB_W.x() = 10.0 * i;
+    agent.detail->fuel_used_l = 1.5 + 0.0007 * i;
+    (void)chosen.Panel(moment);
+  }
+  EXPECT_NE(chosen.Panel(moment).find("mean 7.0 l/100 km over 1.00 km"), std::string::npos) << chosen.Panel(moment);
+  moment.time_ns = 0;  // back in a recording
+  EXPECT_NE(chosen.Panel(moment).find("mean -"), std::string::npos) << chosen.Panel(moment);
 }
 
 // The log has a line for each picture: what was shown, with the eye of the same moment.

@@ -48,6 +48,19 @@ TEST_F(WeatherStill, AtNightOnlyTheHeadlightsShowTheRoad) {
   EXPECT_LT(Brightness(ProbeAt(without, 0.5 * kWidth, kHeight - 10)), 0.5 * near);
 }
 
+// By the law of the beam, 1 / (1 + (d / reach)^2), 110 m ahead gets 5 times as much light where it reaches 60 m instead of 24.
+TEST_F(WeatherStill, TheMainBeamReachesFartherThanTheDippedOne) {
+  weather::Weather night;
+  night.hour = 1.0;
+  night.clouds = 0.0;
+  picture_.moment.cars[0].lights.dipped = true;
+  const Image dipped = In(night);
+  picture_.moment.cars[0].lights.main = true;
+  const Image main_beam = In(night);
+  EXPECT_GT(Brightness(Road(main_beam, 110.0)), 1.5 * Brightness(Road(dipped, 110.0)));
+  EXPECT_NEAR(Brightness(Road(main_beam, 8.0)) / Brightness(Road(dipped, 8.0)), 1.0, 0.15) << "nearby it is as bright";
+}
+
 // A place d away differs from the fog by exp(-3 d / visibility) of what it would without: asked of two fogs with the same light.
 TEST_F(WeatherStill, FogTakesTheContrast) {
   weather::Weather thick, thin;

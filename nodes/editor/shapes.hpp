@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/editor/document.hpp"
+
+namespace rodeira::desk {
+
+// Red, green, blue, opacity.
+using Colour = std::array<std::uint8_t, 4>;
+
+struct Vertex {
+  float x, y;
+  Colour colour;
+};
+using Vertices = std::vector<Vertex>;
+
+// OpenGL draws them: mode is GL_TRIANGLES, GL_LINES or GL_POINTS.
+void DrawVertices(const Vertices& vertices, unsigned mode);
+
+// What a map is drawn of, added to lists of vertices.
+struct Shapes {
+  Eigen::Vector2d origin_W = Eigen::Vector2d::Zero();  // vertices are counted from here
+  double metres_per_px = 0.1;                          // how fine curves must be
+
+  int PiecesOf(const map::Cubic& cubic) const;
+  Vertex At(const Eigen::Vector2d& p_W, const Colour& colour) const;
+  void AddLine(Vertices& lines, const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Colour& colour) const;
+  void AddGround(Vertices& triangles, const editor::Borders& borders, const Colour& colour) const;
+  void AddCurve(Vertices& lines, const map::Cubic& cubic, const Colour& colour, bool dashed = false) const;
+  void AddLink(Vertices& lines, const map::Cubic& from, const map::Cubic& to, const Colour& colour) const;
+  void AddRectangle(Vertices& triangles, const Eigen::Vector2d& middle, const Eigen::Vector2d& ahead, double half_length_m, double half_width_m, const Colour& colour) const;
+  // Convex; laid at a place with its x axis ahead.
+  void AddPolygon(Vertices& triangles, std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& place, const Eigen::Vector2d& ahead, const Colour& colour) const;
+};
+
+}  // namespace rodeira::desk

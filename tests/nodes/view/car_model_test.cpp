@@ -1,0 +1,111 @@
+// A car's model from a file: it is seen where the procedural car would be, and its wheels turn; without it the procedural one stays.
+#include <gtest/gtest.h>
+
+#include <osg/Geode>
+#include <osg/MatrixTransform>
+#include <osg/ShapeDrawable>
+#include <osgDB/WriteFile>
+
+#include <fstream>
+
+#include "nodes/view/screen.hpp"
+#include "nodes/view/surface.hpp"
+#include "tests/nodes/view/pictures.hpp"
+
+namespace rodeira::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+osg::ref_ptr<osg::Geode> BoxOf(const osg::Vec3& middle, const osg::Vec3& sides, const osg::Vec4& colour) {
+  osg::ref_ptr<osg::ShapeDrawable> box = new osg::ShapeDrawable(new osg::Box(middle, sides.x(), sides.y(), sides.z()));
+  box->setColor(colour);
+  osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+  geode->addDrawable(box);
+  return geode;
+}
+
+// A magenta box with cyan bars for wheels, which stand out upward as long as they do not turn.
+fs::path WriteModel(const fs::path& folder) {
+  osg::ref_ptr<osg::Group> car = new osg::Group;
+  car->addChild(BoxOf({0.0F, 0.0F, 0.6F}, {4.0F, 1.5F, 0.8F}, {1.0F, 0.0F, 1.0F, 1.0F}));
+  for (const char* name : {"wheel_front_left", "wheel_front_right", "wheel_rear_left", "wheel_rear_right"}) {
+    const auto wheel = BoxOf({0.0F, 0.0F, 0.5F}, {0.3F, 0.3F, 1.0F}, {0.0F, 1.0F, 1.0F, 1.0F});
+    wheel->setName(name);
+    car->addChild(wheel);
+  }
+  const fs::path file = folder / "car.osgt";
+  EXPECT_TRUE(osgDB::writeNodeFile(*car, file.string()));
+  return file;
+}
+
+class CarModel : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    RODEIRA_NEEDS_PICTURES();
+    folder_ = fs::path(::testing::TempDir()) / ("rodeira-car-model-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    world_ = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+    picture_.show_instruments = false;
+    picture_.moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  const scene::CarPose& car() const { return picture_.moment.cars[0]; }
+  Eigen::Vector3d At(double ahead, double left, double up) const { return car().p_WB_W + car().q_WB * Eigen::Vector3d(ahead, left, up); }
+
+  fs::path folder_;
+  std::shared_ptr<const road::World> world_;
+  Picture picture_;
+};
+
+bool IsMagenta(const Probe& p) { return p.red > 150.0 && p.blue > 150.0 && p.green < 60.0; }
+bool IsCyan(const Probe& p) { return p.red < 60.0 && p.blue > 150.0 && p.green > 150.0; }
+
+TEST_F(CarModel, StandsInPlaceOfTheProceduralCarAndItsWheelsTurn) {
+  auto surface = Surface::Open(SurfaceKind::kOffscreen, 960, 540, "test");
+  ASSERT_TRUE(surface.ok()) << surface.error().Text();
+  auto painter = PainterOf(*surface.value(), *world_, {});
+  ASSERT_TRUE(painter.ok()) << painter.error().Text();
+  const auto shown = [&] {
+    painter.value()->Draw(picture_);
+    return painter.value()->Read();
+  };
+  const scene::Camera camera = scene::ChaseCamera(car(), *world_);
+  const Eigen::Vector3d tail_W = At(-2.0, 0.0, 0.6), upright_W = At(-1.23, 0.71, 1.15);
+  const Image before = shown();
+  EXPECT_FALSE(IsMagenta(ProbeAt(before, camera, tail_W))) << ProbeAt(before, camera, tail_W);
+  ASSERT_TRUE(painter.value()->WearCarModel(WriteModel(folder_)).ok());
+  const Image worn = shown();
+  EXPECT_TRUE(IsMagenta(ProbeAt(worn, camera, tail_W))) << ProbeAt(worn, camera, tail_W);
+  EXPECT_TRUE(IsCyan(ProbeAt(worn, camera, upright_W))) << ProbeAt(worn, camera, upright_W);
+  picture_.moment.cars[0].wheels[2].spin_rad = 3.141592653589793;  // the rear left one, half a turn
+  EXPECT_FALSE(IsCyan(ProbeAt(shown(), camera, upright_W))) << "it points down now";
+}
+
+TEST_F(CarModel, WhichCannotBeReadIsASentenceAndTheProceduralCarStays) {
+  const fs::path broken = folder_ / "broken.osgt";
+  std::ofstream(broken) << "no model";
+  const auto seen_with = [&](const fs::path& model) {
+    ViewSettings settings;
+    settings.width_px = 320;
+    settings.height_px = 180;
+    settings.instruments = false;
+    settings.car_model = model;
+    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world_, false, "help");
+    EXPECT_TRUE(screen.ok());
+    screen.value()->painter().Draw(picture_);
+    return screen.value()->painter().Read().rgb;
+  };
+  const auto without = seen_with({});
+  for (const fs::path& model : {folder_ / "missing.osgb", broken}) {
+    testing::internal::CaptureStderr();
+    const auto with = seen_with(model);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find(model.string()), std::string::npos) << said;
+    EXPECT_NE(said.find("cannot read this model; the car is drawn without it\n"), std::string::npos) << said;
+    EXPECT_EQ(with, without);
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::view
