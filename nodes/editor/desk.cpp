@@ -42,7 +42,8 @@ Desk::Desk(window::Window& window, const std::filesystem::path& file, const std:
 int Desk::wait_ms() const {
   constexpr int kIdle_ms = 100, kLoading_ms = 60;
   if (work_.traffic.runs || canvas_.incomplete() || window_.busy() || ImGui::GetIO().WantTextInput) return 0;
-  return work_.picture.loading() ? kLoading_ms : kIdle_ms;
+  // What is seen already need not be drawn while the rest is read.
+  return work_.picture.loading() && work_.picture.picture() == nullptr ? kLoading_ms : kIdle_ms;
 }
 
 bool Desk::Frame(int wait_ms, window::Image* seen) {

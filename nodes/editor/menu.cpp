@@ -1,6 +1,8 @@
 #include <SDL.h>
 #include <imgui.h>
 
+#include <string>
+
 #include "nodes/editor/panels.hpp"
 
 namespace rodeira::desk {
@@ -93,8 +95,12 @@ void DrawMenu(Work& work) {
       if (open) ImGui::EndMenu();
       before = entry.menu;
       open = ImGui::BeginMenu(entry.menu);
+      if (!open) Note(work, std::string("menu ") + entry.menu);
     }
-    if (open && ImGui::MenuItem(entry.name, entry.keys, IsOn(work, entry))) entry.act(work);
+    if (!open) continue;
+    const bool chosen = ImGui::MenuItem(entry.name, entry.keys, IsOn(work, entry));
+    Note(work, entry.name);
+    if (chosen) entry.act(work);
   }
   if (open) ImGui::EndMenu();
   ImGui::EndMainMenuBar();

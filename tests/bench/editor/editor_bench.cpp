@@ -90,8 +90,14 @@ void Try(const char* kind, const std::filesystem::path& folder) {
   desk::Desk desk(*window.value(), file, {});
   desk.Frame(0);
   fmt::print("{:28} {:.0f} ms\n", "opened, the map is seen", Milliseconds(begin));
-  for (int wait_ms = 0; wait_ms < 100; wait_ms = desk.wait_ms()) desk.Frame(wait_ms);
-  fmt::print("{:28} {:.0f} ms, of the processor {:.0f} ms\n", "and the whole background", Milliseconds(begin), Processor() - processor);
+  bool seen = false;
+  while (desk.work().picture.loading() || desk.wait_ms() < 100) {
+    desk.Frame(desk.wait_ms());
+    if (seen || desk.work().picture.picture() == nullptr) continue;
+    seen = true;
+    fmt::print("{:28} {:.0f} ms\n", "the background is seen", Milliseconds(begin));
+  }
+  fmt::print("{:28} {:.0f} ms, of the processor {:.0f} ms\n", "in all its detail", Milliseconds(begin), Processor() - processor);
   auto& view = desk.work().view;
   Measure(desk, "standing, all of it", 60, [](int) {});
   Measure(desk, "panning, all of it", 120, [&](int i) { view.Go({i < 60 ? 2.0 : -2.0, 1.0}); });

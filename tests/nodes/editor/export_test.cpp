@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <sstream>
 
 #include "common/road/world.hpp"
 #include "tests/nodes/editor/desk_fixture.hpp"
@@ -14,6 +15,24 @@ namespace {
 int StatusOf(const std::filesystem::path& folder, const std::string& words) {
   const int status = std::system(fmt::format("cd '{}' && timeout 300 '{}/bin/rodeira' {} > said.txt 2>&1 < /dev/null", folder.string(), RODEIRA_BINARY_DIR, words).c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// Of a table: the second line, or the last one.
+std::string LineOf(const std::string& table, int number) {
+  const std::size_t end = table.find_last_not_of('\n') + 1;
+  const std::size_t begin = number > 0 ? table.find('\n') + 1 : table.rfind('\n', end - 1) + 1;
+  return table.substr(begin, table.find('\n', begin) - begin);
+}
+Eigen::Vector2d PlaceIn(const std::string& table, const std::string& line) {
+  const auto cell = [&](const std::string& column) {
+    std::istringstream heads(table.substr(0, table.find('\n'))), cells(line);
+    for (std::string head, value; std::getline(heads, head, ',') && std::getline(cells, value, ',');) {
+      if (head == column) return std::stod(value);
+    }
+    ADD_FAILURE() << "no column " << column;
+    return 0.0;
+  };
+  return {cell("position_w_m.x"), cell("position_w_m.y")};
 }
 
 class AnExport : public ADesk {
@@ -52,7 +71,9 @@ TEST_F(AnExport, IsAWorldThatIsCheckedAndDrivenOn) {
                                                              RODEIRA_SOURCE_DIR)).ok());
   ASSERT_EQ(StatusOf(folder_->path(), "run drive.yaml --in-process --headless --pace max --quiet --record drive.mcap"), 0) << Told();
   EXPECT_EQ(StatusOf(folder_->path(), "replay drive.mcap --verify --quiet"), 0) << Told();
-  EXPECT_EQ(StatusOf(folder_->path(), "export drive.mcap --csv csv --quiet"), 0) << Told();
+  ASSERT_EQ(StatusOf(folder_->path(), "export drive.mcap --csv csv --quiet"), 0) << Told();
+  const std::string states = base::ReadText(At("csv/vehicle_state.csv")).value();
+  EXPECT_GT((PlaceIn(states, LineOf(states, 1)) - PlaceIn(states, LineOf(states, -1))).norm(), 10.0) << "it has not driven";
 }
 
 TEST_F(AnExport, OfTheRoadsAlone) {

@@ -239,6 +239,49 @@ TEST_F(ADesk, NewElementsByTheirButtons) {
   EXPECT_FALSE(work().places.contains("Connect")) << "nothing is left to connect";
 }
 
+TEST_F(ADesk, TheMenusDoWhatTheirKeysDo) {
+  const auto menu = [this](const char* title, const char* entry) {
+    Click(std::string("menu ") + title);
+    Click(entry);
+  };
+  menu("Draw", "New curve");
+  EXPECT_EQ(document().map.curves.size(), 1u);
+  menu("Edit", "Undo");
+  EXPECT_TRUE(document().map.curves.empty());
+  menu("Edit", "Redo");
+  EXPECT_EQ(document().map.curves.size(), 1u);
+  menu("View", "Handles");
+  EXPECT_FALSE(work().handles);
+  menu("Edit", "Choose all");
+  EXPECT_EQ(work().session.selection.curves.size(), 1u);
+  Keep("editor_menu.png");
+  menu("Help", "Keys and mouse");
+  EXPECT_EQ(work().form, Form::kKeys);
+  Click("Good");
+  menu("Background", "Import…");
+  EXPECT_TRUE(work().files.open());
+  Press(SDL_SCANCODE_ESCAPE);
+  menu("Traffic", "Run, pause");
+  EXPECT_FALSE(work().session.said().good) << "there is nothing to drive on";
+  menu("File", "Quit");
+  EXPECT_EQ(work().form, Form::kUnsaved);
+}
+
+TEST_F(ADesk, NamesInGreekAndPortugueseAreOpenedFromTheList) {
+  // Files that a person sees in the list and clicks on; the status line says their names.
+  for (const char* name : {"Πάτρα.motors", "São João.motors"}) {
+    ASSERT_TRUE(base::WriteWhole(At(name), map::GoodMap()).ok());
+    Press(SDL_SCANCODE_O, KMOD_CTRL);
+    ASSERT_TRUE(work().files.open());
+    Write(At(name).string());
+    Press(SDL_SCANCODE_RETURN);
+    EXPECT_EQ(Said(), std::string("opened ") + name);
+  }
+  Press(SDL_SCANCODE_O, KMOD_CTRL);
+  Keep("editor_files.png");
+  Press(SDL_SCANCODE_ESCAPE);
+}
+
 TEST_F(ADesk, TrafficByItsPanel) {
   OpenTheGoodMap();
   Fill("vehicles", "5");
