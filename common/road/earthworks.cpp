@@ -1,6 +1,7 @@
 #include "common/road/earthworks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kSteeper = 0.8;  // of the reach: from here on slopes grow steeper, without bound at its end
 constexpr double kSample_m = 1e-3;
+constexpr int kSamples = 16;  // of a panel's edges
 
 // What is added to a bound at a distance, and its slope by the distance.
 std::pair<double, double> Steepening(double distance_m, double reach_m) {
@@ -43,14 +45,20 @@ void Standing(const network::Road& road, double low_m, double high_m, const Use&
   }
 }
 
-// Boxes that hold every place a road's slopes may reach, one a panel.
-void AddReach(const network::Road& road, double reach_m, std::vector<Squares::Box>& boxes) {
+// How far the edges lie from the axis.
+double WidestOf(const network::Road& road) {
   double widest = 0.0;
   for (const network::LaneSection& section : road.spec().sections) {
     double right, left;
     section.Bounds(road.spec().lane_offset, section.s_m, section.end_s_m, right, left);
     widest = std::max({widest, -right, left});
   }
+  return widest;
+}
+
+// Boxes that hold every place a road's slopes may reach, one a panel.
+void AddReach(const network::Road& road, double reach_m, std::vector<Squares::Box>& boxes) {
+  const double widest = WidestOf(road);
   for (const geometry::AxisPanel& panel : road.axis().panels()) {
     const Eigen::Vector2d begin = road.axis().At(panel, -panel.half_m).p_W, end = road.axis().At(panel, panel.half_m).p_W;
     // A leaning section moves its edges along the road by less than it is wide.
@@ -77,6 +85,7 @@ Earthworks::Earthworks(std::shared_ptr<const network::Network> network, std::vec
   squares_ = Squares(boxes);
   for (const auto& junction : junctions_) {
     std::vector<Heights>& heights = edge_heights_.emplace_back();
+    Heights& all = junction_heights_.emplace_back(Heights{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
     for (const design::FreeEdge& edge : junction->free_edges()) {
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (const double q : {0.0, 0.5, 1.0}) {
@@ -84,8 +93,45 @@ Earthworks::Earthworks(std::shared_ptr<const network::Network> network, std::vec
         low = std::min(low, z), high = std::max(high, z);
       }
       heights.push_back({low - kSample_m, high + kSample_m});
+      all = {std::min(all.low_m, low - kSample_m), std::max(all.high_m, high + kSample_m)};
     }
   }
+  for (const network::Road& road : network_->roads()) {
+    reaches_.emplace_back();
+    if (road.spec().earthwork) reaches_.back() = ReachesOf(road);
+  }
+}
+
+std::vector<Earthworks::Reach> Earthworks::ReachesOf(const network::Road& road) {
+  const double widest = WidestOf(road);
+  std::vector<Reach> reaches;
+  for (const geometry::AxisPanel& panel : road.axis().panels()) {
+    const double begin = std::max(panel.begin_s_m(), 0.0), end = std::min(panel.end_s_m(), road.length_m());
+    Reach reach{road.axis().At(panel, -panel.half_m).p_W, road.axis().At(panel, panel.half_m).p_W, road.axis().Bulge(panel) + 2.0 * widest + 1.0, {}};
+    double low = std::numeric_limits<double>::infinity(), high = -low, most = 0.0;  // the greatest step between two samples
+    std::array<double, 2> last{};
+    for (int k = 0; k <= kSamples; ++k) {
+      const double s = begin + (end - begin) * k / kSamples;
+      double right, left;
+      road.SectionAt(s).Bounds(road.spec().lane_offset, s, s, right, left);
+      const std::array<double, 2> z = {road.Surface(s, right).p_W.z(), road.Surface(s, left).p_W.z()};
+      for (std::size_t side = 0; side < 2; ++side) {
+        low = std::min(low, z[side]), high = std::max(high, z[side]);
+        if (k > 0) most = std::max(most, std::fabs(z[side] - last[side]));
+      }
+      last = z;
+    }
+    reach.heights = {low - most - kSample_m, high + most + kSample_m};
+    reaches.push_back(reach);
+  }
+  return reaches;
+}
+
+bool Earthworks::MayTighten(const network::Earthwork& earthwork, const Heights& heights, double distance_m, const Bounds& bounds) {
+  if (distance_m >= earthwork.reach_m) return false;
+  if (!bounds.low.any || !bounds.high.any) return true;
+  const double more = Steepening(distance_m, earthwork.reach_m).first;
+  return heights.high_m - distance_m / earthwork.fill - more > bounds.low.z_m || heights.low_m + distance_m / earthwork.cut + more < bounds.high.z_m;
 }
 
 void Earthworks::Offer(const network::Earthwork& earthwork, const Edge& edge, const Eigen::Vector2d& p_W, Bounds& bounds) {
@@ -104,7 +150,6 @@ void Earthworks::Offer(const network::Earthwork& earthwork, const Edge& edge, co
 }
 
 void Earthworks::FromRoad(const network::Road& road, std::uint32_t panel_index, const Eigen::Vector2d& p_W, Bounds& bounds) const {
-  if (!road.spec().earthwork) return;
   const geometry::AxisPanel& panel = road.axis().panels()[panel_index];
   const geometry::AxisFoot foot = road.axis().Foot(panel, p_W);
   const double low = std::max(panel.begin_s_m(), 0.0), high = std::min(panel.end_s_m(), road.length_m());
@@ -135,7 +180,7 @@ void Earthworks::FromJunction(std::size_t index, const Eigen::Vector2d& p_W, Bou
   const design::JunctionSurface& junction = *junctions_[index];
   const network::Earthwork usual;
   const Eigen::Vector2d box = (junction.low_W() - p_W).cwiseMax(p_W - junction.high_W()).cwiseMax(0.0);
-  if (box.norm() >= usual.reach_m) return;
+  if (!MayTighten(usual, junction_heights_[index], box.norm(), bounds)) return;
   const std::vector<design::FreeEdge>& edges = junction.free_edges();
   const auto foot = [&](const design::FreeEdge& edge, double& q) {
     const Eigen::Vector2d along = edge.to_W - edge.from_W;
@@ -164,18 +209,23 @@ void Earthworks::FromJunction(std::size_t index, const Eigen::Vector2d& p_W, Bou
   offer(edges[nearest]);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (i == nearest) continue;
-    const Heights& heights = edge_heights_[index][i];
-    const double more = Steepening(distances[i], usual.reach_m).first;
-    const bool tighter = heights.high_m - distances[i] / usual.fill - more > bounds.low.z_m ||
-                         heights.low_m + distances[i] / usual.cut + more < bounds.high.z_m;
-    if (tighter) offer(edges[i]);
+    if (MayTighten(usual, edge_heights_[index][i], distances[i], bounds)) offer(edges[i]);
   }
 }
 
 void Earthworks::Shape(const Eigen::Vector2d& p_W, SurfacePoint& ground) const {
   if (!squares_.MayHold(p_W)) return;
   Bounds bounds;
-  network_->Near(p_W, reach_m_, [&](std::uint32_t road, std::uint32_t panel) { FromRoad(network_->roads()[road], panel, p_W, bounds); });
+  network_->Near(p_W, reach_m_, [&](std::uint32_t index, std::uint32_t panel) {
+    const network::Road& road = network_->roads()[index];
+    if (!road.spec().earthwork) return;
+    const Reach& reach = reaches_[index][panel];
+    const Eigen::Vector2d way = reach.to_W - reach.from_W, to = p_W - reach.from_W;
+    const double length2 = way.squaredNorm();
+    const double part = length2 > 0.0 ? std::clamp(to.dot(way) / length2, 0.0, 1.0) : 0.0;
+    const double distance_m = std::max(0.0, (to - part * way).norm() - reach.beside_m);
+    if (MayTighten(*road.spec().earthwork, reach.heights, distance_m, bounds)) FromRoad(road, panel, p_W, bounds);
+  });
   for (std::size_t i = 0; i < junctions_.size(); ++i) FromJunction(i, p_W, bounds);
   const auto take = [&](double z, const Eigen::Vector2d& slope) {
     ground.z_m = z;

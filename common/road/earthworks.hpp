@@ -35,16 +35,26 @@ class Earthworks {
     double z_m;
     Eigen::Vector2d along;
   };
+  struct Heights {
+    double low_m, high_m;
+  };
+  struct Reach {  // of a panel's edges: all of them lie within beside_m of the way from one end to the other
+    Eigen::Vector2d from_W, to_W;
+    double beside_m;
+    Heights heights;
+  };
+  static std::vector<Reach> ReachesOf(const network::Road& road);
+  // Whether an edge with these heights, at least so far away, may hold the ground more tightly than the bounds do already.
+  static bool MayTighten(const network::Earthwork& earthwork, const Heights& heights, double distance_m, const Bounds& bounds);
   void FromRoad(const network::Road& road, std::uint32_t panel, const Eigen::Vector2d& p_W, Bounds& bounds) const;
   void FromJunction(std::size_t junction, const Eigen::Vector2d& p_W, Bounds& bounds) const;
   static void Offer(const network::Earthwork& earthwork, const Edge& edge, const Eigen::Vector2d& p_W, Bounds& bounds);
 
   std::shared_ptr<const network::Network> network_;
   std::vector<std::shared_ptr<const design::JunctionSurface>> junctions_;
-  struct Heights {
-    double low_m, high_m;
-  };
+  std::vector<std::vector<Reach>> reaches_;         // by road and panel; of roads with slopes
   std::vector<std::vector<Heights>> edge_heights_;  // by junction and free edge
+  std::vector<Heights> junction_heights_;           // of all of its edges
   double reach_m_ = 0.0;
   Squares squares_;  // that slopes may reach
 };

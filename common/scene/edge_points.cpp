@@ -5,13 +5,14 @@
 #include <functional>
 #include <set>
 
+#include "common/scene/bend.hpp"
+
 namespace rodeira::scene {
 namespace {
 
 using partition::GridPoint;
 
-constexpr double kOff_m = 0.02;
-constexpr auto kShortest = static_cast<std::int32_t>(0.5 / kStep_m);
+constexpr BendRange kEdge = {0.003, 0.02};
 
 }  // namespace
 
@@ -25,19 +26,13 @@ void RefineEdges(const road::World& world, const TileKey& tile, std::vector<Grid
       return world.At(p_W.x(), p_W.y()).z_m;
     };
     const std::function<void(std::int32_t, std::int32_t, double, double)> divide = [&](std::int32_t a, std::int32_t b, double at_a, double at_b) {
-      if (b - a < 2 * kShortest) return;
-      const std::int32_t middle = a + (b - a) / 2;
-      const double at_middle = height(middle);
-      bool off = false;
-      for (const int quarter : {2, 1, 3}) {
-        const std::int32_t k = quarter == 2 ? middle : a + (b - a) / 4 * quarter;
-        const double part = static_cast<double>(k - a) / (b - a);
-        off = off || std::fabs((quarter == 2 ? at_middle : height(k)) - (at_a + part * (at_b - at_a))) > kOff_m;
-      }
-      if (!off) return;
-      points.insert(point_at(middle));
-      divide(a, middle, at_a, at_middle);
-      divide(middle, b, at_middle, at_b);
+      const auto part = BendBetween(world, ToWorld(tile, point_at(a)), at_a, ToWorld(tile, point_at(b)), at_b, kEdge);
+      if (!part) return;
+      const auto bend = static_cast<std::int32_t>(a + std::lround(*part * (b - a)));
+      const double at_bend = height(bend);
+      points.insert(point_at(bend));
+      divide(a, bend, at_a, at_bend);
+      divide(bend, b, at_bend, at_b);
     };
     std::vector<std::int32_t> places;
     for (const GridPoint& p : edge) {

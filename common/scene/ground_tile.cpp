@@ -37,6 +37,11 @@ void AddRectangle(const road::Extents& extents, std::set<TileKey>& tiles) {
   }
 }
 
+// Here SUELO ends: what is drawn beyond is a face of its own.
+Line3 BorderOf(const road::Extents& e) {
+  return {{e.west_m, e.south_m, 0.0}, {e.east_m, e.south_m, 0.0}, {e.east_m, e.north_m, 0.0}, {e.west_m, e.north_m, 0.0}, {e.west_m, e.south_m, 0.0}};
+}
+
 }  // namespace
 
 void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work) {
@@ -76,7 +81,11 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(worl
     }
   }
   for (const auto& [key, things] : things_.tiles()) tiles.insert(key);
-  if (world.grid() != nullptr) AddRectangle(world.extents(), tiles);
+  if (world.grid() != nullptr) {
+    AddRectangle(world.extents(), tiles);
+    const Line3 border = BorderOf(world.extents());
+    AddToTiles({&border, 1}, pieces);
+  }
   for (std::size_t i = 0; i < roads.size(); ++i) {
     RoadTrace trace;
     trace.low_W = trace.high_W = lines[i].empty() ? Eigen::Vector2d(1e9, 1e9) : Eigen::Vector2d(lines[i].front().front().head<2>());

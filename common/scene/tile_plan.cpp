@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/scene/bend.hpp"
 #include "common/scene/levels_at.hpp"
 
 namespace rodeira::scene {
@@ -15,6 +16,9 @@ using partition::Triangulation;
 constexpr double kLongSide = 8.0;  // times as long as the thinnest triangle is thick: such a side of a thin one is looked at
 constexpr std::uint32_t kNone = Triangulation::kNone;
 constexpr int kRounds = 5;  // of points put in where the ground is not met
+constexpr int kSlopeRounds = 12;  // where cuts and fills are followed
+constexpr BendRange kSlope = {0.0025, 0.01};
+constexpr double kWithin_m = 1e-3;
 // In the middle of thinner triangles nothing is put: on roads, and on land.
 constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.15, 0.5, 1.5, 4.0}, kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
 
@@ -22,6 +26,9 @@ double Squared(const GridPoint& a, const GridPoint& b) {
   const double dx = a.x - b.x, dy = a.y - b.y;
   return dx * dx + dy * dy;
 }
+
+// Points on a tile's edge are its neighbour's too, and settled before.
+bool OnEdge(const GridPoint& p) { return p.x == 0 || p.y == 0 || p.x == kTileSteps || p.y == kTileSteps; }
 
 class Planner {
  public:
@@ -42,6 +49,9 @@ class Planner {
     SpreadOverLand();
     for (int round = 0; round < kRounds; ++round) {
       if (!MeetGround()) break;
+    }
+    for (int round = 0; FollowsSlopes() && round < kSlopeRounds; ++round) {
+      if (!MeetSlopes()) break;
     }
     return std::move(plan_);
   }
@@ -186,6 +196,48 @@ class Planner {
     if (std::fabs(Height(c.middle_W) - (c.z[0] + c.z[1] + c.z[2]) / 3.0) > tolerance) fresh.push_back(Middle(t));
   }
 
+  // At the finest level of a world with a terrain land is followed as roads are, along every side between two of its triangles: toes of
+  // slopes and the terrain's own edges run anywhere. False where nothing was put in.
+  bool FollowsSlopes() const { return level_ == 0 && world_.grid() != nullptr; }
+  bool MeetSlopes() {
+    std::vector<GridPoint> fresh;
+    const auto triangles = plan_.triangles.triangles();
+    followed_.resize(triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+      if (followed_[i] == triangles[i].corner) continue;
+      followed_[i] = triangles[i].corner;
+      if (!plan_.faces[plan_.face_of[i]].land) continue;
+      const std::size_t before = fresh.size();
+      const Corners corners = CornersOf(triangles[i], plan_.face_of[i], false);
+      FollowSides(triangles[i], corners, fresh);
+      // What bends within a triangle and crosses none of its sides.
+      if (fresh.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < kSlope.margin_m) continue;
+      if (world_.At(corners.middle_W.x(), corners.middle_W.y()).inside) CheckMiddle(triangles[i], kSlope.tolerance_m, corners, fresh);
+    }
+    for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
+    if (!fresh.empty()) CarryFaces();
+    return !fresh.empty();
+  }
+
+  void FollowSides(const Triangulation::Triangle& t, const Corners& c, std::vector<GridPoint>& fresh) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t n = (k + 1) % 3;
+      if (t.across[k] == kNone || (!t.fixed[k] && t.corner[k] > t.corner[n])) continue;
+      Eigen::Vector2d p_W = c.at[k], q_W = c.at[n];
+      if (t.fixed[k]) {  // the terrain's end, seen from within; roads' edges have their points
+        if (!plan_.faces[plan_.face_of[t.across[k]]].land) continue;
+        const Eigen::Vector2d within = kWithin_m * (c.middle_W - 0.5 * (p_W + q_W)).normalized();
+        p_W += within, q_W += within;
+      }
+      const auto part = BendBetween(world_, p_W, c.z[k], q_W, c.z[n], kSlope);
+      const GridPoint p = plan_.triangles.points()[t.corner[k]], q = plan_.triangles.points()[t.corner[n]];
+      if (!part) continue;
+      const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + *part * (to - from))); };
+      const GridPoint bend{between(p.x, q.x), between(p.y, q.y)};
+      if (!OnEdge(bend)) fresh.push_back(bend);
+    }
+  }
+
   // An S, as two vertical curves make it, is met in its middle: its quarters are looked at too.
   template <class Know>
   void CheckSides(const Triangulation::Triangle& t, double longer_m, const Know& know, std::vector<GridPoint>& fresh) {
@@ -211,7 +263,7 @@ class Planner {
   std::size_t level_;
   TilePlan plan_;
   std::vector<std::array<std::uint32_t, 2>> fixed_;
-  std::vector<std::array<std::uint32_t, 3>> tried_;
+  std::vector<std::array<std::uint32_t, 3>> tried_, followed_;
   struct Known {
     std::uint32_t face;
     std::uint32_t next;  // of the same point

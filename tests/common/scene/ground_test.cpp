@@ -111,8 +111,8 @@ TEST(Ground, IsWhereTheTyresAre) {
   std::printf("%d points, %d at steps, worst %.4f m from SUELO\n", found.asked, found.stepped, found.worst_m);
 }
 
-// A road of 12 and 15 m radius through a hill and over a hollow: its verges.
-TEST(Ground, VergesOfSmallRadiiAreWhereTheTyresAre) {
+// A road of 12 and 15 m radius through a hill and over a hollow: its verges, and its cuts and fills with the land around them.
+TEST(Ground, VergesAndSlopesOfSmallRadiiAreWhereTheTyresAre) {
   const auto parsed = road::World::Parse(
       "rodeira: world/2\nname: hairpin\nterrain:\n  generate: {seed: 5, columns: 41, rows: 41, spacing_m: 8, west_m: -100, south_m: -130, full_m: 30, flat_m: 5, relief: [{wavelength_m: 90, amplitude_m: 6}]}\n"
       "roads:\n  - id: a\n    start: {x_m: -60, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 60}, arc: {turn_deg: 150, radius_m: 12}, line: {length_m: 20}, arc: {turn_deg: 120, radius_m: -15}, line: {length_m: 30}]\n"
@@ -120,15 +120,19 @@ TEST(Ground, VergesOfSmallRadiiAreWhereTheTyresAre) {
   ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
   const road::World& world = *parsed.value();
   const std::vector<GroundTile> tiles = BuildAll(world);
-  const auto from_road = [&](const Mesh& mesh, std::size_t triangle) {
+  const auto beside = [&](const Mesh& mesh, std::size_t triangle, bool verge) {
     const auto corners = CornersOf(mesh, triangle);
     const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     const auto place = world.network()->Locate(middle.x(), middle.y());
-    return place ? place->distance_m : 1e9;
+    return !IsRoad(mesh) && world.At(middle.x(), middle.y()).inside && (place && place->distance_m == 0.0) == verge;
   };
-  const Correlation verges = Correlate(world, tiles, Points(), 3, [&](const Mesh& mesh, std::size_t i) { return !IsRoad(mesh) && from_road(mesh, i) == 0.0; });
-  EXPECT_EQ(verges.asked, Points());
-  EXPECT_LT(verges.worst_m, 0.005) << "at " << verges.where.transpose();
+  for (const bool verge : {true, false}) {
+    const Correlation found = Correlate(world, tiles, Points(), 3, [&](const Mesh& mesh, std::size_t i) { return beside(mesh, i, verge); });
+    EXPECT_EQ(found.asked, Points());
+    EXPECT_LT(found.stepped, 0.001 * found.asked);
+    EXPECT_LT(found.worst_m, 0.005) << "at " << found.where.transpose();
+    std::printf("%s: %d points, worst %.4f m from SUELO\n", verge ? "verges" : "slopes and land", found.asked, found.worst_m);
+  }
 }
 
 // Beyond the slopes land is made of the terrain's own triangles: where a tile and those around it are whole within the terrain.
