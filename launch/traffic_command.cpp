@@ -49,6 +49,7 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
     settings = std::move(loaded).value();
   }
   settings.seed = options.seed;
+  if (!options.physics.empty()) settings.physics = options.physics == "full" ? traffic::Physics::kFull : traffic::Physics::kPlanar;
   if (settings.demand.flows.empty() && IsTrafficMap(options.map)) {
     const auto companion = map::LoadHeightsOf(options.map);
     if (!companion) return companion.error();

@@ -48,10 +48,12 @@ void Pedals::Step(const PedalSettings& settings, double wanted_mps2, double spee
   if (brake_ > 0.0 && throttle == 0.0) throttle_ = 0.0;
 }
 
-void Pedals::TakeOver(double throttle, double brake) {
+void Pedals::TakeOver(double throttle, double brake) { TakeOver(throttle, brake, 0.0); }  // Step holds the reference near the speed
+
+void Pedals::TakeOver(double throttle, double brake, double speed_mps) {
   throttle_ = throttle;
   brake_ = brake;
-  reference_mps_ = 0.0;  // Step holds it near the speed
+  reference_mps_ = speed_mps;
   trim_mps2_ = 0.0;
   standing_ = false;
 }

@@ -26,6 +26,8 @@ class Pedals {
   void Step(const PedalSettings& settings, double wanted_mps2, double speed_mps, double grade, double dt_s);
   // Goes on with the pedals as they are, of a car that may be moving.
   void TakeOver(double throttle, double brake);
+  // The same at a speed that is as it was wanted.
+  void TakeOver(double throttle, double brake, double speed_mps);
   double throttle() const { return throttle_; }
   double brake() const { return brake_; }
 

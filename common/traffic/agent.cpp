@@ -32,6 +32,12 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("acceleration_mps2", acceleration_mps2);
   writer.Put("driven_m", driven_m);
   writer.Put("fuel_mg", fuel_mg);
+  writer.Put("fuel_mgps", fuel_mgps);
+  writer.Put("throttle", driving.throttle);
+  writer.Put("brake", driving.brake);
+  writer.Put("clutch", driving.clutch);
+  writer.Put("engine_radps", driving.engine_radps);
+  writer.Put("gear", driving.gear);
   writer.Put("brake_mps2", brake_mps2);
   writer.Put("cap_mps", cap_mps);
   writer.Put("granted_m", granted_m);
@@ -78,6 +84,12 @@ void Agent::Restore(base::StateReader& reader) {
   reader.Get("acceleration_mps2", acceleration_mps2);
   reader.Get("driven_m", driven_m);
   reader.Get("fuel_mg", fuel_mg);
+  reader.Get("fuel_mgps", fuel_mgps);
+  reader.Get("throttle", driving.throttle);
+  reader.Get("brake", driving.brake);
+  reader.Get("clutch", driving.clutch);
+  reader.Get("engine_radps", driving.engine_radps);
+  reader.Get("gear", driving.gear);
   reader.Get("brake_mps2", brake_mps2);
   reader.Get("cap_mps", cap_mps);
   reader.Get("granted_m", granted_m);

@@ -8,6 +8,7 @@
 #include "common/base/state.hpp"
 #include "common/driver/footprint.hpp"
 #include "common/lanes/graph.hpp"
+#include "common/traffic/drivetrain.hpp"
 #include "common/traffic/struck.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
@@ -77,6 +78,9 @@ struct Agent {
   double acceleration_mps2 = 0.0;
   double driven_m = 0.0;
   double fuel_mg = 0.0;     // burnt on this trip
+  double fuel_mgps = 0.0;   // in the last step
+  double grade = 0.0;       // that it stands on, rise over plan distance; found with its pose
+  Driving driving;          // what its driver and its engine did in the last step
   double brake_mps2 = 0.0;  // commanded; 0: not
   double cap_mps = kNoCap_mps;
   double granted_m = 0.0;   // odometer to which the conflict zones on its way are its own

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "common/driver/steering.hpp"
-#include "common/traffic/fuel.hpp"
+#include "common/traffic/car_of.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
@@ -62,9 +62,10 @@ std::vector<AgentDetail> TrafficModel::Details() {
       }
       detail.look_ahead_W = FrameAt(graph(), path, at).p_W.head<2>();
       detail.target_mps = std::min(Allowed(id).speed_mps * traits_[id].speed_factor, Cap_mps(id));
-      const Eigen::Vector3d ahead = pose.q_WB * Eigen::Vector3d::UnitX();
-      detail.driving = DrivingFor(traits_[id], agent.speed_mps, agent.acceleration_mps2, ahead.z() / std::max(1e-3, std::hypot(ahead.x(), ahead.y())));
-      detail.fuel_mgps = FuelFlow_mgps(traits_[id], agent.speed_mps, agent.acceleration_mps2);
+      const vehicle::BicycleSettings& car = CarOfBody(traits_[id].body);
+      // In the plane what goes with the motion as it is now, which the next step goes on from.
+      detail.driving = full_ ? full_->DrivingOf(id) : DrivingFor(car, agent.speed_mps, agent.acceleration_mps2, agent.grade);
+      detail.fuel_mgps = full_ ? agent.fuel_mgps : FuelFlow_mgps(car, detail.driving);
       detail.fuel_used_mg = agent.fuel_mg;
     } else {  // struck: its engine stands, its wheels are locked
       detail.look_ahead_W = pose.p_WB_W.head<2>();

@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "common/base/assert.hpp"
 #include "common/base/random.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
@@ -33,12 +34,37 @@ struct Kind {
   std::span<const Body> bodies;
   double liveliness, top_mps;
 };
+constexpr double kBeside_m = 0.4;  // what a car with full physics runs beside its line, both ways together
 constexpr double kNoTop_mps = 1e3;
 constexpr std::array<Kind, 4> kKinds{{{kCars, 1.0, kNoTop_mps}, {kVans, 1.0, kNoTop_mps}, {kLorries, 0.6, 80.0 / 3.6}, {kBuses, 0.7, 100.0 / 3.6}}};
 
 constexpr std::array<std::uint32_t, 8> kPaints{0xE8E8E6, 0x1B1C1E, 0x8A8D8F, 0x3A4A63, 0x9C2A2A, 0xC9CBCD, 0x4B5A45, 0xB59A5A};
 
+void SetMeasures(const Body& body, AgentTraits& traits) {
+  traits.length_m = body.length_m;
+  traits.width_m = body.width_m;
+  traits.height_m = body.height_m;
+  traits.wheelbase_m = body.wheelbase_m;
+  traits.wheel_radius_m = body.wheel_radius_m;
+  traits.mass_kg = body.mass_kg;
+}
+
 }  // namespace
+
+AgentTraits TraitsOfBody(std::uint32_t body) {
+  AgentTraits traits;
+  traits.body = body;
+  for (std::size_t k = 0; k < kKinds.size(); ++k) {
+    if (body < kKinds[k].bodies.size()) {
+      traits.kind = static_cast<VehicleKind>(k);
+      SetMeasures(kKinds[k].bodies[body], traits);
+      return traits;
+    }
+    body -= static_cast<std::uint32_t>(kKinds[k].bodies.size());
+  }
+  RODEIRA_ASSERT(false);
+  return traits;
+}
 
 AgentTraits TraitsOf(const TrafficSettings& settings, const VehicleMix& mix, std::uint64_t key) {
   const auto uniform = [&](Draw what, double low, double high) { return base::RandomUniform({settings.seed, key, what}, low, high); };
@@ -54,15 +80,12 @@ AgentTraits TraitsOf(const TrafficSettings& settings, const VehicleMix& mix, std
   const Kind& kind = kKinds[k];
   const auto among = static_cast<std::size_t>(draw / mix.shares[k] * static_cast<double>(kind.bodies.size()));
   const Body& body = kind.bodies[std::min(among, kind.bodies.size() - 1)];
+  traits.body = static_cast<std::uint32_t>(&body - kKinds[k].bodies.data());
+  for (std::size_t i = 0; i < k; ++i) traits.body += static_cast<std::uint32_t>(kKinds[i].bodies.size());
   traits.kind = static_cast<VehicleKind>(k);
+  SetMeasures(body, traits);
   traits.top_mps = kind.top_mps;
   if (kind.liveliness < 1.0) traits.start_mps2 *= (1.0 - settings.variety) * kind.liveliness;
-  traits.length_m = body.length_m;
-  traits.width_m = body.width_m;
-  traits.height_m = body.height_m;
-  traits.wheelbase_m = body.wheelbase_m;
-  traits.wheel_radius_m = body.wheel_radius_m;
-  traits.mass_kg = body.mass_kg;
   traits.colour_rgb = kPaints[static_cast<std::size_t>(uniform(kColour, 0.0, static_cast<double>(kPaints.size())))];
   traits.speed_factor = uniform(kSpeed, settings.speed_factor_low, settings.speed_factor_high);
   const auto varied = [&](Draw what, double middle) { return middle * uniform(what, 1.0 - settings.variety, 1.0 + settings.variety); };
@@ -87,6 +110,7 @@ lanes::LargestCar LargestOf(const TrafficSettings& settings) {
       largest.wheelbase_m = std::max(largest.wheelbase_m, body.wheelbase_m);
     }
   }
+  if (settings.physics == Physics::kFull) largest.width_m += kBeside_m;
   return largest;
 }
 

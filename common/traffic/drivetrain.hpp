@@ -1,22 +1,30 @@
 #pragma once
 
-#include "common/traffic/traffic_settings.hpp"
+#include "common/vehicle/bicycle_settings.hpp"
 
 namespace rodeira::traffic {
 
-// What pedals, gear and engine do while a car moves as the planar model says.
+// What pedals, gear and engine do while a car moves.
 struct Driving {
   double throttle = 0.0;  // 0 … 1
-  double brake = 0.0;     // 0 … 1; 1 brakes at 8 m/s²
+  double brake = 0.0;     // 0 … 1
   double clutch = 0.0;    // 0 engaged … 1 disengaged
   double engine_radps = 0.0;
   int gear = 1;           // 1 … n
 };
 
-// The engine's torque that moves mass_kg with this speed and acceleration on this grade (rise over plan distance), against rolling
-// resistance and ½ ρ c_d A v², through the highest gear in which the engine neither labours nor is too weak; below idle speed the
-// clutch slips in the first gear. What the closed throttle does not slow down by, the brake does; who stands has his foot on it.
-// Cars and vans have the engine and the gears of MOTORS, its torque in proportion to the mass; lorries and buses a diesel of 17.5 kW a tonne.
-Driving DrivingFor(const AgentTraits& traits, double speed_mps, double acceleration_mps2, double grade);
+// The planar car: the powertrain of common/vehicle in its steady state, through which pedals move a body along its path.
+
+// The pedals and the gear for an acceleration at this speed on this grade (rise over plan distance), against rolling resistance and air: the highest gear
+// in which the engine neither labours nor is too weak; below idle speed the clutch slips in the first gear. What the closed throttle does not slow down
+// by, the brake does; who stands has his foot on it.
+Driving DrivingFor(const vehicle::BicycleSettings& car, double speed_mps, double acceleration_mps2, double grade);
+// What these pedals give, by the torque curve and the drag of the engine, the gears and their losses, the brakes of four wheels, the drag of the air.
+// A car at rest is held by its brake.
+double AccelerationOf(const vehicle::BicycleSettings& car, const Driving& driving, double speed_mps, double grade);
+// What its engine burns then, mg/s: Willans' line as vehicle::Engine counts it; 0 in overrun, and what idling takes while the clutch slips.
+double FuelFlow_mgps(const vehicle::BicycleSettings& car, const Driving& driving);
+
+inline constexpr double kFuelDensity_mgpl = 1e6 * vehicle::kPetrol_kgpl;
 
 }  // namespace rodeira::traffic

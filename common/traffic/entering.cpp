@@ -35,6 +35,7 @@ void TrafficModel::Leave(std::uint32_t id) {
   const std::uint32_t trip = agent.trip + 1;
   const double driven = agent.driven_m;
   agent = Agent();
+  if (full_) full_->Clear(id);
   agent.trip = trip;
   agent.driven_m = driven;
   ++ended_;
@@ -122,6 +123,7 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
     if (!safe(speed)) return wait();
   }
   agent.speed_mps = speed;
+  if (full_ && !PlaceFull(id)) return wait();
   if (agent.granted_m > 0.0) {
     agent.grants = {{agent.granted_m, next_grant_++, false}};
     HoldZones(id);

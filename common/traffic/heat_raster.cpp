@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/traffic/fuel.hpp"
+#include "common/traffic/drivetrain.hpp"
 #include "common/traffic/lane_tables.hpp"
 
 namespace rodeira::traffic {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/base/assert.hpp"
-#include "common/traffic/fuel.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -87,10 +86,9 @@ void LaneStatistics::Add(const TrafficModel& model, double dt_s) {
     }
     if (agent.on_road && !same) ++entered_, ++there_, seen.entered_s = watched_s_;
     if (same) {
-      const double flow = FuelFlow_mgps(model.traits(id), agent.speed_mps - 0.5 * agent.acceleration_mps2 * dt_s, agent.acceleration_mps2);
       const double way = agent.o_m - seen.o_m;
-      fuel_mg_[id] += flow * dt_s;
-      Share(model, id, seen.o_m, agent.o_m, {way, dt_s, flow * dt_s});
+      fuel_mg_[id] += agent.fuel_mgps * dt_s;
+      Share(model, id, seen.o_m, agent.o_m, {way, dt_s, agent.fuel_mgps * dt_s});
     }
     seen.on_road = agent.on_road;
     seen.trip = agent.trip;

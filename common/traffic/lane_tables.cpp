@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "common/traffic/fuel.hpp"
+#include "common/traffic/drivetrain.hpp"
 
 namespace rodeira::traffic {
 namespace {

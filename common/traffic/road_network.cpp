@@ -7,4 +7,11 @@ std::shared_ptr<const network::Network> NetworkOf(const std::shared_ptr<const ro
   return {world, world->network()};
 }
 
+std::shared_ptr<const road::World> WorldOf(std::shared_ptr<const network::Network> network) {
+  road::WorldSpec spec;
+  spec.name = network->name();
+  spec.network = std::move(network);
+  return road::World::Make(std::move(spec));
+}
+
 }  // namespace rodeira::traffic

@@ -34,6 +34,7 @@ void TrafficModel::Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, c
     const std::int32_t flow = agent.flow;
     const std::uint32_t arrival = agent.arrival;
     agent = Agent();
+    if (full_) full_->Clear(id);
     agent.trip = trip;
     agent.flow = flow, agent.arrival = arrival;
     agent.driven_m = driven;

@@ -31,7 +31,7 @@ struct StudyResult {
   std::int64_t collisions = 0;       // times that two rectangles on one level came to overlap
   std::int64_t off_lane = 0;         // times that a middle was looked at beside every drivable lane
   double worst_step_m = 0.0;         // |distance between two poses - mean speed · step|, in plan
-  double hardest_mps2 = 0.0;
+  double hardest_mps2 = 0.0;         // deceleration with a foot on the brake
   std::int64_t arrivals = 0;         // trips that ended
   std::size_t on_road = 0, waiting = 0;
   std::vector<std::string> incidents;  // the first ones, as sentences

@@ -5,7 +5,6 @@
 
 #include "common/base/assert.hpp"
 #include "common/base/random.hpp"
-#include "common/traffic/fuel.hpp"
 #include "common/traffic/road_network.hpp"
 
 namespace rodeira::traffic {
@@ -60,7 +59,7 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
                                               std::span<const driver::Footprint> others) {
   RODEIRA_ASSERT(world != nullptr);
   const auto network = NetworkOf(world);
-  auto model = Make(settings, network, others);
+  auto model = Make(settings, network, others, world);
   if (!model && network->roads().empty()) {
     return base::WrongInput("the world '" + world->name() + "' has no lane to put traffic on; a world with a road, or 0 vehicles, was expected");
   }
@@ -70,6 +69,11 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
 base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
                                               std::span<const driver::Footprint> others) {
   RODEIRA_ASSERT(network != nullptr);
+  return Make(settings, network, others, nullptr);
+}
+
+base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
+                                              std::span<const driver::Footprint> others, std::shared_ptr<const road::World> world) {
   const auto map = std::make_shared<Map>(std::move(network), settings);
   auto demand = Demand::Make(map->graph, map->marks, settings.demand);
   if (!demand) return demand.error();
@@ -85,6 +89,10 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
   model.FindColours();
   if (!settings.demand.flows.empty()) model.BeginFlows();
   else if (settings.vehicles > 0) model.PlaceAll(others);
+  if (settings.physics == Physics::kFull) {
+    if (world == nullptr) world = WorldOf(model.map_->network);
+    model.StartFull(world->MakeGround());
+  }
   model.FindPoses();
   return model;
 }
@@ -124,8 +132,13 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
   const std::int64_t step_ns = std::llround(dt_s * 1e9);
   ChangeLanes(step_ns);
   EachDriving([&](std::uint32_t id) { wanted_[id] = Wanted(id); });  // reads the old state …
-  EachDriving([&](std::uint32_t id) {                                 // … writes the new one
-    Move(id, wanted_[id], dt_s);
+  if (full_) {
+    EachDriving([&](std::uint32_t id) { DriveFull(id, wanted_[id], dt_s); });
+    full_->Step(dt_s, settings_.threads);
+  }
+  EachDriving([&](std::uint32_t id) {  // … writes the new one
+    if (full_) FollowFull(id, dt_s);
+    else MovePlanar(id, wanted_[id], dt_s);
     missed_now_[id] = Follow(id);
   });
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
@@ -167,23 +180,6 @@ double TrafficModel::Moved(std::uint32_t id, double travel_m) const {
   return odometer;
 }
 
-// Constant acceleration over the step; a car that comes to rest stays at rest.
-void TrafficModel::Move(std::uint32_t id, double acceleration_mps2, double dt_s) {
-  Agent& agent = agents_[id];
-  const double before = agent.speed_mps;
-  double travel = (before + 0.5 * acceleration_mps2 * dt_s) * dt_s;
-  double after = before + acceleration_mps2 * dt_s;
-  if (after < 0.0) {
-    after = 0.0;
-    travel = acceleration_mps2 < 0.0 ? -0.5 * before * before / acceleration_mps2 : 0.0;
-  }
-  agent.acceleration_mps2 = (after - before) / dt_s;
-  agent.speed_mps = after;
-  agent.driven_m += travel;
-  agent.fuel_mg += FuelFlow_mgps(traits_[id], 0.5 * (before + after), agent.acceleration_mps2) * dt_s;
-  if (travel > 0.0) agent.o_m = Moved(id, travel);
-}
-
 // The path grows under the front bumper and is forgotten behind the rear one. How many lanes for its route it has missed.
 std::uint32_t TrafficModel::Follow(std::uint32_t id) {
   std::uint32_t missed = 0;
@@ -214,6 +210,7 @@ bool TrafficModel::AtTheEnd(std::uint32_t id) const {
 
 void TrafficModel::Save(base::StateWriter& writer) const {
   for (const Agent& agent : agents_) writer.Put("agent", agent);
+  if (full_) writer.Put("full", *full_);
   writer.Put("waiting", waiting_);
   writer.Put("next_grant", next_grant_);
   writer.Put("time_ns", time_ns_);
@@ -229,6 +226,7 @@ void TrafficModel::Save(base::StateWriter& writer) const {
 // A snapshot comes from outside: whatever it says, nothing is read beside the arrays.
 void TrafficModel::Restore(base::StateReader& reader) {
   for (Agent& agent : agents_) reader.Get("agent", agent);
+  if (full_) reader.Get("full", *full_);
   way_keys_.assign(agents_.size(), {});
   reader.Get("waiting", waiting_);
   reader.Get("next_grant", next_grant_);
@@ -246,6 +244,10 @@ void TrafficModel::Restore(base::StateReader& reader) {
     if (agent.flow >= static_cast<std::int32_t>(flows_.size())) agent.flow = -1;
     const Route* route = RouteOf(agent);
     if (route != nullptr) agent.leg = std::min(agent.leg, route->legs());
+  }
+  for (std::uint32_t id = 0; full_ && id < agents_.size(); ++id) {
+    if (!agents_[id].on_road) full_->Clear(id);
+    else if (!full_->cars().present(id)) agents_[id] = Agent();
   }
   for (std::uint32_t id = 0; has_flows() && id < agents_.size(); ++id) traits_[id] = TraitsFor(id);
   std::erase_if(waiting_, [&](std::uint32_t id) { return id >= agents_.size(); });

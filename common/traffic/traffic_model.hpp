@@ -18,6 +18,7 @@
 #include "common/traffic/agent.hpp"
 #include "common/traffic/agent_detail.hpp"
 #include "common/traffic/demand.hpp"
+#include "common/traffic/full_cars.hpp"
 #include "common/traffic/track_plan.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
@@ -58,6 +59,8 @@ class TrafficModel {
   const std::vector<AgentPose>& poses() const { return poses_; }
   const AgentTraits& traits(std::uint32_t id) const { return traits_[id]; }
   const Agent& agent(std::uint32_t id) const { return agents_[id]; }
+  // The cars with full physics, one a place by id; null in planar mode.
+  const FullCars* full() const { return full_ ? &*full_ : nullptr; }
   std::size_t on_road() const { return poses_.size(); }
   std::size_t vehicles() const { return agents_.size(); }
   std::size_t waiting() const { return waiting_.size(); }
@@ -189,6 +192,9 @@ class TrafficModel {
 
   static constexpr double kNoBarrier_m = 1e18;
 
+  static base::Result<TrafficModel> Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
+                                         std::span<const driver::Footprint> others, std::shared_ptr<const road::World> world);
+
   TrafficModel(const TrafficSettings& settings, std::shared_ptr<const Map> map);
 
   // tell(id) for all that drive, by several threads: it may write what is that agent's alone, and read what nobody writes meanwhile.
@@ -256,7 +262,11 @@ class TrafficModel {
   driver::SpeedPlan::Allowed Allowed(std::uint32_t id) const;
   double Cap_mps(std::uint32_t id) const { return std::min(agents_[id].cap_mps, traits_[id].top_mps); }
   double StopAt(std::uint32_t id, double odometer_m) const;
-  void Move(std::uint32_t id, double acceleration_mps2, double dt_s);
+  void StartFull(std::shared_ptr<terrain::Ground> ground);
+  base::Status PlaceFull(std::uint32_t id);
+  void MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s);
+  void DriveFull(std::uint32_t id, double wanted_mps2, double dt_s);
+  void FollowFull(std::uint32_t id, double dt_s);
   double Advance(std::uint32_t id, double odometer_m) const;
   double Moved(std::uint32_t id, double travel_m) const;
   double HalfBase(std::uint32_t id) const { return 0.5 * traits_[id].wheelbase_m; }  // of the odometer
@@ -287,6 +297,7 @@ class TrafficModel {
   std::shared_ptr<base::Crew> crew_;  // null: one thread
   std::vector<AgentTraits> traits_;
   std::vector<Agent> agents_;
+  std::optional<FullCars> full_;  // none: planar
   double longest_half_m_ = 0.0;  // of all agents
   std::vector<std::uint32_t> waiting_;  // to enter, first come first
   std::uint64_t next_grant_ = 1;

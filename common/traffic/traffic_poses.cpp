@@ -1,4 +1,5 @@
 // Where agents are in the world.
+#include <algorithm>
 #include <cmath>
 
 #include "common/geometry/angle.hpp"
@@ -39,6 +40,7 @@ AgentPose TrafficModel::PoseOf(std::uint32_t id) const {
   pose.steer_rad = std::atan(traits.wheelbase_m * at.curvature_1pm);
   pose.wheel_spin_rad = geometry::WrapAngle(agent.driven_m / traits.wheel_radius_m);
   pose.braking = agent.acceleration_mps2 < kBrakeLights_mps2;
+  if (full_) full_->Tell(id, pose);
   std::size_t i = agent.path.size() - 1;
   while (i > 0 && agent.path[i].begin_m > agent.o_m) --i;
   const lanes::Track& track = graph()[agent.path[i].track];
@@ -58,6 +60,10 @@ void TrafficModel::FindPoses() {
   };
   if (crew_ == nullptr) some(0, ids.size());
   else crew_->Share(ids.size(), some);
+  for (const AgentPose& pose : poses_) {
+    const Eigen::Vector3d ahead = pose.q_WB * Eigen::Vector3d::UnitX();
+    agents_[pose.id].grade = ahead.z() / std::max(1e-3, std::hypot(ahead.x(), ahead.y()));
+  }
 }
 
 }  // namespace rodeira::traffic

@@ -13,11 +13,18 @@
 
 namespace rodeira::traffic {
 
+// How agents' cars move.
+enum class Physics {
+  kPlanar,  // along their paths exactly, by the powertrain's steady state
+  kFull,    // as the driver's car: four wheels with suspension and slipping tyres on the ground, the whole powertrain
+};
+
 // What a traffic source is told. Each agent draws its own values from the ranges, by seed and number.
 struct TrafficSettings {
   static constexpr std::uint32_t kMostOfFlows = 1000;  // vehicles at a time where there are flows and nothing says how many
 
   std::uint64_t seed = 1;
+  Physics physics = Physics::kPlanar;
   std::uint32_t vehicles = 20;  // on the road and waiting to enter, together; never more, never fewer
   std::uint32_t threads = 1;    // that work on a step; changes no result
   driver::IdmSettings idm;      // the middle of what agents draw: time gap and accelerations vary by `variety`
@@ -42,6 +49,7 @@ base::Result<TrafficSettings> LoadTraffic(const std::filesystem::path& path, std
 
 // What does not change about one agent: a pure function of settings and its number, or of a flow's number in it.
 struct AgentTraits {
+  std::uint32_t body = 1;  // below kBodies
   VehicleKind kind = VehicleKind::kCar;
   double length_m = 4.0;
   double width_m = 1.7;
@@ -55,6 +63,9 @@ struct AgentTraits {
   double start_mps2 = 1.3;  // acceleration by which others, and itself, tell when it comes
   driver::IdmSettings idm;
 };
+inline constexpr std::uint32_t kBodies = 8;
+// Kind and measures of a body, all else as it is without draws.
+AgentTraits TraitsOfBody(std::uint32_t body);
 AgentTraits TraitsOf(const TrafficSettings& settings, const VehicleMix& mix, std::uint64_t key);
 inline AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id) { return TraitsOf(settings, settings.mix, id); }
 

@@ -3,11 +3,13 @@
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <string>
 
 #include "common/base/state.hpp"
 #include "common/map/map_network.hpp"
+#include "common/traffic/lane_statistics.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
@@ -42,6 +44,29 @@ void BM_PlanarStep(benchmark::State& state) {
   state.counters["on_road"] = on_road / steps;
 }
 BENCHMARK(BM_PlanarStep)->Args({4, 100})->Args({10, 1000})->Args({32, 10000})->Unit(benchmark::kMillisecond)->MinTime(4.0);
+
+// What the sums of every metre of lane add to a step: both are timed in the same run, one after the other.
+void BM_HeatMapOfAMetre(benchmark::State& state) {
+  const auto network = map::LoadNetwork(Grid(state.range(0)));
+  if (!network) return state.SkipWithError("RODEIRA_GRIDS names no folder with the grids of tools/make_grid.py");
+  TrafficSettings settings;
+  settings.vehicles = static_cast<std::uint32_t>(state.range(1));
+  TrafficModel model = TrafficModel::Make(settings, network.value(), {}).value();
+  for (int i = 0; i < 200; ++i) model.Step(0.1, {});
+  LaneStatistics statistics(model);
+  using Clock = std::chrono::steady_clock;
+  Clock::duration stepping{}, summing{};
+  for (auto _ : state) {
+    const auto begin = Clock::now();
+    model.Step(0.01, {});
+    const auto stepped = Clock::now();
+    statistics.Add(model, 0.01);
+    stepping += stepped - begin;
+    summing += Clock::now() - stepped;
+  }
+  state.counters["added_share"] = static_cast<double>(summing.count()) / static_cast<double>(stepping.count());
+}
+BENCHMARK(BM_HeatMapOfAMetre)->Args({4, 100})->Args({10, 1000})->Args({32, 10000})->Unit(benchmark::kMillisecond)->MinTime(2.0);
 
 // The heap that vehicles take beyond the map, a vehicle.
 void BM_Memory(benchmark::State& state) {

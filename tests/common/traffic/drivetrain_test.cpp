@@ -5,20 +5,21 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/traffic/car_of.hpp"
 #include "common/traffic/drivetrain.hpp"
-#include "common/traffic/fuel.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;
 
-AgentTraits Car() {
+vehicle::BicycleSettings Car() {
   AgentTraits car;
   car.mass_kg = 1050.0;
   car.wheel_radius_m = 0.29;
-  return car;
+  return CarOf(car);
 }
+constexpr double kRadius_m = 0.97 * 0.29;  // on which it rolls
 
 // MOTORS, A.19, and this project's drag torque 14 N m + 0.012 N m s.
 double FullLoad(double radps) {
@@ -35,7 +36,7 @@ double FullLoad(double radps) {
 // the throttle is neither.
 TEST(Drivetrain, TheEngineMovesTheCar) {
   constexpr std::array<double, 5> kGears{3.46, 1.96, 1.39, 1.03, 0.85};
-  const AgentTraits car = Car();
+  const vehicle::BicycleSettings car = Car();
   int compared = 0, overrun = 0;
   for (double v = 0.5; v < 45.0; v += 0.25) {
     for (double a = -3.0; a <= 1.6; a += 0.1) {
@@ -45,11 +46,13 @@ TEST(Drivetrain, TheEngineMovesTheCar) {
         EXPECT_FALSE(d.throttle > 0.0 && d.brake > 0.0);
         const double ratio = 4.19 * kGears[static_cast<std::size_t>(d.gear - 1)];
         if (d.clutch == 0.0) {
-          EXPECT_NEAR(d.engine_radps, v / car.wheel_radius_m * ratio, 1e-9 * d.engine_radps);
+          EXPECT_NEAR(d.engine_radps, v / kRadius_m * ratio, 1e-9 * d.engine_radps);
           EXPECT_LE(d.engine_radps, 6500.0 * kRpm);
         }
         const double slope = std::atan(grade);
-        const double wanted = car.mass_kg * (a + 9.81 * (std::sin(slope) + 0.012 * std::cos(slope))) + 0.5 * 1.2 * 0.5 * v * v;
+        if (d.throttle < 1.0 && d.brake < 1.0) EXPECT_NEAR(AccelerationOf(car, d, v, grade), a, 1e-12);
+        else EXPECT_LT(AccelerationOf(car, d, v, grade), a);
+        const double wanted = 1050.0 * (a + 9.81 * (std::sin(slope) + 0.012 * std::cos(slope))) + 0.5 * 1.2 * 0.5 * v * v;
         if (d.throttle == 0.0) {
           ++overrun;
           EXPECT_LT(wanted, 0.0);
@@ -58,7 +61,7 @@ TEST(Drivetrain, TheEngineMovesTheCar) {
         if (d.clutch > 0.0 || d.throttle >= 1.0) continue;
         const double drag = 14.0 + 0.012 * d.engine_radps;
         const double net = d.throttle * (FullLoad(d.engine_radps) + drag) - drag;
-        const double force = net * ratio / car.wheel_radius_m * (net > 0.0 ? 0.93 : 1.0 / 0.93);
+        const double force = net * ratio / kRadius_m * (net > 0.0 ? 0.93 : 1.07);
         EXPECT_NEAR(force, wanted, 1e-6 * (1.0 + std::fabs(wanted))) << v << " m/s, " << a << " m/s2, " << grade;
         ++compared;
       }
@@ -70,7 +73,7 @@ TEST(Drivetrain, TheEngineMovesTheCar) {
 
 // Where a lower gear could pull harder no gear is kept that cannot: full throttle only at the engine's end.
 TEST(Drivetrain, ShiftsDownWhereTheEngineIsTooWeak) {
-  const AgentTraits car = Car();
+  const vehicle::BicycleSettings car = Car();
   const Driving easy = DrivingFor(car, 20.0, 0.0, 0.0), hard = DrivingFor(car, 20.0, 1.4, 0.05);
   EXPECT_EQ(easy.gear, 5);
   EXPECT_LT(hard.gear, 4);
@@ -81,20 +84,27 @@ TEST(Drivetrain, ShiftsDownWhereTheEngineIsTooWeak) {
   EXPECT_EQ(standing.clutch, 1.0);
 }
 
-// Willans' line: a lorry of 11 t (192.5 kW) idles at 24 g/h a rated kW; 239 g/h a kW more; nothing in overrun.
-TEST(Fuel, LorriesBurnByTheirEnginesPower) {
-  AgentTraits lorry;
-  lorry.kind = VehicleKind::kLorry;
-  lorry.mass_kg = 11000.0;
-  const double idle_gph = 3.6 * FuelFlow_mgps(lorry, 0.0, 0.0);
-  EXPECT_NEAR(idle_gph, 24.0 * 192.5, 1.0);
-  const double v = 20.0, force = 11000.0 * (0.3 + 0.078) + 3.3 * v * v;
-  EXPECT_NEAR(3.6 * FuelFlow_mgps(lorry, v, 0.3) - idle_gph, 239.0 * force * v / 0.93 * 1e-3, 1.0);
-  EXPECT_EQ(FuelFlow_mgps(lorry, v, -1.0), 0.0);
-  const double per_100_km = FuelFlow_mgps(lorry, v, 0.0) / 832e3 / v * 1e5;  // diesel
+// Willans' line through the engine: burnt power = (net + drag) / efficiency, with the drag alone while idling, and nothing in overrun.
+TEST(Drivetrain, FuelIsWillansLine) {
+  const vehicle::BicycleSettings car = Car();
+  const double at_50 = [&] {
+    const double v = 50.0 / 3.6, force = 1050.0 * 9.81 * 0.012 + 0.3 * v * v;
+    const Driving d = DrivingFor(car, v, 0.0, 0.0);
+    const double power_W = force * v / 0.93 + (14.0 + 0.012 * d.engine_radps) * d.engine_radps;
+    EXPECT_NEAR(FuelFlow_mgps(car, d), 1e6 * power_W / (0.35 * 42.7e6), 1e-6 * FuelFlow_mgps(car, d));
+    return 100e3 / v * FuelFlow_mgps(car, d) / kFuelDensity_mgpl;
+  }();
+  EXPECT_GT(at_50, 3.0);  // litres a hundred kilometres: small cars in top gear take three to five
+  EXPECT_LT(at_50, 5.0);
+  const Driving idling = DrivingFor(car, 0.0, 0.0, 0.0);
+  EXPECT_NEAR(FuelFlow_mgps(car, idling), 1e6 * (14.0 + 0.012 * 89.0) * 89.0 / (0.35 * 42.7e6), 1e-9);
+  for (double v = 5.0; v < 40.0; v += 1.0) EXPECT_EQ(FuelFlow_mgps(car, DrivingFor(car, v, -1.5, 0.0)), 0.0) << v;
+  const AgentTraits lorry = TraitsOfBody(6);
+  ASSERT_EQ(lorry.mass_kg, 11000.0);
+  const vehicle::BicycleSettings heavy = CarOfBody(6);
+  const double per_100_km = FuelFlow_mgps(heavy, DrivingFor(heavy, 20.0, 0.0, 0.0)) / 832e3 / 20.0 * 1e5;  // diesel
   EXPECT_GT(per_100_km, 12.0);  // lorries of this size take 15 to 25 litres
   EXPECT_LT(per_100_km, 30.0);
-  EXPECT_EQ(FuelFlow_mgps(Car(), 12.0, 0.4), FuelFlow_mgps(12.0, 0.4));
 }
 
 }  // namespace

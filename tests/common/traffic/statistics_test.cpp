@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "common/traffic/floating_cars.hpp"
-#include "common/traffic/fuel.hpp"
 #include "common/traffic/lane_tables.hpp"
 #include "common/traffic/study.hpp"
 #include "common/traffic/trajectory_diagram.hpp"
@@ -31,7 +30,7 @@ TEST(LaneStatistics, SumsAreWhatWasDriven) {
   LaneStatistics statistics(model);
   constexpr double kStep_s = 0.02;
   double vehicle_s = 0.0, way_m = 0.0, fuel_mg = 0.0;
-  std::vector<double> before(settings.vehicles), before_mps(settings.vehicles);
+  std::vector<double> before(settings.vehicles), before_mg(settings.vehicles);
   std::vector<std::uint32_t> trips(settings.vehicles);
   std::vector<bool> there(settings.vehicles);
   std::int64_t left = 0, entered = 0, began = static_cast<std::int64_t>(model.on_road());
@@ -48,9 +47,9 @@ TEST(LaneStatistics, SumsAreWhatWasDriven) {
       if (i > 0 && agent.on_road && !same) ++entered;
       if (same) {
         vehicle_s += kStep_s, way_m += agent.o_m - before[id];
-        fuel_mg += FuelFlow_mgps(0.5 * (agent.speed_mps + before_mps[id]), (agent.speed_mps - before_mps[id]) / kStep_s) * kStep_s;
+        fuel_mg += agent.fuel_mg - before_mg[id];
       }
-      there[id] = agent.on_road, trips[id] = agent.trip, before[id] = agent.o_m, before_mps[id] = agent.speed_mps;
+      there[id] = agent.on_road, trips[id] = agent.trip, before[id] = agent.o_m, before_mg[id] = agent.fuel_mg;
     }
     ASSERT_EQ(statistics.began() + statistics.entered() - statistics.left(), static_cast<std::int64_t>(model.on_road())) << i;
   }
@@ -99,19 +98,6 @@ TEST(LaneStatistics, SteadyFlowIsThatOfTheEquilibrium) {
   }
   EXPECT_EQ(statistics.entered(), 0);
   EXPECT_EQ(statistics.left(), 0);
-}
-
-// The published curve: 2.4 l/h idling, 6.5 l/100 km at 50 km/h; nothing in overrun, and never less than nothing.
-TEST(Fuel, IsThatOfThePublishedCurve) {
-  const auto per_100_km = [](double kmh) { return 100e3 / (kmh / 3.6) * FuelFlow_mgps(kmh / 3.6, 0.0) / kFuelDensity_mgpl; };
-  EXPECT_NEAR(3600.0 * FuelFlow_mgps(0.0, 0.0) / kFuelDensity_mgpl, 2.4, 0.05);
-  EXPECT_NEAR(per_100_km(50.0), 6.5, 0.05);
-  EXPECT_GT(FuelFlow_mgps(10.0, 1.0), 2.0 * FuelFlow_mgps(10.0, 0.0));
-  for (double v = 2.0; v < 40.0; v += 1.0) {
-    EXPECT_EQ(FuelFlow_mgps(v, -1.0), 0.0) << v;
-    for (double a = -8.0; a < 3.0; a += 0.1) EXPECT_GE(FuelFlow_mgps(v, a), 0.0);
-  }
-  EXPECT_GT(FuelFlow_mgps(0.5, -1.0), 0.0);  // the engine idles
 }
 
 // A jam behind a car that stands: cells before it are slow and dense, and the queue is counted.

@@ -280,6 +280,12 @@ TEST(Traffic, SettingsAreReadAndRefused) {
   EXPECT_EQ(settings.vehicles, 12u);
   EXPECT_EQ(settings.seed, 7u);
   EXPECT_EQ(settings.idm.time_gap_s, 1.2);
+  EXPECT_EQ(settings.physics, Physics::kPlanar);
+  auto full = config::File::Parse("physics: full\n", "t.yaml").value();
+  EXPECT_EQ(ReadTraffic(full.root(), 7).physics, Physics::kFull);
+  auto unknown = config::File::Parse("physics: fully\n", "t.yaml").value();
+  (void)ReadTraffic(unknown.root(), 7);
+  EXPECT_NE(unknown.Finish().error().Text().find("full"), std::string::npos);
   auto wrong = config::File::Parse("vehicles: -3\n", "t.yaml").value();
   (void)ReadTraffic(wrong.root(), 7);
   EXPECT_FALSE(wrong.Finish().ok());

@@ -31,7 +31,7 @@ TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
     double first_kg, last_kg, rate_kgps, sum_kg;
   };
   const std::map<int, double> gears{{1, 3.46}, {2, 1.96}, {3, 1.39}, {4, 1.03}, {5, 0.85}};
-  constexpr double kFinal = 4.19, kIdle_radps = 89.0;
+  constexpr double kFinal = 4.19, kIdle_radps = 89.0, kRolls = 0.97;  // of the wheel's radius
   std::map<lockstep::Step, msg::TrafficState> states;
   std::map<lockstep::Step, msg::TrafficDetails> details;
   lockstep::InProcessSettings run;
@@ -58,7 +58,7 @@ TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
       ASSERT_EQ(d.id(), a.id());
       ++told;
       if (d.clutch() == 0.0F) {
-        const double turns = a.speed_mps() / static_cast<double>(a.wheel_radius_m()) * gears.at(d.gear()) * kFinal;
+        const double turns = a.speed_mps() / (kRolls * static_cast<double>(a.wheel_radius_m())) * gears.at(d.gear()) * kFinal;
         EXPECT_NEAR(static_cast<double>(d.engine_speed_radps()), turns, 1e-4 * turns) << d.id() << " at " << step;
         EXPECT_GE(turns, 0.999 * kIdle_radps);
         ++geared;

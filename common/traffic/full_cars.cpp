@@ -1,0 +1,136 @@
+#include "common/traffic/full_cars.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/assert.hpp"
+#include "common/geometry/angle.hpp"
+#include "common/traffic/car_of.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kStanding_mps = 1e-3;
+constexpr double kRate_radps = 12.0;       // of the hands
+constexpr double kSmoothing_s = 0.04;
+constexpr double kPreview_s = 0.7, kPreviewLeast_m = 3.0;  // way in which a deviation from the path is made good
+constexpr double kSlipFrom_mps = 1.0;      // slower, the motion of the rear axle says nothing of its slip angle
+
+// What the driver knows of his car here and now: what its engine gives in the gear that is engaged.
+driver::PedalSettings PedalsOf(const vehicle::BicycleChassis& chassis, const vehicle::Powertrain& powertrain, double speed_mps) {
+  const vehicle::BicycleSettings& car = chassis.settings;
+  const vehicle::PowertrainSettings& p = car.powertrain;
+  const double m = car.body.mass_kg, radius = car.wheel.rolling_radius_m;
+  const double ratio = vehicle::TotalRatio(p.gearbox, std::max(1, powertrain.gear()));
+  const double turns = std::max({p.engine.idle_radps, p.automatic.bite_radps, ratio * speed_mps / radius});
+  const double drag_Nm = vehicle::DragTorque(p.engine, turns), full_Nm = vehicle::FullLoadTorque(p.engine, turns);
+  const double engine_mps2 = p.gearbox.efficiency * ratio / (radius * m);  // of one newton metre
+  double brake_Nm = 0.0;
+  for (std::size_t wheel = 0; wheel < vehicle::kWheels; ++wheel) brake_Nm += vehicle::BrakeTorque(car.brakes, wheel, 1.0, 0.0);
+  driver::PedalSettings feet;
+  feet.power_Wpkg = 1e6;
+  feet.most_mps2 = engine_mps2 * (full_Nm + drag_Nm);
+  feet.full_brake_mps2 = brake_Nm / (radius * m);
+  feet.coasting_mps2 = 0.0;  // it is in the next: the throttle begins to push where it has overcome the engine's drag
+  feet.rolling_mps2 = 9.81 * car.wheel.rolling_resistance + engine_mps2 * drag_Nm;
+  feet.air_1pm = 0.5 * car.body.air_density_kgpm3 * car.body.drag_area_m2 / m;
+  return feet;
+}
+
+}  // namespace
+
+FullCars::FullCars(std::shared_ptr<terrain::Ground> ground, std::size_t agents) : ground_(std::move(ground)), controls_(agents), feet_(agents) {
+  for (std::uint32_t body = 0; body < kBodies; ++body) {
+    const auto kind = cars_.AddKind(CarOfBody(body));
+    RODEIRA_ASSERT(kind.ok() && kind.value() == body);
+  }
+  cars_.Resize(agents);
+}
+
+base::Status FullCars::Place(std::uint32_t id, std::uint32_t body, const vehicle::InitialCondition& initial) {
+  if (const base::Status status = cars_.Place(id, body, initial, *ground_); !status) return status;
+  controls_[id] = {};
+  feet_[id] = {};
+  if (initial.speed_mps > 0.0) feet_[id].TakeOver(cars_.car(id).powertrain.engine().throttle(), 0.0, initial.speed_mps);
+  return {};
+}
+
+Eigen::Vector2d FullCars::RearAxle_W(std::uint32_t id) const {
+  const Eigen::Vector3d ahead_W = cars_.car(id).body.q_WG * Eigen::Vector3d::UnitX();
+  return (cars_.p_WB_W(id) - 0.5 * cars_.chassis(id).settings.body.wheelbase_m * ahead_W).head<2>();
+}
+
+double FullCars::PlanSpeed_mps(std::uint32_t id) const {
+  const Eigen::Vector2d v = cars_.car(id).body.VelocityAt(cars_.p_WB_W(id)).head<2>();
+  const double speed = v.norm();
+  if (speed < kStanding_mps) return 0.0;
+  return v.dot((cars_.car(id).body.q_WG * Eigen::Vector3d::UnitX()).head<2>()) < 0.0 ? -speed : speed;
+}
+
+// The curvature that the rear axle is to follow: the path's, and what leads back to it, critically damped over the preview's way. The path is kept by the
+// middle between both axles' tracks: in a bend the rear one runs L² κ / 4 inside, the front one as much outside.
+double FullCars::SteeringWheel(std::uint32_t id, const PathAhead& path, double dt_s) const {
+  const vehicle::BicycleCar& car = cars_.car(id);
+  const vehicle::BicycleSettings& settings = cars_.chassis(id).settings;
+  const double wheelbase = settings.body.wheelbase_m, now = controls_[id].steering_wheel_rad;
+  const Eigen::Vector2d ahead = (car.body.q_WG * Eigen::Vector3d::UnitX()).head<2>().normalized(), left(-ahead.y(), ahead.x());
+  const Eigen::Vector3d rear_W = cars_.p_WB_W(id) - 0.5 * wheelbase * (car.body.q_WG * Eigen::Vector3d::UnitX());
+  const Eigen::Vector2d v = car.body.VelocityAt(rear_W).head<2>();
+  const double slip = std::atan2(v.dot(left), std::max(kSlipFrom_mps, v.dot(ahead)));
+  const Eigen::Vector2d path_left(-path.ahead_W.y(), path.ahead_W.x());
+  const double turned = std::atan2(ahead.dot(path_left), ahead.dot(path.ahead_W)) + slip;
+  const double aside = (rear_W.head<2>() - path.rear_W).dot(path_left) - 0.25 * wheelbase * wheelbase * path.curvature_1pm;
+  const double way = std::max(kPreviewLeast_m, kPreview_s * v.norm());
+  const double curvature = path.curvature_1pm - 2.0 * turned / way - aside / (way * way);
+  const double wanted = std::clamp(std::atan(wheelbase * curvature) * settings.steering.ratio, -settings.steering.limit_rad, settings.steering.limit_rad);
+  const double move = (wanted - now) * dt_s / (kSmoothing_s + dt_s), most = kRate_radps * dt_s;
+  return now + std::clamp(move, -most, most);
+}
+
+void FullCars::Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path, double dt_s) {
+  const vehicle::BicycleCar& car = cars_.car(id);
+  const Eigen::Vector3d ahead_W = car.body.q_WG * Eigen::Vector3d::UnitX();
+  const double speed = PlanSpeed_mps(id), grade = ahead_W.z() / std::max(1e-3, std::hypot(ahead_W.x(), ahead_W.y()));
+  vehicle::Controls& controls = controls_[id];
+  feet_[id].Step(PedalsOf(cars_.chassis(id), car.powertrain, speed), wanted_mps2, speed, grade, dt_s);
+  controls.throttle = feet_[id].throttle();
+  controls.brake = feet_[id].brake();
+  controls.steering_wheel_rad = SteeringWheel(id, path, dt_s);
+}
+
+void FullCars::Step(double dt_s, unsigned threads) { cars_.Step(controls_, *ground_, dt_s, threads); }
+
+Driving FullCars::DrivingOf(std::uint32_t id) const {
+  const vehicle::Powertrain& powertrain = cars_.car(id).powertrain;
+  return {powertrain.engine().throttle(), controls_[id].brake, powertrain.clutch(), powertrain.engine().speed_radps(), powertrain.gear()};
+}
+
+void FullCars::Tell(std::uint32_t id, AgentPose& pose) const {
+  const vehicle::BicycleCar& car = cars_.car(id);
+  pose.p_WB_W = cars_.p_WB_W(id);
+  pose.q_WB = car.body.q_WG;
+  pose.steer_rad = cars_.chassis(id).SteerAngle(vehicle::kFrontLeft, controls_[id].steering_wheel_rad);
+  pose.wheel_spin_rad = car.wheels[vehicle::kFrontLeft].spin_rad;
+}
+
+void FullCars::Save(base::StateWriter& writer) const {
+  writer.Put("cars", cars_);
+  for (std::size_t i = 0; i < controls_.size(); ++i) {
+    if (!cars_.present(i)) continue;
+    writer.Put("controls", controls_[i]);
+    writer.Put("feet", feet_[i]);
+  }
+}
+
+void FullCars::Restore(base::StateReader& reader) {
+  reader.Get("cars", cars_);
+  for (std::size_t i = 0; i < controls_.size(); ++i) {
+    controls_[i] = {};
+    feet_[i] = {};
+    if (!cars_.present(i)) continue;
+    reader.Get("controls", controls_[i]);
+    reader.Get("feet", feet_[i]);
+  }
+}
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,92 @@
+// How agents move: as planar cars along their paths, or with the physics of the driver's car.
+#include <algorithm>
+#include <cmath>
+
+#include "common/traffic/car_of.hpp"
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kAnswer_s = 0.6, kAnswerLeast_m = 2.0;  // way over which a bend is steered for
+
+}  // namespace
+
+// Who cannot stand where it was to begin waits to enter.
+void TrafficModel::StartFull(std::shared_ptr<terrain::Ground> ground) {
+  full_.emplace(std::move(ground), agents_.size());
+  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+    if (!agents_[id].on_road || PlaceFull(id)) continue;
+    const std::uint32_t entry = agents_[id].entry;
+    agents_[id] = Agent();
+    agents_[id].entry = entry;
+    waiting_.push_back(id);
+  }
+}
+
+// With its axles' middles over the path, rolling along it.
+base::Status TrafficModel::PlaceFull(std::uint32_t id) {
+  Agent& agent = agents_[id];
+  const Eigen::Vector3d front = FrameAt(graph(), agent.path, agent.o_m + HalfBase(id)).p_W, rear = FrameAt(graph(), agent.path, agent.o_m - HalfBase(id)).p_W;
+  const Eigen::Vector3d middle = 0.5 * (front + rear), along = front - rear;
+  vehicle::InitialCondition initial;
+  initial.x_m = middle.x(), initial.y_m = middle.y(), initial.z_hint_m = middle.z();
+  initial.heading_rad = std::atan2(along.y(), along.x());
+  initial.speed_mps = agent.speed_mps;
+  return full_->Place(id, traits_[id].body, initial);
+}
+
+// The pedals for the acceleration, and what they give, held over the step; a car that comes to rest stays at rest.
+void TrafficModel::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s) {
+  Agent& agent = agents_[id];
+  const vehicle::BicycleSettings& car = CarOfBody(traits_[id].body);
+  const double before = agent.speed_mps;
+  agent.driving = DrivingFor(car, before, wanted_mps2, agent.grade);
+  const double acceleration = AccelerationOf(car, agent.driving, before, agent.grade);
+  double travel = (before + 0.5 * acceleration * dt_s) * dt_s;
+  double after = before + acceleration * dt_s;
+  if (after < 0.0) {
+    after = 0.0;
+    travel = acceleration < 0.0 ? -0.5 * before * before / acceleration : 0.0;
+  }
+  agent.acceleration_mps2 = (after - before) / dt_s;
+  agent.speed_mps = after;
+  agent.driven_m += travel;
+  agent.fuel_mgps = FuelFlow_mgps(car, agent.driving);
+  agent.fuel_mg += agent.fuel_mgps * dt_s;
+  if (travel > 0.0) agent.o_m = Moved(id, travel);
+}
+
+void TrafficModel::DriveFull(std::uint32_t id, double wanted_mps2, double dt_s) {
+  const Agent& agent = agents_[id];
+  const double half = 0.5 * traits_[id].length_m;
+  double rear_m = agent.o_m - HalfBase(id);
+  PathFrame rear = FrameAt(graph(), agent.path, rear_m);
+  rear_m += rear.ahead_W.dot(full_->RearAxle_W(id) - rear.p_W.head<2>()) / rear.stretch;
+  rear = FrameAt(graph(), agent.path, rear_m);
+  const double soon_m = std::min(std::max(kAnswerLeast_m, kAnswer_s * agent.speed_mps), agent.o_m + half - rear_m);
+  const PathFrame soon = FrameAt(graph(), agent.path, rear_m + soon_m);
+  const double turns = std::atan2(rear.ahead_W.x() * soon.ahead_W.y() - rear.ahead_W.y() * soon.ahead_W.x(), rear.ahead_W.dot(soon.ahead_W));
+  full_->Drive(id, wanted_mps2, {rear.p_W.head<2>(), rear.ahead_W, turns / soon_m}, dt_s);
+}
+
+// Where its path has brought it, after the physics' step.
+void TrafficModel::FollowFull(std::uint32_t id, double dt_s) {
+  Agent& agent = agents_[id];
+  const double before = agent.speed_mps;
+  agent.speed_mps = std::max(0.0, full_->PlanSpeed_mps(id));
+  agent.acceleration_mps2 = (agent.speed_mps - before) / dt_s;
+  agent.driven_m += 0.5 * (before + agent.speed_mps) * dt_s;
+  agent.driving = full_->DrivingOf(id);
+  const double used = full_->FuelUsed_mg(id);
+  agent.fuel_mgps = (used - agent.fuel_mg) / dt_s;
+  agent.fuel_mg = used;
+  const Eigen::Vector2d at = full_->cars().p_WB_W(id).head<2>();
+  agent.o_m += 0.5 * (before + agent.speed_mps) * dt_s;
+  for (int turn = 0; turn < 2; ++turn) {
+    const PathFrame frame = FrameAt(graph(), agent.path, agent.o_m);
+    agent.o_m += frame.ahead_W.dot(at - frame.p_W.head<2>()) / frame.stretch;
+  }
+}
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,175 @@
+// Agents with the physics of the driver's car.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "common/driver/idm.hpp"
+#include "common/traffic/car_of.hpp"
+#include "common/traffic/road_network.hpp"
+#include "common/traffic/study.hpp"
+#include "common/vehicle/bicycle_model.hpp"
+#include "tests/common/driver/test_road.hpp"
+#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/traffic/identical.hpp"
+#include "tests/common/traffic/ring.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kStep_s = 0.01;
+
+TrafficSettings Full(std::uint32_t vehicles, unsigned threads = 1) {
+  TrafficSettings settings;
+  settings.vehicles = vehicles;
+  settings.physics = Physics::kFull;
+  settings.threads = threads;
+  return settings;
+}
+
+template <class Value>
+base::Bytes BytesOf(const Value& value) {
+  base::StateWriter writer;
+  value.Save(writer);
+  return writer.bytes();
+}
+
+// A car of the vehicle library at the same place, with the same pedals and steering wheel: the same bits, on slopes.
+TEST(FullPhysics, ACarIsThatOfTheVehicleLibrary) {
+  const auto network = lanes::MapNetwork("overpass");
+  TrafficModel model = TrafficModel::Make(Full(30), network, {}).value();
+  const auto ground = WorldOf(network)->MakeGround();
+  std::vector<std::pair<std::uint32_t, vehicle::BicycleModel>> alone;
+  for (const AgentPose& pose : model.poses()) {
+    const Agent& agent = model.agent(pose.id);
+    const double half = 0.5 * model.traits(pose.id).wheelbase_m;
+    const Eigen::Vector3d front = FrameAt(model.graph(), agent.path, agent.o_m + half).p_W, rear = FrameAt(model.graph(), agent.path, agent.o_m - half).p_W;
+    const Eigen::Vector3d middle = 0.5 * (front + rear), along = front - rear;
+    alone.emplace_back(pose.id, vehicle::BicycleModel(CarOfBody(model.traits(pose.id).body)));
+    ASSERT_TRUE(alone.back().second.Initialise({.x_m = middle.x(), .y_m = middle.y(), .z_hint_m = middle.z(), .heading_rad = std::atan2(along.y(), along.x()), .speed_mps = agent.speed_mps}, *ground).ok());
+  }
+  std::size_t compared = 0, steepest = 0;
+  for (int i = 0; i < 1000; ++i) {
+    model.Step(kStep_s, {});
+    for (auto& [id, car] : alone) {
+      if (!model.agent(id).on_road || model.agent(id).trip != 0) continue;
+      car.Step(model.full()->controls(id), *ground, kStep_s);
+      ASSERT_EQ(BytesOf(model.full()->cars().car(id)), BytesOf(car.car())) << "car " << id << " at step " << i;
+      ++compared;
+      if (std::fabs(model.agent(id).grade) > 0.02) ++steepest;
+    }
+  }
+  EXPECT_GT(compared, 15000u);
+  EXPECT_GT(steepest, 100u);
+}
+
+TEST(FullPhysics, ThreadsChangeNoBit) {
+  const auto network = lanes::MapNetwork("town");
+  TrafficModel one = TrafficModel::Make(Full(40), network, {}).value(), two = TrafficModel::Make(Full(40, 2), network, {}).value(),
+               four = TrafficModel::Make(Full(40, 4), network, {}).value();
+  for (int i = 0; i < 500; ++i) {
+    for (TrafficModel* model : {&one, &two, &four}) model->Step(kStep_s, {});
+  }
+  EXPECT_EQ(BytesOf(one), BytesOf(two));
+  EXPECT_EQ(BytesOf(one), BytesOf(four));
+}
+
+TEST(FullPhysics, RestoredItGoesOnWithTheSameBits) {
+  const auto network = lanes::MapNetwork("roundabout");
+  TrafficModel first = TrafficModel::Make(Full(40), network, {}).value(), second = TrafficModel::Make(Full(40), network, {}).value();
+  for (int i = 0; i < 1500; ++i) first.Step(kStep_s, {});
+  const base::Bytes snapshot = BytesOf(first);
+  base::StateReader reader(snapshot);
+  second.Restore(reader);
+  ASSERT_TRUE(reader.Finish().ok());
+  for (int i = 0; i < 1000; ++i) {
+    first.Step(kStep_s, {});
+    second.Step(kStep_s, {});
+  }
+  EXPECT_EQ(BytesOf(first), BytesOf(second));
+}
+
+// Through pedals, engine and tyres the gap of the IDM's equilibrium, (s0 + v T) / sqrt(1 - (v/v0)^4), behind a car of constant speed.
+TEST(FullPhysics, KeepsTheEquilibriumGapWithin5Centimetres) {
+  TrafficSettings settings = Identical(10, 1.3);
+  settings.physics = Physics::kFull;
+  TrafficModel model = TrafficModel::Make(settings, Ring(600.0), {}).value();
+  ASSERT_EQ(model.on_road(), 10u);
+  model.CapSpeed(0, 9.0);  // the leader of the nine others
+  for (int i = 0; i < 15000; ++i) model.Step(kStep_s, {});
+  int compared = 0;
+  for (std::uint32_t id = 1; id < 10; ++id) {
+    if (model.GapAhead(id) > 40.0) continue;
+    EXPECT_NEAR(model.agent(id).speed_mps, model.agent(0).speed_mps, 0.02) << id;
+    EXPECT_NEAR(model.GapAhead(id), driver::IdmEquilibriumGap(settings.idm, model.agent(id).speed_mps, kRingLimit_mps), 0.05) << id;
+    ++compared;
+  }
+  EXPECT_GE(compared, 7);
+}
+
+// What leaves the tank is the integral of the flow, and in overrun nothing flows.
+TEST(FullPhysics, TheTankLosesTheIntegralOfTheFlow) {
+  TrafficModel model = TrafficModel::Make(Full(30), lanes::MapNetwork("crossing"), {}).value();
+  std::vector<double> used_mg(30, 0.0);
+  std::vector<std::uint32_t> trips(30, 0);
+  int overrun = 0;
+  for (int i = 0; i < 3000; ++i) {
+    model.Step(kStep_s, {});
+    for (std::uint32_t id = 0; id < 30; ++id) {
+      const Agent& agent = model.agent(id);
+      if (agent.trip != trips[id]) trips[id] = agent.trip, used_mg[id] = 0.0;
+      if (!agent.on_road) continue;
+      used_mg[id] += agent.fuel_mgps * kStep_s;
+      ASSERT_NEAR(agent.fuel_mg, used_mg[id], 1e-9 * (1.0 + used_mg[id]));
+      const vehicle::Engine& engine = model.full()->cars().car(id).powertrain.engine();
+      ASSERT_GE(agent.fuel_mgps, -1e-9);
+      if (engine.throttle() > 0.0 || engine.speed_radps() < 130.0) continue;
+      EXPECT_EQ(engine.fuel_rate_kgps(), 0.0);
+      ++overrun;
+    }
+  }
+  EXPECT_GT(overrun, 500);
+}
+
+// At a constant speed uphill the throttle is what weight, rolling and air ask of the engine through the gears.
+TEST(FullPhysics, ClimbsWithTheThrottleOfTheClosedForm) {
+  constexpr double kGrade = 0.05;
+  TrafficModel model = TrafficModel::Make(Full(12), driver::StraightWorld(3000.0, 16.0, kGrade), {}).value();
+  int compared = 0;
+  for (int i = 0; i < 6000; ++i) {
+    model.Step(kStep_s, {});
+    if (i < 4000 || i % 100 != 0) continue;
+    for (const AgentPose& pose : model.poses()) {
+      const Agent& agent = model.agent(pose.id);
+      const vehicle::BicycleCar& car = model.full()->cars().car(pose.id);
+      if (agent.grade < 0.0 || std::fabs(agent.acceleration_mps2) > 2e-3 || agent.driving.clutch > 0.0) continue;
+      const vehicle::BicycleSettings& of = CarOfBody(model.traits(pose.id).body);
+      const double slope = std::atan(kGrade), v = agent.speed_mps / std::cos(slope);
+      const double force_N = of.body.mass_kg * 9.81 * (std::sin(slope) + 0.012 * std::cos(slope)) + 0.5 * 1.2 * 0.5 * v * v;
+      const double ratio = 4.19 * std::array{3.46, 1.96, 1.39, 1.03, 0.85}[static_cast<std::size_t>(agent.driving.gear - 1)];
+      const double torque_Nm = force_N * of.wheel.rolling_radius_m / (0.93 * ratio), radps = car.powertrain.engine().speed_radps();
+      const double full_Nm = vehicle::FullLoadTorque(of.powertrain.engine, radps), drag_Nm = of.body.mass_kg / 1050.0 * (14.0 + 0.012 * radps);
+      EXPECT_NEAR(car.powertrain.engine().throttle(), (torque_Nm + drag_Nm) / (full_Nm + drag_Nm), 0.01) << "car " << pose.id << " in gear " << agent.driving.gear;
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 20);
+}
+
+// Nobody touches anybody or runs beside the lanes.
+TEST(FullPhysics, DrivesTheProjectsMaps) {
+  for (const char* map : {"crossing", "roundabout", "ramp", "town", "overpass"}) {
+    StudySettings settings;
+    settings.traffic = Full(24);
+    settings.duration_s = 25.0;
+    const StudyResult r = RunStudy(settings, lanes::MapNetwork(map)).value();
+    EXPECT_EQ(r.collisions, 0) << map;
+    EXPECT_EQ(r.off_lane, 0) << map;
+    EXPECT_LT(r.worst_step_m, 1e-3) << map;
+    EXPECT_LE(r.hardest_mps2, 6.0) << map;
+    EXPECT_GT(r.driven_km, 1.0) << map;
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::traffic
