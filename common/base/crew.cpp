@@ -69,4 +69,9 @@ void Crew::Share(std::size_t count, const std::function<void(std::size_t, std::s
   parts_->ends.wait(lock, [&] { return parts_->busy == 0; });
 }
 
+void Share(Crew* crew, std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
+  if (crew != nullptr) crew->Share(count, work);
+  else work(0, count);
+}
+
 }  // namespace rodeira::base

@@ -25,4 +25,7 @@ class Crew {
   std::unique_ptr<Parts> parts_;
 };
 
+// The same by the caller alone where there is no crew.
+void Share(Crew* crew, std::size_t count, const std::function<void(std::size_t, std::size_t)>& work);
+
 }  // namespace rodeira::base

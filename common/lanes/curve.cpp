@@ -147,8 +147,8 @@ void Curve::FindBends() {
 }
 
 CurvePoint Curve::At(double d_m) const {
-  CurvePoint point;
   if (d_m < 0.0 || d_m > length_m()) {
+    CurvePoint point;
     const Node& end = d_m < 0.0 ? bends_.front() : bends_.back();
     point.p_W = end.p_W + (d_m - end.d_m) * end.along_W;
     point.ahead_W = end.along_W.head<2>();

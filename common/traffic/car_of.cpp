@@ -17,7 +17,7 @@ constexpr double kMostSteer_rad = 0.75;
 
 double Rpm(double rpm) { return rpm * 2.0 * std::numbers::pi / 60.0; }
 
-// What cars and heavy vehicles differ in beside their measures. `size`: torque over that of the engine given.
+// What cars and heavy vehicles differ in beside their measures: of_mass_kg is what the engine below belongs to, loads and brakes are shares, track_less_m of the width.
 struct Make {
   double of_mass_kg, front_load, front_brakes, cg_height, natural_Hz, anti_roll, bump_m, track_less_m, wheel_kgm2, drag_area_m2, rolling, steering_ratio;
 };

@@ -11,13 +11,6 @@ namespace {
 constexpr double kGravity_mps2 = 9.81;
 constexpr double kHolding = 0.15;  // of the brake, while standing
 
-// With the pedal to the floor, on the road.
-double FullBrake_N(const vehicle::BicycleSettings& car) {
-  double torque_Nm = 0.0;
-  for (std::size_t wheel = 0; wheel < vehicle::kWheels; ++wheel) torque_Nm += vehicle::BrakeTorque(car.brakes, wheel, 1.0, 0.0);
-  return torque_Nm / car.wheel.rolling_radius_m;
-}
-
 // What keeps a rolling car back beside engine and brakes.
 double Resistance_N(const vehicle::BicycleSettings& car, double speed_mps, double grade) {
   const double weight_N = car.body.mass_kg * kGravity_mps2 / std::sqrt(1.0 + grade * grade);
@@ -38,6 +31,12 @@ double AtWheels(const vehicle::GearboxSettings& gearbox, double ratio, double en
 }
 
 }  // namespace
+
+double FullBrake_N(const vehicle::BicycleSettings& car) {
+  double torque_Nm = 0.0;
+  for (std::size_t wheel = 0; wheel < vehicle::kWheels; ++wheel) torque_Nm += vehicle::BrakeTorque(car.brakes, wheel, 1.0, 0.0);
+  return torque_Nm / car.wheel.rolling_radius_m;
+}
 
 Driving DrivingFor(const vehicle::BicycleSettings& car, double speed_mps, double acceleration_mps2, double grade) {
   const vehicle::PowertrainSettings& p = car.powertrain;

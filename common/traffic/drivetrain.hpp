@@ -25,6 +25,9 @@ double AccelerationOf(const vehicle::BicycleSettings& car, const Driving& drivin
 // What its engine burns then, mg/s: Willans' line as vehicle::Engine counts it; 0 in overrun, and what idling takes while the clutch slips.
 double FuelFlow_mgps(const vehicle::BicycleSettings& car, const Driving& driving);
 
+// What all four wheels push back with the pedal to the floor, while they roll.
+double FullBrake_N(const vehicle::BicycleSettings& car);
+
 inline constexpr double kFuelDensity_mgpl = 1e6 * vehicle::kPetrol_kgpl;
 
 }  // namespace rodeira::traffic

@@ -25,12 +25,10 @@ driver::PedalSettings PedalsOf(const vehicle::BicycleChassis& chassis, const veh
   const double turns = std::max({p.engine.idle_radps, p.automatic.bite_radps, ratio * speed_mps / radius});
   const double drag_Nm = vehicle::DragTorque(p.engine, turns), full_Nm = vehicle::FullLoadTorque(p.engine, turns);
   const double engine_mps2 = p.gearbox.efficiency * ratio / (radius * m);  // of one newton metre
-  double brake_Nm = 0.0;
-  for (std::size_t wheel = 0; wheel < vehicle::kWheels; ++wheel) brake_Nm += vehicle::BrakeTorque(car.brakes, wheel, 1.0, 0.0);
   driver::PedalSettings feet;
   feet.power_Wpkg = 1e6;
   feet.most_mps2 = engine_mps2 * (full_Nm + drag_Nm);
-  feet.full_brake_mps2 = brake_Nm / (radius * m);
+  feet.full_brake_mps2 = FullBrake_N(car) / m;
   feet.coasting_mps2 = 0.0;  // it is in the next: the throttle begins to push where it has overcome the engine's drag
   feet.rolling_mps2 = 9.81 * car.wheel.rolling_resistance + engine_mps2 * drag_Nm;
   feet.air_1pm = 0.5 * car.body.air_density_kgpm3 * car.body.drag_area_m2 / m;
@@ -98,7 +96,7 @@ void FullCars::Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path
   controls.steering_wheel_rad = SteeringWheel(id, path, dt_s);
 }
 
-void FullCars::Step(double dt_s, unsigned threads) { cars_.Step(controls_, *ground_, dt_s, threads); }
+void FullCars::Step(double dt_s, base::Crew* crew) { cars_.Step(controls_, *ground_, dt_s, crew); }
 
 Driving FullCars::DrivingOf(std::uint32_t id) const {
   const vehicle::Powertrain& powertrain = cars_.car(id).powertrain;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/base/crew.hpp"
 #include "common/base/result.hpp"
 #include "common/base/state.hpp"
 #include "common/driver/pedals.hpp"
@@ -32,8 +33,8 @@ class FullCars {
 
   // How hands and feet are held until the next decision, for an acceleration in the plane and to stay on the path. Of the agent's own alone.
   void Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path, double dt_s);
-  // Every car by its controls; on how many threads changes no bit.
-  void Step(double dt_s, unsigned threads);
+  // Every car by its controls; by how large a crew (none: alone) changes no bit.
+  void Step(double dt_s, base::Crew* crew);
 
   const vehicle::CarArray& cars() const { return cars_; }
   const vehicle::Controls& controls(std::uint32_t id) const { return controls_[id]; }

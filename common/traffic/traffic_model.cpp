@@ -134,7 +134,7 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
   EachDriving([&](std::uint32_t id) { wanted_[id] = Wanted(id); });  // reads the old state …
   if (full_) {
     EachDriving([&](std::uint32_t id) { DriveFull(id, wanted_[id], dt_s); });
-    full_->Step(dt_s, settings_.threads);
+    full_->Step(dt_s, crew_.get());
   }
   EachDriving([&](std::uint32_t id) {  // … writes the new one
     if (full_) FollowFull(id, dt_s);

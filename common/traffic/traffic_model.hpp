@@ -334,8 +334,7 @@ void TrafficModel::EachDriving(const Tell& tell) {
       if (agents_[id].on_road) tell(static_cast<std::uint32_t>(id));
     }
   };
-  if (crew_ == nullptr) some(0, agents_.size());
-  else crew_->Share(agents_.size(), some);
+  base::Share(crew_.get(), agents_.size(), some);
 }
 
 }  // namespace rodeira::traffic

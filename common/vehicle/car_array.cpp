@@ -1,7 +1,6 @@
 #include "common/vehicle/car_array.hpp"
 
 #include <algorithm>
-#include <thread>
 
 #include "common/base/assert.hpp"
 #include "common/vehicle/bicycle_model.hpp"
@@ -70,16 +69,11 @@ void CarArray::StepRange(std::span<const Controls> controls, double dt_s, std::s
   }
 }
 
-void CarArray::Step(std::span<const Controls> controls, terrain::Ground& ground, double dt_s, unsigned threads) {
+void CarArray::Step(std::span<const Controls> controls, terrain::Ground& ground, double dt_s, base::Crew* crew) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
-  RODEIRA_ASSERT(controls.size() == cars_.size() && threads >= 1);
+  RODEIRA_ASSERT(controls.size() == cars_.size());
   AskGround(ground);
-  const std::size_t each = (cars_.size() + threads - 1) / threads;
-  std::vector<std::jthread> others;
-  for (std::size_t from = each; from < cars_.size(); from += each) {
-    others.emplace_back([this, controls, dt_s, from, to = std::min(from + each, cars_.size())] { StepRange(controls, dt_s, from, to); });
-  }
-  StepRange(controls, dt_s, 0, std::min(each, cars_.size()));
+  base::Share(crew, cars_.size(), [&](std::size_t from, std::size_t to) { StepRange(controls, dt_s, from, to); });
 }
 
 void CarArray::Save(base::StateWriter& writer) const {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "common/base/crew.hpp"
 #include "common/base/result.hpp"
 #include "common/base/state.hpp"
 #include "common/terrain/ground.hpp"
@@ -30,8 +31,8 @@ class CarArray {
   bool present(std::size_t i) const { return present_[i] != 0; }
 
   // Each car with its controls (of the array's size) held for dt_s, over 0 and at most 0.1 s. The ground is asked once, one batch of all wheels in the
-  // order of the cars (law L4); then each car goes by itself, in substeps of at most 1 ms on these planes. On how many threads changes no bit.
-  void Step(std::span<const Controls> controls, terrain::Ground& ground, double dt_s, unsigned threads = 1);
+  // order of the cars (law L4); then each car goes by itself, in substeps of at most 1 ms on these planes. By how large a crew (none: alone) changes no bit.
+  void Step(std::span<const Controls> controls, terrain::Ground& ground, double dt_s, base::Crew* crew = nullptr);
 
   std::size_t size() const { return cars_.size(); }
   const BicycleCar& car(std::size_t i) const { return cars_[i]; }

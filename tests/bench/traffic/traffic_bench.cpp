@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <optional>
 #include <string>
 
 #include "common/base/state.hpp"
@@ -25,14 +26,25 @@ std::string Grid(std::int64_t nodes) {
   return folder == nullptr ? "" : std::string(folder) + "/grid" + std::to_string(nodes) + ".motors";
 }
 
-// Arguments: streets each way, vehicles. After 20 simulated seconds a step of 10 ms: decision and motion of every vehicle.
-void BM_PlanarStep(benchmark::State& state) {
+// A town with so many streets each way and so many vehicles, after 20 simulated seconds; nothing, and the state says why, where there is no town.
+std::optional<TrafficModel> Warm(benchmark::State& state) {
   const auto network = map::LoadNetwork(Grid(state.range(0)));
-  if (!network) return state.SkipWithError("RODEIRA_GRIDS names no folder with the grids of tools/make_grid.py");
+  if (!network) {
+    state.SkipWithError("RODEIRA_GRIDS names no folder with the grids of tools/make_grid.py");
+    return std::nullopt;
+  }
   TrafficSettings settings;
   settings.vehicles = static_cast<std::uint32_t>(state.range(1));
   TrafficModel model = TrafficModel::Make(settings, network.value(), {}).value();
   for (int i = 0; i < 200; ++i) model.Step(0.1, {});
+  return model;
+}
+
+// Arguments: streets each way, vehicles. After 20 simulated seconds a step of 10 ms: decision and motion of every vehicle.
+void BM_PlanarStep(benchmark::State& state) {
+  auto warm = Warm(state);
+  if (!warm) return;
+  TrafficModel& model = *warm;
   double updates = 0.0, on_road = 0.0, steps = 0.0;
   for (auto _ : state) {
     model.Step(0.01, {});
@@ -47,12 +59,9 @@ BENCHMARK(BM_PlanarStep)->Args({4, 100})->Args({10, 1000})->Args({32, 10000})->U
 
 // What the sums of every metre of lane add to a step: both are timed in the same run, one after the other.
 void BM_HeatMapOfAMetre(benchmark::State& state) {
-  const auto network = map::LoadNetwork(Grid(state.range(0)));
-  if (!network) return state.SkipWithError("RODEIRA_GRIDS names no folder with the grids of tools/make_grid.py");
-  TrafficSettings settings;
-  settings.vehicles = static_cast<std::uint32_t>(state.range(1));
-  TrafficModel model = TrafficModel::Make(settings, network.value(), {}).value();
-  for (int i = 0; i < 200; ++i) model.Step(0.1, {});
+  auto warm = Warm(state);
+  if (!warm) return;
+  TrafficModel& model = *warm;
   LaneStatistics statistics(model);
   using Clock = std::chrono::steady_clock;
   Clock::duration stepping{}, summing{};

@@ -53,10 +53,10 @@ struct Cars {
       EXPECT_TRUE(added.ok()) << (added.ok() ? "" : added.error().Text());
     }
   }
-  void Step(int step, unsigned threads = 1) {
+  void Step(int step, base::Crew* crew = nullptr) {
     controls.clear();
     for (const std::size_t number : numbers) controls.push_back(Hands(number, step));
-    array.Step(controls, ground, kDecision_s, threads);
+    array.Step(controls, ground, kDecision_s, crew);
   }
   base::Bytes Of(std::size_t i) const {
     base::StateWriter writer;
@@ -103,12 +103,13 @@ TEST(CarArray, EachCarHasTheBitsOfItAlone) {
 
 TEST(CarArray, ThreadsAndCompanyChangeNoBit) {
   HillGround ground(5, {});
+  base::Crew pair(2), quartet(4), many(30);
   Cars one(All(), ground), two(All(), ground), four(All(), ground), some({13, 2, 7}, ground);
   for (int step = 0; step < 200; ++step) {
     one.Step(step);
-    two.Step(step, 2);
-    four.Step(step, 4);
-    some.Step(step, 30);
+    two.Step(step, &pair);
+    four.Step(step, &quartet);
+    some.Step(step, &many);
     ASSERT_EQ(one.digest(), two.digest()) << step;
     ASSERT_EQ(one.digest(), four.digest()) << step;
   }

@@ -16,6 +16,26 @@
 namespace rodeira::view {
 namespace {
 
+SDL_Event ButtonAt(const Eigen::Vector2d& at, bool down) {
+  SDL_Event event{};
+  event.type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
+  event.button.button = SDL_BUTTON_LEFT;
+  event.button.x = static_cast<int>(at.x());
+  event.button.y = static_cast<int>(at.y());
+  return event;
+}
+
+// Down and up there by nobody who drives; whether it was for the window.
+bool Click(Screen& screen, const Eigen::Vector2d& at) {
+  (void)screen.TakeMouse(ButtonAt(at, true), false);
+  return screen.TakeMouse(ButtonAt(at, false), false);
+}
+
+Image Shown(Screen& screen, const scene::Moment& moment) {
+  screen.Show(moment, 1.0);
+  return screen.painter().Read();
+}
+
 TEST(Screen, APictureIsWrittenAsItIsSeenAndNoneIsLost) {
   RODEIRA_NEEDS_PICTURES();
   auto folder = base::TemporaryFolder::Make("pictures");
@@ -65,20 +85,8 @@ TEST(Screen, AClickChoosesAVehicle) {
   moment.agents.push_back(agent);
   const scene::Camera camera = scene::ChaseCamera(moment.cars[0], *world);
   const Eigen::Vector3d tail_W = agent.p_WB_W + agent.q_WB * Eigen::Vector3d(-1.95, 0.0, 0.80);
-  const auto shown = [&] {
-    screen.value()->Show(moment, 1.0);
-    return screen.value()->painter().Read();
-  };
-  const auto click = [&](const Eigen::Vector2d& at) {
-    SDL_Event event{};
-    event.type = SDL_MOUSEBUTTONDOWN;
-    event.button.button = SDL_BUTTON_LEFT;
-    (void)screen.value()->TakeMouse(event, false);
-    event.type = SDL_MOUSEBUTTONUP;
-    event.button.x = static_cast<int>(at.x());
-    event.button.y = static_cast<int>(at.y());
-    return screen.value()->TakeMouse(event, false);
-  };
+  const auto shown = [&] { return Shown(*screen.value(), moment); };
+  const auto click = [&](const Eigen::Vector2d& at) { return Click(*screen.value(), at); };
   const Image before = shown();
   EXPECT_TRUE(ProbeAt(before, camera, tail_W).IsBlue()) << ProbeAt(before, camera, tail_W);
   EXPECT_TRUE(click(*camera.Project(tail_W, 960, 540)));
@@ -116,20 +124,8 @@ TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
   agent.detail->target_speed_mps = 15.0;
   moment.agents.push_back(agent);
   const scene::Camera camera = scene::ChaseCamera(moment.cars[0], *world);
-  const auto shown = [&] {
-    screen.value()->Show(moment, 1.0);
-    return screen.value()->painter().Read();
-  };
-  const auto click = [&](const Eigen::Vector2d& at) {
-    SDL_Event event{};
-    event.type = SDL_MOUSEBUTTONDOWN;
-    event.button.button = SDL_BUTTON_LEFT;
-    (void)screen.value()->TakeMouse(event, false);
-    event.type = SDL_MOUSEBUTTONUP;
-    event.button.x = static_cast<int>(at.x());
-    event.button.y = static_cast<int>(at.y());
-    return screen.value()->TakeMouse(event, false);
-  };
+  const auto shown = [&] { return Shown(*screen.value(), moment); };
+  const auto click = [&](const Eigen::Vector2d& at) { return Click(*screen.value(), at); };
   const Image before = shown();
   EXPECT_TRUE(click(*camera.Project(from_car(12.05, 4.0, 0.8), 960, 540)));
   const Image chosen = shown();
@@ -145,15 +141,6 @@ TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
   moment.agents[0].detail = agent.detail;
   EXPECT_TRUE(click({480.0, 20.0}));
   EXPECT_EQ(shown().rgb, before.rgb);
-}
-
-SDL_Event ButtonAt(const Eigen::Vector2d& at, bool down) {
-  SDL_Event event{};
-  event.type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
-  event.button.button = SDL_BUTTON_LEFT;
-  event.button.x = static_cast<int>(at.x());
-  event.button.y = static_cast<int>(at.y());
-  return event;
 }
 
 // Behind its key, or with ctrl held, a click asks for the place on the ground that is seen there, whoever drives; the next one does not.
@@ -302,10 +289,7 @@ TEST(Screen, FromAboveAndBackToTheSameCamera) {
   ASSERT_TRUE(screen.ok()) << screen.error().Text();
   scene::Moment moment;
   moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
-  const auto shown = [&] {
-    screen.value()->Show(moment, 1.0);
-    return screen.value()->painter().Read();
-  };
+  const auto shown = [&] { return Shown(*screen.value(), moment); };
   SDL_Event turned{};
   turned.type = SDL_MOUSEMOTION;
   turned.motion.state = SDL_BUTTON_LMASK;
@@ -429,10 +413,7 @@ TEST(Screen, MirrorsGoAndComeBackByTheirKey) {
   ASSERT_TRUE(screen.ok()) << screen.error().Text();
   scene::Moment moment;
   moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
-  const auto shown = [&] {
-    screen.value()->Show(moment, 1.0);
-    return screen.value()->painter().Read();
-  };
+  const auto shown = [&] { return Shown(*screen.value(), moment); };
   const Image with = shown();
   EXPECT_TRUE(screen.value()->TakeKey(SDLK_F4, true));
   EXPECT_NE(shown().rgb, with.rgb);
