@@ -17,6 +17,13 @@ constexpr std::size_t kPieceNumbers = 7;
 
 }  // namespace
 
+ZoneGrant Agent::GrantOf(double out_m) const {
+  for (const ZoneGrant& grant : grants) {
+    if (out_m <= grant.to_m) return grant;
+  }
+  return {};
+}
+
 void Agent::Save(base::StateWriter& writer) const {
   writer.Put("on_road", on_road);
   writer.Put("is_struck", is_struck);
@@ -58,6 +65,7 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("change_from_m", change.from_m);
   writer.Put("change_to_m", change.to_m);
   writer.Put("settled_ns", settled_ns);
+  writer.Put("eased_for", eased_for);
   writer.Put("seeks", seeks);
   writer.Put("overtaking", overtaking);
   std::vector<std::uint32_t> tracks;
@@ -110,6 +118,7 @@ void Agent::Restore(base::StateReader& reader) {
   reader.Get("change_from_m", change.from_m);
   reader.Get("change_to_m", change.to_m);
   reader.Get("settled_ns", settled_ns);
+  reader.Get("eased_for", eased_for);
   reader.Get("seeks", seeks);
   reader.Get("overtaking", overtaking);
   std::vector<std::uint32_t> tracks;
