@@ -189,6 +189,7 @@ Painter::~Painter() {
 scene::Camera Painter::CameraOf(const Picture& picture) const {
   const auto body = scene::BodyAt(picture.moment, picture.followed);
   if (!body) return {};
+  if (picture.eye && picture.camera == scene::CameraKind::kDriver) return scene::EyeCamera(*body, *picture.eye);
   if (picture.screen && picture.camera == scene::CameraKind::kDriver) return scene::ScreenCamera(*body, *picture.screen);
   return scene::MakeCamera(picture.camera, *body, picture.aim, world_);
 }
@@ -199,8 +200,10 @@ base::Status Painter::WearCarModel(const std::filesystem::path& file) {
   return {};
 }
 
-void Painter::Draw(const Picture& picture) {
-  const int width = surface_.width_px(), height = surface_.height_px();
+void Painter::Draw(const Picture& picture) { DrawInto(picture, {0, surface_.width_px(), surface_.height_px()}); }
+
+void Painter::DrawInto(const Picture& picture, const PictureTarget& target) {
+  const int width = target.width_px, height = target.height_px;
   const scene::Camera camera = CameraOf(picture);
   const bool is_car = picture.followed < picture.moment.cars.size();
   const auto body = scene::BodyAt(picture.moment, picture.followed);
@@ -209,6 +212,8 @@ void Painter::Draw(const Picture& picture) {
     eye.getGraphicsContext()->resized(0, 0, width, height);
     eye.setViewport(0, 0, width, height);
   }
+  eye.getGraphicsContext()->setDefaultFboId(target.framebuffer);  // to which it returns from mirrors and shadows
+  Bind(target);
   const double aspect = static_cast<double>(width) / height;
   AimCamera(eye, camera, aspect, kFar_m);
   const scene::Air air = scene::MakeAir(picture.moment.weather);
