@@ -9,8 +9,12 @@
 #include <osgViewer/Renderer>
 #include <osgViewer/Viewer>
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <set>
 #include <thread>
 
 #include "nodes/view/aim_camera.hpp"
@@ -275,19 +279,15 @@ Image Painter::Read() const {
   return image;
 }
 
-base::Status CheckModels(const scene::WorldScene& standing) {
-  for (const scene::GroundTile& tile : standing.ground) {
-    for (const scene::PlacedModel& model : tile.levels[0].models) {
-      if (auto read = ReadModel(model.file); !read) return read;
-    }
-  }
-  return {};
-}
-
 base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built) {
   if (!built.empty()) return Painter::Make(surface, world, built);
-  const scene::WorldScene standing = scene::BuildWorldScene(world);  // the painter has its own copy
-  if (auto status = CheckModels(standing); !status) return status.error();
+  std::set<std::string> told;
+  const auto is_there = [&](const std::string& file) {
+    const base::Status read = ReadModel(file);
+    if (!read && told.insert(file).second) fmt::print(stderr, "rodeira: {}; what it is of is drawn without it\n", read.error().Text());
+    return read.ok();
+  };
+  const scene::WorldScene standing = scene::BuildWorldScene(world, {}, is_there);  // the painter has its own copy
   return std::make_unique<Painter>(surface, world, standing);
 }
 

@@ -52,10 +52,8 @@ class Painter {
   std::unique_ptr<Parts> parts_;
 };
 
-// Whether every model that a world names can be read. Wrong input otherwise.
-base::Status CheckModels(const scene::WorldScene& standing);
-
-// A painter of the world with the ground of a built database, or, where `built` is empty, with ground that is built in memory.
+// A painter of the world with the ground of a built database, or, where `built` is empty, with ground that is built in memory: what has a
+// model that cannot be read is then drawn without it, which is said once on the standard error.
 base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built);
 
 // One picture of a world, without a window and without a run.
