@@ -28,7 +28,8 @@ class Painter {
 
   // Shows a model from a file for driven cars (CarNode::Wear says what is expected). Wrong input where it cannot be read: nothing is changed.
   base::Status WearCarModel(const std::filesystem::path& file);
-  // Draws; nothing is shown yet. Of a built database what has been read so far; the rest is asked for.
+  // Draws; nothing is shown yet. Of a built database what has been read so far; the rest is asked for. At low quality, of pictures that follow one
+  // another, one mirror each.
   void Draw(const Picture& picture);
   // Draws, and waits for all that is to be seen: a pure function of the world and the picture, built or not.
   void DrawWhole(const Picture& picture);
@@ -44,6 +45,7 @@ class Painter {
   struct Parts;
   Painter(Surface& surface, const road::World& world);
   void SetUp();
+  void DrawOnce(const Picture& picture, bool whole);
   Surface& surface_;
   const road::World& world_;
   std::unique_ptr<Parts> parts_;
