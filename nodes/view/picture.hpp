@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "common/scene/camera.hpp"
-#include "common/scene/heat_map.hpp"
+#include "common/scene/headset_eye.hpp"
+#include "common/scene/heat_raster.hpp"
 #include "common/scene/mirror.hpp"
 #include "common/scene/moment.hpp"
 
@@ -17,17 +18,18 @@ namespace rodeira::view {
 // The bar of a recording's time at the bottom of a picture. Places are shares of the run, from 0 to 1.
 struct Timeline {
   double share = 0.0;         // now
-  std::vector<double> marks;  // of the operator
+  std::vector<double> marks;  // of the operator, and faults
   std::string where;          // time, speed, direction
   std::string note;           // the mark that is near
   std::string keys;           // the most important ones
+  std::vector<double> events;  // of scenarios
 };
 
 // A statistic over the ground, as it was gathered up to a moment.
 struct HeatPicture {
   scene::HeatKind kind = scene::HeatKind::kSpeed;
   double watched_s = 0.0;
-  std::vector<scene::HeatSquare> squares;
+  scene::HeatRaster raster;
 };
 
 // What one picture shows.
@@ -36,6 +38,7 @@ struct Picture {
   scene::CameraKind camera = scene::CameraKind::kChase;
   scene::Aim aim;                   // of the cameras that a hand moves
   std::optional<scene::ScreenPlane> screen;  // through which the driver's camera looks
+  std::optional<scene::HeadsetEye> eye;      // that the driver's camera is instead
   std::size_t followed = 0;         // whom the camera goes with: the moment's cars, then its traffic
   std::optional<std::size_t> chosen;  // whom a person looks at, counted likewise: it pulses
   std::string panel;                // lines about it
