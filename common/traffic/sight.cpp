@@ -75,7 +75,7 @@ void TrafficModel::SeeOthers(std::span<const driver::Footprint> others) {
 void TrafficModel::See(std::span<const driver::Footprint> others) {
   SeeOthers(others);
   for (auto& occupants : occupants_) occupants.clear();
-  EachDriving([&](std::uint32_t id) { FindStretches(id, SightOf(agents_[id])); });
+  EachDriving([&](std::uint32_t id) { FindStretches(id, people_ ? std::max(SightOf(agents_[id]), StoppingWay(id)) : SightOf(agents_[id])); });
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     const Agent& agent = agents_[id];
     if (!agent.on_road) continue;

@@ -46,6 +46,7 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   wanted_.resize(agents_.size());
   missed_now_.resize(agents_.size());
   barriers_.resize(agents_.size());
+  bars_.assign(agents_.size(), kNoBarrier_m);
   occupants_.resize(graph().tracks().size());
   present_.resize(graph().tracks().size());
   blocks_.resize(graph().tracks().size());
@@ -84,6 +85,12 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
   TrafficModel model(settings, map);
   if (settings.vehicles > 0 && model.map_->entries.empty()) {
     return base::WrongInput("the network '" + model.map_->network->name() + "' has no lane to put traffic on; drivable lanes, or 0 vehicles, were expected");
+  }
+  if (settings.pedestrians) {
+    auto people = Pedestrians::Make(model.graph(), LargestOf(settings), *settings.pedestrians, settings.seed);
+    if (!people) return people.error();
+    model.people_ = std::move(people).value();
+    model.yielding_.resize(model.agents_.size());
   }
   if (const auto status = lanes::CheckLights(model.map_->graph, model.map_->zones); !status) return status.error();
   model.FindColours();
@@ -128,6 +135,7 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
     if (agents_[pose.id].is_struck) bodies_.push_back(FootprintOf(pose, traits_[pose.id]));
   }
   See(bodies_);
+  if (people_) LookAtPeople(dt_s);
   Arbitrate(dt_s);
   const std::int64_t step_ns = std::llround(dt_s * 1e9);
   ChangeLanes(step_ns);
@@ -147,6 +155,7 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
     if (AtTheEnd(id)) Leave(id);
   }
   SlideStruck(dt_s);
+  if (people_) people_->Step(dt_s, time_ns_ + step_ns);
   Arrive(time_ns_ + step_ns);
   Enter();
   time_ns_ += step_ns;
@@ -211,6 +220,11 @@ bool TrafficModel::AtTheEnd(std::uint32_t id) const {
 void TrafficModel::Save(base::StateWriter& writer) const {
   for (const Agent& agent : agents_) writer.Put("agent", agent);
   if (full_) writer.Put("full", *full_);
+  if (people_) writer.Put("people", *people_);
+  for (const Yielding& yielding : yielding_) {
+    writer.Put("yields", yielding.crossing);
+    writer.Put("yielded_s", yielding.waited_s);
+  }
   writer.Put("waiting", waiting_);
   writer.Put("next_grant", next_grant_);
   writer.Put("time_ns", time_ns_);
@@ -227,6 +241,11 @@ void TrafficModel::Save(base::StateWriter& writer) const {
 void TrafficModel::Restore(base::StateReader& reader) {
   for (Agent& agent : agents_) reader.Get("agent", agent);
   if (full_) reader.Get("full", *full_);
+  if (people_) reader.Get("people", *people_);
+  for (Yielding& yielding : yielding_) {
+    reader.Get("yields", yielding.crossing);
+    reader.Get("yielded_s", yielding.waited_s);
+  }
   way_keys_.assign(agents_.size(), {});
   reader.Get("waiting", waiting_);
   reader.Get("next_grant", next_grant_);

@@ -33,6 +33,7 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.lane_changes.threshold_mps2 = change.Number("threshold_mps2", {0.0, 2.0}, t.lane_changes.threshold_mps2);
   t.lane_changes.bias_mps2 = change.Number("bias_mps2", {0.0, 2.0}, t.lane_changes.bias_mps2);
   t.lane_changes.safe_mps2 = change.Number("safe_mps2", {0.5, 8.0}, t.lane_changes.safe_mps2);
+  if (map.Has("pedestrians")) t.pedestrians = ReadPedestrians(map.Child("pedestrians"));
   if (map.Has("mix")) t.mix = ReadMix(map.Child("mix"));
   return t;
 }

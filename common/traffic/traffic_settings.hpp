@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "common/base/result.hpp"
 #include "common/config/config.hpp"
@@ -10,6 +11,7 @@
 #include "common/driver/speed_plan.hpp"
 #include "common/lanes/swath.hpp"
 #include "common/traffic/demand_settings.hpp"
+#include "common/traffic/pedestrian_settings.hpp"
 
 namespace rodeira::traffic {
 
@@ -39,6 +41,7 @@ struct TrafficSettings {
   driver::MobilSettings lane_changes;
   VehicleMix mix;         // of who does not belong to a flow with a mix of its own
   DemandSettings demand;  // with flows `vehicles` is how many there are at a time at most; the roads are empty at first
+  std::optional<PedestrianSettings> pedestrians;  // none: crossings are nothing to anybody
 };
 
 // Reads `vehicles`, `following`, `comfort` … of a mapping; the seed is the run's. Problems stay in the file's collection.
