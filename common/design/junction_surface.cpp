@@ -5,6 +5,7 @@
 
 #include "common/base/assert.hpp"
 #include "common/geometry/plane.hpp"
+#include "common/geometry/polygon.hpp"
 
 namespace rodeira::design {
 namespace {
@@ -39,19 +40,6 @@ std::vector<Edge> EdgesOf(const network::Road& road, network::End end) {
     add(section.Span(section.left[i].id, road.CentreAt(s), s)->outer_t_m, paved);
   }
   return edges;
-}
-
-bool InPolygon(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
-    const Eigen::Vector2d &a = corners[i], &b = corners[j];
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    // On which side of the edge, looking from its lower end: the same answer whichever way it is run through.
-    const bool up = a.y() < b.y();
-    const double side = up ? geometry::Cross(b - a, p - a) : geometry::Cross(a - b, p - b);
-    if (side > 0.0) inside = !inside;
-  }
-  return inside;
 }
 
 // One arm's height at p and how it changes; its distance and how that changes.
@@ -125,10 +113,10 @@ JunctionSurface::JunctionSurface(std::string id, std::vector<ArmSection> arms, s
 
 bool JunctionSurface::Contains(const Eigen::Vector2d& p) const {
   if (p.x() < low_.x() || p.y() < low_.y() || p.x() > high_.x() || p.y() > high_.y()) return false;
-  return InPolygon(outline_, p);
+  return geometry::InPolygon(outline_, p);
 }
 
-bool JunctionSurface::IsPaved(const Eigen::Vector2d& p) const { return InPolygon(paved_, p); }
+bool JunctionSurface::IsPaved(const Eigen::Vector2d& p) const { return geometry::InPolygon(paved_, p); }
 
 JunctionHeight JunctionSurface::At(const Eigen::Vector2d& p) const {
   double weights = 0.0, heights = 0.0;

@@ -70,6 +70,17 @@ DriveError Compare(const LaneShape& lane, const DrivePiece& piece) {
   return error;
 }
 
+// How far the curve's own length is from the piece's.
+double LengthOff(const DrivePiece& piece) {
+  constexpr int kParts = 32;  // Simpson's rule
+  double sum = 0.0;
+  for (int i = 0; i <= kParts; ++i) {
+    const double d = piece.length_m * i / kParts;
+    sum += (i == 0 || i == kParts ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * std::hypot(Rate(piece.u, d), Rate(piece.v, d));
+  }
+  return std::fabs(sum * piece.length_m / (3.0 * kParts) - piece.length_m);
+}
+
 }  // namespace
 
 double DriveError::Most() const { return std::max({middle_m, border_m, height_m}); }
@@ -80,13 +91,13 @@ void DriveError::Include(const DriveError& other) {
   height_m = std::max(height_m, other.height_m);
 }
 
-base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double tolerance_m, DriveError& error) {
+base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double from_m, double to_m, const FitBounds& bounds, DriveError& error) {
   std::vector<DrivePiece> pieces;
-  std::vector<double> ends = {lane.length_m()};  // of the pieces to come, the next one last
-  for (double s = 0.0; !ends.empty();) {
+  std::vector<double> ends = {to_m};  // of the pieces to come, the next one last
+  for (double s = from_m; !ends.empty();) {
     const DrivePiece piece = Fit(lane, s, ends.back());
     const DriveError off = Compare(lane, piece);
-    if (!(off.Most() <= tolerance_m)) {
+    if (!(off.Most() <= bounds.off_m) || LengthOff(piece) > bounds.length_m) {
       if (piece.length_m < kShortest_m)
         return base::WrongInput(fmt::format("it turns too sharply at {:.2f} m to be written as cubics of the distance", s));
       ends.push_back(0.5 * (s + ends.back()));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "common/base/result.hpp"
@@ -33,8 +34,14 @@ struct DriveError {
   void Include(const DriveError& other);
 };
 
-// The lane in pieces, each halved until all its errors, measured at ten places, are within `tolerance_m`; `error` is what
+// What a piece may be off: at any place, and in the length of its curve, which is its s.
+struct FitBounds {
+  double off_m = 0.005;
+  double length_m = std::numeric_limits<double>::infinity();
+};
+
+// A stretch of the lane in pieces, each halved until all its errors, measured at ten places, are within the bounds; `error` is what
 // remains. Wrong input where a piece of 5 cm is not near enough yet.
-base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double tolerance_m, DriveError& error);
+base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double from_m, double to_m, const FitBounds& bounds, DriveError& error);
 
 }  // namespace rodeira::map

@@ -6,7 +6,7 @@
 namespace rodeira::map {
 
 base::Result<std::shared_ptr<const network::Network>> ToNetwork(const LaneMap& map, const std::string& name) {
-  const auto drive = ToOpenDrive(map, name);
+  const auto drive = ToOpenDrive(map, name, Junctions::kDirect);
   if (!drive) return base::WrongInput(drive.error().message, name);
   const auto import = opendrive::Read(drive.value().xml, name);
   if (!import) return import.error();

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/map/lane_map.hpp"
+#include "common/map/road_plan.hpp"
 
 namespace rodeira::map {
 
@@ -20,9 +21,10 @@ struct OpenDrive {
 
 // Every lane is a road with the lane's number as its id: its reference line is the lane's middle as paramPoly3 by distance,
 // lane -1 reaches from border to border (laneOffset, width). Where a lane has one successor that has no other predecessor, the
-// roads are linked; everywhere else a direct junction links them. STOP is a signal of type 206, other signs are 205, 301 and
+// roads are linked; everywhere else a junction links them. Of common junctions the lanes that lie in them are connecting roads; where none
+// does, the last or first 5 m of a lane are (a third of it at most), and its own road ends there. STOP is a signal of type 206, other signs are 205, 301 and
 // 274, which is the lane's speed from there on too. The pieces are cut until
 // every error is below 5 mm. Wrong input where a lane cannot be fitted so (a cusp).
-base::Result<OpenDrive> ToOpenDrive(const LaneMap& map, const std::string& name);
+base::Result<OpenDrive> ToOpenDrive(const LaneMap& map, const std::string& name, Junctions junctions = Junctions::kCommon);
 
 }  // namespace rodeira::map

@@ -225,7 +225,7 @@ bool Network::Together(Cluster& cluster) const {
   const Band& band = index_.bands()[*index];
   const Road& road = spec_.roads[band.road];
   const geometry::AxisPanel& panel = road.axis().panels()[band.panel];
-  if (road.rolled() || !geometry::FindFeet(road.axis(), panel, feet)) return false;
+  if (road.rolled() || road.spec().ground != nullptr || !geometry::FindFeet(road.axis(), panel, feet)) return false;
   for (std::size_t i = 0; i < feet.count; ++i) cluster.s_m[i] = panel.middle_s_m + feet.u_m[i];
   Range(cluster.s_m, feet.count, cluster.low_s_m, cluster.high_s_m);
   Range(feet.t_m, feet.count, cluster.low_t_m, cluster.high_t_m);

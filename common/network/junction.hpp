@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,7 @@ struct Junction {
   // Of a junction made by this program: the corners of its surface, counter-clockwise, without the first one again; the
   // part that is paved, and all of it with the verges. Within it World::At says the height. Empty: what its roads cover.
   std::vector<Eigen::Vector2d> paved_W, outline_W;
+  std::shared_ptr<const JunctionGround> ground;  // of a file's junction that has heights of its own; null: its roads'
 };
 
 struct ControllerEntry {

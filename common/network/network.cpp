@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/assert.hpp"
+#include "common/network/junction_ground.hpp"
 
 namespace rodeira::network {
 
@@ -20,7 +21,17 @@ Eigen::Vector2d GeoOffset::FromMap(const Eigen::Vector2d& p_map) const {
 Network::Network(NetworkSpec spec) : spec_(std::move(spec)), index_(spec_.roads, kClosed_m) {
   for (std::uint32_t i = 0; i < spec_.roads.size(); ++i) road_by_id_.emplace(spec_.roads[i].id(), i);
   for (std::uint32_t i = 0; i < spec_.junctions.size(); ++i) junction_by_id_.emplace(spec_.junctions[i].id, i);
+  for (const Junction& junction : spec_.junctions) {
+    if (junction.ground != nullptr) grounds_.push_back(junction.ground.get());
+  }
   Link();
+}
+
+const JunctionGround* Network::GroundAt(const Eigen::Vector2d& p_W) const {
+  for (const JunctionGround* ground : grounds_) {
+    if (ground->Contains(p_W)) return ground;
+  }
+  return nullptr;
 }
 
 std::optional<std::uint32_t> Network::FindRoad(std::string_view id) const {

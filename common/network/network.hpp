@@ -105,6 +105,8 @@ class Network {
   std::span<const Controller> controllers() const { return spec_.controllers; }
   std::optional<std::uint32_t> FindRoad(std::string_view id) const;
   std::optional<std::uint32_t> FindJunction(std::string_view id) const;
+  // The ground of the junction whose boundary holds a point; null where none does.
+  const JunctionGround* GroundAt(const Eigen::Vector2d& p_W) const;
 
   // The lane at (x, y), on the level of z (without z: the top one). Of several that overlap, as in a junction: a
   // drivable one, then the one whose middle is nearest, then the first road. Beside all roads: the nearest. Nothing
@@ -165,6 +167,7 @@ class Network {
 
   NetworkSpec spec_;
   std::map<std::string, std::uint32_t, std::less<>> road_by_id_, junction_by_id_;
+  std::vector<const JunctionGround*> grounds_;
   BandIndex index_;
   std::vector<std::vector<std::uint32_t>> first_lane_;  // by road and section: the number of its lane of lowest id
   std::vector<Ends> ends_;                              // by the lane's number

@@ -5,6 +5,7 @@
 
 #include "common/base/assert.hpp"
 #include "common/geometry/plane.hpp"
+#include "common/network/junction_ground.hpp"
 
 namespace rodeira::network {
 namespace {
@@ -39,8 +40,8 @@ Road::Road(RoadSpec spec, geometry::PlanAxis axis)
     : spec_(std::move(spec)),
       axis_(std::move(axis)),
       length_m_(std::min(spec_.length_m, axis_.length_m())),
-      rolled_(!spec_.superelevation.zero()),
-      shaped_(!spec_.lateral.flat() || std::any_of(spec_.sections.begin(), spec_.sections.end(), HasOwnSurface)) {
+      rolled_(!spec_.superelevation.zero() && spec_.ground == nullptr),
+      shaped_(spec_.ground != nullptr || !spec_.lateral.flat() || std::any_of(spec_.sections.begin(), spec_.sections.end(), HasOwnSurface)) {
   RODEIRA_ASSERT(!spec_.sections.empty());
   for (std::size_t i = 0; i < spec_.sections.size(); ++i) {
     spec_.sections[i].end_s_m = i + 1 < spec_.sections.size() ? spec_.sections[i + 1].s_m : length_m_;
@@ -95,7 +96,20 @@ SurfaceSample Road::Surface(double s_m, double t_m) const {
   return Surface(s_m, t_m, section, span);
 }
 
+SurfaceSample Road::OnGround(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSpan& span) const {
+  const Eigen::Vector2d N = at.left_W(), p = at.p_W + t_m * N, ds = (1.0 - at.curvature_1pm * t_m) * at.tangent_W;
+  const GroundHeight ground = spec_.ground->At(p);
+  const Eigen::Vector2d slope(ground.slope_x, ground.slope_y);
+  const LateralPoint lane = span.lane == nullptr ? LateralPoint{} : LaneHeightAt(span, s_m, t_m);
+  SurfaceSample sample;
+  sample.p_W << p, ground.z_m + lane.z_m;
+  sample.ds_W << ds, slope.dot(ds) + lane.slope_s;
+  sample.dt_W << N, slope.dot(N) + lane.slope_t;
+  return sample;
+}
+
 SurfaceSample Road::Surface(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const {
+  if (spec_.ground != nullptr) return OnGround(at, s_m, t_m, span);
   const geometry::CubicPoint z = spec_.elevation.Evaluate(s_m);
   const Eigen::Vector2d& T = at.tangent_W;
   const Eigen::Vector2d N = at.left_W();

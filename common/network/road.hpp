@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "common/network/line.hpp"
 
 namespace rodeira::network {
+
+class JunctionGround;
 
 enum class End : std::uint8_t { kStart, kEnd };
 
@@ -47,6 +50,7 @@ struct RoadSpec {
   std::vector<ObjectReference> object_references;
   std::vector<Structure> structures;
   std::vector<CrgSurface> crg;
+  std::shared_ptr<const JunctionGround> ground;  // its junction's, which takes the place of elevation, superelevation and lateral profile
   // OpenDRIVE has none of these.
   std::vector<PaintedLine> lines;
   std::vector<Unevenness> unevenness;
@@ -103,13 +107,14 @@ class Road {
   const LaneMaterial* MaterialAt(const Lane& lane, double s_m) const;
 
  private:
+  SurfaceSample OnGround(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSpan& span) const;
   LateralPoint LaneHeightAt(const LaneSpan& span, double s_m, double t_m) const;
 
   RoadSpec spec_;
   geometry::PlanAxis axis_;
   double length_m_;
   bool rolled_;
-  bool shaped_;  // a lateral profile, a lane's height or a level lane
+  bool shaped_;  // a lateral profile, a lane's height, a level lane or a junction's ground
 };
 
 }  // namespace rodeira::network

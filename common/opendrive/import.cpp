@@ -62,7 +62,8 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   ReadHeader(root, import, spec);
   std::vector<RoadReading> readings;
   for (const Node& road : root.Children("road")) readings.push_back(ReadRoad(road));
-  for (const Node& junction : root.Children("junction")) spec.junctions.push_back(ReadJunction(junction));
+  std::vector<JunctionReading> junctions;
+  for (const Node& junction : root.Children("junction")) junctions.push_back(ReadJunction(junction));
   for (const Node& controller : root.Children("controller")) spec.controllers.push_back(ReadController(controller));
   if (readings.empty()) root.Wrong("core.roads", "there is no <road> in the file");
   import.errors = source.errors;
@@ -78,6 +79,8 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
     spec.roads.emplace_back(std::move(road.spec), std::move(*axis));
     lines.push_back(std::move(road.lines));
   }
+  for (const JunctionReading& junction : junctions) spec.junctions.push_back(junction.junction);
+  LayJunctionGrounds(junctions, tolerance, spec, findings);
   TakeTurns(spec);
   import.network = std::make_shared<const network::Network>(std::move(spec));
   CheckRoadLinks(*import.network, lines, tolerance, findings);

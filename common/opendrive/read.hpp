@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "common/network/junction_grid.hpp"
 #include "common/network/network.hpp"
 #include "common/opendrive/source.hpp"
 
@@ -21,6 +22,31 @@ struct RoadReading {
   RoadLines lines;
 };
 
+// A piece of a junction's boundary: along a lane's outer edge (lane 0: along the middle), or across a road's end.
+struct BoundarySegment {
+  bool joint = false;
+  std::string road;
+  std::size_t line = 0;
+  // Along: the lane, and where; infinite: to the road's end.
+  int lane = 0;
+  double from_s_m = 0.0, to_s_m = 0.0;
+  // Across: at which end, the lanes that it reaches between, each to its outer edge (nothing: all), and how far inward heights go over.
+  network::End end = network::End::kStart;
+  std::optional<int> first_lane, last_lane;
+  double transition_m = 0.0;
+};
+
+struct JunctionReading {
+  network::Junction junction;
+  std::size_t line = 0;
+  std::vector<BoundarySegment> boundary;
+  bool has_grid = false;
+  std::vector<geometry::PlanElement> elements;  // of its reference line
+  double grid_start_m = 0.0, grid_spacing_m = 0.0;
+  std::vector<network::JunctionGridRow> grid_rows;
+};
+
+network::End ReadContact(const Node& node, const char* attribute);
 RoadReading ReadRoad(const Node& road);
 std::vector<geometry::PlanElement> ReadPlanView(const Node& road, RoadLines& lines);
 void ReadProfiles(const Node& road, network::RoadSpec& spec);
@@ -29,7 +55,7 @@ void ReadLanes(const Node& road, network::RoadSpec& spec, RoadLines& lines);
 network::RoadMark ReadMark(const Node& mark, double section_s_m);
 void ReadSignals(const Node& road, network::RoadSpec& spec);
 void ReadObjects(const Node& road, network::RoadSpec& spec);
-network::Junction ReadJunction(const Node& junction);
+JunctionReading ReadJunction(const Node& junction);
 network::Controller ReadController(const Node& controller);
 // Controllers that a junction names and that say no times take turns, in the junction's order: 20 s of green, 3 s of amber,
 // 2 s of red for all. Those of lights for people on foot alone stay dark.

@@ -1,20 +1,11 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "common/opendrive/read.hpp"
 
 namespace rodeira::opendrive {
 namespace {
-
-network::End ReadContact(const Node& node, const char* attribute) {
-  const std::string contact = node.Text(attribute, "start");
-  if (contact != "start" && contact != "end") {
-    node.Wrong("road.linkage.contact_point", fmt::format("{} is '{}'; start or end was expected", attribute, contact));
-  }
-  return contact == "end" ? network::End::kEnd : network::End::kStart;
-}
 
 std::optional<network::RoadLink> ReadLink(const Node& link) {
   if (!link) return std::nullopt;
@@ -30,6 +21,14 @@ std::optional<network::RoadLink> ReadLink(const Node& link) {
 }
 
 }  // namespace
+
+network::End ReadContact(const Node& node, const char* attribute) {
+  const std::string contact = node.Text(attribute, "start");
+  if (contact != "start" && contact != "end") {
+    node.Wrong("road.linkage.contact_point", fmt::format("{} is '{}'; start or end was expected", attribute, contact));
+  }
+  return contact == "end" ? network::End::kEnd : network::End::kStart;
+}
 
 RoadReading ReadRoad(const Node& road) {
   RoadReading reading;
@@ -59,29 +58,6 @@ RoadReading ReadRoad(const Node& road) {
   ReadSignals(road, spec);
   ReadObjects(road, spec);
   return reading;
-}
-
-network::Junction ReadJunction(const Node& junction) {
-  network::Junction read;
-  read.id = junction.Text("id");
-  read.name = junction.Text("name", "");
-  read.type = junction.Text("type", "default");
-  for (const Node& node : junction.Children("connection")) {
-    network::JunctionConnection connection;
-    connection.id = node.Text("id", "");
-    connection.incoming_road = node.Text("incomingRoad", "");
-    connection.connecting_road = node.Text(node.Has("linkedRoad") ? "linkedRoad" : "connectingRoad", "");
-    connection.contact = ReadContact(node, "contactPoint");
-    for (const Node& link : node.Children("laneLink"))
-      connection.lane_links.push_back({link.Integer("from"), link.Integer("to")});
-    read.connections.push_back(std::move(connection));
-  }
-  for (const Node& node : junction.Children("priority")) read.priorities.push_back({node.Text("high", ""), node.Text("low", "")});
-  std::vector<std::pair<double, std::string>> controllers;
-  for (const Node& node : junction.Children("controller")) controllers.emplace_back(node.Number("sequence", 0.0), node.Text("id", ""));
-  std::stable_sort(controllers.begin(), controllers.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (auto& [sequence, id] : controllers) read.controllers.push_back(std::move(id));
-  return read;
 }
 
 }  // namespace rodeira::opendrive

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/geometry/plane.hpp"
+#include "common/network/junction_ground.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -38,6 +39,12 @@ SurfacePoint OnRoad(const Source& source, const network::Surfacing& surfacing) {
   return {sample.p_W.z(), -normal.x() / normal.z(), -normal.y() / normal.z(), measured.value_or(ground.friction), ground.surface, true};
 }
 
+// Within a junction that has a ground of its own, between its connecting roads.
+SurfacePoint OnJunction(const network::JunctionGround& ground, const FrictionTable& friction, const Eigen::Vector2d& p) {
+  const network::GroundHeight at = ground.At(p);
+  return {at.z_m, at.slope_x, at.slope_y, friction[static_cast<std::size_t>(terrain::Surface::kAsphalt)], terrain::Surface::kAsphalt, true};
+}
+
 SurfacePoint OnVerge(const Network& network, const FrictionTable& friction, const Eigen::Vector2d& p, const Place& place) {
   const network::Road& road = network.roads()[place.lane.road];
   const network::LaneSection& section = network.Section(place.lane);
@@ -66,12 +73,20 @@ SurfacePoint NetworkGround(const Network& network, const LaneGrounds& grounds, c
   const Source source{network, grounds, friction, paint, detail};
   thread_local std::vector<network::Surfacing> surfaces;
   network.Surfaces(x_m, y_m, surfaces);
+  const network::JunctionGround* open = network.GroundAt({x_m, y_m});
+  const SurfacePoint between = open == nullptr ? SurfacePoint{} : OnJunction(*open, friction, {x_m, y_m});
+  const bool meant = open != nullptr && !(between.z_m > z_hint_m + terrain::kHintAbove_m);
   const network::Surfacing* lowest = nullptr;
   for (const network::Surfacing& surfacing : surfaces) {
     if (surfacing.place.lane.lane == 0) continue;  // a road without lanes on that side
-    if (!(surfacing.sample.p_W.z() > z_hint_m + terrain::kHintAbove_m)) return OnRoad(source, surfacing);  // NaN: the first
+    if (open != nullptr && surfacing.claim.past_end) continue;  // a road goes on over a gap; the junction lies there
+    const double z = surfacing.sample.p_W.z();
+    const bool its_own = open != nullptr && network.roads()[surfacing.place.lane.road].spec().ground.get() == open;
+    if (meant && between.z_m > z && !its_own) return between;
+    if (!(z > z_hint_m + terrain::kHintAbove_m)) return OnRoad(source, surfacing);  // NaN: the first
     lowest = &surfacing;
   }
+  if (meant) return between;
   const bool hinted = std::isfinite(z_hint_m);
   const auto place = network.Locate(x_m, y_m, hinted ? std::optional(z_hint_m) : std::nullopt);
   if (!place || place->distance_m > kVerge_m) return lowest == nullptr ? SurfacePoint{} : OnRoad(source, *lowest);

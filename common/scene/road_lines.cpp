@@ -114,7 +114,7 @@ class SectionLines {
   // How many parts each lane needs across, so that its height is straight enough between them.
   void Divide(const std::vector<double>& stations) {
     const network::LateralProfile& lateral = road_.spec().lateral;
-    if (lateral.flat()) return;
+    if (lateral.flat() && road_.spec().ground == nullptr) return;
     for (std::size_t lane = 0; lane < parts_.size(); ++lane) {
       for (bool enough = false; !enough && parts_[lane] < kMostParts;) {
         enough = true;

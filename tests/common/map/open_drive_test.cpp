@@ -70,7 +70,7 @@ class Drive : public testing::TestWithParam<const char*> {
     auto map = LoadLaneMap(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/maps" / (std::string(GetParam()) + ".motors"));
     ASSERT_TRUE(map.ok()) << map.error().Text();
     map_ = std::move(map).value();
-    auto drive = ToOpenDrive(map_, GetParam());
+    auto drive = ToOpenDrive(map_, GetParam(), Junctions::kDirect);
     ASSERT_TRUE(drive.ok()) << drive.error().Text();
     drive_ = std::move(drive).value();
     ASSERT_TRUE(document_.load_string(drive_.xml.c_str()));
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(Maps, Drive, testing::Values("crossing", "roundabout", 
 
 TEST(OpenDrive, StopAndMarks) {
   const LaneMap map = MakeLaneMap(ParseMap(GoodMap(), "x.motors").value(), {}, "x.motors").value();
-  const OpenDrive drive = ToOpenDrive(map, "a<b").value();
+  const OpenDrive drive = ToOpenDrive(map, "a<b", Junctions::kDirect).value();
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(drive.xml.c_str()));
   EXPECT_STREQ(document.child("OpenDRIVE").child("header").attribute("name").value(), "a<b");
@@ -174,7 +174,7 @@ TEST(OpenDrive, LinesWhereOneStopsOrGivesWayAreSaidOnce) {
   const auto map = MakeLaneMap(ParseMap(GoodMap(), "x.motors").value(), companion.value(), "x.motors");
   ASSERT_TRUE(map.ok()) << map.error().Text();
   pugi::xml_document document;
-  ASSERT_TRUE(document.load_string(ToOpenDrive(map.value(), "a").value().xml.c_str()));
+  ASSERT_TRUE(document.load_string(ToOpenDrive(map.value(), "a", Junctions::kDirect).value().xml.c_str()));
   std::vector<std::string> lines;
   for (const pugi::xml_node road : document.child("OpenDRIVE").children("road")) {
     for (const pugi::xml_node signal : road.child("signals").children("signal")) {
