@@ -2,6 +2,7 @@
 // passed; who can stop comfortably does so for who waits, and everybody for who has stepped out.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "common/traffic/traffic_model.hpp"
 
@@ -19,6 +20,8 @@ constexpr double kAside_m = 1.5;       // from a lane's middle: farther away a v
 constexpr double kEntering = 0.6;      // share of the comfortable braking that an entering car may need
 constexpr double kShareOfRed = 0.8;    // in which people step out, where red is shorter than they need
 constexpr std::size_t kMostWays = 64;
+
+double NeedsToStop(double speed_mps, double braking_mps2) { return speed_mps * speed_mps / (2.0 * braking_mps2) + kReaction_s * speed_mps; }
 
 }  // namespace
 
@@ -69,13 +72,24 @@ void TrafficModel::CarsAtCrossings() {
           at.blocked = at.blocked || v < kAtRest_mps;
           continue;
         }
-        const double needed = v * v / (2.0 * kYieldingShare * traits_[id].idm.braking_mps2) + kReaction_s * v;
-        const bool yields = yielding_[id].crossing == on.crossing + 1;
-        const bool able = needed <= line - front || v < kAtRest_mps || (yields && v * v <= 2.0 * traits_[id].idm.hardest_mps2 * (in - front));
-        at.held = at.held || !able;
+        const bool yields = yielding_[id].crossing == on.crossing + 1 && v * v <= 2.0 * traits_[id].idm.hardest_mps2 * (in - front);
+        const bool able = yields || v < kAtRest_mps || NeedsToStop(v, kYieldingShare * traits_[id].idm.braking_mps2) <= line - front;
         to_crossings_.push_back({id, on.crossing, on.pass, std::max(front, line), able});
       }
     }
+  }
+  // Each must stop behind those before it, also behind one who comes in from beside, whom it does not follow yet.
+  const auto gap = [&](const ToCrossing& to) { return to.line_m - agents_[to.id].o_m - 0.5 * traits_[to.id].length_m; };
+  std::sort(to_crossings_.begin(), to_crossings_.end(), [&](const ToCrossing& a, const ToCrossing& b) {
+    return std::tuple(a.crossing, a.pass, gap(a), a.id) < std::tuple(b.crossing, b.pass, gap(b), b.id);
+  });
+  double queue_m = 0.0;
+  for (std::size_t i = 0; i < to_crossings_.size(); ++i) {
+    ToCrossing& to = to_crossings_[i];
+    if (i == 0 || to.crossing != to_crossings_[i - 1].crossing || to.pass != to_crossings_[i - 1].pass) queue_m = 0.0;
+    const double v = agents_[to.id].speed_mps, needed = NeedsToStop(v, kYieldingShare * traits_[to.id].idm.braking_mps2);
+    if (!to.able || (v >= kAtRest_mps && yielding_[to.id].crossing != to.crossing + 1 && needed > gap(to) - queue_m)) at_crossings_[to.crossing].held = true;
+    queue_m += traits_[to.id].length_m + settings_.idm.standing_gap_m;
   }
 }
 
