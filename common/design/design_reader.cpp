@@ -192,26 +192,45 @@ std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const
   return std::nullopt;
 }
 
-// What is laid on the roads that are left between junctions. A bump that a junction would cut is a problem of its road.
+// Whether a bump can go on in a junction: there it lies on the lanes of its way through, and nothing of it is faded at the road's edges beside it.
+bool GoesOn(const network::Bump& bump, const RoadDesign& design, const network::Road& way) {
+  constexpr double kFades_m = 0.5, kRounding_m = 1e-6;
+  const auto within = [&](const network::Road& road, double s_m, double inset_m) {
+    double right, left;
+    const double s = std::clamp(s_m, 0.0, road.length_m());
+    road.SectionAt(s).Bounds(road.spec().lane_offset, s, s, right, left);
+    return bump.piece.right_t_m >= right + inset_m - kRounding_m && bump.piece.left_t_m <= left - inset_m + kRounding_m;
+  };
+  const auto whole = BuildRoad(design);
+  return whole && within(way, 0.5 * way.length_m(), 0.0) && within(*whole, 0.5 * (bump.piece.from_s_m + bump.piece.to_s_m), kFades_m);
+}
+
+// What is laid on the roads between junctions, and on the ways along them through junctions. A bump that lies elsewhere is a problem of its road.
 std::vector<network::Laid> LayOn(const std::vector<RoadDesign>& designs, const Layout& layout) {
   std::vector<network::Laid> laid;
   if (std::all_of(designs.begin(), designs.end(), [](const RoadDesign& road) { return road.laid.empty(); })) return laid;
-  laid.resize(layout.network.roads.size());  // the ways through junctions, which are the last ones, have nothing
-  std::vector<std::size_t> bumps(designs.size(), 0);
-  for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
-    const Piece& piece = layout.pieces[i];
-    laid[i] = network::CutLaid(designs[piece.design].laid, piece.from_s_m, piece.to_s_m);
-    bumps[piece.design] += laid[i].bumps.size();
-  }
+  laid.resize(layout.network.roads.size());
+  const auto lay = [&](std::size_t road, const Piece& piece) { laid[road] = network::CutLaid(designs[piece.design].laid, piece.from_s_m, piece.to_s_m); };
+  for (std::size_t i = 0; i < layout.pieces.size(); ++i) lay(i, layout.pieces[i]);
+  for (const auto& [road, piece] : layout.along) lay(road, piece);
   for (std::size_t i = 0; i < designs.size(); ++i) {
-    if (bumps[i] == designs[i].laid.bumps.size()) continue;
     for (const network::Bump& bump : designs[i].laid.bumps) {
-      const bool whole = std::any_of(layout.pieces.begin(), layout.pieces.end(), [&](const Piece& piece) {
-        return piece.design == i && !network::CutLaid({{}, {bump}}, piece.from_s_m, piece.to_s_m).empty();
-      });
-      if (whole) continue;
-      designs[i].map.Problem("bumps", fmt::format("the bump from s = {:g} to {:g} m lies in a junction, or reaches into it; it was expected beside it",
-                                                  bump.piece.from_s_m, bump.piece.to_s_m));
+      const auto overlap = [&](const Piece& piece) {
+        const double from = std::max(piece.from_s_m, bump.piece.from_s_m), to = std::min(piece.to_s_m, bump.piece.to_s_m);
+        return piece.design == i ? std::max(0.0, to - from) : 0.0;
+      };
+      double length = 0.0;
+      bool goes_on = true;
+      for (const Piece& piece : layout.pieces) length += overlap(piece);
+      for (const auto& [road, piece] : layout.along) {
+        if (!(overlap(piece) > 0.0)) continue;
+        length += overlap(piece);
+        goes_on = goes_on && GoesOn(bump, designs[i], layout.network.roads[road]);
+      }
+      const bool whole = length > bump.piece.to_s_m - bump.piece.from_s_m - 1e-6;
+      if (whole && goes_on) continue;
+      designs[i].map.Problem("bumps", fmt::format("the bump from s = {:g} to {:g} m reaches into a junction{}", bump.piece.from_s_m, bump.piece.to_s_m,
+                                                  whole ? "; there it was expected on lanes that are driven on, half a metre or more within the road's edges" : " at which its road ends"));
     }
   }
   return laid;

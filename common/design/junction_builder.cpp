@@ -186,6 +186,7 @@ class Builder {
       for (const auto& connection : {with, against}) {
         if (!connection.lane_links.empty()) junction.connections.push_back(connection);
       }
+      layout_.along.emplace_back(specs_.size() + ways_.size(), design::Piece{passing.road, begin, end});
       AddWay(network::Road(std::move(spec), way.axis()), meeting == 0, junction);
     }
   }

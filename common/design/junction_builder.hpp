@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/design/junction_reader.hpp"
@@ -20,6 +21,7 @@ struct Piece {
 struct Layout {
   network::NetworkSpec network;  // the pieces come first
   std::vector<Piece> pieces;
+  std::vector<std::pair<std::size_t, Piece>> along;  // roads that go straight on through a junction: which, and where they come from
   std::vector<std::shared_ptr<const JunctionSurface>> surfaces;
 };
 

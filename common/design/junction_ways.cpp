@@ -104,7 +104,7 @@ network::Road WayAlong(const network::Road& whole, double from_s_m, double to_s_
   spec.junction = junction;
   spec.earthwork.reset();
   spec.signals.clear();
-  spec.objects.clear();
+  std::erase_if(spec.objects, [](const network::Object& object) { return object.type != "roadSurface"; });
   for (auto* side : {&spec.sections[0].left, &spec.sections[0].right}) {
     while (!side->empty() && !network::IsDrivable(side->back().type)) side->pop_back();
   }

@@ -8,7 +8,7 @@
 
 namespace rodeira::design {
 
-// The road itself between two arms of one meeting: its drivable lanes only, on the junction's surface.
+// The road itself between two arms of one meeting: its drivable lanes only, on the junction's surface, and of its objects what is laid on it.
 network::Road WayAlong(const network::Road& whole, double from_s_m, double to_s_m, const std::string& id, const std::string& junction,
                        const JunctionSurface& surface);
 

@@ -34,7 +34,7 @@ Laid CutLaid(const Laid& whole, double from_m, double to_m) {
     if (patch.piece.to_s_m > patch.piece.from_s_m) part.patches.push_back(std::move(patch));
   }
   for (Bump bump : whole.bumps) {
-    if (bump.piece.from_s_m < from_m - kRounding_m || bump.piece.to_s_m > to_m + kRounding_m) continue;
+    if (bump.piece.from_s_m > to_m - kRounding_m || bump.piece.to_s_m < from_m + kRounding_m) continue;
     bump.piece.from_s_m -= from_m;
     bump.piece.to_s_m -= from_m;
     std::vector<geometry::Cubic> records(bump.height.records().begin(), bump.height.records().end());

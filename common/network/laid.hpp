@@ -44,7 +44,7 @@ struct Laid {
   bool empty() const { return patches.empty() && bumps.empty(); }
 };
 
-// What of it lies between two stations, counted from the first. A bump that is not whole there is left out.
+// What of it lies between two stations, counted from the first. A bump that reaches beyond stays whole.
 Laid CutLaid(const Laid& whole, double from_m, double to_m);
 
 }  // namespace rodeira::network

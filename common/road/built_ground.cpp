@@ -65,7 +65,28 @@ SurfacePoint BuiltGround::OnRoad(const network::Surfacing& surfacing) const {
   return {sample.p_W.z(), normal.x() * down, normal.y() * down, ground.friction, ground.surface, true};
 }
 
-SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W) const {
+// What is laid on the roads that go straight on there, one after the other.
+void BuiltGround::LayOnJunction(std::span<const network::Surfacing> surfaces, SurfacePoint& point) const {
+  thread_local std::vector<const network::Surfacing*> ways;
+  ways.clear();
+  for (const network::Surfacing& surfacing : surfaces) {
+    const network::Place& place = surfacing.place;
+    if (in_junction_[place.lane.road] && place.lane.lane != 0 && std::fabs(surfacing.sample.p_W.z() - point.z_m) < network::Network::kLevel_m) ways.push_back(&surfacing);
+  }
+  std::sort(ways.begin(), ways.end(), [](const auto* a, const auto* b) { return a->place.lane.road < b->place.lane.road; });
+  LaneGround ground{0.0, point.surface, point.friction};
+  for (const network::Surfacing* way : ways) {
+    const network::Place& place = way->place;
+    detail_.Cover(place.lane.road, place.s_m, place.t_m, ground);
+    const network::Bump::Height raised = detail_.RaisedAt(place.lane.road, place.s_m, place.t_m);
+    const geometry::PlanPoint at = network_->roads()[place.lane.road].axis().Evaluate(place.s_m);
+    const Eigen::Vector2d slope = raised.by_s / (1.0 - at.curvature_1pm * place.t_m) * at.tangent_W + raised.by_t * at.left_W();
+    point.z_m += raised.z_m, point.slope_x += slope.x(), point.slope_y += slope.y();
+  }
+  point.surface = ground.surface, point.friction = ground.friction;
+}
+
+SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W, std::span<const network::Surfacing> surfaces) const {
   const design::JunctionHeight height = junction.At(p_W);
   terrain::Surface surface = junction.IsPaved(p_W) ? terrain::Surface::kAsphalt : terrain::Surface::kGrass;
   // What is painted belongs to the ways through it.
@@ -73,7 +94,9 @@ SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, co
   if (place && place->distance_m == 0.0 && in_junction_[place->lane.road] && paint_.At(place->lane.road, place->s_m, place->t_m)) {
     surface = terrain::Surface::kRoadMark;
   }
-  return {height.z_m, height.slope_x, height.slope_y, friction_[static_cast<std::size_t>(surface)], surface, true};
+  SurfacePoint point{height.z_m, height.slope_x, height.slope_y, friction_[static_cast<std::size_t>(surface)], surface, true};
+  if (!detail_.empty()) LayOnJunction(surfaces, point);
+  return point;
 }
 
 SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
@@ -122,7 +145,7 @@ SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
     break;
   }
   if (chosen->road != nullptr) return OnRoad(*chosen->road);
-  return chosen->junction != nullptr ? OnJunction(*chosen->junction, p) : ground;
+  return chosen->junction != nullptr ? OnJunction(*chosen->junction, p, surfaces) : ground;
 }
 
 }  // namespace rodeira::road

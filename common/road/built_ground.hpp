@@ -33,7 +33,8 @@ class BuiltGround {
  private:
   bool OneRoadAlone(const network::Cluster& cluster) const;
   SurfacePoint OnRoad(const network::Surfacing& surfacing) const;
-  SurfacePoint OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W) const;
+  SurfacePoint OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W, std::span<const network::Surfacing> surfaces) const;
+  void LayOnJunction(std::span<const network::Surfacing> surfaces, SurfacePoint& point) const;
 
   std::shared_ptr<const network::Network> network_;
   Junctions junctions_;

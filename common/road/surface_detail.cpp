@@ -251,6 +251,16 @@ void SurfaceDetail::Add(const network::Road& road, std::uint32_t index, const ne
   }
 }
 
+network::Bump::Height SurfaceDetail::RaisedAt(std::uint32_t road, double s_m, double t_m) const {
+  network::Bump::Height all;
+  if (laid_.empty()) return all;
+  for (const network::Bump& bump : laid_[road].bumps) {
+    const network::Bump::Height height = bump.At(s_m, t_m);
+    all.z_m += height.z_m, all.by_s += height.by_s, all.by_t += height.by_t;
+  }
+  return all;
+}
+
 bool SurfaceDetail::On(std::uint32_t road, double low_s_m, double high_s_m) const {
   if (!roads_.empty() && !roads_[road].empty()) return true;
   const auto near = [&](const auto& laid) { return high_s_m >= laid.piece.from_s_m && low_s_m <= laid.piece.to_s_m; };

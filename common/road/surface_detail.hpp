@@ -38,6 +38,8 @@ class SurfaceDetail {
            network::SurfaceSample& sample) const;
   // The measured coefficient of friction there; nothing where none is.
   std::optional<double> FrictionAt(std::uint32_t road, double s_m, double t_m, const Eigen::Vector2d& p_W) const;
+  // The heights of all bumps at (s, t), as they are away from the road's edges.
+  network::Bump::Height RaisedAt(std::uint32_t road, double s_m, double t_m) const;
   // A patch at (s, t) takes the place of the ground.
   void Cover(std::uint32_t road, double s_m, double t_m, LaneGround& ground) const;
 

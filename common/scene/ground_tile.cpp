@@ -56,7 +56,7 @@ void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void
   for (std::thread& other : others) other.join();
 }
 
-GroundPlan::GroundPlan(const road::World& world, unsigned threads) : world_(world), things_(world), posts_(world), edges_(posts_) {
+GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere is_there) : world_(world), things_(world, std::move(is_there)), posts_(world), edges_(posts_) {
   const auto roads = world.network()->roads();
   std::vector<std::vector<Line3>> lines(roads.size());
   std::vector<std::array<TilePaint, kGroundLevels - 1>> paint(roads.size());

@@ -47,7 +47,7 @@ class GroundPlan {
   static constexpr double kAround_m = 500.0;
 
   // world.network() must not be null; the world must outlive the plan. threads: 0 for as many as the machine has.
-  explicit GroundPlan(const road::World& world, unsigned threads = 0);
+  explicit GroundPlan(const road::World& world, unsigned threads = 0, ModelIsThere is_there = {});
 
   std::span<const TileKey> tiles() const { return tiles_; }
   GroundTile Build(const TileKey& tile) const;

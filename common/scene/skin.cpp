@@ -83,11 +83,11 @@ Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::Su
     for (const network::Surfacing& surfacing : surfaces) {
       const network::Lane* lane = world.network()->Find(surfacing.place.lane);
       if (lane == nullptr || lane->id == 0 || std::fabs(surfacing.sample.p_W.z() - level.z_m) > kSame_m) continue;
+      patched = patched || (!world.open_drive() && IsPatched(world.network()->roads()[surfacing.place.lane.road], surfacing.place.s_m, surfacing.place.t_m));
+      if (!skin.land) continue;  // the look is the first one's; a patch may lie on any road of a junction
       skin.land = false;
       type = lane->type;
       skin.picture = PictureAt(*lane, surfacing.place.s_m);
-      patched = !world.open_drive() && IsPatched(world.network()->roads()[surfacing.place.lane.road], surfacing.place.s_m, surfacing.place.t_m);
-      break;
     }
   }
   skin.material = MaterialOf(skin.surface);

@@ -36,7 +36,7 @@ TileKey TileAt(const Vector2d& p_W) {
 
 }  // namespace
 
-Things::Things(const road::World& world) {
+Things::Things(const road::World& world, ModelIsThere is_there) : is_there_(std::move(is_there)) {
   RODEIRA_ASSERT(world.network() != nullptr);
   const network::Furniture furniture = network::PlaceFurniture(*world.network());
   for (const network::Placed& placed : furniture.things) AddThing(world, placed);

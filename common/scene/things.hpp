@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -44,6 +45,9 @@ struct RailPiece {
   std::array<double, 2> height_m{}, width_m{};
 };
 
+// Whether the file of a model can be read; without one: each can.
+using ModelIsThere = std::function<bool(const std::string& file)>;
+
 // What stands at a network's roads, by the tiles in which it stands. Pure functions of the world.
 // Feet are on SUELO's ground, on the level nearest to the road's own surface at (s, t), which counts itself where SUELO
 // knows no ground: what stands is seen to stand on what is drawn. Objects without any height (markings, parking places) and
@@ -51,7 +55,8 @@ struct RailPiece {
 class Things {
  public:
   // world.network() must not be null; the network must outlive this.
-  explicit Things(const road::World& world);
+  // In place of a model that is not there stands what is drawn without one.
+  explicit Things(const road::World& world, ModelIsThere is_there = {});
 
   struct Tile {
     std::vector<Thing> things;
@@ -68,6 +73,7 @@ class Things {
   void AddRun(const road::World& world, const network::PlacedRun& run);
   void Keep(Thing thing);
 
+  ModelIsThere is_there_;
   std::map<TileKey, Tile> tiles_;
 };
 

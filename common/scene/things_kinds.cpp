@@ -94,7 +94,7 @@ void Things::AddObject(const network::Road& road, const network::Placed& placed,
   const network::Object& object = *placed.object;
   thing.kind = KindOf(object);
   thing.colour = ColourOf(object.type);
-  if (IsModelFile(object.name)) {
+  if (IsModelFile(object.name) && (!is_there_ || is_there_(object.name))) {
     thing.kind = ThingKind::kModel;
     thing.file = object.name;
     return Keep(std::move(thing));

@@ -10,10 +10,10 @@ constexpr std::uint64_t kTreeSeed = 1;
 
 }  // namespace
 
-WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance) {
+WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance, const ModelIsThere& is_there) {
   WorldScene scene;
   if (world.network() != nullptr && world.roads().empty()) {  // not a world file of version 1
-    const GroundPlan plan(world);
+    const GroundPlan plan(world, 0, is_there);
     scene.ground.resize(plan.tiles().size());
     ForEachAtOnce(plan.tiles().size(), 0, [&](std::size_t i) { scene.ground[i] = plan.Build(plan.tiles()[i]); });
     return scene;

@@ -17,7 +17,7 @@ struct WorldScene {
   std::vector<Mesh> trees;
 };
 
-// A pure function of the world: the same meshes, bit by bit.
-WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance = {});
+// A pure function of the world and of which models can be read: the same meshes, bit by bit.
+WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance = {}, const ModelIsThere& is_there = {});
 
 }  // namespace rodeira::scene

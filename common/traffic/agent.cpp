@@ -16,6 +16,13 @@ constexpr double kSame_m = 1e-4, kSame = 1e-4;  // lanes that meet so are one
 
 }  // namespace
 
+ZoneGrant Agent::GrantOf(double out_m) const {
+  for (const ZoneGrant& grant : grants) {
+    if (out_m <= grant.to_m) return grant;
+  }
+  return {};
+}
+
 void Agent::Save(base::StateWriter& writer) const {
   writer.Put("on_road", on_road);
   writer.Put("is_struck", is_struck);
@@ -57,6 +64,7 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("change_from_m", change.from_m);
   writer.Put("change_to_m", change.to_m);
   writer.Put("settled_ns", settled_ns);
+  writer.Put("eased_for", eased_for);
   writer.Put("seeks", seeks);
   std::vector<std::uint32_t> tracks;
   std::vector<double> numbers;
@@ -108,6 +116,7 @@ void Agent::Restore(base::StateReader& reader) {
   reader.Get("change_from_m", change.from_m);
   reader.Get("change_to_m", change.to_m);
   reader.Get("settled_ns", settled_ns);
+  reader.Get("eased_for", eased_for);
   reader.Get("seeks", seeks);
   std::vector<std::uint32_t> tracks;
   std::vector<double> numbers;

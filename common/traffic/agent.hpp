@@ -89,8 +89,12 @@ struct Agent {
   double waited_s = 0.0;    // at rest for others to go first
   LaneChange change;
   std::int64_t settled_ns = 0;  // until then it keeps to its lane
+  std::int64_t eased_for = -1;  // who has come in before it and is still followed nearer than it likes; below 0: nobody
   bool seeks = false;           // drives slower to find a gap beside, for its route
   std::vector<Piece> path;  // from the piece under its rear bumper to that under its front bumper
+
+  // That of a zone with this end; nothing for zones that it came into without any.
+  ZoneGrant GrantOf(double out_m) const;
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);

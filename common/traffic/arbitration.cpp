@@ -41,7 +41,7 @@ bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
       const double way_out = holder.out_m - other.o_m + 0.5 * traits_[holder.id].length_m;
       const double clears = TravelTime(way_out, other.speed_mps, AllowedAt(holder.id, holder.out_m), traits_[holder.id].start_mps2);
       const double arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2);
-      if (holder.grant.sure && clears < arrives + kBehind_s && RoomBehind(id, crossing, holder)) continue;
+      if (holder.grant.sure && (clears < arrives + kBehind_s || MayFollow(id, crossing, holder)) && RoomBehind(id, crossing, holder)) continue;
       passages_[id].delay_s = clears - arrives;
     }
     passages_[id].waits_for = holder.id == agents_.size() ? -1 : static_cast<std::int64_t>(holder.id);
@@ -59,7 +59,7 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
   const double way_out = crossing.out_m - agent.o_m + 0.5 * traits_[id].length_m;
   const double clears = TravelTime(way_out, agent.speed_mps, AllowedAt(id, crossing.out_m), traits_[id].start_mps2);
   for (const Claim& claim : comers_[zone][theirs]) {
-    if (claim.id == id || claim.arrives_s > clears + kGap_s) continue;
+    if (claim.id == id || claim.arrives_s > clears + kGap_s || IsFarEnough(id, crossing, claim, clears)) continue;
     const bool agents = claim.id < agents_.size();
     if (agents && Urgent(id) && agents_[claim.id].waited_s < agent.waited_s) continue;
     passages_[id].waits_for = agents ? static_cast<std::int64_t>(claim.id) : -1;
@@ -159,7 +159,7 @@ void TrafficModel::Arbitrate(double dt_s) {
     if (passages_[id].any && passages_[id].able) Grant(id, true);
   }
   ResolveDeadlocks();
-  EachDriving([&](std::uint32_t id) { FindBarrier(id); });
+  EachDriving([&](std::uint32_t id) { YieldInZones(id); });
 }
 
 // Where the chain of who waits for whom closes, the one of it that has waited longest (of equals the first) goes although it

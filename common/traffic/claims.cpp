@@ -1,4 +1,4 @@
-// Who holds and who comes to each conflict zone, and who waits within his own ones for who holds them before him.
+// Who holds and who comes to each conflict zone.
 #include <algorithm>
 #include <cmath>
 
@@ -8,16 +8,8 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kLine_m = 0.6;        // before the zone the front stops
+constexpr double kOverLine_m = 0.3;    // a front so far beyond a line that lies where a zone begins still waits before it
 constexpr double kLaterThan_s = 30.0;  // of no interest now
-
-// That of a zone with this end; nothing for zones that it came into without any.
-ZoneGrant GrantOf(const Agent& agent, double out_m) {
-  for (const ZoneGrant& grant : agent.grants) {
-    if (out_m <= grant.to_m) return grant;
-  }
-  return {};
-}
 
 }  // namespace
 
@@ -32,7 +24,7 @@ void TrafficModel::Touch(std::uint32_t zone) {
 void TrafficModel::HoldZones(std::uint32_t id) {
   const Agent& agent = agents_[id];
   const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
-  const double to = std::max(front, agent.granted_m);
+  const double to = std::max(front - kOverLine_m, agent.granted_m);
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.begin_m > to) break;
     if (stretch.end_m < rear) continue;
@@ -40,25 +32,7 @@ void TrafficModel::HoldZones(std::uint32_t id) {
       const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
       if (part.kind == lanes::ZoneKind::kDiverge || in >= to || out <= rear) continue;
       Touch(part.zone);
-      holders_[part.zone][static_cast<std::size_t>(part.side)].push_back({id, GrantOf(agent, out), out});
-    }
-  }
-}
-
-// The first zone of its own that it has not come to and that somebody holds before it.
-void TrafficModel::FindBarrier(std::uint32_t id) {
-  const Agent& agent = agents_[id];
-  const double front = agent.o_m + 0.5 * traits_[id].length_m;
-  barriers_[id] = kNoBarrier_m;
-  for (const Stretch& stretch : stretches_[id]) {
-    if (stretch.begin_m > agent.granted_m) break;
-    for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
-      const double in = stretch.zero_m + part.in_m;
-      if (part.kind == lanes::ZoneKind::kDiverge || in < front || in >= agent.granted_m || in - kLine_m >= barriers_[id]) continue;
-      const std::uint64_t number = GrantOf(agent, stretch.zero_m + part.out_m).number;
-      for (const Holder& holder : holders_[part.zone][static_cast<std::size_t>(1 - part.side)]) {
-        if (holder.id < agents_.size() && holder.id != id && holder.grant.number < number) barriers_[id] = in - kLine_m;
-      }
+      holders_[part.zone][static_cast<std::size_t>(part.side)].push_back({id, agent.GrantOf(out), out});
     }
   }
 }
@@ -76,7 +50,8 @@ void TrafficModel::ComeToZones() {
       Touch(static_cast<std::uint32_t>(crossing.zone));
       comers_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)].push_back(
           {id, TravelTime(crossing.in_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2),
-           TravelTime(crossing.out_m - rear, agents_[id].speed_mps, most, traits_[id].start_mps2)});
+           TravelTime(crossing.out_m - rear, agents_[id].speed_mps, most, traits_[id].start_mps2), crossing.out_m - front,
+           TravelTime(crossing.out_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2)});
     }
   }
 }

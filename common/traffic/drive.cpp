@@ -43,6 +43,15 @@ double TrafficModel::StopAt(std::uint32_t id, double odometer_m, double share) c
   return v > there ? std::min(stop, -v * v / (2.0 * std::max(gap, kLeastGap_m))) : stop;
 }
 
+// By the limit where it is: the speed without anybody and any bend.
+double TrafficModel::Desired_mps(std::uint32_t id) const {
+  const Agent& agent = agents_[id];
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.end_m >= agent.o_m) return std::min(graph().SpeedLimit_mps(stretch.track, agent.o_m - stretch.zero_m) * traits_[id].speed_factor, Cap_mps(id));
+  }
+  return Cap_mps(id);
+}
+
 // The least of the plan, who is ahead, and the line before zones that are not its own.
 double TrafficModel::Wanted(std::uint32_t id) const {
   const Agent& agent = agents_[id];
@@ -50,20 +59,20 @@ double TrafficModel::Wanted(std::uint32_t id) const {
   const double v = agent.speed_mps;
   const driver::SpeedPlan::Allowed allowed = Allowed(id);
   const double planned = allowed.speed_mps * traits.speed_factor;
-  double road_limit = 1e3;
-  for (const Stretch& stretch : stretches_[id]) {
-    if (stretch.end_m >= agent.o_m) { road_limit = graph().SpeedLimit_mps(stretch.track, agent.o_m - stretch.zero_m); break; }
-  }
-  const double limit = std::min(road_limit * traits.speed_factor, Cap_mps(id));
+  const double limit = Desired_mps(id);
   double wanted = std::min(driver::IdmFreeAcceleration(traits.idm, v, limit),
                            allowed.slope_1ps * traits.speed_factor * v + (planned - v) / settings_.tracking_s);
   if (planned > Cap_mps(id)) wanted = std::min(wanted, (Cap_mps(id) - v) / settings_.tracking_s);
   if (agent.seeks) wanted = std::min(wanted, std::max(-kSeeking_mps2, (kSeekingShare * planned - v) / settings_.tracking_s));
   const Ahead& ahead = ahead_[id];
-  if (ahead.any && ahead.gap_m < settings_.sight_m) wanted = std::min(wanted, driver::IdmAcceleration(traits.idm, v, limit, ahead.gap_m, ahead.speed_mps));
+  if (ahead.any && ahead.gap_m < settings_.sight_m) {
+    const bool eased = ahead.id >= 0 && ahead.id == agent.eased_for;
+    wanted = std::min(wanted, eased ? FollowComing(id, static_cast<std::uint32_t>(ahead.id), ahead.gap_m)
+                                    : driver::IdmAcceleration(traits.idm, v, limit, ahead.gap_m, ahead.speed_mps));
+  }
   if (passages_[id].any && passages_[id].due) wanted = std::min(wanted, StopAt(id, passages_[id].line_m));
   if (bars_[id] < kNoBarrier_m) wanted = std::min(wanted, StopAt(id, bars_[id], kYieldingShare));
-  if (barriers_[id] < kNoBarrier_m) wanted = std::min(wanted, StopAt(id, barriers_[id]));
+  wanted = std::min(wanted, leaves_[id]);
   wanted = std::clamp(wanted, -traits.idm.hardest_mps2, traits.idm.acceleration_mps2);
   return agent.brake_mps2 > 0.0 ? std::min(wanted, -agent.brake_mps2) : wanted;
 }

@@ -13,6 +13,7 @@ namespace {
 constexpr double kComfort_mps2 = 1.5;   // braking within which everything of interest lies …
 constexpr double kSpare_m = 60.0;       // … and so much more
 constexpr double kWithout_m = 1e-9;
+constexpr double kAnySpeed_mps = 1e3;
 
 }  // namespace
 
@@ -75,7 +76,11 @@ void TrafficModel::SeeOthers(std::span<const driver::Footprint> others) {
 void TrafficModel::See(std::span<const driver::Footprint> others) {
   SeeOthers(others);
   for (auto& occupants : occupants_) occupants.clear();
-  EachDriving([&](std::uint32_t id) { FindStretches(id, people_ ? std::max(SightOf(agents_[id]), StoppingWay(id)) : SightOf(agents_[id])); });
+  EachDriving([&](std::uint32_t id) {  // and as far as zones are its own, however slowly it drives now
+    const Agent& agent = agents_[id];
+    const double seen = std::max(SightOf(agent), agent.granted_m - agent.o_m - 0.5 * traits_[id].length_m);
+    FindStretches(id, people_ ? std::max(seen, StoppingWay(id)) : seen);
+  });
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     const Agent& agent = agents_[id];
     if (!agent.on_road) continue;
@@ -103,17 +108,17 @@ std::span<const TrafficModel::Occupant> TrafficModel::Beyond(std::uint32_t track
   return {from, all.end()};
 }
 
-// The nearest of: agents on the tracks of the way, and on the lane that it is leaving; agents on tracks that part from them, as
-// long as they are not clear; what else stands in the way.
+// The nearest of: agents on the tracks of the way, and on the lane that it is leaving; what else stands in the way. Or, of agents on tracks
+// that part from the way, as long as they are not clear, the nearest, if he lets it drive on less.
 TrafficModel::Ahead TrafficModel::FindAhead(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half;
   const double half_width = 0.5 * traits_[id].width_m + settings_.side_margin_m;
-  Ahead ahead;
-  const auto consider = [&](const Occupant& other, double zero_m) {
+  Ahead ahead, parting;
+  const auto consider = [&](const Occupant& other, double zero_m, Ahead& nearest) {
     if (other.id == id || zero_m + other.middle_m() <= agent.o_m + kWithout_m) return;
     const double gap = zero_m + other.rear_m - front;
-    if (!ahead.any || gap < ahead.gap_m) ahead = {gap, agents_[other.id].speed_mps, other.id, true};
+    if (!nearest.any || gap < nearest.gap_m) nearest = {gap, agents_[other.id].speed_mps, other.id, true};
   };
   const auto consider_block = [&](const Block& block, double zero_m) {
     if (zero_m + block.middle_m <= agent.o_m || block.span.right_m > half_width || block.span.left_m < -half_width) return;
@@ -129,25 +134,26 @@ TrafficModel::Ahead TrafficModel::FindAhead(std::uint32_t id) const {
       if (ahead.any && stretch.zero_m + other.middle_m() - longest_half_m_ - front >= ahead.gap_m) break;
       // Who comes in from beside has his rear in the zone where the ways merge, which its own line keeps it out of.
       if (from >= 0 && other.from >= 0 && other.from != from) other.rear_m = std::max(other.rear_m, stretch.begin_m - stretch.zero_m);
-      consider(other, stretch.zero_m);
+      consider(other, stretch.zero_m, ahead);
     }
     for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
       if (part.kind != lanes::ZoneKind::kDiverge || agent.o_m - half > stretch.zero_m + part.out_m) continue;
       const lanes::Zone& zone = zones()[part.zone];
       const auto theirs = static_cast<std::size_t>(1 - part.side);
       for (const Occupant& other : occupants_[zone.track[theirs]]) {
-        if (other.rear_m < zone.out_m[theirs] && other.front_m > zone.in_m[theirs]) consider(other, stretch.zero_m);
+        if (other.rear_m < zone.out_m[theirs] && other.front_m > zone.in_m[theirs]) consider(other, stretch.zero_m, parting);
       }
     }
     for (const Block& block : blocks_[stretch.track]) consider_block(block, stretch.zero_m);
     if (agent.change.side == 0) continue;
     if (const auto old = LaneLeft(id, stretch, front)) {
       const double at = std::max(agent.o_m, stretch.begin_m), zero = at - graph().Across(stretch.track, at - stretch.zero_m, *old);
-      for (const Occupant& other : Beyond(*old, agent.o_m - zero)) consider(other, zero);
+      for (const Occupant& other : Beyond(*old, agent.o_m - zero)) consider(other, zero, ahead);
       for (const Block& block : blocks_[*old]) consider_block(block, zero);
     }
   }
-  return ahead;
+  const auto lets = [&](const Ahead& other) { return driver::IdmAcceleration(traits_[id].idm, agent.speed_mps, kAnySpeed_mps, other.gap_m, other.speed_mps); };
+  return parting.any && (!ahead.any || lets(parting) < lets(ahead)) ? parting : ahead;
 }
 
 }  // namespace rodeira::traffic

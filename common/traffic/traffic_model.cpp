@@ -45,7 +45,7 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   reaches_.resize(agents_.size());
   wanted_.resize(agents_.size());
   missed_now_.resize(agents_.size());
-  barriers_.resize(agents_.size());
+  leaves_.resize(agents_.size());
   bars_.assign(agents_.size(), kNoBarrier_m);
   occupants_.resize(graph().tracks().size());
   present_.resize(graph().tracks().size());

@@ -198,6 +198,7 @@ class TrafficModel {
   struct Claim {
     std::uint32_t id = 0;
     double arrives_s = 0.0, clears_s = 0.0;
+    double way_m = 0.0, ends_s = 0.0;  // of its front to the zone's end
   };
 
   // What is so at a crossing for people on foot.
@@ -219,7 +220,7 @@ class TrafficModel {
     double waited_s = 0.0;       // at rest
   };
 
-  static constexpr double kNoBarrier_m = 1e18;
+  static constexpr double kNoBarrier_m = 1e18, kFree_mps2 = 1e3;
   static constexpr double kYieldingShare = 0.75;  // of the comfortable braking, for people on foot: who follows brakes harder
 
   static base::Result<TrafficModel> Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
@@ -278,7 +279,11 @@ class TrafficModel {
   bool Held(std::uint32_t id, const Crossing& crossing);
   bool Yields(std::uint32_t id, const Crossing& crossing);
   bool Grant(std::uint32_t id, bool yields);
-  void FindBarrier(std::uint32_t id);
+  void YieldInZones(std::uint32_t id);
+  double MergingGap(std::uint32_t id, double out_m, const Holder& before) const;
+  double FollowComing(std::uint32_t id, std::uint32_t leader, double gap_m) const;
+  bool MayFollow(std::uint32_t id, const Crossing& crossing, const Holder& holder) const;
+  bool IsFarEnough(std::uint32_t id, const Crossing& crossing, const Claim& claim, double clears_s) const;
   void ResolveDeadlocks();
   bool IsGreen(std::int64_t light) const { return colours_[static_cast<std::size_t>(light)] == network::LightColour::kGreen; }
   double RedAhead(std::uint32_t track, double from_m, double speed_mps) const;
@@ -299,6 +304,7 @@ class TrafficModel {
 
   // Driving.
   double Wanted(std::uint32_t id) const;
+  double Desired_mps(std::uint32_t id) const;
   driver::SpeedPlan::Allowed Allowed(std::uint32_t id) const;
   double Cap_mps(std::uint32_t id) const { return std::min(agents_[id].cap_mps, traits_[id].top_mps); }
   double StopAt(std::uint32_t id, double odometer_m, double share = 1.0) const;
@@ -360,7 +366,7 @@ class TrafficModel {
   std::vector<double> reaches_;                        // by agent: how far its front comes whatever others decide; below 0 not yet told
   std::vector<double> wanted_;                         // by agent: acceleration
   std::vector<std::uint32_t> missed_now_;              // by agent
-  std::vector<double> barriers_;                       // by agent: odometer at which it waits for who holds a zone before it
+  std::vector<double> leaves_;                         // by agent: acceleration that who holds its zones before it leaves it
   std::vector<double> bars_;                           // by agent: odometer at which it waits for people on foot
   std::vector<AtCrossing> at_crossings_;               // by crossing for people on foot
   std::vector<ToCrossing> to_crossings_;

@@ -9,8 +9,12 @@
 #include <osgViewer/Renderer>
 #include <osgViewer/Viewer>
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <set>
 #include <thread>
 
 #include "nodes/view/aim_camera.hpp"
@@ -189,6 +193,7 @@ Painter::~Painter() {
 scene::Camera Painter::CameraOf(const Picture& picture) const {
   const auto body = scene::BodyAt(picture.moment, picture.followed);
   if (!body) return {};
+  if (picture.eye && picture.camera == scene::CameraKind::kDriver) return scene::EyeCamera(*body, *picture.eye);
   if (picture.screen && picture.camera == scene::CameraKind::kDriver) return scene::ScreenCamera(*body, *picture.screen);
   return scene::MakeCamera(picture.camera, *body, picture.aim, world_);
 }
@@ -199,8 +204,10 @@ base::Status Painter::WearCarModel(const std::filesystem::path& file) {
   return {};
 }
 
-void Painter::Draw(const Picture& picture) {
-  const int width = surface_.width_px(), height = surface_.height_px();
+void Painter::Draw(const Picture& picture) { DrawInto(picture, {0, surface_.width_px(), surface_.height_px()}); }
+
+void Painter::DrawInto(const Picture& picture, const PictureTarget& target) {
+  const int width = target.width_px, height = target.height_px;
   const scene::Camera camera = CameraOf(picture);
   const bool is_car = picture.followed < picture.moment.cars.size();
   const auto body = scene::BodyAt(picture.moment, picture.followed);
@@ -209,6 +216,8 @@ void Painter::Draw(const Picture& picture) {
     eye.getGraphicsContext()->resized(0, 0, width, height);
     eye.setViewport(0, 0, width, height);
   }
+  eye.getGraphicsContext()->setDefaultFboId(target.framebuffer);  // to which it returns from mirrors and shadows
+  Bind(target);
   const double aspect = static_cast<double>(width) / height;
   AimCamera(eye, camera, aspect, kFar_m);
   const scene::Air air = scene::MakeAir(picture.moment.weather);
@@ -270,19 +279,15 @@ Image Painter::Read() const {
   return image;
 }
 
-base::Status CheckModels(const scene::WorldScene& standing) {
-  for (const scene::GroundTile& tile : standing.ground) {
-    for (const scene::PlacedModel& model : tile.levels[0].models) {
-      if (auto read = ReadModel(model.file); !read) return read;
-    }
-  }
-  return {};
-}
-
 base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built) {
   if (!built.empty()) return Painter::Make(surface, world, built);
-  const scene::WorldScene standing = scene::BuildWorldScene(world);  // the painter has its own copy
-  if (auto status = CheckModels(standing); !status) return status.error();
+  std::set<std::string> told;
+  const auto is_there = [&](const std::string& file) {
+    const base::Status read = ReadModel(file);
+    if (!read && told.insert(file).second) fmt::print(stderr, "rodeira: {}; what it is of is drawn without it\n", read.error().Text());
+    return read.ok();
+  };
+  const scene::WorldScene standing = scene::BuildWorldScene(world, {}, is_there);  // the painter has its own copy
   return std::make_unique<Painter>(surface, world, standing);
 }
 

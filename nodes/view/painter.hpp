@@ -7,6 +7,7 @@
 #include "common/road/world.hpp"
 #include "common/scene/world_scene.hpp"
 #include "nodes/view/picture.hpp"
+#include "nodes/view/picture_target.hpp"
 #include "nodes/view/surface.hpp"
 
 namespace rodeira::view {
@@ -30,6 +31,8 @@ class Painter {
   base::Status WearCarModel(const std::filesystem::path& file);
   // Draws; nothing is shown yet. Of a built database what has been read so far; the rest is asked for.
   void Draw(const Picture& picture);
+  // The same into other pixels than the surface's.
+  void DrawInto(const Picture& picture, const PictureTarget& target);
   // Draws, and waits for all that is to be seen: a pure function of the world and the picture, built or not.
   void DrawWhole(const Picture& picture);
   // From where such a picture is seen.
@@ -49,10 +52,8 @@ class Painter {
   std::unique_ptr<Parts> parts_;
 };
 
-// Whether every model that a world names can be read. Wrong input otherwise.
-base::Status CheckModels(const scene::WorldScene& standing);
-
-// A painter of the world with the ground of a built database, or, where `built` is empty, with ground that is built in memory.
+// A painter of the world with the ground of a built database, or, where `built` is empty, with ground that is built in memory: what has a
+// model that cannot be read is then drawn without it, which is said once on the standard error.
 base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built);
 
 // One picture of a world, without a window and without a run.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/scene/camera.hpp"
+#include "common/scene/headset_eye.hpp"
 #include "common/scene/heat_map.hpp"
 #include "common/scene/mirror.hpp"
 #include "common/scene/moment.hpp"
@@ -36,6 +37,7 @@ struct Picture {
   scene::CameraKind camera = scene::CameraKind::kChase;
   scene::Aim aim;                   // of the cameras that a hand moves
   std::optional<scene::ScreenPlane> screen;  // through which the driver's camera looks
+  std::optional<scene::HeadsetEye> eye;      // that the driver's camera is instead
   std::size_t followed = 0;         // whom the camera goes with: the moment's cars, then its traffic
   std::optional<std::size_t> chosen;  // whom a person looks at, counted likewise: it pulses
   std::string panel;                // lines about it

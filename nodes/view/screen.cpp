@@ -69,6 +69,7 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   screen->title_ = world.name().empty() ? "rodeira" : world.name();
   std::replace(screen->title_.begin(), screen->title_.end(), '/', '-');
   screen->live_ = PictureOf(settings, {});
+  if (settings.headset) screen->OpenHeadset(settings);
   if (kind == SurfaceKind::kWindow && settings.sound) {
     auto speaker = Speaker::Open();
     if (speaker) screen->speaker_ = std::move(speaker).value();
@@ -82,6 +83,42 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   }
   if (settings.mirrors != screen->kNoMirrors) screen->mirrors_ = settings.mirrors;
   return screen;
+}
+
+void Screen::OpenHeadset(const ViewSettings& settings) {
+  auto headset = Headset::Open(surface_->quality());
+  if (!headset) return fmt::print(stderr, "rodeira: no headset: {}; {}\n", headset.error().Text(), settings.window == WindowWish::kNever ? "nothing is shown" : "shown in the window alone");
+  headset_ = std::move(headset).value();
+  surface_->NeverWait();  // the headset says when
+}
+
+bool Screen::WaitForHeadset() {
+  if (headset_ == nullptr) return false;
+  headset_waits_ = headset_->Begin();
+  if (!headset_->gone().empty()) {
+    fmt::print(stderr, "rodeira: {}\n", headset_->gone());
+    Note(headset_->gone());
+    headset_.reset();
+    headset_waits_ = false;
+  }
+  return headset_waits_;
+}
+
+// The driver's place, whatever the window shows; nothing is written over it.
+void Screen::ShowInHeadset() {
+  Picture picture = live_;
+  picture.camera = scene::CameraKind::kDriver;
+  picture.show_instruments = false;
+  picture.mirrors = kNoMirrors;
+  picture.panel.clear();
+  picture.text.clear();
+  picture.timeline.reset();
+  picture.heat.reset();
+  headset_->Show([&](const scene::HeadsetEye& eye, const PictureTarget& target) {
+    picture.eye = eye;
+    painter_->DrawInto(picture, target);
+  });
+  headset_waits_ = false;
 }
 
 bool Screen::TakeKey(int symbol, bool driven) {
@@ -255,6 +292,7 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
   if (speaker_) speaker_->Play(HeardBy(live_.moment, live_.followed, muted_ ? 0.0 : volume_ * std::min(std::fabs(rate), 1.0)), interval_s_);
   if (picture_wanted_) TakePicture();
   if (begin_s < note_until_s_) live_.text += (live_.text.empty() ? "" : "\n\n") + note_;
+  if (headset_waits_) ShowInHeadset();
   painter_->Draw(live_);
   surface_->Swap();
   const double end_s = launch::WallSeconds();

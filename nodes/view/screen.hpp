@@ -12,6 +12,7 @@
 #include "nodes/view/ask_place.hpp"
 #include "nodes/view/chosen.hpp"
 #include "nodes/view/frame_log.hpp"
+#include "nodes/view/headset.hpp"
 #include "nodes/view/painter.hpp"
 #include "nodes/view/speaker.hpp"
 #include "nodes/view/surface.hpp"
@@ -40,11 +41,17 @@ class Screen {
   // buttons do not drive; there a click chooses the vehicle that is seen at its place, or nobody. Behind the placing key, or with ctrl
   // held, a click places the car instead, whoever drives. False where nothing changed.
   bool TakeMouse(const SDL_Event& event, bool driven);
+  // Waits until the headset wants its next pictures; true where Show is then to draw them. False where there is none, or nobody wears it: the
+  // window is drawn as without one.
+  bool WaitForHeadset();
+  bool has_headset() const { return headset_ != nullptr; }
   // Draws the moment as the person wishes to see it, and shows it. `rate`: simulated seconds a second, for the statistics.
   void Show(scene::Moment moment, double rate, std::optional<Timeline> timeline = std::nullopt);
 
  private:
   explicit Screen(const road::World& world) : world_(world), heat_(world) {}
+  void OpenHeadset(const ViewSettings& settings);
+  void ShowInHeadset();
   void Note(std::string note);
   void AskForPlace(int x_px, int y_px);
   void AskForWeather();
@@ -70,6 +77,8 @@ class Screen {
 
   std::unique_ptr<Surface> surface_;
   std::unique_ptr<Painter> painter_;  // before its surface in dying
+  std::unique_ptr<Headset> headset_;  // likewise; null: none
+  bool headset_waits_ = false;        // for pictures
   std::unique_ptr<FrameLog> log_;     // null: nobody wants it
   std::unique_ptr<Speaker> speaker_;  // null: nothing is heard
   double volume_ = 0.0;

@@ -92,7 +92,7 @@ void Stage::Run() {
     const std::lock_guard lock(mutex_);
     set_up_ = std::move(status);
     nothing_to_draw_ = hand.screen == nullptr;
-    window_ = go_on && hand.screen->surface().kind() == SurfaceKind::kWindow;
+    window_ = go_on && (hand.screen->surface().kind() == SurfaceKind::kWindow || hand.screen->has_headset());
     ready_ = true;
   }
   changed_.notify_all();
@@ -113,8 +113,12 @@ base::Status Stage::SetUp(Hand& hand) {
     (void)open(SurfaceKind::kWindow);  // a display without OpenGL is as good as none
   }
   if (hand.screen == nullptr) {
-    if (settings_.frame_steps.empty()) return {};
+    if (settings_.frame_steps.empty() && !settings_.headset) return {};
     if (auto status = open(SurfaceKind::kOffscreen); !status) return status;
+    if (settings_.frame_steps.empty() && !hand.screen->has_headset()) {
+      hand.screen.reset();
+      return {};
+    }
   }
   if (keys_ != nullptr) hand.keys = std::make_unique<KeyForwarder>(std::move(keys_));
   if (hand.screen->surface().kind() == SurfaceKind::kWindow) hand.wheel = WheelButtons::Open(settings_.camera_buttons);
@@ -157,12 +161,17 @@ void Stage::ServeOrder(Hand& hand, std::unique_lock<std::mutex>& lock) {
 void Stage::ShowWindow(Hand& hand, std::unique_lock<std::mutex>& lock) {
   const double begin_s = launch::WallSeconds();
   const double rate = clock_.rate();
-  scene::Moment moment = history_.At(clock_.Now(begin_s) * 1e9);
   lock.unlock();
-  const bool open = ReadKeys(hand);
+  bool open = ReadKeys(hand);
+  const bool waited = hand.screen->WaitForHeadset();
+  lock.lock();
+  scene::Moment moment = history_.At(clock_.Now(waited ? launch::WallSeconds() : begin_s) * 1e9);
+  lock.unlock();
   hand.screen->Show(std::move(moment), rate);
   lock.lock();
+  open = open && (hand.screen->surface().kind() == SurfaceKind::kWindow || hand.screen->has_headset());
   if (!open) window_ = false;
+  if (waited) return;
   // Where the display does not hold us back, we do it ourselves.
   const double rest_s = 1.0 / kLongestRate_Hz - (launch::WallSeconds() - begin_s);
   if (rest_s > 0.0) changed_.wait_for(lock, std::chrono::duration<double>(rest_s), [&] { return quit_ || !orders_.empty(); });

@@ -134,6 +134,10 @@ int Surface::height_px() const {
 
 void Surface::Swap() { SDL_GL_SwapWindow(window_); }
 
+void Surface::NeverWait() {
+  if (SDL_GL_SetSwapInterval(0) != 0) SDL_ClearError();
+}
+
 void Surface::ToggleFullScreen() {
   if (!resizable_) return;
   full_screen_ = !full_screen_;

@@ -31,6 +31,8 @@ class Surface {
   int height_px() const;
   // Shows what was drawn (waits for the display where it can).
   void Swap();
+  // From now on it does not wait for the display: somebody else says when.
+  void NeverWait();
   void ToggleFullScreen();
   // The window goes away; drawing and reading go on.
   void Hide();

@@ -106,6 +106,7 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& 
   if (map.Has("quality")) settings.quality = QualityOf(map.Choice("quality", {QualityNames().begin(), QualityNames().end()}, "medium"));
   if (map.Has("frame_log")) settings.frame_log = map.Path("frame_log");
   if (map.Has("car_model")) settings.car_model = map.Path("car_model");
+  settings.headset = map.Flag("headset", false);
   settings.full_screen = map.Flag("full_screen", false);
   settings.display = static_cast<int>(map.Integer("display", 0, 15, 0));
   const std::string window = map.Choice("window", {"auto", "always", "never"}, "auto");

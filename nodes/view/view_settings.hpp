@@ -27,6 +27,7 @@ struct ViewSettings {
   scene::CameraKind camera = scene::CameraKind::kChase;
   std::optional<scene::ScreenPlane> screen;  // of the laboratory, for the driver's camera
   std::optional<Quality> quality;            // none: the renderer's own (Surface::Open)
+  bool headset = false;                      // the driver's place is shown there too
   bool full_screen = false;
   int display = 0;                           // of the PC, for the window
   WindowWish window = WindowWish::kAuto;

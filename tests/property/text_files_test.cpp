@@ -210,7 +210,10 @@ TEST(TextFiles, OpenDrive) {
   way.id = "7";
   way.attributes = "junction=\"9\"";
   way.geometry = R"(<geometry s="0" x="85" y="44" hdg="0.9" length="100"><paramPoly3 pRange="normalized" aU="0" bU="100" cU="0" dU="0" aV="0" bV="0" cV="3" dV="-1"/></geometry>)";
-  const std::string junction = R"(<junction id="9"><connection id="0" incomingRoad="1" connectingRoad="7" contactPoint="start"/></junction>)";
+  const std::string junction = R"(<junction id="9"><connection id="0" incomingRoad="1" connectingRoad="7" contactPoint="start"/>
+      <boundary><segment type="lane" roadId="7" boundaryLane="-1" sStart="begin" sEnd="end"/><segment type="lane" roadId="7" boundaryLane="1" sStart="end" sEnd="begin"/></boundary>
+      <planView><geometry s="0" x="75" y="32" hdg="0.9" length="130"><line/></geometry></planView>
+      <elevationGrid sStart="0" gridSpacing="60"><elevation center="1" left="1" right="2"/><elevation center="1.5" left="1" right="2"/><elevation center="1" left="2" right="1"/></elevationGrid></junction>)";
   Fuzz("xodr", {opendrive::Document(opendrive::RoadText().Text()), opendrive::Document(in.Text() + way.Text() + junction)},
        [](const std::string& text) -> std::optional<base::Error> {
          opendrive::Tolerance loose;  // so that many mutated roads are driven on too

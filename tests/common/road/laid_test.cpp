@@ -126,17 +126,69 @@ TEST(Laid, TheyArePartOfTheContentHash) {
 }
 
 // A road that a junction cuts keeps what lies beside it; a bump that the junction would cut is refused.
-TEST(Laid, JunctionsCutPatchesAndRefuseBumps) {
-  const std::string crossing = "  - id: cross\n    place: {road: main, s_m: 100, turn_deg: 90, own_s_m: 60}\n    axis: [line: {length_m: 120}]\n    section: {template: rural}\n"
-                               "junctions:\n  - {id: j, roads: [{road: main, s_m: 100}, {road: cross, s_m: 60}]}\n";
-  const auto world = MustParse(Straight("    patches: [{from_s_m: 60, to_s_m: 180, friction: 0.1}]\n    bumps: [{from_s_m: 150, to_s_m: 154, height_m: 0.1}]\n" + crossing));
-  EXPECT_EQ(world->At(65.0, 1.0).friction, 0.1);
-  EXPECT_EQ(world->At(175.0, 1.0).friction, 0.1);
+// A crossing at s = 100 of both roads, and one where a third road ends.
+const char* const kCrossing =
+    "  - id: cross\n    place: {road: main, s_m: 100, turn_deg: 90, own_s_m: 60}\n    axis: [line: {length_m: 120}]\n    section: {template: rural}\n%s"
+    "junctions:\n  - {id: j, roads: [{road: main, s_m: 100}, {road: cross, s_m: 60}]}\n";
+std::string Crossing(const std::string& laid, const std::string& on_cross = "") {
+  std::string text = kCrossing;
+  text.replace(text.find("%s"), 2, on_cross);
+  return Straight(laid + text);
+}
+
+TEST(Laid, PatchesGoOnThroughJunctions) {
+  const auto bare = MustParse(Crossing(""));
+  const auto world = MustParse(Crossing("    patches: [{from_s_m: 60, to_s_m: 180, friction: 0.1}, {from_s_m: 98, to_s_m: 99, material: mud}]\n"));
+  for (double x = 60.6; x < 180.0; x += 0.25) {
+    for (const double y : {-3.3, -1.0, 0.0, 2.0, 3.3}) {
+      const SurfacePoint at = world->At(x, y), before = bare->At(x, y);
+      const bool mud = x >= 98.0 && x <= 99.0;
+      EXPECT_EQ(at.friction, mud ? 0.4 : 0.1) << x << " " << y;
+      if (mud) {
+        EXPECT_EQ(at.surface, terrain::Surface::kSoil);
+      }
+      EXPECT_EQ(at.z_m, before.z_m);
+    }
+  }
   EXPECT_EQ(world->At(55.0, 1.0).friction, 1.0);
-  EXPECT_NEAR(world->At(152.0, 1.0).z_m, 5.1, 1e-12);
-  const auto refused = World::Parse(Straight("    bumps: [{from_s_m: 95, to_s_m: 99, height_m: 0.1}]\n" + crossing), "w.yaml");
-  ASSERT_FALSE(refused.ok());
-  EXPECT_THAT(refused.error().Text(), HasSubstr("the bump from s = 95 to 99 m lies in a junction"));
+  EXPECT_EQ(world->At(100.0, 6.0).friction, bare->At(100.0, 6.0).friction);  // beside its lanes, on the junction
+}
+
+// In a junction, and over its mouth: what a bump adds to the bare junction is its closed form, with its slopes.
+TEST(Laid, BumpsGoOnThroughJunctions) {
+  const std::string before = "    patches: [{from_s_m: 10, to_s_m: 11, friction: 0.5}]\n";
+  const auto bare = MustParse(Crossing(before));
+  for (const double from : {84.0, 88.0, 92.0, 96.0, 100.0, 104.0, 108.0}) {
+    const auto world = MustParse(Crossing(before + "    bumps: [{from_s_m: " + std::to_string(from) + ", to_s_m: " + std::to_string(from + 5.0) + ", height_m: 0.1, side_m: 0.4}]\n"));
+    for (std::uint64_t i = 0; i < 600; ++i) {
+      const double x = base::RandomUniform({i, 1}, from - 2.0, from + 7.0), y = base::RandomUniform({i, 2}, -4.4, 4.4);
+      const double u = (x - from) / 5.0, along = u < 0.0 || u > 1.0 ? 0.0 : 0.4 * u * (1.0 - u), side = Ease((3.5 - std::fabs(y)) / 0.4);
+      const SurfacePoint at = world->At(x, y), flat = bare->At(x, y);
+      EXPECT_NEAR(at.z_m - flat.z_m, along * side, 1e-9) << x << " " << y;
+      EXPECT_NEAR(at.slope_x - flat.slope_x, u < 0.0 || u > 1.0 ? 0.0 : 0.4 * (1.0 - 2.0 * u) / 5.0 * side, 1e-9) << x << " " << y;
+    }
+  }
+}
+
+TEST(Laid, BothRoadsOfACrossingMayHaveThem) {
+  const auto world = MustParse(Crossing("    patches: [{from_s_m: 95, to_s_m: 105, friction: 0.3}]\n    bumps: [{from_s_m: 96, to_s_m: 104, height_m: 0.1}]\n",
+                                        "    patches: [{from_s_m: 58, to_s_m: 62, friction: 0.2}]\n    bumps: [{from_s_m: 56, to_s_m: 64, height_m: 0.05}]\n"));
+  const auto bare = MustParse(Crossing("    patches: [{from_s_m: 10, to_s_m: 11, friction: 0.5}]\n"));
+  EXPECT_EQ(world->At(100.0, 0.0).friction, 0.2);  // the road that stands later in the file lies on top
+  EXPECT_EQ(world->At(100.0, 3.0).friction, 0.3);
+  EXPECT_NEAR(world->At(100.0, 0.0).z_m - bare->At(100.0, 0.0).z_m, 0.15, 1e-9);
+}
+
+TEST(Laid, BumpsThatAJunctionCannotTakeAreRefused) {
+  const auto refused = [](const std::string& text) { return World::Parse(text, "w.yaml"); };
+  const auto wide = refused(Crossing("    bumps: [{from_s_m: 95, to_s_m: 99, from_t_m: -4.5, to_t_m: 4.5, height_m: 0.1}]\n"));
+  ASSERT_FALSE(wide.ok());
+  EXPECT_THAT(wide.error().Text(), HasSubstr("the bump from s = 95 to 99 m reaches into a junction; there it was expected on lanes that are driven on"));
+  const auto end = refused(Straight("  - id: cross\n    place: {road: main, s_m: 100, turn_deg: 90}\n    axis: [line: {length_m: 60}]\n    section: {template: rural}\n"
+                                    "    bumps: [{from_s_m: 2, to_s_m: 8, height_m: 0.1}]\n"
+                                    "junctions:\n  - {id: j, roads: [{road: main, s_m: 100}, {road: cross, end: start}]}\n"));
+  ASSERT_FALSE(end.ok());
+  EXPECT_THAT(end.error().Text(), HasSubstr("the bump from s = 2 to 8 m reaches into a junction at which its road ends"));
 }
 
 TEST(Laid, WhatIsWrongIsSaid) {

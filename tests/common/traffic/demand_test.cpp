@@ -237,7 +237,7 @@ TEST(Demand, TheMixIsWhatItSays) {
   }
 }
 
-// Lorries and buses turn through crossings and a roundabout among cars without touching anybody.
+// Lorries and buses turn through crossings and a roundabout among cars without touching anybody or making anybody brake hard.
 TEST(Demand, LongVehiclesDriveTheMaps) {
   for (const std::string map : {"crossing", "roundabout", "town", "ramp", "overpass"}) {
     StudySettings study;
@@ -249,6 +249,7 @@ TEST(Demand, LongVehiclesDriveTheMaps) {
     for (const std::string& incident : r.incidents) told += "\n  " + incident;
     EXPECT_EQ(r.collisions, 0) << map << told;
     EXPECT_EQ(r.off_lane, 0) << map << told;
+    EXPECT_LE(r.hardest_mps2, 3.0) << map << told;
     EXPECT_GT(r.arrivals, 10) << map;
   }
 }

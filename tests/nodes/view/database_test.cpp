@@ -173,7 +173,7 @@ TEST_F(Database, AModelFromAFileStandsAtItsPlace) {
   ASSERT_TRUE(osgDB::writeNodeFile(*quad, model.string()));
   const auto world = [&](const fs::path& file) {
     return road::World::Parse(fmt::format("rodeira: world/2\nname: plane\nground: {{kind: plane, z_m: 1}}\nroads:\n  - id: main\n    start: {{x_m: 10, y_m: 20, heading_deg: 90}}\n"
-                                          "    axis: [{{line: {{length_m: 60}}}}]\n    z_m: 1\n    section: {{template: rural}}\n    objects: [{{type: house, s_m: 30, t_m: -15, model: {}}}]\n", file.string()), "plane.yaml");
+                                          "    axis: [{{line: {{length_m: 60}}}}]\n    z_m: 1\n    section: {{template: rural}}\n    objects: [{{type: house, s_m: 30, t_m: -15{}}}]\n", file.empty() ? "" : ", model: " + file.string()), "plane.yaml");
   };
   const auto parsed = world(model);
   ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
@@ -209,6 +209,23 @@ TEST_F(Database, AModelFromAFileStandsAtItsPlace) {
   const auto report = WriteDatabase(*broken.value(), options);
   ASSERT_FALSE(report.ok());
   EXPECT_NE(report.error().Text().find("broken.osgt: OpenSceneGraph cannot read this model"), std::string::npos) << report.error().Text();
+  // To look at, there stands what would stand without it, and it is said once.
+  RODEIRA_NEEDS_PICTURES();
+  Picture picture;
+  picture.moment.cars.push_back(CarAt({10.0, 30.0, 1.0}, 0.5 * 3.14159265358979));
+  const auto without = world({});
+  ASSERT_TRUE(without.ok()) << without.error().Text();
+  testing::internal::CaptureStderr();
+  const auto seen = RenderStill(*broken.value(), picture, 320, 180);
+  const std::string said = testing::internal::GetCapturedStderr();
+  ASSERT_TRUE(seen.ok()) << seen.error().Text();
+  EXPECT_TRUE(said.ends_with("broken.osgt: OpenSceneGraph cannot read this model; what it is of is drawn without it\n")) << said;
+  EXPECT_EQ(said.find(": OpenSceneGraph"), said.rfind(": OpenSceneGraph"));
+  const auto house = RenderStill(*without.value(), picture, 320, 180);
+  const auto whole = RenderStill(*parsed.value(), picture, 320, 180);
+  ASSERT_TRUE(house.ok() && whole.ok());
+  EXPECT_EQ(seen.value().rgb, house.value().rgb);
+  EXPECT_NE(whole.value().rgb, house.value().rgb);
 }
 
 TEST_F(Database, RoadsOfVersion1AreRefused) {

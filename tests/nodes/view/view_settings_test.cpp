@@ -31,6 +31,7 @@ TEST(ViewSettings, NothingNeedsToBeSaid) {
   ASSERT_TRUE(settings.ok()) << settings.error().Text();
   EXPECT_EQ(settings.value().width_px, 1280);
   EXPECT_EQ(settings.value().window, WindowWish::kAuto);
+  EXPECT_FALSE(settings.value().headset);
   EXPECT_TRUE(settings.value().frame_steps.empty());
 }
 
@@ -42,6 +43,8 @@ TEST(ViewSettings, WrongOnesAreRefusedWithTheirPlace) {
   EXPECT_EQ(Complaint("{follow: egg}"), "fake.yaml:9: 'egg' is no vehicle that this view is wired to; did you mean 'ego'?");
   EXPECT_EQ(Complaint("{mirrors: [left, middle]}"), "fake.yaml:9: 'middle' is no mirror; left, inside or right was expected");
   EXPECT_EQ(Complaint("{mirrors: []}"), "");
+  EXPECT_EQ(Complaint("{headset: true}"), "");
+  EXPECT_EQ(Complaint("{haedset: true}"), "fake.yaml:9: unknown key 'nodes.picture.config.haedset'; did you mean 'headset'?");
   EXPECT_EQ(Complaint("{follow: ego}"), "");
   EXPECT_NE(Complaint("{frames: {times_s: [1]}}").find("folder"), std::string::npos);
 }

@@ -1,0 +1,83 @@
+// Who waits within his own zones for who holds them before him, and who follows him instead where their ways come together.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/driver/acc.hpp"
+#include "common/traffic/traffic_model.hpp"
+#include "common/traffic/travel_time.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kLine_m = 0.6;          // before the zone the front stops
+constexpr double kFollowing_mps2 = 1.5;  // who is let in behind somebody brakes no harder for it
+constexpr double kYielded_mps2 = 1.0;    // by which others may have to brake, on the average, for who merges before them
+constexpr double kLag_s = 1.0;           // … and so much later than that one they come
+
+}  // namespace
+
+// From its front to the rear of who goes before it through a zone in which their ways come together, both by their way to its end.
+double TrafficModel::MergingGap(std::uint32_t id, double out_m, const Holder& before) const {
+  const double to_end = out_m - agents_[id].o_m - 0.5 * traits_[id].length_m;
+  return to_end - (before.out_m - agents_[before.id].o_m + 0.5 * traits_[before.id].length_m);
+}
+
+// The acceleration with which it follows another agent that has come in, or comes in, before it.
+double TrafficModel::FollowComing(std::uint32_t id, std::uint32_t leader, double gap_m) const {
+  const Agent& other = agents_[leader];
+  return driver::AccAcceleration(traits_[id].idm, agents_[id].speed_mps, Desired_mps(id), gap_m, other.speed_mps, other.acceleration_mps2);
+}
+
+// Where two ways merge it may come behind who is nearer to the end of the zone, as behind a leader, if it need not brake much for that.
+bool TrafficModel::MayFollow(std::uint32_t id, const Crossing& crossing, const Holder& holder) const {
+  if (zones()[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge) return false;
+  const double gap = MergingGap(id, crossing.out_m, holder);
+  return gap > 0.0 && FollowComing(id, holder.id, gap) > -kFollowing_mps2;
+}
+
+// Where two ways merge, whether who comes, surely behind it, need not brake much for it to stay there until it is out of the zone.
+bool TrafficModel::IsFarEnough(std::uint32_t id, const Crossing& crossing, const Claim& claim, double clears_s) const {
+  if (zones()[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge || claim.id >= agents_.size()) return false;
+  const Agent& agent = agents_[id];
+  const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
+  const double arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2);
+  const double comes = claim.way_m * clears_s / std::max(0.1, claim.ends_s), may_come = claim.way_m - settings_.idm.standing_gap_m;
+  return claim.arrives_s > arrives + kLag_s && 2.0 * (comes - may_come) < kYielded_mps2 * clears_s * clears_s;
+}
+
+// What those who hold its zones before it leave it: it stops at the line before each zone or, where ways merge, follows who is nearer
+// to the zone's end, whichever is the less.
+void TrafficModel::YieldInZones(std::uint32_t id) {
+  Agent& agent = agents_[id];
+  const double front = agent.o_m + 0.5 * traits_[id].length_m;
+  double& leaves = leaves_[id] = kFree_mps2;
+  double nearest = 1e9;
+  const std::int64_t eased_for = std::exchange(agent.eased_for, -1);
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.begin_m > agent.granted_m) break;
+    for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
+      const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
+      const bool merges = part.kind == lanes::ZoneKind::kMerge;
+      if (part.kind == lanes::ZoneKind::kDiverge || in >= agent.granted_m || (merges ? out : in) < front) continue;
+      const std::uint64_t number = agent.GrantOf(out).number;
+      for (const Holder& holder : holders_[part.zone][static_cast<std::size_t>(1 - part.side)]) {
+        if (holder.id >= agents_.size() || holder.id == id || holder.grant.number >= number) continue;
+        const double gap = merges ? MergingGap(id, out, holder) : -1.0;
+        double then = in >= front ? StopAt(id, in - kLine_m) : kFree_mps2;
+        if (gap > 0.0) {
+          const double following = FollowComing(id, holder.id, gap);
+          then = in >= front ? std::max(then, following) : following;
+          if (gap < nearest) nearest = gap, agent.eased_for = holder.id;
+        }
+        leaves = std::min(leaves, then);
+      }
+    }
+  }
+  const Ahead& ahead = ahead_[id];
+  if (agent.eased_for >= 0 || eased_for < 0 || ahead.id != eased_for) return;
+  const Agent& other = agents_[static_cast<std::size_t>(eased_for)];
+  if (!driver::AccIsIdm(traits_[id].idm, agent.speed_mps, Desired_mps(id), ahead.gap_m, ahead.speed_mps, other.acceleration_mps2)) agent.eased_for = eased_for;
+}
+
+}  // namespace rodeira::traffic
