@@ -20,6 +20,7 @@
 #include "common/traffic/agent_detail.hpp"
 #include "common/traffic/demand.hpp"
 #include "common/traffic/full_cars.hpp"
+#include "common/traffic/motors_driver.hpp"
 #include "common/traffic/pedestrians.hpp"
 #include "common/traffic/track_plan.hpp"
 #include "common/traffic/traffic_settings.hpp"
@@ -61,6 +62,8 @@ class TrafficModel {
   const std::vector<AgentPose>& poses() const { return poses_; }
   const AgentTraits& traits(std::uint32_t id) const { return traits_[id]; }
   const Agent& agent(std::uint32_t id) const { return agents_[id]; }
+  // MOTORS' driver of an agent; null where others drive.
+  const MotorsDriver* motors(std::uint32_t id) const { return motors_.empty() ? nullptr : &motors_[id]; }
   // The cars with full physics, one a place by id; null in planar mode.
   const FullCars* full() const { return full_ ? &*full_ : nullptr; }
   std::size_t on_road() const { return poses_.size(); }
@@ -302,7 +305,17 @@ class TrafficModel {
   bool NearCrossing(std::uint32_t track, double low_m, double high_m) const;
   double StoppingWay(std::uint32_t id) const;
 
+  // MOTORS' driver.
+  void StartMotors();
+  Eigen::Vector2d MotorsPoint(const MotorsDriver& driver, std::uint32_t index) const;
+  std::uint32_t MotorsPoints(const MotorsDriver& driver) const;
+  void TakeLane(std::uint32_t id, const Piece& piece);
+  void FollowTrajectory(std::uint32_t id);
+  void GiveWay();
+  void DriveMotors(std::uint32_t id, double dt_s);
+
   // Driving.
+  void Decide(double dt_s);
   double Wanted(std::uint32_t id) const;
   double Desired_mps(std::uint32_t id) const;
   driver::SpeedPlan::Allowed Allowed(std::uint32_t id) const;
@@ -344,6 +357,7 @@ class TrafficModel {
   std::vector<AgentTraits> traits_;
   std::vector<Agent> agents_;
   std::optional<FullCars> full_;  // none: planar
+  std::vector<MotorsDriver> motors_;  // by agent; empty where others drive
   std::optional<Pedestrians> people_;
   std::vector<Yielding> yielding_;  // by agent; empty without people
   double longest_half_m_ = 0.0;  // of all agents
@@ -368,6 +382,7 @@ class TrafficModel {
   std::vector<std::uint32_t> missed_now_;              // by agent
   std::vector<double> leaves_;                         // by agent: acceleration that who holds its zones before it leaves it
   std::vector<double> bars_;                           // by agent: odometer at which it waits for people on foot
+  std::vector<Eigen::Vector2d> segments_;              // by agent: where MOTORS' driver looks to
   std::vector<AtCrossing> at_crossings_;               // by crossing for people on foot
   std::vector<ToCrossing> to_crossings_;
   std::vector<std::array<std::vector<Holder>, 2>> holders_;         // by zone

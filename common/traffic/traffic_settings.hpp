@@ -21,12 +21,19 @@ enum class Physics {
   kFull,    // as the driver's car: four wheels with suspension and slipping tyres on the ground, the whole powertrain
 };
 
+// Who drives.
+enum class DriverKind {
+  kStandard,
+  kMotors,  // as MOTORS' own: gives way to the right and sees nobody else
+};
+
 // What a traffic source is told. Each agent draws its own values from the ranges, by seed and number.
 struct TrafficSettings {
   static constexpr std::uint32_t kMostOfFlows = 1000;  // vehicles at a time where there are flows and nothing says how many
 
   std::uint64_t seed = 1;
   Physics physics = Physics::kPlanar;
+  DriverKind driver = DriverKind::kStandard;  // MOTORS' drives with full physics alone
   std::uint32_t vehicles = 20;  // on the road and waiting to enter, together; never more, never fewer
   std::uint32_t threads = 1;    // that work on a step; changes no result
   driver::IdmSettings idm;      // the middle of what agents draw: time gap and accelerations vary by `variety`
