@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/lanes/ring.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/traffic/travel_time.hpp"
 
@@ -12,9 +13,29 @@ namespace {
 constexpr double kPatience_s = 40.0;   // at rest for others; longer than this and others let one go
 constexpr double kGap_s = 1.0;         // after the own clearing before who goes first may arrive
 constexpr double kBehind_s = 0.5;      // after the own arrival who holds a zone may be out of it at the latest
+constexpr double kZips_mps = 7.0, kSoon_s = 4.0;  // who comes so slowly, and so soon, to where lanes merge takes his turn
+constexpr double kAlike = 0.9;         // cosine between the approaches of lanes that merge with equal right
 constexpr double kAtRest_mps = 0.05;
 constexpr double kAtLine_m = 1.5;      // a full stop counts within this before the line
-constexpr int kMostInChain = 64;
+
+// Whether two lanes beside one another come together there without any sign: one by one from each, where it is slow.
+bool Zips(const lanes::Graph& graph, const lanes::Zone& zone) {
+  if (zone.kind != lanes::ZoneKind::kMerge || zone.signed_ || lanes::OnRing(graph, zone.track[0]) != lanes::OnRing(graph, zone.track[1])) return false;
+  return graph[zone.track[0]].curve.nodes().front().along_W.head<2>().dot(graph[zone.track[1]].curve.nodes().front().along_W.head<2>()) > kAlike;
+}
+
+// The side of who was let in last of those who hold a zone, by both sides; -1: nobody does.
+template <class Sides>
+int LastLetIn(const Sides& sides, std::size_t agents) {
+  int last = -1;
+  std::uint64_t number = 0;
+  for (const int side : {0, 1}) {
+    for (const auto& holder : sides[static_cast<std::size_t>(side)]) {
+      if (holder.id < agents && holder.grant.number > number) number = holder.grant.number, last = side;
+    }
+  }
+  return last;
+}
 
 }  // namespace
 
@@ -50,17 +71,26 @@ bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
   return awaited_[zone][mine] && !Urgent(id);
 }
 
-// Whether somebody who goes first is about to come to the zone before this one is out of it.
+// Whether somebody who goes first is about to come to the zone before this one is out of it. Where lanes zip, it is the other side's turn as long as
+// who was let in last is from this one.
 bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
-  const auto zone = static_cast<std::size_t>(crossing.zone);
-  const auto theirs = static_cast<std::size_t>(1 - crossing.side);
-  if (zones()[static_cast<std::uint32_t>(zone)].first == crossing.side) return false;
+  const auto index = static_cast<std::size_t>(crossing.zone);
+  const int theirs = 1 - crossing.side;
+  const lanes::Zone& zone = zones()[static_cast<std::uint32_t>(index)];
+  const auto& claims = comers_[index][static_cast<std::size_t>(theirs)];
+  if (claims.empty()) return false;
+  const int last = Zips(graph(), zone) ? LastLetIn(holders_[index], agents_.size()) : -1;
+  if (zone.first == crossing.side && last != crossing.side) return false;
   const Agent& agent = agents_[id];
   const double way_out = crossing.out_m - agent.o_m + 0.5 * traits_[id].length_m;
   const double clears = TravelTime(way_out, agent.speed_mps, AllowedAt(id, crossing.out_m), traits_[id].start_mps2);
-  for (const Claim& claim : comers_[zone][theirs]) {
-    if (claim.id == id || claim.arrives_s > clears + kGap_s || IsFarEnough(id, crossing, claim, clears)) continue;
+  for (const Claim& claim : claims) {
+    if (claim.id == id) continue;
     const bool agents = claim.id < agents_.size();
+    const bool slow = agents && agents_[claim.id].speed_mps < kZips_mps && passages_[claim.id].arrives_s < kSoon_s;
+    const bool its_turn = slow && last == crossing.side;
+    if (slow && last == theirs) continue;
+    if (!its_turn && (zone.first == crossing.side || claim.arrives_s > clears + kGap_s || IsFarEnough(id, crossing, claim, clears))) continue;
     if (agents && Urgent(id) && agents_[claim.id].waited_s < agent.waited_s) continue;
     passages_[id].waits_for = agents ? static_cast<std::int64_t>(claim.id) : -1;
     const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
