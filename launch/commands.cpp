@@ -24,6 +24,7 @@
 #include "launch/surface_command.hpp"
 #include "launch/traffic_command.hpp"
 #include "launch/vehicle_command.hpp"
+#include "launch/view_command.hpp"
 #include "launch/world_command.hpp"
 
 namespace rodeira::front {
@@ -245,6 +246,15 @@ void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
   joysticks->callback([&options] { options.asked = true; });
 }
 
+CLI::App* AddView(CLI::App& app, ViewOptions& options) {
+  CLI::App* view = app.add_subcommand("view", "the start window: choose what to drive, or what to watch; with a launch file: its run, by one of its views");
+  view->add_option("LAUNCH.yaml", options.launch_file, "launch file");
+  view->add_option("--screen", options.screen, "of the laboratory: only the view that looks through it, as its PC's part of the run where the launch file names one");
+  view->add_flag("--headset", options.headset, "in a headset too");
+  view->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
+  return view;
+}
+
 void AddEdit(CLI::App& app, EditOptions& options) {
   CLI::App* edit = app.add_subcommand("edit", "draw a traffic map in a window");
   edit->add_option("FILE.motors", options.file, "traffic map; a new one otherwise");
@@ -334,14 +344,15 @@ int Main(int argc, char** argv) {
   ReplayOptions replay_options;
   std::vector<std::string> changes;
   CLI::App* replay = AddReplay(app, replay_options, changes);
-  const CLI::App* view = app.add_subcommand("view", "the start window: choose what to drive, or what to watch");
+  ViewOptions view_options;
+  const CLI::App* view = AddView(app, view_options);
   if (argc == 1 && CanStartByWindow()) return StartByWindow();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? 0 : 2;
   }
-  if (view->parsed()) return StartByWindow();
+  if (view->parsed()) return View(view_options);
   if (!world.command.empty()) return World(world);
   if (!map.command.empty()) return MapCommand(map);
   if (traffic.asked) return TrafficRun(traffic);

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "common/base/suggest.hpp"
+#include "common/scenario/event.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -85,6 +87,31 @@ std::string Shortened(std::string text) {
   return text.substr(0, cut) + "...";
 }
 
+// Calls `take` for each message of a topic, in the order of the file, as long as it answers with success.
+template <class Message>
+base::Status ForEachOf(const replay::RecordedRun& run, std::string_view topic, const std::function<void(const Message&, std::int64_t time_ns)>& take) {
+  const auto channels = run.reader().ChannelsOf(topic);
+  if (channels.empty()) return {};
+  record::Query query;
+  query.channels.emplace(channels.begin(), channels.end());
+  auto cursor = run.reader().Messages(query);
+  for (;;) {
+    const auto message = cursor.Next();
+    if (!message) return message.error();
+    if (!message.value()) return {};
+    const auto said = idl::Decode<Message>(message.value()->data);
+    if (!said) return base::WrongInput(said.error().Text(), run.path().string());
+    take(said.value(), static_cast<std::int64_t>(message.value()->log_time_ns));
+  }
+}
+
+// "weather rain 8", "traffic.brake ahead 4"; of a text that somebody wrote only that.
+std::string TextOf(const msg::ScenarioEvent& event) {
+  if (event.name() == scenario::kMark) return Shortened(event.argument());
+  const std::string argument = event.argument().empty() ? "" : " " + event.argument();
+  return Shortened(fmt::format("{}{}{}", event.name(), argument, event.value() != 0.0 ? fmt::format(" {:g}", event.value()) : ""));
+}
+
 }  // namespace
 
 base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& options) {
@@ -110,21 +137,15 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
 
 base::Result<std::vector<view::ReplayMark>> MarksOf(const replay::RecordedRun& run) {
   std::vector<view::ReplayMark> marks;
-  const auto channels = run.reader().ChannelsOf(topics::kRemarks);
-  if (channels.empty()) return marks;
-  record::Query query;
-  query.channels.emplace(channels.begin(), channels.end());
-  auto cursor = run.reader().Messages(query);
-  for (;;) {
-    const auto message = cursor.Next();
-    if (!message) return message.error();
-    if (!message.value()) break;
-    const auto remark = idl::Decode<msg::Remark>(message.value()->data);
-    if (!remark) return base::WrongInput(remark.error().Text(), run.path().string());
-    if (remark.value().kind() != "mark" && remark.value().kind() != "fault") continue;
-    marks.push_back({std::max<std::int64_t>(remark.value().time_ns(), 0),
-                     Shortened(remark.value().text().empty() ? remark.value().kind() : remark.value().text())});
-  }
+  auto status = ForEachOf<msg::Remark>(run, topics::kRemarks, [&](const msg::Remark& remark, std::int64_t) {
+    if (remark.kind() != "mark" && remark.kind() != "fault") return;
+    marks.push_back({std::max<std::int64_t>(remark.time_ns(), 0), Shortened(remark.text().empty() ? remark.kind() : remark.text())});
+  });
+  if (!status) return status.error();
+  status = ForEachOf<msg::ScenarioEvents>(run, topics::kScenarioEvents, [&](const msg::ScenarioEvents& events, std::int64_t time_ns) {
+    for (const msg::ScenarioEvent& event : events.events()) marks.push_back({time_ns, TextOf(event), view::MarkKind::kEvent});
+  });
+  if (!status) return status.error();
   std::ranges::stable_sort(marks, {}, &view::ReplayMark::time_ns);
   return marks;
 }

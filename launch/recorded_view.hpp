@@ -21,7 +21,8 @@ struct Seen {
 // nothing to see, or where a wish of the options is wrong.
 base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& options);
 
-// The operator's marks, and what failed. Only the chunks are read in which somebody remarked something.
+// The operator's marks, what failed, and the events of scenarios, those included that people asked for: weather, places, texts. Of a run without a
+// scenario only the chunks are read in which somebody remarked something.
 base::Result<std::vector<view::ReplayMark>> MarksOf(const replay::RecordedRun& run);
 
 }  // namespace rodeira::front

@@ -1,6 +1,7 @@
 #include "common/scene/heat_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace rodeira::scene {
@@ -8,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLevel_m = 5.0, kHand_m = 0.08;
+constexpr double kLevel_m = 5.0;
 constexpr double kLongestPiece_m = 0.25 * HeatMap::kSquare_m;
 constexpr double kUnknownLimit_mps = 100.0 / 3.6;
 constexpr std::array<HeatScale, kHeatKinds> kScales{HeatScale{"speed", "% of the limit", 0.0, 100.0}, HeatScale{"flow", "vehicles/h", 0.0, 1800.0},
@@ -60,8 +61,10 @@ void HeatMap::AddWay(const Vector3d& from_W, const Vector3d& to_W, double time_s
   const int pieces = std::max(1, static_cast<int>(std::ceil(way_m / kLongestPiece_m)));
   const double share = 1.0 / pieces;
   for (int piece = 0; piece < pieces; ++piece) {
-    HeatCell& cell = CellAt(from_W + (piece + 0.5) * share * (to_W - from_W));
+    const Vector3d at_W = from_W + (piece + 0.5) * share * (to_W - from_W);
+    HeatCell& cell = CellAt(at_W);
     cell.time_s += share * time_s;
+    cell.height_ms += at_W.z() * share * time_s;
     cell.distance_m += share * way_m;
     if (!fuel_l) continue;
     cell.fuel_l += share * *fuel_l;
@@ -100,24 +103,6 @@ std::optional<double> HeatMap::Value(HeatKind kind, const HeatCell& cell) const 
     case HeatKind::kFuel: break;
   }
   return cell.fuel_distance_m > 0.0 ? std::optional(1e5 * cell.fuel_l / cell.fuel_distance_m) : std::nullopt;
-}
-
-std::vector<HeatSquare> HeatMap::Squares(HeatKind kind) const {
-  const HeatScale& scale = ScaleOf(kind);
-  std::vector<HeatSquare> squares;
-  for (const auto& [key, cell] : cells_) {
-    const auto value = Value(kind, cell);
-    if (!value) continue;
-    HeatSquare square;
-    square.colour = HeatColour((*value - scale.red) / (scale.green - scale.red));
-    const double top_m = static_cast<double>(key.level + 1) * kLevel_m;
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      const double x = static_cast<double>(key.column + (corner == 1 || corner == 2 ? 1 : 0)) * kSquare_m, y = static_cast<double>(key.row + (corner >= 2 ? 1 : 0)) * kSquare_m;
-      square.corners_W[corner] = {x, y, world_.At(x, y, top_m).z_m + kHand_m};
-    }
-    squares.push_back(square);
-  }
-  return squares;
 }
 
 }  // namespace rodeira::scene

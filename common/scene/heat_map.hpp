@@ -1,15 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <compare>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "common/road/world.hpp"
 #include "common/scene/mesh.hpp"
@@ -37,12 +34,7 @@ struct HeatCell {
   double time_s = 0.0, distance_m = 0.0;
   double fuel_l = 0.0, fuel_distance_m = 0.0;  // of those whose consumption is known
   double limit_mps = 0.0;                      // of the lane there; 0: none is known
-};
-
-// A picture over the ground.
-struct HeatSquare {
-  std::array<Eigen::Vector3d, 4> corners_W;  // counter-clockwise
-  Colour colour;
+  double height_ms = 0.0;                      // the integral of the height over the time
 };
 
 // Statistics of all that drives, by squares of the ground, gathered from the moments that are shown: live or of a recording, forward
@@ -69,8 +61,6 @@ class HeatMap {
   // In the scale's unit: flow q = distance / (side · time), density k = time / (side · time), mean speed v = distance / time in per cent
   // of the limit (100 km/h where none is known), consumption. Nothing where nobody was, or nobody whose consumption is known.
   std::optional<double> Value(HeatKind kind, const HeatCell& cell) const;
-  // Every square that has a value, a hand above the ground on its level.
-  std::vector<HeatSquare> Squares(HeatKind kind) const;
 
  private:
   void AddWay(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, double time_s, std::optional<double> fuel_l);

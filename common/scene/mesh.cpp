@@ -10,6 +10,19 @@
 
 namespace rodeira::scene {
 
+bool IsGround(Material material) {
+  switch (material) {
+    case Material::kGround:
+    case Material::kCheckers:
+    case Material::kRoad:
+    case Material::kMark:
+    case Material::kConcrete:
+    case Material::kGravel:
+    case Material::kPicture: return true;
+    default: return false;
+  }
+}
+
 Colour Mix(Colour a, Colour b, double weight) {
   const auto mix = [weight](std::uint8_t x, std::uint8_t y) { return static_cast<std::uint8_t>(std::lround(x + weight * (y - x))); };
   return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};

@@ -27,6 +27,8 @@ enum class Material : std::uint32_t {
   kCarLamp,  // dull, or shining as its vehicle says
 };
 inline constexpr int kMaterials = 14;
+// Whether it is ground, or lies on it.
+bool IsGround(Material material);
 
 struct Colour {
   std::uint8_t red = 255;

@@ -6,7 +6,7 @@
 namespace rodeira::scene {
 namespace {
 
-constexpr double kDepth_m = 250.0;  // what stands farther off towards the sun throws no shadow here
+constexpr double kDepth_m = 3'000.0;  // what stands farther off towards the sun throws no shadow here
 
 }  // namespace
 

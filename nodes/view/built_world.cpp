@@ -23,12 +23,12 @@ class Dress : public osg::NodeVisitor {
 
   void apply(osg::Geometry& geometry) override {
     const std::string_view name = geometry.getName(), begin = kGeometryName;
-    if (!name.starts_with(begin)) return;  // of a model's file
+    if (!name.starts_with(begin)) return geometry.setNodeMask(kOnlyNear);  // of a model's file
     int number = -1;
     std::from_chars(name.data() + begin.size(), name.data() + name.size(), number);
     if (number < 0 || number >= scene::kMaterials) return;
     const auto material = static_cast<scene::Material>(number);
-    if (!ThrowsShadow(material)) geometry.setNodeMask(~kThrowsShadow);
+    geometry.setNodeMask(ShadowMaskOf(material));
     if (material == scene::Material::kPicture) return LayPicture(geometry);
     if (material == scene::Material::kSign) {
       osg::StateSet* own = geometry.getStateSet();

@@ -1,14 +1,15 @@
 #include "nodes/view/heat_node.hpp"
 
 #include <fmt/format.h>
-#include <osg/BlendFunc>
-#include <osg/Depth>
-#include <osg/PolygonOffset>
+#include <osg/Image>
+#include <osg/Uniform>
+
+#include <cstring>
 
 namespace rodeira::view {
 namespace {
 
-constexpr int kBin = 3;          // behind the sky, with the shadows
+constexpr unsigned kUnit = 4;  // of textures; noise, faces and the sun's maps have those before it
 constexpr float kLeft_px = 18.0F, kWidth_px = 380.0F, kBarHeight_px = 14.0F, kText_px = 17.0F, kHeight_px = 72.0F, kGap_px = 10.0F;
 constexpr float kFromTop_px = 120.0F;  // below the lines of help and notes
 
@@ -16,20 +17,23 @@ osg::Vec4 Of(scene::Colour colour, float share) {
   return {static_cast<float>(colour.red) / 255.0F, static_cast<float>(colour.green) / 255.0F, static_cast<float>(colour.blue) / 255.0F, share};
 }
 
+osg::ref_ptr<osg::Texture2D> MakeSquares() {
+  osg::ref_ptr<osg::Texture2D> squares = new osg::Texture2D;
+  squares->setDataVariance(osg::Object::DYNAMIC);
+  squares->setResizeNonPowerOfTwoHint(false);
+  squares->setInternalFormat(GL_RGBA16);
+  squares->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);  // a square may be of another surface than its neighbours: the shader decides
+  squares->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+  squares->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_BORDER);
+  squares->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_BORDER);
+  squares->setBorderColor({0.0, 0.0, 0.0, 0.0});
+  return squares;
+}
+
 }  // namespace
 
-HeatNode::HeatNode(osg::Group& overlay) : place_(new osg::MatrixTransform), squares_(new osg::Geometry), ground_(overlay, {0.04F, 0.05F, 0.07F, 0.55F}) {
-  squares_->setUseDisplayList(false);
-  squares_->setUseVertexBufferObjects(true);
-  squares_->setDataVariance(osg::Object::DYNAMIC);
-  osg::StateSet* state = squares_->getOrCreateStateSet();
-  state->setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA));
-  state->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
-  state->setAttributeAndModes(new osg::PolygonOffset(-3.0F, -16.0F));
-  state->setMode(GL_POLYGON_OFFSET_FILL, osg::StateAttribute::ON);
-  state->setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
-  state->setRenderBinDetails(kBin, "RenderBin");
-  place_->addChild(squares_);
+HeatNode::HeatNode(osg::Group& overlay, osg::StateSet& state) : squares_(MakeSquares()), ground_(overlay, {0.04F, 0.05F, 0.07F, 0.55F}) {
+  state.addUniform(new osg::Uniform("heat_map", static_cast<int>(kUnit)));
   for (std::size_t i = 0; i < kSteps; ++i) {
     bar_[i] = std::make_unique<Boxes>(overlay, Of(scene::HeatColour((static_cast<double>(i) + 0.5) / kSteps), 1.0F), 1);
   }
@@ -39,30 +43,36 @@ HeatNode::HeatNode(osg::Group& overlay) : place_(new osg::MatrixTransform), squa
   high_ = AddText(overlay, kText_px, osgText::TextBase::RIGHT_BASE_LINE);
 }
 
-void HeatNode::Show(const std::shared_ptr<const HeatPicture>& heat, int height_px) {
-  place_->setNodeMask(heat != nullptr && !heat->squares.empty() ? ~0U : 0U);
-  if (heat != nullptr && heat != laid_) Lay(*heat);
+void HeatNode::Show(osg::StateSet& state, const std::shared_ptr<const HeatPicture>& heat, int height_px) {
+  const bool shown = heat != nullptr && heat->raster.columns > 0;
+  if (shown && heat != laid_) Lay(state, heat->raster);
   laid_ = heat;
+  if (shown) {
+    state.setDefine("HEAT");
+    state.setTextureAttribute(kUnit, squares_);
+  } else {
+    state.removeDefine("HEAT");
+    state.removeTextureAttribute(kUnit, squares_.get());
+  }
   ShowLegend(heat.get(), static_cast<float>(height_px) - kFromTop_px);
 }
 
-void HeatNode::Lay(const HeatPicture& heat) {
-  osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
-  osg::ref_ptr<osg::Vec4Array> colours = new osg::Vec4Array;
-  const Eigen::Vector3d origin = heat.squares.empty() ? Eigen::Vector3d::Zero().eval() : heat.squares.front().corners_W[0];
-  for (const scene::HeatSquare& square : heat.squares) {
-    for (const Eigen::Vector3d& corner : square.corners_W) {
-      const Eigen::Vector3f near = (corner - origin).cast<float>();
-      corners->push_back({near.x(), near.y(), near.z()});
-      colours->push_back(Of(square.colour, static_cast<float>(scene::kHeatShare)));
-    }
-  }
-  place_->setMatrix(osg::Matrixd::translate(origin.x(), origin.y(), origin.z()));
-  squares_->setVertexArray(corners);
-  squares_->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
-  squares_->removePrimitiveSet(0, squares_->getNumPrimitiveSets());
-  squares_->addPrimitiveSet(new osg::DrawArrays(GL_QUADS, 0, static_cast<GLsizei>(corners->size())));
-  squares_->dirtyBound();
+void HeatNode::Lay(osg::StateSet& state, const scene::HeatRaster& raster) {
+  const auto columns = static_cast<int>(raster.columns), rows = static_cast<int>(raster.rows);
+  osg::ref_ptr<osg::Image> image = new osg::Image;
+  image->allocateImage(columns, rows, 1, GL_RGBA, GL_UNSIGNED_SHORT);
+  std::memcpy(image->data(), raster.texels.data(), raster.texels.size() * sizeof(raster.texels[0]));
+  image->setInternalTextureFormat(GL_RGBA16);
+  squares_->setImage(image);
+  squares_->setTextureSize(columns, rows);
+  squares_->dirtyTextureObject();
+  const double square_m = scene::HeatMap::kSquare_m;
+  world_to_squares_ = osg::Matrixd::translate(-raster.west_m, -raster.south_m, -raster.lowest_m) * osg::Matrixd::scale(1.0 / square_m, 1.0 / square_m, 1.0);
+  state.getOrCreateUniform("heat_size", osg::Uniform::FLOAT_VEC3)->set(osg::Vec3f(static_cast<float>(columns), static_cast<float>(rows), static_cast<float>(raster.range_m)));
+}
+
+void HeatNode::SetEye(osg::StateSet& state, const osg::Matrixd& view) const {
+  state.getOrCreateUniform("eye_to_heat", osg::Uniform::FLOAT_MAT4)->set(osg::Matrixd::inverse(view) * world_to_squares_);
 }
 
 void HeatNode::ShowLegend(const HeatPicture* heat, float high_px) {

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
+#include <osg/Matrixd>
+#include <osg/StateSet>
+#include <osg/Texture2D>
 #include <osgText/Text>
 
 #include <array>
@@ -12,22 +13,25 @@
 
 namespace rodeira::view {
 
-// The colours of a statistic over the ground, 70 of them in 100 and 30 of the ground, and the legend that says what they mean.
+// The colours of a statistic over the ground, 70 of them in 100 and 30 of the ground: a texture of numbers, which the shaders of whatever is ground lay
+// over it from above. And the legend that says what they mean.
 class HeatNode {
  public:
-  explicit HeatNode(osg::Group& overlay);
+  // `state`: which all shaders read.
+  HeatNode(osg::Group& overlay, osg::StateSet& state);
 
-  osg::Node* node() { return place_; }
   // Null: nothing. What was shown before is not laid again.
-  void Show(const std::shared_ptr<const HeatPicture>& heat, int height_px);
+  void Show(osg::StateSet& state, const std::shared_ptr<const HeatPicture>& heat, int height_px);
+  // For an eye that looks through this view: its state says where on the texture a place of its own frame is.
+  void SetEye(osg::StateSet& state, const osg::Matrixd& view) const;
 
  private:
   static constexpr std::size_t kSteps = 16;  // of the legend's bar
-  void Lay(const HeatPicture& heat);
+  void Lay(osg::StateSet& state, const scene::HeatRaster& raster);
   void ShowLegend(const HeatPicture* heat, float high_px);
 
-  osg::ref_ptr<osg::MatrixTransform> place_;
-  osg::ref_ptr<osg::Geometry> squares_;
+  osg::ref_ptr<osg::Texture2D> squares_;
+  osg::Matrixd world_to_squares_;
   std::shared_ptr<const HeatPicture> laid_;
   Boxes ground_;
   std::array<std::unique_ptr<Boxes>, kSteps> bar_;

@@ -67,17 +67,9 @@ osg::ref_ptr<osg::Texture2D> MakeNoise(bool between) {
 
 }  // namespace
 
-bool ThrowsShadow(scene::Material material) {
-  switch (material) {
-    case scene::Material::kGround:
-    case scene::Material::kCheckers:
-    case scene::Material::kRoad:
-    case scene::Material::kMark:
-    case scene::Material::kConcrete:
-    case scene::Material::kGravel:
-    case scene::Material::kPicture: return false;
-    default: return true;
-  }
+unsigned ShadowMaskOf(scene::Material material) {
+  if (material == scene::Material::kMark) return kThrowsNone;
+  return scene::IsGround(material) ? ~kThrowsShadow : kOnlyNear;
 }
 
 Look::Look(const QualityTraits& quality) : quality_(quality), noise_(MakeNoise(quality.fine)), shadow_(ProgramOf(ShadowVertexShader(), ShadowFragmentShader())) {}
@@ -157,7 +149,7 @@ osg::ref_ptr<osg::Geometry> Look::BareGeometryOf(const scene::Mesh& mesh) {
   geometry->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
   geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.triangles.begin(), mesh.triangles.end()));
   if (!mesh.on_face.empty()) geometry->setTexCoordArray(1, PlacesOnFace(mesh));
-  if (!ThrowsShadow(mesh.material)) geometry->setNodeMask(~kThrowsShadow);
+  geometry->setNodeMask(ShadowMaskOf(mesh.material));
   return geometry;
 }
 
@@ -216,7 +208,7 @@ osg::ref_ptr<osg::Node> Look::MakeSky() {
   state->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, false));
   state->setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
   state->setRenderBinDetails(kSkyBin, "RenderBin");
-  geometry->setNodeMask(~kThrowsShadow);
+  geometry->setNodeMask(kThrowsNone);
   return geometry;
 }
 
@@ -261,7 +253,7 @@ osg::ref_ptr<osg::Node> Look::MakeShadow(float rear_m, float front_m, float half
   state->setAttributeAndModes(new osg::PolygonOffset(-3.0F, -16.0F));
   state->setMode(GL_POLYGON_OFFSET_FILL, osg::StateAttribute::ON);
   state->setRenderBinDetails(kShadowBin, "RenderBin");
-  geometry->setNodeMask(~kThrowsShadow);
+  geometry->setNodeMask(kThrowsNone);
   return geometry;
 }
 

@@ -19,9 +19,11 @@
 
 namespace rodeira::view {
 
-// The bit of node masks by which geometries are in the sun's shadow map: all but the ground, the sky and what lies on the ground.
-inline constexpr unsigned kThrowsShadow = 0x2U;
-bool ThrowsShadow(scene::Material material);
+// The bits of node masks by which geometries are in the sun's shadow maps: what stands and moves, in the near one alone, and the ground, in both. The sky
+// and what lies flat on the ground have neither.
+inline constexpr unsigned kThrowsShadow = 0x2U, kGroundThrowsShadow = 0x4U;
+inline constexpr unsigned kThrowsNone = ~(kThrowsShadow | kGroundThrowsShadow), kOnlyNear = ~kGroundThrowsShadow;
+unsigned ShadowMaskOf(scene::Material material);
 
 // From the scene's plain meshes to OpenSceneGraph's nodes. What it makes belongs to one OpenGL context.
 class Look {

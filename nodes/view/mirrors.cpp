@@ -2,7 +2,11 @@
 
 #include <osg/StateSet>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <utility>
 
 #include "nodes/view/aim_camera.hpp"
 #include "nodes/view/air_uniforms.hpp"
@@ -12,6 +16,8 @@ namespace {
 
 constexpr double kFar_m = 1'500.0;
 constexpr float kCoarser = 2.5F;  // levels of detail in a small picture
+constexpr std::int64_t kNext_ns = 200'000'000;  // from a picture to the next one, at most
+constexpr double kNext_m = 10.0;
 constexpr float kFrame_px = 3.0F;
 constexpr int kFrameLayer = 1, kGlassLayer = 2;
 
@@ -84,25 +90,43 @@ void Mirrors::Fit(Glass& glass, scene::Mirror mirror, int width_px, int height_p
   corners.dirty();
 }
 
-void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air, const SunShadow& shadow, int width_px, int height_px) {
+// Whether this is the next picture of what moves on evenly: no leap, no other car, the same mirrors.
+bool Mirrors::GoesOn(const Picture& picture, const Eigen::Vector3d& eye_W) {
+  const Shown now{picture.moment.time_ns, picture.followed, picture.mirrors, eye_W};
+  const std::optional<Shown> before = std::exchange(before_, now);
+  if (!before || before->followed != now.followed || before->mirrors != now.mirrors) return false;
+  const std::int64_t passed_ns = std::abs(now.time_ns - before->time_ns);
+  return passed_ns > 0 && passed_ns <= kNext_ns && (now.eye_W - before->eye_W).norm() < kNext_m;
+}
+
+void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air, const SunShadow& shadow, const HeatNode& heat, int width_px, int height_px, bool in_turn) {
   if (width_px != width_px_ || height_px != height_px_) {
     width_px_ = width_px;
     height_px_ = height_px;
+    before_.reset();
     for (const scene::Mirror mirror : scene::kAllMirrors) Fit(glasses_[static_cast<std::size_t>(mirror)], mirror, width_px, height_px);
+  }
+  const bool wanted = body && picture.camera == scene::CameraKind::kDriver;
+  const bool one = wanted && GoesOn(picture, body->p_WB_W) && in_turn;
+  if (!wanted) before_.reset();
+  if (one) {
+    do turn_ = (turn_ + 1) % scene::kMirrors;
+    while (!picture.mirrors[turn_] && std::ranges::any_of(picture.mirrors, std::identity()));
   }
   const scene::CarPose* lit = picture.followed < picture.moment.cars.size() ? &picture.moment.cars[picture.followed] : nullptr;
   std::vector<Boxes::Box> frames;
   for (const scene::Mirror mirror : scene::kAllMirrors) {
     const auto at = static_cast<std::size_t>(mirror);
     Glass& glass = glasses_[at];
-    const bool shown = body && picture.camera == scene::CameraKind::kDriver && picture.mirrors[at];
-    glass.camera->setNodeMask(shown ? ~0U : 0U);
+    const bool shown = wanted && picture.mirrors[at];
+    glass.camera->setNodeMask(shown && (!one || at == turn_) ? ~0U : 0U);
     glass.pane->setNodeMask(shown ? ~0U : 0U);
     if (!shown) continue;
     AimCamera(*glass.camera, scene::MirrorCamera(*body, mirror), scene::ShapeOf(mirror), kFar_m);
     glass.camera->setClearColor({air.horizon.x(), air.horizon.y(), air.horizon.z(), 1.0F});
     SetEye(*glass.camera->getOrCreateStateSet(), air, lit, glass.camera->getViewMatrix());
     shadow.SetEye(*glass.camera->getOrCreateStateSet(), glass.camera->getViewMatrix());
+    heat.SetEye(*glass.camera->getOrCreateStateSet(), glass.camera->getViewMatrix());
     const Boxes::Box box = PixelsOf(mirror, width_px, height_px);
     frames.push_back({box.left - kFrame_px, box.low - kFrame_px, box.right + kFrame_px, box.high + kFrame_px});
   }

@@ -10,6 +10,7 @@
 
 #include "common/scene/air.hpp"
 #include "common/scene/mirror.hpp"
+#include "nodes/view/heat_node.hpp"
 #include "nodes/view/overlay.hpp"
 #include "nodes/view/picture.hpp"
 #include "nodes/view/sun_shadow.hpp"
@@ -22,8 +23,9 @@ class Mirrors {
   // `scene`: what they show; cameras go below `root`, frames and pictures below `overlay`.
   Mirrors(osg::Group& root, osg::Group& scene, osg::Group& overlay);
 
-  // Of the body that the picture goes with; none: no mirrors.
-  void Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air, const SunShadow& shadow, int width_px, int height_px);
+  // Of the body that the picture goes with; none: no mirrors. `in_turn`: where the picture goes on from the one before, one of them is drawn anew and the
+  // others show what they showed, otherwise all are.
+  void Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air, const SunShadow& shadow, const HeatNode& heat, int width_px, int height_px, bool in_turn);
 
  private:
   struct Glass {
@@ -32,11 +34,20 @@ class Mirrors {
     osg::ref_ptr<osg::Geometry> pane;
   };
   static Glass MakeGlass(osg::Group& root, osg::Group& scene, osg::Group& overlay);
+  bool GoesOn(const Picture& picture, const Eigen::Vector3d& eye_W);
   void Fit(Glass& glass, scene::Mirror mirror, int width_px, int height_px);
 
   Boxes frames_;
   std::array<Glass, scene::kMirrors> glasses_;
   int width_px_ = 0, height_px_ = 0;  // of the picture for which they were fitted
+  struct Shown {                      // the picture before
+    std::int64_t time_ns = 0;
+    std::size_t followed = 0;
+    std::array<bool, scene::kMirrors> mirrors{};
+    Eigen::Vector3d eye_W = Eigen::Vector3d::Zero();
+  };
+  std::optional<Shown> before_;
+  std::size_t turn_ = 0;
 };
 
 }  // namespace rodeira::view

@@ -75,7 +75,11 @@ osg::ref_ptr<osg::Node> GroundNode(Look& look, const scene::GroundTile& tile) {
     std::vector<const scene::Mesh*> things;
     for (const scene::Mesh& mesh : tile.levels[level].things) things.push_back(&mesh);
     if (!things.empty()) group->addChild(look.Placed(things));
-    if (!tile.levels[level].models.empty()) group->addChild(PlaceModels(tile.levels[level].models));
+    if (!tile.levels[level].models.empty()) {
+      const osg::ref_ptr<osg::Group> models = PlaceModels(tile.levels[level].models);
+      models->setNodeMask(kOnlyNear);
+      group->addChild(models);
+    }
     lod->addChild(group, from, scene::kGroundSeen_m[level]);
     from = scene::kGroundSeen_m[level];
   }
@@ -112,9 +116,9 @@ struct Painter::Parts {
   VectorsNode vectors;
   osg::ref_ptr<osg::Camera> overlay = MakeOverlay();
   Instruments instruments{*overlay};
-  HeatNode heat{*overlay};
   TimelineBar timeline{*overlay};
   osg::ref_ptr<osg::Group> root = new osg::Group;
+  HeatNode heat{*overlay, *root->getOrCreateStateSet()};
   osg::ref_ptr<osg::Group> scene = new osg::Group;  // the world and what moves in it: all that mirrors show too
   SunShadow shadow;
   Mirrors mirrors{*root, *scene, *overlay};
@@ -156,10 +160,12 @@ void Painter::SetUp() {
   Look& look = parts_->look;
   osg::Group& root = *parts_->root;
   osg::Group& group = *parts_->scene;
-  group.addChild(parts_->fleet.node());
-  group.addChild(parts_->lights.node());
-  group.addChild(parts_->vectors.node());
-  group.addChild(parts_->heat.node());
+  osg::ref_ptr<osg::Group> moving = new osg::Group;
+  moving->setNodeMask(kOnlyNear);
+  moving->addChild(parts_->fleet.node());
+  moving->addChild(parts_->lights.node());
+  moving->addChild(parts_->vectors.node());
+  group.addChild(moving);
   group.addChild(look.MakeSky());
   root.addChild(&group);
   root.addChild(parts_->cabin.node());
@@ -204,9 +210,11 @@ base::Status Painter::WearCarModel(const std::filesystem::path& file) {
   return {};
 }
 
-void Painter::Draw(const Picture& picture) { DrawInto(picture, {0, surface_.width_px(), surface_.height_px()}); }
+void Painter::Draw(const Picture& picture) { DrawOnce(picture, {0, surface_.width_px(), surface_.height_px()}, false); }
 
-void Painter::DrawInto(const Picture& picture, const PictureTarget& target) {
+void Painter::DrawInto(const Picture& picture, const PictureTarget& target) { DrawOnce(picture, target, true); }
+
+void Painter::DrawOnce(const Picture& picture, const PictureTarget& target, bool whole) {
   const int width = target.width_px, height = target.height_px;
   const scene::Camera camera = CameraOf(picture);
   const bool is_car = picture.followed < picture.moment.cars.size();
@@ -226,6 +234,8 @@ void Painter::DrawInto(const Picture& picture, const PictureTarget& target) {
   SetEye(state, air, is_car ? &picture.moment.cars[picture.followed] : nullptr, eye.getViewMatrix());
   parts_->shadow.Show(state, air, ShadowsAbout(picture, body, camera));
   parts_->shadow.SetEye(state, eye.getViewMatrix());
+  parts_->heat.Show(state, picture.heat, height);
+  parts_->heat.SetEye(state, eye.getViewMatrix());
   SetRain(state, picture.moment.time_ns, aspect);
   parts_->rain->setNodeMask(air.rain > 0.0F ? ~0U : 0U);
   parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt, picture.chosen, air.headlights > 0.0F);
@@ -233,21 +243,20 @@ void Painter::DrawInto(const Picture& picture, const PictureTarget& target) {
   parts_->lights.Show(picture.moment.lights);
   parts_->vectors.Show(picture.moment, picture.chosen);
   FitOverlay(*parts_->overlay, width, height);
-  parts_->mirrors.Show(picture, body, air, parts_->shadow, width, height);
+  parts_->mirrors.Show(picture, body, air, parts_->shadow, parts_->heat, width, height, !whole && TraitsOf(surface_.quality()).mirrors_in_turn);
   parts_->instruments.Show(picture, width, height, picture.timeline ? TimelinePlace::kHeight_px : 0.0F);
-  parts_->heat.Show(picture.heat, height);
   parts_->timeline.Show(picture.timeline, width);
   parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);
   if (parts_->built && !parts_->viewer.getDatabasePager()->getRequestsInProgress()) GiveBack(*parts_->built, ToOsg(camera.eye_W), kFar_m, static_cast<double>(eye.getLODScale()));
 }
 
 void Painter::DrawWhole(const Picture& picture) {
-  Draw(picture);
+  DrawInto(picture, {0, surface_.width_px(), surface_.height_px()});
   if (!parts_->built) return;
   // Each level of a tile is asked for when the one before it is there.
   while (parts_->viewer.getDatabasePager()->getRequestsInProgress()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    Draw(picture);
+    DrawInto(picture, {0, surface_.width_px(), surface_.height_px()});
   }
 }
 

@@ -29,9 +29,10 @@ class Painter {
 
   // Shows a model from a file for driven cars (CarNode::Wear says what is expected). Wrong input where it cannot be read: nothing is changed.
   base::Status WearCarModel(const std::filesystem::path& file);
-  // Draws; nothing is shown yet. Of a built database what has been read so far; the rest is asked for.
+  // Draws; nothing is shown yet. Of a built database what has been read so far; the rest is asked for. At low quality, of pictures that follow one
+  // another, one mirror each.
   void Draw(const Picture& picture);
-  // The same into other pixels than the surface's.
+  // The same into other pixels than the surface's, every mirror.
   void DrawInto(const Picture& picture, const PictureTarget& target);
   // Draws, and waits for all that is to be seen: a pure function of the world and the picture, built or not.
   void DrawWhole(const Picture& picture);
@@ -47,6 +48,7 @@ class Painter {
   struct Parts;
   Painter(Surface& surface, const road::World& world);
   void SetUp();
+  void DrawOnce(const Picture& picture, const PictureTarget& target, bool whole);  // `whole`: every mirror
   Surface& surface_;
   const road::World& world_;
   std::unique_ptr<Parts> parts_;

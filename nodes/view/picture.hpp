@@ -9,7 +9,7 @@
 
 #include "common/scene/camera.hpp"
 #include "common/scene/headset_eye.hpp"
-#include "common/scene/heat_map.hpp"
+#include "common/scene/heat_raster.hpp"
 #include "common/scene/mirror.hpp"
 #include "common/scene/moment.hpp"
 
@@ -18,17 +18,18 @@ namespace rodeira::view {
 // The bar of a recording's time at the bottom of a picture. Places are shares of the run, from 0 to 1.
 struct Timeline {
   double share = 0.0;         // now
-  std::vector<double> marks;  // of the operator
+  std::vector<double> marks;  // of the operator, and faults
   std::string where;          // time, speed, direction
   std::string note;           // the mark that is near
   std::string keys;           // the most important ones
+  std::vector<double> events;  // of scenarios
 };
 
 // A statistic over the ground, as it was gathered up to a moment.
 struct HeatPicture {
   scene::HeatKind kind = scene::HeatKind::kSpeed;
   double watched_s = 0.0;
-  std::vector<scene::HeatSquare> squares;
+  scene::HeatRaster raster;
 };
 
 // What one picture shows.

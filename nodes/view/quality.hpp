@@ -20,6 +20,9 @@ struct QualityTraits {
   int shadow_px = 0;         // side of the sun's shadow map; 0: none, soft spots below the cars instead
   double shadow_m = 0.0;     // side of the square of ground on which it lies
   float soft_px = 0.0F;      // of its pixels, over which a shadow's edge is drawn softly
+  int ground_shadow_px = 0;  // of a second map, of the ground alone: what hills and bridges shade beyond the first one
+  double ground_shadow_m = 0.0;
+  bool mirrors_in_turn = false;  // of a window: one of them is drawn anew in each picture while time goes on
 };
 const QualityTraits& TraitsOf(Quality quality);
 

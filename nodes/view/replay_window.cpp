@@ -39,7 +39,7 @@ Timeline TimelineOf(const scene::Player& player, const std::vector<ReplayMark>& 
   timeline.keys = ReplayKeysInShort();
   std::int64_t nearest_ns = kNear_ns + 1;
   for (const ReplayMark& mark : marks) {
-    timeline.marks.push_back(share(mark.time_ns));
+    (mark.kind == MarkKind::kEvent ? timeline.events : timeline.marks).push_back(share(mark.time_ns));
     const std::int64_t away_ns = std::abs(mark.time_ns - player.now_ns());
     if (away_ns >= nearest_ns) continue;
     nearest_ns = away_ns;

@@ -12,10 +12,13 @@ union SDL_Event;
 
 namespace rodeira::view {
 
+enum class MarkKind { kRemark, kEvent };  // of the operator, the clock or a fault; of a scenario
+
 // Something to be found again on the bar.
 struct ReplayMark {
   std::int64_t time_ns = 0;
   std::string text;
+  MarkKind kind = MarkKind::kRemark;
 };
 
 // A window in which a person goes through a recording. It knows no files: where the moments come from it is told.

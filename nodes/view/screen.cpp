@@ -230,7 +230,9 @@ void Screen::GatherHeat() {
   heat_.Add(live_.moment);
   const std::int64_t now_ns = live_.moment.time_ns;
   if (!heat_shown_ || (live_.heat != nullptr && std::abs(now_ns - heat_laid_ns_) < kAgain_ns)) return;
-  live_.heat = std::make_shared<const HeatPicture>(HeatPicture{*heat_shown_, heat_.watched_s(), heat_.Squares(*heat_shown_)});
+  const auto body = scene::BodyAt(live_.moment, live_.followed);
+  const Eigen::Vector3d about_W = body ? body->p_WB_W : Eigen::Vector3d::Zero();
+  live_.heat = std::make_shared<const HeatPicture>(HeatPicture{*heat_shown_, heat_.watched_s(), scene::MakeHeatRaster(heat_, *heat_shown_, about_W)});
   heat_laid_ns_ = now_ns;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/scene/car_lights.hpp"
+#include "common/scene/heat_raster.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -19,7 +20,7 @@ float Clear(float distance_m) { return exp(-pow(distance_m * 1.6e-4, 1.3) - fog_
 )";
 
 constexpr const char* kHead = R"(#version 120
-#pragma import_defines(HEADLIGHTS, WET, SUN_SHADOW, SOFT_SHADOW, FINE, FOG)
+#pragma import_defines(HEADLIGHTS, WET, SUN_SHADOW, SOFT_SHADOW, FINE, FOG, HEAT)
 #if defined(FINE) || defined(FOG)
 #define HAZE_BY_PIXEL
 #endif
@@ -36,18 +37,23 @@ uniform vec3 up_eye;
 varying vec3 sunlight;
 varying vec3 in_sun;
 #endif
+#ifdef HEAT
+varying vec3 in_heat;
+#endif
 )";
 
 // What falls on a surface by day and from the headlights of the car that is watched: a dipped beam, bright to some 60 m, or the main beam,
 // which has no upper edge and reaches two and a half times as far. `sunny`: how much
-// of the sun gets there past what throws shadows; beyond the map everything does.
+// of the sun gets there past what throws shadows; beyond the maps everything does.
 constexpr const char* kLight = R"(
 vec3 light;
 float sunny = 1.0;
 #ifdef SUN_SHADOW
 uniform sampler2DShadow sun_map;
+uniform sampler2DShadow wide_sun_map;
 uniform float sun_map_texel;
-float Sunny() {
+uniform vec4 to_wide;
+float SunnyNear() {
 #ifdef SOFT_SHADOW
   float soft = sun_map_texel * 0.75;
   return 0.25 * (shadow2D(sun_map, in_sun + vec3(soft, soft, 0.0)).r + shadow2D(sun_map, in_sun + vec3(-soft, soft, 0.0)).r +
@@ -55,6 +61,14 @@ float Sunny() {
 #else
   return shadow2D(sun_map, in_sun).r;
 #endif
+}
+// Towards the edge of the sharp map its shadows fade into those of the wide one.
+float Sunny() {
+  vec2 aside = abs(in_sun.xy - 0.5);
+  float beyond = smoothstep(0.44, 0.495, max(aside.x, aside.y));
+  if (beyond <= 0.0) return SunnyNear();
+  float far = shadow2D(wide_sun_map, vec3(in_sun.xy * to_wide.w, in_sun.z) + to_wide.xyz).r;
+  return beyond >= 1.0 ? far : mix(SunnyNear(), far, beyond);
 }
 #endif
 #ifdef HEADLIGHTS
@@ -89,6 +103,35 @@ vec3 Wet(vec3 dry) {
   float standing = 0.45 + 0.55 * smoothstep(0.40, 0.62, texture2D(noise, ground / 24.0).g);
   vec3 mirrored = SkyColour(dot(reflect(view, n), up_eye));
   return mix(dry * (1.0 - 0.42 * wetness), mirrored, wetness * standing * (0.02 + 0.70 * flat_look));
+}
+#endif
+)";
+
+// A statistic over the ground (scene::HeatRaster), smooth from the middle of a square to that of the next on the same surface; red through yellow to
+// green, of which so much in one covers what is seen of the ground.
+constexpr const char* kHeat = R"(
+#ifndef HEAT
+vec3 Heated(vec3 seen) { return seen; }
+#else
+uniform sampler2D heat_map;
+uniform vec3 heat_size;
+// A square's share of the scale, and 1 where there is one.
+vec2 HeatOf(vec2 square) {
+  vec4 both = texture2D(heat_map, (square + 0.5) / heat_size.xy);
+  vec2 away = abs(both.yw * heat_size.z - in_heat.z);
+  if (both.y > 0.0 && away.x < HEAT_SURFACE) return vec2(both.x, 1.0);
+  if (both.w > 0.0 && away.y < HEAT_SURFACE) return vec2(both.z, 1.0);
+  return vec2(0.0);
+}
+vec3 Heated(vec3 seen) {
+  if (HeatOf(floor(in_heat.xy)).y == 0.0) return seen;
+  vec2 corner = floor(in_heat.xy - 0.5);
+  vec2 part = in_heat.xy - 0.5 - corner;
+  vec2 south = mix(HeatOf(corner), HeatOf(corner + vec2(1.0, 0.0)), part.x);
+  vec2 north = mix(HeatOf(corner + vec2(0.0, 1.0)), HeatOf(corner + vec2(1.0, 1.0)), part.x);
+  vec2 sum = mix(south, north, part.y);
+  float share = sum.x / sum.y;
+  return mix(seen, clamp(vec3(2.0 - 2.0 * share, 2.0 * share, 0.0), 0.0, 1.0), HEAT_SHARE);
 }
 #endif
 )";
@@ -253,6 +296,9 @@ uniform vec3 sun_light;
 #ifdef SUN_SHADOW
 uniform mat4 eye_to_sun;
 #endif
+#ifdef HEAT
+uniform mat4 eye_to_heat;
+#endif
 void main() {
   vec4 p = gl_ModelViewMatrix * gl_Vertex;
   gl_Position = gl_ProjectionMatrix * p;
@@ -266,6 +312,9 @@ void main() {
   in_sun = (eye_to_sun * vec4(p.xyz + 0.05 * normal_eye, 1.0)).xyz;  // a little before the surface, which else would shade itself
 #else
   daylight += sun * sun_light;
+#endif
+#ifdef HEAT
+  in_heat = (eye_to_heat * p).xyz;
 #endif
   ground = gl_Vertex.xy;
 #ifndef HAZE_BY_PIXEL
@@ -282,7 +331,9 @@ void main() {
 
 std::string FragmentShader(scene::Material material) {
   const bool stone = material == scene::Material::kRoad || material == scene::Material::kConcrete;
-  return std::string(kHead) + kAir + kLight + (stone ? kWater : "") + FragmentBody(material) + R"(
+  const bool lies = scene::IsGround(material);
+  const std::string heat = lies ? fmt::format("\n#define HEAT_SURFACE {:.3f}\n#define HEAT_SHARE {:.3f}\n{}", scene::kHeatSurface_m, scene::kHeatShare, kHeat) : "\nvec3 Heated(vec3 seen) { return seen; }";
+  return std::string(kHead) + kAir + kLight + (stone ? kWater : "") + FragmentBody(material) + heat + R"(
 void main() {
   light = daylight;
 #ifdef SUN_SHADOW
@@ -295,7 +346,7 @@ void main() {
 #ifdef HAZE_BY_PIXEL
   float clear = Clear(length(at_eye));
 #endif
-  gl_FragColor = vec4(mix(FogColour(), Look(), clear), 1.0);
+  gl_FragColor = vec4(Heated(mix(FogColour(), Look(), clear)), 1.0);
 }
 )";
 }

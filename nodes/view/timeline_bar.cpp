@@ -22,6 +22,7 @@ TimelineBar::TimelineBar(osg::Group& overlay)
     : ground_(overlay, {0.04F, 0.05F, 0.07F, 0.62F}, 1),
       track_(overlay, {0.55F, 0.58F, 0.62F, 0.55F}, 2),
       done_(overlay, {0.36F, 0.66F, 0.93F, 1.0F}, 3),
+      events_(overlay, {0.35F, 0.85F, 0.55F, 1.0F}, 4),
       marks_(overlay, {0.98F, 0.80F, 0.22F, 1.0F}, 4),
       knob_(overlay, {0.98F, 0.98F, 0.98F, 1.0F}, 5) {
   where_ = AddText(overlay, kText_px, osgText::TextBase::LEFT_BASE_LINE);
@@ -34,17 +35,20 @@ TimelineBar::TimelineBar(osg::Group& overlay)
 void TimelineBar::Show(const std::optional<Timeline>& timeline, int width_px) {
   for (osgText::Text* text : {where_.get(), note_.get(), keys_.get()}) text->setNodeMask(timeline ? ~0U : 0U);
   if (!timeline) {
-    for (Boxes* boxes : {&ground_, &track_, &done_, &marks_, &knob_}) boxes->Set({});
+    for (Boxes* boxes : {&ground_, &track_, &done_, &events_, &marks_, &knob_}) boxes->Set({});
     return;
   }
   const TimelinePlace place(width_px);
   const float low = TimelinePlace::kTrackLow_px, high = TimelinePlace::kTrackHigh_px, now = place.XOf(timeline->share);
   track_.Set({{place.XOf(0.0), low, place.XOf(1.0), high}});
   done_.Set({{place.XOf(0.0), low, now, high}});
-  std::vector<Boxes::Box> marks;
-  for (const double share : timeline->marks)
-    marks.push_back({place.XOf(share) - 1.5F, low - 4.0F, place.XOf(share) + 1.5F, high + 4.0F});
-  marks_.Set(marks);
+  const auto posts = [&](const std::vector<double>& shares, float beyond_px) {
+    std::vector<Boxes::Box> boxes;
+    for (const double share : shares) boxes.push_back({place.XOf(share) - 1.5F, low - beyond_px, place.XOf(share) + 1.5F, high + beyond_px});
+    return boxes;
+  };
+  events_.Set(posts(timeline->events, 1.0F));
+  marks_.Set(posts(timeline->marks, 4.0F));
   knob_.Set({{now - 4.0F, low - 5.0F, now + 4.0F, high + 5.0F}});
   where_->setText(timeline->where);
   where_->setPosition({place.XOf(0.0), kTextLow_px, 0.0F});

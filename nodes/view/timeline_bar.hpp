@@ -30,7 +30,7 @@ class TimelineBar {
   void Show(const std::optional<Timeline>& timeline, int width_px);
 
  private:
-  Boxes ground_, track_, done_, marks_, knob_;
+  Boxes ground_, track_, done_, events_, marks_, knob_;
   osg::ref_ptr<osgText::Text> where_, note_, keys_;
 };
 

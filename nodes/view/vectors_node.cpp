@@ -45,8 +45,8 @@ VectorsNode::VectorsNode(Look& look, const road::World& world)
 void VectorsNode::Lay(const Arrow& arrow, const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W) {
   const double length_m = (to_W - from_W).norm();
   const bool seen = length_m > kTip_m;
-  arrow.shaft->setNodeMask(seen ? ~kThrowsShadow : 0U);
-  arrow.tip->setNodeMask(seen ? ~kThrowsShadow : 0U);
+  arrow.shaft->setNodeMask(seen ? kThrowsNone : 0U);
+  arrow.tip->setNodeMask(seen ? kThrowsNone : 0U);
   if (!seen) return;
   const osg::Vec3d along = ToOsg((to_W - from_W) / length_m);
   const osg::Matrixd turn = osg::Matrixd::rotate(osg::Vec3d(1.0, 0.0, 0.0), along);
@@ -65,7 +65,7 @@ void VectorsNode::Show(const scene::Moment& moment, std::optional<std::size_t> c
   const Eigen::Vector2d& at = detail.look_ahead_W;
   const Eigen::Vector3d foot_W(at.x(), at.y(), world_.At(at.x(), at.y(), agent.p_WB_W.z()).z_m);
   ahead_->setMatrix(osg::Matrixd::translate(ToOsg(foot_W)));
-  ahead_->setNodeMask(~kThrowsShadow);
+  ahead_->setNodeMask(kThrowsNone);
   Lay(path_, front_W, foot_W + Eigen::Vector3d(0.0, 0.0, kPathHigh_m));
   const Eigen::Vector3d roof_W = agent.p_WB_W + agent.q_WB * Eigen::Vector3d(0.0, 0.0, agent.height_m + kAboveRoof_m);
   Lay(target_, roof_W, roof_W + agent.q_WB * Eigen::Vector3d(std::max(detail.target_speed_mps, 0.0), 0.0, 0.0));

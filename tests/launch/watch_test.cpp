@@ -220,7 +220,7 @@ TEST_F(WatchTest, ARunWithoutAViewIsSeenWhole) {
   EXPECT_EQ(seen.value().settings.width_px, 1280);
 }
 
-TEST_F(WatchTest, OnlyWhatSomebodyMarkedIsOnTheBar) {
+TEST_F(WatchTest, OfRemarksOnlyWhatSomebodyMarkedIsOnTheBar) {
   const auto remark = [](std::int64_t time_ns, const std::string& kind, const std::string& text) {
     msg::Remark one;
     one.time_ns(time_ns);
@@ -245,6 +245,36 @@ TEST_F(WatchTest, OnlyWhatSomebodyMarkedIsOnTheBar) {
   EXPECT_EQ(marks.value()[1].text, std::string(58, 'x') + "á...") << "a letter is not cut in two";
   EXPECT_EQ(marks.value()[2].time_ns, 5'000);
   EXPECT_EQ(marks.value()[2].text.find('\n'), std::string::npos);
+}
+
+// What a scenario did, and what people asked for in the window, is found again where it was valid; samples without an event are none.
+TEST_F(WatchTest, TheScenariosEventsAreOnTheBar) {
+  const auto event = [](const std::string& name, const std::string& argument, double value) {
+    msg::ScenarioEvent one;
+    one.name(name);
+    one.argument(argument);
+    one.value(value);
+    return one;
+  };
+  const auto run = replay::RecordedRun::Open(Made(kLaunch, [&](record::McapWriter& writer) {
+    const auto channel = writer.AddChannel(idl::topics::kScenarioEvents, 0, "cdr").value();
+    for (int step = 0; step < 5; ++step) {
+      msg::ScenarioEvents events;
+      if (step == 1) events.events() = {event("weather", "rain", 8.0), event("mark", "here it begins", 0.0)};
+      if (step == 3) events.events() = {event("traffic.release", "all", 0.0)};
+      replay::Must(writer.Write(channel, 0, static_cast<std::uint64_t>(step) * 1'000, 0, idl::Encode(events)));
+    }
+  }));
+  ASSERT_TRUE(run.ok()) << run.error().Text();
+  const auto marks = MarksOf(run.value());
+  ASSERT_TRUE(marks.ok()) << marks.error().Text();
+  ASSERT_EQ(marks.value().size(), 3u);
+  EXPECT_EQ(marks.value()[0].text, "weather rain 8");
+  EXPECT_EQ(marks.value()[1].text, "here it begins");
+  EXPECT_EQ(marks.value()[2].text, "traffic.release all");
+  EXPECT_EQ(marks.value()[0].time_ns, 1'000);
+  EXPECT_EQ(marks.value()[2].time_ns, 3'000);
+  for (const view::ReplayMark& mark : marks.value()) EXPECT_EQ(mark.kind, view::MarkKind::kEvent);
 }
 
 TEST_F(WatchTest, TheDemosFramesComeOutOfItsRecordingPixelByPixel) {

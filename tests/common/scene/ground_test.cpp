@@ -194,6 +194,30 @@ TEST(Ground, WhatIsLaidOnRoadsIsWhereTheTyresAre) {
   EXPECT_GT(raised, 50);
 }
 
+// A hump over the mouth of a crossing, and ice from there to its middle.
+TEST(Ground, WhatIsLaidOnJunctionsIsWhereTheTyresAre) {
+  const std::string bump = "    bumps: [{from_s_m: 66, to_s_m: 71, height_m: 0.12}]\n";
+  const auto text = [](const std::string& laid) {
+    return "rodeira: world/2\nname: laid\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 10, heading_deg: 20}\n    axis: [line: {length_m: 160}]\n    z_m: 0\n"
+      "    section: {template: rural}\n    patches: [{from_s_m: 60, to_s_m: 84, from_t_m: -3, to_t_m: 3, friction: 0.1}]\n" + laid +
+      "  - id: b\n    place: {road: a, s_m: 80, turn_deg: 80, own_s_m: 60}\n    axis: [line: {length_m: 120}]\n    section: {template: rural}\n"
+      "junctions:\n  - {id: j, roads: [{road: a, s_m: 80}, {road: b, s_m: 60}]}\n";
+  };
+  const auto parsed = road::World::Parse(text(bump), "laid.yaml"), bare = road::World::Parse(text(""), "bare.yaml");
+  ASSERT_TRUE(parsed.ok() && bare.ok());
+  const road::World& world = *parsed.value();
+  const std::vector<GroundTile> tiles = BuildAll(world);
+  const Eigen::Vector2d along(std::cos(20.0 * M_PI / 180.0), std::sin(20.0 * M_PI / 180.0)), top = Eigen::Vector2d(0.0, 10.0) + 68.5 * along;
+  EXPECT_NEAR(world.At(top.x(), top.y()).z_m - bare.value()->At(top.x(), top.y()).z_m, 0.12, 1e-9);
+  const Correlation found = Correlate(world, tiles, Points(), 9, [&](const Mesh& mesh, std::size_t i) {
+    const auto corners = CornersOf(mesh, i);
+    return IsRoad(mesh) && ((corners[0] + corners[1] + corners[2]).head<2>() / 3.0 - top).norm() < 16.0;
+  });
+  EXPECT_EQ(found.asked, Points());
+  EXPECT_EQ(found.stepped, 0);
+  EXPECT_LT(found.worst_m, 0.005) << "at " << found.where.transpose();
+}
+
 // In files of other programs surfaces of overlapping roads cross and step anywhere: nearly all points agree, not all.
 TEST(Ground, IsNearlyWhereTheTyresAreOnRealFiles) {
   std::uint64_t files = Setting("RODEIRA_GROUND_FILES", 2);

@@ -1,4 +1,4 @@
-#include "common/scene/heat_map.hpp"
+#include "common/scene/heat_raster.hpp"
 
 #include <gtest/gtest.h>
 
@@ -89,12 +89,47 @@ TEST(HeatMap, GreenIsTheLimitOfTheLane) {
   const double speed = 0.5 * 70.0 / 3.6;
   for (int i = 0; i <= 100; ++i) map.Add(At(i * kStep_ns, {road.Position(20.0 + 0.02 * i * speed, road.LaneCentre(-1, 20.0))}));
   for (const auto& [key, cell] : map.cells()) EXPECT_NEAR(*map.Value(HeatKind::kSpeed, cell), 50.0, 0.5);
-  for (const HeatSquare& square : map.Squares(HeatKind::kSpeed)) {
-    EXPECT_EQ(square.colour.red, 255);
-    EXPECT_GT(square.colour.green, 250) << "half of the limit is yellow";
-    for (const Eigen::Vector3d& corner : square.corners_W) EXPECT_NEAR(corner.z(), world->At(corner.x(), corner.y()).z_m, 0.1);
-    EXPECT_GT((square.corners_W[1] - square.corners_W[0]).cross(square.corners_W[3] - square.corners_W[0]).z(), 0.0);
+  const HeatRaster raster = MakeHeatRaster(map, HeatKind::kSpeed, road.Position(20.0, 0.0));
+  std::size_t coloured = 0;
+  for (std::size_t row = 0; row < raster.rows; ++row) {
+    for (std::size_t column = 0; column < raster.columns; ++column) {
+      const std::uint16_t* texel = raster.At(column, row);
+      if (texel[1] == 0) continue;
+      ++coloured;
+      EXPECT_NEAR(texel[0], 32768, 400) << "half of the limit is yellow";
+      const double x = raster.west_m + 4.0 * (static_cast<double>(column) + 0.5), y = raster.south_m + 4.0 * (static_cast<double>(row) + 0.5);
+      EXPECT_NEAR(raster.lowest_m + raster.range_m * texel[1] / 65535.0, world->At(x, y).z_m, 0.25);
+    }
   }
+  EXPECT_EQ(coloured, map.cells().size());
+}
+
+// Over one square a road at 4.9 to 5.1 m, where the map's levels meet, and a bridge 6 m over it: two surfaces, each with its own flow.
+TEST(HeatRaster, ABridgeAndTheRoadBelowAreTwoSurfacesOfASquare) {
+  const auto world = PlaneWithRoad();
+  HeatMap map(*world);
+  for (int i = 0; i <= 200; ++i) {
+    const double along = 0.2 * i, across = 0.1 * i;
+    map.Add(At(i * kStep_ns, {{along - 20.0, -70.0, 5.0 + 0.1 * std::sin(3.0 * along)}, {0.5, across - 80.0, 11.0}}));
+  }
+  EXPECT_GT(map.cells().size(), 16u) << "both levels were met on the way";
+  const HeatRaster raster = MakeHeatRaster(map, HeatKind::kSpeed, {0.0, -70.0, 5.0});
+  EXPECT_EQ(raster.columns, 10u);
+  EXPECT_EQ(raster.west_m, -20.0);
+  EXPECT_NEAR(raster.lowest_m, 5.0, 0.1);
+  const auto row = static_cast<std::size_t>((-70.0 - raster.south_m) / HeatMap::kSquare_m);
+  for (std::size_t column = 0; column < raster.columns; ++column) {
+    const std::uint16_t* texel = raster.At(column, row);
+    EXPECT_NEAR(texel[0], 65535 * 10.0 / (100.0 / 3.6), 50.0) << "10 m/s of 100 km/h below";
+    ASSERT_GT(texel[1], 0) << column;
+    const bool below_the_bridge = column == 5;
+    EXPECT_EQ(texel[3] != 0, below_the_bridge) << column;
+    if (!below_the_bridge) continue;
+    EXPECT_NEAR(texel[2], 65535 * 5.0 / (100.0 / 3.6), 50.0) << "5 m/s above";
+    EXPECT_NEAR(raster.lowest_m + raster.range_m * texel[3] / 65535.0, 11.0, 0.01);
+  }
+  EXPECT_EQ(MakeHeatRaster(map, HeatKind::kFuel, {0.0, -70.0, 5.0}).At(3, row)[1], 0) << "nothing is known of their fuel";
+  EXPECT_EQ(MakeHeatRaster(map, HeatKind::kSpeed, {9'000.0, -70.0, 5.0}).columns, 0u) << "too far off";
 }
 
 // In a recording one goes there and back: each way counts. A leap begins anew, a car that is placed drives nowhere.

@@ -9,14 +9,15 @@ namespace rodeira::view {
 // One surface and painter for all of a test, the driver's camera, nothing over the picture. `SetUp` of a test that derives begins with this one's.
 class DriverStill : public ::testing::Test {
  protected:
-  DriverStill(const char* world, int width_px, int height_px) : width_px_(width_px), height_px_(height_px), file_(world) {}
+  DriverStill(const char* world, int width_px, int height_px, Quality quality = Quality::kMedium)
+      : width_px_(width_px), height_px_(height_px), quality_(quality), file_(world) {}
 
   void SetUp() override {
     RODEIRA_NEEDS_PICTURES();
     auto world = road::World::Load(std::string(RODEIRA_SOURCE_DIR "/configs/worlds/") + file_);
     ASSERT_TRUE(world.ok()) << world.error().Text();
     world_ = world.value();
-    auto surface = Surface::Open(SurfaceKind::kOffscreen, width_px_, height_px_, "test");
+    auto surface = Surface::Open(SurfaceKind::kOffscreen, width_px_, height_px_, "test", false, 0, quality_);
     ASSERT_TRUE(surface.ok()) << surface.error().Text();
     surface_ = std::move(surface).value();
     painter_ = std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_));
@@ -32,6 +33,7 @@ class DriverStill : public ::testing::Test {
   }
 
   const int width_px_, height_px_;
+  const Quality quality_;
   std::shared_ptr<const road::World> world_;
   std::unique_ptr<Surface> surface_;
   std::unique_ptr<Painter> painter_;

@@ -10,7 +10,7 @@ constexpr int kWidth = 1280, kHeight = 720;
 
 class MirrorStill : public DriverStill {
  protected:
-  MirrorStill() : DriverStill("plane.yaml", kWidth, kHeight) {}
+  explicit MirrorStill(Quality quality = Quality::kMedium) : DriverStill("plane.yaml", kWidth, kHeight, quality) {}
   void SetUp() override {
     DriverStill::SetUp();
     if (IsSkipped()) return;
@@ -35,7 +35,15 @@ class MirrorStill : public DriverStill {
     const double x = at->x() / 10'000.0, y = at->y() / 10'000.0;
     return {place.left * kWidth + (reversed ? 1.0 - x : x) * wide, (1.0 - place.high) * kHeight + y * high};
   }
-
+  // Whether two pictures show something else in a mirror.
+  static bool Differ(const Image& a, const Image& b, scene::Mirror mirror, int more_than = 1000) {
+    const scene::MirrorPlace place = scene::PlaceOf(mirror, static_cast<double>(kWidth) / kHeight);
+    int pixels = 0;
+    for (int y = static_cast<int>((1.0 - place.high) * kHeight) + 4; y < static_cast<int>((1.0 - place.low) * kHeight) - 4; ++y) {
+      for (int x = static_cast<int>(place.left * kWidth) + 4; x < static_cast<int>(place.right * kWidth) - 4; ++x) pixels += std::memcmp(a.At(x, y), b.At(x, y), 3) != 0;
+    }
+    return pixels > more_than;
+  }
 };
 
 TEST_F(MirrorStill, LeftIsLeft) {
@@ -60,20 +68,12 @@ TEST_F(MirrorStill, OnlyTheChosenOnesAndOnlyForTheDriver) {
   const Image all = Drawn();
   picture_.mirrors = {false, false, false};
   const Image none = Drawn();
-  const auto differ = [&](const Image& a, const Image& b, scene::Mirror mirror) {
-    const scene::MirrorPlace place = scene::PlaceOf(mirror, static_cast<double>(kWidth) / kHeight);
-    int pixels = 0;
-    for (int y = static_cast<int>((1.0 - place.high) * kHeight) + 4; y < static_cast<int>((1.0 - place.low) * kHeight) - 4; ++y) {
-      for (int x = static_cast<int>(place.left * kWidth) + 4; x < static_cast<int>(place.right * kWidth) - 4; ++x) pixels += std::memcmp(a.At(x, y), b.At(x, y), 3) != 0;
-    }
-    return pixels > 1000;
-  };
-  for (const scene::Mirror mirror : scene::kAllMirrors) EXPECT_TRUE(differ(all, none, mirror)) << scene::NameOf(mirror);
+  for (const scene::Mirror mirror : scene::kAllMirrors) EXPECT_TRUE(Differ(all, none, mirror)) << scene::NameOf(mirror);
   picture_.mirrors = {false, true, false};
   const Image inside = Drawn();
-  EXPECT_FALSE(differ(inside, none, scene::Mirror::kLeft));
-  EXPECT_TRUE(differ(inside, none, scene::Mirror::kInside));
-  EXPECT_FALSE(differ(inside, none, scene::Mirror::kRight));
+  EXPECT_FALSE(Differ(inside, none, scene::Mirror::kLeft));
+  EXPECT_TRUE(Differ(inside, none, scene::Mirror::kInside));
+  EXPECT_FALSE(Differ(inside, none, scene::Mirror::kRight));
   picture_.camera = scene::CameraKind::kChase;
   const Image chase = Drawn();
   picture_.mirrors = {false, false, false};
@@ -87,6 +87,55 @@ TEST_F(MirrorStill, APictureIsAFunctionOfWhatItShows) {
   (void)Drawn();
   picture_.moment.cars[0].p_WB_W.x() -= 30.0;
   EXPECT_EQ(Drawn().rgb, first.rgb);
+}
+
+class MirrorsInTurn : public MirrorStill {
+ protected:
+  MirrorsInTurn() : MirrorStill(Quality::kLow) {}
+  // The next picture of a drive at 20 m/s, 40 ms later.
+  Image Next() {
+    picture_.moment.time_ns += 40'000'000;
+    Car().p_WB_W += 0.8 * (Car().q_WB * Eigen::Vector3d::UnitX());
+    return Drawn();
+  }
+  Image Whole() {
+    painter_->DrawWhole(picture_);
+    return painter_->Read();
+  }
+};
+
+// At low quality a window's pictures draw one mirror each, in a fixed order; every third picture it is that one's turn again.
+TEST_F(MirrorsInTurn, OneOfThreeIsNewInEachPicture) {
+  (void)Whole();
+  std::array<int, scene::kMirrors> changed{};
+  Image before = Whole();
+  for (int i = 0; i < 6; ++i) {
+    const Image now = Next();
+    int new_ones = 0;
+    for (const scene::Mirror mirror : scene::kAllMirrors) {
+      const bool is_new = Differ(now, before, mirror, 20);
+      new_ones += is_new;
+      changed[static_cast<std::size_t>(mirror)] += is_new;
+    }
+    EXPECT_EQ(new_ones, 1) << i;
+    before = now;
+  }
+  for (const int times : changed) EXPECT_EQ(times, 2);
+}
+
+// Pictures for files, those after a leap, and those of time that stands, show all three as they are.
+TEST_F(MirrorsInTurn, WhatIsKeptOrDoesNotGoOnIsDrawnWhole) {
+  for (int i = 0; i < 4; ++i) (void)Next();
+  const Image standing = Drawn();
+  EXPECT_EQ(Whole().rgb, standing.rgb) << "the same time again";
+  (void)Next();
+  const Image whole = Whole();
+  (void)Next();
+  picture_.moment.time_ns += 5'000'000'000;
+  (void)Drawn();
+  picture_.moment.time_ns -= 5'040'000'000;
+  Car().p_WB_W -= 0.8 * (Car().q_WB * Eigen::Vector3d::UnitX());
+  EXPECT_EQ(Drawn().rgb, whole.rgb) << "a leap";
 }
 
 }  // namespace

@@ -59,12 +59,15 @@ TEST(ReplayKeys, AreAllInTheHelp) {
 TEST(TimelineOf, SaysWhereOneIs) {
   scene::Player player(7325 * kS, 20 * kMs);
   player.Seek(3725 * kS + 456 * kMs);
-  const std::vector<ReplayMark> marks = {{60 * kS, "start of the lap"}, {3726 * kS, "lorry"}};
+  const std::vector<ReplayMark> marks = {{60 * kS, "start of the lap"}, {3726 * kS, "lorry", MarkKind::kEvent}};
   Timeline timeline = TimelineOf(player, marks);
   EXPECT_EQ(timeline.where, "1:02:05.46 / 2:02:05.00   x 1");
   EXPECT_NEAR(timeline.share, 3725.456 / 7325.0, 1e-12);
   EXPECT_EQ(timeline.note, "lorry");
-  EXPECT_EQ(timeline.marks.size(), 2u);
+  ASSERT_EQ(timeline.marks.size(), 1u);
+  ASSERT_EQ(timeline.events.size(), 1u);
+  EXPECT_NEAR(timeline.marks[0], 60.0 / 7325.0, 1e-12);
+  EXPECT_NEAR(timeline.events[0], 3726.0 / 7325.0, 1e-12);
   player.Seek(61 * kS + kMs);
   player.Pause();
   player.Reverse();
@@ -91,7 +94,7 @@ TEST(TimelineBar, IsSeenOverThePicture) {
   picture.moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
   const auto draw = [&] { return RenderStill(*world.value(), picture, 960, 540).value(); };
   const Image without = draw();
-  picture.timeline = Timeline{0.4, {0.25, 0.8}, "0:04.00 / 0:10.00", "a mark", "keys"};
+  picture.timeline = Timeline{0.4, {0.25, 0.8}, "0:04.00 / 0:10.00", "a mark", "keys", {0.7}};
   const Image with = draw();
   const TimelinePlace place(960);
   const int track = 540 - 18;  // from above
@@ -100,6 +103,8 @@ TEST(TimelineBar, IsSeenOverThePicture) {
   EXPECT_TRUE(at(0.25).IsYellow()) << at(0.25);
   EXPECT_TRUE(at(0.4).IsWhite()) << at(0.4);
   EXPECT_TRUE(at(0.8).IsYellow()) << at(0.8);
+  const Probe event = at(0.7);
+  EXPECT_TRUE(event.green > 150.0 && event.green > 1.5 * event.red && event.green > 1.3 * event.blue) << "an event has a colour of its own: " << event;
   EXPECT_FALSE(at(0.6).IsBlue() || at(0.6).IsYellow() || at(0.6).IsWhite()) << at(0.6);
   // Above the bar, the note and the instruments nothing is changed.
   const auto upper = 3 * 960 * 350;
