@@ -140,6 +140,7 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
   run->add_option("--step", options.step_s, "seconds a step, to 0.1")->check(CLI::Range(0.001, 0.1));
   run->add_option("--seed", options.seed, "seed of everything that is drawn");
+  run->add_option("--driver", options.driver, "who drives: standard, or motors, as MOTORS' own driver does (with full physics)")->check(CLI::IsMember({"standard", "motors"}));
   run->add_option("--physics", options.physics, "how cars move: planar, along their paths, or full, as the driver's car does")->check(CLI::IsMember({"planar", "full"}));
   run->add_option("--settings", options.settings, "how they drive: a file of 'rodeira: traffic/1', with the keys of a launch file's traffic");
   run->add_option("--csv", options.csv, "folder for trajectories.csv, lanes.csv, queues.csv, trips.csv");

@@ -50,6 +50,12 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
   }
   settings.seed = options.seed;
   if (!options.physics.empty()) settings.physics = options.physics == "full" ? traffic::Physics::kFull : traffic::Physics::kPlanar;
+  if (!options.driver.empty()) settings.driver = options.driver == "motors" ? traffic::DriverKind::kMotors : traffic::DriverKind::kStandard;
+  if (settings.driver == traffic::DriverKind::kMotors) {
+    if (options.physics == "planar") return base::WrongInput("'--physics planar' was given; the driver 'motors' holds pedals and steering wheel: full was expected");
+    if (settings.pedestrians) return base::WrongInput("the driver 'motors' sees nobody on foot; no 'pedestrians' were expected", options.settings);
+    settings.physics = traffic::Physics::kFull;
+  }
   if (settings.demand.flows.empty() && IsTrafficMap(options.map)) {
     const auto companion = map::LoadHeightsOf(options.map);
     if (!companion) return companion.error();

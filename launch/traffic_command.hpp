@@ -6,7 +6,7 @@
 
 namespace rodeira::front {
 
-// `rodeira traffic run MAP --vehicles N --for S [--physics planar|full] [--settings FILE] [--csv DIR] [--heat FILE] [--fcd FILE] [--diagram FILE --lane ROAD:LANE]`
+// `rodeira traffic run MAP --vehicles N --for S [--driver standard|motors] [--physics planar|full] [--settings FILE] [--csv DIR] [--heat FILE] [--fcd FILE] [--diagram FILE --lane ROAD:LANE]`
 struct TrafficOptions {
   bool asked = false;
   std::string map;  // a world file, .xodr or .motors
@@ -14,6 +14,7 @@ struct TrafficOptions {
   double duration_s = 60.0;
   double step_s = 0.01;
   std::uint64_t seed = 1;
+  std::string driver;   // standard or motors; empty: as the settings say
   std::string physics;  // planar or full; empty: as the settings say
   std::string settings;  // a file of `rodeira: traffic/1`; empty: as usual
   std::string csv;  // folder; empty: no tables

@@ -21,6 +21,7 @@ constexpr std::array kKinds = std::to_array<EventKind>({
     {kTrafficBrake, "agent", ArgumentKind::kAgent, "deceleration_mps2", 0.1, 10.0},
     {kTrafficSpeed, "agent", ArgumentKind::kAgent, "speed_mps", 0.5, 100.0},
     {kTrafficRelease, "agent", ArgumentKind::kAgent, "", 0.0, 0.0},
+    {kTrafficPedestrian, "crossing", ArgumentKind::kCrossing, "", 0.0, 0.0},
     {kVehiclePlace, "place", ArgumentKind::kPlace, "heading_deg", -360.0, 360.0},
     {kWeatherChange, "becomes", ArgumentKind::kWeather, "over_s", 0.0, 3600.0},
 });
@@ -83,6 +84,22 @@ std::string PlaceText(const PlaceChoice& place) {
   return place.z_m ? fmt::format("{} {}", plan, *place.z_m) : plan;
 }
 
+base::Result<CrossingChoice> ParseCrossing(std::string_view text) {
+  auto words = WordsOf(text);
+  CrossingChoice crossing;
+  if (words.back() == "left" || words.back() == "right") {
+    crossing.from_left = words.back() == "left";
+    words.pop_back();
+  }
+  const auto station = words.size() < 2 ? std::nullopt : NumberIn(words.back());
+  if (!station || words.front().empty()) {
+    return base::WrongInput(fmt::format("'{}' is no crossing; a road, metres along it, and 'left' or 'right' were expected, as in 'main 120 left'", text.substr(0, 60)));
+  }
+  crossing.s_m = *station;
+  crossing.road = std::string(text.substr(0, static_cast<std::size_t>(words.back().data() - text.data()) - 1));
+  return crossing;
+}
+
 base::Status CheckEvent(const Event& event) {
   const EventKind* kind = FindEventKind(event.name);
   if (kind == nullptr) {
@@ -92,6 +109,8 @@ base::Status CheckEvent(const Event& event) {
   }
   if (kind->argument == ArgumentKind::kAgent) {
     if (const auto agent = ParseAgent(event.argument); !agent) return agent.error();
+  } else if (kind->argument == ArgumentKind::kCrossing) {
+    if (const auto crossing = ParseCrossing(event.argument); !crossing) return crossing.error();
   } else if (kind->argument == ArgumentKind::kPlace) {
     if (const auto place = ParsePlace(event.argument); !place) return place.error();
   } else if (kind->argument == ArgumentKind::kWeather) {

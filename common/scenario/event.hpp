@@ -15,6 +15,7 @@ inline constexpr std::string_view kMark = "mark";                       // a tex
 inline constexpr std::string_view kTrafficBrake = "traffic.brake";      // at a deceleration down to rest, and stay
 inline constexpr std::string_view kTrafficSpeed = "traffic.speed";      // drive no faster than this
 inline constexpr std::string_view kTrafficRelease = "traffic.release";  // forget both
+inline constexpr std::string_view kTrafficPedestrian = "traffic.pedestrian";  // somebody on foot comes to a crossing
 inline constexpr std::string_view kVehiclePlace = "vehicle.place";      // a driver's car stands elsewhere: INI there
 inline constexpr std::string_view kWeatherChange = "weather";           // becomes one that has a name, within so many seconds
 
@@ -25,7 +26,7 @@ struct Event {
   double value = 0.0;
 };
 
-enum class ArgumentKind { kText, kAgent, kPlace, kWeather };
+enum class ArgumentKind { kText, kAgent, kPlace, kWeather, kCrossing };
 
 // What a kind of event is told, and under which keys a person writes it.
 struct EventKind {
@@ -56,6 +57,14 @@ struct PlaceChoice {
 };
 base::Result<PlaceChoice> ParsePlace(std::string_view text);
 std::string PlaceText(const PlaceChoice& place);
+
+// The crossing of a road nearest to a station, and from which side of the road somebody comes: "main 120", "main 120 left"; right where no side is said.
+struct CrossingChoice {
+  std::string road;
+  double s_m = 0.0;
+  bool from_left = false;
+};
+base::Result<CrossingChoice> ParseCrossing(std::string_view text);
 
 // Wrong input with what was expected where an event's name, argument or value cannot be obeyed.
 base::Status CheckEvent(const Event& event);

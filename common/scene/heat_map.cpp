@@ -77,7 +77,8 @@ void HeatMap::Add(const Moment& moment) {
   if (passed_s > kLongest_s) Clear();
   if (before_ && passed_s > 0.0) {
     watched_s_ += passed_s;
-    ForSame(before_->agents, moment.agents, [&](const AgentPose& a, const AgentPose& b) { 
+    ForSame(before_->agents, moment.agents, [&](const AgentPose& a, const AgentPose& b) {
+      if (b.kind == AgentKind::kPedestrian) return;  // a map of vehicles
       // What is said of its fuel comes more seldom than moments: its flow, which holds until then, is as even as the way.
       const auto fuel_l = a.detail && b.detail ? std::optional(0.5 * (a.detail->fuel_lph + b.detail->fuel_lph) * passed_s / 3600.0) : std::nullopt;
       AddWay(a.p_WB_W, b.p_WB_W, passed_s, fuel_l);

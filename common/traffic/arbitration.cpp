@@ -129,13 +129,14 @@ void TrafficModel::ComeToLine(std::uint32_t id, double dt_s) {
   ObeyLights(id);
   FindPassage(id);
   Passage& passage = passages_[id];
+  passage.barred = bars_[id] < passage.line_m;
   const double to_line = passage.line_m - agent.o_m - half;
   if (passage.any && passage.must_stop && agent.speed_mps < kAtRest_mps && to_line < kAtLine_m) {
     agent.stopped_m = passage.line_m;
     passage.must_stop = false;
   }
   if (!passage.any || agent.speed_mps > 1.0) agent.waited_s = 0.0;
-  else if (agent.speed_mps < kAtRest_mps && !passage.red) agent.waited_s += dt_s;
+  else if (agent.speed_mps < kAtRest_mps && !passage.red && !passage.barred) agent.waited_s += dt_s;
 }
 
 void TrafficModel::ForgetZones() {
@@ -159,7 +160,7 @@ void TrafficModel::Arbitrate(double dt_s) {
     if (!agents_[id].on_road || !passages_[id].any) continue;
     FindRoom(id);
     Passage& passage = passages_[id];
-    if (passage.red) passage.waits_for = -1;
+    if (passage.red || passage.barred) passage.waits_for = -1;
     else if (passage.due && passage.head && !passage.must_stop) order.push_back(id);
   }
   ComeToZones();
@@ -218,7 +219,7 @@ void TrafficModel::ResolveDeadlocks() {
     });
     for (const std::uint32_t id : circle) {
       Passage& passage = passages_[id];
-      if (passage.any && passage.head && passage.due && !passage.must_stop && !passage.red && Grant(id, false)) break;
+      if (passage.any && passage.head && passage.due && !passage.must_stop && !passage.red && !passage.barred && Grant(id, false)) break;
     }
   }
 }

@@ -42,7 +42,7 @@ void TrafficModel::ComeToZones() {
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     const Passage& passage = passages_[id];
     if (!agents_[id].on_road || !passage.any || !passage.head || !passage.able || passage.arrives_s > kLaterThan_s) continue;
-    if (agents_[id].brake_mps2 > 0.0 || passage.red) continue;
+    if (agents_[id].brake_mps2 > 0.0 || passage.red || passage.barred) continue;
     const double front = agents_[id].o_m + 0.5 * traits_[id].length_m, rear = front - traits_[id].length_m;
     for (const Crossing& crossing : passage.crossings) {
       if (crossing.zone < 0) continue;

@@ -33,9 +33,9 @@ driver::SpeedPlan::Allowed TrafficModel::Allowed(std::uint32_t id) const {
   return allowed;
 }
 
-// The acceleration with which its front comes to rest there, braking comfortably from where it must.
-double TrafficModel::StopAt(std::uint32_t id, double odometer_m) const {
-  const double v = agents_[id].speed_mps, b = traits_[id].idm.braking_mps2;
+// The acceleration with which its front comes to rest there, braking by a share of what is comfortable from where it must.
+double TrafficModel::StopAt(std::uint32_t id, double odometer_m, double share) const {
+  const double v = agents_[id].speed_mps, b = share * traits_[id].idm.braking_mps2;
   const double gap = odometer_m - agents_[id].o_m - 0.5 * traits_[id].length_m;
   const double there = std::sqrt(2.0 * b * std::max(0.0, gap));
   if (gap < 2.0 * kLeastGap_m && v < kSlow_mps) return -1.0;
@@ -74,6 +74,7 @@ double TrafficModel::Wanted(std::uint32_t id) const {
                                     : driver::IdmAcceleration(idm, v, limit, ahead.gap_m, ahead.speed_mps));
   }
   if (passages_[id].any && passages_[id].due) wanted = std::min(wanted, StopAt(id, passages_[id].line_m));
+  if (bars_[id] < kNoBarrier_m) wanted = std::min(wanted, StopAt(id, bars_[id], kYieldingShare));
   wanted = std::min(wanted, leaves_[id]);
   wanted = std::min({wanted, WantedFacing(id, limit), WantedCourteous(id, limit)});
   wanted = std::clamp(WantedBeside(id, wanted), -idm.hardest_mps2, idm.acceleration_mps2);

@@ -107,6 +107,8 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
     agent.granted_m = std::max(agent.granted_m, zone.out_m[mine]);
   }
   speed = std::min(speed, AtMostForLine(id));
+  if (people_) speed = std::min(speed, AtMostForPeople(id));
+  if (speed < 0.0) return wait();
   // Nobody may stand where it enters, not even with its rear; agents have moved since they were last seen.
   for (const std::uint32_t other : present_[agent.entry]) {
     for (const Piece& piece : agents_[other].path) {

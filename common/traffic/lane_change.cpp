@@ -65,7 +65,7 @@ std::optional<Piece> TrafficModel::PieceBeside(std::uint32_t id, int side) const
   return piece;
 }
 
-// Whether its way between two odometers is plain lane: no junction, no conflict zone, no line, easy to drive, and it goes on.
+// Whether its way between two odometers is plain lane: no junction, no conflict zone, no line, no crossing for people on foot, easy to drive, and it goes on.
 bool TrafficModel::IsPlain(std::uint32_t id, double from_m, double to_m) const {
   const Stretch* before = nullptr;
   for (const Stretch& stretch : stretches_[id]) {
@@ -87,7 +87,7 @@ bool TrafficModel::IsPlain(std::uint32_t id, double from_m, double to_m) const {
     for (const StopLine& line : map_->plans[stretch.track].lines) {
       if (line.d_m > low && line.d_m < high) return false;
     }
-    if (!IsEasy(track.curve, low, high)) return false;
+    if (NearCrossing(stretch.track, low, high) || !IsEasy(track.curve, low, high)) return false;
   }
   return stretches_[id].back().end_m >= to_m;
 }

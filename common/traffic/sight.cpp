@@ -86,7 +86,7 @@ void TrafficModel::See(std::span<const driver::Footprint> others) {
   EachDriving([&](std::uint32_t id) {  // and as far as zones are its own, however slowly it drives now, or it looks who overtakes
     const Agent& agent = agents_[id];
     const double own = agent.granted_m - agent.o_m - 0.5 * traits_[id].length_m;
-    FindStretches(id, std::max({SightOf(agent), own, agent.overtaking.active() ? settings_.overtaking.sight_m : 0.0}));
+    FindStretches(id, std::max({SightOf(agent), own, agent.overtaking.active() ? settings_.overtaking.sight_m : 0.0, people_ ? StoppingWay(id) : 0.0}));
   });
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     const Agent& agent = agents_[id];

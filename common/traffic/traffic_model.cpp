@@ -46,6 +46,7 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   wanted_.resize(agents_.size());
   missed_now_.resize(agents_.size());
   leaves_.resize(agents_.size());
+  bars_.assign(agents_.size(), kNoBarrier_m);
   occupants_.resize(graph().tracks().size());
   present_.resize(graph().tracks().size());
   blocks_.resize(graph().tracks().size());
@@ -87,6 +88,12 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
   if (settings.vehicles > 0 && model.map_->entries.empty()) {
     return base::WrongInput("the network '" + model.map_->network->name() + "' has no lane to put traffic on; drivable lanes, or 0 vehicles, were expected");
   }
+  if (settings.pedestrians) {
+    auto people = Pedestrians::Make(model.graph(), LargestOf(settings), *settings.pedestrians, settings.seed);
+    if (!people) return people.error();
+    model.people_ = std::move(people).value();
+    model.yielding_.resize(model.agents_.size());
+  }
   if (const auto status = lanes::CheckLights(model.map_->graph, model.map_->zones); !status) return status.error();
   model.FindColours();
   if (!settings.demand.flows.empty()) model.BeginFlows();
@@ -94,6 +101,7 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
   if (settings.physics == Physics::kFull) {
     if (world == nullptr) world = WorldOf(model.map_->network);
     model.StartFull(world->MakeGround());
+    if (settings.driver == DriverKind::kMotors) model.StartMotors();
   }
   model.FindPoses();
   return model;
@@ -123,22 +131,32 @@ const lanes::Link& TrafficModel::NextLink(std::uint32_t id, std::uint32_t track,
   return link;
 }
 
+// How everybody holds his car during the step.
+void TrafficModel::Decide(double dt_s) {
+  if (!motors_.empty()) {
+    GiveWay();
+    EachDriving([&](std::uint32_t id) { DriveMotors(id, dt_s); });
+    return;
+  }
+  if (people_) LookAtPeople(dt_s);
+  Arbitrate(dt_s);
+  const std::int64_t step_ns = std::llround(dt_s * 1e9);
+  ChangeLanes(step_ns);
+  Overtake(step_ns);
+  EachDriving([&](std::uint32_t id) { wanted_[id] = Wanted(id); });
+  if (full_) EachDriving([&](std::uint32_t id) { DriveFull(id, wanted_[id], dt_s); });
+}
+
 void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) {
   RODEIRA_ASSERT(dt_s > 0.0);
   bodies_.assign(others.begin(), others.end());
   for (const AgentPose& pose : poses_) {
     if (agents_[pose.id].is_struck) bodies_.push_back(FootprintOf(pose, traits_[pose.id]));
   }
-  See(bodies_);
-  Arbitrate(dt_s);
   const std::int64_t step_ns = std::llround(dt_s * 1e9);
-  ChangeLanes(step_ns);
-  Overtake(step_ns);
-  EachDriving([&](std::uint32_t id) { wanted_[id] = Wanted(id); });  // reads the old state …
-  if (full_) {
-    EachDriving([&](std::uint32_t id) { DriveFull(id, wanted_[id], dt_s); });
-    full_->Step(dt_s, crew_.get());
-  }
+  See(bodies_);
+  Decide(dt_s);  // reads the old state …
+  if (full_) full_->Step(dt_s, crew_.get());
   EachDriving([&](std::uint32_t id) {  // … writes the new one
     if (full_) FollowFull(id, dt_s);
     else MovePlanar(id, wanted_[id], dt_s);
@@ -150,6 +168,7 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
     if (AtTheEnd(id)) Leave(id);
   }
   SlideStruck(dt_s);
+  if (people_) people_->Step(dt_s, time_ns_ + step_ns);
   Arrive(time_ns_ + step_ns);
   Enter();
   time_ns_ += step_ns;
@@ -214,6 +233,12 @@ bool TrafficModel::AtTheEnd(std::uint32_t id) const {
 void TrafficModel::Save(base::StateWriter& writer) const {
   for (const Agent& agent : agents_) writer.Put("agent", agent);
   if (full_) writer.Put("full", *full_);
+  for (const MotorsDriver& driver : motors_) writer.Put("motors", driver);
+  if (people_) writer.Put("people", *people_);
+  for (const Yielding& yielding : yielding_) {
+    writer.Put("yields", yielding.crossing);
+    writer.Put("yielded_s", yielding.waited_s);
+  }
   writer.Put("waiting", waiting_);
   writer.Put("next_grant", next_grant_);
   writer.Put("time_ns", time_ns_);
@@ -230,6 +255,16 @@ void TrafficModel::Save(base::StateWriter& writer) const {
 void TrafficModel::Restore(base::StateReader& reader) {
   for (Agent& agent : agents_) reader.Get("agent", agent);
   if (full_) reader.Get("full", *full_);
+  for (MotorsDriver& driver : motors_) {
+    reader.Get("motors", driver);
+    if (driver.track >= graph().tracks().size()) driver.lanes = driver.track = 0;
+    else driver.checkpoint = std::min(driver.checkpoint, MotorsPoints(driver) - 2);
+  }
+  if (people_) reader.Get("people", *people_);
+  for (Yielding& yielding : yielding_) {
+    reader.Get("yields", yielding.crossing);
+    reader.Get("yielded_s", yielding.waited_s);
+  }
   way_keys_.assign(agents_.size(), {});
   reader.Get("waiting", waiting_);
   reader.Get("next_grant", next_grant_);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "common/base/crew.hpp"
@@ -20,6 +21,8 @@
 #include "common/traffic/agent_detail.hpp"
 #include "common/traffic/demand.hpp"
 #include "common/traffic/full_cars.hpp"
+#include "common/traffic/motors_driver.hpp"
+#include "common/traffic/pedestrians.hpp"
 #include "common/traffic/track_plan.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
@@ -60,6 +63,8 @@ class TrafficModel {
   const std::vector<AgentPose>& poses() const { return poses_; }
   const AgentTraits& traits(std::uint32_t id) const { return traits_[id]; }
   const Agent& agent(std::uint32_t id) const { return agents_[id]; }
+  // MOTORS' driver of an agent; null where others drive.
+  const MotorsDriver* motors(std::uint32_t id) const { return motors_.empty() ? nullptr : &motors_[id]; }
   // The cars with full physics, one a place by id; null in planar mode.
   const FullCars* full() const { return full_ ? &*full_ : nullptr; }
   std::size_t on_road() const { return poses_.size(); }
@@ -75,6 +80,13 @@ class TrafficModel {
   std::uint64_t ended() const { return ended_; }
   // How often somebody did not get over to the lane that his route goes on from.
   std::uint64_t missed() const { return missed_; }
+  // Those on foot; null where the settings have no `pedestrians`. All other numbers here count vehicles alone.
+  const Pedestrians* people() const { return people_ ? &*people_ : nullptr; }
+  // One more comes to the crossing of a road nearest to a station, from the road's left or right, at once. Wrong input where there
+  // is none, or the settings have no `pedestrians`.
+  base::Status CallPedestrian(std::string_view road, double s_m, bool from_left);
+  // Who has been hit, by his number, stays where he is.
+  void HitPedestrian(std::uint32_t id);
   // From its front bumper to who is ahead, as it was seen in the last step; 1e9 where nobody is in sight.
   double GapAhead(std::uint32_t id) const { return ahead_[id].gap_m; }
   // Which lights it shows, bits as in vehicle.idl: brake 1, left 2, right 4. Who changes lanes, or is to turn within 30 m or three seconds,
@@ -188,6 +200,7 @@ class TrafficModel {
     bool must_stop = false;  // a STOP sign
     bool lit = false;        // there is a light in it
     bool red = false;        // … that shows something else than green
+    bool barred = false;     // it waits before the line for people on foot
     double line_m = 0.0;     // odometer at which its front stops
     double end_m = 0.0;
     double room_m = 0.0;  // odometer up to which who is ahead must have left
@@ -209,7 +222,27 @@ class TrafficModel {
     double way_m = 0.0, ends_s = 0.0;  // of its front to the zone's end
   };
 
+  // What is so at a crossing for people on foot.
+  struct AtCrossing {
+    bool held = false;     // somebody drives there who does not let them go, or stands there
+    bool blocked = false;  // somebody stands there
+    bool tired = false;    // somebody has waited long for those on foot
+    bool go = false;       // the lights let them go
+  };
+  // An agent that comes to a crossing.
+  struct ToCrossing {
+    std::uint32_t id = 0, crossing = 0, pass = 0;
+    double line_m = 0.0;  // odometer at which its front stops
+    bool able = false;    // it can stop there comfortably
+  };
+  // For whom an agent stops.
+  struct Yielding {
+    std::uint32_t crossing = 0;  // its index and 1; 0: for nobody
+    double waited_s = 0.0;       // at rest
+  };
+
   static constexpr double kNoBarrier_m = 1e18, kFree_mps2 = 1e3;
+  static constexpr double kYieldingShare = 0.75;  // of the comfortable braking, for people on foot: who follows brakes harder
 
   static base::Result<TrafficModel> Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
                                          std::span<const driver::Footprint> others, std::shared_ptr<const road::World> world);
@@ -303,12 +336,32 @@ class TrafficModel {
   bool Urgent(std::uint32_t id) const;
   double AllowedAt(std::uint32_t id, double odometer_m) const;
 
+  // People on foot.
+  void LookAtPeople(double dt_s);
+  void CarsAtCrossings();
+  void OthersAtCrossings();
+  bool LightsLetGo(const lanes::FootCrossing& crossing) const;
+  void Yield(double dt_s);
+  double AtMostForPeople(std::uint32_t id) const;
+  bool NearCrossing(std::uint32_t track, double low_m, double high_m) const;
+  double StoppingWay(std::uint32_t id) const;
+
+  // MOTORS' driver.
+  void StartMotors();
+  Eigen::Vector2d MotorsPoint(const MotorsDriver& driver, std::uint32_t index) const;
+  std::uint32_t MotorsPoints(const MotorsDriver& driver) const;
+  void TakeLane(std::uint32_t id, const Piece& piece);
+  void FollowTrajectory(std::uint32_t id);
+  void GiveWay();
+  void DriveMotors(std::uint32_t id, double dt_s);
+
   // Driving.
+  void Decide(double dt_s);
   double Wanted(std::uint32_t id) const;
   double Desired_mps(std::uint32_t id) const;
   driver::SpeedPlan::Allowed Allowed(std::uint32_t id) const;
   double Cap_mps(std::uint32_t id) const { return std::min(agents_[id].cap_mps, traits_[id].top_mps); }
-  double StopAt(std::uint32_t id, double odometer_m) const;
+  double StopAt(std::uint32_t id, double odometer_m, double share = 1.0) const;
   void StartFull(std::shared_ptr<terrain::Ground> ground);
   base::Status PlaceFull(std::uint32_t id);
   void MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s);
@@ -345,6 +398,9 @@ class TrafficModel {
   std::vector<AgentTraits> traits_;
   std::vector<Agent> agents_;
   std::optional<FullCars> full_;  // none: planar
+  std::vector<MotorsDriver> motors_;  // by agent; empty where others drive
+  std::optional<Pedestrians> people_;
+  std::vector<Yielding> yielding_;  // by agent; empty without people
   double longest_half_m_ = 0.0;  // of all agents
   std::vector<std::uint32_t> waiting_;  // to enter, first come first
   std::uint64_t next_grant_ = 1;
@@ -368,6 +424,10 @@ class TrafficModel {
   std::vector<double> wanted_;                         // by agent: acceleration
   std::vector<std::uint32_t> missed_now_;              // by agent
   std::vector<double> leaves_;                         // by agent: acceleration that who holds its zones before it leaves it
+  std::vector<double> bars_;                           // by agent: odometer at which it waits for people on foot
+  std::vector<Eigen::Vector2d> segments_;              // by agent: where MOTORS' driver looks to
+  std::vector<AtCrossing> at_crossings_;               // by crossing for people on foot
+  std::vector<ToCrossing> to_crossings_;
   std::vector<std::array<std::vector<Holder>, 2>> holders_;         // by zone
   std::vector<std::array<std::vector<Claim>, 2>> comers_;           // by zone
   std::vector<std::vector<std::uint32_t>> present_;                 // by track: agents on it while others enter

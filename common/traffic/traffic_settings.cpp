@@ -9,6 +9,12 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.vehicles = static_cast<std::uint32_t>(map.Integer("vehicles", 0, 100000, t.vehicles));
   t.threads = static_cast<std::uint32_t>(map.Integer("threads", 1, 64, t.threads));
   t.physics = map.Choice("physics", {"planar", "full"}, "planar") == "full" ? Physics::kFull : Physics::kPlanar;
+  if (map.Choice("driver", {"standard", "motors"}, "standard") == "motors") {
+    if (map.Has("physics") && t.physics == Physics::kPlanar) map.Problem("physics", "the driver 'motors' holds pedals and steering wheel; 'physics: full' was expected");
+    if (map.Has("pedestrians")) map.Problem("pedestrians", "the driver 'motors' sees nobody on foot; no 'pedestrians' were expected");
+    t.driver = DriverKind::kMotors;
+    t.physics = Physics::kFull;
+  }
   t.variety = map.Number("variety", {0.0, 0.5}, t.variety);
   t.speed_factor_low = map.Number("speed_factor_low", {0.2, 2.0}, t.speed_factor_low);
   t.speed_factor_high = map.Number("speed_factor_high", {0.2, 2.0}, t.speed_factor_high);
@@ -36,6 +42,7 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.overtaking.allowed = change.Flag("overtaking", t.overtaking.allowed);
   t.overtaking.sight_m = change.Number("overtaking_sight_m", {50.0, 2000.0}, t.overtaking.sight_m);
   t.overtaking.margin_s = change.Number("overtaking_margin_s", {1.0, 20.0}, t.overtaking.margin_s);
+  if (map.Has("pedestrians")) t.pedestrians = ReadPedestrians(map.Child("pedestrians"));
   if (map.Has("mix")) t.mix = ReadMix(map.Child("mix"));
   return t;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "common/base/result.hpp"
 #include "common/config/config.hpp"
@@ -11,6 +12,7 @@
 #include "common/lanes/swath.hpp"
 #include "common/traffic/demand_settings.hpp"
 #include "common/traffic/overtaking.hpp"
+#include "common/traffic/pedestrian_settings.hpp"
 
 namespace rodeira::traffic {
 
@@ -20,12 +22,19 @@ enum class Physics {
   kFull,    // as the driver's car: four wheels with suspension and slipping tyres on the ground, the whole powertrain
 };
 
+// Who drives.
+enum class DriverKind {
+  kStandard,
+  kMotors,  // as MOTORS' own: gives way to the right and sees nobody else
+};
+
 // What a traffic source is told. Each agent draws its own values from the ranges, by seed and number.
 struct TrafficSettings {
   static constexpr std::uint32_t kMostOfFlows = 1000;  // vehicles at a time where there are flows and nothing says how many
 
   std::uint64_t seed = 1;
   Physics physics = Physics::kPlanar;
+  DriverKind driver = DriverKind::kStandard;  // MOTORS' drives with full physics alone
   std::uint32_t vehicles = 20;  // on the road and waiting to enter, together; never more, never fewer
   std::uint32_t threads = 1;    // that work on a step; changes no result
   driver::IdmSettings idm;      // the middle of what agents draw: time gap and accelerations vary by `variety`
@@ -41,6 +50,7 @@ struct TrafficSettings {
   OvertakingSettings overtaking;
   VehicleMix mix;         // of who does not belong to a flow with a mix of its own
   DemandSettings demand;  // with flows `vehicles` is how many there are at a time at most; the roads are empty at first
+  std::optional<PedestrianSettings> pedestrians;  // none: crossings are nothing to anybody
 };
 
 // Reads `vehicles`, `following`, `comfort` … of a mapping; the seed is the run's. Problems stay in the file's collection.

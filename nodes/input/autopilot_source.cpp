@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -31,6 +32,20 @@ vehicle::VehicleState FromWire(const msg::VehicleState& in) {
   return out;
 }
 
+// What others take up. Somebody who walks across is given the way that he goes in the next seconds, so that he is seen in time.
+driver::Footprint FootprintOf(const msg::TrafficAgent& agent) {
+  constexpr std::uint32_t kPedestrian = 4;  // traffic.idl
+  constexpr double kAhead_s = 6.0;
+  driver::Footprint footprint{agent.id(), agent.position_x_m(), agent.position_y_m(), static_cast<double>(agent.heading_rad()),
+                              agent.speed_mps(), static_cast<double>(agent.length_m()), static_cast<double>(agent.width_m())};
+  if (agent.kind() != kPedestrian) return footprint;
+  const double way = kAhead_s * footprint.speed_mps;
+  footprint.x_m += 0.5 * way * std::cos(footprint.heading_rad);
+  footprint.y_m += 0.5 * way * std::sin(footprint.heading_rad);
+  footprint.length_m += way;
+  return footprint;
+}
+
 // What it follows, and the lights on it.
 struct WayAndLights {
   std::unique_ptr<const driver::Way> way;
@@ -53,10 +68,7 @@ class AutopilotSource final : public Source {
     for (const lockstep::Sample& sample : inbox.All(topics::kTrafficState)) {
       const auto traffic = idl::Decode<msg::TrafficState>(*sample.payload);
       if (!traffic) return traffic.error();
-      for (const msg::TrafficAgent& agent : traffic.value().agents()) {
-        others_.push_back({agent.id(), agent.position_x_m(), agent.position_y_m(), static_cast<double>(agent.heading_rad()),
-                           agent.speed_mps(), static_cast<double>(agent.length_m()), static_cast<double>(agent.width_m())});
-      }
+      for (const msg::TrafficAgent& agent : traffic.value().agents()) others_.push_back(FootprintOf(agent));
     }
     if (auto status = SeeLights(inbox); !status) return status.error();
     const vehicle::VehicleState state = FromWire(own.value());

@@ -45,6 +45,28 @@ msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTra
   return out;
 }
 
+// Level, with no lights; the wheel that its legs go by turns once in two steps.
+msg::TrafficAgent ToWire(const traffic::PersonPose& pose) {
+  constexpr std::uint32_t kPedestrian = 4;  // traffic.idl
+  msg::TrafficAgent out;
+  out.id(pose.id);
+  out.trip(pose.trip);
+  out.position_x_m(pose.p_W.x());
+  out.position_y_m(pose.p_W.y());
+  out.position_z_m(pose.p_W.z());
+  out.heading_rad(Single(pose.heading_rad));
+  out.speed_mps(pose.speed_mps);
+  out.length_m(Single(traffic::Pedestrians::kLength_m));
+  out.width_m(Single(traffic::Pedestrians::kWidth_m));
+  out.height_m(Single(pose.height_m));
+  out.wheelbase_m(Single(traffic::Pedestrians::kLength_m));
+  out.wheel_radius_m(Single(traffic::Pedestrians::kStrideRadius_m));
+  out.wheel_spin_rad(Single(pose.stride_rad));
+  out.colour_rgb(pose.colour_rgb);
+  out.kind(kPedestrian);
+  return out;
+}
+
 msg::TrafficDetail ToWire(const traffic::AgentDetail& detail) {
   constexpr double kKilograms = 1e-6;  // a milligram
   msg::TrafficDetail out;
@@ -116,7 +138,11 @@ class TrafficNode final : public lockstep::Node {
     const auto touched = idl::Decode<msg::Collisions>(*sample.payload);
     if (!touched) return touched.error();
     for (const msg::Collision& hit : touched.value().collisions()) {
-      if (hit.partner() != kAgent || hit.partner_source() != stream_ || hit.partner_id() >= model_.vehicles()) continue;
+      if (hit.partner() != kAgent || hit.partner_source() != stream_) continue;
+      if (hit.partner_id() >= model_.vehicles()) {
+        model_.HitPedestrian(hit.partner_id());
+        continue;
+      }
       model_.Strike(hit.partner_id(), {-hit.impulse_x_ns(), -hit.impulse_y_ns()}, {hit.position_x_m(), hit.position_y_m()});
     }
     return {};
@@ -127,6 +153,10 @@ class TrafficNode final : public lockstep::Node {
     for (const msg::ScenarioEvent& event : events.value().events()) {
       if (!event.name().starts_with("traffic.")) continue;
       const std::string where = fmt::format("event '{}' at step {}", event.name(), sample.valid());
+      if (event.name() == scenario::kTrafficPedestrian) {
+        if (auto status = Call(event.argument(), where); !status) return status;
+        continue;
+      }
       const auto agents = Meant(event.argument(), where);
       if (!agents) return agents.error();
       for (const std::uint32_t id : agents.value()) {
@@ -137,6 +167,12 @@ class TrafficNode final : public lockstep::Node {
       }
     }
     return {};
+  }
+  base::Status Call(const std::string& argument, const std::string& where) {
+    const auto crossing = scenario::ParseCrossing(argument);
+    if (!crossing) return base::WrongInput(crossing.error().message, where);
+    const auto status = model_.CallPedestrian(crossing.value().road, crossing.value().s_m, crossing.value().from_left);
+    return status ? status : base::WrongInput(status.error().message, where);
   }
   // The agents that an event speaks to. Nobody ahead is no mistake of the scenario's, but a person should know.
   base::Result<std::vector<std::uint32_t>> Meant(const std::string& argument, const std::string& where) const {
@@ -164,6 +200,9 @@ class TrafficNode final : public lockstep::Node {
     msg::TrafficState state;
     state.agents().reserve(model_.poses().size());
     for (const traffic::AgentPose& pose : model_.poses()) state.agents().push_back(ToWire(pose, model_.traits(pose.id), model_.LightsOf(pose)));
+    if (model_.people() != nullptr) {
+      for (const traffic::PersonPose& person : model_.people()->Poses()) state.agents().push_back(ToWire(person));
+    }
     outbox.Put(topics::kTrafficState, idl::Encode(state));
     outbox.Put(topics::kSignalsState, idl::Encode(Lights()));
     msg::TrafficDetails details;

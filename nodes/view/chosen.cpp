@@ -75,6 +75,7 @@ std::string Chosen::AgentPanel(const scene::Moment& moment, const scene::AgentPo
   seen_W_ = agent.p_WB_W;
   seen_ns_ = moment.time_ns;
   const std::string name = fmt::format("traffic {}", agent.id >> 24 & 0xffffffU);
+  if (agent.kind == scene::AgentKind::kPedestrian) return fmt::format("{}\non foot, {:.1f} km/h", name, 3.6 * agent.speed_mps);
   const double wheels_deg = agent.steer_rad * 180.0 / std::numbers::pi;
   if (!agent.detail) return fmt::format("{}\n{:.1f} km/h{}\nwheels {:.1f} deg", name, 3.6 * agent.speed_mps, agent.lights.brake ? "   brakes" : "", wheels_deg);
   const scene::AgentDetail& detail = *agent.detail;

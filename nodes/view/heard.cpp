@@ -28,7 +28,9 @@ sound::Heard HeardBy(const scene::Moment& moment, std::size_t followed, double v
   heard.volume = volume;
   heard.rain = static_cast<double>(scene::MakeAir(moment.weather).rain);
   const bool is_car = followed < moment.cars.size();
-  heard.own = is_car ? VoiceOf(moment.cars[followed]) : VoiceOf(moment.agents[followed - moment.cars.size()]);
+  const auto on_foot = [](const scene::AgentPose& agent) { return agent.kind == scene::AgentKind::kPedestrian; };  // and so not heard
+  if (is_car) heard.own = VoiceOf(moment.cars[followed]);
+  else if (const scene::AgentPose& agent = moment.agents[followed - moment.cars.size()]; !on_foot(agent)) heard.own = VoiceOf(agent);
   if (is_car) heard.crash = moment.cars[followed].blow;
 
   struct Near {
@@ -50,7 +52,7 @@ sound::Heard HeardBy(const scene::Moment& moment, std::size_t followed, double v
     if (i != followed) add(kCar | moment.cars[i].id, moment.cars[i].p_WB_W, VoiceOf(moment.cars[i]));
   }
   for (std::size_t i = 0; i < moment.agents.size(); ++i) {
-    if (i + moment.cars.size() != followed) add(moment.agents[i].id, moment.agents[i].p_WB_W, VoiceOf(moment.agents[i]));
+    if (i + moment.cars.size() != followed && !on_foot(moment.agents[i])) add(moment.agents[i].id, moment.agents[i].p_WB_W, VoiceOf(moment.agents[i]));
   }
   std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return std::pair(a.distance_m, a.id) < std::pair(b.distance_m, b.id); });
   for (std::size_t i = 0; i < std::min(kNearest, near.size()); ++i) heard.others[near[i].id] = near[i].voice;

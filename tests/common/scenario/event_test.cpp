@@ -31,6 +31,23 @@ TEST(Event, WhatIsNoPlaceIsRefused) {
   }
 }
 
+TEST(Event, ACrossingIsARoadAPlaceAndASide) {
+  const auto right = ParseCrossing("main 120.5"), left = ParseCrossing("long road 3 left");
+  ASSERT_TRUE(right.ok() && left.ok());
+  EXPECT_EQ(right.value().road, "main");
+  EXPECT_EQ(right.value().s_m, 120.5);
+  EXPECT_FALSE(right.value().from_left);
+  EXPECT_EQ(left.value().road, "long road");
+  EXPECT_EQ(left.value().s_m, 3.0);
+  EXPECT_TRUE(left.value().from_left);
+  for (const char* text : {"", "main", "120", "main left", "main x left", " 5", "main 12 up", "left", "main nan"}) {
+    const auto read = ParseCrossing(text);
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_EQ(read.error().exit_status(), 2);
+    EXPECT_NE(read.error().Text().find("is no crossing; a road, metres along it"), std::string::npos) << read.error().Text();
+  }
+}
+
 TEST(Event, WhatCannotBeObeyedIsSaid) {
   EXPECT_TRUE(CheckEvent({"vehicle.place", "ego 1 2", 90.0}));
   EXPECT_TRUE(CheckEvent({"weather", "fog", 5.0}));
@@ -44,6 +61,7 @@ TEST(Event, WhatCannotBeObeyedIsSaid) {
   EXPECT_NE(complaint({"vehicle.place", "ego 1 2", std::numeric_limits<double>::quiet_NaN()}).find("heading_deg"), std::string::npos);
   EXPECT_NE(complaint({"vehicle.place", "ego", 0.0}).find("is no place"), std::string::npos);
   EXPECT_NE(complaint({"weather", "fogg", 5.0}).find("'fogg' is no weather; did you mean 'fog'?"), std::string::npos) << complaint({"weather", "fogg", 5.0});
+  EXPECT_NE(complaint({"traffic.pedestrian", "main", 0.0}).find("is no crossing"), std::string::npos);
   EXPECT_NE(complaint({"traffic.brake", "nobody", 5.0}).find("is no agent"), std::string::npos);
 }
 

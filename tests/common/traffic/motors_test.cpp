@@ -1,0 +1,186 @@
+// MOTORS' driver against the laws of its source: values worked out by hand from the printed code, and whole runs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/traffic/motors_driver.hpp"
+#include "common/traffic/study.hpp"
+#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/opendrive/sample.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;
+
+// A.59: s = 2 atan(2 (d/2)²)/pi: nothing at the checkpoint, a half where 2 (d/2)² = 1.
+TEST(Motors, SteersBetweenThePathAndTheTarget) {
+  EXPECT_EQ(TargetWeight(0.0), 0.0);
+  EXPECT_NEAR(TargetWeight(std::sqrt(2.0)), 0.5, 1e-12);
+  EXPECT_NEAR(TargetWeight(2.0), 2.0 * std::atan(2.0) / std::numbers::pi, 1e-12);
+  EXPECT_NEAR(SteeringAngle(0.1, 0.3, 0.0, 0.6), 0.1, 1e-12);
+  EXPECT_NEAR(SteeringAngle(0.1, 0.3, 1.0, 0.6), 0.2, 1e-12);
+  EXPECT_NEAR(SteeringAngle(0.1, 0.3, 0.5, 0.6), 0.25 / 1.5, 1e-12);
+  EXPECT_EQ(SteeringAngle(2.0, 2.0, 1.0, 0.6), 0.6);
+  EXPECT_EQ(SteeringAngle(-2.0, -2.0, 1.0, 0.6), -0.6);
+}
+
+// A.41 and A.66, its weights the right way round; A.69, A.70.
+TEST(Motors, PedalsAreTheSources) {
+  for (const auto& [degrees, speed] : {std::pair{0.0, 17.0}, {10.0, 17.0}, {15.0, 14.5}, {20.0, 12.0}, {30.0, 8.5}, {40.0, 5.0}, {170.0, 5.0}}) {
+    EXPECT_NEAR(TurningSpeed_mps(degrees * kDegree, 17.0), speed, 1e-9) << degrees;
+    EXPECT_NEAR(TurningSpeed_mps(-degrees * kDegree, 17.0), speed, 1e-9) << degrees;
+  }
+  EXPECT_EQ(TurningSpeed_mps(15.0 * kDegree, 8.0), 8.0);
+  EXPECT_EQ(MotorsThrottle(0.0), 0.5);
+  EXPECT_NEAR(MotorsThrottle(10.0 * kDegree), 0.5 * std::pow(2.0, -0.06), 1e-12);
+  EXPECT_NEAR(MotorsThrottle(-50.0 * kDegree), 0.5 * std::pow(2.0, -1.5), 1e-12);
+  EXPECT_EQ(MotorsBrake(0.0, false), 0.0);
+  EXPECT_NEAR(MotorsBrake(1.0, false), 0.5, 1e-12);
+  EXPECT_NEAR(MotorsBrake(1.0, true), 0.6, 1e-12);
+  EXPECT_EQ(MotorsBrake(1e6, true), 1.0);
+}
+
+// A.82 to A.84.
+TEST(Motors, SegmentsCrossWhereTheEndsLieOnBothSides) {
+  EXPECT_TRUE(SegmentsCross({0, 0}, {4, 0}, {2, -1}, {2, 1}));
+  EXPECT_FALSE(SegmentsCross({0, 0}, {4, 0}, {5, -1}, {5, 1}));
+  EXPECT_FALSE(SegmentsCross({0, 0}, {4, 0}, {2, 1}, {2, 3}));
+  EXPECT_FALSE(SegmentsCross({0, 0}, {4, 0}, {0, 1}, {4, 1}));
+}
+
+// A.62 at 50 Hz: three degrees a frame are 150 a second, the last step cut to the target.
+TEST(Motors, HandsHaveARate) {
+  MotorsDriver driver(1.0, 3.0);
+  MotorsView view;
+  view.engine_radps = 1300.0 * kRpm;
+  view.to_path_rad = view.to_target_rad = 10.0 * kDegree;
+  for (int frame = 1; frame <= 5; ++frame) {
+    (void)driver.Step(view, {}, 0.02);
+    EXPECT_NEAR(driver.steer_rad(), std::min(3.0 * frame, 10.0) * kDegree, 1e-12) << frame;
+  }
+  MotorsDriver half(0.5, 4.0);
+  for (int frame = 0; frame < 10; ++frame) (void)half.Step(view, {}, 0.02);
+  EXPECT_NEAR(half.steer_rad(), 5.0 * kDegree, 1e-12);
+}
+
+// A.75 to A.81: a gear up at 1500 1/min, the clutch up by 0.08 a frame without throttle, the next one a hundred frames later.
+TEST(Motors, GearsGoUpAndDownWithTheirPause) {
+  MotorsDriver driver;
+  driver.Begin(1);
+  MotorsView view;
+  view.engine_radps = 1600.0 * kRpm;
+  view.limit_mps = 17.0;
+  vehicle::Controls controls = driver.Step(view, {}, 0.02);
+  EXPECT_EQ(controls.gear, 2);
+  for (int frame = 1; frame <= 12; ++frame) {
+    controls = driver.Step(view, {}, 0.02);
+    EXPECT_NEAR(controls.clutch, 1.0 - 0.08 * frame, 1e-9) << frame;
+    EXPECT_EQ(controls.throttle, 0.0) << frame;
+  }
+  controls = driver.Step(view, {}, 0.02);  // 13 · 0.08 > 1
+  EXPECT_FALSE(driver.changes_gear());
+  controls = driver.Step(view, {}, 0.02);
+  EXPECT_EQ(controls.clutch, 0.0);
+  EXPECT_GT(controls.throttle, 0.0);
+  for (int frame = 15; frame < 100; ++frame) ASSERT_EQ(driver.Step(view, {}, 0.02).gear, 2) << frame;
+  int frame = 100;
+  while (driver.Step(view, {}, 0.02).gear == 2 && frame < 110) ++frame;
+  EXPECT_LE(frame, 101);
+  view.engine_radps = 1000.0 * kRpm;
+  for (int more = 0; more < 101; ++more) controls = driver.Step(view, {}, 0.02);
+  EXPECT_EQ(controls.gear, 2);
+  view.engine_radps = 1300.0 * kRpm;
+  for (int more = 0; more < 300; ++more) controls = driver.Step(view, {}, 0.02);
+  EXPECT_EQ(controls.gear, 2);
+  view.engine_radps = 6600.0 * kRpm;  // A.72 to A.74: until it is below 6300
+  EXPECT_EQ(driver.Step(view, {}, 0.02).throttle, 0.0);
+}
+
+TrafficSettings AsMotors(std::uint32_t vehicles) {
+  TrafficSettings settings;
+  settings.vehicles = vehicles;
+  settings.seed = 4;
+  settings.driver = DriverKind::kMotors;
+  settings.physics = Physics::kFull;
+  return settings;
+}
+
+// Alone on a long straight road, where he begins slower: he comes to 17 m/s and no faster, whatever the lane's limit, within his lane.
+TEST(Motors, DrivesAloneToItsLimit) {
+  opendrive::RoadText road;
+  road.length = 8000.0;
+  road.left = "";
+  road.geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"8000\"><line/></geometry>";
+  road.right = "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" max=\"10\" unit=\"m/s\"/></lane>";
+  TrafficModel model = TrafficModel::Make(AsMotors(1), opendrive::MustRead(opendrive::Document(road.Text())), {}).value();
+  double fastest = 0.0, aside = 0.0;
+  for (int i = 0; i < 12000 && model.agent(0).trip == 0; ++i) {
+    model.Step(0.01, {});
+    if (model.poses().empty()) continue;
+    fastest = std::max(fastest, model.poses()[0].speed_mps);
+    aside = std::max(aside, std::fabs(model.poses()[0].p_WB_W.y() + 1.75));
+  }
+  EXPECT_GT(fastest, 16.5);
+  EXPECT_LT(fastest, 17.3);
+  EXPECT_LT(aside, 0.15 * 3.5 + 0.3);  // the weight's range, and what he is beside his trajectory
+}
+
+// On the maps: he drives through to the end, and runs into others, whom he does not see; the default driver into nobody (NetworkTraffic).
+TEST(Motors, DrivesTheMapsAndHisCollisionsAreCounted) {
+  std::int64_t collisions = 0;
+  for (const char* name : {"crossing", "roundabout", "town"}) {
+    StudySettings settings;
+    settings.traffic = AsMotors(15);
+    settings.duration_s = 60.0;
+    const StudyResult r = RunStudy(settings, lanes::MapNetwork(name)).value();
+    EXPECT_GT(r.arrivals, 3) << name;
+    EXPECT_GT(r.mean_speed_mps(), 2.0) << name;
+    EXPECT_EQ(r.on_road + r.waiting, 15u) << name;
+    collisions += r.collisions;
+    testing::Test::RecordProperty(name, fmt::format("{} collisions, {} trips, {:.1f} km, {:.1f} m/s, {} looks off lane", r.collisions, r.arrivals, r.driven_km, r.mean_speed_mps(), r.off_lane));
+    if (std::getenv("RODEIRA_TELL") != nullptr) fmt::print("{}: {} collisions, {} trips, {:.1f} km, {:.1f} m/s, {} looks off lane\n", name, r.collisions, r.arrivals, r.driven_km, r.mean_speed_mps(), r.off_lane);
+  }
+  EXPECT_GT(collisions, 0);
+}
+
+TEST(Motors, ThreadsAndSnapshotsChangeNoBit) {
+  const auto network = lanes::MapNetwork("crossing");
+  const auto digest = [](const TrafficModel& model) {
+    base::StateWriter writer;
+    model.Save(writer);
+    return writer.digest();
+  };
+  TrafficSettings four = AsMotors(12);
+  four.threads = 4;
+  TrafficModel one = TrafficModel::Make(AsMotors(12), network, {}).value(), more = TrafficModel::Make(four, network, {}).value();
+  for (int i = 0; i < 1000; ++i) one.Step(0.02, {}), more.Step(0.02, {});
+  EXPECT_EQ(digest(one), digest(more));
+  TrafficModel fresh = TrafficModel::Make(AsMotors(12), network, {}).value();
+  base::StateWriter writer;
+  one.Save(writer);
+  base::StateReader reader(writer.bytes());
+  fresh.Restore(reader);
+  ASSERT_TRUE(reader.Finish().ok());
+  for (int i = 0; i < 500; ++i) one.Step(0.02, {}), fresh.Step(0.02, {});
+  EXPECT_EQ(digest(one), digest(fresh));
+}
+
+TEST(Motors, WrongSettingsAreNamed) {
+  const auto problem = [](const std::string& text) {
+    auto file = config::File::Parse(text, "t.yaml");
+    (void)ReadTraffic(file.value().root(), 1);
+    const auto status = file.value().Finish();
+    return status ? std::string() : status.error().Text();
+  };
+  EXPECT_EQ(problem("driver: motors\n"), "");
+  EXPECT_EQ(problem("driver: motors\nphysics: full\n"), "");
+  EXPECT_NE(problem("driver: motor\n").find("motors"), std::string::npos);
+  EXPECT_NE(problem("driver: motors\nphysics: planar\n").find("'physics: full' was expected"), std::string::npos);
+  EXPECT_NE(problem("driver: motors\npedestrians: {per_hour: 3}\n").find("sees nobody on foot"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rodeira::traffic
