@@ -4,14 +4,13 @@
 #include <malloc.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <optional>
-#include <string>
 
 #include "common/base/state.hpp"
 #include "common/map/map_network.hpp"
 #include "common/traffic/lane_statistics.hpp"
 #include "common/traffic/traffic_model.hpp"
+#include "tests/bench/traffic/grid.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -21,16 +20,11 @@ double HeapBytes() {
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-std::string Grid(std::int64_t nodes) {
-  const char* folder = std::getenv("RODEIRA_GRIDS");
-  return folder == nullptr ? "" : std::string(folder) + "/grid" + std::to_string(nodes) + ".motors";
-}
-
 // A town with so many streets each way and so many vehicles, after 20 simulated seconds; nothing, and the state says why, where there is no town.
 std::optional<TrafficModel> Warm(benchmark::State& state) {
   const auto network = map::LoadNetwork(Grid(state.range(0)));
   if (!network) {
-    state.SkipWithError("RODEIRA_GRIDS names no folder with the grids of tools/make_grid.py");
+    state.SkipWithError(kNoGrids);
     return std::nullopt;
   }
   TrafficSettings settings;
@@ -80,7 +74,7 @@ BENCHMARK(BM_HeatMapOfAMetre)->Args({4, 100})->Args({10, 1000})->Args({32, 10000
 // The heap that vehicles take beyond the map, a vehicle.
 void BM_Memory(benchmark::State& state) {
   const auto network = map::LoadNetwork(Grid(10));
-  if (!network) return state.SkipWithError("RODEIRA_GRIDS names no folder with the grids of tools/make_grid.py");
+  if (!network) return state.SkipWithError(kNoGrids);
   const auto bytes = [&](std::uint32_t vehicles) {
     TrafficSettings settings;
     settings.vehicles = vehicles;
