@@ -100,7 +100,8 @@ base::Status CheckLights(const Graph& graph, const Zones& zones) {
     if (turned < kAlike_rad || turned > kHeadOn_rad) continue;
     return base::WrongInput("the lights " + Named(graph, *a) + " and " + Named(graph, *b) +
                             " are green or amber together, and their ways " +
-                            (zone.kind == ZoneKind::kMerge ? "merge" : "cross") + "; phases that do not meet were expected");
+                            (zone.kind == ZoneKind::kMerge ? "merge" : "cross") + "; phases that do not meet were expected",
+                            "network '" + graph.network().name() + "'");
   }
   return {};
 }

@@ -13,6 +13,7 @@ constexpr double kSideways_mps = 0.8;   // and its speed
 constexpr double kShortestBlend_m = 3.0;
 constexpr double kLongestBlend_m = 90.0;
 constexpr double kSame_m = 1e-4, kSame = 1e-4;  // lanes that meet so are one
+constexpr std::size_t kPieceNumbers = 7;
 
 }  // namespace
 
@@ -66,11 +67,12 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("settled_ns", settled_ns);
   writer.Put("eased_for", eased_for);
   writer.Put("seeks", seeks);
+  writer.Put("overtaking", overtaking);
   std::vector<std::uint32_t> tracks;
   std::vector<double> numbers;
   for (const Piece& piece : path) {
     tracks.push_back(piece.track);
-    numbers.insert(numbers.end(), {piece.zero_m, piece.begin_m, piece.offset_m, piece.slope, piece.blend_m, piece.blend_from_m});
+    numbers.insert(numbers.end(), {piece.zero_m, piece.begin_m, piece.offset_m, piece.slope, piece.blend_m, piece.blend_from_m, piece.aside_m});
   }
   writer.Put("tracks", tracks);
   writer.Put("pieces", numbers);
@@ -118,19 +120,20 @@ void Agent::Restore(base::StateReader& reader) {
   reader.Get("settled_ns", settled_ns);
   reader.Get("eased_for", eased_for);
   reader.Get("seeks", seeks);
+  reader.Get("overtaking", overtaking);
   std::vector<std::uint32_t> tracks;
   std::vector<double> numbers;
   reader.Get("tracks", tracks);
   reader.Get("pieces", numbers);
   path.clear();
-  for (std::size_t i = 0; i < tracks.size() && 6 * i + 5 < numbers.size(); ++i) {
-    const double* at = &numbers[6 * i];
-    path.push_back({tracks[i], at[0], at[1], at[2], at[3], at[4], at[5]});
+  for (std::size_t i = 0; i < tracks.size() && kPieceNumbers * (i + 1) <= numbers.size(); ++i) {
+    const double* at = &numbers[kPieceNumbers * i];
+    path.push_back({tracks[i], at[0], at[1], at[2], at[3], at[4], at[5], at[6]});
   }
   on_road = on_road && !is_struck && !path.empty();
 }
 
-// Quintic from (offset, slope) at u = 0 to rest on the middle at u = 1.
+// Quintic from (offset, slope) at u = 0 to rest beside the middle at u = 1.
 PathFrame FrameAt(const lanes::Graph& graph, const std::vector<Piece>& path, double odometer_m) {
   RODEIRA_ASSERT(!path.empty());
   std::size_t i = path.size() - 1;
@@ -144,11 +147,12 @@ PathFrame FrameAt(const lanes::Graph& graph, const std::vector<Piece>& path, dou
   frame.bank = at.bank;
   frame.stretch = at.rate;
   const double u = (odometer_m - piece.blend_from_m) / piece.blend_m;
-  if (u >= 1.0 || u < 0.0 || (piece.offset_m == 0.0 && piece.slope == 0.0)) return frame;
-  const double u2 = u * u, u3 = u2 * u, L = piece.blend_m;
-  const double e = piece.offset_m * (1.0 - u3 * (10.0 - 15.0 * u + 6.0 * u2)) + piece.slope * L * (u - u3 * (6.0 - 8.0 * u + 3.0 * u2));
-  const double e1 = -piece.offset_m / L * 30.0 * u2 * (1.0 - 2.0 * u + u2) + piece.slope * (1.0 - u2 * (18.0 - 32.0 * u + 15.0 * u2));
-  const double e2 = -piece.offset_m / (L * L) * u * (60.0 - 180.0 * u + 120.0 * u2) - piece.slope / L * u * (36.0 - 96.0 * u + 60.0 * u2);
+  const bool blends = u < 1.0 && u >= 0.0 && (piece.offset_m != 0.0 || piece.slope != 0.0);
+  if (!blends && piece.aside_m == 0.0) return frame;
+  const double u1 = blends ? u : 1.0, u2 = u1 * u1, u3 = u2 * u1, L = piece.blend_m;
+  const double e = piece.aside_m + piece.offset_m * (1.0 - u3 * (10.0 - 15.0 * u1 + 6.0 * u2)) + piece.slope * L * (u1 - u3 * (6.0 - 8.0 * u1 + 3.0 * u2));
+  const double e1 = -piece.offset_m / L * 30.0 * u2 * (1.0 - 2.0 * u1 + u2) + piece.slope * (1.0 - u2 * (18.0 - 32.0 * u1 + 15.0 * u2));
+  const double e2 = -piece.offset_m / (L * L) * u1 * (60.0 - 180.0 * u1 + 120.0 * u2) - piece.slope / L * u1 * (36.0 - 96.0 * u1 + 60.0 * u2);
   const Eigen::Vector2d left = at.left_W();
   const double along = at.rate * (1.0 - at.curvature_1pm * e);
   frame.p_W.head<2>() += e * left;
@@ -168,8 +172,8 @@ Piece Onward(const lanes::Graph& graph, const std::vector<Piece>& path, const la
   piece.begin_m = last.zero_m + graph[last.track].length_m();
   piece.zero_m = piece.begin_m - link.from_d_m;
   piece.blend_from_m = piece.begin_m;
-  if (piece.begin_m < last.blend_from_m + last.blend_m && std::fabs(link.offset_m) < kSame_m && std::fabs(link.slope) < kSame) {
-    piece.offset_m = last.offset_m, piece.slope = last.slope, piece.blend_m = last.blend_m, piece.blend_from_m = last.blend_from_m;
+  if ((last.aside_m != 0.0 || piece.begin_m < last.blend_from_m + last.blend_m) && std::fabs(link.offset_m) < kSame_m && std::fabs(link.slope) < kSame) {
+    piece.offset_m = last.offset_m, piece.slope = last.slope, piece.blend_m = last.blend_m, piece.blend_from_m = last.blend_from_m, piece.aside_m = last.aside_m;
     return piece;  // the lane goes on, and so does the change to its middle
   }
   const PathFrame end = FrameAt(graph, path, piece.begin_m);

@@ -9,6 +9,7 @@
 #include "common/driver/footprint.hpp"
 #include "common/lanes/graph.hpp"
 #include "common/traffic/drivetrain.hpp"
+#include "common/traffic/overtaking.hpp"
 #include "common/traffic/struck.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
@@ -33,7 +34,8 @@ struct AgentPose {
 driver::Footprint FootprintOf(const AgentPose& pose, const AgentTraits& traits);
 
 // A part of the path of one agent, by the agent's odometer: the middle of a track, which it approaches from where it came
-// over blend_m from blend_from_m on, offset and slope going to 0 with the smooth polynomials of degree five.
+// over blend_m from blend_from_m on, offset and slope going to 0 with the smooth polynomials of degree five. Who overtakes drives
+// beside that middle, by aside_m, and the offset is from there.
 struct Piece {
   std::uint32_t track = 0;
   double zero_m = 0.0;    // odometer where the track's d is 0
@@ -42,6 +44,7 @@ struct Piece {
   double slope = 0.0;     // of the path against the track there
   double blend_m = 1.0;
   double blend_from_m = 0.0;  // odometer; at begin_m or, where a change of lanes goes on from the track before, earlier
+  double aside_m = 0.0;       // to the left
 };
 
 // A change to the lane beside, in the odometer.
@@ -88,6 +91,7 @@ struct Agent {
   double stopped_m = -1.0;  // odometer of the STOP line at which it has come to rest
   double waited_s = 0.0;    // at rest for others to go first
   LaneChange change;
+  Overtaking overtaking;
   std::int64_t settled_ns = 0;  // until then it keeps to its lane
   std::int64_t eased_for = -1;  // who has come in before it and is still followed nearer than it likes; below 0: nobody
   bool seeks = false;           // drives slower to find a gap beside, for its route

@@ -19,6 +19,7 @@ std::uint32_t TrafficModel::LightsOf(const AgentPose& pose) const {
   std::uint32_t lights = pose.braking ? kBrake : 0;
   if (!agent.on_road) return lights;
   int side = agent.change.side != 0 && agent.o_m < agent.change.to_m ? agent.change.side : 0;
+  if (agent.overtaking.active()) side = agent.overtaking.back ? -agent.overtaking.side : agent.overtaking.side;
   const double to = agent.o_m + 0.5 * traits_[pose.id].length_m + std::max(kIndicates_m, kIndicates_s * agent.speed_mps);
   std::uint32_t track = agent.path.front().track;
   Choice choice{agent.links, agent.leg};

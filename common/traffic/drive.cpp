@@ -60,7 +60,10 @@ double TrafficModel::Wanted(std::uint32_t id) const {
   const driver::SpeedPlan::Allowed allowed = Allowed(id);
   const double planned = allowed.speed_mps * traits.speed_factor;
   const double limit = Desired_mps(id);
-  double wanted = std::min(driver::IdmFreeAcceleration(traits.idm, v, limit),
+  const driver::IdmSettings idm = IdmOf(id);
+  const double free = idm.acceleration_mps2 > traits.idm.acceleration_mps2 ? std::min(idm.acceleration_mps2, (limit - v) / settings_.tracking_s)
+                                                                           : driver::IdmFreeAcceleration(idm, v, limit);
+  double wanted = std::min(free,
                            allowed.slope_1ps * traits.speed_factor * v + (planned - v) / settings_.tracking_s);
   if (planned > Cap_mps(id)) wanted = std::min(wanted, (Cap_mps(id) - v) / settings_.tracking_s);
   if (agent.seeks) wanted = std::min(wanted, std::max(-kSeeking_mps2, (kSeekingShare * planned - v) / settings_.tracking_s));
@@ -68,12 +71,13 @@ double TrafficModel::Wanted(std::uint32_t id) const {
   if (ahead.any && ahead.gap_m < settings_.sight_m) {
     const bool eased = ahead.id >= 0 && ahead.id == agent.eased_for;
     wanted = std::min(wanted, eased ? FollowComing(id, static_cast<std::uint32_t>(ahead.id), ahead.gap_m)
-                                    : driver::IdmAcceleration(traits.idm, v, limit, ahead.gap_m, ahead.speed_mps));
+                                    : driver::IdmAcceleration(idm, v, limit, ahead.gap_m, ahead.speed_mps));
   }
   if (passages_[id].any && passages_[id].due) wanted = std::min(wanted, StopAt(id, passages_[id].line_m));
   if (bars_[id] < kNoBarrier_m) wanted = std::min(wanted, StopAt(id, bars_[id], kYieldingShare));
   wanted = std::min(wanted, leaves_[id]);
-  wanted = std::clamp(wanted, -traits.idm.hardest_mps2, traits.idm.acceleration_mps2);
+  wanted = std::min({wanted, WantedFacing(id, limit), WantedCourteous(id, limit)});
+  wanted = std::clamp(WantedBeside(id, wanted), -idm.hardest_mps2, idm.acceleration_mps2);
   return agent.brake_mps2 > 0.0 ? std::min(wanted, -agent.brake_mps2) : wanted;
 }
 

@@ -116,11 +116,19 @@ std::optional<TrafficModel::Sideways> TrafficModel::Weigh(std::uint32_t id, int 
   return way;
 }
 
+// Whether it is its turn to think of another lane, and it is somewhere and drives so that it may.
+bool TrafficModel::ThinksOfLanes(std::uint32_t id, std::int64_t step_ns) const {
+  const Agent& agent = agents_[id];
+  const std::int64_t now = time_ns_ + (id * kApart_ns) % kEvery_ns;
+  if ((now + step_ns) / kEvery_ns == now / kEvery_ns || time_ns_ < agent.settled_ns || agent.speed_mps < kSlowest_mps) return false;
+  return graph()[agent.path.back().track].junction < 0 && agent.grants.empty() && !passages_[id].due;
+}
+
 // One after the other by their numbers: who has begun is seen by the next.
 void TrafficModel::ChangeLanes(std::int64_t step_ns) {
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     Agent& agent = agents_[id];
-    if (!agent.on_road) continue;
+    if (!agent.on_road || agent.overtaking.active()) continue;
     if (agent.change.side != 0) {
       if (agent.o_m - 0.5 * traits_[id].length_m <= agent.change.to_m) continue;
       agent.change = {};
@@ -128,9 +136,7 @@ void TrafficModel::ChangeLanes(std::int64_t step_ns) {
     }
     const lanes::Track& track = graph()[agent.path.back().track];
     if ((!track.left && !track.right) || !settings_.changes_lanes || agent.brake_mps2 > 0.0) continue;
-    const std::int64_t now = time_ns_ + (id * kApart_ns) % kEvery_ns;
-    if ((now + step_ns) / kEvery_ns == now / kEvery_ns || time_ns_ < agent.settled_ns || agent.speed_mps < kSlowest_mps) continue;
-    if (track.junction >= 0 || !agent.grants.empty() || passages_[id].due) continue;
+    if (!ThinksOfLanes(id, step_ns)) continue;
     std::optional<Sideways> best;
     for (const int side : {1, -1}) {
       auto way = Weigh(id, side);

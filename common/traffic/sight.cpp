@@ -42,6 +42,11 @@ void TrafficModel::FindStretches(std::uint32_t id, double range_m) {
   for (std::size_t i = 0; i < agent.path.size(); ++i) {
     const Piece& piece = agent.path[i];
     const double end = i + 1 < agent.path.size() ? agent.path[i + 1].begin_m : piece.zero_m + graph()[piece.track].length_m();
+    if (i > 0 && agent.path[i - 1].track == piece.track && agent.path[i - 1].zero_m == piece.zero_m) {  // beside its lane's middle, or back
+      stretches.back().end_m = end;
+      stretches.back().changes = end < piece.zero_m + graph()[piece.track].length_m() - kWithout_m;
+      continue;
+    }
     stretches.push_back({piece.track, piece.zero_m, piece.begin_m, end, end < piece.zero_m + graph()[piece.track].length_m() - kWithout_m});
   }
   const Route* route = RouteOf(agent);
@@ -68,7 +73,7 @@ void TrafficModel::SeeOthers(std::span<const driver::Footprint> others) {
       const double c = std::fabs(std::cos(turn)), s = std::fabs(std::sin(turn));
       const double along = 0.5 * (c * other.length_m + s * other.width_m), across = 0.5 * (s * other.length_m + c * other.width_m);
       const double offset = beside.foot.offset_m;
-      blocks_[beside.track].push_back({{d - along, d + along, offset - across, offset + across, other.speed_mps * std::cos(turn)}, d});
+      blocks_[beside.track].push_back({{d - along, d + along, offset - across, offset + across, other.speed_mps * std::cos(turn)}, d, other.id});
     }
   }
 }
@@ -76,10 +81,12 @@ void TrafficModel::SeeOthers(std::span<const driver::Footprint> others) {
 void TrafficModel::See(std::span<const driver::Footprint> others) {
   SeeOthers(others);
   for (auto& occupants : occupants_) occupants.clear();
-  EachDriving([&](std::uint32_t id) {  // and as far as zones are its own, however slowly it drives now
+  for (auto& facing : facing_) facing.clear();
+  is_overtaken_.assign(agents_.size(), 0);
+  EachDriving([&](std::uint32_t id) {  // and as far as zones are its own, however slowly it drives now, or it looks who overtakes
     const Agent& agent = agents_[id];
-    const double seen = std::max(SightOf(agent), agent.granted_m - agent.o_m - 0.5 * traits_[id].length_m);
-    FindStretches(id, people_ ? std::max(seen, StoppingWay(id)) : seen);
+    const double own = agent.granted_m - agent.o_m - 0.5 * traits_[id].length_m;
+    FindStretches(id, std::max({SightOf(agent), own, people_ ? StoppingWay(id) : 0.0, agent.overtaking.active() ? settings_.overtaking.sight_m : 0.0}));
   });
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     const Agent& agent = agents_[id];
@@ -92,6 +99,7 @@ void TrafficModel::See(std::span<const driver::Footprint> others) {
       from = stretch.track;
     }
     if (agent.change.side != 0) AppearOnLaneLeft(id);
+    if (agent.overtaking.active()) FaceOncoming(id);
   }
   for (auto& occupants : occupants_) {
     std::sort(occupants.begin(), occupants.end(), [](const Occupant& a, const Occupant& b) {
@@ -114,16 +122,25 @@ TrafficModel::Ahead TrafficModel::FindAhead(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half;
   const double half_width = 0.5 * traits_[id].width_m + settings_.side_margin_m;
+  const double aside = agent.path.back().aside_m;  // it drives there, and everywhere between
   Ahead ahead, parting;
   const auto consider = [&](const Occupant& other, double zero_m, Ahead& nearest) {
     if (other.id == id || zero_m + other.middle_m() <= agent.o_m + kWithout_m) return;
     const double gap = zero_m + other.rear_m - front;
-    if (!nearest.any || gap < nearest.gap_m) nearest = {gap, agents_[other.id].speed_mps, other.id, true};
+    if (agent.overtaking.active() && IsPassed(agent.overtaking, front, other.id, -1, gap)) return;
+    if (agents_[other.id].overtaking.passed == id && !agents_[other.id].overtaking.back) return;  // it is beside
+    const double side = 0.5 * traits_[other.id].width_m;
+    if (!nearest.any || gap < nearest.gap_m) nearest = {gap, agents_[other.id].speed_mps, other.id, true, -1, traits_[other.id].length_m, side, -side};
   };
   const auto consider_block = [&](const Block& block, double zero_m) {
-    if (zero_m + block.middle_m <= agent.o_m || block.span.right_m > half_width || block.span.left_m < -half_width) return;
+    const bool comes = block.span.speed_mps < 0.0;  // who comes on the lane beside is looked for otherwise (oncoming.cpp)
+    const double left = half_width + (comes ? 0.0 : std::max(0.0, aside)), right = -half_width + (comes ? 0.0 : std::min(0.0, aside));
+    if (zero_m + block.middle_m <= agent.o_m || block.span.right_m > left || block.span.left_m < right) return;
     const double gap = zero_m + block.span.rear_m - front;
-    if (gap < settings_.sight_m && (!ahead.any || gap < ahead.gap_m)) ahead = {gap, block.span.speed_mps, -1, true};
+    if (agent.overtaking.active() && IsPassed(agent.overtaking, front, -1, block.body, gap)) return;
+    if (gap < settings_.sight_m && (!ahead.any || gap < ahead.gap_m)) {
+      ahead = {gap, block.span.speed_mps, -1, true, block.body, block.span.front_m - block.span.rear_m, block.span.left_m, block.span.right_m};
+    }
   };
   std::int64_t before = -1;  // the track by which its own way comes
   for (const Stretch& stretch : stretches_[id]) {

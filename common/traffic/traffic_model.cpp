@@ -17,7 +17,7 @@ constexpr double kEntryClear_m = 12.0;  // from a lane's beginning to its first 
 }  // namespace
 
 TrafficModel::Map::Map(std::shared_ptr<const network::Network> of, const TrafficSettings& settings)
-    : network(std::move(of)), graph(*network), zones(graph, LargestOf(settings)), marks(graph) {
+    : network(std::move(of)), graph(*network), zones(graph, LargestOf(settings)), marks(graph), opposites(lanes::Opposites(graph)), no_overtaking(graph) {
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) plans.emplace_back(graph, track, settings.speed);
   for (const bool clear : {true, false}) {
     for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
@@ -50,6 +50,8 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   occupants_.resize(graph().tracks().size());
   present_.resize(graph().tracks().size());
   blocks_.resize(graph().tracks().size());
+  facing_.resize(graph().tracks().size());
+  is_overtaken_.resize(agents_.size());
   holders_.resize(zones().zones().size());
   comers_.resize(zones().zones().size());
   awaited_.resize(zones().zones().size());
@@ -138,7 +140,9 @@ void TrafficModel::Decide(double dt_s) {
   }
   if (people_) LookAtPeople(dt_s);
   Arbitrate(dt_s);
-  ChangeLanes(std::llround(dt_s * 1e9));
+  const std::int64_t step_ns = std::llround(dt_s * 1e9);
+  ChangeLanes(step_ns);
+  Overtake(step_ns);
   EachDriving([&](std::uint32_t id) { wanted_[id] = Wanted(id); });
   if (full_) EachDriving([&](std::uint32_t id) { DriveFull(id, wanted_[id], dt_s); });
 }
@@ -185,7 +189,7 @@ double TrafficModel::Moved(std::uint32_t id, double travel_m) const {
   const Agent& agent = agents_[id];
   const double rate = Advance(id, agent.o_m + 0.5 * travel_m);
   double odometer = agent.o_m + travel_m / rate;
-  if (std::fabs(rate - 1.0) * travel_m < kGentle_m && agent.change.side == 0) return odometer;
+  if (std::fabs(rate - 1.0) * travel_m < kGentle_m && agent.change.side == 0 && !agent.overtaking.active()) return odometer;
   const auto middle = [&](double o) -> Eigen::Vector2d {
     return 0.5 * (FrameAt(graph(), agent.path, o + HalfBase(id)).p_W + FrameAt(graph(), agent.path, o - HalfBase(id)).p_W).head<2>();
   };
@@ -275,6 +279,7 @@ void TrafficModel::Restore(base::StateReader& reader) {
   for (Agent& agent : agents_) {
     const auto tracks = graph().tracks().size();
     if (agent.entry >= tracks || std::any_of(agent.path.begin(), agent.path.end(), [&](const Piece& p) { return p.track >= tracks; })) agent = Agent();
+    if (agent.overtaking.passed >= static_cast<std::int64_t>(agents_.size())) agent = Agent();
     if (agent.flow >= static_cast<std::int32_t>(flows_.size())) agent.flow = -1;
     const Route* route = RouteOf(agent);
     if (route != nullptr) agent.leg = std::min(agent.leg, route->legs());

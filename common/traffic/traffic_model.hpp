@@ -14,6 +14,7 @@
 #include "common/driver/footprint.hpp"
 #include "common/driver/way.hpp"
 #include "common/lanes/edge_marks.hpp"
+#include "common/lanes/opposite.hpp"
 #include "common/lanes/zones.hpp"
 #include "common/road/world.hpp"
 #include "common/traffic/agent.hpp"
@@ -108,6 +109,8 @@ class TrafficModel {
     lanes::Graph graph;
     lanes::Zones zones;
     lanes::EdgeMarks marks;
+    std::vector<std::int64_t> opposites;  // by track
+    lanes::NoOvertaking no_overtaking;
     std::vector<TrackPlan> plans;  // by track
     std::vector<std::uint32_t> entries;
     std::vector<bool> enters;  // by track: somebody may begin his way there
@@ -145,12 +148,21 @@ class TrafficModel {
   struct Block {
     driver::LaneSpan span;
     double middle_m = 0.0;
+    std::uint32_t body = 0;  // its id
+  };
+  // An agent that overtakes, on the track of those who come towards it, in its d: the front lies before the rear.
+  struct Facing {
+    std::uint32_t id = 0;
+    double front_m = 0.0, rear_m = 0.0;
   };
   struct Ahead {
     double gap_m = 1e9;
     double speed_mps = 0.0;
     std::int64_t id = -1;  // of an agent
     bool any = false;
+    std::int64_t body = -1;  // of a vehicle that is no agent
+    double length_m = 0.0;
+    double left_m = 0.0, right_m = 0.0;  // how far it reaches to both sides of the lane's middle, both to the left
   };
   // Who follows, on a track and up to a place on it.
   struct Behind {
@@ -167,6 +179,12 @@ class TrafficModel {
     int side = 0;
     double surplus_mps2 = 0.0;  // by which it is worth while
     std::vector<Stretch> stretches;
+  };
+  // The lane of oncoming traffic, as who overtakes sees it, in its odometer.
+  struct Oncoming {
+    double from_m = 0.0;     // nobody who comes is nearer than this …
+    double speed_mps = 0.0;  // … nor faster
+    bool own_way = false;    // somebody drives there who overtakes himself
   };
   struct Crossing {
     std::int64_t zone = -1;  // none: only a STOP line
@@ -260,9 +278,32 @@ class TrafficModel {
   double Following(std::uint32_t id, double limit_mps, bool any, double gap_m, double leader_mps) const;
   double Limit_mps(std::uint32_t id, std::uint32_t track, double d_m) const;
   void BeginChange(std::uint32_t id, Sideways&& way);
+  bool ThinksOfLanes(std::uint32_t id, std::int64_t step_ns) const;
   void Appear(std::uint32_t track, const Occupant& occupant);
   void AppearOnLaneLeft(std::uint32_t id);
   std::optional<std::uint32_t> LaneLeft(std::uint32_t id, const Stretch& stretch, double odometer_m) const;
+
+  // Overtaking on the lane of oncoming traffic.
+  void Overtake(std::int64_t step_ns);
+  void FaceOncoming(std::uint32_t id);
+  bool IsHeldUp(std::uint32_t id) const;
+  std::optional<Piece> PieceOut(std::uint32_t id, double top_mps) const;
+  void ThinkOfOvertaking(std::uint32_t id);
+  std::optional<Piece> WeighOvertaking(std::uint32_t id, Overtaking& way);
+  bool MayOvertake(std::uint32_t id, double to_m, double aside_m) const;
+  bool HasRoomBefore(std::uint32_t id, const Overtaking& way, const PassPlan& plan, double top_mps);
+  PassCase CaseOf(std::uint32_t id, const Ahead& passed, double top_mps, double aside_m, double to_m) const;
+  double TopSpeed(std::uint32_t id, double from_m, double to_m) const;
+  Oncoming FindOncoming(std::uint32_t id) const;
+  std::optional<Ahead> FindPassed(std::uint32_t id) const;
+  void DriveOvertaking(std::uint32_t id);
+  bool MayGoBack(std::uint32_t id, bool behind) const;
+  void GoBack(std::uint32_t id);
+  bool IsPassed(const Overtaking& overtaking, double front_m, std::int64_t id, std::int64_t body, double gap_m) const;
+  double WantedBeside(std::uint32_t id, double wanted_mps2) const;
+  driver::IdmSettings IdmOf(std::uint32_t id) const;
+  double WantedFacing(std::uint32_t id, double limit_mps) const;
+  double WantedCourteous(std::uint32_t id, double limit_mps) const;
 
   // Right of way.
   void Arbitrate(double dt_s);
@@ -375,6 +416,8 @@ class TrafficModel {
   std::vector<WayKey> way_keys_;                       // by agent
   std::vector<std::vector<Occupant>> occupants_;       // by track, ascending by their middles
   std::vector<std::vector<Block>> blocks_;             // by track
+  std::vector<std::vector<Facing>> facing_;            // by track
+  std::vector<std::uint8_t> is_overtaken_;             // by agent
   std::vector<Ahead> ahead_;                           // by agent
   std::vector<Passage> passages_;                      // by agent
   std::vector<double> reaches_;                        // by agent: how far its front comes whatever others decide; below 0 not yet told

@@ -39,6 +39,9 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.lane_changes.threshold_mps2 = change.Number("threshold_mps2", {0.0, 2.0}, t.lane_changes.threshold_mps2);
   t.lane_changes.bias_mps2 = change.Number("bias_mps2", {0.0, 2.0}, t.lane_changes.bias_mps2);
   t.lane_changes.safe_mps2 = change.Number("safe_mps2", {0.5, 8.0}, t.lane_changes.safe_mps2);
+  t.overtaking.allowed = change.Flag("overtaking", t.overtaking.allowed);
+  t.overtaking.sight_m = change.Number("overtaking_sight_m", {50.0, 2000.0}, t.overtaking.sight_m);
+  t.overtaking.margin_s = change.Number("overtaking_margin_s", {1.0, 20.0}, t.overtaking.margin_s);
   if (map.Has("pedestrians")) t.pedestrians = ReadPedestrians(map.Child("pedestrians"));
   if (map.Has("mix")) t.mix = ReadMix(map.Child("mix"));
   return t;

@@ -11,6 +11,7 @@
 #include "common/driver/speed_plan.hpp"
 #include "common/lanes/swath.hpp"
 #include "common/traffic/demand_settings.hpp"
+#include "common/traffic/overtaking.hpp"
 #include "common/traffic/pedestrian_settings.hpp"
 
 namespace rodeira::traffic {
@@ -46,6 +47,7 @@ struct TrafficSettings {
   double sight_m = 200.0;
   bool changes_lanes = true;
   driver::MobilSettings lane_changes;
+  OvertakingSettings overtaking;
   VehicleMix mix;         // of who does not belong to a flow with a mix of its own
   DemandSettings demand;  // with flows `vehicles` is how many there are at a time at most; the roads are empty at first
   std::optional<PedestrianSettings> pedestrians;  // none: crossings are nothing to anybody

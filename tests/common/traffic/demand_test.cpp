@@ -197,7 +197,7 @@ TEST(Demand, LanesAreChangedForARoute) {
   RecordProperty("ended", static_cast<int>(ended));
   EXPECT_EQ(static_cast<std::uint64_t>(wrong), missed);
   EXPECT_GT(right, 250);
-  EXPECT_LT(wrong, 0.08 * (right + wrong));
+  EXPECT_LT(wrong, 0.03 * (right + wrong));
   EXPECT_EQ(r.collisions, 0);
   EXPECT_EQ(r.off_lane, 0);
   EXPECT_LE(r.hardest_mps2, 3.0);

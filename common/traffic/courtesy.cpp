@@ -1,0 +1,37 @@
+// Room for those on the lane beside who must come over for their route.
+#include <algorithm>
+
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kCourtesy_mps2 = 1.0;  // braking of who makes room, at most
+
+}  // namespace
+
+// The next one on a lane beside, who finds no gap, is nearer than who is ahead and must come over to this lane, is let in: followed by braking gently.
+double TrafficModel::WantedCourteous(std::uint32_t id, double limit_mps) const {
+  const Agent& agent = agents_[id];
+  const AgentTraits& traits = traits_[id];
+  double wanted = traits.idm.hardest_mps2;
+  const Piece& here = agent.path.back();
+  const lanes::Track& track = graph()[here.track];
+  if ((!track.left && !track.right) || agent.change.side != 0) return wanted;
+  const double d = agent.o_m - here.zero_m;
+  for (const auto& beside : {track.left, track.right}) {
+    if (!beside) continue;
+    const double there = graph().Across(here.track, d, *beside);
+    for (const Occupant& other : Beyond(*beside, there)) {
+      if (other.id == id || other.middle_m() <= there) continue;
+      const double gap = other.rear_m - there - 0.5 * traits.length_m;
+      if (agents_[other.id].seeks && gap < ahead_[id].gap_m && FewerChanges(other.id, here.track) > 0) {
+        wanted = std::min(wanted, std::max(-kCourtesy_mps2, driver::IdmAcceleration(traits.idm, agent.speed_mps, limit_mps, gap, agents_[other.id].speed_mps)));
+      }
+      break;
+    }
+  }
+  return wanted;
+}
+
+}  // namespace rodeira::traffic
