@@ -81,7 +81,7 @@ TEST_F(AnExport, OfTheRoadsAlone) {
   Press(SDL_SCANCODE_E, KMOD_CTRL);
   Write(At("alone.xodr").string());
   Press(SDL_SCANCODE_RETURN);
-  EXPECT_EQ(Said(), "exported alone.xodr: 3 roads, 1 junctions");
+  EXPECT_EQ(Said(), "exported alone.xodr: 5 roads, 1 junctions");  // three lanes, and two ways through where they part
   EXPECT_TRUE(std::filesystem::exists(At("alone.xodr")));
   EXPECT_FALSE(std::filesystem::exists(At("alone.yaml")));
 }
