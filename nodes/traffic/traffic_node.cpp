@@ -19,14 +19,19 @@ namespace topics = idl::topics;
 
 float Single(double value) { return static_cast<float>(value); }
 
+msg::TrafficAgent Standing(std::uint32_t id, std::uint32_t trip, const Eigen::Vector3d& p_W) {
+  msg::TrafficAgent out;
+  out.id(id);
+  out.trip(trip);
+  out.position_x_m(p_W.x());
+  out.position_y_m(p_W.y());
+  out.position_z_m(p_W.z());
+  return out;
+}
+
 msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTraits& traits, std::uint32_t lights) {
   const Eigen::Matrix3d rotation = pose.q_WB.toRotationMatrix();
-  msg::TrafficAgent out;
-  out.id(pose.id);
-  out.trip(pose.trip);
-  out.position_x_m(pose.p_WB_W.x());
-  out.position_y_m(pose.p_WB_W.y());
-  out.position_z_m(pose.p_WB_W.z());
+  msg::TrafficAgent out = Standing(pose.id, pose.trip, pose.p_WB_W);
   out.heading_rad(Single(std::atan2(rotation(1, 0), rotation(0, 0))));
   out.pitch_rad(Single(std::asin(std::clamp(-rotation(2, 0), -1.0, 1.0))));
   out.roll_rad(Single(std::atan2(rotation(2, 1), rotation(2, 2))));
@@ -48,12 +53,7 @@ msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTra
 // Level, with no lights; the wheel that its legs go by turns once in two steps.
 msg::TrafficAgent ToWire(const traffic::PersonPose& pose) {
   constexpr std::uint32_t kPedestrian = 4;  // traffic.idl
-  msg::TrafficAgent out;
-  out.id(pose.id);
-  out.trip(pose.trip);
-  out.position_x_m(pose.p_W.x());
-  out.position_y_m(pose.p_W.y());
-  out.position_z_m(pose.p_W.z());
+  msg::TrafficAgent out = Standing(pose.id, pose.trip, pose.p_W);
   out.heading_rad(Single(pose.heading_rad));
   out.speed_mps(pose.speed_mps);
   out.length_m(Single(traffic::Pedestrians::kLength_m));

@@ -1,23 +1,14 @@
+// What is seen of a surface, by its material.
 #include "nodes/view/shaders.hpp"
 
 #include <fmt/format.h>
 
 #include "common/scene/car_lights.hpp"
 #include "common/scene/heat_raster.hpp"
+#include "nodes/view/air_glsl.hpp"
 
 namespace rodeira::view {
 namespace {
-
-// The sky over a direction given by its height (1: zenith), without sun and clouds; haze and fog have its horizon's colour.
-constexpr const char* kAir = R"(
-uniform vec3 horizon_colour;
-uniform vec3 zenith_colour;
-uniform float fog_per_m;
-vec3 FogColour() { return horizon_colour * vec3(0.93, 0.96, 1.0); }
-vec3 SkyColour(float up) { return mix(horizon_colour, zenith_colour, pow(clamp(up, 0.0, 1.0), 0.55)); }
-// How much of what is so far off is seen through the haze.
-float Clear(float distance_m) { return exp(-pow(distance_m * 1.6e-4, 1.3) - fog_per_m * distance_m); }
-)";
 
 constexpr const char* kHead = R"(#version 120
 #pragma import_defines(HEADLIGHTS, WET, SUN_SHADOW, SOFT_SHADOW, FINE, FOG, HEAT)
@@ -246,45 +237,10 @@ vec3 Look() { return mix(gl_Color.rgb * light, vec3(1.0, 0.95, 0.55), 0.65 * pul
 vec3 Look() { return gl_Color.rgb * light; })";
 }
 
-// The sky without the sun itself. `FINE`: asked at every pixel, otherwise at the dome's vertices.
-std::string SkyHead() {
-  return std::string(R"(#version 120
-#pragma import_defines(FINE)
-varying vec3 direction;
-uniform vec3 sun_world;
-uniform float sun_disc;
-uniform float clouds;
-uniform float cloud_light;
-uniform sampler2D noise;
-#ifndef FINE
-varying vec3 sky;
-#endif
-)") + kAir + R"(
-vec3 CloudySky(vec3 d) {
-  vec3 colour = SkyColour(d.z);
-  vec2 cloud_at = d.xy / (max(d.z, 0.0) + 0.12);
-  float cloud = texture2D(noise, cloud_at * 0.11).g * 0.6 + texture2D(noise, cloud_at * 0.31 + 0.37).g * 0.3 + texture2D(noise, cloud_at * 0.9).g * 0.1;
-  float low = 0.52 + (0.3 - clouds) * (clouds < 0.3 ? 1.2 : 0.6);
-  float cover = smoothstep(low, low + 0.26, cloud) * smoothstep(0.02, 0.25, d.z);
-  return mix(colour, vec3(0.97, 0.97, 0.98) * cloud_light, 0.75 * cover);
-}
-vec3 SunLit(vec3 colour, vec3 d) {
-  float towards = max(dot(d, sun_world), 0.0);
-  return colour + sun_disc * vec3(1.0, 0.92, 0.75) * (0.25 * pow(towards, 24.0) + 2.0 * pow(towards, 1800.0));
-}
-// Beyond the edge of the world there is land, far and hazy. The fog is 300 m thick.
-vec3 OverLand(vec3 colour, vec3 d) {
-  float bright = dot(horizon_colour, vec3(0.30, 0.59, 0.11)) / 0.85;
-  colour = mix(colour, vec3(0.52, 0.57, 0.42) * bright, 0.85 * (1.0 - smoothstep(-0.06, 0.0, d.z)));
-  return mix(FogColour(), colour, exp(-fog_per_m * 300.0 / max(d.z, 0.02)));
-}
-)";
-}
-
 }  // namespace
 
 std::string VertexShader(scene::Material material) {
-  return std::string(kHead) + kAir + (material == scene::Material::kCarLamp ? fmt::format("#define LAMPS {}\n", scene::kLamps) : std::string()) + R"(
+  return std::string(kHead) + kAirGlsl + (material == scene::Material::kCarLamp ? fmt::format("#define LAMPS {}\n", scene::kLamps) : std::string()) + R"(
 varying vec2 on_face;
 #ifdef LAMPS
 uniform float glows[LAMPS];
@@ -333,7 +289,7 @@ std::string FragmentShader(scene::Material material) {
   const bool stone = material == scene::Material::kRoad || material == scene::Material::kConcrete;
   const bool lies = scene::IsGround(material);
   const std::string heat = lies ? fmt::format("\n#define HEAT_SURFACE {:.3f}\n#define HEAT_SHARE {:.3f}\n{}", scene::kHeatSurface_m, scene::kHeatShare, kHeat) : "\nvec3 Heated(vec3 seen) { return seen; }";
-  return std::string(kHead) + kAir + kLight + (stone ? kWater : "") + FragmentBody(material) + heat + R"(
+  return std::string(kHead) + kAirGlsl + kLight + (stone ? kWater : "") + FragmentBody(material) + heat + R"(
 void main() {
   light = daylight;
 #ifdef SUN_SHADOW
@@ -347,103 +303,6 @@ void main() {
   float clear = Clear(length(at_eye));
 #endif
   gl_FragColor = vec4(Heated(mix(FogColour(), Look(), clear)), 1.0);
-}
-)";
-}
-
-std::string SkyVertexShader() {
-  return SkyHead() + R"(
-void main() {
-  direction = gl_Vertex.xyz;
-#ifndef FINE
-  sky = OverLand(SunLit(CloudySky(direction), direction), direction);
-#endif
-  vec4 p = gl_ProjectionMatrix * vec4(mat3(gl_ModelViewMatrix) * gl_Vertex.xyz, 1.0);
-  gl_Position = vec4(p.xy, p.w * 0.999999, p.w);
-}
-)";
-}
-
-std::string SkyFragmentShader() {
-  return SkyHead() + R"(
-void main() {
-#ifdef FINE
-  vec3 d = normalize(direction);
-  gl_FragColor = vec4(min(OverLand(SunLit(CloudySky(d), d), d), 1.0), 1.0);
-#else
-  gl_FragColor = vec4(min(sky, 1.0), 1.0);
-#endif
-}
-)";
-}
-
-std::string ShadowVertexShader() {
-  return R"(#version 120
-varying vec2 part;
-void main() {
-  part = gl_MultiTexCoord0.xy;
-  gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
-}
-)";
-}
-
-std::string ShadowFragmentShader() {
-  return R"(#version 120
-#pragma import_defines(SUN_SHADOW)
-varying vec2 part;
-uniform vec3 sun_light;
-void main() {
-#ifdef SUN_SHADOW
-  float dark = 0.3;  // of the sky, which the car hides; the sun's own shadow is elsewhere
-#else
-  float dark = 0.25 + 0.37 * sun_light.g / 0.73;
-#endif
-  vec2 inner = 1.0 - smoothstep(vec2(0.62, 0.45), vec2(1.0), abs(part));
-  gl_FragColor = vec4(0.05, 0.06, 0.09, dark * inner.x * inner.y);
-}
-)";
-}
-
-std::string DepthVertexShader() {
-  return R"(#version 120
-void main() { gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex; }
-)";
-}
-
-std::string DepthFragmentShader() {
-  return R"(#version 120
-void main() { gl_FragColor = vec4(1.0); }
-)";
-}
-
-std::string RainVertexShader() {
-  return R"(#version 120
-varying vec2 at;
-void main() {
-  at = gl_Vertex.xy;
-  gl_Position = vec4(gl_Vertex.xy, 0.0, 1.0);
-}
-)";
-}
-
-std::string RainFragmentShader() {
-  return R"(#version 120
-varying vec2 at;
-uniform float rain;
-uniform float aspect;
-uniform float time_s;
-uniform vec3 horizon_colour;
-uniform sampler2D noise;
-// Drops nearer to the eye are longer, wider apart and faster.
-float Streaks(float apart, float fall) {
-  vec2 p = vec2(at.x * aspect + 0.06 * at.y, at.y) / apart;
-  float drop = texture2D(noise, vec2(p.x, 0.035 * p.y + fract(fall * time_s))).r;
-  float edge = 0.82 - 0.24 * rain;
-  return smoothstep(edge, edge + 0.12, drop);
-}
-void main() {
-  float seen = 0.5 * Streaks(0.55, 0.9) + 0.4 * Streaks(0.9, 1.3) + 0.3 * Streaks(1.6, 1.9);
-  gl_FragColor = vec4(min(horizon_colour * 1.15 + 0.04, 1.0), 0.7 * seen * sqrt(rain));
 }
 )";
 }

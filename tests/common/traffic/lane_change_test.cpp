@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "common/traffic/study.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/traffic/digest_of.hpp"
+#include "tests/common/traffic/ring.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -20,17 +21,8 @@ constexpr double kExact_mps2 = 1e-3;  // what a centimetre of gap makes at most:
 // Two lanes of one direction around a circle to the left, each going on into itself, with a mark of the given type between
 // them. One keeps to lane 2, the road's outer one; in left-hand traffic it lies towards the circle's middle.
 std::shared_ptr<const network::Network> TwoLaneRing(const std::string& mark = "broken", bool left_hand = false) {
-  opendrive::RoadText road;
-  road.length = kRound * kRadius_m;
-  if (left_hand) road.attributes += " rule=\"LHT\"";
-  road.link = "<predecessor elementType=\"road\" elementId=\"1\" contactPoint=\"end\"/>"
-              "<successor elementType=\"road\" elementId=\"1\" contactPoint=\"start\"/>";
-  road.geometry = fmt::format("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"{0:.17g}\"><arc curvature=\"{1:.17g}\"/></geometry>", road.length, 1.0 / kRadius_m);
-  const auto lane = [&](int id) {
-    return fmt::format("<lane id=\"{0}\" type=\"driving\"><link><predecessor id=\"{0}\"/><successor id=\"{0}\"/></link>"
-                       "<width sOffset=\"0\" a=\"{1}\" b=\"0\" c=\"0\" d=\"0\"/><roadMark sOffset=\"0\" type=\"{2}\" color=\"white\" width=\"0.12\"/>"
-                       "<speed sOffset=\"0\" max=\"{3}\" unit=\"m/s\"/></lane>", id, kLaneWidth_m, std::abs(id) == 1 ? mark : "solid", kLimit_mps);
-  };
+  opendrive::RoadText road = CircleRoad(kRound * kRadius_m, left_hand);
+  const auto lane = [&](int id) { return CircleLane(id, kLimit_mps, Mark(std::abs(id) == 1 ? mark : "solid")); };
   road.left = left_hand ? lane(2) + lane(1) : "";
   road.right = left_hand ? "" : lane(-1) + lane(-2);
   return opendrive::MustRead(opendrive::Document(road.Text()));
@@ -53,9 +45,9 @@ struct Seen {
   bool changing;
 };
 
-class Ring {
+class RingSeen {
  public:
-  explicit Ring(const TrafficModel& model, bool left_hand = false) : model_(model), left_hand_(left_hand) {
+  explicit RingSeen(const TrafficModel& model, bool left_hand = false) : model_(model), left_hand_(left_hand) {
     for (const AgentPose& pose : model.poses()) {
       const double x = pose.p_WB_W.x(), y = pose.p_WB_W.y() - kRadius_m, r = std::hypot(x, y);
       const int lane = std::fabs(r - RadiusOf(1)) < std::fabs(r - RadiusOf(2)) ? 1 : 2;
@@ -145,8 +137,8 @@ void ChangesAsMobilSays(bool left_hand) {
     TrafficModel model = TrafficModel::Make(Drivers(40, seed), network, {}).value();
     std::map<std::uint32_t, double> due_s, settled_s;
     for (int i = 0; i < 8000; ++i) {
-      const Ring before(model, left_hand);
-      std::map<std::uint32_t, Ring::Verdict> verdicts;
+      const RingSeen before(model, left_hand);
+      std::map<std::uint32_t, RingSeen::Verdict> verdicts;
       for (const Seen& s : before.seen()) {
         if (s.changing) settled_s[s.id] = 0.0;
         else settled_s[s.id] += 0.02;
@@ -205,7 +197,7 @@ TEST(LaneChange, ASlowOneIsPassedByEverybody) {
   int inside = 0;  // on the side to pass on
   for (int i = 0; i < 30000; ++i) {
     model.Step(0.02, {});
-    const Ring ring(model);
+    const RingSeen ring(model);
     const Seen& slow = ring.seen()[5];
     for (const Seen& s : ring.seen()) {
       const double gained = std::remainder(s.angle - slow.angle, kRound);
@@ -279,12 +271,6 @@ TEST(LaneChange, IsComfortable) {
   EXPECT_LE(lateral, 3.0);
   EXPECT_LE(jerk, 3.0);
   EXPECT_LE(yaw, 200.0 * std::numbers::pi / 180.0);
-}
-
-base::Digest DigestOf(const TrafficModel& model) {
-  base::StateWriter writer;
-  model.Save(writer);
-  return writer.digest();
 }
 
 TEST(LaneChange, RestoredInTheMiddleOfAChangeItGoesOnWithTheSameBits) {

@@ -10,17 +10,13 @@
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/traffic/digest_of.hpp"
+#include "tests/common/traffic/duration.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 using NetworkPointer = std::shared_ptr<const network::Network>;
-
-// Simulated seconds of each run; RODEIRA_TRAFFIC_FOR makes it longer (tests/run --endurance).
-double Duration() {
-  const char* text = std::getenv("RODEIRA_TRAFFIC_FOR");
-  return text == nullptr ? 120.0 : std::strtod(text, nullptr);
-}
 
 std::string Told(const StudyResult& result) {
   std::string told;
@@ -126,12 +122,6 @@ TEST(NetworkTraffic, ManySeedsAtTheCrossing) {
     EXPECT_EQ(r.collisions, 0) << "seed " << seed << Told(r);
     EXPECT_GT(r.arrivals, 2) << "seed " << seed;
   }
-}
-
-base::Digest DigestOf(const TrafficModel& model) {
-  base::StateWriter writer;
-  model.Save(writer);
-  return writer.digest();
 }
 
 // Junctions, changes of lanes, lorries and flows with routes: the state, and what is published of it.

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
 #include "tests/common/opendrive/sample.hpp"
+#include "tests/common/traffic/digest_of.hpp"
+#include "tests/common/traffic/duration.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/with_crossings.hpp"
 
@@ -17,11 +18,6 @@ namespace rodeira::traffic {
 namespace {
 
 using NetworkPointer = std::shared_ptr<const network::Network>;
-
-double Duration() {
-  const char* text = std::getenv("RODEIRA_TRAFFIC_FOR");
-  return text == nullptr ? 120.0 : std::strtod(text, nullptr);
-}
 
 // Looks at everybody on foot at one moment.
 class PeopleWatcher {
@@ -75,7 +71,6 @@ void NobodyIsTouched(const std::string& name, const NetworkPointer& network, std
   EXPECT_EQ(r.on_road + r.waiting, vehicles) << name;
   EXPECT_GT(watcher.crossed, 0u) << name;
   testing::Test::RecordProperty(name, fmt::format("crossed {}, longest wait {:.1f} s, hardest {:.2f} m/s2, driven {:.1f} km, stood {:.0f} of {:.0f} s", watcher.crossed, watcher.longest_wait_s, r.hardest_mps2, r.driven_km, r.standing_s, r.vehicle_s));
-  if (std::getenv("RODEIRA_TELL") != nullptr) fmt::print("{}: crossed {}, longest wait {:.1f} s, hardest {:.2f} m/s2, driven {:.1f} km, stood {:.0f} of {:.0f} s\n", name, watcher.crossed, watcher.longest_wait_s, r.hardest_mps2, r.driven_km, r.standing_s, r.vehicle_s);
 }
 
 TEST(Pedestrians, NobodyIsTouchedOnTheMaps) {
@@ -87,12 +82,6 @@ TEST(Pedestrians, NobodyIsTouchedInTheRealFiles) {
   for (const char* file : {"carla_Town04.xodr", "esmini_fabriksgatan.xodr", "esmini_multi_intersections.xodr"}) {
     NobodyIsTouched(file, WithCrossings(*opendrive::LoadNetwork(lanes::RealFolder() / file).value()), std::string(file) == "carla_Town04.xodr" ? 100 : 25, 120.0);
   }
-}
-
-base::Digest DigestOf(const TrafficModel& model) {
-  base::StateWriter writer;
-  model.Save(writer);
-  return writer.digest();
 }
 
 TrafficSettings WithPeople(std::uint32_t vehicles, double per_h) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string>
 
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/opendrive/sample.hpp"
@@ -11,17 +12,34 @@ namespace rodeira::traffic {
 
 inline constexpr double kRingLimit_mps = 15.0;
 
-// One lane around a circle, going on into itself.
-inline std::shared_ptr<const network::Network> Ring(double length_m, double limit_mps = kRingLimit_mps) {
+// A road around a circle to the left, going on into itself, which still has a sample's lanes.
+inline opendrive::RoadText CircleRoad(double length_m, bool left_hand = false) {
   opendrive::RoadText road;
   road.length = length_m;
+  if (left_hand) road.attributes += " rule=\"LHT\"";
   road.link = "<predecessor elementType=\"road\" elementId=\"1\" contactPoint=\"end\"/>"
               "<successor elementType=\"road\" elementId=\"1\" contactPoint=\"start\"/>";
   road.geometry = fmt::format("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"{0}\"><arc curvature=\"{1:.17g}\"/></geometry>", length_m,
                               2.0 * std::numbers::pi / length_m);
+  return road;
+}
+
+// A lane of such a road, 3.5 m wide, with this limit and, where it has them, these marks at its outer edge.
+inline std::string CircleLane(int id, double limit_mps, const std::string& marks = "") {
+  return fmt::format("<lane id=\"{0}\" type=\"driving\"><link><predecessor id=\"{0}\"/><successor id=\"{0}\"/></link>"
+                     "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>{1}<speed sOffset=\"0\" max=\"{2}\" unit=\"m/s\"/></lane>", id, marks, limit_mps);
+}
+
+// A mark of this type along a lane's edge, from s on.
+inline std::string Mark(const std::string& type, double from_m = 0.0) {
+  return fmt::format("<roadMark sOffset=\"{}\" type=\"{}\" color=\"white\" width=\"0.12\"/>", from_m, type);
+}
+
+// One lane of it.
+inline std::shared_ptr<const network::Network> Ring(double length_m, double limit_mps = kRingLimit_mps) {
+  opendrive::RoadText road = CircleRoad(length_m);
   road.left = "";
-  road.right = fmt::format("<lane id=\"-1\" type=\"driving\"><link><predecessor id=\"-1\"/><successor id=\"-1\"/></link>"
-                           "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" max=\"{}\" unit=\"m/s\"/></lane>", limit_mps);
+  road.right = CircleLane(-1, limit_mps);
   return opendrive::MustRead(opendrive::Document(road.Text()));
 }
 

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "common/base/state.hpp"
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+
+// Of all that a model saves.
+inline base::Digest DigestOf(const TrafficModel& model) {
+  base::StateWriter writer;
+  model.Save(writer);
+  return writer.digest();
+}
+
+}  // namespace rodeira::traffic
