@@ -23,11 +23,33 @@ struct Network::Hit {
   Place place;  // without a height until SetHeight
   Claim claim;
   double outside_m = 0.0;  // across, without the height
+  bool has_height = false;  // place.z_m is known already
   LaneSpan span;
   geometry::PlanPoint at;  // the reference line at place.s_m
 };
 
 Network::Hit Network::Try(const Eigen::Vector2d& p_W, std::uint32_t band_index) const {
+  const BandRecord& record = records_.Of(band_index);
+  if (!(record.from_s_m < record.to_s_m)) return TryRoad(p_W, band_index);
+  const geometry::PlanAxis& axis = spec_.roads[record.road].axis();
+  const geometry::AxisFoot foot = axis.Foot(record.panel, p_W);
+  const double found = record.panel.middle_s_m + foot.u_m, s = std::clamp(found, record.low_s_m, record.high_s_m), t = foot.t_m;
+  if (!record.Holds(s)) return TryRoad(p_W, band_index);
+  const double beyond = std::fabs(foot.beyond_m) + std::fabs(found - s);
+  const geometry::CubicPoint centre{record.centre_t.Value(s), record.centre_t.Slope(s), 0.0};
+  const BandRecords::LaneAt lane = records_.At(record, s, t, centre);
+  Hit hit;
+  hit.span = lane.span;
+  hit.outside_m = lane.outside_m;
+  if (beyond > (s <= record.low_s_m ? record.closed_before_m : record.closed_behind_m)) hit.outside_m = std::sqrt(hit.outside_m * hit.outside_m + beyond * beyond);
+  hit.at = s == found ? foot.at : axis.At(record.panel, s - record.panel.middle_s_m);
+  hit.claim = {beyond > 0.0, lane.drivable, lane.id == 0 ? 0.0 : std::fabs(t - lane.span.centre_t_m()), band_index};
+  hit.place = {{record.road, record.section, lane.id}, s, t, 0.0, hit.outside_m};
+  if (record.flat) hit.place.z_m = record.elevation.Value(s), hit.has_height = true;
+  return hit;
+}
+
+Network::Hit Network::TryRoad(const Eigen::Vector2d& p_W, std::uint32_t band_index) const {
   const Band& band = index_.bands()[band_index];
   const Road& road = spec_.roads[band.road];
   const geometry::AxisPanel& panel = road.axis().panels()[band.panel];
@@ -67,7 +89,7 @@ SurfaceSample Network::SurfaceAt(const Hit& hit) const {
 
 void Network::SetHeight(std::optional<double> z_m, Hit& hit) const {
   const Road& road = spec_.roads[hit.place.lane.road];
-  hit.place.z_m = road.flat() ? road.spec().elevation.Value(hit.place.s_m) : SurfaceAt(hit).p_W.z();
+  if (!hit.has_height) hit.place.z_m = road.flat() ? road.spec().elevation.Value(hit.place.s_m) : SurfaceAt(hit).p_W.z();
   if (!z_m) return;
   const double above = std::max(0.0, std::fabs(*z_m - hit.place.z_m) - kLevel_m);
   if (above > 0.0) hit.place.distance_m = std::sqrt(hit.outside_m * hit.outside_m + above * above);
@@ -91,8 +113,14 @@ std::optional<Place> Network::Locate(double x_m, double y_m, std::optional<doubl
   const Eigen::Vector2d p(x_m, y_m);
   thread_local std::vector<Hit> hits;
   hits.clear();
+  thread_local std::vector<std::uint32_t> near;
+  near.clear();
   for (const std::uint32_t band : index_.Around(p)) {
     if (!index_.bands()[band].Holds(p)) continue;
+    near.push_back(band);
+    records_.Fetch(band);
+  }
+  for (const std::uint32_t band : near) {
     Hit hit = Try(p, band);
     if (hit.outside_m > 0.0) continue;
     SetHeight(z_m, hit);
@@ -122,7 +150,7 @@ std::optional<Place> Network::LocateSlowly(double x_m, double y_m, std::optional
   std::vector<Hit> hits;
   std::optional<Hit> best;
   for (std::uint32_t band = 0; band < index_.bands().size(); ++band) {
-    Hit hit = Try({x_m, y_m}, band);
+    Hit hit = TryRoad({x_m, y_m}, band);
     SetHeight(z_m, hit);
     if (hit.place.distance_m == 0.0) hits.push_back(hit);
     if (!best || hit.place.distance_m < best->place.distance_m) best = hit;

@@ -18,7 +18,7 @@ Eigen::Vector2d GeoOffset::FromMap(const Eigen::Vector2d& p_map) const {
   return {x * cosine + y * sine, y * cosine - x * sine};
 }
 
-Network::Network(NetworkSpec spec) : spec_(std::move(spec)), index_(spec_.roads, kClosed_m) {
+Network::Network(NetworkSpec spec) : spec_(std::move(spec)), index_(spec_.roads, kClosed_m), records_(spec_.roads, index_) {
   for (std::uint32_t i = 0; i < spec_.roads.size(); ++i) road_by_id_.emplace(spec_.roads[i].id(), i);
   for (std::uint32_t i = 0; i < spec_.junctions.size(); ++i) junction_by_id_.emplace(spec_.junctions[i].id, i);
   for (const Junction& junction : spec_.junctions) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/network/band_index.hpp"
+#include "common/network/band_record.hpp"
 #include "common/network/junction.hpp"
 #include "common/network/road.hpp"
 
@@ -96,6 +97,8 @@ class Network {
   static constexpr double kFarthest_m = 1e8;
 
   explicit Network(NetworkSpec spec);
+  Network(const Network&) = delete;  // records point into the roads
+  Network& operator=(const Network&) = delete;
 
   const std::string& name() const { return spec_.name; }
   const std::string& geo_reference() const { return spec_.geo_reference; }
@@ -112,7 +115,7 @@ class Network {
   // drivable one, then the one whose middle is nearest, then the first road. Beside all roads: the nearest. Nothing
   // where there is no road, or a coordinate is not finite or beyond kFarthest_m.
   std::optional<Place> Locate(double x_m, double y_m, std::optional<double> z_m = std::nullopt, Hint* hint = nullptr) const;
-  // The same without any index, for tests.
+  // The same without any index or record, for tests.
   std::optional<Place> LocateSlowly(double x_m, double y_m, std::optional<double> z_m = std::nullopt) const;
   // Every road's surface at (x, y), from the highest to the lowest.
   void Surfaces(double x_m, double y_m, std::vector<Surfacing>& surfaces) const;
@@ -157,6 +160,8 @@ class Network {
     std::vector<LaneEnd> at_start, at_end;
   };
   Hit Try(const Eigen::Vector2d& p_W, std::uint32_t band) const;
+  // The same bits, asked of the road.
+  Hit TryRoad(const Eigen::Vector2d& p_W, std::uint32_t band) const;
   SurfaceSample SurfaceAt(const Hit& hit) const;
   void SetHeight(std::optional<double> z_m, Hit& hit) const;
   std::optional<Place> Choose(std::vector<Hit>& hits, bool known_height) const;
@@ -169,6 +174,7 @@ class Network {
   std::map<std::string, std::uint32_t, std::less<>> road_by_id_, junction_by_id_;
   std::vector<const JunctionGround*> grounds_;
   BandIndex index_;
+  BandRecords records_;
   std::vector<std::vector<std::uint32_t>> first_lane_;  // by road and section: the number of its lane of lowest id
   std::vector<Ends> ends_;                              // by the lane's number
 };
