@@ -59,7 +59,8 @@ std::string DriverValue(const StartFiles& files, const StartChoice& choice) {
   if (choice.driver == StartDriver::kAutopilot) {
     return fmt::format("{{source: autopilot, driver: ../configs/drivers/default.yaml, vehicle: {}}}", Quoted(Named(files.root, choice.vehicle)));
   }
-  return choice.wheel.empty() ? "{source: joystick}" : fmt::format("{{source: joystick, wheel: {}}}", Quoted(Named(files.root, choice.wheel)));
+  if (choice.driver == StartDriver::kPad) return "{source: gamepad}";
+  return choice.wheel.empty() ? "{source: joystick, keyboard: ../configs/drivers/keyboard.yaml}" : fmt::format("{{source: joystick, wheel: {}}}", Quoted(Named(files.root, choice.wheel)));
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ StartFiles FindStartFiles(const std::filesystem::path& root, const std::filesyst
 // The folder with launch/ and configs/ at or above one of these, the nearest first; empty where there is none.
 std::filesystem::path FindStartRoot(const std::vector<std::filesystem::path>& near);
 
-enum class StartDriver { kKeyboard, kWheel, kAutopilot };
+enum class StartDriver { kKeyboard, kWheel, kPad, kAutopilot };
 enum class StartWay { kDrive, kWatch };
 
 struct StartChoice {

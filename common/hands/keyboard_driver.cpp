@@ -1,9 +1,9 @@
 #include "common/hands/keyboard_driver.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/base/assert.hpp"
+#include "common/hands/turn_wheel.hpp"
 
 namespace rodeira::hands {
 namespace {
@@ -13,27 +13,12 @@ double MovePedal(double value, bool held, const PedalRates& rates, double dt_s) 
   return std::max(0.0, value - dt_s / rates.release_s);
 }
 
-// The wheel after dt_s: first back towards the middle where the target lies there, then outwards with what is left of dt_s.
-double TurnWheel(double wheel, double target, double out_radps, double back_radps, double dt_s) {
-  const bool across = wheel * target < 0.0;
-  if (across || std::fabs(target) < std::fabs(wheel)) {
-    const double goal = across ? 0.0 : target;
-    const double needed_s = std::fabs(wheel - goal) / back_radps;
-    if (needed_s > dt_s) return wheel - std::copysign(back_radps * dt_s, wheel);
-    wheel = goal;
-    dt_s -= needed_s;
-  }
-  if (wheel == target) return wheel;
-  return wheel + std::copysign(std::min(out_radps * dt_s, std::fabs(target - wheel)), target - wheel);
-}
-
 }  // namespace
 
 vehicle::Controls KeyboardDriver::Step(const KeyboardInput& input, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0);
   const auto held = [&](Action action) { return input.held[static_cast<std::size_t>(action)]; };
-  const double ratio = input.speed_mps / settings_.half_lock_speed_mps;
-  const double lock = settings_.lock_rad / (1.0 + ratio * ratio);
+  const double lock = LockAt(settings_.lock_rad, input.speed_mps, settings_.half_lock_speed_mps);
   const double direction = (held(Action::kSteerLeft) ? 1.0 : 0.0) - (held(Action::kSteerRight) ? 1.0 : 0.0);
   wheel_rad_ = TurnWheel(wheel_rad_, direction * lock, lock / settings_.turn_s, lock / settings_.centre_s, dt_s);
   throttle_ = MovePedal(throttle_, held(Action::kThrottle), settings_.throttle, dt_s);

@@ -118,7 +118,7 @@ void ExceptLiveInput(const std::vector<config::Map>& maps, std::vector<LaunchNod
 bool LaunchNode::is_live() const {
   if (kind->name == "scenario") return takes_requests();
   const auto source = config->Peek({"config", "source"});
-  return kind->name == "input" && source && (*source == "keyboard" || *source == "joystick");
+  return kind->name == "input" && source && (*source == "keyboard" || *source == "joystick" || *source == "gamepad");
 }
 
 bool LaunchNode::takes_requests() const { return kind->name == "scenario" && config->Peek({"config", "requests"}) == "true"; }

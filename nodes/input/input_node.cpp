@@ -9,6 +9,7 @@
 #include "nodes/input/autopilot_source.hpp"
 #include "nodes/input/joystick_source.hpp"
 #include "nodes/input/keyboard_source.hpp"
+#include "nodes/input/pad_source.hpp"
 #include "nodes/input/script_source.hpp"
 #include "nodes/input/source.hpp"
 
@@ -92,10 +93,11 @@ base::Result<std::unique_ptr<Source>> MakeScript(const config::Map& config, laun
 }
 
 base::Result<std::unique_ptr<Source>> MakeSource(const config::Map& config, launch::NodeContext& context) {
-  const std::string source = config.Choice("source", {"script", "autopilot", "keyboard", "joystick"});
+  const std::string source = config.Choice("source", {"script", "autopilot", "keyboard", "joystick", "gamepad"});
   if (source == "autopilot") return MakeAutopilotSource(config, context);
   if (source == "keyboard") return MakeKeyboardSource(config, context);
   if (source == "joystick") return MakeJoystickSource(config, context);
+  if (source == "gamepad") return MakePadSource(config, context);
   return MakeScript(config, context);
 }
 
@@ -104,7 +106,9 @@ base::Result<std::unique_ptr<Source>> MakeSource(const config::Map& config, laun
 base::Result<std::unique_ptr<lockstep::Node>> MakeInputNode(launch::NodeContext& context) {
   auto source = MakeSource(context.config(), context);
   if (!source) return source.error();
-  return std::unique_ptr<lockstep::Node>(std::make_unique<InputNode>(std::move(source).value(), context.roster().base_step_ns()));
+  return InputNodeOf(std::move(source).value(), context.roster().base_step_ns());
 }
+
+std::unique_ptr<lockstep::Node> InputNodeOf(std::unique_ptr<Source> source, std::int64_t base_step_ns) { return std::make_unique<InputNode>(std::move(source), base_step_ns); }
 
 }  // namespace rodeira::nodes

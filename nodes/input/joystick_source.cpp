@@ -11,9 +11,8 @@
 #include "common/base/suggest.hpp"
 #include "common/hands/force_device.hpp"
 #include "common/hands/wheel_driver.hpp"
-#include "common/hands/wheel_setup.hpp"
 #include "nodes/input/car_seen.hpp"
-#include "nodes/input/haptic_force.hpp"
+#include "nodes/input/found_source.hpp"
 #include "nodes/input/joysticks.hpp"
 
 namespace rodeira::nodes {
@@ -21,12 +20,13 @@ namespace {
 
 class JoystickSource final : public Source {
  public:
-  JoystickSource(std::string node, const hands::WheelSettings& settings, std::unique_ptr<Joysticks> joysticks)
+  JoystickSource(std::string node, const hands::WheelSettings& settings, std::unique_ptr<Joysticks> joysticks, MotorOpener motor)
       : node_(std::move(node)),
         settings_(settings),
         driver_(settings),
         joysticks_(std::move(joysticks)),
         there_(settings.devices.size(), true),
+        motor_(std::move(motor)),
         force_(settings.force, nullptr) {}
 
   vehicle::Controls First() override { return driver_.controls(); }
@@ -56,7 +56,7 @@ class JoystickSource final : public Source {
   void Feel(const CarSeen& car) {
     if (!settings_.has_force) return;
     _SDL_Joystick* wheel = joysticks_->joystick(settings_.AxisOf(hands::WheelAxis::kSteering)->device);
-    if (wheel != felt_) force_.Change(OpenHapticForce(wheel, settings_.force_inverted));
+    if (wheel != felt_) force_.Change(motor_(wheel, settings_.force_inverted));
     felt_ = wheel;
     if (!driver_.rim_rad()) return;
     const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -76,6 +76,7 @@ class JoystickSource final : public Source {
   hands::WheelDriver driver_;
   std::unique_ptr<Joysticks> joysticks_;
   std::vector<bool> there_;
+  MotorOpener motor_;
   _SDL_Joystick* felt_ = nullptr;  // the wheel whose motor that is
   std::vector<hands::DeviceReading> readings_;
   hands::ForceDriver force_;  // before its joystick in dying
@@ -137,40 +138,34 @@ base::Status CheckDevices(const hands::WheelSettings& settings, const Joysticks&
   return {};
 }
 
-// The file that the launch file names; without one that which `rodeira input setup` has written for a device that is there.
-base::Result<std::filesystem::path> WheelFileFor(const config::Map& config) {
-  if (const auto named = config.OptionalPath("wheel")) return *named;
-  auto joysticks = Joysticks::Start();
-  if (!joysticks) return joysticks.error();
-  joysticks.value()->Update();
-  const auto connected = joysticks.value()->Connected();
-  for (const JoystickInfo& info : connected) {
-    const std::filesystem::path file = hands::WheelFileOf(info.guid);
-    if (std::filesystem::exists(file)) return file;
-  }
-  return base::WrongInput(fmt::format("no 'wheel' is named, and none of the devices was set up (`rodeira input setup`) in {}; {}", hands::WheelFolder().string(), ListJoysticks(connected)),
-                          config.Place());
-}
-
 }  // namespace
 
-base::Result<std::unique_ptr<Source>> MakeJoystickSource(const config::Map& config, launch::NodeContext& context) {
-  const auto file = WheelFileFor(config);
-  if (!file) return file.error();
-  config.LeaveToOthers("devices");
-  if (auto status = context.launch().file().Finish(); !status) return status.error();
-  auto settings = hands::LoadWheel(file.value());
-  if (!settings) return settings.error();
-  ReplaceGuids(config, settings.value());
-  if (auto status = context.launch().file().Finish(); !status) return status.error();
+base::Result<std::unique_ptr<Source>> OpenWheel(const hands::WheelSettings& settings, const std::string& node, MotorOpener motor) {
   auto joysticks = Joysticks::Start();
   if (!joysticks) return joysticks.error();
   std::vector<std::string> guids;
-  for (const hands::DeviceUse& device : settings.value().devices) guids.push_back(device.guid);
+  for (const hands::DeviceUse& device : settings.devices) guids.push_back(device.guid);
   joysticks.value()->Use(guids);
-  if (auto status = CheckDevices(settings.value(), *joysticks.value()); !status) return status.error();
-  return std::unique_ptr<Source>(
-      std::make_unique<JoystickSource>(context.spec().name, settings.value(), std::move(joysticks).value()));
+  if (auto status = CheckDevices(settings, *joysticks.value()); !status) return status.error();
+  return std::unique_ptr<Source>(std::make_unique<JoystickSource>(node, settings, std::move(joysticks).value(), std::move(motor)));
+}
+
+base::Result<std::unique_ptr<Source>> OpenWheelFile(const std::filesystem::path& file, const config::Map& config, const std::string& node) {
+  auto settings = hands::LoadWheel(file);
+  if (!settings) return settings.error();
+  ReplaceGuids(config, settings.value());
+  return OpenWheel(settings.value(), node);
+}
+
+base::Result<std::unique_ptr<Source>> MakeJoystickSource(const config::Map& config, launch::NodeContext& context) {
+  const auto file = config.OptionalPath("wheel");
+  if (!file) return MakeFoundSource(config, context);
+  config.LeaveToOthers("devices");
+  config.LeaveToOthers("keyboard");  // for who names no wheel
+  if (auto status = context.launch().file().Finish(); !status) return status.error();
+  auto source = OpenWheelFile(*file, config, context.spec().name);
+  if (auto status = context.launch().file().Finish(); !status) return status.error();  // GUIDs that it says
+  return source;
 }
 
 }  // namespace rodeira::nodes

@@ -64,7 +64,7 @@ void ReadTimes(const launch::NodeContext& context, const config::Map& frames, Vi
 // Buttons of a wheel that a launch file names by its file.
 void ReadWheelButtons(const launch::Launch& launch, const launch::LaunchNode& node, ViewSettings& settings) {
   const auto file = node.config->Peek({"config", "wheel"});
-  if (!file || *file == "~") return;
+  if (!file || *file == "~") return settings.camera_buttons.push_back({"", kPadCameraButton});  // a game pad may drive
   const auto wheel = hands::PeekWheel((launch.path().parent_path() / *file).lexically_normal(),
                                       [&](const std::string& device) { return node.config->Peek({"config", "devices", device}); });
   const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(hands::WheelButton::kCamera)] : std::optional<hands::ButtonUse>();
@@ -75,10 +75,13 @@ void ReadWheelButtons(const launch::Launch& launch, const launch::LaunchNode& no
 void ReadDriving(const launch::Launch& launch, ViewSettings& settings) {
   for (const launch::LaunchNode& node : launch.nodes()) {
     if (node.kind->name != "input") continue;
-    if (node.config->Peek({"config", "source"}) == "joystick") ReadWheelButtons(launch, node, settings);
-    if (node.config->Peek({"config", "source"}) != "keyboard") continue;
+    const auto source = node.config->Peek({"config", "source"});
+    if (source == "joystick") ReadWheelButtons(launch, node, settings);
+    if (source == "gamepad") settings.camera_buttons.push_back({"", kPadCameraButton});
+    const auto file = node.config->Peek({"config", "keyboard"}), wheel = node.config->Peek({"config", "wheel"});
+    const bool falls_back = source == "joystick" && file && (!wheel || *wheel == "~");  // keys drive where no wheel is found
+    if (source != "keyboard" && !falls_back) continue;
     settings.drives = true;
-    const auto file = node.config->Peek({"config", "keyboard"});
     if (!file) continue;
     const auto keyboard = hands::LoadKeyboard((launch.path().parent_path() / *file).lexically_normal());
     if (keyboard) settings.driving_help = hands::KeyboardHelp(keyboard.value());

@@ -2,47 +2,63 @@
 
 #include <SDL.h>
 
+#include <algorithm>
+
 namespace rodeira::view {
+namespace {
+
+constexpr Uint32 kSubsystems = SDL_INIT_JOYSTICK | SDL_INIT_GAMECONTROLLER;
+
+}  // namespace
 
 std::unique_ptr<WheelButtons> WheelButtons::Open(const std::vector<WheelButtonUse>& uses) {
   if (uses.empty()) return nullptr;
   SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
-  if (SDL_InitSubSystem(SDL_INIT_JOYSTICK) != 0) return nullptr;
+  const bool wants_pad = std::any_of(uses.begin(), uses.end(), [](const WheelButtonUse& use) { return use.guid.empty(); });
+  if (SDL_InitSubSystem(kSubsystems) != 0) return nullptr;
   SDL_JoystickEventState(SDL_IGNORE);  // they are read, not listened to
+  if (wants_pad) SDL_GameControllerEventState(SDL_IGNORE);
   std::unique_ptr<WheelButtons> made(new WheelButtons());
-  for (const WheelButtonUse& use : uses) made->buttons_.push_back({use, nullptr, true});
+  for (const WheelButtonUse& use : uses) made->buttons_.push_back({use, nullptr, nullptr, true});
   return made;
 }
 
 WheelButtons::~WheelButtons() {
-  for (Button& button : buttons_) {
-    if (button.joystick != nullptr) SDL_JoystickClose(button.joystick);
-  }
-  SDL_QuitSubSystem(SDL_INIT_JOYSTICK);
+  for (Button& button : buttons_) Drop(button);
+  SDL_QuitSubSystem(kSubsystems);
 }
 
 void WheelButtons::Find(Button& button) {
   SDL_LockJoysticks();
-  for (int index = 0; index < SDL_NumJoysticks() && button.joystick == nullptr; ++index) {
+  for (int index = 0; index < SDL_NumJoysticks() && button.joystick == nullptr && button.pad == nullptr; ++index) {
     char guid[33] = {};
     SDL_JoystickGetGUIDString(SDL_JoystickGetDeviceGUID(index), guid, sizeof(guid));
     if (button.use.guid == guid) button.joystick = SDL_JoystickOpen(index);
+    const bool is_pad = SDL_IsGameController(index) == SDL_TRUE && SDL_JoystickGetDeviceType(index) != SDL_JOYSTICK_TYPE_WHEEL;
+    if (button.use.guid.empty() && is_pad) button.pad = SDL_GameControllerOpen(index);
   }
   SDL_UnlockJoysticks();
+}
+
+void WheelButtons::Drop(Button& button) {
+  if (button.joystick != nullptr) SDL_JoystickClose(button.joystick);
+  if (button.pad != nullptr) SDL_GameControllerClose(button.pad);
+  button.joystick = nullptr;
+  button.pad = nullptr;
+  button.down = true;
 }
 
 bool WheelButtons::Pressed() {
   SDL_JoystickUpdate();
   bool any = false;
   for (Button& button : buttons_) {
-    if (button.joystick != nullptr && SDL_JoystickGetAttached(button.joystick) == SDL_FALSE) {
-      SDL_JoystickClose(button.joystick);
-      button.joystick = nullptr;
-      button.down = true;
-    }
-    if (button.joystick == nullptr) Find(button);
-    if (button.joystick == nullptr) continue;
-    const bool down = SDL_JoystickGetButton(button.joystick, button.use.button) != 0;
+    const bool lost = (button.joystick != nullptr && SDL_JoystickGetAttached(button.joystick) == SDL_FALSE) ||
+                      (button.pad != nullptr && SDL_GameControllerGetAttached(button.pad) == SDL_FALSE);
+    if (lost) Drop(button);
+    if (button.joystick == nullptr && button.pad == nullptr) Find(button);
+    if (button.joystick == nullptr && button.pad == nullptr) continue;
+    const bool down = button.pad != nullptr ? SDL_GameControllerGetButton(button.pad, static_cast<SDL_GameControllerButton>(button.use.button)) != 0
+                                            : SDL_JoystickGetButton(button.joystick, button.use.button) != 0;
     any = any || (down && !button.down);
     button.down = down;
   }

@@ -5,14 +5,16 @@
 #include <vector>
 
 struct _SDL_Joystick;
+struct _SDL_GameController;
 
 namespace rodeira::view {
 
-// A button of a steering wheel on the window's PC.
+// A button of a steering wheel on the window's PC; without a GUID: of the first game pad, by SDL's numbers of their buttons.
 struct WheelButtonUse {
   std::string guid;
   int button = 0;
 };
+inline constexpr int kPadCameraButton = 3;  // y
 
 // Buttons of the wheel that change what the window shows (`camera` of a wheel file). Used on the thread of the window.
 class WheelButtons {
@@ -30,10 +32,12 @@ class WheelButtons {
   struct Button {
     WheelButtonUse use;
     _SDL_Joystick* joystick = nullptr;
+    _SDL_GameController* pad = nullptr;  // instead of it
     bool down = true;  // one that is held as it begins is no press
   };
   WheelButtons() = default;
   static void Find(Button& button);
+  static void Drop(Button& button);
   std::vector<Button> buttons_;
 };
 

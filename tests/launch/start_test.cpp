@@ -35,7 +35,7 @@ TEST(Start, EveryChoiceIsACommandThatALaunchFileTakes) {
   StartChoice choice = DefaultChoice(files);
   EXPECT_EQ(choice.world.filename(), "n222.yaml");
   EXPECT_EQ(choice.vehicle.filename(), "default.yaml");
-  for (const StartDriver driver : {StartDriver::kKeyboard, StartDriver::kWheel, StartDriver::kAutopilot}) {
+  for (const StartDriver driver : {StartDriver::kKeyboard, StartDriver::kWheel, StartDriver::kPad, StartDriver::kAutopilot}) {
     for (const int traffic : {0, 7}) {
       for (const bool records : {true, false}) {
         for (const fs::path& world : files.worlds) {

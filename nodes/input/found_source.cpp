@@ -1,0 +1,88 @@
+#include "nodes/input/found_source.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "common/hands/plain_wheel.hpp"
+#include "common/hands/wheel_setup.hpp"
+#include "nodes/input/game_pad.hpp"
+#include "nodes/input/joystick_source.hpp"
+#include "nodes/input/joysticks.hpp"
+#include "nodes/input/keyboard_source.hpp"
+#include "nodes/input/pad_source.hpp"
+
+namespace rodeira::nodes {
+namespace {
+
+// What the search has come by.
+struct Search {
+  std::string node;
+  std::vector<JoystickInfo> connected;
+  std::optional<JoystickInfo> broken;  // the first device whose file cannot be used
+
+  void Say(const std::string& sentence) const { fmt::print(stderr, "rodeira: node '{}': {}\n", node, sentence); }
+};
+
+// Null: none of them was set up, or not well.
+std::unique_ptr<Source> OwnWheel(Search& search, const config::Map& config) {
+  for (const JoystickInfo& info : search.connected) {
+    const std::filesystem::path file = hands::WheelFileOf(info.guid);
+    std::error_code problem;
+    if (!std::filesystem::exists(file, problem)) continue;
+    auto source = OpenWheelFile(file, config, search.node);
+    if (source) return std::move(source).value();
+    search.Say(fmt::format("{}; '{}' is not driven by this file (`rodeira input setup` writes a new one)", source.error().Text(), info.name));
+    if (!search.broken) search.broken = info;
+  }
+  return nullptr;
+}
+
+std::unique_ptr<Source> AnyPad(const Search& search) {
+  auto pad = GamePad::Start();
+  if (!pad || !pad.value()->reading().connected) return nullptr;
+  search.Say(fmt::format("no wheel that was set up is there; the game pad '{}' drives", pad.value()->name()));
+  return MakePadSource(search.node, std::move(pad).value());
+}
+
+std::unique_ptr<Source> PlainDevice(const Search& search) {
+  if (!search.broken) return nullptr;
+  const JoystickInfo& info = *search.broken;
+  const auto wheel = hands::PlainWheel({"wheel", info.guid, ""}, static_cast<std::size_t>(info.axes), static_cast<std::size_t>(info.buttons));
+  if (!wheel) return nullptr;
+  auto source = OpenWheel(*wheel, search.node);
+  if (!source) return nullptr;
+  search.Say(fmt::format("'{}' drives by a guess: {}", info.name, hands::AxesText(*wheel)));
+  return std::move(source).value();
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<Source>> MakeFoundSource(const config::Map& config, launch::NodeContext& context) {
+  const bool has_keys = config.OptionalPath("keyboard").has_value();
+  config.LeaveToOthers("devices");
+  if (auto status = context.launch().file().Finish(); !status) return status.error();
+  Search search{context.spec().name, {}, std::nullopt};
+  {
+    auto joysticks = Joysticks::Start();
+    if (!joysticks) return joysticks.error();
+    joysticks.value()->Update();
+    search.connected = joysticks.value()->Connected();
+  }
+  auto wheel = OwnWheel(search, config);
+  if (auto status = context.launch().file().Finish(); !status) return status.error();  // GUIDs that it says
+  if (wheel != nullptr) return wheel;
+  if (auto pad = AnyPad(search)) return pad;
+  if (auto plain = PlainDevice(search)) return plain;
+  if (has_keys) {
+    search.Say("no wheel that was set up (`rodeira input setup`) and no game pad is there; the windows' keys drive");
+    return MakeKeyboardSource(config, context);
+  }
+  return base::WrongInput(fmt::format("no 'wheel' is named, and none of the devices was set up (`rodeira input setup`) in {}; {}", hands::WheelFolder().string(), ListJoysticks(search.connected)),
+                          config.Place());
+}
+
+}  // namespace rodeira::nodes

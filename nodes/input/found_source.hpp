@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+
+#include "common/launch/node_context.hpp"
+#include "nodes/input/source.hpp"
+
+namespace rodeira::nodes {
+
+// `source: joystick` that names no `wheel`: what is plugged in, the first of
+// - a wheel whose file `rodeira input setup` has written,
+// - a game pad,
+// - a device whose own file is broken, by its plain mapping (common/hands/plain_wheel.hpp),
+// - the windows' keys, where `keyboard` names their file.
+// What is passed over on the way is said in a sentence. Wrong input where nothing is left.
+base::Result<std::unique_ptr<Source>> MakeFoundSource(const config::Map& config, launch::NodeContext& context);
+
+}  // namespace rodeira::nodes

@@ -1,0 +1,63 @@
+#include "nodes/input/pad_source.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "nodes/input/car_seen.hpp"
+#include "nodes/input/joysticks.hpp"
+
+namespace rodeira::nodes {
+namespace {
+
+class PadSource final : public Source {
+ public:
+  PadSource(std::string node, std::unique_ptr<GamePad> pad) : node_(std::move(node)), pad_(std::move(pad)) {}
+
+  vehicle::Controls First() override { return driver_.controls(); }
+
+  base::Result<vehicle::Controls> Step(const lockstep::StepInfo& step, std::int64_t, const lockstep::Inbox& inbox) override {
+    const auto car = SeeCar(inbox);
+    if (!car) return car.error();
+    pad_->Update();
+    Tell(pad_->reading().connected);
+    return driver_.Step(pad_->reading(), car.value().gear, car.value().speed_mps, step.dt_s);
+  }
+
+  hands::Signals signals() const override { return driver_.signals(); }
+  bool is_brief() const override { return false; }  // SDL wants one thread
+  void Save(base::StateWriter& out) const override { out.Put("pad", driver_); }
+  void Restore(base::StateReader& in) override { in.Get("pad", driver_); }
+  void TakeOver(const vehicle::Controls& last, const hands::Signals& signals) override { driver_.TakeOver(last, signals); }
+
+ private:
+  // To the person, once for each time.
+  void Tell(bool there) {
+    if (there_ == there) return;
+    there_ = there;
+    fmt::print(stderr, "rodeira: node '{}': game pad '{}' {}\n", node_, pad_->name(), there ? "is there" : "was unplugged: pedals released, steering held");
+  }
+
+  std::string node_;
+  hands::PadDriver driver_;
+  std::unique_ptr<GamePad> pad_;
+  bool there_ = true;
+};
+
+}  // namespace
+
+std::unique_ptr<Source> MakePadSource(const std::string& node, std::unique_ptr<GamePad> pad) { return std::make_unique<PadSource>(node, std::move(pad)); }
+
+base::Result<std::unique_ptr<Source>> MakePadSource(const config::Map& config, launch::NodeContext& context) {
+  if (auto status = context.launch().file().Finish(); !status) return status.error();
+  auto pad = GamePad::Start();
+  if (!pad) return pad.error();
+  if (pad.value()->reading().connected) return MakePadSource(context.spec().name, std::move(pad).value());
+  auto joysticks = Joysticks::Start();
+  if (!joysticks) return joysticks.error();
+  joysticks.value()->Update();
+  return base::WrongInput(fmt::format("no game pad is there; {}", ListJoysticks(joysticks.value()->Connected())), config.Place());
+}
+
+}  // namespace rodeira::nodes
