@@ -5,9 +5,11 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 
 #include "common/launch/command_text.hpp"
 #include "launch/control_folder.hpp"
+#include "nodes/view/run_desk.hpp"
 
 namespace rodeira::front {
 
@@ -30,9 +32,11 @@ std::string_view KeyHelp() { return "space pause or go on, enter one step, + - t
 Operator::Operator(const std::string& run, bool quiet) : quiet_(quiet) {
   if (::isatty(STDERR_FILENO) != 0) keys_ = TerminalKeys::Open(STDIN_FILENO);
   const auto folder = ControlFolder();
-  auto server = folder ? ControlServer::Open(ControlSocket(folder.value(), run)) : base::Result<std::unique_ptr<ControlServer>>(folder.error());
+  const auto socket = folder ? ControlSocket(folder.value(), run) : std::filesystem::path();
+  auto server = folder ? ControlServer::Open(socket) : base::Result<std::unique_ptr<ControlServer>>(folder.error());
   if (server) {
     server_ = std::move(server).value();
+    ::setenv(view::RunDesk::kVariable, socket.c_str(), 1);  // windows of the run pause it too
   } else if (!quiet) {
     fmt::print(stderr, "rodeira: no `rodeira ctl` for this run: {}\n", server.error().Text());
   }

@@ -77,8 +77,8 @@ constexpr std::array kWindow = std::to_array<WindowKey>({
     {69, "f12", "picture into a file"},
     {11, "h", "this help"},
     {41, "escape", "close the window (the run goes on)"},
-    {44, "space", ""},
-    {40, "return", ""},
+    {44, "space", "pause the run, and go on"},
+    {40, "return", "one step, and stand"},
 });
 
 std::vector<std::pair<Key, std::string>> AllNames() {

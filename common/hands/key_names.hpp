@@ -23,7 +23,7 @@ std::vector<std::string> KeyNames();
 struct WindowKey {
   Key key;
   std::string_view name;
-  std::string_view does;  // empty: kept free for the run (pause and single step)
+  std::string_view does;
 };
 std::span<const WindowKey> WindowKeys();
 // Null where the key may drive.

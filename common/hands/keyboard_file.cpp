@@ -30,8 +30,7 @@ void ReadKeys(const config::Map& map, KeyboardSettings& settings) {
       if (!key) {
         names.Problem(i, fmt::format("there is no key '{}'{}", name, base::DidYouMean(name, KeyNames())));
       } else if (const WindowKey* window = FindWindowKey(*key)) {
-        const std::string_view why = window->does.empty() ? "for pause and single step" : window->does;
-        names.Problem(i, fmt::format("'{}' cannot drive: the window keeps it ({})", name, why));
+        names.Problem(i, fmt::format("'{}' cannot drive: the window keeps it ({})", name, window->does));
       } else if (const auto other = taken.find(*key); other != taken.end()) {
         constexpr const char* kTaken = "'{}' is taken for '{}' already; a key that does nothing else was expected";
         names.Problem(i, fmt::format(kTaken, name, other->second));

@@ -72,7 +72,8 @@ std::string ReplayHelp() {
       "r  the other way\n"
       "mouse on the bar  there\n";
   for (const hands::WindowKey& key : hands::WindowKeys()) {
-    if (!key.does.empty() && key.name != "escape") text += fmt::format("\n{}  {}", key.name, key.does);
+    const bool runs = key.name == "space" || key.name == "return" || key.name == "escape";  // a recording has its own
+    if (!runs) text += fmt::format("\n{}  {}", key.name, key.does);
   }
   return text + "\nescape  end";
 }

@@ -13,6 +13,7 @@
 #include "common/scene/pick.hpp"
 #include "common/weather/named_weather.hpp"
 #include "nodes/view/heard.hpp"
+#include "nodes/view/loading.hpp"
 #include "nodes/view/png.hpp"
 
 namespace rodeira::view {
@@ -24,6 +25,7 @@ constexpr double kZoom = 1.15;       // a notch of the mouse's wheel
 constexpr double kTurn_rad = 0.006;  // a pixel that it is drawn
 constexpr double kWeather_s = 8.0;   // until another weather is there
 constexpr const char* kNobodyTakes = "nobody in this run takes requests: a node of kind scenario with 'requests: true' does";
+constexpr const char* kClockElsewhere = "the run is paused on the PC where its clock is";
 constexpr const char* kTooMany = "the run has not taken what was asked before";
 
 // A car where the world's start is: what the first picture is drawn with, so that everything is loaded before it counts.
@@ -38,33 +40,39 @@ Picture FirstPicture(const road::World& world) {
   return picture;
 }
 
+std::string WindowTitle(const road::World& world) { return world.name().empty() ? "Rodeira" : fmt::format("Rodeira: {}", world.name()); }
+
 }  // namespace
 
 std::string WindowHelp() {
   std::string text;
   for (const hands::WindowKey& key : hands::WindowKeys()) {
-    if (!key.does.empty()) text += fmt::format("{}{}  {}", text.empty() ? "" : "\n", key.name, key.does);
+    text += fmt::format("{}{}  {}", text.empty() ? "" : "\n", key.name, key.does);
   }
   return text;
 }
 
 base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
                                                    bool resizable, std::string help) {
-  const std::string title = world.name().empty() ? "Rodeira" : fmt::format("Rodeira: {}", world.name());
+  const std::string title = WindowTitle(world);
   auto surface = Surface::Open(kind, settings.width_px, settings.height_px, title, resizable, settings.display, settings.quality);
   if (!surface) return surface.error();
   if (settings.full_screen) surface.value()->ToggleFullScreen();
   std::unique_ptr<Screen> screen(new Screen(world));
   screen->cars_ = settings.cars;
   screen->surface_ = std::move(surface).value();
+  Loading loading(*screen->surface_, title);
+  loading.Show(0.3, "the world is read, its ground is built");
   auto painter = PainterOf(*screen->surface_, world, settings.built);
   if (!painter) return painter.error();
   screen->painter_ = std::move(painter).value();
   if (!settings.car_model.empty()) {
     if (auto status = screen->painter_->WearCarModel(settings.car_model); !status) fmt::print(stderr, "rodeira: {}; the car is drawn without it\n", status.error().Text());
   }
+  loading.Show(0.8, "the first picture is drawn");
   screen->painter_->DrawWhole(FirstPicture(world));
   (void)screen->painter_->Read();
+  loading.Show(0.95, "the run's other parts are waited for");
   screen->help_text_ = std::move(help);
   screen->title_ = world.name().empty() ? "rodeira" : world.name();
   std::replace(screen->title_.begin(), screen->title_.end(), '/', '-');
@@ -150,6 +158,8 @@ bool Screen::TakeKey(int symbol, bool driven) {
       statistics_ = !statistics_;
       return true;
     case SDLK_f: surface_->ToggleFullScreen(); return true;
+    case SDLK_SPACE: return is_live() && Operate(standing_.Toggle());
+    case SDLK_RETURN: return is_live() && Operate(standing_.Step());
     default: return false;
   }
 }
@@ -214,6 +224,12 @@ void Screen::AskForWeather() {
   weather_ = (weather_ + 1) % all.size();
   if (ask_(scenario::WeatherRequest(all[weather_].name, kWeather_s))) Note(fmt::format("weather: {}", all[weather_].name));
   else Note(kTooMany);
+}
+
+// What an operator may ask, asked in the window.
+bool Screen::Operate(bool asked) {
+  if (!asked) Note(kClockElsewhere);
+  return true;
 }
 
 // None, then one statistic after the other.
@@ -293,8 +309,11 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
   // In slow motion it is fainter, and silent where time stands.
   if (speaker_) speaker_->Play(HeardBy(live_.moment, live_.followed, muted_ ? 0.0 : volume_ * std::min(std::fabs(rate), 1.0)), interval_s_);
   if (picture_wanted_) TakePicture();
+  const std::string standing = is_live() ? standing_.See(live_.moment.time_ns, begin_s) : "";
+  if (!standing.empty()) live_.text += (live_.text.empty() ? "" : "\n\n") + standing;
   if (begin_s < note_until_s_) live_.text += (live_.text.empty() ? "" : "\n\n") + note_;
   if (headset_waits_) ShowInHeadset();
+  if (shown_wall_s_ == 0.0) Loading::End(WindowTitle(world_));
   painter_->Draw(live_);
   surface_->Swap();
   const double end_s = launch::WallSeconds();

@@ -15,6 +15,7 @@
 #include "nodes/view/headset.hpp"
 #include "nodes/view/painter.hpp"
 #include "nodes/view/speaker.hpp"
+#include "nodes/view/standing.hpp"
 #include "nodes/view/surface.hpp"
 #include "nodes/view/view_settings.hpp"
 
@@ -59,6 +60,8 @@ class Screen {
   void NextHeat();
   void GatherHeat();
   void FromAboveOrBack();
+  bool Operate(bool asked);
+  bool is_live() const { return shown_wall_s_ > 0.0 && !live_.timeline; }  // of a run, not of a recording
 
   const road::World& world_;
   std::function<bool(const scenario::Request&)> ask_;
@@ -94,6 +97,7 @@ class Screen {
   static constexpr std::array<bool, scene::kMirrors> kNoMirrors{};
   std::array<bool, scene::kMirrors> mirrors_ = {true, true, true};  // those that the key brings back
   bool picture_wanted_ = false;
+  Standing standing_;
   std::string note_;  // what the window says for a while
   double note_until_s_ = 0.0;
   bool help_ = false;

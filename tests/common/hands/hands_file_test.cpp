@@ -53,7 +53,7 @@ TEST(KeyboardFile, WrongOnesAreRefusedWithTheirPlace) {
             "keys.yaml:4: 'k' cannot drive: the window keeps it (camera)");
   EXPECT_EQ(
       KeyboardComplaint("keys: {steer_left: [left], steer_right: [right], throttle: [up], brake: [down], handbrake: [space]}\n"),
-      "keys.yaml:2: 'space' cannot drive: the window keeps it (for pause and single step)");
+      "keys.yaml:2: 'space' cannot drive: the window keeps it (pause the run, and go on)");
   EXPECT_EQ(KeyboardComplaint("keys: {steer_left: [left], steer_right: [left], throttle: [up], brake: [down]}\n"),
             "keys.yaml:2: 'left' is taken for 'steer_left' already; a key that does nothing else was expected");
   EXPECT_EQ(KeyboardComplaint("keys: {steer_left: [left], steer_right: [right], throttle: [up]}\n"),

@@ -1,0 +1,48 @@
+#include "nodes/view/loading.hpp"
+
+#include <SDL.h>
+#include <SDL_opengl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rodeira::view {
+namespace {
+
+constexpr double kBarShare = 0.6;
+constexpr int kBarHeight_px = 14;
+
+void Fill(int x_px, int y_px, int width_px, int height_px, float grey) {
+  glScissor(x_px, y_px, width_px, height_px);
+  glClearColor(grey, grey, grey, 1.0F);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
+}  // namespace
+
+std::string LoadingTitle(const std::string& title, double share, const std::string& what) {
+  return fmt::format("{}, {:.0f} %: {}", title, 100.0 * std::clamp(share, 0.0, 1.0), what);
+}
+
+void DrawLoadingBar(int width_px, int height_px, double share) {
+  const int width = static_cast<int>(std::lround(kBarShare * width_px)), x = (width_px - width) / 2, y = (height_px - kBarHeight_px) / 2;
+  glEnable(GL_SCISSOR_TEST);
+  Fill(0, 0, width_px, height_px, 0.10F);
+  Fill(x, y, width, kBarHeight_px, 0.25F);
+  Fill(x, y, static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * width)), kBarHeight_px, 0.80F);
+  glDisable(GL_SCISSOR_TEST);
+  glClearColor(0.0F, 0.0F, 0.0F, 0.0F);  // as a context begins
+}
+
+void Loading::Show(double share, const std::string& what) {
+  if (surface_.kind() != SurfaceKind::kWindow) return;
+  SDL_PumpEvents();  // a window that never asks is called dead
+  SDL_SetWindowTitle(SDL_GL_GetCurrentWindow(), LoadingTitle(title_, share, what).c_str());
+  DrawLoadingBar(surface_.width_px(), surface_.height_px(), share);
+  surface_.Swap();
+}
+
+void Loading::End(const std::string& title) { SDL_SetWindowTitle(SDL_GL_GetCurrentWindow(), title.c_str()); }
+
+}  // namespace rodeira::view

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "nodes/view/surface.hpp"
+
+namespace rodeira::view {
+
+// What a window shows before its first picture: how far it has come as a bar, and in words in its title.
+class Loading {
+ public:
+  // Of a window; anything else shows nothing.
+  Loading(Surface& surface, std::string title) : surface_(surface), title_(std::move(title)) {}
+
+  // `share` of the way, 0 to 1; `what` comes next. Shown at once.
+  void Show(double share, const std::string& what);
+  // The title alone again.
+  static void End(const std::string& title);
+
+ private:
+  Surface& surface_;
+  std::string title_;
+};
+
+// "Rodeira: N222, 30 %: the ground is built".
+std::string LoadingTitle(const std::string& title, double share, const std::string& what);
+// The bar alone, over the whole of the current OpenGL context's drawing area: in its middle, six tenths of its width.
+void DrawLoadingBar(int width_px, int height_px, double share);
+
+}  // namespace rodeira::view

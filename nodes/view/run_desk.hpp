@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace rodeira::view {
+
+// The run's control socket (docs/formats.md), as a window asks it: what it says is an operator's word, no sample. It has no thread.
+class RunDesk {
+ public:
+  // `rodeira run` names the socket to its processes by this variable of their environment.
+  static constexpr const char* kVariable = "RODEIRA_CONTROL";
+  // Null where the variable is not set or nobody listens: the clock is on another PC.
+  static std::unique_ptr<RunDesk> Open();
+  ~RunDesk();
+  RunDesk(const RunDesk&) = delete;
+  RunDesk& operator=(const RunDesk&) = delete;
+
+  // A command as `rodeira ctl` has it. Never waits; what cannot be sent is not asked.
+  void Ask(const std::string& command);
+  // The next answer, in the order of what was asked: "ok paused at 1.234 s (step 1234)". Never waits.
+  std::optional<std::string> Answer();
+
+ private:
+  explicit RunDesk(int file) : file_(file) {}
+  int file_;
+  std::string pending_;
+};
+
+}  // namespace rodeira::view
