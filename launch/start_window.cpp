@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <utility>
@@ -20,6 +21,7 @@ namespace {
 
 constexpr std::size_t kMostLines = 200;
 constexpr int kWait_ms = 100;
+constexpr int kWheelWait_ms = 10;  // bars follow the hand
 
 // One of several files, by its name.
 void ChooseFile(const char* label, const std::vector<std::filesystem::path>& files, std::filesystem::path& chosen) {
@@ -71,6 +73,17 @@ void StartWindow::Draw(int width_px, int height_px) {
   ImGui::Begin("start", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
   ImGui::TextUnformatted("Rodeira");
   ImGui::Separator();
+  if (wheel_.open()) {
+    wheel_.Draw();
+    if (const auto file = wheel_.TakeWritten()) TakeWheel(*file);
+  } else {
+    DrawChoices();
+    DrawRun();
+  }
+  ImGui::End();
+}
+
+void StartWindow::DrawChoices() {
   ImGui::BeginDisabled(run_ && !run_->ended());
   if (ImGui::RadioButton("drive", choice_.way == StartWay::kDrive)) choice_.way = StartWay::kDrive;
   ImGui::SameLine();
@@ -80,8 +93,14 @@ void StartWindow::Draw(int width_px, int height_px) {
   else DrawWatch();
   DrawCommand();
   ImGui::EndDisabled();
-  DrawRun();
-  ImGui::End();
+}
+
+// The wheel that was just set up is the one to drive with.
+void StartWindow::TakeWheel(const std::filesystem::path& file) {
+  if (std::find(files_.wheels.begin(), files_.wheels.end(), file) == files_.wheels.end()) files_.wheels.push_back(file);
+  std::sort(files_.wheels.begin(), files_.wheels.end());
+  choice_.driver = StartDriver::kWheel;
+  choice_.wheel = file;
 }
 
 void StartWindow::DrawDrive() {
@@ -93,11 +112,19 @@ void StartWindow::DrawDrive() {
   };
   driver("keyboard", StartDriver::kKeyboard);
   driver("steering wheel", StartDriver::kWheel);
+  driver("game pad", StartDriver::kPad);
   driver("autopilot", StartDriver::kAutopilot);
   ImGui::TextUnformatted("  driver");
-  if (choice_.driver == StartDriver::kWheel && !files_.wheels.empty()) ChooseFile("wheel", files_.wheels, choice_.wheel);
+  ImGui::SameLine();
+  DrawWheel();
   ImGui::SliderInt("traffic, cars", &choice_.traffic, 0, 100);
   ImGui::Checkbox("record", &choice_.records);
+}
+
+void StartWindow::DrawWheel() {
+  if (ImGui::Button("set up a steering wheel")) wheel_.Open();
+  if (choice_.driver == StartDriver::kWheel && !files_.wheels.empty()) ChooseFile("wheel", files_.wheels, choice_.wheel);
+  if (!wheel_.said().empty()) ImGui::TextWrapped("%s", wheel_.said().c_str());
 }
 
 void StartWindow::DrawWatch() {
@@ -157,7 +184,7 @@ int StartByWindow() {
   }
   CatchInterrupts();
   StartWindow start(FindStartFiles(root, base::UserDataFolder(), base::UserConfigFolder()), ProgramFolder() + "/rodeira");
-  while (!Interrupted() && window.value()->BeginFrame(kWait_ms)) {
+  while (!Interrupted() && window.value()->BeginFrame(start.wheel().open() ? kWheelWait_ms : kWait_ms)) {
     start.Draw(window.value()->width_px(), window.value()->height_px());
     window.value()->EndFrame();
   }

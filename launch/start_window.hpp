@@ -8,6 +8,7 @@
 #include "common/window/window.hpp"
 #include "launch/processes.hpp"
 #include "launch/start_model.hpp"
+#include "launch/wheel_panel.hpp"
 
 namespace rodeira::front {
 
@@ -37,7 +38,7 @@ class StartedRun {
 };
 
 // The window in which a person without a command chooses one: world, vehicle, driver, traffic, recording, or a recording to watch; the
-// command that does the same stands below. What was begun says there how it goes.
+// command that does the same stands below. What was begun says there how it goes. A steering wheel is set up here too.
 class StartWindow {
  public:
   StartWindow(StartFiles files, std::string program) : files_(std::move(files)), program_(std::move(program)), choice_(DefaultChoice(files_)) {}
@@ -47,9 +48,13 @@ class StartWindow {
   const StartChoice& choice() const { return choice_; }
   StartChoice& choice() { return choice_; }
   const std::optional<StartedRun>& run() const { return run_; }
+  const WheelPanel& wheel() const { return wheel_; }
 
  private:
+  void DrawChoices();
   void DrawDrive();
+  void DrawWheel();
+  void TakeWheel(const std::filesystem::path& file);
   void DrawWatch();
   void DrawCommand();
   void DrawRun();
@@ -59,6 +64,7 @@ class StartWindow {
   StartChoice choice_;
   std::optional<StartedRun> run_;
   std::string problem_;
+  WheelPanel wheel_;
 };
 
 // `rodeira` or `rodeira view` on a display: until the window is closed. The program's exit status.
