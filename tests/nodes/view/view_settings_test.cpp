@@ -66,6 +66,12 @@ TEST(ViewSettings, KnowsByWhichKeysItsCarIsDriven) {
   EXPECT_TRUE(driven.drives);
   EXPECT_NE(driven.driving_help.find("left, a  steer left"), std::string::npos) << driven.driving_help;
   EXPECT_TRUE(settings("{source: keyboard, keyboard: missing.yaml}").drives) << "the input says that it is missing";
+  const std::string keys = "keyboard: ../configs/drivers/keyboard.yaml";
+  EXPECT_TRUE(settings("{source: joystick, " + keys + "}").drives) << "they drive where no wheel is found";
+  EXPECT_FALSE(settings("{source: joystick, " + keys + "}").driving_help.empty());
+  EXPECT_TRUE(settings("{source: joystick, wheel: ~, " + keys + "}").drives);
+  EXPECT_FALSE(settings("{source: joystick, wheel: ../configs/drivers/wheel.yaml, " + keys + "}").drives) << "a wheel that is named is the only hand";
+  EXPECT_EQ(settings("{source: gamepad}").camera_buttons.size(), 1u);
 }
 
 TEST(ViewSettings, AFramesTimeMustBeASampleOfTheCar) {
