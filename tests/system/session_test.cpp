@@ -120,7 +120,9 @@ TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
     const auto files = FilesOn(pictures, ".png");
     return std::count_if(files.begin(), files.end(), [](const fs::path& file) { return fs::file_size(file) > 10'000; });
   };
-  Started start({"DISPLAY=:" + display_, "XDG_DATA_HOME=" + data, "SDL_AUDIODRIVER=dummy", Bin("rodeira")});
+  fs::create_directory(folder_.path() / "desk");
+  const std::string runtime = "XDG_RUNTIME_DIR=" + data + "/desk";  // no other run is asked
+  Started start({"DISPLAY=:" + display_, "XDG_DATA_HOME=" + data, runtime, "SDL_AUDIODRIVER=dummy", Bin("rodeira")});
   ASSERT_TRUE(Focus("^Rodeira$", 60s)) << "the start window";
   std::this_thread::sleep_for(1s);
   constexpr int kLeft = (kScreenWidth - 820) / 2, kTop = (kScreenHeight - 640) / 2;
@@ -143,6 +145,12 @@ TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
   Do({"keydown", "w"});
   EXPECT_TRUE(Until(60s, [&] { return ReadRecorded(recording).driven_m > 2.0; })) << "the car drives";
   Do({"keyup", "w"});
+  for (const char* state : {"paused at ", "runs "}) {
+    EXPECT_TRUE(Until(60s, [&] {
+      Do({"key", "space"});
+      return Until(5s, [&] { return RunCommand({runtime, "/usr/bin/env", Bin("rodeira"), "ctl", "state"}).out.find(state) != std::string::npos; });
+    })) << state;
+  }
   for (const char* key : {"Tab", "Tab", "F8", "F9"}) {
     Do({"key", key});
     std::this_thread::sleep_for(400ms);
