@@ -10,10 +10,14 @@
 
 namespace rodeira::scene {
 
-void LayPicture(const terrain::LaidPicture& picture, Mesh& mesh) {
+void Show(const terrain::LaidPicture& picture, Mesh& mesh) {
   mesh.material = Material::kPicture;
   mesh.face = picture.file;
   mesh.repeats = picture.repeats;
+}
+
+void LayPicture(const terrain::LaidPicture& picture, Mesh& mesh) {
+  Show(picture, mesh);
   const Eigen::Vector2d size(picture.width_m, picture.height_m);
   Eigen::Vector2d first = (mesh.origin_W.head<2>() - Eigen::Vector2d(picture.west_m, picture.south_m)).cwiseQuotient(size);
   if (picture.repeats) first -= Eigen::Vector2d(std::floor(first.x()), std::floor(first.y()));

@@ -10,8 +10,10 @@
 
 namespace rodeira::scene {
 
-// Makes of a mesh one of kPicture: the picture lies on it as seen from above. What repeats is counted from a whole number of
-// pictures near the mesh's origin, so that far from the world's origin nothing is lost.
+// Makes of a mesh one of kPicture; where its vertices lie on it is not said.
+void Show(const terrain::LaidPicture& picture, Mesh& mesh);
+// The same, and the picture lies on it as seen from above. What repeats is counted from a whole number of pictures near the
+// mesh's origin, so that far from the world's origin nothing is lost.
 void LayPicture(const terrain::LaidPicture& picture, Mesh& mesh);
 
 // All that lie on a world's terrain and lanes, each once, in the order of the roads.

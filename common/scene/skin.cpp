@@ -56,6 +56,7 @@ bool IsPatched(const network::Road& road, double s_m, double t_m) {
 // A patch looks like what it is made of; asphalt pale where it is slippery, otherwise a little darker than the road.
 void Patch(double friction, Skin& skin) {
   skin.picture.reset();
+  skin.along.reset();
   if (skin.material != Material::kRoad) return;
   skin.colour = friction < kSlippery ? Mix(skin.colour, Colour::Of(0xd3dfe6), 0.8) : Shade(skin.colour, 0.8);
 }
@@ -88,6 +89,7 @@ Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::Su
       skin.land = false;
       type = lane->type;
       skin.picture = PictureAt(*lane, surfacing.place.s_m);
+      if (skin.picture) skin.along = AlongLane{surfacing.place.lane, surfacing.place.s_m};
     }
   }
   skin.material = MaterialOf(skin.surface);

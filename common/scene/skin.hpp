@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "common/road/world.hpp"
+#include "common/scene/along_lane.hpp"
 #include "common/scene/mesh.hpp"
 
 namespace rodeira::scene {
@@ -16,6 +17,7 @@ struct Skin {
   bool land = true;    // beside all roads
   bool grown = true;   // its colour changes from place to place
   std::optional<terrain::LaidPicture> picture;
+  std::optional<AlongLane> along;  // the picture lies along a lane; none: by east and north
 };
 
 // How a surface is drawn where it has no picture.

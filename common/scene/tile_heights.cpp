@@ -101,6 +101,22 @@ void TileHeights::FindAims() {
   }
 }
 
+// Beside the end of a road in the air a corner's question may be answered from the deck: then a face's levels are those nearest to the heights in its middle.
+void TileHeights::AskOfFace(const Eigen::Vector2d& p_W, const Corner& corner) {
+  const std::vector<road::SurfacePoint>& middle = plan_.faces[corner.face].levels;
+  const std::size_t begin = heights_.size();
+  Ask(p_W, corner.towards_W, corner.count, heights_);
+  if (corner.count == 0 || heights_[begin].z_m - middle[0].z_m <= kLevelApart_m) return;
+  thread_local std::vector<CornerHeight> all;
+  all.clear();
+  Ask(p_W, corner.towards_W, kMostLevels, all);
+  for (std::size_t i = 0; i < corner.count; ++i) {
+    heights_[begin + i] = *std::min_element(all.begin(), all.end(), [&](const CornerHeight& a, const CornerHeight& b) {
+      return std::fabs(a.z_m - middle[i].z_m) < std::fabs(b.z_m - middle[i].z_m);
+    });
+  }
+}
+
 // Adds `count` heights.
 void TileHeights::Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count, std::vector<CornerHeight>& heights) const {
   thread_local std::vector<road::SurfacePoint> levels;
@@ -122,7 +138,7 @@ void TileHeights::AskInside(std::uint32_t point) {
   ForEachCorner(point, [&](Corner& corner) {
     corner.count = static_cast<std::uint32_t>(plan_.faces[corner.face].levels.size());
     corner.first = static_cast<std::uint32_t>(heights_.size());
-    Ask(p_W, corner.towards_W, corner.count, heights_);
+    AskOfFace(p_W, corner);
   });
   if (heights_.size() - begin < 2) return;
   thread_local std::vector<CornerHeight*> all;
@@ -160,7 +176,7 @@ void TileHeights::AskOnEdge(std::uint32_t point) {
       heights_.insert(heights_.end(), own, own + static_cast<std::ptrdiff_t>(corner.count));
       return;
     }
-    Ask(p_W, corner.towards_W, corner.count, heights_);
+    AskOfFace(p_W, corner);
     for (CornerHeight& height : HeightsOf(corner)) {
       for (const CornerHeight* known : all) {
         if (std::fabs(known->z_m - height.z_m) > kWelded_m) continue;

@@ -22,7 +22,7 @@ constexpr std::size_t kNobody = 99;
 
 class Weaver {
  public:
-  Weaver(const road::World& world, const TilePlan& plan) : plan_(plan), heights_(world, plan), first_(plan.triangles.points().size(), Triangulation::kNone) {
+  Weaver(const road::World& world, const TilePlan& plan) : world_(world), plan_(plan), heights_(world, plan), first_(plan.triangles.points().size(), Triangulation::kNone) {
     const Face& first = plan.faces.front();
     origin_W_ = TileOrigin(plan.key, first.levels.empty() ? 0.0 : first.levels.front().z_m);
     wall_.material = Material::kRoad;
@@ -41,7 +41,7 @@ class Weaver {
     }
     for (auto& [kind, made] : meshes_) {
       if (made.mesh.triangles.empty()) continue;
-      if (made.picture != nullptr) LayPicture(*made.picture, made.mesh);
+      if (made.picture != nullptr && made.mesh.on_face.empty()) LayPicture(*made.picture, made.mesh);
       woven_.meshes.push_back(std::move(made.mesh));
     }
     if (!wall_.triangles.empty()) woven_.meshes.push_back(std::move(wall_));
@@ -62,6 +62,7 @@ class Weaver {
     const Skin& skin = plan_.faces[face].skins[level];
     const Eigen::Vector3d p_W = Place(point, height.z_m);
     const Colour colour = skin.grown ? GroundColour(skin.surface, p_W.x(), p_W.y(), height.normal_W) : skin.colour;
+    if (skin.along) mesh.on_face.push_back(OnPicture(*world_.network(), *skin.along, *skin.picture, p_W.head<2>()).cast<float>());
     vertices_.push_back({face, static_cast<std::uint32_t>(level), mesh.Add(p_W, height.normal_W, colour), first_[point]});
     first_[point] = static_cast<std::uint32_t>(vertices_.size() - 1);
     return vertices_.back().vertex;
@@ -70,12 +71,13 @@ class Weaver {
   // One for each material, and for each way that a picture lies.
   Mesh& MeshOf(const Skin& skin) {
     const bool pictured = skin.picture.has_value();
-    const auto kind = pictured ? std::tuple(Material::kPicture, skin.picture->file, skin.picture->width_m) : std::tuple(skin.material, std::string(), 0.0);
+    const auto kind = pictured ? std::tuple(Material::kPicture, skin.picture->file, skin.picture->width_m, skin.along.has_value()) : std::tuple(skin.material, std::string(), 0.0, false);
     auto [found, fresh] = meshes_.try_emplace(kind);
     if (fresh) {
       found->second.mesh.material = skin.material;
       found->second.mesh.origin_W = origin_W_;
       found->second.picture = pictured ? &*skin.picture : nullptr;
+      if (skin.along) Show(*skin.picture, found->second.mesh);
     }
     return found->second.mesh;
   }
@@ -149,6 +151,7 @@ class Weaver {
     for (std::size_t i = 0; i + 1 < down[0].size(); ++i) wall_.AddTriangle(down[0][i], down[0][i + 1], down[1].back());
   }
 
+  const road::World& world_;
   const TilePlan& plan_;
   TileHeights heights_;
   Eigen::Vector3d origin_W_;
@@ -157,7 +160,7 @@ class Weaver {
     Mesh mesh;
     const terrain::LaidPicture* picture = nullptr;  // the plan's
   };
-  std::map<std::tuple<Material, std::string, double>, Made> meshes_;
+  std::map<std::tuple<Material, std::string, double, bool>, Made> meshes_;
   Mesh wall_;
   struct Known {
     std::uint32_t face;

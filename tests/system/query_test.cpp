@@ -1,4 +1,5 @@
 // SUELO as a user asks for it: `rodeira world query`, and the ground under the wheels of a run.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -6,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "idl/messages.hpp"
@@ -133,6 +135,40 @@ TEST_F(Ground, TheWheelsStandOnTheCrossfallOfTheRoad) {
     EXPECT_NEAR(PointOf(Query(kN222, c.x(), c.y())).z_m, c.z(), 1e-6);
   }
   EXPECT_EQ(states.front().inside_world(), 1u);
+}
+
+// Four cars, each a process that asks the one road server for the ground under its wheels at every step, get what each finds in one process for
+// itself: no question is answered with another asker's points.
+TEST_F(Ground, SeveralClientsOfTheRoadServerAreAnsweredAtOnce) {
+  std::string launch = "rodeira: launch/1\nworld: " + kN222 + "\nseed: 3\nnodes:\n  road: {kind: road}\n";
+  const std::string standing = (kRoot / "tests/data/full_throttle.csv").string(), car = (kRoot / "configs/vehicles/default.yaml").string();
+  const std::vector<Eigen::Vector2d> starts = {{-1989, -543}, {-1895, -512}, {-1850, -560}, {-1700, -300}};  // on the road, and in the hills beside it
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    launch += fmt::format("  driver{0}: {{kind: input, inputs: {{vehicle_state: [car{0}]}}, config: {{source: script, script: {1}}}}}\n", i, standing);
+    launch += fmt::format("  car{0}: {{kind: vehicle, inputs: {{controls: [driver{0}]}}, config: {{vehicle: {1}, start: {{x_m: {2}, y_m: {3}, heading_deg: 20}}}}}}\n", i, car, starts[i].x(), starts[i].y());
+  }
+  launch += "  recorder: {kind: recorder}\n";
+  const auto file = folder_.Write("four.yaml", launch);
+  const auto samples = [&](const std::string& name, std::vector<std::string> more) {
+    const std::string recording = (folder_.path() / name).string();
+    more.insert(more.begin(), {Bin("rodeira"), "run", file.string(), "--for", "1", "--record", recording});
+    const Ended ended = RunCommand(more);
+    EXPECT_EQ(ended.status, 0) << ended.out;
+    return SamplesOf(recording);
+  };
+  const auto apart = samples("apart.mcap", {}), together = samples("together.mcap", {"--in-process"});
+  EXPECT_GE(apart.size(), 4u * 1001u);
+  EXPECT_EQ(FirstDifference(apart, together), "");
+  // And it is each car's own ground.
+  std::set<double> heights;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const auto states = MessagesOf<msg::VehicleState>((folder_.path() / "apart.mcap").string(), idl::topics::kVehicleState, fmt::format("car{}", i));
+    ASSERT_EQ(states.size(), 1001u);
+    const Eigen::Vector3d c = ContactOf(states.front(), 0);
+    EXPECT_NEAR(PointOf(Query(kN222, c.x(), c.y())).z_m, c.z(), 1e-6) << i;
+    heights.insert(c.z());
+  }
+  EXPECT_EQ(heights.size(), starts.size());
 }
 
 // A terrain of 100 m × 100 m whose eastern edge a car drives over.

@@ -60,25 +60,84 @@ TEST(Pictures, ADrapedOneReachesFromEdgeToEdge) {
   }
 }
 
-// A thousandth of a picture at 5 000 km from the origin, though float32 knows no half metre there. And lanes alone have the lanes'.
+// A whole number of pictures between two places on it: they look the same.
+void ExpectSame(const Eigen::Vector2f& found, const Eigen::Vector2d& expected) {
+  const Eigen::Vector2d apart = found.cast<double>() - expected;
+  EXPECT_NEAR(apart.x(), std::round(apart.x()), 1e-3);
+  EXPECT_NEAR(apart.y(), std::round(apart.y()), 1e-3);
+}
+
+// A thousandth of a picture at 5 000 km from the origin, though float32 knows no half metre there.
 TEST(Pictures, ARepeatedOneIsWholePicturesAwayFarFromTheOrigin) {
   for (const double x : {0.0, 5e6}) {
-    const auto world = Plane("", kWorn, x);
+    const auto world = Plane(", texture: {file: fields.png, repeat_m: 64}", "", x);
     ASSERT_NE(world, nullptr);
     const auto meshes = Pictured(*world);
     ASSERT_FALSE(meshes.empty());
     for (const Mesh& mesh : meshes) {
       EXPECT_TRUE(mesh.repeats);
-      for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const Eigen::Vector3d p = mesh.PositionW(i);
-        const Eigen::Vector2d on_picture = mesh.on_face[i].cast<double>() - p.head<2>() / 3.0;
-        EXPECT_NEAR(on_picture.x(), std::round(on_picture.x()), 1e-3);
-        EXPECT_NEAR(on_picture.y(), std::round(on_picture.y()), 1e-3);
-        EXPECT_GE(p.y(), 16.5 - 1e-3);  // the right lane of a road to the east at y = 20
-        EXPECT_LE(p.y(), 20.0 + 1e-3);
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i) ExpectSame(mesh.on_face[i], mesh.PositionW(i).head<2>().cwiseQuotient(Eigen::Vector2d(64.0, 52.0)));
+    }
+  }
+}
+
+// Along a bend to the left of 60 m about (0, 80), from its foot at the origin's x: by the angle about its centre and the distance from it. The right lane
+// is driven along s, the left one against it: its picture lies the other way round. Where traffic keeps left it is the right lane's that does.
+TEST(Pictures, ALanesOwnGoesAlongItAsItIsDriven) {
+  for (const bool left_hand : {false, true}) {
+    for (const int id : {-1, 1}) {
+      for (const double x : {0.0, 5e6}) {
+        const auto world = road::World::Parse(
+            fmt::format("rodeira: world/2\nname: bend\nrule: {}\nground: {{kind: plane, z_m: 1, surface: grass}}\nmaterials: {{worn: {{surface: asphalt, texture: worn.png, texture_m: 3}}}}\nroads:\n"
+                        "  - id: a\n    start: {{x_m: {}, y_m: 20, heading_deg: 0}}\n    axis: [arc: {{length_m: 120, radius_m: 60}}]\n    z_m: 1\n"
+                        "    section: {{template: rural, lanes: [{{id: -1, width_m: 3.5{}}}, {{id: 1, width_m: 3.5{}}}]}}\n",
+                        left_hand ? "left" : "right", x, id < 0 ? ", material: worn" : "", id > 0 ? ", material: worn" : ""),
+            kExample / "made.yaml");
+        ASSERT_TRUE(world.ok()) << world.error().Text();
+        const auto meshes = Pictured(*world.value());
+        ASSERT_FALSE(meshes.empty());
+        const double ahead = (id < 0) != left_hand ? 1.0 : -1.0;
+        double least_s = 1e9, most_s = -1e9;
+        for (const Mesh& mesh : meshes) {
+          EXPECT_TRUE(mesh.repeats);
+          EXPECT_EQ(fs::path(mesh.face).filename(), "worn.png");
+          for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const Eigen::Vector2d from = mesh.PositionW(i).head<2>() - Eigen::Vector2d(x, 80.0);
+            const double s = 60.0 * std::atan2(from.x(), -from.y()), t = 60.0 - from.norm();
+            EXPECT_GE(t * id, -1e-3) << "right lane right of the middle, left lane left of it";
+            EXPECT_LE(t * id, 3.5 + 1e-3);
+            ExpectSame(mesh.on_face[i], ahead * Eigen::Vector2d(-t / 3.0, s / 3.0));
+            least_s = std::min(least_s, s), most_s = std::max(most_s, s);
+          }
+        }
+        EXPECT_NEAR(least_s, 0.0, 0.01);
+        EXPECT_NEAR(most_s, 120.0, 0.01);
       }
     }
   }
+}
+
+// A road that climbs out of a circle over its own beginning, banked: the picture goes on along it where it lies over itself.
+TEST(Pictures, WhereARoadPassesItselfEachPlaceIsItsOwn) {
+  const auto world = road::World::Parse(
+      "rodeira: world/2\nname: spiral\nground: {kind: plane, z_m: -30, surface: grass}\nmaterials: {worn: {surface: asphalt, texture: worn.png, texture_m: 3}}\nroads:\n"
+      "  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n    axis: [arc: {length_m: 460, radius_m: 60}]\n    vertical: [{s_m: 0, z_m: 0}, {s_m: 460, z_m: 23}]\n"
+      "    section: {template: rural, lanes: [{id: -1, width_m: 3.5, material: worn}, {id: 1, width_m: 3.5}]}\n    bridges: [{from_s_m: 0, to_s_m: 460}]\n",
+      kExample / "made.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  double most_s = 0.0;
+  for (const Mesh& mesh : Pictured(*world.value())) {
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const Eigen::Vector3d p = mesh.PositionW(i);
+      const Eigen::Vector2d from = p.head<2>() - Eigen::Vector2d(0.0, 60.0);
+      const double turn = 60.0 * 2.0 * std::acos(-1.0);
+      double s = 60.0 * std::atan2(from.x(), -from.y());
+      s += turn * std::round((20.0 * p.z() - s) / turn);  // which climbs by one in twenty
+      ExpectSame(mesh.on_face[i], {(from.norm() - 60.0) / 3.0, s / 3.0});
+      most_s = std::max(most_s, s);
+    }
+  }
+  EXPECT_NEAR(most_s, 460.0, 0.05);
 }
 
 TEST(Pictures, AGeotypicalOneKeepsItsShape) {

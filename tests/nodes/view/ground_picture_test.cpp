@@ -71,6 +71,12 @@ std::vector<Eigen::Vector2d> Fields(double west, double south, double size) {
   return {{west + a, south + a}, {west + b, south + a}, {west + a, south + b}, {west + b, south + b}};
 }
 
+// The same of one on the right lane of a road to the east, y = 0 its middle: it is driven to the east, which is up.
+std::vector<Eigen::Vector2d> AlongLane(double west, double size) {
+  const double a = 0.25 * size, b = 0.75 * size;
+  return {{west + a, -a}, {west + a, -b}, {west + b, -a}, {west + b, -b}};
+}
+
 void ExpectFour(const std::vector<Probe>& p, std::size_t first = 0) {
   EXPECT_TRUE(p[first].IsRed()) << p[first];
   EXPECT_TRUE(p[first + 1].IsBlue()) << p[first + 1];
@@ -100,7 +106,7 @@ TEST_F(GroundPicture, AGeotypicalOneRepeatsAndALaneHasItsOwn) {
   ASSERT_NE(world, nullptr);
   auto places = Fields(30.0, 10.0, 10.0);
   for (const Eigen::Vector2d& p : Fields(50.0, -20.0, 10.0)) places.push_back(p);
-  for (const Eigen::Vector2d& p : Fields(48.0, -8.0, 8.0)) places.push_back(p);
+  for (const Eigen::Vector2d& p : AlongLane(48.0, 8.0)) places.push_back(p);
   places.push_back({48.0, 3.0});
   const auto p = See(*world, places);
   ExpectFour(p);
@@ -126,7 +132,7 @@ TEST_F(GroundPicture, BuiltFilesShowTheSameAndNameThePicture) {
   EXPECT_EQ(pictures, 1u);  // one file, laid in two ways
   EXPECT_EQ(FindBuilt(folder_.path() / "made.yaml", *world).folder, options.folder);
   auto places = Fields(28.0, 8.0, 24.0);
-  for (const Eigen::Vector2d& p : Fields(48.0, -8.0, 8.0)) places.push_back(p);
+  for (const Eigen::Vector2d& p : AlongLane(48.0, 8.0)) places.push_back(p);
   const auto memory = See(*world, places), built = See(*world, places, options.folder);
   ExpectFour(built);
   ExpectFour(built, 4);
