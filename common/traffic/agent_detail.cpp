@@ -10,6 +10,7 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr std::uint32_t kBrake = 1, kLeft = 2, kRight = 4;
+constexpr int kOnRing = 2;  // TrackPlan::turn
 constexpr double kIndicates_s = 3.0, kIndicates_m = 30.0;  // before the turn
 
 }  // namespace
@@ -24,10 +25,14 @@ std::uint32_t TrafficModel::LightsOf(const AgentPose& pose) const {
   std::uint32_t track = agent.path.front().track;
   Choice choice{agent.links, agent.leg};
   double end = 0.0;
+  bool on_ring = false;
   for (std::size_t i = 0; side == 0; ++i) {
+    const bool may_leave = on_ring && graph()[track].next.size() > 1;
+    double begin = end;
     if (i < agent.path.size()) {
       track = agent.path[i].track;
-      if (agent.path[i].begin_m > to) break;
+      begin = agent.path[i].begin_m;
+      if (begin > to) break;
       end = i + 1 < agent.path.size() ? agent.path[i + 1].begin_m : agent.path[i].zero_m + graph()[track].length_m();
     } else {
       if (graph()[track].next.empty() || end > to) break;
@@ -35,7 +40,11 @@ std::uint32_t TrafficModel::LightsOf(const AgentPose& pose) const {
       track = on.to;
       end += graph()[track].length_m() - on.from_d_m;
     }
-    if (end > agent.o_m) side = map_->plans[track].turn;
+    const int turn = map_->plans[track].turn;
+    const bool ring = turn == kOnRing;
+    if (ring && begin > agent.o_m && (!on_ring || may_leave)) break;  // it enters the roundabout, or passes an exit, before it leaves it
+    on_ring = ring;
+    if (end > agent.o_m && !ring) side = turn;
   }
   if (side > 0) lights |= kLeft;
   if (side < 0) lights |= kRight;

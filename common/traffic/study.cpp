@@ -38,6 +38,7 @@ class Watcher {
       const double error = std::fabs(moved - told);
       if (error > 1e-3) Tell("moved {:.4f} m instead of {:.4f} m", pose, moved, told);
       result_.worst_step_m = std::max(result_.worst_step_m, error);
+      result_.hardest_any_mps2 = std::max(result_.hardest_any_mps2, -pose.acceleration_mps2);
       if (model.agent(pose.id).driving.brake <= 0.0) continue;  // a hill that the engine is too weak for
       if (pose.acceleration_mps2 < -kHard_mps2 && before_[k].acceleration_mps2 >= -kHard_mps2) Tell("brakes at {:.2f} m/s2", pose, -pose.acceleration_mps2);
       result_.hardest_mps2 = std::max(result_.hardest_mps2, -pose.acceleration_mps2);

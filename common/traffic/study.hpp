@@ -32,6 +32,7 @@ struct StudyResult {
   std::int64_t off_lane = 0;         // times that a middle was looked at beside every drivable lane
   double worst_step_m = 0.0;         // |distance between two poses - mean speed · step|, in plan
   double hardest_mps2 = 0.0;         // deceleration with a foot on the brake
+  double hardest_any_mps2 = 0.0;     // and by whatever: on a hill that the engine is too weak for, in overrun, while a gear changes
   std::int64_t arrivals = 0;         // trips that ended
   std::size_t on_road = 0, waiting = 0;
   std::vector<std::string> incidents;  // the first ones, as sentences

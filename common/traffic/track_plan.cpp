@@ -9,16 +9,17 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kAside_m = 1.0;
+constexpr int kOnRing = 2;
 constexpr double kTurn = 0.45;       // rad by which a way must bend to be a turn …
 constexpr double kLongTurn_m = 80.0;  // … no longer than this
 
-// To which side a track turns that is one of several ways on; into and along a roundabout's ring nobody indicates.
+// To which side a track turns that is one of several ways on.
 int TurnOf(const lanes::Graph& graph, std::uint32_t track) {
   const lanes::Track& at = graph[track];
+  const auto on_ring = [&](std::uint32_t other) { return lanes::OnRing(graph, other); };
+  if (on_ring(track)) return kOnRing;
   const auto branches = [&](std::uint32_t before) { return graph[before].next.size() > 1; };
   if (at.length_m() > kLongTurn_m || std::none_of(at.before.begin(), at.before.end(), branches)) return 0;
-  const auto on_ring = [&](std::uint32_t other) { return lanes::OnRing(graph, other); };
-  if (on_ring(track)) return 0;
   if (std::any_of(at.before.begin(), at.before.end(), on_ring)) return at.left_hand ? 1 : -1;
   if (std::any_of(at.next.begin(), at.next.end(), [&](const lanes::Link& link) { return on_ring(link.to); })) return 0;
   const Eigen::Vector2d from = at.curve.At(0.0).ahead_W, to = at.curve.At(at.length_m()).ahead_W;

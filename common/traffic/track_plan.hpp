@@ -41,7 +41,7 @@ struct TrackPlan {
   driver::SpeedPlan plan;
   double limit_mps;            // at its beginning
   std::vector<StopLine> lines;   // ascending
-  int turn = 0;                // to which side who chooses this way turns: +1 to the left, -1 to the right, 0 straight on or along a ring
+  int turn = 0;                // to which side who chooses this way turns: +1 to the left, -1 to the right, 0 straight on; 2: along a ring
 
   TrackPlan(const lanes::Graph& graph, std::uint32_t track, const driver::SpeedPlanSettings& settings);
 };

@@ -9,6 +9,7 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kBrakeLights_mps2 = -0.6;  // slowing down harder than by lifting the foot
+constexpr double kStopping_mps = 0.1;       // … or less at the end of a stop, and while it stands
 
 }  // namespace
 
@@ -39,7 +40,7 @@ AgentPose TrafficModel::PoseOf(std::uint32_t id) const {
   pose.acceleration_mps2 = agent.acceleration_mps2;
   pose.steer_rad = std::atan(traits.wheelbase_m * at.curvature_1pm);
   pose.wheel_spin_rad = geometry::WrapAngle(agent.driven_m / traits.wheel_radius_m);
-  pose.braking = agent.acceleration_mps2 < kBrakeLights_mps2;
+  pose.braking = agent.acceleration_mps2 < kBrakeLights_mps2 || (agent.speed_mps < kStopping_mps && agent.acceleration_mps2 <= 0.0 && agent.driving.brake > 0.0);
   if (full_) full_->Tell(id, pose);
   std::size_t i = agent.path.size() - 1;
   while (i > 0 && agent.path[i].begin_m > agent.o_m) --i;
