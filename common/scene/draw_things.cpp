@@ -37,10 +37,34 @@ Tree TreeOf(const Thing& thing) {
   return tree;
 }
 
+// By what models are alike: which one, and its measures and colour.
+using ModelKey = std::array<double, 6>;
+enum class Model { kTree, kPost, kLamp, kPlain, kSignPost, kTrafficLight, kRailPost };
+
+ModelKey KeyOf(Model model, const ModelSize& size, double radius_m = 0.0, Colour colour = {}) {
+  return {static_cast<double>(model), size.length_m, size.width_m, size.height_m, radius_m, static_cast<double>(65536 * colour.red + 256 * colour.green + colour.blue)};
+}
+
 struct Drawing {
   Vector3d origin_W;
-  Mesh solid, leaves;
+  Mesh solid;
   std::map<std::string, Mesh> faces;
+  std::map<ModelKey, Repeated> repeated;
+
+  // A model that may stand at other places too; it is made where it is the first one.
+  template <class Make>
+  void Repeat(const ModelKey& key, const StandingPlace& place, Make make) {
+    auto [found, fresh] = repeated.try_emplace(key);
+    if (fresh) {
+      found->second = make();
+      found->second.origin_W = origin_W;
+    }
+    found->second.places.push_back(place);
+  }
+  template <class Make>
+  void RepeatSolid(const ModelKey& key, const Stand& stand, Make make) {
+    Repeat(key, {stand, 1.0, 1.0, {}}, [&] { return Repeated{make(), {}, {}, {}}; });
+  }
 
   Mesh& Face(const std::string& name) {
     auto [found, fresh] = faces.try_emplace(name);
@@ -68,10 +92,10 @@ void AddPlate(const Thing& thing, const Stand& stand, Drawing& drawing) {
 void AddPosts(const Thing& thing, int level, Drawing& drawing) {
   if (!thing.on_post) return;
   const bool two = thing.kind == ThingKind::kSign && thing.width_m >= kTwoPosts_m;
-  const Mesh post = Pole(-0.05, thing.above_m + 0.92 * thing.height_m, kPost_m, kPost_m, level == 0 ? 6 : 3, kSteel);
+  const double top_m = thing.above_m + 0.92 * thing.height_m;
   for (const double y : two ? std::vector<double>{-0.32 * thing.width_m, 0.32 * thing.width_m} : std::vector<double>{0.0}) {
     const Stand stand{thing.stand.ToWorld({0.0, y, 0.0}), thing.stand.x_W};
-    AddPlaced(post, stand, drawing.solid);
+    drawing.RepeatSolid(KeyOf(Model::kSignPost, {0.0, 0.0, top_m}), stand, [&] { return Pole(-0.05, top_m, kPost_m, kPost_m, level == 0 ? 6 : 3, kSteel); });
   }
 }
 
@@ -81,7 +105,7 @@ void AddSign(const Thing& thing, int level, Drawing& drawing) {
   for (const double side : {1.0, -1.0}) {
     if (side < 0.0 && !thing.both_sides) break;
     if (thing.kind == ThingKind::kSign) AddPlate(thing, {thing.stand.foot_W, side * thing.stand.x_W}, drawing);
-    else AddPlaced(TrafficLightModel(thing.height_m, level), StandOfLight(thing.stand, thing.above_m, thing.height_m, side), drawing.solid);
+    else drawing.RepeatSolid(KeyOf(Model::kTrafficLight, {0.0, 0.0, thing.height_m}), StandOfLight(thing.stand, thing.above_m, thing.height_m, side), [&] { return TrafficLightModel(thing.height_m, level); });
   }
 }
 
@@ -91,13 +115,16 @@ void AddThing(const Thing& thing, int level, Drawing& drawing) {
   switch (thing.kind) {
     case ThingKind::kTree:
     case ThingKind::kBush:
-      if (level < (thing.kind == ThingKind::kTree ? 3 : 2)) AddTree(drawing.leaves, TreeOf(thing), level);
+      if (level < (thing.kind == ThingKind::kTree ? 3 : 2)) {
+        const Tree tree = TreeOf(thing);
+        drawing.Repeat(KeyOf(Model::kTree, {static_cast<double>(KindOf(tree)), 0.0, 0.0}), PlaceOf(tree), [&] { return TreeModel(KindOf(tree), level); });
+      }
       return;
     case ThingKind::kHouse: return AddPlaced(HouseModel(size, SeedAt(thing.stand.foot_W, 3), level), stand, drawing.solid);
     case ThingKind::kFillingStation: return AddPlaced(FillingStationModel(size, level), stand, drawing.solid);
-    case ThingKind::kPost: return AddPlaced(PostModel(size, level), stand, drawing.solid);
-    case ThingKind::kLamp: return AddPlaced(LampModel(size, level), stand, drawing.solid);
-    case ThingKind::kPlain: return AddPlaced(PlainModel(size, thing.radius_m, thing.colour, level), stand, drawing.solid);
+    case ThingKind::kPost: return drawing.RepeatSolid(KeyOf(Model::kPost, size), stand, [&] { return PostModel(size, level); });
+    case ThingKind::kLamp: return drawing.RepeatSolid(KeyOf(Model::kLamp, size), stand, [&] { return LampModel(size, level); });
+    case ThingKind::kPlain: return drawing.RepeatSolid(KeyOf(Model::kPlain, size, thing.radius_m, thing.colour), stand, [&] { return PlainModel(size, thing.radius_m, thing.colour, level); });
     case ThingKind::kOutline: return AddOutline(drawing.solid, thing.feet_W, thing.heights_m, thing.closed, thing.colour, Shade(thing.colour, 0.85));
     case ThingKind::kSign:
     case ThingKind::kTrafficLight: return AddSign(thing, level, drawing);
@@ -128,8 +155,9 @@ void AddBothSides(Mesh& mesh, const RailPiece& piece, double half_low, double ha
   }
 }
 
-void AddRail(const RailPiece& piece, int level, Mesh& mesh) {
+void AddRail(const RailPiece& piece, int level, Drawing& drawing) {
   if (level > 2) return;
+  Mesh& mesh = drawing.solid;
   const Colour zinc = Colour::Of(0xb4b9bb), fold = Colour::Of(0x94999c);
   if (piece.wall) {
     const Colour concrete = Colour::Of(0xb0ada5);
@@ -145,7 +173,9 @@ void AddRail(const RailPiece& piece, int level, Mesh& mesh) {
   AddBothSides(mesh, piece, 0.42, 0.28, 0.72, 0.79, fold);
   AddBothSides(mesh, piece, 0.28, 0.42, 0.79, 0.86, fold);
   AddBothSides(mesh, piece, 0.42, 0.42, 0.86, 1.0, zinc);
-  AddPlaced(Block({-0.04, -0.05, -0.02}, {0.04, 0.05, 0.95 * piece.height_m[0]}, fold), {piece.foot_W[0], Vector2d(piece.left_W[0].y(), -piece.left_W[0].x())}, mesh);
+  const double top_m = 0.95 * piece.height_m[0];
+  drawing.RepeatSolid(KeyOf(Model::kRailPost, {0.0, 0.0, top_m}), {piece.foot_W[0], Vector2d(piece.left_W[0].y(), -piece.left_W[0].x())},
+                      [&] { return Block({-0.04, -0.05, -0.02}, {0.04, 0.05, top_m}, fold); });
 }
 
 }  // namespace
@@ -158,22 +188,26 @@ std::vector<PlacedModel> ModelsOf(const Things::Tile& tile, int level) {
   return models;
 }
 
-std::vector<Mesh> DrawThings(const Things::Tile& tile, const TileKey& key, int level) {
+DrawnThings DrawThings(const Things::Tile& tile, const TileKey& key, int level) {
   const Vector2d middle = key.south_west_W() + Vector2d::Constant(0.5 * kTile_m);
   const double z = !tile.things.empty() ? tile.things.front().stand.foot_W.z() : !tile.rails.empty() ? tile.rails.front().foot_W[0].z() : 0.0;
   Drawing drawing;
-  drawing.origin_W = OriginNear({middle.x(), middle.y(), z});
-  drawing.solid.origin_W = drawing.leaves.origin_W = drawing.origin_W;
+  drawing.origin_W = drawing.solid.origin_W = OriginNear({middle.x(), middle.y(), z});
   drawing.solid.material = Material::kMatt;
-  drawing.leaves.material = Material::kFoliage;
   for (const Thing& thing : tile.things) AddThing(thing, level, drawing);
-  for (const RailPiece& piece : tile.rails) AddRail(piece, level, drawing.solid);
-  std::vector<Mesh> meshes;
-  for (Mesh* mesh : {&drawing.solid, &drawing.leaves}) {
-    if (!mesh->triangles.empty()) meshes.push_back(std::move(*mesh));
+  for (const RailPiece& piece : tile.rails) AddRail(piece, level, drawing);
+  DrawnThings drawn;
+  std::vector<Repeated> few;
+  for (auto& [model, repeated] : drawing.repeated) {
+    if (!repeated.model.triangles.empty()) (repeated.places.size() < kFewestPlaces ? few : drawn.repeated).push_back(std::move(repeated));
   }
-  for (auto& [name, mesh] : drawing.faces) meshes.push_back(std::move(mesh));
-  return meshes;
+  for (Mesh& mesh : Merged(few)) {
+    if (mesh.material == Material::kMatt) drawing.solid.Append(mesh);
+    else drawn.meshes.push_back(std::move(mesh));
+  }
+  if (!drawing.solid.triangles.empty()) drawn.meshes.insert(drawn.meshes.begin(), std::move(drawing.solid));
+  for (auto& [name, mesh] : drawing.faces) drawn.meshes.push_back(std::move(mesh));
+  return drawn;
 }
 
 }  // namespace rodeira::scene

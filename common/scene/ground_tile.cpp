@@ -158,7 +158,9 @@ GroundTile GroundPlan::Build(const TileKey& key) const {
     }
     tile.levels[at].ground = std::move(woven.meshes);
     if (const auto things = things_.tiles().find(key); things != things_.tiles().end()) {
-      tile.levels[at].things = DrawThings(things->second, key, level);
+      DrawnThings drawn = DrawThings(things->second, key, level);
+      tile.levels[at].things = std::move(drawn.meshes);
+      tile.levels[at].repeated = std::move(drawn.repeated);
       tile.levels[at].models = ModelsOf(things->second, level);
     }
   }

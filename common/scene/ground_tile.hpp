@@ -19,6 +19,7 @@ struct GroundLevel {
   std::vector<Mesh> ground;  // one a material, then walls; nothing above or below another but on another level of roads
   Mesh marks;                // in the planes of the ground's triangles: to be drawn after it, with an offset
   std::vector<Mesh> things;  // signs and objects that stand in the tile, all with one origin
+  std::vector<Repeated> repeated;   // those that are like others, with the same one
   std::vector<PlacedModel> models;  // the same, from files
 };
 

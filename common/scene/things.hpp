@@ -10,6 +10,7 @@
 #include "common/network/placing.hpp"
 #include "common/road/world.hpp"
 #include "common/scene/mesh.hpp"
+#include "common/scene/repeated.hpp"
 #include "common/scene/solids.hpp"
 #include "common/scene/tile_grid.hpp"
 
@@ -86,8 +87,15 @@ struct PlacedModel {
 // A tile's models at a level of detail: all of them but at level 3, where there are none.
 std::vector<PlacedModel> ModelsOf(const Things::Tile& tile, int level);
 
-// A tile's things at a level of detail, all with the same origin: at level 0 and 1 everything, simpler at 1; at 2 trees,
+// What of a tile's things is drawn once, and what at many places; all with the same origin.
+struct DrawnThings {
+  std::vector<Mesh> meshes;
+  std::vector<Repeated> repeated;  // trees, posts, lamps …, each at kFewestPlaces or more
+};
+inline constexpr std::size_t kFewestPlaces = 8;
+
+// A tile's things at a level of detail: at level 0 and 1 everything, simpler at 1; at 2 trees,
 // houses and rails as plain as can be; at 3 only houses and what else is large.
-std::vector<Mesh> DrawThings(const Things::Tile& tile, const TileKey& key, int level);
+DrawnThings DrawThings(const Things::Tile& tile, const TileKey& key, int level);
 
 }  // namespace rodeira::scene

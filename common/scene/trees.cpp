@@ -1,5 +1,6 @@
 #include "common/scene/trees.hpp"
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -60,7 +61,9 @@ void PlantField(const road::World& world, std::uint64_t seed, std::int64_t field
 // Rings of a crown: height and radius as shares.
 using Profile = std::vector<std::pair<double, double>>;
 
-void AddRings(Mesh& mesh, const Tree& tree, const Profile& profile, int sides, Colour dark, Colour light) {
+// `own`: the colour of what is no leaf; null: leaves, the lighter the higher.
+void AddRings(const Profile& profile, int sides, const Colour* own, Repeated& tree) {
+  Mesh& mesh = tree.model;
   std::vector<std::vector<std::uint32_t>> rings;
   for (std::size_t k = 0; k < profile.size(); ++k) {
     const auto& [up, wide] = profile[k];
@@ -70,7 +73,8 @@ void AddRings(Mesh& mesh, const Tree& tree, const Profile& profile, int sides, C
       const double angle = 2.0 * geometry::kPi * (side + 0.5 * static_cast<double>(k % 2)) / sides;
       const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0.0);
       const Eigen::Vector3d normal = (out + Eigen::Vector3d(0.0, 0.0, 1.6 * share - 0.5)).normalized();
-      ring.push_back(mesh.Add(tree.foot_W + wide * tree.crown_m * out + Eigen::Vector3d(0.0, 0.0, up * tree.height_m), normal, Mix(dark, light, share)));
+      ring.push_back(mesh.Add(wide * out + Eigen::Vector3d(0.0, 0.0, up), normal, own != nullptr ? *own : Colour{}));
+      tree.light.push_back(own != nullptr ? -1.0F : static_cast<float>(share));
     }
     rings.push_back(std::move(ring));
   }
@@ -103,33 +107,49 @@ std::vector<Tree> PlantTrees(const road::World& world, std::uint64_t seed) {
   return trees;
 }
 
-void AddTree(Mesh& mesh, const Tree& tree, int level) {
-  static const Profile kRound = {{0.22, 0.15}, {0.36, 0.85}, {0.58, 1.0}, {0.82, 0.72}, {1.0, 0.08}};
-  static const Profile kCone = {{0.14, 0.3}, {0.2, 1.0}, {0.5, 0.62}, {0.78, 0.32}, {1.0, 0.02}};
-  static const Profile kBush = {{-0.08, 0.6}, {0.3, 1.0}, {0.6, 0.9}, {0.85, 0.55}, {1.0, 0.06}};
-  static const Profile kPlainRound = {{0.2, 0.3}, {0.55, 1.0}, {1.0, 0.15}}, kPlainCone = {{0.14, 0.3}, {0.22, 1.0}, {1.0, 0.02}}, kPlainBush = {{-0.08, 0.6}, {0.45, 1.0}, {1.0, 0.1}};
+TreeKind KindOf(const Tree& tree) { return tree.bush ? TreeKind::kBush : tree.conifer ? TreeKind::kCone : TreeKind::kRound; }
+
+Repeated TreeModel(TreeKind kind, int level) {
+  // The number of rings less one divides four: light is a multiple of a quarter.
+  static const std::array<Profile, 3> kFine = {Profile{{0.22, 0.15}, {0.36, 0.85}, {0.58, 1.0}, {0.82, 0.72}, {1.0, 0.08}},
+                                               Profile{{0.14, 0.3}, {0.2, 1.0}, {0.5, 0.62}, {0.78, 0.32}, {1.0, 0.02}},
+                                               Profile{{-0.08, 0.6}, {0.3, 1.0}, {0.6, 0.9}, {0.85, 0.55}, {1.0, 0.06}}};
+  static const std::array<Profile, 3> kPlain = {Profile{{0.2, 0.3}, {0.55, 1.0}, {1.0, 0.15}}, Profile{{0.14, 0.3}, {0.22, 1.0}, {1.0, 0.02}}, Profile{{-0.08, 0.6}, {0.45, 1.0}, {1.0, 0.1}}};
   static const Profile kTrunk = {{-0.08, 0.13}, {0.3, 0.09}};
-  const Colour bark = Colour::Of(0x5b4936), dark = Shade(tree.leaves, 0.72), light = Shade(tree.leaves, 1.12);
-  if (!tree.bush && level < 2) AddRings(mesh, tree, kTrunk, level == 0 ? 5 : 3, bark, bark);
-  if (level == 0) AddRings(mesh, tree, tree.bush ? kBush : tree.conifer ? kCone : kRound, 7, dark, light);
-  else AddRings(mesh, tree, tree.bush ? kPlainBush : tree.conifer ? kPlainCone : kPlainRound, level == 1 ? 6 : 4, dark, light);
+  static constexpr Colour kBark = Colour::Of(0x5b4936);
+  Repeated tree;
+  tree.model.material = Material::kFoliage;
+  if (kind != TreeKind::kBush && level < 2) AddRings(kTrunk, level == 0 ? 5 : 3, &kBark, tree);
+  AddRings((level == 0 ? kFine : kPlain)[static_cast<std::size_t>(kind)], level == 0 ? 7 : level == 1 ? 6 : 4, nullptr, tree);
+  return tree;
 }
 
-std::vector<Mesh> BuildTrees(const std::vector<Tree>& trees) {
+StandingPlace PlaceOf(const Tree& tree) { return {{tree.foot_W, Eigen::Vector2d::UnitX()}, tree.crown_m, tree.height_m, tree.leaves}; }
+
+std::vector<std::vector<Repeated>> BuildTrees(const std::vector<Tree>& trees) {
   const double field_m = kPlot_m * kPlotsAField;
-  std::map<std::pair<std::int64_t, std::int64_t>, Mesh> fields;
+  struct Field {
+    Eigen::Vector3d origin_W;
+    std::map<TreeKind, Repeated> kinds;
+  };
+  std::map<std::pair<std::int64_t, std::int64_t>, Field> fields;
   for (const Tree& tree : trees) {
     const std::pair key(static_cast<std::int64_t>(std::floor(tree.foot_W.x() / field_m)), static_cast<std::int64_t>(std::floor(tree.foot_W.y() / field_m)));
-    auto [found, fresh] = fields.try_emplace(key);
-    if (fresh) {
-      found->second.material = Material::kFoliage;
-      found->second.origin_W = OriginNear(tree.foot_W);
+    auto [field, fresh] = fields.try_emplace(key);
+    if (fresh) field->second.origin_W = OriginNear(tree.foot_W);
+    auto [kind, first] = field->second.kinds.try_emplace(KindOf(tree));
+    if (first) {
+      kind->second = TreeModel(kind->first, 0);
+      kind->second.origin_W = field->second.origin_W;
     }
-    AddTree(found->second, tree);
+    kind->second.places.push_back(PlaceOf(tree));
   }
-  std::vector<Mesh> meshes;
-  for (auto& [key, mesh] : fields) meshes.push_back(std::move(mesh));
-  return meshes;
+  std::vector<std::vector<Repeated>> all;
+  for (auto& [key, field] : fields) {
+    std::vector<Repeated>& kinds = all.emplace_back();
+    for (auto& [kind, repeated] : field.kinds) kinds.push_back(std::move(repeated));
+  }
+  return all;
 }
 
 }  // namespace rodeira::scene

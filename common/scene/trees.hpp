@@ -4,7 +4,7 @@
 
 #include "common/road/world.hpp"
 #include "common/scene/lattice.hpp"
-#include "common/scene/mesh.hpp"
+#include "common/scene/repeated.hpp"
 
 namespace rodeira::scene {
 
@@ -22,10 +22,14 @@ struct Tree {
 // its shoulders or verges.
 std::vector<Tree> PlantTrees(const road::World& world, std::uint64_t seed);
 
-// A tree's triangles: about 70 at level 0, 30 at level 1, 16 from level 2 on.
-void AddTree(Mesh& mesh, const Tree& tree, int level = 0);
+// How a tree grows: what differs from one to the next of a kind is its place.
+enum class TreeKind { kRound, kCone, kBush };
+TreeKind KindOf(const Tree& tree);
+// One of a kind, 1 m high and with a crown of 1 m radius: about 70 triangles at level 0, 30 at level 1, 16 from level 2 on. It stands nowhere yet.
+Repeated TreeModel(TreeKind kind, int level);
+StandingPlace PlaceOf(const Tree& tree);
 
-// The trees as meshes, one for each square of about 200 m that has any.
-std::vector<Mesh> BuildTrees(const std::vector<Tree>& trees);
+// The trees of each square of about 200 m that has any: one entry a kind, all with the same origin.
+std::vector<std::vector<Repeated>> BuildTrees(const std::vector<Tree>& trees);
 
 }  // namespace rodeira::scene

@@ -4,6 +4,7 @@
 
 #include "common/road/world.hpp"
 #include "common/scene/ground_tile.hpp"
+#include "common/scene/repeated.hpp"
 #include "common/scene/ribbon.hpp"
 #include "common/scene/terrain_mesh.hpp"
 
@@ -14,7 +15,7 @@ struct WorldScene {
   std::vector<GroundTile> ground;  // of a network
   std::vector<TerrainTile> terrain;
   std::vector<RoadTile> roads;
-  std::vector<Mesh> trees;
+  std::vector<std::vector<Repeated>> trees;  // by the square in which they stand
 };
 
 // A pure function of the world and of which models can be read: the same meshes, bit by bit.

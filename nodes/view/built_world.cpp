@@ -9,9 +9,11 @@
 #include <limits>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "nodes/view/database.hpp"
 #include "nodes/view/picture_texture.hpp"
+#include "nodes/view/plain_geometry.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -19,15 +21,21 @@ namespace {
 // Gives geometries of the database the look of those that are built in memory.
 class Dress : public osg::NodeVisitor {
  public:
-  Dress(Look& look, std::filesystem::path folder) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), look_(look), folder_(std::move(folder)) {}
+  Dress(Look& look, std::filesystem::path folder) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), look_(look), folder_(std::move(folder)) {
+    setNodeMaskOverride(~0U);  // what is hidden from other programs too
+  }
 
   void apply(osg::Geometry& geometry) override {
     const std::string_view name = geometry.getName(), begin = kGeometryName;
-    if (!name.starts_with(begin)) return geometry.setNodeMask(kOnlyNear);  // of a model's file
+    if (!name.starts_with(begin)) return geometry.setNodeMask(geometry.getNodeMask() & kOnlyNear);  // of a model's file
     int number = -1;
     std::from_chars(name.data() + begin.size(), name.data() + name.size(), number);
     if (number < 0 || number >= scene::kMaterials) return;
     const auto material = static_cast<scene::Material>(number);
+    const bool repeated = name.ends_with(kRepeatedName);
+    if (repeated || name.ends_with(kMergedName)) {
+      if (repeated != look_.repeats()) return unwanted_.push_back(geometry.getParent(0));  // it has its place for itself
+    }
     geometry.setNodeMask(ShadowMaskOf(material));
     if (material == scene::Material::kPicture) return LayPicture(geometry);
     if (material == scene::Material::kSign) {
@@ -37,8 +45,18 @@ class Dress : public osg::NodeVisitor {
       geometry.setTexCoordArray(1, geometry.getTexCoordArray(0));
       geometry.setTexCoordArray(0, nullptr);
       geometry.setStateSet(look_.StateOfFace(*face));
+    } else if (repeated) {
+      Spread(geometry);
+      geometry.setStateSet(look_.StateOfRepeated(material));
     } else {
       geometry.setStateSet(look_.StateOf(material));
+    }
+  }
+  // Lets go of what this look draws in another way.
+  void Clear() {
+    for (const osg::ref_ptr<osg::Group>& place : unwanted_) {
+      const osg::Node::ParentList parents = place->getParents();
+      for (osg::Group* parent : parents) parent->removeChild(place);
     }
   }
 
@@ -55,6 +73,7 @@ class Dress : public osg::NodeVisitor {
 
   Look& look_;
   std::filesystem::path folder_;
+  std::vector<osg::ref_ptr<osg::Group>> unwanted_;
 };
 
 class DressWhatIsRead : public osgDB::ReadFileCallback {
@@ -66,6 +85,7 @@ class DressWhatIsRead : public osgDB::ReadFileCallback {
     if (result.validNode()) {
       Dress dress(look_, folder_);
       result.getNode()->accept(dress);
+      dress.Clear();
     }
     return result;
   }
@@ -85,7 +105,7 @@ class DressWhatIsRead : public osgDB::ReadFileCallback {
 
 base::Result<BuiltWorld> ReadBuilt(const std::filesystem::path& folder, Look& look) {
   // The states are made here, not by the pager's threads.
-  for (int number = 0; number < scene::kMaterials; ++number) (void)look.StateOf(static_cast<scene::Material>(number));
+  for (int number = 0; number < scene::kMaterials; ++number) (void)look.StateOfRepeated(static_cast<scene::Material>(number));
   const std::string file = (folder / "world.osgb").string();
   const osg::ref_ptr<osg::Node> read = osgDB::readRefNodeFile(file);
   BuiltWorld built;

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "nodes/view/model_file.hpp"
 
@@ -18,27 +20,57 @@ osg::Matrixd ToOsg(const Eigen::Vector3d& p, const Eigen::Quaterniond& q) {
   return osg::Matrixd::rotate(osg::Quat(q.x(), q.y(), q.z(), q.w())) * osg::Matrixd::translate(p.x(), p.y(), p.z());
 }
 
-// The mesh with a uniform of its own. One farther down would win, so it gets a copy of its material's state.
+// A material's state with a uniform of one's own. One farther down would win, so it is a copy.
+osg::ref_ptr<osg::StateSet> StateWith(Look& look, scene::Material material, const osg::ref_ptr<osg::Uniform>& uniform) {
+  osg::ref_ptr<osg::StateSet> state = new osg::StateSet(*look.StateOf(material), osg::CopyOp::SHALLOW_COPY);
+  state->addUniform(uniform);
+  return state;
+}
+
 osg::ref_ptr<osg::Geometry> WithUniform(Look& look, const scene::Mesh& mesh, const osg::ref_ptr<osg::Uniform>& uniform) {
   osg::ref_ptr<osg::Geometry> geometry = look.GeometryOf(mesh);
-  osg::ref_ptr<osg::StateSet> state = new osg::StateSet(*look.StateOf(mesh.material), osg::CopyOp::SHALLOW_COPY);
-  state->addUniform(uniform);
-  geometry->setStateSet(state);
+  geometry->setStateSet(StateWith(look, mesh.material, uniform));
   return geometry;
 }
 
-// The first node of that name.
-class FindNamed final : public osg::NodeVisitor {
+// All nodes of that name, but none within another one.
+std::vector<osg::ref_ptr<osg::Node>> NodesCalled(std::string_view name, osg::Node& root) {
+  class Find final : public osg::NodeVisitor {
+   public:
+    explicit Find(std::string_view wanted) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), name_(wanted) {}
+    void apply(osg::Node& node) override {
+      if (node.getName() == name_) found.emplace_back(&node);
+      else traverse(node);
+    }
+    std::vector<osg::ref_ptr<osg::Node>> found;
+
+   private:
+    std::string_view name_;
+  } find(name);
+  root.accept(find);
+  return std::move(find.found);
+}
+
+// Makes whatever is drawn below a node a lamp, with the state of lamps.
+class MakeLamp final : public osg::NodeVisitor {
  public:
-  explicit FindNamed(std::string name) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), name_(std::move(name)) {}
-  void apply(osg::Node& node) override {
-    if (!found && node.getName() == name_) found = &node;
-    if (!found) traverse(node);
+  MakeLamp(scene::Lamp lamp, osg::StateSet& state) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), lamp_(lamp), state_(&state) {}
+  void apply(osg::Geometry& geometry) override {
+    const unsigned vertices = geometry.getVertexArray() != nullptr ? geometry.getVertexArray()->getNumElements() : 0;
+    osg::ref_ptr<osg::Vec2Array> which = new osg::Vec2Array(vertices);
+    for (osg::Vec2& one : *which) one = {static_cast<float>(lamp_), 0.0F};
+    geometry.setTexCoordArray(1, which);
+    const scene::Colour c = scene::ColourOf(lamp_);
+    osg::ref_ptr<osg::Vec4ubArray> colour = new osg::Vec4ubArray;
+    colour->push_back({c.red, c.green, c.blue, 255});
+    colour->setNormalize(true);
+    geometry.setColorArray(colour, osg::Array::BIND_OVERALL);
+    geometry.setStateSet(state_);
   }
-  osg::ref_ptr<osg::Node> found;
 
  private:
-  std::string name_;
+  scene::Lamp lamp_;
+  osg::ref_ptr<osg::StateSet> state_;
 };
 
 }  // namespace
@@ -72,8 +104,9 @@ CarNode::CarNode(Look& look, scene::AgentKind kind, const scene::CarShape& shape
   }
 }
 
-void CarNode::Wear(osg::Node& model) {
+void CarNode::Wear(Look& look, osg::Node& model) {
   static constexpr std::array kWheels = {"wheel_front_left", "wheel_front_right", "wheel_rear_left", "wheel_rear_right"};
+  static constexpr std::array<const char*, scene::kLamps> kLampNames = {"lamp_brake", "lamp_indicator_left", "lamp_indicator_right", "lamp_reversing", "lamp_head"};
   body_->removeChildren(0, body_->getNumChildren());
   frame_->removeChildren(0, frame_->getNumChildren());
   body_->addChild(shadow_);
@@ -82,12 +115,16 @@ void CarNode::Wear(osg::Node& model) {
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     wheels_[i]->removeChildren(0, wheels_[i]->getNumChildren());
     body_->addChild(wheels_[i]);
-    FindNamed find(kWheels[i]);
-    model.accept(find);
-    if (!find.found) continue;
-    const osg::Node::ParentList parents = find.found->getParents();
-    for (osg::Group* parent : parents) parent->removeChild(find.found);
-    wheels_[i]->addChild(find.found);
+    const auto found = NodesCalled(kWheels[i], model);
+    if (found.empty()) continue;
+    const osg::Node::ParentList parents = found.front()->getParents();
+    for (osg::Group* parent : parents) parent->removeChild(found.front());
+    wheels_[i]->addChild(found.front());
+  }
+  const osg::ref_ptr<osg::StateSet> shining = StateWith(look, scene::Material::kCarLamp, glows_);
+  for (std::size_t i = 0; i < kLampNames.size(); ++i) {
+    MakeLamp make(static_cast<scene::Lamp>(i), *shining);
+    for (const auto& lamp : NodesCalled(kLampNames[i], model)) lamp->accept(make);
   }
 }
 
@@ -163,7 +200,7 @@ void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside,
   for (const scene::AgentPose& agent : moment.agents) (agent.kind == scene::AgentKind::kPedestrian ? people : agents).push_back(&agent);
   const auto make_car = [&](const scene::CarPose& car) {
     CarNode node(look_, scene::AgentKind::kCar, scene::CarShape::Of(car), car.colour);
-    if (const auto model = car_model_.empty() ? nullptr : CopyOfModel(car_model_)) node.Wear(*model);
+    if (const auto model = car_model_.empty() ? nullptr : CopyOfModel(car_model_)) node.Wear(look_, *model);
     return node;
   };
   Match(cars, cars_, make_car, [&](CarNode& node, const scene::CarPose& car) {

@@ -28,8 +28,9 @@ class CarNode {
   // How much of a chosen car's pulse is seen, 0 to 1.
   void Pulse(double share);
   // Shows this model instead of the procedural car, in its frame B (x forward, z up, metres, the ground at z = 0). Its nodes that are called
-  // wheel_front_left, wheel_front_right, wheel_rear_left and wheel_rear_right, each about its hub, turn, steer and move as wheels do.
-  void Wear(osg::Node& model);
+  // wheel_front_left, wheel_front_right, wheel_rear_left and wheel_rear_right, each about its hub, turn, steer and move as wheels do; those that are called
+  // lamp_brake, lamp_indicator_left, lamp_indicator_right, lamp_reversing and lamp_head, as many as there are, look and shine as the procedural car's lamps.
+  void Wear(Look& look, osg::Node& model);
   // Leaves away what stands in the eyes of somebody who sits in it.
   void SeenFromInside(bool inside) { frame_->setNodeMask(inside ? 0U : ~0U); }
 

@@ -23,6 +23,7 @@
 #include "nodes/view/face_texture.hpp"
 #include "nodes/view/model_file.hpp"
 #include "nodes/view/picture_texture.hpp"
+#include "nodes/view/plain_geometry.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -53,23 +54,8 @@ void LayPicture(const scene::Mesh& mesh, const std::string& name, osg::Geometry&
 }
 
 osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh, const Pictures& pictures) {
-  osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array, normals = new osg::Vec3Array;
-  osg::ref_ptr<osg::Vec4ubArray> colours = new osg::Vec4ubArray;
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const Eigen::Vector3f &p = mesh.positions[i], &n = mesh.normals[i];
-    positions->push_back({p.x(), p.y(), p.z()});
-    normals->push_back({n.x(), n.y(), n.z()});
-    colours->push_back({mesh.colours[i].red, mesh.colours[i].green, mesh.colours[i].blue, 255});
-  }
-  colours->setNormalize(true);
-  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  osg::ref_ptr<osg::Geometry> geometry = PlainGeometry(mesh);
   geometry->setName(kGeometryName + std::to_string(static_cast<int>(mesh.material)));
-  geometry->setUseDisplayList(false);
-  geometry->setUseVertexBufferObjects(true);
-  geometry->setVertexArray(positions);
-  geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
-  geometry->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
-  geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.triangles.begin(), mesh.triangles.end()));
   if (mesh.material == scene::Material::kMark) {  // over the ground that it lies in
     geometry->getOrCreateStateSet()->setAttributeAndModes(new osg::PolygonOffset(-1.0F, -4.0F));
     geometry->getOrCreateStateSet()->setRenderBinDetails(1, "RenderBin");
@@ -86,15 +72,27 @@ osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh, const Pictures& 
 
 osg::ref_ptr<osg::Node> LevelNode(const scene::GroundLevel& level, const Pictures& pictures) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
-  const auto add = [&](const scene::Mesh& mesh) {
+  const auto place = [&](const Eigen::Vector3d& origin_W, osg::Geometry* geometry) {
+    osg::ref_ptr<osg::MatrixTransform> at = new osg::MatrixTransform(osg::Matrixd::translate(origin_W.x(), origin_W.y(), origin_W.z()));
+    at->addChild(geometry);
+    group->addChild(at);
+  };
+  const auto add = [&](const scene::Mesh& mesh, const char* more = "") {
     if (mesh.triangles.empty()) return;
-    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(mesh.origin_W.x(), mesh.origin_W.y(), mesh.origin_W.z()));
-    place->addChild(GeometryOf(mesh, pictures));
-    group->addChild(place);
+    const osg::ref_ptr<osg::Geometry> geometry = GeometryOf(mesh, pictures);
+    geometry->setName(geometry->getName() + more);
+    place(mesh.origin_W, geometry);
   };
   for (const scene::Mesh& mesh : level.ground) add(mesh);
   add(level.marks);
   for (const scene::Mesh& mesh : level.things) add(mesh);
+  for (const scene::Mesh& mesh : scene::Merged(level.repeated)) add(mesh, kMergedName);
+  for (const scene::Repeated& repeated : level.repeated) {
+    const osg::ref_ptr<osg::Geometry> geometry = RepeatedGeometry(repeated);
+    geometry->setName(kGeometryName + std::to_string(static_cast<int>(repeated.model.material)) + kRepeatedName);
+    geometry->setNodeMask(0U);
+    place(repeated.origin_W, geometry);
+  }
   if (!level.models.empty()) group->addChild(PlaceModels(level.models));
   return group;
 }

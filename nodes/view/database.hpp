@@ -26,6 +26,10 @@ struct DatabaseReport {
 inline constexpr const char* kManifest = "visual.txt";
 // The names of geometries begin so; what follows is their scene::Material's number.
 inline constexpr const char* kGeometryName = "rodeira ";
+// What is repeated is there twice: merged, which every program draws, and as one model with its places (RepeatedGeometry), which is hidden from others. These
+// words follow the number.
+inline constexpr const char* kMergedName = " merged";
+inline constexpr const char* kRepeatedName = " repeated";
 // Of geometries on which a picture lies there follow, where it repeats, this word, and the file of the picture, which is copied
 // into this folder under the hash of its bytes.
 inline constexpr const char* kRepeats = " repeats";

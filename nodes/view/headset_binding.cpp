@@ -4,6 +4,7 @@
 #include <EGL/egl.h>
 #include <GL/gl.h>
 #include <GL/glx.h>
+#include <X11/Xutil.h>
 
 #define XR_USE_GRAPHICS_API_OPENGL
 #define XR_USE_PLATFORM_XLIB
@@ -14,16 +15,38 @@
 namespace rodeira::view {
 namespace {
 
-std::optional<HeadsetBinding> BindingByGlx(GLXContext context) {
-  Display* display = glXGetCurrentDisplay();
-  int id = 0, count = 0;
-  if (display == nullptr || glXQueryContext(display, context, GLX_FBCONFIG_ID, &id) != Success) return std::nullopt;
+// Of a context that was made of a visual, which knows no configuration: one with its window's visual. Null: there is none.
+GLXFBConfig ConfigOfWindow(Display* display, GLXDrawable window) {
+  XWindowAttributes window_is;
+  if (XGetWindowAttributes(display, window, &window_is) == 0) return nullptr;
+  int count = 0;
+  GLXFBConfig* configs = glXGetFBConfigs(display, XScreenNumberOfScreen(window_is.screen), &count);
+  GLXFBConfig found = nullptr;
+  for (int i = 0; i < count && found == nullptr; ++i) {
+    int visual = 0;
+    if (glXGetFBConfigAttrib(display, configs[i], GLX_VISUAL_ID, &visual) == Success && static_cast<VisualID>(visual) == XVisualIDFromVisual(window_is.visual)) found = configs[i];
+  }
+  if (configs != nullptr) XFree(configs);
+  return found;
+}
+
+GLXFBConfig ConfigOf(Display* display, GLXContext context) {
+  int id = -1, count = 0;
+  if (glXQueryContext(display, context, GLX_FBCONFIG_ID, &id) != Success || id <= 0) return ConfigOfWindow(display, glXGetCurrentDrawable());
   const int wanted[] = {GLX_FBCONFIG_ID, id, 0};
   GLXFBConfig* configs = glXChooseFBConfig(display, DefaultScreen(display), wanted, &count);
-  if (configs == nullptr) return std::nullopt;
+  GLXFBConfig found = configs != nullptr && count > 0 ? configs[0] : nullptr;
+  if (configs != nullptr) XFree(configs);
+  return found;
+}
+
+std::optional<HeadsetBinding> BindingByGlx(GLXContext context) {
+  Display* display = glXGetCurrentDisplay();
+  if (display == nullptr) return std::nullopt;
+  GLXFBConfig config = ConfigOf(display, context);
+  if (config == nullptr) return std::nullopt;
   auto binding = std::make_shared<XrGraphicsBindingOpenGLXlibKHR>();
-  *binding = {XR_TYPE_GRAPHICS_BINDING_OPENGL_XLIB_KHR, nullptr, display, 0, configs[0], glXGetCurrentDrawable(), context};
-  XFree(configs);
+  *binding = {XR_TYPE_GRAPHICS_BINDING_OPENGL_XLIB_KHR, nullptr, display, 0, config, glXGetCurrentDrawable(), context};
   if (XVisualInfo* visual = glXGetVisualFromFBConfig(display, binding->glxFBConfig)) {
     binding->visualid = static_cast<std::uint32_t>(visual->visualid);
     XFree(visual);

@@ -8,6 +8,7 @@
 #include <osg/Program>
 #include <osg/Shader>
 #include <osg/Texture2D>
+#include <osg/VertexAttribDivisor>
 
 #include <array>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include "common/scene/car_lights.hpp"
 #include "nodes/view/face_texture.hpp"
 #include "nodes/view/picture_texture.hpp"
+#include "nodes/view/plain_geometry.hpp"
 #include "nodes/view/shaders.hpp"
 
 namespace rodeira::view {
@@ -25,13 +27,6 @@ namespace {
 constexpr int kNoiseSize = 256;
 // Drawn in this order; the road's marks after the ground they lie on, the sky where nothing else is.
 constexpr int kMarkBin = 1, kSkyBin = 2, kShadowBin = 3, kRainBin = 4;
-
-osg::ref_ptr<osg::Program> ProgramOf(const std::string& vertex, const std::string& fragment) {
-  osg::ref_ptr<osg::Program> program = new osg::Program;
-  program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
-  return program;
-}
 
 // Noise in [0, 1] that repeats after kNoiseSize pixels.
 double RepeatingNoise(int x, int y, int cell, std::uint64_t seed) {
@@ -72,7 +67,16 @@ unsigned ShadowMaskOf(scene::Material material) {
   return scene::IsGround(material) ? ~kThrowsShadow : kOnlyNear;
 }
 
-Look::Look(const QualityTraits& quality) : quality_(quality), noise_(MakeNoise(quality.fine)), shadow_(ProgramOf(ShadowVertexShader(), ShadowFragmentShader())) {}
+osg::ref_ptr<osg::Program> ProgramOf(const std::string& vertex, const std::string& fragment) {
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
+  program->addBindAttribLocation("instance_place", kPlaceSlot);
+  program->addBindAttribLocation("instance_shape", kShapeSlot);
+  return program;
+}
+
+Look::Look(const QualityTraits& quality, bool repeats) : quality_(quality), repeats_(repeats), noise_(MakeNoise(quality.fine)), shadow_(ProgramOf(ShadowVertexShader(), ShadowFragmentShader())) {}
 
 osg::ref_ptr<osg::StateSet> Look::MakeState(scene::Material material) {
   osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
@@ -94,6 +98,15 @@ osg::ref_ptr<osg::StateSet> Look::MakeState(scene::Material material) {
 osg::StateSet* Look::StateOf(scene::Material material) {
   auto& state = states_[static_cast<std::size_t>(material)];
   if (!state) state = MakeState(material);
+  return state;
+}
+
+osg::StateSet* Look::StateOfRepeated(scene::Material material) {
+  auto& state = repeated_states_[static_cast<std::size_t>(material)];
+  if (state) return state;
+  state = new osg::StateSet(*StateOf(material), osg::CopyOp::SHALLOW_COPY);
+  state->setDefine("INSTANCED");
+  for (const unsigned slot : {kPlaceSlot, kShapeSlot}) state->setAttribute(new osg::VertexAttribDivisor(slot, 1));
   return state;
 }
 
@@ -127,27 +140,7 @@ osg::ref_ptr<osg::StateSet> Look::StateOfPicture(const std::string& file, bool r
 }
 
 osg::ref_ptr<osg::Geometry> Look::BareGeometryOf(const scene::Mesh& mesh) {
-  osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
-  osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
-  osg::ref_ptr<osg::Vec4ubArray> colours = new osg::Vec4ubArray;
-  positions->reserve(mesh.positions.size());
-  normals->reserve(mesh.positions.size());
-  colours->reserve(mesh.positions.size());
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const Eigen::Vector3f &p = mesh.positions[i], &n = mesh.normals[i];
-    const scene::Colour c = mesh.colours[i];
-    positions->push_back({p.x(), p.y(), p.z()});
-    normals->push_back({n.x(), n.y(), n.z()});
-    colours->push_back({c.red, c.green, c.blue, 255});
-  }
-  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-  geometry->setUseDisplayList(false);
-  geometry->setUseVertexBufferObjects(true);
-  geometry->setVertexArray(positions);
-  geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
-  colours->setNormalize(true);
-  geometry->setColorArray(colours, osg::Array::BIND_PER_VERTEX);
-  geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.triangles.begin(), mesh.triangles.end()));
+  osg::ref_ptr<osg::Geometry> geometry = PlainGeometry(mesh);
   if (!mesh.on_face.empty()) geometry->setTexCoordArray(1, PlacesOnFace(mesh));
   geometry->setNodeMask(ShadowMaskOf(mesh.material));
   return geometry;
@@ -166,13 +159,35 @@ osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh, osg::ref_p
   return geometry;
 }
 
+osg::ref_ptr<osg::MatrixTransform> Look::PlaceAt(const Eigen::Vector3d& origin_W) {
+  return new osg::MatrixTransform(osg::Matrixd::translate(origin_W.x(), origin_W.y(), origin_W.z()));
+}
+
 osg::ref_ptr<osg::MatrixTransform> Look::Placed(std::span<const scene::Mesh* const> meshes) {
   RODEIRA_ASSERT(!meshes.empty());
   const Eigen::Vector3d& origin = meshes.front()->origin_W;
-  osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(origin.x(), origin.y(), origin.z()));
+  osg::ref_ptr<osg::MatrixTransform> place = PlaceAt(origin);
   for (const scene::Mesh* mesh : meshes) {
     RODEIRA_ASSERT(mesh->origin_W == origin);
     if (!mesh->triangles.empty()) place->addChild(GeometryOf(*mesh));
+  }
+  return place;
+}
+
+osg::ref_ptr<osg::MatrixTransform> Look::Placed(std::span<const scene::Repeated> all) {
+  RODEIRA_ASSERT(!all.empty());
+  osg::ref_ptr<osg::MatrixTransform> place = PlaceAt(all.front().origin_W);
+  if (!repeats_) {
+    for (const scene::Mesh& mesh : scene::Merged(all)) place->addChild(GeometryOf(mesh));
+    return place;
+  }
+  for (const scene::Repeated& repeated : all) {
+    RODEIRA_ASSERT(repeated.origin_W == all.front().origin_W);
+    const osg::ref_ptr<osg::Geometry> geometry = RepeatedGeometry(repeated);
+    Spread(*geometry);
+    geometry->setNodeMask(ShadowMaskOf(repeated.model.material));
+    geometry->setStateSet(StateOfRepeated(repeated.model.material));
+    place->addChild(geometry);
   }
   return place;
 }

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "common/scene/mesh.hpp"
+#include "common/scene/repeated.hpp"
 #include "nodes/view/quality.hpp"
 
 namespace rodeira::view {
@@ -25,13 +26,20 @@ inline constexpr unsigned kThrowsShadow = 0x2U, kGroundThrowsShadow = 0x4U;
 inline constexpr unsigned kThrowsNone = ~(kThrowsShadow | kGroundThrowsShadow), kOnlyNear = ~kGroundThrowsShadow;
 unsigned ShadowMaskOf(scene::Material material);
 
+// From the sources of its shaders, with the attributes of RepeatedGeometry in their slots.
+osg::ref_ptr<osg::Program> ProgramOf(const std::string& vertex, const std::string& fragment);
+
 // From the scene's plain meshes to OpenSceneGraph's nodes. What it makes belongs to one OpenGL context.
 class Look {
  public:
-  explicit Look(const QualityTraits& quality);
+  // `repeats`: whether what is repeated is drawn as one model at many places; otherwise merged.
+  Look(const QualityTraits& quality, bool repeats);
 
+  bool repeats() const { return repeats_; }
   // How a material is drawn; one shared state for each.
   osg::StateSet* StateOf(scene::Material material);
+  // The same for a model that is drawn at many places.
+  osg::StateSet* StateOfRepeated(scene::Material material);
   // The same for a sign whose picture this is; a new one.
   osg::ref_ptr<osg::StateSet> StateOfFace(osg::Texture2D& picture);
   // The same for ground on which a file's picture lies. Where it cannot be read a sentence is printed, once, and the state is that
@@ -43,6 +51,8 @@ class Look {
   osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh, osg::ref_ptr<osg::Texture2D> picture);
   // The meshes at their places in the world. They must have the same origin, and at least one there must be.
   osg::ref_ptr<osg::MatrixTransform> Placed(std::span<const scene::Mesh* const> meshes);
+  // Models at their many places in the world, or merged, as this look does it. They must have the same origin, and at least one there must be.
+  osg::ref_ptr<osg::MatrixTransform> Placed(std::span<const scene::Repeated> all);
   osg::ref_ptr<osg::Node> MakeSky();
   // Falling rain before everything, over the whole picture. Its state wants the uniforms time_s and aspect.
   osg::ref_ptr<osg::Node> MakeRain();
@@ -51,13 +61,15 @@ class Look {
 
  private:
   osg::ref_ptr<osg::Geometry> BareGeometryOf(const scene::Mesh& mesh);
+  static osg::ref_ptr<osg::MatrixTransform> PlaceAt(const Eigen::Vector3d& origin_W);
   osg::ref_ptr<osg::StateSet> MakeState(scene::Material material);
   osg::StateSet* KnownFace(const std::string& face);
 
   const QualityTraits quality_;
+  const bool repeats_;
   osg::ref_ptr<osg::Texture2D> noise_;  // repeats: fine in its red part, coarse in its green one
   osg::ref_ptr<osg::Program> shadow_;
-  std::array<osg::ref_ptr<osg::StateSet>, scene::kMaterials> states_;
+  std::array<osg::ref_ptr<osg::StateSet>, scene::kMaterials> states_, repeated_states_;
   std::map<std::string, osg::ref_ptr<osg::StateSet>> faces_;  // of signs
   std::mutex mutex_;  // of the next
   std::map<std::pair<std::string, bool>, osg::ref_ptr<osg::StateSet>> pictures_;

@@ -100,25 +100,28 @@ bool Mirrors::GoesOn(const Picture& picture, const Eigen::Vector3d& eye_W) {
 }
 
 void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air, const SunShadow& shadow, const HeatNode& heat, int width_px, int height_px, bool in_turn) {
+  const bool wanted = body && picture.camera == scene::CameraKind::kDriver && std::ranges::any_of(picture.mirrors, std::identity());
+  if (!wanted) {  // what they showed stays theirs: between two pictures of a window a headset's eyes have some without mirrors, of another size
+    for (Glass& glass : glasses_) glass.camera->setNodeMask(0U), glass.pane->setNodeMask(0U);
+    return frames_.Set({});
+  }
   if (width_px != width_px_ || height_px != height_px_) {
     width_px_ = width_px;
     height_px_ = height_px;
     before_.reset();
     for (const scene::Mirror mirror : scene::kAllMirrors) Fit(glasses_[static_cast<std::size_t>(mirror)], mirror, width_px, height_px);
   }
-  const bool wanted = body && picture.camera == scene::CameraKind::kDriver;
-  const bool one = wanted && GoesOn(picture, body->p_WB_W) && in_turn;
-  if (!wanted) before_.reset();
+  const bool one = GoesOn(picture, body->p_WB_W) && in_turn;
   if (one) {
     do turn_ = (turn_ + 1) % scene::kMirrors;
-    while (!picture.mirrors[turn_] && std::ranges::any_of(picture.mirrors, std::identity()));
+    while (!picture.mirrors[turn_]);
   }
   const scene::CarPose* lit = picture.followed < picture.moment.cars.size() ? &picture.moment.cars[picture.followed] : nullptr;
   std::vector<Boxes::Box> frames;
   for (const scene::Mirror mirror : scene::kAllMirrors) {
     const auto at = static_cast<std::size_t>(mirror);
     Glass& glass = glasses_[at];
-    const bool shown = wanted && picture.mirrors[at];
+    const bool shown = picture.mirrors[at];
     glass.camera->setNodeMask(shown && (!one || at == turn_) ? ~0U : 0U);
     glass.pane->setNodeMask(shown ? ~0U : 0U);
     if (!shown) continue;

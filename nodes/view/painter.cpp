@@ -9,6 +9,7 @@
 #include <osgViewer/Renderer>
 #include <osgViewer/Viewer>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -29,6 +30,7 @@
 #include "nodes/view/mirrors.hpp"
 #include "nodes/view/model_file.hpp"
 #include "nodes/view/overlay.hpp"
+#include "nodes/view/plain_geometry.hpp"
 #include "nodes/view/sun_shadow.hpp"
 #include "nodes/view/timeline_bar.hpp"
 #include "nodes/view/vectors_node.hpp"
@@ -40,6 +42,7 @@ constexpr double kFar_m = 15'000.0;
 constexpr double kShadowsAhead_m = 35.0;
 constexpr float kMarksSeen_m = 650.0F;
 constexpr float kTreesSeen_m = 1'100.0F;
+constexpr double kHighestTree_m = 12.0;
 constexpr std::array<float, scene::kTerrainLevels> kLevelSeen_m = {450.0F, 1'300.0F, 1e9F};  // up to this distance of the tile's centre
 
 osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -75,6 +78,7 @@ osg::ref_ptr<osg::Node> GroundNode(Look& look, const scene::GroundTile& tile) {
     std::vector<const scene::Mesh*> things;
     for (const scene::Mesh& mesh : tile.levels[level].things) things.push_back(&mesh);
     if (!things.empty()) group->addChild(look.Placed(things));
+    if (!tile.levels[level].repeated.empty()) group->addChild(look.Placed(tile.levels[level].repeated));
     if (!tile.levels[level].models.empty()) {
       const osg::ref_ptr<osg::Group> models = PlaceModels(tile.levels[level].models);
       models->setNodeMask(kOnlyNear);
@@ -97,6 +101,20 @@ void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group) {
   group.addChild(lod);
 }
 
+// Trees of a square, seen from so far as it is from the middle of their feet: however they are drawn.
+osg::ref_ptr<osg::Node> TreesNode(Look& look, const std::vector<scene::Repeated>& trees) {
+  Eigen::AlignedBox3d feet_W;
+  for (const scene::Repeated& kind : trees) {
+    for (const scene::StandingPlace& place : kind.places) feet_W.extend(place.stand.foot_W);
+  }
+  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+  lod->setCenter(ToOsg(feet_W.center()));
+  lod->setRadius(0.5 * feet_W.diagonal().norm() + kHighestTree_m);
+  lod->addChild(look.Placed(trees), 0.0F, kTreesSeen_m);
+  return lod;
+}
+
 // About which place shadows are seen best: before the eye where it looks along the road, else about the car.
 Eigen::Vector3d ShadowsAbout(const Picture& picture, const std::optional<scene::Body>& body, const scene::Camera& camera) {
   if (!body) return camera.eye_W;
@@ -107,7 +125,7 @@ Eigen::Vector3d ShadowsAbout(const Picture& picture, const std::optional<scene::
 }  // namespace
 
 struct Painter::Parts {
-  Parts(const road::World& world, const QualityTraits& quality) : look(quality), lights(look, world), vectors(look, world), shadow(*root, *scene, quality) {}
+  Parts(const road::World& world, const QualityTraits& quality, bool repeats) : look(quality, repeats), lights(look, world), vectors(look, world), shadow(*root, *scene, quality) {}
 
   Look look;
   Fleet fleet{look};
@@ -127,25 +145,21 @@ struct Painter::Parts {
   osgViewer::Viewer viewer;
 };
 
-Painter::Painter(Surface& surface, const road::World& world) : surface_(surface), world_(world), parts_(std::make_unique<Parts>(world, TraitsOf(surface.quality()))) {}
+Painter::Painter(Surface& surface, const road::World& world, bool repeats)
+    : surface_(surface), world_(world), parts_(std::make_unique<Parts>(world, TraitsOf(surface.quality()), repeats && TraitsOf(surface.quality()).instances && CanRepeat())) {}
 
-Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing) : Painter(surface, world) {
+Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing, bool repeats) : Painter(surface, world, repeats) {
   Look& look = parts_->look;
   osg::Group& group = *parts_->scene;
   for (const scene::GroundTile& tile : standing.ground) group.addChild(GroundNode(look, tile));
   for (const scene::TerrainTile& tile : standing.terrain) group.addChild(TerrainNode(look, tile));
   for (const scene::RoadTile& tile : standing.roads) AddRoadTile(look, tile, group);
-  for (const scene::Mesh& trees : standing.trees) {
-    const scene::Mesh* mesh = &trees;
-    osg::ref_ptr<osg::LOD> lod = new osg::LOD;
-    lod->addChild(look.Placed({&mesh, 1}), 0.0F, kTreesSeen_m);
-    group.addChild(lod);
-  }
+  for (const std::vector<scene::Repeated>& trees : standing.trees) group.addChild(TreesNode(look, trees));
   SetUp();
 }
 
-base::Result<std::unique_ptr<Painter>> Painter::Make(Surface& surface, const road::World& world, const std::filesystem::path& built) {
-  std::unique_ptr<Painter> painter(new Painter(surface, world));
+base::Result<std::unique_ptr<Painter>> Painter::Make(Surface& surface, const road::World& world, const std::filesystem::path& built, bool repeats) {
+  std::unique_ptr<Painter> painter(new Painter(surface, world, repeats));
   auto ground = ReadBuilt(built, painter->parts_->look);
   if (!ground) return ground.error();
   painter->parts_->built = ground.value().root;
@@ -288,8 +302,8 @@ Image Painter::Read() const {
   return image;
 }
 
-base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built) {
-  if (!built.empty()) return Painter::Make(surface, world, built);
+base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built, bool repeats) {
+  if (!built.empty()) return Painter::Make(surface, world, built, repeats);
   std::set<std::string> told;
   const auto is_there = [&](const std::string& file) {
     const base::Status read = ReadModel(file);
@@ -297,7 +311,7 @@ base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::W
     return read.ok();
   };
   const scene::WorldScene standing = scene::BuildWorldScene(world, {}, is_there);  // the painter has its own copy
-  return std::make_unique<Painter>(surface, world, standing);
+  return std::make_unique<Painter>(surface, world, standing, repeats);
 }
 
 base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px, const std::filesystem::path& built, Quality quality) {

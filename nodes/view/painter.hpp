@@ -15,16 +15,16 @@ namespace rodeira::view {
 // What the last picture asked of the renderer, mirrors and shadow map included.
 struct PictureCost {
   std::size_t calls = 0;  // of drawing
-  std::size_t triangles = 0;
+  std::size_t triangles = 0;  // of a model at many places its own, once
 };
 
 // Draws a world and what moves in it. Everything happens on the thread that made it, which is the surface's.
 class Painter {
  public:
-  // Both must outlive it.
-  Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing);
+  // Both must outlive it. `repeats`: what is repeated is drawn as one model at many places, where quality and OpenGL say so too; otherwise merged.
+  Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing, bool repeats = true);
   // With the ground of a built database (FindBuilt). A failure where OpenSceneGraph cannot read it.
-  static base::Result<std::unique_ptr<Painter>> Make(Surface& surface, const road::World& world, const std::filesystem::path& built);
+  static base::Result<std::unique_ptr<Painter>> Make(Surface& surface, const road::World& world, const std::filesystem::path& built, bool repeats = true);
   ~Painter();
 
   // Shows a model from a file for driven cars (CarNode::Wear says what is expected). Wrong input where it cannot be read: nothing is changed.
@@ -46,7 +46,7 @@ class Painter {
 
  private:
   struct Parts;
-  Painter(Surface& surface, const road::World& world);
+  Painter(Surface& surface, const road::World& world, bool repeats);
   void SetUp();
   void DrawOnce(const Picture& picture, const PictureTarget& target, bool whole);  // `whole`: every mirror
   Surface& surface_;
@@ -56,7 +56,7 @@ class Painter {
 
 // A painter of the world with the ground of a built database, or, where `built` is empty, with ground that is built in memory: what has a
 // model that cannot be read is then drawn without it, which is said once on the standard error.
-base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built);
+base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built, bool repeats = true);
 
 // One picture of a world, without a window and without a run.
 // `built`: the folder of a database whose ground is shown; empty: the ground is built in memory.

@@ -22,6 +22,7 @@ struct QualityTraits {
   float soft_px = 0.0F;      // of its pixels, over which a shadow's edge is drawn softly
   int ground_shadow_px = 0;  // of a second map, of the ground alone: what hills and bridges shade beyond the first one
   double ground_shadow_m = 0.0;
+  bool instances = false;    // trees, posts and what else is repeated are drawn as one model at many places
   bool mirrors_in_turn = false;  // of a window: one of them is drawn anew in each picture while time goes on
 };
 const QualityTraits& TraitsOf(Quality quality);

@@ -6,12 +6,13 @@
 #include "common/scene/car_lights.hpp"
 #include "common/scene/heat_raster.hpp"
 #include "nodes/view/air_glsl.hpp"
+#include "nodes/view/placed_glsl.hpp"
 
 namespace rodeira::view {
 namespace {
 
 constexpr const char* kHead = R"(#version 120
-#pragma import_defines(HEADLIGHTS, WET, SUN_SHADOW, SOFT_SHADOW, FINE, FOG, HEAT)
+#pragma import_defines(HEADLIGHTS, WET, SUN_SHADOW, SOFT_SHADOW, FINE, FOG, HEAT, INSTANCED)
 #if defined(FINE) || defined(FOG)
 #define HAZE_BY_PIXEL
 #endif
@@ -240,7 +241,7 @@ vec3 Look() { return gl_Color.rgb * light; })";
 }  // namespace
 
 std::string VertexShader(scene::Material material) {
-  return std::string(kHead) + kAirGlsl + (material == scene::Material::kCarLamp ? fmt::format("#define LAMPS {}\n", scene::kLamps) : std::string()) + R"(
+  return std::string(kHead) + kAirGlsl + (material == scene::Material::kCarLamp ? fmt::format("#define LAMPS {}\n", scene::kLamps) : std::string()) + kPlacedGlsl + R"(
 varying vec2 on_face;
 #ifdef LAMPS
 uniform float glows[LAMPS];
@@ -256,10 +257,11 @@ uniform mat4 eye_to_sun;
 uniform mat4 eye_to_heat;
 #endif
 void main() {
-  vec4 p = gl_ModelViewMatrix * gl_Vertex;
+  vec4 vertex = Placed();
+  vec4 p = gl_ModelViewMatrix * vertex;
   gl_Position = gl_ProjectionMatrix * p;
   at_eye = p.xyz;
-  normal_eye = normalize(gl_NormalMatrix * gl_Normal);
+  normal_eye = normalize(gl_NormalMatrix * PlacedNormal());
   float sun = max(dot(normal_eye, sun_eye), 0.0);
   float sky = 0.5 + 0.5 * dot(normal_eye, up_eye);
   daylight = base_light + sky * sky_light;
@@ -272,11 +274,11 @@ void main() {
 #ifdef HEAT
   in_heat = (eye_to_heat * p).xyz;
 #endif
-  ground = gl_Vertex.xy;
+  ground = vertex.xy;
 #ifndef HAZE_BY_PIXEL
   clear = Clear(length(at_eye));
 #endif
-  gl_FrontColor = gl_Color;
+  gl_FrontColor = PlacedColour();
   on_face = gl_MultiTexCoord1.xy;
 #ifdef LAMPS
   glowing = glows[int(gl_MultiTexCoord1.x + 0.5)];

@@ -1,4 +1,5 @@
 // Shadows: the one below a car where the sun has no map, and the depth in the sun's map.
+#include "nodes/view/placed_glsl.hpp"
 #include "nodes/view/shaders.hpp"
 
 namespace rodeira::view {
@@ -31,8 +32,8 @@ void main() {
 }
 
 std::string DepthVertexShader() {
-  return R"(#version 120
-void main() { gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex; }
+  return std::string("#version 120\n#pragma import_defines(INSTANCED)\n") + kPlacedGlsl + R"(
+void main() { gl_Position = gl_ModelViewProjectionMatrix * Placed(); }
 )";
 }
 

@@ -2,8 +2,6 @@
 
 #include <osg/CullFace>
 #include <osg/PolygonOffset>
-#include <osg/Program>
-#include <osg/Shader>
 
 #include "nodes/view/look.hpp"
 #include "nodes/view/shaders.hpp"
@@ -46,10 +44,7 @@ osg::ref_ptr<osg::Camera> MakeCamera(osg::Texture2D& map, int side_px, unsigned 
   camera->setCullMask(thrown);
   const auto mine = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
   osg::StateSet* state = camera->getOrCreateStateSet();
-  osg::ref_ptr<osg::Program> program = new osg::Program;
-  program->addShader(new osg::Shader(osg::Shader::VERTEX, DepthVertexShader()));
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, DepthFragmentShader()));
-  state->setAttributeAndModes(program, mine);
+  state->setAttributeAndModes(ProgramOf(DepthVertexShader(), DepthFragmentShader()), mine);
   state->setAttributeAndModes(new osg::PolygonOffset(offset, 4.0F), mine);
   state->setMode(GL_POLYGON_OFFSET_FILL, mine);
   state->setMode(GL_CULL_FACE, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);

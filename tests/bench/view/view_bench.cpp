@@ -1,5 +1,6 @@
 // What pictures cost: a world's meshes once, a frame of 1280 x 720 pixels each time, its PNG file.
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -123,6 +124,47 @@ void EveryWorld(benchmark::State& state, const std::filesystem::path& file) {
   return true;
 }();
 
+// Memory of this process that is in the machine's, in megabytes.
+double Resident_MB() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0.0, resident = 0.0;
+  file >> all >> resident;
+  return resident * 4096.0 / 1e6;
+}
+
+// Trees, posts and what else is repeated, along N222's or HASTE's start at medium quality: merged (0), or one model at many places (1).
+void Repeated(benchmark::State& state, const char* name) {
+  const auto world = road::World::Load(std::string(RODEIRA_SOURCE_DIR "/configs/worlds/") + name).value();
+  const scene::WorldScene standing = scene::BuildWorldScene(*world);
+  auto surface = Surface::Open(SurfaceKind::kOffscreen, 1280, 720, "bench", false, 0, Quality::kMedium);
+  if (!surface) return state.SkipWithError(surface.error().Text().c_str());
+  malloc_trim(0);
+  const double before_MB = Resident_MB();
+  Painter painter(*surface.value(), *world, standing, state.range(0) == 1);
+  malloc_trim(0);
+  state.counters["painter_MB"] = Resident_MB() - before_MB;
+  const road::StartPose& start = world->start();
+  int pictures = 0;
+  PictureCost most;
+  const auto draw_next = [&] {
+    Picture picture;
+    scene::CarPose car;
+    car.p_WB_W = {start.x_m, start.y_m, world->At(start.x_m, start.y_m).z_m};
+    car.q_WB = scene::Attitude(start.heading_rad + 0.6283185307 * pictures++, 0.0, 0.0);
+    picture.moment.cars.push_back(car);
+    painter.Draw(picture);
+    benchmark::DoNotOptimize(painter.Read());
+    const PictureCost cost = painter.CostOfLast();
+    most = {std::max(most.calls, cost.calls), std::max(most.triangles, cost.triangles)};
+  };
+  for (int i = 0; i < 10; ++i) draw_next();
+  for (auto _ : state) draw_next();
+  state.counters["calls"] = static_cast<double>(most.calls);
+  state.counters["drawn_MB"] = Resident_MB() - before_MB;
+}
+BENCHMARK_CAPTURE(Repeated, n222, "n222.yaml")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(20);
+BENCHMARK_CAPTURE(Repeated, haste, "haste.yaml")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(20);
+
 // From a loaded HASTE to its first picture: the ground built in memory (0), or the built database found, checked and read (1).
 void FirstPictureOfHaste(benchmark::State& state) {
   static const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/haste.yaml").value();
@@ -151,14 +193,6 @@ void FirstPictureOfHaste(benchmark::State& state) {
   std::filesystem::remove_all(folder);
 }
 BENCHMARK(FirstPictureOfHaste)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(2);
-
-// Memory of this process that is in the machine's, in megabytes.
-double Resident_MB() {
-  std::ifstream file("/proc/self/statm");
-  double all = 0.0, resident = 0.0;
-  file >> all >> resident;
-  return resident * 4096.0 / 1e6;
-}
 
 // HASTE's longest road from end to end, a picture each 50 m, from its built database: what is held of it.
 void DriveHaste(benchmark::State& state) {

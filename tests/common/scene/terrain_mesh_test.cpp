@@ -146,7 +146,9 @@ TEST(WorldScene, IsAPureFunctionOfTheWorld) {
       for (const Mesh& mesh : tile.ground) add(mesh);
       add(tile.marks);
     }
-    for (const Mesh& mesh : scene.trees) add(mesh);
+    for (const auto& trees : scene.trees) {
+      for (const Mesh& mesh : Merged(trees)) add(mesh);
+    }
     return sum;
   };
   const auto world = PlaneWithRoad();

@@ -28,7 +28,9 @@ std::shared_ptr<const road::World> WorldWith(const std::string& more, const std:
 std::vector<Mesh> DrawAll(const Things& things, int level) {
   std::vector<Mesh> all;
   for (const auto& [key, tile] : things.tiles()) {
-    for (Mesh& mesh : DrawThings(tile, key, level)) all.push_back(std::move(mesh));
+    DrawnThings drawn = DrawThings(tile, key, level);
+    for (Mesh& mesh : drawn.meshes) all.push_back(std::move(mesh));
+    for (Mesh& mesh : Merged(drawn.repeated)) all.push_back(std::move(mesh));
   }
   return all;
 }
@@ -170,7 +172,7 @@ TEST(Things, ObjectsByTheirKindsAndDeclaredSizes) {
   Things::Tile box;
   box.things.push_back(tile.things[1]);
   double low_z = 1e9, high_z = -1e9, east = -1e9;
-  for (const Mesh& mesh : DrawThings(box, {0, 0}, 0)) {
+  for (const Mesh& mesh : DrawThings(box, {0, 0}, 0).meshes) {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       const Vector3d p = mesh.PositionW(i);
       low_z = std::min(low_z, p.z()), high_z = std::max(high_z, p.z()), east = std::max(east, p.x());

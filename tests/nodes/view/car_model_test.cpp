@@ -7,6 +7,8 @@
 #include <osgDB/WriteFile>
 
 #include <fstream>
+#include <map>
+#include <set>
 
 #include "nodes/view/screen.hpp"
 #include "nodes/view/surface.hpp"
@@ -33,6 +35,18 @@ fs::path WriteModel(const fs::path& folder) {
     const auto wheel = BoxOf({0.0F, 0.0F, 0.5F}, {0.3F, 0.3F, 1.0F}, {0.0F, 1.0F, 1.0F, 1.0F});
     wheel->setName(name);
     car->addChild(wheel);
+  }
+  // Lamps, white in the file: two for each brake, and one of each other kind, side by side on the tail and the roof.
+  osg::ref_ptr<osg::Group> tail = new osg::Group;
+  for (const float y : {-0.6F, 0.6F}) tail->addChild(BoxOf({-2.0F, y, 0.8F}, {0.1F, 0.2F, 0.2F}, {1.0F, 1.0F, 1.0F, 1.0F}));
+  tail->setName("lamp_brake");
+  car->addChild(tail);
+  float y = -0.45F;
+  for (const char* name : {"lamp_indicator_left", "lamp_indicator_right", "lamp_reversing", "lamp_head"}) {
+    const auto lamp = BoxOf({-1.0F, y, 1.15F}, {0.2F, 0.2F, 0.2F}, {1.0F, 1.0F, 1.0F, 1.0F});
+    lamp->setName(name);
+    car->addChild(lamp);
+    y += 0.3F;
   }
   const fs::path file = folder / "car.osgt";
   EXPECT_TRUE(osgDB::writeNodeFile(*car, file.string()));
@@ -80,6 +94,41 @@ TEST_F(CarModel, StandsInPlaceOfTheProceduralCarAndItsWheelsTurn) {
   EXPECT_TRUE(IsCyan(ProbeAt(worn, camera, upright_W))) << ProbeAt(worn, camera, upright_W);
   picture_.moment.cars[0].wheels[2].spin_rad = 3.141592653589793;  // the rear left one, half a turn
   EXPECT_FALSE(IsCyan(ProbeAt(shown(), camera, upright_W))) << "it points down now";
+}
+
+// Each lamp shines where the car says so, and no other one does; by day, unlit, it is dull.
+TEST_F(CarModel, ItsLampsShineAsTheCarSays) {
+  auto surface = Surface::Open(SurfaceKind::kOffscreen, 960, 540, "test");
+  ASSERT_TRUE(surface.ok()) << surface.error().Text();
+  auto painter = PainterOf(*surface.value(), *world_, {});
+  ASSERT_TRUE(painter.ok()) << painter.error().Text();
+  ASSERT_TRUE(painter.value()->WearCarModel(WriteModel(folder_)).ok());
+  const scene::Camera camera = scene::ChaseCamera(car(), *world_);
+  using Brightness = std::map<std::string, double>;
+  const auto shown = [&](const scene::CarLights& lights) {
+    picture_.moment.cars[0].lights = lights;
+    painter.value()->Draw(picture_);
+    const Image image = painter.value()->Read();
+    const auto at = [&](double ahead, double left, double up) {
+      const Probe p = ProbeAt(image, camera, At(ahead, left, up));
+      return p.red + p.green + p.blue;
+    };
+    return Brightness{{"brake right", at(-2.05, -0.6, 0.8)}, {"brake left", at(-2.05, 0.6, 0.8)}, {"left", at(-1.1, -0.45, 1.15)}, {"right", at(-1.1, -0.15, 1.15)}, {"reversing", at(-1.1, 0.15, 1.15)}, {"head", at(-1.1, 0.45, 1.15)}};
+  };
+  const Brightness dull = shown({});
+  const auto lit = [&](const scene::CarLights& lights) {
+    std::set<std::string> names;
+    for (const auto& [name, now] : shown(lights)) {
+      if (now > dull.at(name) + 40.0) names.insert(name);
+      else EXPECT_NEAR(now, dull.at(name), 2.0) << name;
+    }
+    return names;
+  };
+  EXPECT_EQ(lit({.brake = true}), (std::set<std::string>{"brake left", "brake right"}));
+  EXPECT_EQ(lit({.left = true}), std::set<std::string>{"left"});
+  EXPECT_EQ(lit({.right = true}), std::set<std::string>{"right"});
+  EXPECT_EQ(lit({.reversing = true}), std::set<std::string>{"reversing"});
+  EXPECT_GT(shown({.dipped = true}).at("head"), dull.at("head") + 30.0);
 }
 
 TEST_F(CarModel, WhichCannotBeReadIsASentenceAndTheProceduralCarStays) {

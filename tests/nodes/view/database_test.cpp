@@ -264,6 +264,8 @@ TEST_F(Database, OpenSceneGraphReadsIt) {
     std::size_t expected = tile.levels[level].marks.triangle_count();
     for (const scene::Mesh& mesh : tile.levels[level].ground) expected += mesh.triangle_count();
     for (const scene::Mesh& mesh : tile.levels[level].things) expected += mesh.triangle_count();
+    EXPECT_EQ(tile.levels[level].repeated.empty(), level > 2) << "trees";
+    for (const scene::Mesh& mesh : scene::Merged(tile.levels[level].repeated)) expected += mesh.triangle_count();  // once, for whatever program reads it
     const osg::ref_ptr<osg::Node> node = osgDB::readNodeFile((folder_ / "world" / "tiles" / fmt::format("0_0_{}.osgb", level)).string());
     ASSERT_TRUE(node.valid());
     Count count;
@@ -321,10 +323,10 @@ TEST_F(Database, TheViewShowsWhatItWouldShowFromMemory) {
   ASSERT_NE(world, nullptr);
   Write(*world, "world");
   const network::Road& road = world->network()->roads()[0];
-  const auto draw = [&](const fs::path& built) {
+  const auto draw = [&](const fs::path& built, bool repeats = true) {
     std::vector<Image> images;
     const auto surface = Surface::Open(SurfaceKind::kOffscreen, 640, 360, "test");
-    const auto painter = PainterOf(*surface.value(), *world, built);
+    const auto painter = PainterOf(*surface.value(), *world, built, repeats);
     EXPECT_TRUE(painter.ok()) << painter.error().Text();
     for (const double s : {25.0, 70.0, 300.0}) {  // near the rail, before the signs; other tiles are near and far
       Picture picture;
@@ -335,13 +337,15 @@ TEST_F(Database, TheViewShowsWhatItWouldShowFromMemory) {
     }
     return images;
   };
-  const std::vector<Image> memory = draw({}), built = draw(folder_ / "world");
-  for (std::size_t k = 0; k < memory.size(); ++k) {
-    std::size_t other = 0;
-    for (std::size_t i = 0; i < memory[k].rgb.size(); ++i) other += memory[k].rgb[i] != built[k].rgb[i];
-    EXPECT_EQ(other, 0u) << "picture " << k;
+  for (const bool repeats : {true, false}) {  // trees as one model at many places, and merged
+    const std::vector<Image> memory = draw({}, repeats), built = draw(folder_ / "world", repeats);
+    for (std::size_t k = 0; k < memory.size(); ++k) {
+      std::size_t other = 0;
+      for (std::size_t i = 0; i < memory[k].rgb.size(); ++i) other += memory[k].rgb[i] != built[k].rgb[i];
+      EXPECT_EQ(other, 0u) << "picture " << k;
+    }
+    EXPECT_NE(memory[0].rgb, memory[2].rgb);
   }
-  EXPECT_NE(memory[0].rgb, memory[2].rgb);
 }
 
 // The eye goes away, by more than any fine level is seen from, and comes back: what it has left is no longer held, and what is shown is the same.

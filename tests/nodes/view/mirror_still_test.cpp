@@ -1,6 +1,9 @@
 // What a driver sees in the mirrors, asked of single pixels: reversed left to right.
 #include <gtest/gtest.h>
 
+#include <GL/gl.h>
+
+#include "nodes/view/eye_buffer.hpp"
 #include "tests/nodes/view/driver_still.hpp"
 
 namespace rodeira::view {
@@ -121,6 +124,24 @@ TEST_F(MirrorsInTurn, OneOfThreeIsNewInEachPicture) {
     before = now;
   }
   for (const int times : changed) EXPECT_EQ(times, 2);
+}
+
+// So it stays where pictures of another size and without mirrors come in between, as those of a headset's eyes do: nothing is made anew for them.
+TEST_F(MirrorsInTurn, AHeadsetsEyesInBetweenChangeNothing) {
+  EyeBuffer eye(320, 240, 0, GL_RGBA8);
+  ASSERT_TRUE(eye.whole());
+  (void)Whole();
+  Image before = Whole();
+  for (int i = 0; i < 3; ++i) {
+    Picture in_headset = picture_;
+    in_headset.mirrors.fill(false);
+    painter_->DrawInto(in_headset, eye.target());
+    const Image now = Next();
+    int new_ones = 0;
+    for (const scene::Mirror mirror : scene::kAllMirrors) new_ones += Differ(now, before, mirror, 20);
+    EXPECT_EQ(new_ones, 1) << i;
+    before = now;
+  }
 }
 
 // Pictures for files, those after a leap, and those of time that stands, show all three as they are.

@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 // What a test and the OpenXR runtime that is none (fake_openxr.cpp) tell each other: the runtime is a library that OpenXR's loader finds by
@@ -18,6 +19,8 @@ struct FakeHeadset {
   bool takes_off = false;    // at the next question: asks the session to end
   bool loses_frames = false;  // waiting for a frame fails from now on
   // The runtime's.
+  bool by_glx = false;  // the session's OpenGL is a window's of X11 …
+  std::string refused;  // … or why it was not taken
   std::atomic<int> frames = 0;  // that were ended
   int layers = 0;          // of the last of them
   int width_px = 0, height_px = 0;

@@ -5,6 +5,10 @@
 #include <EGL/egl.h>
 
 #define XR_USE_GRAPHICS_API_OPENGL
+#include <GL/glx.h>
+#include <X11/Xutil.h>
+
+#define XR_USE_PLATFORM_XLIB
 #define XR_USE_PLATFORM_EGL
 #include <openxr/openxr.h>
 #include <openxr/openxr_platform.h>
@@ -89,6 +93,23 @@ XRAPI_ATTR XrResult XRAPI_CALL GetRequirements(XrInstance, XrSystemId, XrGraphic
   return XR_SUCCESS;
 }
 
+// A runtime makes a context of its own that shares this one's pictures: whether it is told all that it needs. Empty: it is.
+std::string WhyNotGlx(const XrGraphicsBindingOpenGLXlibKHR& glx) {
+  if (glx.xDisplay != glXGetCurrentDisplay() || glx.glxContext != glXGetCurrentContext()) return "another context";
+  if (glx.glxDrawable != glXGetCurrentDrawable()) return "another drawable";
+  int config = 0, of_context = -1;
+  if (glXGetFBConfigAttrib(glx.xDisplay, glx.glxFBConfig, GLX_FBCONFIG_ID, &config) != 0 || glXQueryContext(glx.xDisplay, glx.glxContext, GLX_FBCONFIG_ID, &of_context) != 0) return "no configuration";
+  if (of_context > 0 && config != of_context) return "configuration " + std::to_string(config) + " of a context of " + std::to_string(of_context);
+  XVisualInfo* visual = glXGetVisualFromFBConfig(glx.xDisplay, glx.glxFBConfig);
+  const unsigned long of_config = visual != nullptr ? visual->visualid : 0;
+  if (visual != nullptr) XFree(visual);
+  XWindowAttributes window;
+  if (XGetWindowAttributes(glx.xDisplay, glx.glxDrawable, &window) == 0) return "no window";
+  const unsigned long expected = XVisualIDFromVisual(window.visual);
+  if (of_config != expected) return "a configuration of visual " + std::to_string(of_config) + " instead of " + std::to_string(expected);
+  return expected == glx.visualid ? "" : "visual " + std::to_string(glx.visualid) + " instead of " + std::to_string(expected);
+}
+
 XRAPI_ATTR XrResult XRAPI_CALL CreateSession(XrInstance, const XrSessionCreateInfo* info, XrSession* out) {
   const auto* binding = static_cast<const XrBaseInStructure*>(info->next);
   if (!asked_what_open_gl) return XR_ERROR_GRAPHICS_REQUIREMENTS_CALL_MISSING;
@@ -96,6 +117,11 @@ XRAPI_ATTR XrResult XRAPI_CALL CreateSession(XrInstance, const XrSessionCreateIn
   if (binding->type == XR_TYPE_GRAPHICS_BINDING_EGL_MNDX) {
     const auto& egl = *reinterpret_cast<const XrGraphicsBindingEGLMNDX*>(binding);
     if (egl.display != eglGetCurrentDisplay() || egl.context != eglGetCurrentContext() || egl.getProcAddress == nullptr) return XR_ERROR_GRAPHICS_DEVICE_INVALID;
+  }
+  if (binding->type == XR_TYPE_GRAPHICS_BINDING_OPENGL_XLIB_KHR) {
+    headset.refused = WhyNotGlx(*reinterpret_cast<const XrGraphicsBindingOpenGLXlibKHR*>(binding));
+    if (!headset.refused.empty()) return XR_ERROR_GRAPHICS_DEVICE_INVALID;
+    headset.by_glx = true;
   }
   states = {XR_SESSION_STATE_IDLE, XR_SESSION_STATE_READY};
   *out = HandleOf<XrSession>(2);

@@ -16,6 +16,7 @@
 #include "nodes/view/stage.hpp"
 #include "tests/nodes/view/headset/fake_headset.hpp"
 #include "tests/nodes/view/pictures.hpp"
+#include "tests/nodes/view/virtual_display.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -257,6 +258,36 @@ TEST_F(InTheHeadset, WithoutARuntimeOrItsOpenGlThereIsASentence) {
   EXPECT_EXIT(open(), testing::ExitedWithCode(0), "no headset: this PC's OpenXR runtime does not offer XR_MNDX_egl_enable");
   ::setenv("XR_RUNTIME_JSON", "/nobody/here.json", 1);
   EXPECT_EXIT(open(), testing::ExitedWithCode(0), "no headset: no OpenXR runtime answers on this PC");
+}
+
+// A window of X11 on a display of its own: the runtime gets that window's context, and shows what it shows without a display.
+TEST_F(InTheHeadset, InAWindowOfX11) {
+  ::unsetenv("WAYLAND_DISPLAY");
+  std::array<std::vector<std::uint8_t>, 2> without;
+  {
+    const auto screen = Opened();
+    ASSERT_TRUE(screen->WaitForHeadset());
+    screen->Show(moment_, 1.0);
+    without = Fake().rgba;
+    EXPECT_FALSE(Fake().by_glx);
+  }
+  const VirtualDisplay display;
+  if (!display.there()) GTEST_SKIP() << "the package xvfb is not there";
+  Fake().egl = false;  // it is not asked for here
+  {
+    auto screen = Screen::Open(SurfaceKind::kWindow, settings_, *world_, false, "help");
+    ASSERT_TRUE(screen.ok()) << screen.error().Text();
+    ASSERT_TRUE(screen.value()->has_headset()) << Fake().refused;
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_TRUE(screen.value()->WaitForHeadset());
+      screen.value()->Show(moment_, 1.0);
+    }
+    EXPECT_TRUE(Fake().by_glx);
+    EXPECT_EQ(Fake().layers, 1);
+    EXPECT_EQ(Fake().rgba, without);
+  }
+  EXPECT_EQ(Fake().living, 0);
+  EXPECT_EQ(Fake().wrong, 0);
 }
 
 // The view's own thread: frames are shown as long as the run goes on, without a display too.
