@@ -32,7 +32,7 @@ double TrafficModel::Following(std::uint32_t id, double limit_mps, bool any, dou
 }
 
 // Who follows a rectangle whose middle and rear are there on a track: on it, or on those that lead to it.
-TrafficModel::Behind TrafficModel::FindBehind(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const {
+Behind TrafficModel::FindBehind(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const {
   Behind behind;
   const auto consider = [&](std::int64_t other, std::uint32_t on, double d_m, double gap_m, double speed_mps) {
     if (gap_m < settings_.sight_m && (!behind.any || gap_m < behind.gap_m)) behind = {gap_m, speed_mps, other, on, d_m, true};
@@ -75,7 +75,7 @@ double TrafficModel::FollowerDoes(const Behind& behind, bool any, double gap_m, 
 }
 
 // A change to one side with what it would bring; nothing where it cannot be, or is not safe.
-std::optional<TrafficModel::Sideways> TrafficModel::Weigh(std::uint32_t id, int side) {
+std::optional<Sideways> TrafficModel::Weigh(std::uint32_t id, int side) {
   Agent& agent = agents_[id];
   const auto piece = PieceBeside(id, side);
   if (!piece) return std::nullopt;

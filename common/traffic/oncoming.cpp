@@ -35,7 +35,7 @@ void TrafficModel::FaceOncoming(std::uint32_t id) {
 }
 
 // Along its way, as far as it sees: who comes, or could come from where it sees no further, or where vehicles begin their way.
-TrafficModel::Oncoming TrafficModel::FindOncoming(std::uint32_t id) const {
+Oncoming TrafficModel::FindOncoming(std::uint32_t id) const {
   const double half = 0.5 * traits_[id].length_m, front = agents_[id].o_m + half, rear = agents_[id].o_m - half;
   const double fastest = std::max(1.0, settings_.speed_factor_high);
   Oncoming found{front + settings_.overtaking.sight_m, 1.0, false};

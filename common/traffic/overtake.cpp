@@ -27,7 +27,7 @@ bool TrafficModel::IsPassed(const Overtaking& overtaking, double front_m, std::i
 }
 
 // Where the one is that it passes, from its front bumper on: behind it, below 0.
-std::optional<TrafficModel::Ahead> TrafficModel::FindPassed(std::uint32_t id) const {
+std::optional<Ahead> TrafficModel::FindPassed(std::uint32_t id) const {
   const Overtaking& way = agents_[id].overtaking;
   const double front = agents_[id].o_m + 0.5 * traits_[id].length_m;
   for (const Stretch& stretch : stretches_[id]) {

@@ -110,7 +110,7 @@ void TrafficModel::See(std::span<const driver::Footprint> others) {
 }
 
 // Those on a track whose middles lie beyond d, and perhaps a few more.
-std::span<const TrafficModel::Occupant> TrafficModel::Beyond(std::uint32_t track, double d_m) const {
+std::span<const Occupant> TrafficModel::Beyond(std::uint32_t track, double d_m) const {
   const auto& all = occupants_[track];
   const auto from = std::lower_bound(all.begin(), all.end(), d_m - 1e-6, [](const Occupant& occupant, double d) { return occupant.middle_m() < d; });
   return {from, all.end()};
@@ -118,7 +118,7 @@ std::span<const TrafficModel::Occupant> TrafficModel::Beyond(std::uint32_t track
 
 // The nearest of: agents on the tracks of the way, and on the lane that it is leaving; what else stands in the way. Or, of agents on tracks
 // that part from the way, as long as they are not clear, the nearest, if he lets it drive on less.
-TrafficModel::Ahead TrafficModel::FindAhead(std::uint32_t id) const {
+Ahead TrafficModel::FindAhead(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half;
   const double half_width = 0.5 * traits_[id].width_m + settings_.side_margin_m;

@@ -12,27 +12,10 @@ namespace {
 
 constexpr std::uint64_t kDrawLink = 103;
 constexpr double kGentle_m = 3e-4;      // what a bend makes of the way of a step, and no more
-constexpr double kEntryClear_m = 12.0;  // from a lane's beginning to its first conflict zone
 
 }  // namespace
 
-TrafficModel::Map::Map(std::shared_ptr<const network::Network> of, const TrafficSettings& settings)
-    : network(std::move(of)), graph(*network), zones(graph, LargestOf(settings)), marks(graph), opposites(lanes::Opposites(graph)), no_overtaking(graph) {
-  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) plans.emplace_back(graph, track, settings.speed);
-  for (const bool clear : {true, false}) {
-    for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
-      const bool early = std::any_of(zones.Of(track).begin(), zones.Of(track).end(), [&](const lanes::ZoneSide& side) {
-        return zones[side.zone].in_m[static_cast<std::size_t>(side.side)] < kEntryClear_m;
-      });
-      if (graph[track].entry && !(clear && early)) entries.push_back(track);
-    }
-    if (!entries.empty()) break;
-  }
-  enters.resize(graph.tracks().size());
-  for (std::uint32_t track = 0; track < enters.size(); ++track) enters[track] = graph[track].entry;
-}
-
-TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<const Map> map)
+TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<const TrafficMap> map)
     : settings_(settings), map_(std::move(map)), agents_(settings.vehicles) {
   for (std::uint32_t id = 0; id < settings_.vehicles; ++id) traits_.push_back(TraitsOf(settings_, id));
   for (const AgentTraits& traits : traits_) longest_half_m_ = std::max(longest_half_m_, 0.5 * traits.length_m);
@@ -77,7 +60,7 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
 
 base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
                                               std::span<const driver::Footprint> others, std::shared_ptr<const road::World> world) {
-  const auto map = std::make_shared<Map>(std::move(network), settings);
+  const auto map = std::make_shared<TrafficMap>(std::move(network), settings);
   auto demand = Demand::Make(map->graph, map->marks, settings.demand);
   if (!demand) return demand.error();
   map->demand = std::move(demand).value();
@@ -228,70 +211,6 @@ bool TrafficModel::AtTheEnd(std::uint32_t id) const {
   const Piece& last = agent.path.back();
   const lanes::Track& track = graph()[last.track];
   return track.next.empty() && agent.o_m + 0.5 * traits_[id].length_m >= last.zero_m + track.length_m();
-}
-
-void TrafficModel::Save(base::StateWriter& writer) const {
-  for (const Agent& agent : agents_) writer.Put("agent", agent);
-  if (full_) writer.Put("full", *full_);
-  for (const MotorsDriver& driver : motors_) writer.Put("motors", driver);
-  if (people_) writer.Put("people", *people_);
-  for (const Yielding& yielding : yielding_) {
-    writer.Put("yields", yielding.crossing);
-    writer.Put("yielded_s", yielding.waited_s);
-  }
-  writer.Put("waiting", waiting_);
-  writer.Put("next_grant", next_grant_);
-  writer.Put("time_ns", time_ns_);
-  writer.Put("ended", ended_);
-  writer.Put("missed", missed_);
-  for (const FlowCount& flow : flows_) {
-    writer.Put("arrived", flow.arrived);
-    writer.Put("given", flow.given);
-    writer.Put("next_ns", flow.next_ns);
-  }
-}
-
-// A snapshot comes from outside: whatever it says, nothing is read beside the arrays.
-void TrafficModel::Restore(base::StateReader& reader) {
-  for (Agent& agent : agents_) reader.Get("agent", agent);
-  if (full_) reader.Get("full", *full_);
-  for (MotorsDriver& driver : motors_) {
-    reader.Get("motors", driver);
-    if (driver.track >= graph().tracks().size()) driver.lanes = driver.track = 0;
-    else driver.checkpoint = std::min(driver.checkpoint, MotorsPoints(driver) - 2);
-  }
-  if (people_) reader.Get("people", *people_);
-  for (Yielding& yielding : yielding_) {
-    reader.Get("yields", yielding.crossing);
-    reader.Get("yielded_s", yielding.waited_s);
-  }
-  way_keys_.assign(agents_.size(), {});
-  reader.Get("waiting", waiting_);
-  reader.Get("next_grant", next_grant_);
-  reader.Get("time_ns", time_ns_);
-  reader.Get("ended", ended_);
-  reader.Get("missed", missed_);
-  for (FlowCount& flow : flows_) {
-    reader.Get("arrived", flow.arrived);
-    reader.Get("given", flow.given);
-    reader.Get("next_ns", flow.next_ns);
-  }
-  for (Agent& agent : agents_) {
-    const auto tracks = graph().tracks().size();
-    if (agent.entry >= tracks || std::any_of(agent.path.begin(), agent.path.end(), [&](const Piece& p) { return p.track >= tracks; })) agent = Agent();
-    if (agent.overtaking.passed >= static_cast<std::int64_t>(agents_.size())) agent = Agent();
-    if (agent.flow >= static_cast<std::int32_t>(flows_.size())) agent.flow = -1;
-    const Route* route = RouteOf(agent);
-    if (route != nullptr) agent.leg = std::min(agent.leg, route->legs());
-  }
-  for (std::uint32_t id = 0; full_ && id < agents_.size(); ++id) {
-    if (!agents_[id].on_road) full_->Clear(id);
-    else if (!full_->cars().present(id)) agents_[id] = Agent();
-  }
-  for (std::uint32_t id = 0; has_flows() && id < agents_.size(); ++id) traits_[id] = TraitsFor(id);
-  std::erase_if(waiting_, [&](std::uint32_t id) { return id >= agents_.size(); });
-  FindColours();
-  FindPoses();
 }
 
 }  // namespace rodeira::traffic

@@ -12,9 +12,6 @@
 #include "common/base/result.hpp"
 #include "common/base/state.hpp"
 #include "common/driver/footprint.hpp"
-#include "common/driver/way.hpp"
-#include "common/lanes/edge_marks.hpp"
-#include "common/lanes/opposite.hpp"
 #include "common/lanes/zones.hpp"
 #include "common/road/world.hpp"
 #include "common/traffic/agent.hpp"
@@ -22,9 +19,12 @@
 #include "common/traffic/demand.hpp"
 #include "common/traffic/full_cars.hpp"
 #include "common/traffic/motors_driver.hpp"
+#include "common/traffic/passage.hpp"
 #include "common/traffic/pedestrians.hpp"
-#include "common/traffic/track_plan.hpp"
+#include "common/traffic/sight.hpp"
+#include "common/traffic/traffic_map.hpp"
 #include "common/traffic/traffic_settings.hpp"
+#include "common/traffic/yielding.hpp"
 
 namespace rodeira::traffic {
 
@@ -103,151 +103,13 @@ class TrafficModel {
   void Restore(base::StateReader& reader);
 
  private:
-  // What does not change: the network and all that is computed from it.
-  struct Map {
-    std::shared_ptr<const network::Network> network;
-    lanes::Graph graph;
-    lanes::Zones zones;
-    lanes::EdgeMarks marks;
-    std::vector<std::int64_t> opposites;  // by track
-    lanes::NoOvertaking no_overtaking;
-    std::vector<TrackPlan> plans;  // by track
-    std::vector<std::uint32_t> entries;
-    std::vector<bool> enters;  // by track: somebody may begin his way there
-    Demand demand;
-
-    Map(std::shared_ptr<const network::Network> of, const TrafficSettings& settings);
-  };
-  // A track on an agent's way, in its odometer.
-  struct Stretch {
-    std::uint32_t track = 0;
-    double zero_m = 0.0, begin_m = 0.0, end_m = 0.0;
-    bool changes = false;  // goes over to the lane beside at its end
-  };
-  // Of what the stretches of a way were found from: as long as it is the same they are as well, but for how far they go.
-  struct WayKey {
-    std::uint32_t trip = 0, links = 0, leg = 0, track = 0;
-    std::size_t pieces = 0;
-    double begin_m = 0.0, zero_m = 0.0;  // of the first piece; of the last one
-
-    bool operator==(const WayKey&) const = default;
-  };
-  // Keys of the next choice of a way: links passed, and legs of the route.
-  struct Choice {
-    std::uint32_t link = 0, leg = 0;
-  };
-  // Somebody on a track, in its own d, which may lie beyond its ends.
-  struct Occupant {
-    std::uint32_t id = 0;
-    double rear_m = 0.0, front_m = 0.0;
-    std::int64_t from = -1;  // the track by which it came, as long as a part of it may be there
-
-    double middle_m() const { return 0.5 * (rear_m + front_m); }
-  };
-  // A vehicle that is no agent, on a track.
-  struct Block {
-    driver::LaneSpan span;
-    double middle_m = 0.0;
-    std::uint32_t body = 0;  // its id
-  };
-  // An agent that overtakes, on the track of those who come towards it, in its d: the front lies before the rear.
-  struct Facing {
-    std::uint32_t id = 0;
-    double front_m = 0.0, rear_m = 0.0;
-  };
-  struct Ahead {
-    double gap_m = 1e9;
-    double speed_mps = 0.0;
-    std::int64_t id = -1;  // of an agent
-    bool any = false;
-    std::int64_t body = -1;  // of a vehicle that is no agent
-    double length_m = 0.0;
-    double left_m = 0.0, right_m = 0.0;  // how far it reaches to both sides of the lane's middle, both to the left
-  };
-  // Who follows, on a track and up to a place on it.
-  struct Behind {
-    double gap_m = 1e9;
-    double speed_mps = 0.0;
-    std::int64_t id = -1;  // of an agent
-    std::uint32_t track = 0;
-    double d_m = 0.0;      // of its front
-    bool any = false;
-  };
-  // A change to the lane beside that could begin now, and the way then.
-  struct Sideways {
-    Piece piece;
-    int side = 0;
-    double surplus_mps2 = 0.0;  // by which it is worth while
-    std::vector<Stretch> stretches;
-  };
-  // The lane of oncoming traffic, as who overtakes sees it, in its odometer.
-  struct Oncoming {
-    double from_m = 0.0;     // nobody who comes is nearer than this …
-    double speed_mps = 0.0;  // … nor faster
-    bool own_way = false;    // somebody drives there who overtakes himself
-  };
-  struct Crossing {
-    std::int64_t zone = -1;  // none: only a STOP line
-    int side = 0;
-    double in_m = 0.0, out_m = 0.0;  // odometer
-  };
-  // The next stretch of conflict zones on an agent's way that are not yet its own, up to where it may stand again.
-  struct Passage {
-    bool any = false;
-    bool due = false;        // it must know now whether it may go on
-    bool head = false;       // nobody stands between it and the line who waits himself
-    bool able = false;       // there is room for it behind the zones
-    bool must_stop = false;  // a STOP sign
-    bool lit = false;        // there is a light in it
-    bool red = false;        // … that shows something else than green
-    bool barred = false;     // it waits before the line for people on foot
-    double line_m = 0.0;     // odometer at which its front stops
-    double end_m = 0.0;
-    double room_m = 0.0;  // odometer up to which who is ahead must have left
-    double arrives_s = 0.0, clears_s = 0.0;
-    double delay_s = 0.0;  // until who keeps it out is out of the way
-    std::int64_t waits_for = -1;
-    std::vector<Crossing> crossings;
-  };
-  // Somebody who holds a side of a zone. Ids from agents_.size() on are others.
-  struct Holder {
-    std::uint32_t id = 0;
-    ZoneGrant grant;
-    double out_m = 0.0;  // odometer at the zone's end
-  };
-  // Somebody who comes to a side of a zone.
-  struct Claim {
-    std::uint32_t id = 0;
-    double arrives_s = 0.0, clears_s = 0.0;
-    double way_m = 0.0, ends_s = 0.0;  // of its front to the zone's end
-  };
-
-  // What is so at a crossing for people on foot.
-  struct AtCrossing {
-    bool held = false;     // somebody drives there who does not let them go, or stands there
-    bool blocked = false;  // somebody stands there
-    bool tired = false;    // somebody has waited long for those on foot
-    bool go = false;       // the lights let them go
-  };
-  // An agent that comes to a crossing.
-  struct ToCrossing {
-    std::uint32_t id = 0, crossing = 0, pass = 0;
-    double line_m = 0.0;  // odometer at which its front stops
-    bool able = false;    // it can stop there comfortably
-  };
-  // For whom an agent stops.
-  struct Yielding {
-    std::uint32_t crossing = 0;  // its index and 1; 0: for nobody
-    double waited_s = 0.0;       // at rest
-  };
-
   static constexpr double kNoBarrier_m = 1e18, kFree_mps2 = 1e3;
   static constexpr double kYieldingShare = 0.75;  // of the comfortable braking, for people on foot: who follows brakes harder
 
   static base::Result<TrafficModel> Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
                                          std::span<const driver::Footprint> others, std::shared_ptr<const road::World> world);
 
-  TrafficModel(const TrafficSettings& settings, std::shared_ptr<const Map> map);
+  TrafficModel(const TrafficSettings& settings, std::shared_ptr<const TrafficMap> map);
 
   // tell(id) for all that drive, by several threads: it may write what is that agent's alone, and read what nobody writes meanwhile.
   template <class Tell>
@@ -393,7 +255,7 @@ class TrafficModel {
   double HeightAt(const Struck& struck, double near_z_m) const;
 
   TrafficSettings settings_;
-  std::shared_ptr<const Map> map_;
+  std::shared_ptr<const TrafficMap> map_;
   std::shared_ptr<base::Crew> crew_;  // null: one thread
   std::vector<AgentTraits> traits_;
   std::vector<Agent> agents_;

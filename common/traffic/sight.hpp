@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "common/driver/way.hpp"
+#include "common/traffic/agent.hpp"
+
+namespace rodeira::traffic {
+
+// Who is where on the tracks, as agents see it in a step.
+
+// A track on an agent's way, in its odometer.
+struct Stretch {
+  std::uint32_t track = 0;
+  double zero_m = 0.0, begin_m = 0.0, end_m = 0.0;
+  bool changes = false;  // goes over to the lane beside at its end
+};
+
+// Of what the stretches of a way were found from: as long as it is the same they are as well, but for how far they go.
+struct WayKey {
+  std::uint32_t trip = 0, links = 0, leg = 0, track = 0;
+  std::size_t pieces = 0;
+  double begin_m = 0.0, zero_m = 0.0;  // of the first piece; of the last one
+
+  bool operator==(const WayKey&) const = default;
+};
+
+// Keys of the next choice of a way: links passed, and legs of the route.
+struct Choice {
+  std::uint32_t link = 0, leg = 0;
+};
+
+// Somebody on a track, in its own d, which may lie beyond its ends.
+struct Occupant {
+  std::uint32_t id = 0;
+  double rear_m = 0.0, front_m = 0.0;
+  std::int64_t from = -1;  // the track by which it came, as long as a part of it may be there
+
+  double middle_m() const { return 0.5 * (rear_m + front_m); }
+};
+
+// A vehicle that is no agent, on a track.
+struct Block {
+  driver::LaneSpan span;
+  double middle_m = 0.0;
+  std::uint32_t body = 0;  // its id
+};
+
+// An agent that overtakes, on the track of those who come towards it, in its d: the front lies before the rear.
+struct Facing {
+  std::uint32_t id = 0;
+  double front_m = 0.0, rear_m = 0.0;
+};
+
+struct Ahead {
+  double gap_m = 1e9;
+  double speed_mps = 0.0;
+  std::int64_t id = -1;  // of an agent
+  bool any = false;
+  std::int64_t body = -1;  // of a vehicle that is no agent
+  double length_m = 0.0;
+  double left_m = 0.0, right_m = 0.0;  // how far it reaches to both sides of the lane's middle, both to the left
+};
+
+// Who follows, on a track and up to a place on it.
+struct Behind {
+  double gap_m = 1e9;
+  double speed_mps = 0.0;
+  std::int64_t id = -1;  // of an agent
+  std::uint32_t track = 0;
+  double d_m = 0.0;      // of its front
+  bool any = false;
+};
+
+// A change to the lane beside that could begin now, and the way then.
+struct Sideways {
+  Piece piece;
+  int side = 0;
+  double surplus_mps2 = 0.0;  // by which it is worth while
+  std::vector<Stretch> stretches;
+};
+
+// The lane of oncoming traffic, as who overtakes sees it, in its odometer.
+struct Oncoming {
+  double from_m = 0.0;     // nobody who comes is nearer than this …
+  double speed_mps = 0.0;  // … nor faster
+  bool own_way = false;    // somebody drives there who overtakes himself
+};
+
+}  // namespace rodeira::traffic

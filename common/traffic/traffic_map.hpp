@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/lanes/edge_marks.hpp"
+#include "common/lanes/opposite.hpp"
+#include "common/lanes/zones.hpp"
+#include "common/traffic/demand.hpp"
+#include "common/traffic/track_plan.hpp"
+#include "common/traffic/traffic_settings.hpp"
+
+namespace rodeira::traffic {
+
+// What does not change about a traffic: the network and all that is computed from it.
+struct TrafficMap {
+  std::shared_ptr<const network::Network> network;
+  lanes::Graph graph;
+  lanes::Zones zones;
+  lanes::EdgeMarks marks;
+  std::vector<std::int64_t> opposites;  // by track
+  lanes::NoOvertaking no_overtaking;
+  std::vector<TrackPlan> plans;  // by track
+  std::vector<std::uint32_t> entries;
+  std::vector<bool> enters;  // by track: somebody may begin his way there
+  Demand demand;
+
+  TrafficMap(std::shared_ptr<const network::Network> of, const TrafficSettings& settings);
+};
+
+}  // namespace rodeira::traffic
