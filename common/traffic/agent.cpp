@@ -38,6 +38,7 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("o_m", o_m);
   writer.Put("speed_mps", speed_mps);
   writer.Put("acceleration_mps2", acceleration_mps2);
+  writer.Put("wish_mps2", wish_mps2);
   writer.Put("driven_m", driven_m);
   writer.Put("fuel_mg", fuel_mg);
   writer.Put("fuel_mgps", fuel_mgps);
@@ -92,6 +93,7 @@ void Agent::Restore(base::StateReader& reader) {
   reader.Get("o_m", o_m);
   reader.Get("speed_mps", speed_mps);
   reader.Get("acceleration_mps2", acceleration_mps2);
+  reader.Get("wish_mps2", wish_mps2);
   reader.Get("driven_m", driven_m);
   reader.Get("fuel_mg", fuel_mg);
   reader.Get("fuel_mgps", fuel_mgps);

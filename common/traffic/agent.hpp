@@ -79,6 +79,7 @@ struct Agent {
   double o_m = 0.0;         // odometer of its middle on this trip
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
+  double wish_mps2 = 0.0;   // the acceleration from which its driver goes on
   double driven_m = 0.0;
   double fuel_mg = 0.0;     // burnt on this trip
   double fuel_mgps = 0.0;   // in the last step

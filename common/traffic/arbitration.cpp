@@ -60,8 +60,8 @@ bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
     if (holder.id < agents_.size()) {
       const Agent& other = agents_[holder.id];
       const double way_out = holder.out_m - other.o_m + 0.5 * traits_[holder.id].length_m;
-      const double clears = TravelTime(way_out, other.speed_mps, AllowedAt(holder.id, holder.out_m), traits_[holder.id].start_mps2);
-      const double arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2);
+      const double clears = TravelTime(way_out, other.speed_mps, AllowedAt(holder.id, holder.out_m), traits_[holder.id].start_mps2, {other.wish_mps2, settings_.smooth.planned_mps3});
+      const double arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
       if (holder.grant.sure && (clears < arrives + kBehind_s || MayFollow(id, crossing, holder)) && RoomBehind(id, crossing, holder)) continue;
       passages_[id].delay_s = clears - arrives;
     }
@@ -83,7 +83,7 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
   if (zone.first == crossing.side && last != crossing.side) return false;
   const Agent& agent = agents_[id];
   const double way_out = crossing.out_m - agent.o_m + 0.5 * traits_[id].length_m;
-  const double clears = TravelTime(way_out, agent.speed_mps, AllowedAt(id, crossing.out_m), traits_[id].start_mps2);
+  const double clears = TravelTime(way_out, agent.speed_mps, AllowedAt(id, crossing.out_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
   for (const Claim& claim : claims) {
     if (claim.id == id) continue;
     const bool agents = claim.id < agents_.size();
@@ -94,7 +94,7 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
     if (agents && Urgent(id) && agents_[claim.id].waited_s < agent.waited_s) continue;
     passages_[id].waits_for = agents ? static_cast<std::int64_t>(claim.id) : -1;
     const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
-    passages_[id].delay_s = claim.clears_s - TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2);
+    passages_[id].delay_s = claim.clears_s - TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
     return true;
   }
   return false;

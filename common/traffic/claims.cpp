@@ -44,14 +44,15 @@ void TrafficModel::ComeToZones() {
     if (!agents_[id].on_road || !passage.any || !passage.head || !passage.able || passage.arrives_s > kLaterThan_s) continue;
     if (agents_[id].brake_mps2 > 0.0 || passage.red || passage.barred) continue;
     const double front = agents_[id].o_m + 0.5 * traits_[id].length_m, rear = front - traits_[id].length_m;
+    const Setting off{agents_[id].wish_mps2, settings_.smooth.planned_mps3};
     for (const Crossing& crossing : passage.crossings) {
       if (crossing.zone < 0) continue;
       const double most = AllowedAt(id, crossing.in_m);
       Touch(static_cast<std::uint32_t>(crossing.zone));
       comers_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)].push_back(
-          {id, TravelTime(crossing.in_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2),
-           TravelTime(crossing.out_m - rear, agents_[id].speed_mps, most, traits_[id].start_mps2), crossing.out_m - front,
-           TravelTime(crossing.out_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2)});
+          {id, TravelTime(crossing.in_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2, off),
+           TravelTime(crossing.out_m - rear, agents_[id].speed_mps, most, traits_[id].start_mps2, off), crossing.out_m - front,
+           TravelTime(crossing.out_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2, off)});
     }
   }
 }

@@ -10,7 +10,15 @@ namespace {
 constexpr double kLeast_mps = 0.01;
 constexpr double kSlow_mps = 0.3;
 constexpr double kLeastGap_m = 0.02;
+constexpr double kEased_mps2 = 4.0;  // harder braking than this is let go of later
+constexpr double kComes_mps = -0.1, kEvades_mps2 = 1.0;  // who comes on the own lane; braking from which on it is braked for as hard as can be
 constexpr double kSeekingShare = 0.75, kSeeking_mps2 = 1.0;  // of the planned speed, while a gap in the lane beside is looked for; its braking
+
+// The deceleration by which it stops within a way, a: v²/(2 a), and a³/(24 j²) more since it ends without a jerk.
+double Needed_mps2(double v, double way_m, double jerk_mps3) {
+  const double first = std::min(kEased_mps2, v * v / (2.0 * std::max(way_m, kLeastGap_m)));
+  return v * v / (2.0 * std::max(way_m - first * first * first / (24.0 * jerk_mps3 * jerk_mps3), kLeastGap_m));
+}
 
 }  // namespace
 
@@ -33,14 +41,14 @@ driver::SpeedPlan::Allowed TrafficModel::Allowed(std::uint32_t id) const {
   return allowed;
 }
 
-// The acceleration with which its front comes to rest there, braking by a share of what is comfortable from where it must.
+// The acceleration with which its front comes to rest there without a jerk, braking by a share of what is comfortable from where it must.
 double TrafficModel::StopAt(std::uint32_t id, double odometer_m, double share) const {
   const double v = agents_[id].speed_mps, b = share * traits_[id].idm.braking_mps2;
   const double gap = odometer_m - agents_[id].o_m - 0.5 * traits_[id].length_m;
-  const double there = std::sqrt(2.0 * b * std::max(0.0, gap));
   if (gap < 2.0 * kLeastGap_m && v < kSlow_mps) return -1.0;
-  const double stop = -b * v / std::max(there, kLeast_mps) + (there - v) / settings_.tracking_s;
-  return v > there ? std::min(stop, -v * v / (2.0 * std::max(gap, kLeastGap_m))) : stop;
+  const driver::StopProfile there = driver::StopIn(gap, b, settings_.smooth.planned_mps3);
+  const double stop = -there.deceleration_mps2 * v / std::max(there.speed_mps, kLeast_mps);
+  return v > there.speed_mps ? std::min(stop, -Needed_mps2(v, gap, settings_.smooth.planned_mps3)) : stop + (there.speed_mps - v) / settings_.tracking_s;
 }
 
 // By the limit where it is: the speed without anybody and any bend.
@@ -70,8 +78,10 @@ double TrafficModel::Wanted(std::uint32_t id) const {
   const Ahead& ahead = ahead_[id];
   if (ahead.any && ahead.gap_m < settings_.sight_m) {
     const bool eased = ahead.id >= 0 && ahead.id == agent.eased_for;
-    wanted = std::min(wanted, eased ? FollowComing(id, static_cast<std::uint32_t>(ahead.id), ahead.gap_m)
-                                    : driver::IdmAcceleration(idm, v, limit, ahead.gap_m, ahead.speed_mps));
+    const double behind = eased ? FollowComing(id, static_cast<std::uint32_t>(ahead.id), ahead.gap_m)
+                                : driver::IdmAcceleration(idm, v, limit, ahead.gap_m, ahead.speed_mps);
+    const bool against = ahead.id < 0 && ahead.speed_mps < kComes_mps && behind < -kEvades_mps2;  // that one may not stop
+    wanted = std::min(wanted, against ? -idm.hardest_mps2 : behind);
   }
   if (passages_[id].any && passages_[id].due) wanted = std::min(wanted, StopAt(id, passages_[id].line_m));
   if (bars_[id] < kNoBarrier_m) wanted = std::min(wanted, StopAt(id, bars_[id], kYieldingShare));

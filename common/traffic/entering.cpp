@@ -27,7 +27,9 @@ double TrafficModel::AtMostForLine(std::uint32_t id) {
   FindPassage(id);
   if (!std::exchange(passages_[id].any, false)) return Agent::kNoCap_mps;
   const double way = passages_[id].line_m - agents_[id].o_m - 0.5 * traits_[id].length_m;
-  return std::sqrt(2.0 * kEnteringBrake * traits_[id].idm.braking_mps2 * std::max(0.0, way));
+  const double b = kEnteringBrake * traits_[id].idm.braking_mps2, j = settings_.smooth.planned_mps3, grows = b / (2.0 * j);
+  const double eased = std::max(0.0, way - b * b * b / (24.0 * j * j));
+  return std::min(b * (std::sqrt(grows * grows + 2.0 * eased / b) - grows), std::cbrt(std::max(0.0, way) * std::max(0.0, way) * j));  // v²/(2 b) + v b/(2 j); v √(v/j)
 }
 
 void TrafficModel::Leave(std::uint32_t id) {

@@ -41,7 +41,7 @@ bool TrafficModel::IsFarEnough(std::uint32_t id, const Crossing& crossing, const
   if (zones()[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge || claim.id >= agents_.size()) return false;
   const Agent& agent = agents_[id];
   const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
-  const double arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2);
+  const double arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
   const double comes = claim.way_m * clears_s / std::max(0.1, claim.ends_s), may_come = claim.way_m - settings_.idm.standing_gap_m;
   return claim.arrives_s > arrives + kLag_s && 2.0 * (comes - may_come) < kYielded_mps2 * clears_s * clears_s;
 }

@@ -49,7 +49,7 @@ void TrafficModel::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s)
     after = 0.0;
     travel = acceleration < 0.0 ? -0.5 * before * before / acceleration : 0.0;
   }
-  agent.acceleration_mps2 = (after - before) / dt_s;
+  agent.acceleration_mps2 = agent.wish_mps2 = (after - before) / dt_s;  // he goes on from what the car can
   agent.speed_mps = after;
   agent.driven_m += travel;
   agent.fuel_mgps = FuelFlow_mgps(car, agent.driving);
@@ -58,7 +58,8 @@ void TrafficModel::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s)
 }
 
 void TrafficModel::DriveFull(std::uint32_t id, double wanted_mps2, double dt_s) {
-  const Agent& agent = agents_[id];
+  Agent& agent = agents_[id];
+  agent.wish_mps2 = agent.speed_mps > 0.0 ? wanted_mps2 : std::max(0.0, wanted_mps2);
   const double half = 0.5 * traits_[id].length_m;
   double rear_m = agent.o_m - HalfBase(id);
   PathFrame rear = FrameAt(graph(), agent.path, rear_m);

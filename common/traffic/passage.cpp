@@ -78,8 +78,8 @@ void TrafficModel::FindPassage(std::uint32_t id) {
   passage.due = to_line < v * v / (2.0 * traits_[id].idm.braking_mps2) + kReaction_s * v + kEarly_m;
   const double most = AllowedAt(id, passage.crossings.front().in_m);
   const double way_in = passage.crossings.front().in_m - front, way_out = passage.end_m - rear;
-  passage.arrives_s = TravelTime(way_in, v, most, traits_[id].start_mps2);
-  passage.clears_s = TravelTime(way_out, v, std::max(most, AllowedAt(id, passage.end_m)), traits_[id].start_mps2);
+  passage.arrives_s = TravelTime(way_in, v, most, traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
+  passage.clears_s = TravelTime(way_out, v, std::max(most, AllowedAt(id, passage.end_m)), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
 }
 
 }  // namespace rodeira::traffic

@@ -27,6 +27,7 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   passages_.resize(agents_.size());
   reaches_.resize(agents_.size());
   wanted_.resize(agents_.size());
+  hurries_.resize(agents_.size());
   missed_now_.resize(agents_.size());
   leaves_.resize(agents_.size());
   bars_.assign(agents_.size(), kNoBarrier_m);
@@ -126,7 +127,7 @@ void TrafficModel::Decide(double dt_s) {
   const std::int64_t step_ns = std::llround(dt_s * 1e9);
   ChangeLanes(step_ns);
   Overtake(step_ns);
-  EachDriving([&](std::uint32_t id) { wanted_[id] = Wanted(id); });
+  EachDriving([&](std::uint32_t id) { wanted_[id] = Smoothed(id, Wanted(id), dt_s); });
   if (full_) EachDriving([&](std::uint32_t id) { DriveFull(id, wanted_[id], dt_s); });
 }
 

@@ -89,6 +89,8 @@ class TrafficModel {
   void HitPedestrian(std::uint32_t id);
   // From its front bumper to who is ahead, as it was seen in the last step; 1e9 where nobody is in sight.
   double GapAhead(std::uint32_t id) const { return ahead_[id].gap_m; }
+  // Whether its driver braked in an emergency in the last step (docs/traffic.md).
+  bool Hurries(std::uint32_t id) const { return hurries_[id] != 0; }
   // Which lights it shows, bits as in vehicle.idl: brake 1, left 2, right 4. Who changes lanes, or is to turn within 30 m or three seconds,
   // indicates; in a roundabout only who leaves it.
   std::uint32_t LightsOf(const AgentPose& pose) const;
@@ -224,6 +226,7 @@ class TrafficModel {
   driver::SpeedPlan::Allowed Allowed(std::uint32_t id) const;
   double Cap_mps(std::uint32_t id) const { return std::min(agents_[id].cap_mps, traits_[id].top_mps); }
   double StopAt(std::uint32_t id, double odometer_m, double share = 1.0) const;
+  double Smoothed(std::uint32_t id, double wanted_mps2, double dt_s);
   void StartFull(std::shared_ptr<terrain::Ground> ground);
   base::Status PlaceFull(std::uint32_t id);
   void MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s);
@@ -284,6 +287,7 @@ class TrafficModel {
   std::vector<Passage> passages_;                      // by agent
   std::vector<double> reaches_;                        // by agent: how far its front comes whatever others decide; below 0 not yet told
   std::vector<double> wanted_;                         // by agent: acceleration
+  std::vector<std::uint8_t> hurries_;                  // by agent: brakes in an emergency
   std::vector<std::uint32_t> missed_now_;              // by agent
   std::vector<double> leaves_;                         // by agent: acceleration that who holds its zones before it leaves it
   std::vector<double> bars_;                           // by agent: odometer at which it waits for people on foot

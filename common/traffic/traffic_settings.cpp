@@ -1,5 +1,7 @@
 #include "common/traffic/traffic_settings.hpp"
 
+#include <algorithm>
+
 namespace rodeira::traffic {
 TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   TrafficSettings t;
@@ -33,6 +35,9 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.speed.braking_mps2 = comfort.Number("braking_mps2", {0.3, 6.0}, t.speed.braking_mps2);
   t.speed.steep_grade = comfort.Number("steep_grade", {0.0, 1.0}, t.speed.steep_grade);
   t.speed.steep_factor = comfort.Number("steep_factor", {0.2, 1.0}, t.speed.steep_factor);
+  t.smooth.planned_mps3 = comfort.Number("jerk_mps3", {0.5, 1e6}, t.smooth.planned_mps3);
+  t.smooth.emergency_mps3 = comfort.Number("emergency_jerk_mps3", {0.5, 1e6}, std::max(t.smooth.emergency_mps3, t.smooth.planned_mps3));
+  if (t.smooth.emergency_mps3 < t.smooth.planned_mps3) comfort.Problem("emergency_jerk_mps3", "'emergency_jerk_mps3' is below 'jerk_mps3'");
   const config::Map change = map.OptionalChild("lane_changes");
   t.changes_lanes = change.Flag("allowed", t.changes_lanes);
   t.lane_changes.politeness = change.Number("politeness", {0.0, 1.0}, t.lane_changes.politeness);

@@ -8,6 +8,7 @@
 #include "common/config/config.hpp"
 #include "common/driver/idm.hpp"
 #include "common/driver/mobil.hpp"
+#include "common/driver/smooth.hpp"
 #include "common/driver/speed_plan.hpp"
 #include "common/lanes/swath.hpp"
 #include "common/traffic/demand_settings.hpp"
@@ -40,6 +41,7 @@ struct TrafficSettings {
   driver::IdmSettings idm;      // the middle of what agents draw: time gap and accelerations vary by `variety`
   double variety = 0.15;        // ± share
   driver::SpeedPlanSettings speed;
+  driver::SmoothSettings smooth;
   double speed_factor_low = 0.85;  // share of the planned speed (limit, bends) that an agent drives
   double speed_factor_high = 1.0;
   double tracking_s = 1.0;         // time in which a deviation from the planned speed is made good

@@ -200,7 +200,7 @@ TEST(Demand, LanesAreChangedForARoute) {
   EXPECT_LT(wrong, 0.03 * (right + wrong));
   EXPECT_EQ(r.collisions, 0);
   EXPECT_EQ(r.off_lane, 0);
-  EXPECT_LE(r.hardest_mps2, 3.0);
+  EXPECT_LE(r.hardest_mps2, 3.0) << (r.incidents.empty() ? "" : r.incidents.front());
 }
 
 // Flows on their lanes drive to the bit as before where a road far away is added to the network.

@@ -15,8 +15,22 @@ namespace {
 
 using network::LightColour;
 
-// Of docs/traffic.md: who can stop so far before the line by braking so hard, does.
-constexpr double kForAmber_mps2 = 2.8, kBefore_m = 0.6;
+// Of docs/traffic.md: who can stop so far before the line by braking so hard, which changes by so much a second, does.
+constexpr double kForAmber_mps2 = 2.9, kBefore_m = 0.6, kJerk_mps3 = 3.0;
+
+// The way of that, in small steps.
+double StopsIn(double v, double a) {
+  constexpr double kStep_s = 1e-3;
+  double way = 0.0;
+  while (v > 1e-4) {
+    const double wanted = std::max(-kForAmber_mps2, -std::sqrt(2.0 * kJerk_mps3 * v));
+    a = std::max(wanted, a - kJerk_mps3 * kStep_s);
+    const double next = std::max(0.0, v + a * kStep_s);
+    way += 0.5 * (v + next) * kStep_s;
+    v = next;
+  }
+  return way;
+}
 
 // The line ahead of a car on the lanes that arrive at the crossing: its distance from the front, and its light.
 struct Line {
@@ -33,8 +47,8 @@ std::optional<Line> LineAhead(const TrafficModel& model, const AgentPose& pose) 
   return std::nullopt;
 }
 
-// At the instant at which a light turns amber every car that comes to it is looked at: v²/(2 gap) says whether it could stop
-// (Gazis, Herman, Maradudin 1960). Whoever crosses a line is one that could not, or does it at green.
+// At the instant at which a light turns amber every car that comes to it is looked at: the motion apart says whether it could stop
+// (Gazis, Herman, Maradudin 1960), but for a decimetre. Whoever crosses a line is one that could not, or does it at green.
 TEST(Lights, AtAmberStopsWhoCanAndNobodyPassesAtRed) {
   TrafficSettings settings;
   settings.vehicles = 60;
@@ -61,7 +75,7 @@ TEST(Lights, AtAmberStopsWhoCanAndNobodyPassesAtRed) {
       }
       if (line && before[line->controller] == LightColour::kGreen && model.colours()[line->controller] == LightColour::kAmber && line->gap_m > 0.0) {
         const double gap_m = line->gap_m - kBefore_m, v = pose.speed_mps;
-        could[pose.id] = gap_m > 0.0 && v * v <= 2.0 * kForAmber_mps2 * gap_m ? 1 : 0;
+        could[pose.id] = gap_m > 0.0 && StopsIn(v, pose.acceleration_mps2) < gap_m - 0.1 ? 1 : 0;
         if (could[pose.id] == 1 && v * v > 2.0 * gap_m) ++stopped;
       }
       gap = line ? line->gap_m : -1.0;
@@ -88,10 +102,10 @@ std::shared_ptr<const network::Network> Road(double green_s) {
 }
 
 struct Car {
-  double front_m = 0.0, length_m = 0.0, speed_mps = 0.0;  // the line lies at 0
+  double front_m = 0.0, length_m = 0.0, speed_mps = 0.0, acceleration_mps2 = 0.0;  // the line lies at 0
 };
 
-// A queue that starts at green, by the IDM integrated here: how many pass if it is green for `green_s` and whoever cannot stop
+// A queue that starts at green, by the IDM integrated here with accelerations that change by 3 m/s³ at most: how many pass if it is green for `green_s` and whoever cannot stop
 // at the line then goes on. `passes`: when each front passes were it green for ever; `last_mps`: how fast the last one that passes is
 // when green ends.
 int PassedBy(std::vector<Car> queue, const driver::IdmSettings& idm, double desired_mps, double green_s, std::vector<double>& passes,
@@ -104,7 +118,7 @@ int PassedBy(std::vector<Car> queue, const driver::IdmSettings& idm, double desi
       passed = 0;
       for (const Car& car : queue) {
         const double gap_m = -kBefore_m - car.front_m;
-        if (gap_m < 0.0 || car.speed_mps * car.speed_mps > 2.0 * kForAmber_mps2 * gap_m) ++passed, last_mps = car.speed_mps;
+        if (gap_m < 0.0 || StopsIn(car.speed_mps, car.acceleration_mps2) > gap_m) ++passed, last_mps = car.speed_mps;
       }
     }
     const std::vector<Car> old = queue;
@@ -115,7 +129,10 @@ int PassedBy(std::vector<Car> queue, const driver::IdmSettings& idm, double desi
         const double wanted = idm.standing_gap_m + std::max(0.0, v * idm.time_gap_s + v * (v - old[n - 1].speed_mps) / (2.0 * std::sqrt(idm.acceleration_mps2 * idm.braking_mps2)));
         interaction = std::pow(wanted / (old[n - 1].front_m - old[n - 1].length_m - old[n].front_m), 2);
       }
-      queue[n].speed_mps = std::max(0.0, v + kStep_s * idm.acceleration_mps2 * (1.0 - std::pow(v / desired_mps, 4) - interaction));
+      const double wanted_mps2 = idm.acceleration_mps2 * (1.0 - std::pow(v / desired_mps, 4) - interaction), before = old[n].acceleration_mps2;
+      const double then = std::clamp(wanted_mps2, before - kStep_s * kJerk_mps3, before + kStep_s * kJerk_mps3);
+      queue[n].acceleration_mps2 = std::max(then, -std::sqrt(2.0 * kJerk_mps3 * v));  // comes to rest without a jerk
+      queue[n].speed_mps = std::max(0.0, v + kStep_s * queue[n].acceleration_mps2);
       queue[n].front_m += kStep_s * queue[n].speed_mps;
       if (passes[n] > 1e8 && queue[n].front_m > 0.0) passes[n] = i * kStep_s;
     }
@@ -141,7 +158,7 @@ TEST(Lights, CarryWhatWebsterSays) {
         std::vector<Car> queue;
         for (const AgentPose& pose : model.poses()) {
           const double length_m = model.traits(pose.id).length_m, front_m = pose.p_WB_W.x() + 0.5 * length_m - 700.0;
-          if (front_m < 0.0) queue.push_back({front_m, length_m, pose.speed_mps});
+          if (front_m < 0.0) queue.push_back({front_m, length_m, pose.speed_mps, pose.acceleration_mps2});
         }
         std::sort(queue.begin(), queue.end(), [](const Car& a, const Car& b) { return a.front_m > b.front_m; });
         ASSERT_GE(queue.size(), 25u);
@@ -149,7 +166,7 @@ TEST(Lights, CarryWhatWebsterSays) {
         double last_mps = 0.0;
         said += PassedBy(queue, settings.idm, kLimit_mps, green_s, passes, last_mps);
         const double flow = 15.0 / (passes[19] - passes[4]), lost_s = passes[4] - 5.0 / flow;
-        webster += flow * (green_s - lost_s + last_mps / (2.0 * kForAmber_mps2));
+        webster += flow * (green_s - lost_s + StopsIn(last_mps, 0.0) / last_mps);
       }
       model.Step(kStep_s, {});
       for (const AgentPose& pose : model.poses()) {

@@ -1,0 +1,34 @@
+// How an agent comes from one acceleration to the next.
+#include "common/driver/smooth.hpp"
+
+#include <algorithm>
+
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kHarder = 2.0;          // than its comfortable braking: who brakes so does it in an emergency, and lets go as quickly
+constexpr double kRounding_mps2 = 1e-6;
+
+}  // namespace
+
+// By no more than the planned jerk, so that it also comes to rest without one. In an emergency by the emergency's: it would have to brake harder than is comfortable,
+// and sooner than it can so; or as hard as it may; or it has come to brake harder than it could let go of so. What a scenario commands is done exactly.
+double TrafficModel::Smoothed(std::uint32_t id, double wanted_mps2, double dt_s) {
+  const Agent& agent = agents_[id];
+  const double before = agent.wish_mps2, v = agent.speed_mps, b = traits_[id].idm.braking_mps2;
+  const driver::SmoothSettings& smooth = settings_.smooth;
+  hurries_[id] = 0;
+  if (agent.brake_mps2 > 0.0) return wanted_mps2;
+  const double lets_go = driver::EasedStop_mps2(v, smooth.planned_mps3, dt_s);
+  const bool hurries = -before > std::min(kHarder * b, lets_go + smooth.planned_mps3 * dt_s + kRounding_mps2) ||
+                       wanted_mps2 <= -traits_[id].idm.hardest_mps2 ||
+                       (wanted_mps2 < -b && driver::NeedsHaste(wanted_mps2, v, before, smooth.planned_mps3));
+  hurries_[id] = hurries ? 1 : 0;
+  const double jerk = hurries ? smooth.emergency_mps3 : smooth.planned_mps3;
+  const double hardest = hurries ? driver::EasedStop_mps2(v, jerk, dt_s) : lets_go;
+  return std::max(std::clamp(wanted_mps2, before - jerk * dt_s, before + jerk * dt_s), -hardest);
+}
+
+}  // namespace rodeira::traffic

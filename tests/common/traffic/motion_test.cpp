@@ -1,0 +1,113 @@
+// What a person who sits in a car of traffic feels along his way, from the published accelerations.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/traffic/traffic_model.hpp"
+#include "tests/common/driver/test_road.hpp"
+#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/traffic/identical.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kPlanned_mps3 = 3.0, kEmergency_mps3 = 15.0, kRounding = 1.0 + 1e-6;
+
+// The largest changes of the published accelerations, a second.
+class Feels {
+ public:
+  Feels(const TrafficModel& model, double step_s) : step_s_(step_s), before_(model.vehicles()) {
+    for (const AgentPose& pose : model.poses()) before_[pose.id] = {pose.trip, pose.acceleration_mps2};
+  }
+
+  // After every step.
+  void Look(const TrafficModel& model, double time_s) {
+    for (const AgentPose& pose : model.poses()) {
+      Before& before = before_[pose.id];
+      if (before.trip != static_cast<std::int64_t>(pose.trip)) {  // it enters at a constant speed
+        before = {pose.trip, 0.0};
+      }
+      const double jerk = std::fabs(pose.acceleration_mps2 - before.acceleration_mps2) / step_s_;
+      before.acceleration_mps2 = pose.acceleration_mps2;
+      ++samples;
+      if (model.Hurries(pose.id)) {
+        if (hurried++ < 3) {
+          first += fmt::format("\n  car {} at {:.2f} s, {:.3f} m/s, {:.3f} m/s2, {:.2f} m behind the next, at ({:.1f}, {:.1f})", pose.id, time_s, pose.speed_mps, pose.acceleration_mps2, model.GapAhead(pose.id), pose.p_WB_W.x(), pose.p_WB_W.y());
+        }
+        emergency_mps3 = std::max(emergency_mps3, jerk);
+        continue;
+      }
+      if (jerk > planned_mps3) {
+        worst = fmt::format("car {} ({}) at {:.2f} s, {:.3f} m/s, from {:.3f} to {:.3f} m/s2", pose.id, static_cast<int>(model.traits(pose.id).kind), time_s, pose.speed_mps,
+                            pose.acceleration_mps2 - jerk * step_s_, pose.acceleration_mps2);
+      }
+      planned_mps3 = std::max(planned_mps3, jerk);
+    }
+  }
+
+  std::int64_t samples = 0, hurried = 0;
+  double planned_mps3 = 0.0, emergency_mps3 = 0.0;
+  std::string worst, first;
+
+ private:
+  struct Before {
+    std::int64_t trip = -1;
+    double acceleration_mps2 = 0.0;
+  };
+  double step_s_;
+  std::vector<Before> before_;
+};
+
+// Bends, queues, merges, lights, STOP lines, hills; cars, lorries and buses. Where no driver's car drives nobody hurries.
+TEST(Motion, PlannedDrivingIsSmoothOnTheMaps) {
+  for (const std::string& name : lanes::MapNames()) {
+    for (const double step_s : {0.01, 0.05}) {
+      TrafficSettings settings;
+      settings.vehicles = name == "town" ? 40 : 25;
+      settings.mix.shares = {0.8, 0.1, 0.05, 0.05};
+      TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork(name), {}).value();
+      Feels feels(model, step_s);
+      for (int i = 1; i * step_s <= 90.0; ++i) {
+        model.Step(step_s, {});
+        feels.Look(model, i * step_s);
+      }
+      EXPECT_LE(feels.planned_mps3, kPlanned_mps3 * kRounding) << name << ", " << step_s << " s: " << feels.worst;
+      EXPECT_LE(feels.emergency_mps3, kEmergency_mps3 * kRounding) << name;
+      EXPECT_EQ(feels.hurried, 0) << name << " of " << feels.samples << feels.first;
+      EXPECT_GT(feels.planned_mps3, 0.99 * kPlanned_mps3) << name;  // it says something
+    }
+  }
+}
+
+// A car stands in the lane all at once, so near that it takes more than comfort: who comes hurries, by 15 m/s³ at most, to rest, and does not touch it.
+TEST(Motion, AnEmergencyGrowsByItsOwnJerk) {
+  for (const double step_s : {0.01, 0.05}) {
+    TrafficModel model = TrafficModel::Make(Identical(1, 1.4), driver::StraightWorld(1500.0, 20.0), {}).value();
+    for (int i = 0; i * step_s < 12.0; ++i) model.Step(step_s, {});
+    const AgentPose start = model.poses()[0];
+    ASSERT_GT(start.speed_mps, 15.0);
+    const Eigen::Vector3d at = start.p_WB_W + start.q_WB * Eigen::Vector3d(40.0, 0.0, 0.0);
+    const driver::Footprint own = FootprintOf(start, model.traits(0));
+    const std::vector<driver::Footprint> others{{9999, at.x(), at.y(), own.heading_rad, 0.0, 4.4, 1.8}};
+    Feels feels(model, step_s);
+    double hardest = 0.0;
+    for (int i = 1; i * step_s < 8.0; ++i) {
+      model.Step(step_s, others);
+      feels.Look(model, i * step_s);
+      hardest = std::max(hardest, -model.poses()[0].acceleration_mps2);
+      ASSERT_FALSE(driver::Overlap(FootprintOf(model.poses()[0], model.traits(0)), others[0]));
+    }
+    EXPECT_GT(feels.emergency_mps3, 0.9 * kEmergency_mps3);
+    EXPECT_LE(feels.emergency_mps3, kEmergency_mps3 * kRounding);
+    EXPECT_LE(feels.planned_mps3, kPlanned_mps3 * kRounding) << feels.worst;
+    EXPECT_GT(hardest, 4.0);
+    EXPECT_LT(model.poses()[0].speed_mps, 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::traffic
