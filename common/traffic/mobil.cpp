@@ -13,6 +13,7 @@ constexpr std::int64_t kApart_ns = 37'000'000;     // one after the other
 constexpr std::int64_t kSettles_ns = 4'000'000'000;  // after a change
 constexpr double kSlowest_mps = 3.0;
 constexpr double kReaction_s = 2.0, kGentle_mps2 = 1.2;  // before whatever the other lane leads to it can stop by this
+constexpr double kBeside_m = 1e-6;                  // whose middle is no farther ahead or behind is neither
 constexpr double kOnLane_m = 1.5;                  // vehicles whose sides are nearer to a lane's middle drive on it
 constexpr double kSeeks_m = 350.0;                 // so far before its lane parts from its route it looks for a gap by driving slower
 constexpr double kSooner_m = 30.0;                 // a lane that ends so much sooner is no choice …
@@ -83,6 +84,11 @@ std::optional<Sideways> TrafficModel::Weigh(std::uint32_t id, int side) {
   const double half = 0.5 * traits.length_m, rear = agent.o_m - half, to = piece->begin_m + piece->blend_m + half;
   if (passages_[id].any && passages_[id].line_m < to + half) return std::nullopt;
   if (!IsPlain(id, rear, to) || !MayCross(id, side, piece->begin_m, to - half)) return std::nullopt;
+  const double beside_m = agent.o_m - piece->zero_m;
+  for (const Occupant& other : Beyond(piece->track, beside_m)) {
+    if (other.middle_m() > beside_m + kBeside_m) break;
+    if (other.id != id) return std::nullopt;
+  }
   const Ahead own_ahead = ahead_[id];
   const double own_ends = LaneEnds(id);
   // The way on the other lane, looked along as the own one is.
