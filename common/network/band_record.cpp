@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "common/network/lane_edge.hpp"
+
 namespace rodeira::network {
 namespace {
 
@@ -23,16 +25,6 @@ const Cubic& InForce(const CubicTable& table, double s_m, double& from_s_m, doub
   if (index > 0) from_s_m = std::max(from_s_m, record.from);
   if (index + 1 < table.records().size()) to_s_m = std::min(to_s_m, table.records()[index + 1].from);
   return record;
-}
-
-CubicPoint OuterEdge(const LaneRecord& lane, double sign, const CubicPoint& inner, const CubicPoint& centre, double s_m) {
-  const CubicPoint edge = Evaluate(lane.edge, s_m);
-  if (lane.bordered) {
-    const double t = centre.value + edge.value;
-    return sign * (t - inner.value) > 0.0 ? CubicPoint{t, centre.slope + edge.slope, 0.0} : inner;
-  }
-  if (!(edge.value > 0.0)) return inner;
-  return {inner.value + sign * edge.value, inner.slope + sign * edge.slope, 0.0};
 }
 
 }  // namespace
@@ -82,7 +74,7 @@ BandRecords::LaneAt BandRecords::At(const BandRecord& record, double s_m, double
   CubicPoint inner = centre_t;
   LaneAt at;
   for (const LaneRecord& lane : side) {
-    const CubicPoint outer = OuterEdge(lane, sign, inner, centre_t, s_m);
+    const CubicPoint outer = OuterEdgeBy(lane.bordered, Evaluate(lane.edge, s_m), sign, inner, centre_t);
     at.span = {lane.lane, inner.value, outer.value, inner.slope, outer.slope};
     at.id = lane.id, at.drivable = lane.drivable;
     if (sign * (outer.value - t_m) >= 0.0 && outer.value != inner.value) return at;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/network/lane_edge.hpp"
+
 namespace rodeira::network {
 namespace {
 
@@ -42,18 +44,10 @@ constexpr std::array<std::pair<LaneType, std::string_view>, 31> kNames = {{
     {LaneType::kSpecial3, "special3"},
 }};
 
-// The outer edge of a lane whose inner one is given. A width below 0 is none.
 geometry::CubicPoint OuterEdge(const Lane& lane, double sign, const geometry::CubicPoint& inner,
                                const geometry::CubicPoint& centre, double s_m) {
-  if (lane.width.empty() && !lane.border.empty()) {
-    const geometry::CubicPoint border = lane.border.Evaluate(s_m);
-    const double t = centre.value + border.value;
-    if (sign * (t - inner.value) > 0.0) return {t, centre.slope + border.slope, 0.0};
-    return inner;
-  }
-  const geometry::CubicPoint width = lane.width.Evaluate(s_m);
-  if (!(width.value > 0.0)) return inner;
-  return {inner.value + sign * width.value, inner.slope + sign * width.slope, 0.0};
+  const bool bordered = lane.width.empty() && !lane.border.empty();
+  return OuterEdgeBy(bordered, (bordered ? lane.border : lane.width).Evaluate(s_m), sign, inner, centre);
 }
 
 }  // namespace

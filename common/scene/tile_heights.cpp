@@ -101,20 +101,25 @@ void TileHeights::FindAims() {
   }
 }
 
-// Beside the end of a road in the air a corner's question may be answered from the deck: then a face's levels are those nearest to the heights in its middle.
-void TileHeights::AskOfFace(const Eigen::Vector2d& p_W, const Corner& corner) {
+// Beside the end of a road in the air a corner's question may be answered from the deck: where another face at the point has more levels, a face's
+// own are those nearest to the heights in its middle.
+void TileHeights::AskOfFace(const Eigen::Vector2d& p_W, const Corner& corner, std::size_t most) {
   const std::vector<road::SurfacePoint>& middle = plan_.faces[corner.face].levels;
-  const std::size_t begin = heights_.size();
-  Ask(p_W, corner.towards_W, corner.count, heights_);
-  if (corner.count == 0 || heights_[begin].z_m - middle[0].z_m <= kLevelApart_m) return;
+  if (corner.count == most) return Ask(p_W, corner.towards_W, corner.count, heights_);
   thread_local std::vector<CornerHeight> all;
   all.clear();
-  Ask(p_W, corner.towards_W, kMostLevels, all);
+  Ask(p_W, corner.towards_W, most, all);
   for (std::size_t i = 0; i < corner.count; ++i) {
-    heights_[begin + i] = *std::min_element(all.begin(), all.end(), [&](const CornerHeight& a, const CornerHeight& b) {
+    heights_.push_back(*std::min_element(all.begin(), all.end(), [&](const CornerHeight& a, const CornerHeight& b) {
       return std::fabs(a.z_m - middle[i].z_m) < std::fabs(b.z_m - middle[i].z_m);
-    });
+    }));
   }
+}
+
+std::size_t TileHeights::MostLevels(std::uint32_t point) {
+  std::size_t most = 0;
+  ForEachCorner(point, [&](const Corner& corner) { most = std::max(most, plan_.faces[corner.face].levels.size()); });
+  return most;
 }
 
 // Adds `count` heights.
@@ -135,10 +140,11 @@ void TileHeights::Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards
 void TileHeights::AskInside(std::uint32_t point) {
   const Eigen::Vector2d p_W = ToWorld(plan_.key, plan_.triangles.points()[point]);
   const auto begin = heights_.size();
+  const std::size_t most = MostLevels(point);
   ForEachCorner(point, [&](Corner& corner) {
     corner.count = static_cast<std::uint32_t>(plan_.faces[corner.face].levels.size());
     corner.first = static_cast<std::uint32_t>(heights_.size());
-    AskOfFace(p_W, corner);
+    AskOfFace(p_W, corner, most);
   });
   if (heights_.size() - begin < 2) return;
   thread_local std::vector<CornerHeight*> all;
@@ -168,6 +174,7 @@ void TileHeights::AskOnEdge(std::uint32_t point) {
   for (std::size_t i = 1; i < all.size(); ++i) {
     if (all[i]->z_m - all[i - 1]->z_m <= kWelded_m) all[i]->z_m = all[i - 1]->z_m;
   }
+  const std::size_t most = MostLevels(point);
   ForEachCorner(point, [&](Corner& corner) {
     corner.count = static_cast<std::uint32_t>(plan_.faces[corner.face].levels.size());
     corner.first = static_cast<std::uint32_t>(heights_.size());
@@ -176,7 +183,7 @@ void TileHeights::AskOnEdge(std::uint32_t point) {
       heights_.insert(heights_.end(), own, own + static_cast<std::ptrdiff_t>(corner.count));
       return;
     }
-    AskOfFace(p_W, corner);
+    AskOfFace(p_W, corner, most);
     for (CornerHeight& height : HeightsOf(corner)) {
       for (const CornerHeight* known : all) {
         if (std::fabs(known->z_m - height.z_m) > kWelded_m) continue;

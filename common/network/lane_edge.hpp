@@ -1,0 +1,18 @@
+#pragma once
+
+#include "common/geometry/cubic.hpp"
+
+namespace rodeira::network {
+
+// The outer edge of a lane as t, whose inner one is given; sign 1: to the left of the centre. `edge` is its border, counted from the centre, or
+// its width; a width below 0 is none.
+inline geometry::CubicPoint OuterEdgeBy(bool bordered, const geometry::CubicPoint& edge, double sign, const geometry::CubicPoint& inner, const geometry::CubicPoint& centre) {
+  if (bordered) {
+    const double t = centre.value + edge.value;
+    return sign * (t - inner.value) > 0.0 ? geometry::CubicPoint{t, centre.slope + edge.slope, 0.0} : inner;
+  }
+  if (!(edge.value > 0.0)) return inner;
+  return {inner.value + sign * edge.value, inner.slope + sign * edge.slope, 0.0};
+}
+
+}  // namespace rodeira::network
