@@ -13,6 +13,8 @@ namespace {
 
 using geometry::PlanElement;
 
+constexpr double kBeyond_m = 1.0;  // how far a surface that goes on reaches over a part's end: over this length one that ends there fades
+
 // p of a cubic where the given part of its length is passed.
 double ParameterAt(const PlanElement& element, double part) {
   const double whole = geometry::CubicLength(element, element.p_end);
@@ -146,20 +148,22 @@ void CutFurniture(const network::RoadSpec& whole, double from_m, double length_m
   for (network::Structure structure : whole.structures) {
     if (stretch(structure.s_m, structure.length_m)) part.structures.push_back(std::move(structure));
   }
+  // What goes on beyond the part reaches over its ends, so that it is not faded there.
+  const auto reach = [&](double& begin, double& end) {
+    begin = std::max(begin - from_m, -kBeyond_m);
+    end = std::min(end - from_m, length_m + kBeyond_m);
+    return begin < length_m && end > 0.0;
+  };
   part.crg.clear();
   for (network::CrgSurface crg : whole.crg) {
     const double begin = crg.s_start_m;
-    double length = crg.s_end_m - crg.s_start_m;
-    if (!stretch(crg.s_start_m, length)) continue;
-    crg.s_end_m = crg.s_start_m + length;
-    crg.s_offset_m += std::max(0.0, from_m - begin);
+    if (!reach(crg.s_start_m, crg.s_end_m)) continue;
+    crg.s_offset_m += crg.s_start_m + from_m - begin;
     part.crg.push_back(std::move(crg));
   }
   part.unevenness.clear();
   for (network::Unevenness uneven : whole.unevenness) {
-    double length = uneven.s_end_m - uneven.s_start_m;
-    if (!stretch(uneven.s_start_m, length)) continue;
-    uneven.s_end_m = uneven.s_start_m + length;
+    if (!reach(uneven.s_start_m, uneven.s_end_m)) continue;
     uneven.s_offset_m += from_m;
     part.unevenness.push_back(uneven);
   }

@@ -75,13 +75,21 @@ void BuiltGround::LayOnJunction(std::span<const network::Surfacing> surfaces, Su
   }
   std::sort(ways.begin(), ways.end(), [](const auto* a, const auto* b) { return a->place.lane.road < b->place.lane.road; });
   LaneGround ground{0.0, point.surface, point.friction};
+  double rest = 1.0;  // what the ways before leave of the place, and how it changes
+  Eigen::Vector2d rest_slope = Eigen::Vector2d::Zero();
   for (const network::Surfacing* way : ways) {
     const network::Place& place = way->place;
     detail_.Cover(place.lane.road, place.s_m, place.t_m, ground);
     const network::Bump::Height raised = detail_.RaisedAt(place.lane.road, place.s_m, place.t_m);
-    const geometry::PlanPoint at = network_->roads()[place.lane.road].axis().Evaluate(place.s_m);
-    const Eigen::Vector2d slope = raised.by_s / (1.0 - at.curvature_1pm * place.t_m) * at.tangent_W + raised.by_t * at.left_W();
-    point.z_m += raised.z_m, point.slope_x += slope.x(), point.slope_y += slope.y();
+    const network::Road& road = network_->roads()[place.lane.road];
+    const geometry::PlanPoint at = road.axis().Evaluate(place.s_m);
+    const auto in_world = [&](const auto& of) -> Eigen::Vector2d { return of.by_s / (1.0 - at.curvature_1pm * place.t_m) * at.tangent_W + of.by_t * at.left_W(); };
+    Share left;
+    const Raised uneven = detail_.AddOnWay(road, place.lane.road, network_->Section(place.lane), place.s_m, place.t_m, left);
+    const Eigen::Vector2d slope = in_world(raised) + rest * in_world(uneven) + uneven.z_m * rest_slope;
+    point.z_m += raised.z_m + rest * uneven.z_m, point.slope_x += slope.x(), point.slope_y += slope.y();
+    rest_slope = left.value * rest_slope + rest * in_world(left);
+    rest *= left.value;
   }
   point.surface = ground.surface, point.friction = ground.friction;
 }

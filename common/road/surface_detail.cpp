@@ -14,26 +14,7 @@
 namespace rodeira::road {
 namespace {
 
-constexpr double kAlong_m = 1.0, kAcross_m = 0.5;  // over which a stretch passes into nothing
 constexpr double kMostFriction = 2.0;
-
-// A height that is faded, with its derivatives.
-struct Raise {
-  double z = 0.0, by_s = 0.0, by_t = 0.0;
-
-  // Times a factor that changes by the slopes given.
-  void Fade(double factor, double slope_s, double slope_t) {
-    by_s = by_s * factor + z * slope_s;
-    by_t = by_t * factor + z * slope_t;
-    z *= factor;
-  }
-  // Of what is laid instead of the road: over its surface.
-  void Replace(const network::SurfaceSample& sample) {
-    z -= sample.p_W.z();
-    by_s -= sample.ds_W.z();
-    by_t -= sample.dt_W.z();
-  }
-};
 
 // v, turned by the angle of `turn`, which has unit length.
 Eigen::Vector2d Turned(const Eigen::Vector2d& v, const Eigen::Vector2d& turn) {
@@ -57,37 +38,6 @@ void PutAll(const surface::CrgSurface& surface, base::ByteWriter& out) {
   for (const double number : {options.offset_u_m, options.offset_v_m, options.smooth_begin_m, options.smooth_end_m}) put(number);
   out.Put(static_cast<std::uint32_t>(options.close_track));
 }
-
-// The fade at a distance from where there is nothing: its value and its slope by that distance.
-std::pair<double, double> FadeAt(double distance_m, double over_m) {
-  if (distance_m <= 0.0) return {0.0, 0.0};
-  if (distance_m >= over_m) return {1.0, 0.0};
-  const double u = distance_m / over_m;
-  return {u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u) / over_m};
-}
-
-// The road's outermost edges at s, and how they move with it.
-struct Edges {
-  double right_m, right_slope, left_m, left_slope;
-
-  Edges(const network::Road& road, const network::LaneSection& section, double s_m) {
-    const geometry::CubicPoint centre = road.CentreAt(s_m);
-    const auto edge = [&](double far) {
-      double outside;
-      const network::LaneSpan span = section.At(far, centre, s_m, outside);
-      return std::pair(far + (far > 0.0 ? -outside : outside), span.outer_slope);
-    };
-    std::tie(left_m, left_slope) = edge(1e4);
-    std::tie(right_m, right_slope) = edge(-1e4);
-  }
-  // To nothing at both edges.
-  void Fade(double t_m, Raise& raise) const {
-    const auto [from_left, fade_left] = FadeAt(left_m - t_m, kAcross_m);
-    raise.Fade(from_left, fade_left * left_slope, -fade_left);
-    const auto [from_right, fade_right] = FadeAt(t_m - right_m, kAcross_m);
-    raise.Fade(from_right, -fade_right * right_slope, fade_right);
-  }
-};
 
 // What is laid on a road, as numbers.
 void PutLaid(const network::Laid& laid, base::ByteWriter& out) {
@@ -117,9 +67,19 @@ std::optional<terrain::Surface> SurfaceByName(std::string_view name) {
 
 }  // namespace
 
+namespace {
+
+// What counts at t beside the end of a road that goes on in a junction: there its way's, which has no shoulders.
+Share TowardsWay(const Share& share, const RoadEdges& way, double t_m, double to_end_m, double sign) {
+  const auto [weight, slope] = FadeAt(to_end_m, kFadesAlong_m);
+  return share.Mixed(way.FromLeft(t_m) * way.FromRight(t_m), weight, sign * slope);
+}
+
+}  // namespace
+
 // What a measured surface says at a place, over z = 0.
 struct SurfaceDetail::Measured {
-  Raise height;
+  Raised height;
   bool inside = false;
 };
 
@@ -180,10 +140,30 @@ base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network,
     detail.roads_.resize(network.roads().size());
     detail.roads_[i] = std::move(stretches);
   }
+  detail.FindWays(network);
   detail.laid_.assign(laid.begin(), laid.end());
   for (const network::Laid& on_road : laid) PutLaid(on_road, numbers);
   if (!numbers.bytes().empty()) detail.digest_ = base::Hash(numbers.bytes());
   return detail;
+}
+
+// The ways through junctions that carry on what lies on a road, where it goes on.
+void SurfaceDetail::FindWays(const network::Network& network) {
+  ways_.resize(roads_.size());
+  for (std::uint32_t i = 0; i < roads_.size(); ++i) {
+    const network::Road& way = network.roads()[i];
+    const network::RoadSpec& spec = way.spec();
+    if (spec.junction.empty() || roads_[i].empty()) continue;
+    const auto edges = [&way](double s_m) {
+      RoadEdges at(way, way.SectionAt(s_m), s_m);
+      at.left_slope = at.right_slope = 0.0;  // they stay as they are there
+      return at;
+    };
+    const auto before = spec.predecessor ? network.FindRoad(spec.predecessor->id) : std::nullopt;
+    const auto behind = spec.successor ? network.FindRoad(spec.successor->id) : std::nullopt;
+    if (before && !roads_[*before].empty()) ways_[*before].out = edges(0.0);
+    if (behind && !roads_[*behind].empty()) ways_[*behind].in = edges(way.length_m());
+  }
 }
 
 SurfaceDetail::Measured SurfaceDetail::Measure(const Stretch& stretch, double s_m, double t_m, const network::SurfaceSample& sample) {
@@ -211,44 +191,87 @@ std::optional<double> SurfaceDetail::FrictionAt(std::uint32_t road, double s_m, 
   for (const Stretch& stretch : roads_[road]) {
     if (!stretch.friction || s_m < stretch.begin_m || s_m > stretch.end_m) continue;
     const Measured measured = Measure(stretch, s_m, t_m, sample);
-    if (measured.inside) friction = std::clamp(measured.height.z, 0.0, kMostFriction);
+    if (measured.inside) friction = std::clamp(measured.height.z_m, 0.0, kMostFriction);
   }
   return friction;
 }
 
+// What a stretch says over an even road at z = 0, with the fades of its own ends; nothing where it is not.
+std::optional<Raised> SurfaceDetail::HeightOf(const Stretch& stretch, double s_m, double t_m, const network::SurfaceSample& sample, Share& ends) {
+  if (stretch.friction || s_m <= stretch.begin_m || s_m >= stretch.end_m) return std::nullopt;
+  Raised raised;
+  if (stretch.made != nullptr) {
+    const surface::RoughnessPoint at = stretch.made->At(s_m + stretch.s_offset_m, t_m);
+    raised = {at.z_m, at.dz_ds, at.dz_dt};
+  } else {
+    const Measured measured = Measure(stretch, s_m, t_m, sample);
+    if (!measured.inside) return std::nullopt;
+    raised = measured.height;
+    if (stretch.lay != Lay::kOnTop) raised.Replace(sample);
+  }
+  const auto [from_begin, begin_slope] = FadeAt(s_m - stretch.begin_m, kFadesAlong_m);
+  const auto [to_end, end_slope] = FadeAt(stretch.end_m - s_m, kFadesAlong_m);
+  const Share begins{from_begin, begin_slope, 0.0}, ending{to_end, -end_slope, 0.0};
+  raised.Fade(begins);
+  raised.Fade(ending);
+  ends = begins * ending;
+  return raised;
+}
+
 void SurfaceDetail::Add(const network::Road& road, std::uint32_t index, const network::LaneSection& section, double s_m, double t_m,
                         network::SurfaceSample& sample) const {
-  const auto add = [&](Raise& raise) {
-    Edges(road, section, s_m).Fade(t_m, raise);
-    sample.p_W.z() += raise.z;
-    sample.ds_W.z() += raise.by_s;
-    sample.dt_W.z() += raise.by_t;
+  const auto add = [&](const Raised& raised) {
+    sample.p_W.z() += raised.z_m;
+    sample.ds_W.z() += raised.by_s;
+    sample.dt_W.z() += raised.by_t;
+  };
+  const auto add_between_edges = [&](Raised raised) {
+    const RoadEdges edges(road, section, s_m);
+    raised.Fade(edges.FromLeft(t_m));
+    raised.Fade(edges.FromRight(t_m));
+    add(raised);
   };
   static const std::vector<Stretch> kNone;
   for (const Stretch& stretch : roads_.empty() ? kNone : roads_[index]) {
-    if (stretch.friction || s_m <= stretch.begin_m || s_m >= stretch.end_m) continue;
-    Raise raise;
-    if (stretch.made != nullptr) {
-      const surface::RoughnessPoint at = stretch.made->At(s_m + stretch.s_offset_m, t_m);
-      raise = {at.z_m, at.dz_ds, at.dz_dt};
+    Share ends;
+    auto raised = HeightOf(stretch, s_m, t_m, sample, ends);
+    if (!raised) continue;
+    const bool goes_out = stretch.end_m > road.length_m() && road.length_m() - s_m < kFadesAlong_m, comes_in = stretch.begin_m < 0.0 && s_m < kFadesAlong_m;
+    if (goes_out || comes_in) {
+      const RoadEdges edges(road, section, s_m);
+      Share share = edges.FromLeft(t_m) * edges.FromRight(t_m);
+      if (goes_out && ways_[index].out) share = TowardsWay(share, *ways_[index].out, t_m, road.length_m() - s_m, -1.0);
+      if (comes_in && ways_[index].in) share = TowardsWay(share, *ways_[index].in, t_m, s_m, 1.0);
+      raised->Fade(share);
+      add(*raised);
     } else {
-      const Measured measured = Measure(stretch, s_m, t_m, sample);
-      if (!measured.inside) continue;
-      raise = measured.height;
-      if (stretch.lay != Lay::kOnTop) raise.Replace(sample);
+      add_between_edges(*raised);
     }
-    const auto [from_begin, begin_slope] = FadeAt(s_m - stretch.begin_m, kAlong_m);
-    raise.Fade(from_begin, begin_slope, 0.0);
-    const auto [to_end, end_slope] = FadeAt(stretch.end_m - s_m, kAlong_m);
-    raise.Fade(to_end, -end_slope, 0.0);
-    add(raise);
   }
   if (laid_.empty()) return;
   for (const network::Bump& bump : laid_[index].bumps) {
     const network::Bump::Height height = bump.At(s_m, t_m);
-    Raise raise{height.z_m, height.by_s, height.by_t};
-    if (bump.piece.Holds(s_m, t_m)) add(raise);
+    if (bump.piece.Holds(s_m, t_m)) add_between_edges({height.z_m, height.by_s, height.by_t});
   }
+}
+
+Raised SurfaceDetail::AddOnWay(const network::Road& way, std::uint32_t index, const network::LaneSection& section, double s_m, double t_m, Share& left) const {
+  Raised all;
+  if (roads_.empty() || roads_[index].empty()) return all;
+  Share none{1.0, 0.0, 0.0};  // how much of the place is left by all of its stretches
+  for (const Stretch& stretch : roads_[index]) {
+    Share ends;
+    const auto raised = HeightOf(stretch, s_m, t_m, {}, ends);
+    if (!raised) continue;
+    all += *raised;
+    none = none * Share{1.0 - ends.value, -ends.by_s, -ends.by_t};
+  }
+  const RoadEdges edges(way, section, s_m);
+  const Share between = edges.FromLeft(t_m) * edges.FromRight(t_m);
+  all.Fade(between);
+  const Share taken = between * Share{1.0 - none.value, -none.by_s, -none.by_t};
+  left = {1.0 - taken.value, -taken.by_s, -taken.by_t};
+  return all;
 }
 
 network::Bump::Height SurfaceDetail::RaisedAt(std::uint32_t road, double s_m, double t_m) const {

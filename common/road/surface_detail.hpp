@@ -12,6 +12,7 @@
 #include "common/network/laid.hpp"
 #include "common/network/network.hpp"
 #include "common/road/lane_grounds.hpp"
+#include "common/road/surface_fade.hpp"
 #include "common/road/surface_point.hpp"
 #include "common/surface/crg_surface.hpp"
 #include "common/surface/roughness.hpp"
@@ -33,11 +34,15 @@ class SurfaceDetail {
   // Of every number of the measured surfaces, whose places are the network's, and of what is laid. 0: there are none.
   base::Digest digest() const { return digest_; }
   // What stands over the road at (s, t) between its outermost edges, added to the sample. Over the first and last metre of a
-  // measured or made stretch, and of all the last half metre to the road's edges, it passes into nothing.
+  // measured or made stretch, and of all the last half metre to the road's edges, it passes into nothing. A stretch that goes on in
+  // a junction passes over the last metre before it into what lies on its way there.
   void Add(const network::Road& road, std::uint32_t index, const network::LaneSection& section, double s_m, double t_m,
            network::SurfaceSample& sample) const;
   // The measured coefficient of friction there; nothing where none is.
   std::optional<double> FrictionAt(std::uint32_t road, double s_m, double t_m, const Eigen::Vector2d& p_W) const;
+  // What measured and made stretches raise a way through a junction by at (s, t), over the junction's own surface: to nothing at the
+  // edges of its lanes. left: how much of the place they leave to ways that cross it.
+  Raised AddOnWay(const network::Road& way, std::uint32_t index, const network::LaneSection& section, double s_m, double t_m, Share& left) const;
   // The heights of all bumps at (s, t), as they are away from the road's edges.
   network::Bump::Height RaisedAt(std::uint32_t road, double s_m, double t_m) const;
   // A patch at (s, t) takes the place of the ground.
@@ -51,7 +56,7 @@ class SurfaceDetail {
     kByItself,  // genuine, global: its own reference line holds, and its heights are the road's
   };
   struct Stretch {
-    double begin_m, end_m;
+    double begin_m, end_m;  // beyond the road's ends where it goes on in a junction
     double s_offset_m;
     std::shared_ptr<const surface::Roughness> made;  // or
     std::shared_ptr<const surface::CrgSurface> measured;
@@ -64,10 +69,16 @@ class SurfaceDetail {
   };
   struct Measured;
   static base::Result<Stretch> Place(const network::Road& road, const network::CrgSurface& crg, std::shared_ptr<const surface::CrgSurface> file);
+  static std::optional<Raised> HeightOf(const Stretch& stretch, double s_m, double t_m, const network::SurfaceSample& sample, Share& ends);
+  void FindWays(const network::Network& network);
   static Measured Measure(const Stretch& stretch, double s_m, double t_m, const network::SurfaceSample& sample);
 
   std::vector<std::vector<Stretch>> roads_;  // by road; empty: there is none at all
-  std::vector<network::Laid> laid_;           // the same
+  struct Ways {
+    std::optional<RoadEdges> in, out;  // the edges of the way that comes to its beginning, and of the one from its end
+  };
+  std::vector<Ways> ways_;            // the same
+  std::vector<network::Laid> laid_;   // the same
   base::Digest digest_ = 0;
 };
 
