@@ -39,6 +39,16 @@ bool Triangulation::Fix(std::uint32_t a, std::uint32_t b) {
   return true;
 }
 
+void Triangulation::Release(std::uint32_t a, std::uint32_t b) {
+  const Side side = SideBetween(a, b);
+  if (side.triangle == kNone) return;
+  const Side back = Opposite(side);
+  triangles_[side.triangle].fixed[static_cast<std::size_t>(side.k)] = false;
+  if (back.triangle != kNone) triangles_[back.triangle].fixed[static_cast<std::size_t>(back.k)] = false;
+  stack_.push_back(side);
+  Settle();
+}
+
 // Fixes the side from a to the first point on the way to b, which becomes a.
 bool Triangulation::FixFirst(std::uint32_t& a, std::uint32_t b) {
   const auto fix = [this](Side side) {

@@ -32,6 +32,8 @@ class Triangulation {
   // A side from a to b that stays, in pieces where points lie on it. False where it would cross another fixed side: then
   // a part of it is missing.
   bool Fix(std::uint32_t a, std::uint32_t b);
+  // The side from a to b, where it is one, need not stay any longer.
+  void Release(std::uint32_t a, std::uint32_t b);
   // A triangle that holds p: within it or on its edge.
   std::uint32_t Find(GridPoint p) const;
   // For each triangle the number of its face: faces are parted by fixed sides. Numbered by their first triangles.

@@ -61,4 +61,59 @@ std::vector<std::int32_t> PostLines::OnSouth(const TileKey& tile) const {
   return places;
 }
 
+std::vector<std::array<partition::GridPoint, 2>> PostLines::Sides(const TileKey& tile) const {
+  using partition::GridPoint;
+  const auto size = static_cast<std::int32_t>(kTileSteps);
+  const std::vector<std::int32_t> columns = Columns(tile, 1), rows = Rows(tile, 1);
+  std::vector<std::array<GridPoint, 2>> sides;
+  const auto add = [&sides](const std::vector<GridPoint>& line) {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) sides.push_back({line[i], line[i + 1]});
+  };
+  const auto along = [&](const std::vector<std::int32_t>& across, const std::vector<std::int32_t>& places, const auto& point) {
+    for (const std::int32_t at : across) {
+      std::vector<GridPoint> line = {point(at, 0)};
+      for (const std::int32_t place : places) line.push_back(point(at, place));
+      line.push_back(point(at, size));
+      add(line);
+    }
+  };
+  along(columns, rows, [](std::int32_t at, std::int32_t place) { return GridPoint{at, place}; });
+  along(rows, columns, [](std::int32_t at, std::int32_t place) { return GridPoint{place, at}; });
+
+  // Diagonals: u + v = k, counted in cells from the first post. Where they meet the edge the places are those of the edge's owner.
+  const Eigen::Vector2d low = ((tile.south_west_W() - south_west_W_).array() / spacing_m_.array()).matrix();
+  const Eigen::Vector2d high = low + (Eigen::Vector2d::Constant(kTile_m).array() / spacing_m_.array()).matrix();
+  const auto west = OnWest(tile), east = OnWest({tile.column + 1, tile.row}), south = OnSouth(tile), north = OnSouth({tile.column, tile.row + 1});
+  constexpr std::int32_t kRounding = 2;  // steps
+  const auto first_column = static_cast<std::int64_t>(std::floor(low.x())) + 1, first_row = static_cast<std::int64_t>(std::floor(low.y())) + 1;
+  for (double k = std::ceil(low.sum()); k <= high.sum(); k += 1.0) {
+    std::vector<GridPoint> line;
+    const auto meet = [&](double part, const std::vector<std::int32_t>& places, const auto& point) {  // of the edge's length
+      const double wanted = part * size;
+      for (const std::int32_t place : places) {
+        if (std::fabs(place - wanted) <= kRounding) {
+          line.push_back(point(place));
+          return;
+        }
+      }
+      for (const std::int32_t corner : {0, size}) {
+        if (std::fabs(corner - wanted) <= kRounding) line.push_back(point(corner));
+      }
+    };
+    const Eigen::Vector2d cells = high - low;
+    meet((k - low.x() - low.y()) / cells.y(), west, [](std::int32_t at) { return GridPoint{0, at}; });
+    meet((k - high.x() - low.y()) / cells.y(), east, [size](std::int32_t at) { return GridPoint{size, at}; });
+    meet((k - low.y() - low.x()) / cells.x(), south, [](std::int32_t at) { return GridPoint{at, 0}; });
+    meet((k - high.y() - low.x()) / cells.x(), north, [size](std::int32_t at) { return GridPoint{at, size}; });
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const std::int64_t j = static_cast<std::int64_t>(k) - (first_column + static_cast<std::int64_t>(i)) - first_row;
+      if (j >= 0 && j < static_cast<std::int64_t>(rows.size())) line.push_back({columns[i], rows[static_cast<std::size_t>(j)]});
+    }
+    std::sort(line.begin(), line.end());
+    line.erase(std::unique(line.begin(), line.end()), line.end());
+    add(line);
+  }
+  return sides;
+}
+
 }  // namespace rodeira::scene

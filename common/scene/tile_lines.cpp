@@ -88,11 +88,11 @@ void TileEdges::Add(const TileKey& tile, std::span<const partition::GridSegment>
   }
 }
 
-// Both tiles at an edge must know the terrain there.
+// Where one of the tiles at an edge has the terrain's own triangles the other one meets them.
 std::vector<std::int32_t> TileEdges::Usual(const Edge& edge) const {
   const TileKey& tile = edge.tile;
   const TileKey beside{tile.column - (edge.west ? 1 : 0), tile.row - (edge.west ? 0 : 1)};
-  if (posts_.Holds(tile) && posts_.Holds(beside)) {
+  if (posts_.Holds(tile) || posts_.Holds(beside)) {
     std::vector<std::int32_t> places = edge.west ? posts_.OnWest(tile) : posts_.OnSouth(tile);
     places.insert(places.end(), {0, static_cast<std::int32_t>(kTileSteps)});
     return places;

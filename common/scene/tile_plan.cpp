@@ -100,12 +100,12 @@ class Planner {
     std::vector<std::int32_t> x, y;
     double room = 0.0;  // nearer to another point there is none
   };
+  int EveryPost() const { return std::max(1, static_cast<int>(kLandSpacings_m[level_] / posts_.spacing_m())); }
+  // Whether all posts of the tile are used.
+  bool OwnLines() const { return posts_.Holds(plan_.key) && EveryPost() == 1; }
   LandLines LinesOverLand() const {
     LandLines lines;
-    if (posts_.Holds(plan_.key)) {
-      const int every = std::max(1, static_cast<int>(kLandSpacings_m[level_] / posts_.spacing_m()));
-      return {posts_.Columns(plan_.key, every), posts_.Rows(plan_.key, every), 1.0 / kStep_m};
-    }
+    if (posts_.Holds(plan_.key)) return {posts_.Columns(plan_.key, EveryPost()), posts_.Rows(plan_.key, EveryPost()), 1.0 / kStep_m};
     const auto every = static_cast<std::int32_t>(std::lround(kLandSpacings_m[level_] / kStep_m));
     for (std::int32_t k = every; k < kTileSteps; k += every) lines.x.push_back(k), lines.y.push_back(k);
     lines.room = 0.4 * every;
@@ -131,6 +131,25 @@ class Planner {
     }
     for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
     CarryFaces();
+    if (FollowsSlopes() && OwnLines()) KeepTerrainsSides();
+  }
+
+  // The terrain's own triangles stay what they are where a slope is put in beside them.
+  void KeepTerrainsSides() {
+    const auto points = plan_.triangles.points();
+    std::vector<std::pair<GridPoint, std::uint32_t>> numbers;
+    for (std::uint32_t i = 0; i < points.size(); ++i) numbers.emplace_back(points[i], i);
+    std::sort(numbers.begin(), numbers.end());
+    const auto number = [&](const GridPoint& p) {
+      const auto found = std::lower_bound(numbers.begin(), numbers.end(), std::pair(p, std::uint32_t{0}));
+      return found != numbers.end() && found->first == p ? found->second : kNone;
+    };
+    for (const auto& [from, to] : posts_.Sides(plan_.key)) {
+      const std::uint32_t a = number(from), b = number(to);
+      if (a == kNone || b == kNone) continue;
+      const GridPoint middle{from.x + (to.x - from.x) / 2, from.y + (to.y - from.y) / 2};
+      if (plan_.faces[plan_.face_of[plan_.triangles.Find(middle)]].land) plan_.triangles.Fix(a, b);
+    }
   }
 
   double Height(const Eigen::Vector2d& p_W) {
@@ -201,30 +220,43 @@ class Planner {
   bool FollowsSlopes() const { return level_ == 0 && world_.grid() != nullptr; }
   bool MeetSlopes() {
     std::vector<GridPoint> fresh;
+    on_kept_.clear();
     const auto triangles = plan_.triangles.triangles();
     followed_.resize(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
       if (followed_[i] == triangles[i].corner) continue;
       followed_[i] = triangles[i].corner;
       if (!plan_.faces[plan_.face_of[i]].land) continue;
-      const std::size_t before = fresh.size();
+      const std::size_t before = fresh.size() + on_kept_.size();
       const Corners corners = CornersOf(triangles[i], plan_.face_of[i], false);
-      FollowSides(triangles[i], corners, fresh);
+      FollowSides(triangles[i], plan_.face_of[i], corners, fresh);
       // What bends within a triangle and crosses none of its sides.
-      if (fresh.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < kSlope.margin_m) continue;
+      if (fresh.size() + on_kept_.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < kSlope.margin_m) continue;
       if (world_.At(corners.middle_W.x(), corners.middle_W.y()).inside) CheckMiddle(triangles[i], kSlope.tolerance_m, corners, fresh);
+    }
+    for (const OnKept& on : on_kept_) {
+      plan_.triangles.Release(on.a, on.b);
+      fresh.push_back(on.bend);
     }
     for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
     if (!fresh.empty()) CarryFaces();
+    // Sides are kept again once every triangle has its face: those that a side parts from the others may all be new.
+    for (const OnKept& on : on_kept_) {
+      const std::uint32_t at = plan_.triangles.Insert(on.bend);
+      plan_.triangles.Fix(on.a, at);
+      plan_.triangles.Fix(at, on.b);
+    }
     return !fresh.empty();
   }
 
-  void FollowSides(const Triangulation::Triangle& t, const Corners& c, std::vector<GridPoint>& fresh) {
+  void FollowSides(const Triangulation::Triangle& t, std::uint32_t face, const Corners& c, std::vector<GridPoint>& fresh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t n = (k + 1) % 3;
-      if (t.across[k] == kNone || (!t.fixed[k] && t.corner[k] > t.corner[n])) continue;
+      if (t.across[k] == kNone) continue;
+      const bool kept = t.fixed[k] && plan_.face_of[t.across[k]] == face, ends = t.fixed[k] && !kept;
+      if (!ends && t.corner[k] > t.corner[n]) continue;
       Eigen::Vector2d p_W = c.at[k], q_W = c.at[n];
-      if (t.fixed[k]) {  // the terrain's end, seen from within; roads' edges have their points
+      if (ends) {  // the terrain's end, seen from within; roads' edges have their points
         if (!plan_.faces[plan_.face_of[t.across[k]]].land) continue;
         const Eigen::Vector2d within = kWithin_m * (c.middle_W - 0.5 * (p_W + q_W)).normalized();
         p_W += within, q_W += within;
@@ -234,7 +266,9 @@ class Planner {
       if (!part) continue;
       const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + *part * (to - from))); };
       const GridPoint bend{between(p.x, q.x), between(p.y, q.y)};
-      if (!OnEdge(bend)) fresh.push_back(bend);
+      if (OnEdge(bend)) continue;
+      if (kept) on_kept_.push_back({bend, t.corner[k], t.corner[n]});
+      else fresh.push_back(bend);
     }
   }
 
@@ -264,6 +298,11 @@ class Planner {
   TilePlan plan_;
   std::vector<std::array<std::uint32_t, 2>> fixed_;
   std::vector<std::array<std::uint32_t, 3>> tried_, followed_;
+  struct OnKept {
+    GridPoint bend;
+    std::uint32_t a, b;  // the ends of the side that is kept
+  };
+  std::vector<OnKept> on_kept_;
   struct Known {
     std::uint32_t face;
     std::uint32_t next;  // of the same point

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "common/base/random.hpp"
@@ -216,6 +218,40 @@ TEST(Ground, WhatIsLaidOnJunctionsIsWhereTheTyresAre) {
   EXPECT_EQ(found.asked, Points());
   EXPECT_EQ(found.stepped, 0);
   EXPECT_LT(found.worst_m, 0.005) << "at " << found.where.transpose();
+}
+
+// The project's own worlds: roads, verges, cuts, fills, land and what lies between the roads of a junction, on tiles drawn by lot.
+TEST(Ground, OfTheProjectsWorldsIsWhereTheTyresAre) {
+  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 60);
+  for (const std::string name : {"haste", "motorway", "n222", "example/world"}) {
+    const auto loaded = road::World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds" / (name + ".yaml"));
+    ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
+    const road::World& world = *loaded.value();
+    const GroundPlan plan(world);
+    std::vector<std::size_t> drawn(plan.tiles().size());
+    std::iota(drawn.begin(), drawn.end(), std::size_t{0});
+    std::sort(drawn.begin(), drawn.end(), [](std::size_t a, std::size_t b) { return base::RandomBits({a, 17}) < base::RandomBits({b, 17}); });
+    drawn.resize(std::min<std::size_t>(drawn.size(), at_most));
+    std::vector<GroundTile> tiles(drawn.size());
+    ForEachAtOnce(tiles.size(), 0, [&](std::size_t i) { tiles[i] = plan.Build(plan.tiles()[drawn[i]]); });
+    for (const bool road : {true, false}) {
+      const Correlation found = Correlate(world, tiles, Points(), 11, [&](const Mesh& mesh, std::size_t i) {
+        if (IsRoad(mesh) != road) return false;
+        const auto corners = CornersOf(mesh, i);
+        const auto there = [&](const Eigen::Vector3d& p) { return world.At(p.x(), p.y()).inside; };
+        if (!std::all_of(corners.begin(), corners.end(), there)) return false;  // around the terrain land goes on to the end of its tiles
+        const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+        const auto place = world.network()->Locate(middle.x(), middle.y());
+        // What is rough or measured is finer than faces are.
+        return !place || (world.network()->roads()[place->lane.road].spec().unevenness.empty() && world.network()->roads()[place->lane.road].spec().crg.empty());
+      });
+      EXPECT_EQ(found.asked, Points());
+      EXPECT_EQ(found.far, 0) << name << (road ? ", roads" : ", beside them") << ": worst " << found.worst_m << " m at " << found.where.transpose();
+      EXPECT_LT(found.stepped, 0.001 * found.asked) << name;
+      std::printf("%s, %s: %d points on %zu of %zu tiles, %d at steps, %d more than 5 mm from SUELO, worst %.4f m\n", name.c_str(), road ? "roads" : "beside them", found.asked,
+                  tiles.size(), plan.tiles().size(), found.stepped, found.far, found.worst_m);
+    }
+  }
 }
 
 // In files of other programs surfaces of overlapping roads cross and step anywhere: nearly all points agree, not all.
