@@ -1,0 +1,140 @@
+// What agents with the physics of the driver's car do on the road: stop at lights, change lanes, overtake, brake.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/lanes/signs.hpp"
+#include "common/traffic/car_of.hpp"
+#include "common/traffic/road_network.hpp"
+#include "common/traffic/study.hpp"
+#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/traffic/two_way_ring.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+TrafficSettings Full(std::uint32_t vehicles) {
+  TrafficSettings settings;
+  settings.vehicles = vehicles;
+  settings.physics = Physics::kFull;
+  return settings;
+}
+
+// Harder than 3 m/s² a car slows down only while its clutch takes hold after a change of gear: the foot itself never asks the brake for so much.
+TEST(FullDrive, BrakesHardOnlyWhileAGearTakesHold) {
+  constexpr double kStep_s = 0.01, kHard_mps2 = 3.0, kTakesHold_s = 1.0;
+  TrafficModel model = TrafficModel::Make(Full(24), lanes::MapNetwork("crossing"), {}).value();
+  struct Before {
+    int gear = 0;
+    double since_s = 1e9;
+    double acceleration_mps2 = 0.0;
+    std::uint32_t trip = 0;
+  };
+  std::vector<double> jerks_mps3, shifting_mps3;
+  std::vector<Before> before(model.vehicles());
+  double foot_mps2 = 0.0;
+  int hard = 0;
+  for (int i = 0; i < 4000; ++i) {
+    model.Step(kStep_s, {});
+    for (const AgentPose& pose : model.poses()) {
+      const Driving& driving = model.agent(pose.id).driving;
+      Before& b = before[pose.id];
+      b.since_s = driving.gear == b.gear ? b.since_s + kStep_s : 0.0;
+      b.gear = driving.gear;
+      if (b.trip == pose.trip && i > 0) (b.since_s < kTakesHold_s ? shifting_mps3 : jerks_mps3).push_back(std::fabs(pose.acceleration_mps2 - b.acceleration_mps2) / kStep_s);
+      b.acceleration_mps2 = pose.acceleration_mps2, b.trip = pose.trip;
+      if (pose.speed_mps < 0.5) continue;  // who stands has his foot on the brake
+      const vehicle::BicycleSettings& car = CarOfBody(model.traits(pose.id).body);
+      foot_mps2 = std::max(foot_mps2, driving.brake * FullBrake_N(car) / car.body.mass_kg);
+      if (pose.acceleration_mps2 > -kHard_mps2) continue;
+      ++hard;
+      EXPECT_LT(b.since_s, kTakesHold_s) << "car " << pose.id << " at " << i * kStep_s << " s, " << pose.acceleration_mps2 << " m/s2";
+    }
+  }
+  EXPECT_LE(foot_mps2, kHard_mps2);
+  EXPECT_GT(hard, 0);  // it says something
+  for (auto* all : {&jerks_mps3, &shifting_mps3}) {
+    std::sort(all->begin(), all->end());
+    ASSERT_FALSE(all->empty());
+    const auto part = [&](double share) { return (*all)[static_cast<std::size_t>(share * static_cast<double>(all->size() - 1))]; };
+    const std::string name = all == &jerks_mps3 ? "driven" : "shifting";
+    RecordProperty(name + "_jerk_mps3", fmt::format("median {:.2f}, 95 % {:.2f}, 99 % {:.2f}, most {:.2f}, of {} steps", part(0.5), part(0.95), part(0.99), part(1.0), all->size()));
+  }
+  RecordProperty("foot_mps2", std::to_string(foot_mps2));
+  RecordProperty("hard_steps", std::to_string(hard));
+}
+
+// Whoever crosses a light's line does so at green or amber.
+TEST(FullDrive, NobodyPassesAtRed) {
+  TrafficModel model = TrafficModel::Make(Full(30), lanes::MapNetwork("lights"), {}).value();
+  std::vector<std::optional<double>> gaps(model.vehicles());
+  int passed = 0;
+  for (int i = 0; i < 9000; ++i) {
+    const std::vector<network::LightColour> colours = model.colours();
+    model.Step(0.01, {});
+    for (const AgentPose& pose : model.poses()) {
+      const Agent& agent = model.agent(pose.id);
+      std::optional<double> gap;
+      for (const Piece& piece : agent.path) {
+        const auto lights = lanes::LightsOf(model.graph(), piece.track);
+        if (lights.empty() || piece.begin_m > agent.o_m) continue;
+        gap = piece.zero_m + lights[0].d_m - agent.o_m - 0.5 * model.traits(pose.id).length_m;
+        if (gaps[pose.id] && *gaps[pose.id] >= 0.0 && *gap < 0.0) {
+          EXPECT_NE(colours[lights[0].controller], network::LightColour::kRed) << "car " << pose.id << " at " << 0.01 * i << " s";
+          ++passed;
+        }
+        break;
+      }
+      gaps[pose.id] = gap;
+    }
+  }
+  EXPECT_GT(passed, 10);
+}
+
+// Cars, vans, lorries and buses on two lanes of a direction pass one another, touch nobody and keep to the road.
+TEST(FullDrive, LanesAreChangedOnTheMotorway) {
+  const auto world = road::World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/motorway.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  StudySettings settings;
+  settings.traffic = Full(50);
+  settings.traffic.mix.shares = {0.7, 0.1, 0.1, 0.1};
+  settings.traffic.speed_factor_low = 0.6;
+  settings.duration_s = 40.0;
+  std::vector<int> side(50, 0);
+  int changes = 0;
+  const StudyResult r = RunStudy(settings, NetworkOf(world.value()), [&](const StudyMoment& moment) {
+    for (const AgentPose& pose : moment.model.poses()) {
+      const int now = moment.model.agent(pose.id).change.side;
+      if (now != 0 && side[pose.id] == 0) ++changes;
+      side[pose.id] = now;
+    }
+  }).value();
+  EXPECT_EQ(r.collisions, 0);
+  EXPECT_EQ(r.off_lane, 0);
+  EXPECT_GT(changes, 5);
+}
+
+// A crawling car is passed on the lane of oncoming traffic; who comes is two seconds away at least, and nobody is touched.
+TEST(FullDrive, SlowOnesAreOvertaken) {
+  TrafficSettings settings = Full(12);
+  settings.speed_factor_low = 0.9;
+  TrafficModel model = TrafficModel::Make(settings, TwoWayRing(Mark("broken")), {}).value();
+  model.CapSpeed(3, 8.0);
+  model.CapSpeed(9, 8.0);
+  RingWatch watch;
+  for (int i = 0; i < 15000; ++i) {
+    model.Step(0.01, {});
+    if (i % 2 == 0) watch.Look(model, i * 0.01);
+  }
+  EXPECT_TRUE(watch.touches.empty());
+  EXPECT_GE(watch.passes, 2);
+  for (const RingWatch::Crossing& c : watch.crossings) EXPECT_GE(c.spare_s, 2.0) << "car " << c.id;
+}
+
+}  // namespace
+}  // namespace rodeira::traffic
