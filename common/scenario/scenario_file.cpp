@@ -24,6 +24,7 @@ std::string SecondsText(std::int64_t steps, const Timing& timing) {
 
 std::optional<std::int64_t> ReadStep(const config::Map& map, const Timing& timing) {
   const double at_s = map.Number("at_s", {0.0, kLongest_s});
+  if (!(at_s >= 0.0 && at_s <= kLongest_s)) return std::nullopt;  // said already; as steps it may be more than a number holds
   const double periods = at_s * 1e9 / static_cast<double>(timing.period * timing.base_step_ns);
   const auto whole = static_cast<std::int64_t>(std::llround(periods));
   if (std::fabs(periods - static_cast<double>(whole)) > 1e-6 * std::max(1.0, periods)) {

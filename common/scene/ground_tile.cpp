@@ -13,6 +13,7 @@
 #include "common/scene/laid_lines.hpp"
 #include "common/scene/levels_at.hpp"
 #include "common/scene/road_paint.hpp"
+#include "common/scene/structure_lines.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -63,6 +64,7 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
   ForEachAtOnce(roads.size(), threads, [&](std::size_t i) {
     lines[i] = RoadLinesOf(roads[i], kRoadTolerances[0]);
     AddLaidLines(world, roads[i], kRoadTolerances[0], lines[i]);
+    AddStructureLines(roads[i], lines[i]);
     for (std::size_t level = 0; level < paint[i].size(); ++level) PaintRoad(roads[i], kPaintChords_m[level], paint[i][level]);
   });
   for (const network::Placed& placed : network::PlaceFurniture(*world.network()).things) {

@@ -102,17 +102,21 @@ void TileHeights::FindAims() {
 }
 
 // Beside the end of a road in the air a corner's question may be answered from the deck: where another face at the point has more levels, a face's
-// own are those nearest to the heights in its middle.
+// own are those nearest to its triangle there.
 void TileHeights::AskOfFace(const Eigen::Vector2d& p_W, const Corner& corner, std::size_t most) {
-  const std::vector<road::SurfacePoint>& middle = plan_.faces[corner.face].levels;
   if (corner.count == most) return Ask(p_W, corner.towards_W, corner.count, heights_);
   thread_local std::vector<CornerHeight> all;
   all.clear();
   Ask(p_W, corner.towards_W, most, all);
+  thread_local std::vector<road::SurfacePoint> within;
+  LevelsAt(world_, corner.towards_W, corner.count, within);
   for (std::size_t i = 0; i < corner.count; ++i) {
-    heights_.push_back(*std::min_element(all.begin(), all.end(), [&](const CornerHeight& a, const CornerHeight& b) {
-      return std::fabs(a.z_m - middle[i].z_m) < std::fabs(b.z_m - middle[i].z_m);
-    }));
+    double z_m = 0.0;
+    if (!within.empty()) {
+      const road::SurfacePoint& own = within[std::min(i, within.size() - 1)];
+      z_m = own.z_m + Eigen::Vector2d(own.slope_x, own.slope_y).dot(p_W - corner.towards_W);
+    }
+    heights_.push_back(*std::min_element(all.begin(), all.end(), [&](const CornerHeight& a, const CornerHeight& b) { return std::fabs(a.z_m - z_m) < std::fabs(b.z_m - z_m); }));
   }
 }
 

@@ -15,9 +15,10 @@ using partition::Triangulation;
 
 constexpr double kLongSide = 8.0;  // times as long as the thinnest triangle is thick: such a side of a thin one is looked at
 constexpr std::uint32_t kNone = Triangulation::kNone;
-constexpr int kRounds = 5;  // of points put in where the ground is not met
+constexpr int kRounds = 12;  // of points put in where the ground is not met
 constexpr int kSlopeRounds = 12;  // where cuts and fills are followed
-constexpr BendRange kSlope = {0.0025, 0.01};
+constexpr double kMiddle = 0.7;  // of what the sides may be off: within a triangle both come together
+constexpr BendRange kSlope = {0.0023, 0.01};
 constexpr double kWithin_m = 1e-3;
 // In the middle of thinner triangles nothing is put: on roads, and on land.
 constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.15, 0.5, 1.5, 4.0}, kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
@@ -174,14 +175,14 @@ class Planner {
       std::optional<Corners> corners;  // asked where they are needed
       const auto know = [&]() -> const Corners& { return corners ? *corners : corners.emplace(CornersOf(triangles[i], plan_.face_of[i], thin)); };
       if (!land) CheckSides(triangles[i], thin ? kLongSide * kThinnestRoad_m[level_] : 0.0, know, fresh);
-      if (!thin) CheckMiddle(triangles[i], land ? kLandTolerances_m[level_] : RoadTolerance(), know(), fresh);
+      if (!thin) CheckMiddle(triangles[i], land ? kLandTolerances_m[level_] : kMiddle * RoadTolerance(), know(), fresh);
     }
     for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
     if (!fresh.empty()) CarryFaces();
     return !fresh.empty();
   }
 
-  double RoadTolerance() const { return 0.8 * kRoadTolerances[level_].height_m; }
+  double RoadTolerance() const { return 0.75 * kRoadTolerances[level_].height_m; }
 
   // The triangle's corners, and their heights as they are seen from within it; of a thin one from its own middle.
   struct Corners {

@@ -60,6 +60,12 @@ TEST(ScenarioFile, WrongOnesAreRefusedWithTheirPlace) {
   EXPECT_EQ(Complaint("  - {at_s: 0, name: mark, text: x}\n"),
             "scenario.yaml:3: 'at_s' is 0; the first time at which an event can act was expected, 0.02 s, or a later one");
   EXPECT_EQ(Complaint("  - {at_s: 0.01, name: mark, text: x}\n", {1'000'000, 10, 10}), "");
+  for (const char* far : {"1e300", "-5e15", "2000000.0005"}) {  // as steps more than a number holds: one sentence, about the range
+    const std::string said = Complaint(std::string("  - {at_s: ") + far + ", name: mark, text: x}\n");
+    EXPECT_NE(said.find("at_s' is"), std::string::npos) << said;
+    EXPECT_EQ(said.find("a multiple"), std::string::npos) << said;
+    EXPECT_EQ(said.find("first time"), std::string::npos) << said;
+  }
   EXPECT_EQ(Complaint("  - {at_s: 2, name: mark, text: x}\n  - {at_s: 1, name: mark, text: y}\n"),
             "scenario.yaml:4: 'at_s' is 1 and follows 2; times that do not descend were expected");
   EXPECT_NE(
