@@ -14,6 +14,8 @@ constexpr double kFar = 0.20 * kWhole;        // from where it stood: a movement
 constexpr double kEnough = 0.25 * kWhole;     // of a way: less is an accident
 constexpr double kNoise = 0.01 * kWhole;
 constexpr double kBack = 0.15;                // share of its way: back at an end, or (from half of it) in the middle
+constexpr double kTurn = 0.05 * kWhole;       // back from a leg's end: the next leg
+constexpr double kMost = 0.75;                // share of its way: there and back
 constexpr double kMargin = 0.02;              // of a pedal's way: the floor is reached before its very end
 constexpr double kDeadZone = 0.02;
 constexpr double kStill_s = 0.5;
@@ -39,6 +41,23 @@ std::optional<std::pair<double, double>> ReleasedAndPressed(double low, double h
 }
 
 }  // namespace
+
+void WheelSetup::Track::Go() {
+  const double leg = leg_to - leg_from;
+  if (std::fabs(leg) <= kTurn || (now - leg_to) * leg > 0.0) {
+    leg_to = now;
+  } else if (std::fabs(now - leg_to) > kTurn) {
+    double& longest = leg > 0.0 ? longest_up : longest_down;
+    longest = std::max(longest, std::fabs(leg));
+    leg_from = leg_to;
+    leg_to = now;
+  }
+}
+
+bool WheelSetup::Track::has_come_back() const {
+  const double leg = leg_to - leg_from;
+  return std::fabs(leg) >= kMost * way() && (leg > 0.0 ? longest_down : longest_up) >= kMost * way();
+}
 
 WheelSetup::WheelSetup(std::vector<DeviceUse> devices, double lock_rad) {
   settings_.devices = std::move(devices);
@@ -91,7 +110,7 @@ void WheelSetup::Follow(std::span<const DeviceReading> devices) {
     for (std::size_t d = 0; d < devices.size(); ++d) {
       for (std::size_t a = 0; a < devices[d].axes.size(); ++a) {
         const double now = devices[d].axes[a];
-        tracks_.push_back({d, a, now, now, now, 0.0, now});
+        tracks_.push_back({d, a, now, now, now, 0.0, now, now, now});
       }
     }
     fresh_ = false;
@@ -103,6 +122,7 @@ void WheelSetup::Follow(std::span<const DeviceReading> devices) {
     track.now = devices[track.device].axes[track.axis];
     track.low = std::min(track.low, track.now);
     track.high = std::max(track.high, track.now);
+    track.Go();
     if (track.first == 0.0 && std::fabs(track.now - track.begin) > kFar) track.first = track.now > track.begin ? 1.0 : -1.0;
   }
 }
@@ -111,6 +131,12 @@ void WheelSetup::Follow(std::span<const DeviceReading> devices) {
 const WheelSetup::Track* WheelSetup::Widest() const {
   const auto widest = std::max_element(tracks_.begin(), tracks_.end(), [](const Track& a, const Track& b) { return a.way() < b.way(); });
   return widest == tracks_.end() || widest->way() < kEnough ? nullptr : &*widest;
+}
+
+bool WheelSetup::IsReleased(const Track& track, const char* pedal) {
+  if (track.has_come_back()) return true;
+  remark_ = std::string("The ") + pedal + " has not come back yet: release it, or press it once more.";
+  return false;
 }
 
 bool WheelSetup::IsTaken(const Track& track, WheelAxis axis) const {
@@ -136,6 +162,7 @@ void WheelSetup::TakeThrottle(const Track& track) {
   if (IsTaken(track, WheelAxis::kSteering)) return Refuse("That was the steering wheel; the throttle alone was asked for.");
   const auto ends = ReleasedAndPressed(track.low, track.high, track.now);
   if (!ends) return Refuse("The throttle was not released; once more.");
+  if (!IsReleased(track, "throttle")) return;
   settings_.axes[static_cast<std::size_t>(WheelAxis::kThrottle)] = PedalUse(track.device, track.axis, ends->first, ends->second);
   Begin(Stage::kBrake);
 }
@@ -144,6 +171,7 @@ void WheelSetup::TakeBrake(const Track& track) {
   if (IsTaken(track, WheelAxis::kSteering)) return Refuse("That was the steering wheel; the brake alone was asked for.");
   const auto ends = ReleasedAndPressed(track.low, track.high, track.now);
   if (!ends) return Refuse("The brake was not released; once more.");
+  if (!IsReleased(track, "brake")) return;
   if (!IsTaken(track, WheelAxis::kThrottle)) {
     settings_.axes[static_cast<std::size_t>(WheelAxis::kBrake)] = PedalUse(track.device, track.axis, ends->first, ends->second);
     return Begin(Stage::kClutch);
@@ -171,6 +199,7 @@ void WheelSetup::TakeClutch(const Track& track) {
   }
   const auto ends = ReleasedAndPressed(track.low, track.high, track.now);
   if (!ends) return Refuse("The clutch was not released; once more.");
+  if (!IsReleased(track, "clutch")) return;
   settings_.axes[static_cast<std::size_t>(WheelAxis::kClutch)] = PedalUse(track.device, track.axis, ends->first, ends->second);
   Begin(Stage::kGears);
 }

@@ -12,6 +12,7 @@ namespace rodeira::hands {
 
 // Finds out what turns, what is pressed and where its ends are, by asking for one movement after the other. A movement counts when
 // everything has stood still for half a second after it; no key is needed. What a device says before it first moves is not believed.
+// A pedal that is held down is waited for: released is where it comes back to.
 class WheelSetup {
  public:
   enum class Stage { kSteering, kThrottle, kBrake, kClutch, kGears, kDone };
@@ -35,8 +36,12 @@ class WheelSetup {
     double low = 0.0, high = 0.0, now = 0.0;
     double first = 0.0;  // +1 or -1: where it first went far; 0: nowhere yet
     double begin = 0.0;
+    // It goes to and fro in legs: where this one began and how far it has come, and the longest one before it of each direction.
+    double leg_from = 0.0, leg_to = 0.0, longest_up = 0.0, longest_down = 0.0;
 
     double way() const { return high - low; }
+    void Go();                    // by `now`
+    bool has_come_back() const;   // over most of its way, after it went there
   };
   void Begin(Stage stage);
   bool Still(std::span<const DeviceReading> devices, double dt_s);
@@ -48,6 +53,8 @@ class WheelSetup {
   void TakeClutch(const Track& track);
   void TakeButtons(std::span<const DeviceReading> devices);
   void Refuse(std::string remark);
+  // Whether a pedal that is still at an end of its way was pressed and released; a remark where it is only held.
+  bool IsReleased(const Track& track, const char* pedal);
   bool IsTaken(const Track& track, WheelAxis axis) const;
 
   WheelSettings settings_;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "common/base/files.hpp"
 #include "common/base/random.hpp"
@@ -181,6 +182,38 @@ TEST(WheelSetup, WhatADeviceSaysBeforeItMovesIsNotBelieved) {
   const vehicle::Controls c = Driven(person.setup().settings(), {{{0.0, 32767.0, 32767.0}}, {{0.0, -32768.0, 30000.0}}});
   EXPECT_EQ(c.throttle, 1.0);
   EXPECT_LT(c.brake, 0.05);
+}
+
+// However long a foot stays on the floor, and whether it pumps there or not: released is where the pedal comes back to.
+TEST(WheelSetup, APedalThatIsHeldIsWaitedFor) {
+  for (const double up : {32767.0, -32768.0}) {
+    Person person({{0.0, up, up, up}});
+    Steer(person, 0, 0, -32000.0, 32000.0);
+    for (const auto& [axis, stage, pedal] : {std::tuple(std::size_t{1}, Stage::kThrottle, "throttle"), {std::size_t{2}, Stage::kBrake, "brake"}, {std::size_t{3}, Stage::kClutch, "clutch"}}) {
+      ASSERT_EQ(person.setup().stage(), stage) << person.setup().remark();
+      person.Move(0, axis, -up);
+      person.Wait(3.0);
+      person.Move(0, axis, 0.3 * up);
+      person.Move(0, axis, -up);
+      person.Wait(3.0);
+      ASSERT_EQ(person.setup().stage(), stage) << "held at the floor";
+      EXPECT_EQ(person.setup().remark(), std::string("The ") + pedal + " has not come back yet: release it, or press it once more.");
+      person.Move(0, axis, up);
+      person.Wait(0.7);
+    }
+    ASSERT_EQ(person.setup().stage(), Stage::kGears) << person.setup().remark();
+    person.Press(0, 1);
+    person.Press(0, 2);
+    const WheelSettings settings = person.setup().settings();
+    const std::vector<std::vector<double>> rest = {{0.0, up, up, up}};
+    const vehicle::Controls free = Driven(settings, {rest}), floor = Driven(settings, {rest, {{0.0, -up, -up, -up}}});
+    EXPECT_EQ(free.throttle, 0.0);
+    EXPECT_EQ(free.brake, 0.0);
+    EXPECT_EQ(free.clutch, 0.0);
+    EXPECT_EQ(floor.throttle, 1.0);
+    EXPECT_EQ(floor.brake, 1.0);
+    EXPECT_EQ(floor.clutch, 1.0);
+  }
 }
 
 TEST(WheelSetup, WhatWasNotAskedForIsSaid) {
