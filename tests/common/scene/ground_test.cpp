@@ -309,6 +309,50 @@ TEST(Ground, IsClosed) {
   }
 }
 
+// The same for the project's worlds at every level, on tiles drawn by lot: where bridges are, their aprons and the ground below their ends have sides of
+// their own.
+TEST(Ground, OfTheProjectsWorldsIsClosed) {
+  for (const std::string name : {"haste", "motorway", "n222", "flat", "example/world"}) {
+    const auto world = road::World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds" / (name + ".yaml"));
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    std::vector<Eigen::Vector2d> bridges;
+    for (const network::Road& road : world.value()->network()->roads()) {
+      for (const network::Structure& structure : road.spec().structures) {
+        for (double s = structure.s_m; s <= structure.s_m + structure.length_m; s += 5.0) bridges.push_back(road.Surface(std::min(s, road.length_m()), 0.0).p_W.head<2>());
+      }
+    }
+    const GroundPlan plan(*world.value());
+    std::size_t looked_at = 0;
+    const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 60) / 3;  // each of them at all levels
+    for (std::uint64_t n = 0; n < at_most; ++n) {
+      const TileKey& key = plan.tiles()[base::RandomBits({n, 23}) % plan.tiles().size()];
+      const Eigen::Vector2d low = key.south_west_W(), high = low + Eigen::Vector2d::Constant(kTile_m);
+      const auto near = [&](const Eigen::Vector2d& p) { return (p.array() > low.array() - 20.0).all() && (p.array() < high.array() + 20.0).all(); };
+      if (std::any_of(bridges.begin(), bridges.end(), near)) continue;
+      ++looked_at;
+      const GroundTile tile = plan.Build(key);
+      for (std::size_t level = 0; level < kGroundLevels; ++level) {
+        std::map<std::pair<Place, Place>, int> sides;
+        for (const Mesh& mesh : tile.levels[level].ground) {
+          for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
+            const auto corners = CornersOf(mesh, i);
+            for (std::size_t k = 0; k < 3; ++k) ++sides[{PlaceOf(corners[k]), PlaceOf(corners[(k + 1) % 3])}];
+          }
+        }
+        const auto on_edge = [&](const Place& p) { return p[0] == low.x() || p[1] == low.y() || p[0] == high.x() || p[1] == high.y(); };
+        int open = 0;
+        for (const auto& [side, count] : sides) {
+          const auto back = sides.find({side.second, side.first});
+          const bool met = back != sides.end() && back->second == count;
+          open += !met && !(on_edge(side.first) && on_edge(side.second));
+        }
+        EXPECT_EQ(open, 0) << name << ", level " << level << ", tile " << key.column << " " << key.row;
+      }
+    }
+    EXPECT_GT(looked_at, std::min<std::size_t>(at_most / 2, 10)) << name;
+  }
+}
+
 // The points on a common edge of two tiles, whatever their levels.
 void ExpectNeighboursFit(const road::World& world, std::size_t least_points, int least_pairs) {
   std::map<TileKey, GroundTile> tiles;
