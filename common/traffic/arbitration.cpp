@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/lanes/ring.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/traffic/travel_time.hpp"
 
@@ -14,15 +13,8 @@ constexpr double kPatience_s = 40.0;   // at rest for others; longer than this a
 constexpr double kGap_s = 1.0;         // after the own clearing before who goes first may arrive
 constexpr double kBehind_s = 0.5;      // after the own arrival who holds a zone may be out of it at the latest
 constexpr double kZips_mps = 7.0, kSoon_s = 4.0;  // who comes so slowly, and so soon, to where lanes merge takes his turn
-constexpr double kAlike = 0.9;         // cosine between the approaches of lanes that merge with equal right
 constexpr double kAtRest_mps = 0.05;
 constexpr double kAtLine_m = 1.5;      // a full stop counts within this before the line
-
-// Whether two lanes beside one another come together there without any sign: one by one from each, where it is slow.
-bool Zips(const lanes::Graph& graph, const lanes::Zone& zone) {
-  if (zone.kind != lanes::ZoneKind::kMerge || zone.signed_ || lanes::OnRing(graph, zone.track[0]) != lanes::OnRing(graph, zone.track[1])) return false;
-  return graph[zone.track[0]].curve.nodes().front().along_W.head<2>().dot(graph[zone.track[1]].curve.nodes().front().along_W.head<2>()) > kAlike;
-}
 
 // The side of who was let in last of those who hold a zone, by both sides; -1: nobody does.
 template <class Sides>
@@ -79,7 +71,7 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
   const lanes::Zone& zone = zones()[static_cast<std::uint32_t>(index)];
   const auto& claims = comers_[index][static_cast<std::size_t>(theirs)];
   if (claims.empty()) return false;
-  const int last = Zips(graph(), zone) ? LastLetIn(holders_[index], agents_.size()) : -1;
+  const int last = map_->zips[index] ? LastLetIn(holders_[index], agents_.size()) : -1;
   if (zone.first == crossing.side && last != crossing.side) return false;
   const Agent& agent = agents_[id];
   const double way_out = crossing.out_m - agent.o_m + 0.5 * traits_[id].length_m;

@@ -3,10 +3,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/lanes/ring.hpp"
+
 namespace rodeira::traffic {
 namespace {
 
 constexpr double kEntryClear_m = 12.0;  // from a lane's beginning to its first conflict zone
+constexpr double kAlike = 0.9;          // cosine between the approaches of lanes that merge with equal right
+
+bool Zips(const lanes::Graph& graph, const lanes::Zone& zone) {
+  if (zone.kind != lanes::ZoneKind::kMerge || zone.signed_ || lanes::OnRing(graph, zone.track[0]) != lanes::OnRing(graph, zone.track[1])) return false;
+  return graph[zone.track[0]].curve.nodes().front().along_W.head<2>().dot(graph[zone.track[1]].curve.nodes().front().along_W.head<2>()) > kAlike;
+}
 
 }  // namespace
 
@@ -22,6 +30,7 @@ TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const Traffic
     }
     if (!entries.empty()) break;
   }
+  for (const lanes::Zone& zone : zones.zones()) zips.push_back(Zips(graph, zone));
   enters.resize(graph.tracks().size());
   for (std::uint32_t track = 0; track < enters.size(); ++track) enters[track] = graph[track].entry;
 }

@@ -24,6 +24,7 @@ struct TrafficMap {
   std::vector<TrackPlan> plans;  // by track
   std::vector<std::uint32_t> entries;
   std::vector<bool> enters;  // by track: somebody may begin his way there
+  std::vector<bool> zips;    // by zone: two lanes beside one another come together there without any sign, one by one from each where it is slow
   Demand demand;
 
   TrafficMap(std::shared_ptr<const network::Network> of, const TrafficSettings& settings);
