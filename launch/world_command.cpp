@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/base/files.hpp"
+#include "common/road/measured_files.hpp"
 #include "common/road/network_world.hpp"
 #include "common/road/world_export.hpp"
 #include "common/road/world_plot.hpp"
@@ -45,11 +46,20 @@ int Check(const WorldOptions& options) {
   return 0;
 }
 
-int Written(const std::filesystem::path& file, const base::Result<std::string>& text) {
-  if (!text) return Complain(text.error());
-  if (auto status = base::WriteWhole(file, text.value()); !status) return Complain(status.error());
+int Written(const std::filesystem::path& file, const base::Status& status) {
+  if (!status) return Complain(status.error());
   fmt::print("{}\n", file.string());
   return 0;
+}
+
+// The OpenDRIVE file of a world that is one, with its measured surfaces.
+int CopyOpenDrive(const std::filesystem::path& file, const std::filesystem::path& copy) {
+  const auto text = base::ReadText(file);
+  if (!text) return Complain(text.error());
+  const auto warnings = road::CopyMeasured(file, copy);
+  if (!warnings) return Complain(warnings.error());
+  for (const std::string& warning : warnings.value()) fmt::print(stderr, "rodeira: warning: {}\n", warning);
+  return Written(copy, base::WriteWhole(copy, text.value()));
 }
 
 // What a world looks like, tile by tile.
@@ -78,7 +88,7 @@ int Build(const WorldOptions& options) {
   const std::filesystem::path copy = std::filesystem::path(options.out) / "world.xodr";
   if (world.value()->open_drive()) {
     const int status = BuildDatabase(options, *world.value());
-    return status != 0 ? status : Written(copy, base::ReadText(road::OpenDriveOf(options.world_file)));
+    return status != 0 ? status : CopyOpenDrive(road::OpenDriveOf(options.world_file), copy);
   }
   if (road::IsGenerated(options.world_file) || world.value()->network() == nullptr) {
     const auto written = road::BuildWorld(*world.value(), options.world_file, options.out);
@@ -91,7 +101,7 @@ int Build(const WorldOptions& options) {
   }
   std::error_code problem;
   std::filesystem::create_directories(options.out, problem);
-  return Written(copy, road::ExportOpenDrive(*world.value()));
+  return Written(copy, road::WriteOpenDrive(*world.value(), copy));
 }
 
 }  // namespace
@@ -101,9 +111,8 @@ int World(const WorldOptions& options) {
   if (options.command == "build") return Build(options);
   const auto world = road::World::Load(options.world_file);
   if (options.command == "export" && world) {
-    const auto text = road::ExportOpenDrive(*world.value());
-    if (!text) return Complain(base::WrongInput(text.error().message, options.world_file));
-    if (auto status = base::WriteWhole(options.out, text.value()); !status) return Complain(status.error());
+    const auto status = road::WriteOpenDrive(*world.value(), options.out);
+    if (!status) return Complain(status.error().context.empty() ? base::WrongInput(status.error().message, options.world_file) : status.error());
     fmt::print("wrote {}\n", options.out);
     return 0;
   }

@@ -55,6 +55,7 @@ void ReadLanes(const Node& road, network::RoadSpec& spec, RoadLines& lines);
 network::RoadMark ReadMark(const Node& mark, double section_s_m);
 void ReadSignals(const Node& road, network::RoadSpec& spec);
 void ReadObjects(const Node& road, network::RoadSpec& spec);
+void ReadSurface(const Node& road, network::RoadSpec& spec);
 JunctionReading ReadJunction(const Node& junction);
 network::Controller ReadController(const Node& controller);
 // Controllers that a junction names and that say no times take turns, in the junction's order: 20 s of green, 3 s of amber,

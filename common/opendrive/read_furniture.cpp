@@ -151,21 +151,6 @@ void ReadObjects(const Node& road, network::RoadSpec& spec) {
           {node.Text("id", ""), node.Text("name", ""), node.Text("type", ""), bridge, node.Number("s"), node.Number("length")});
     });
   }
-  for (const Node& node : road.Child("surface").Children("CRG")) {
-    network::CrgSurface crg;
-    crg.file = node.Text("file");
-    crg.orientation = node.Text("orientation", "same");
-    crg.mode = node.Text("mode", "attached");
-    crg.purpose = node.Text("purpose", "elevation");
-    crg.s_start_m = node.Number("sStart");
-    crg.s_end_m = node.Number("sEnd");
-    crg.s_offset_m = node.Number("sOffset", 0.0);
-    crg.t_offset_m = node.Number("tOffset", 0.0);
-    crg.z_offset_m = node.Number("zOffset", 0.0);
-    crg.z_scale = node.Number("zScale", 1.0);
-    crg.h_offset_rad = node.Number("hOffset", 0.0);
-    spec.crg.push_back(crg);
-  }
 }
 
 }  // namespace rodeira::opendrive

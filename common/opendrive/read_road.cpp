@@ -57,6 +57,7 @@ RoadReading ReadRoad(const Node& road) {
   ReadLanes(road, spec, reading.lines);
   ReadSignals(road, spec);
   ReadObjects(road, spec);
+  ReadSurface(road, spec);
   return reading;
 }
 

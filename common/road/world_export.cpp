@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <set>
 #include <vector>
 
+#include "common/base/files.hpp"
 #include "common/road/export_lanes.hpp"
 #include "common/road/export_text.hpp"
+#include "common/road/measured_files.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -128,13 +132,41 @@ std::string Furniture(const network::RoadSpec& spec) {
   return text;
 }
 
-std::string RoadText(const network::Road& road) {
+// What a file of a measured surface is called in the exported one.
+using NameOf = std::function<std::string(const std::string& file)>;
+
+// In a junction a surface may go on beyond its way's ends; OpenDRIVE has no s there, so how far stands in the data of users.
+std::string MeasuredText(const network::CrgSurface& crg, double length_m, const NameOf& name_of) {
+  const bool along = crg.mode != "genuine";  // that one's place is sStart + sOffset
+  const double before_m = along ? std::max(0.0, -crg.s_start_m) : 0.0, behind_m = std::max(0.0, crg.s_end_m - length_m);
+  std::string text = fmt::format("<CRG file=\"{}\" sStart=\"{}\" sEnd=\"{}\" orientation=\"{}\" mode=\"{}\" purpose=\"{}\" sOffset=\"{}\" tOffset=\"{}\"",
+                                 Escaped(name_of(crg.file)), crg.s_start_m + before_m, crg.s_end_m - behind_m, crg.orientation, crg.mode, crg.purpose,
+                                 crg.s_offset_m + before_m, crg.t_offset_m);
+  if (along) text += fmt::format(" zOffset=\"{}\" zScale=\"{}\"", crg.z_offset_m, crg.z_scale);
+  else text += fmt::format(" zOffset=\"{}\" zScale=\"{}\" hOffset=\"{}\"", crg.z_offset_m, crg.z_scale, crg.h_offset_rad);
+  if (before_m == 0.0 && behind_m == 0.0) return text + "/>\n";
+  return text + fmt::format("><userData code=\"rodeira:goes_on\" value=\"{} {}\"/></CRG>\n", before_m, behind_m);
+}
+
+// Made roughness is nothing that OpenDRIVE knows.
+std::string Surface(const network::RoadSpec& spec, double length_m, const NameOf& name_of) {
+  if (spec.crg.empty() && spec.unevenness.empty()) return "";
+  std::string text = "<surface>\n";
+  for (const network::CrgSurface& crg : spec.crg) text += MeasuredText(crg, length_m, name_of);
+  for (const network::Unevenness& made : spec.unevenness) {
+    text += fmt::format("<userData code=\"rodeira:iso_8608\" value=\"{} {} {} {} {}\"/>\n", made.s_start_m, made.s_end_m, made.s_offset_m,
+                        made.density_m3, made.seed);
+  }
+  return text + "</surface>\n";
+}
+
+std::string RoadText(const network::Road& road, const NameOf& name_of) {
   const network::RoadSpec& spec = road.spec();
   std::string text = fmt::format("<road name=\"{}\" id=\"{}\" length=\"{}\" junction=\"{}\" rule=\"{}\">\n", Escaped(spec.name), Escaped(spec.id),
                                  road.length_m(), spec.junction.empty() ? "-1" : Escaped(spec.junction), spec.left_hand ? "LHT" : "RHT");
   text += fmt::format("<link>{}{}</link>\n", LinkText("predecessor", spec.predecessor), LinkText("successor", spec.successor));
   text += Types(spec) + PlanView(road) + "<elevationProfile>\n" + Cubics("elevation", spec.elevation) + "</elevationProfile>\n";
-  return text + Lateral(spec) + LanesText(road) + Furniture(spec) + "</road>\n";
+  return text + Lateral(spec) + LanesText(road) + Furniture(spec) + Surface(spec, road.length_m(), name_of) + "</road>\n";
 }
 
 std::string JunctionText(const network::Junction& junction) {
@@ -166,6 +198,25 @@ std::string ControllerText(const network::Controller& controller) {
   return text + "</controller>\n";
 }
 
+base::Result<std::string> Export(const World& world, const NameOf& name_of) {
+  if (world.open_drive()) return base::WrongInput("this world is an OpenDRIVE file already");
+  if (world.network() == nullptr || world.network()->roads().empty()) return base::WrongInput("this world has no road; OpenDRIVE needs one");
+  const network::Network& network = *world.network();
+  // Sections of strips came with OpenDRIVE 1.8.
+  const bool strips = std::any_of(network.roads().begin(), network.roads().end(), [](const network::Road& road) {
+    return !road.spec().lateral.surface.left.empty() || !road.spec().lateral.surface.right.empty();
+  });
+  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<OpenDRIVE>\n";
+  text += fmt::format("<header revMajor=\"1\" revMinor=\"{}\" name=\"{}\" version=\"1.00\" vendor=\"Rodeira\">\n", strips ? 8 : 7,
+                      Escaped(world.name()));
+  if (!network.geo_reference().empty()) text += fmt::format("<geoReference>{}</geoReference>\n", Escaped(network.geo_reference()));
+  text += "</header>\n";
+  for (const network::Road& road : network.roads()) text += RoadText(road, name_of);
+  for (const network::Controller& controller : network.controllers()) text += ControllerText(controller);
+  for (const network::Junction& junction : network.junctions()) text += JunctionText(junction);
+  return text + "</OpenDRIVE>\n";
+}
+
 }  // namespace
 
 std::string Escaped(std::string_view text) {
@@ -185,22 +236,15 @@ std::string CubicText(const char* element, const char* from_name, double from, c
 }
 
 base::Result<std::string> ExportOpenDrive(const World& world) {
-  if (world.open_drive()) return base::WrongInput("this world is an OpenDRIVE file already");
-  if (world.network() == nullptr || world.network()->roads().empty()) return base::WrongInput("this world has no road; OpenDRIVE needs one");
-  const network::Network& network = *world.network();
-  // Sections of strips came with OpenDRIVE 1.8.
-  const bool strips = std::any_of(network.roads().begin(), network.roads().end(), [](const network::Road& road) {
-    return !road.spec().lateral.surface.left.empty() || !road.spec().lateral.surface.right.empty();
-  });
-  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<OpenDRIVE>\n";
-  text += fmt::format("<header revMajor=\"1\" revMinor=\"{}\" name=\"{}\" version=\"1.00\" vendor=\"Rodeira\">\n", strips ? 8 : 7,
-                      Escaped(world.name()));
-  if (!network.geo_reference().empty()) text += fmt::format("<geoReference>{}</geoReference>\n", Escaped(network.geo_reference()));
-  text += "</header>\n";
-  for (const network::Road& road : network.roads()) text += RoadText(road);
-  for (const network::Controller& controller : network.controllers()) text += ControllerText(controller);
-  for (const network::Junction& junction : network.junctions()) text += JunctionText(junction);
-  return text + "</OpenDRIVE>\n";
+  return Export(world, [](const std::string& file) { return std::filesystem::absolute(file).string(); });
+}
+
+base::Status WriteOpenDrive(const World& world, const std::filesystem::path& file) {
+  MeasuredFiles measured(file);
+  const auto text = Export(world, [&measured](const std::string& path) { return measured.NameOf(path); });
+  if (!text) return text.error();
+  if (auto written = measured.Write(); !written) return written;
+  return base::WriteWhole(file, text.value());
 }
 
 }  // namespace rodeira::road
