@@ -89,9 +89,7 @@ function(rodeira_test name)
   add_executable(${name}_test ${ARG_SOURCES})
   target_include_directories(${name}_test PRIVATE ${CMAKE_SOURCE_DIR})
   target_compile_options(${name}_test PRIVATE ${RODEIRA_WARNINGS})
-  target_compile_definitions(${name}_test PRIVATE
-    RODEIRA_SOURCE_DIR="${CMAKE_SOURCE_DIR}" RODEIRA_BINARY_DIR="${CMAKE_BINARY_DIR}")
-  target_link_libraries(${name}_test PRIVATE ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${name}_test PRIVATE ${ARG_LINK} rodeira_tests_tree GTest::gmock GTest::gtest_main)
   gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES})
 endfunction()
@@ -102,8 +100,7 @@ function(rodeira_bench name)
   add_executable(${name}_bench ${ARG_SOURCES})
   target_include_directories(${name}_bench PRIVATE ${CMAKE_SOURCE_DIR})
   target_compile_options(${name}_bench PRIVATE ${RODEIRA_WARNINGS})
-  target_compile_definitions(${name}_bench PRIVATE RODEIRA_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  target_link_libraries(${name}_bench PRIVATE ${ARG_LINK})
+  target_link_libraries(${name}_bench PRIVATE ${ARG_LINK} rodeira_tests_tree)
 endfunction()
 
 # Rooms are entered in the order of the dependencies; a room that is not built yet is passed over.

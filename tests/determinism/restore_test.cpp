@@ -11,6 +11,7 @@
 #include "common/launch/launch.hpp"
 #include "common/lockstep/in_process.hpp"
 #include "launch/local_nodes.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
@@ -46,7 +47,7 @@ void ExpectRestorable(const std::string& launch_file) {
   ASSERT_TRUE(whole.ok) << whole.fault;
   int resumed = 0;
   for (lockstep::Step step = every; step + 100 < kLast; step += every, ++resumed) {
-    const std::string command = std::string(RODEIRA_BINARY_DIR) + "/bin/resume_run " + launch_file + " " + (folder / std::to_string(step)).string() + " " +
+    const std::string command = BinaryDir() + "/bin/resume_run " + launch_file + " " + (folder / std::to_string(step)).string() + " " +
                                 std::to_string(step) + " " + std::to_string(kLast);
     EXPECT_EQ(OutputOf(command), base::Hex(whole.digest)) << "from step " << step;
   }
@@ -54,9 +55,9 @@ void ExpectRestorable(const std::string& launch_file) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(Restore, TheFirstDrive) { ExpectRestorable(std::string(RODEIRA_SOURCE_DIR) + "/tests/data/drive_without_recorder.yaml"); }
-TEST(Restore, TheAutopilotAndTheTrafficOfN222) { ExpectRestorable(std::string(RODEIRA_SOURCE_DIR) + "/tests/data/n222_traffic.yaml"); }
-TEST(Restore, EmptyNodes) { ExpectRestorable(std::string(RODEIRA_SOURCE_DIR) + "/launch/empty.yaml"); }
+TEST(Restore, TheFirstDrive) { ExpectRestorable(SourceDir() + "/tests/data/drive_without_recorder.yaml"); }
+TEST(Restore, TheAutopilotAndTheTrafficOfN222) { ExpectRestorable(SourceDir() + "/tests/data/n222_traffic.yaml"); }
+TEST(Restore, EmptyNodes) { ExpectRestorable(SourceDir() + "/launch/empty.yaml"); }
 
 }  // namespace
 }  // namespace rodeira

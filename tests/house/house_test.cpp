@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/tree.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -97,7 +99,7 @@ std::vector<std::string> Violations(const fs::path& root, const Layers& layers) 
   return violations;
 }
 
-const fs::path kRoot = RODEIRA_SOURCE_DIR;
+const fs::path kRoot = rodeira::SourceDir();
 
 TEST(House, DependenciesGoDownwardOnly) {
   EXPECT_EQ(Violations(kRoot, ReadLayers(kRoot / "cmake/layers.txt")), std::vector<std::string>{});

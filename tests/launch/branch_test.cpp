@@ -18,6 +18,7 @@
 #include "launch/verify.hpp"
 #include "tests/launch/replay_fixture.hpp"
 #include "tests/system/recording.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -178,7 +179,7 @@ TEST_F(BranchTest, ABranchMayLeaveAtTheFirstStepAndABranchsBranchBehindItsOwn) {
 // The car of another model goes on where the other one was: pose, speed and yaw rate at the next published step.
 TEST_F(BranchTest, ABranchMayHaveAnotherVehicleModel) {
   const std::string file = Drive(4.0);
-  const std::string other = std::string(RODEIRA_SOURCE_DIR) + "/configs/vehicles/prototype.yaml";
+  const std::string other = SourceDir() + "/configs/vehicles/prototype.yaml";
   const BranchWish wish{file, 3000, {{"nodes.ego.config.vehicle", "\"" + other + "\""}}, 4000, (folder_.path() / "branch.mcap").string()};
   const auto outcome = Branch(wish);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();

@@ -10,6 +10,7 @@
 
 #include "launch/built_with.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -47,7 +48,7 @@ TEST(Packages, WithoutDpkgItIsSaid) {
 
 TEST(Programs, ThoseOfThisBuildStart) {
   EXPECT_THAT(NodePrograms(), ::testing::Contains("rodeira-vehicle"));
-  const Finding finding = CheckPrograms({"rodeira-clock", "rodeira-recorder"}, std::string(RODEIRA_BINARY_DIR) + "/bin");
+  const Finding finding = CheckPrograms({"rodeira-clock", "rodeira-recorder"}, BinaryDir() + "/bin");
   EXPECT_EQ(finding.verdict, Verdict::kOk) << finding.sentence;
 }
 

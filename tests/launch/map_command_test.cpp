@@ -9,6 +9,7 @@
 #include "common/base/files.hpp"
 #include "tests/common/map/sample_map.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -28,7 +29,7 @@ Said Asked(const MapOptions& options) {
   return {status, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
 }
 
-const std::string kCrossing = std::string(RODEIRA_SOURCE_DIR) + "/configs/maps/crossing.motors";
+const std::string kCrossing = SourceDir() + "/configs/maps/crossing.motors";
 
 TEST(MapCommand, ChecksAMap) {
   const Said said = Asked({"check", kCrossing, ""});

@@ -11,11 +11,12 @@
 #include "common/geometry/polyline.hpp"
 #include "common/road/world.hpp"
 #include "launch/world_axis.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
 
-const std::string kWorlds = RODEIRA_SOURCE_DIR "/configs/worlds/";
+const std::string kWorlds = SourceDir() + "/configs/worlds/";
 
 TEST(WorldAxis, IsNamedByFileAndRoad) {
   EXPECT_EQ(AxisNameOf("a b/n222.yaml#n222")->file, "a b/n222.yaml");

@@ -23,6 +23,7 @@
 #include "tests/property/last_words.hpp"
 #include "tests/setting.hpp"
 #include "tests/system/command.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -126,7 +127,7 @@ class RecordingFuzz : public ::testing::Test {
 };
 
 TEST_F(RecordingFuzz, NoChangedRecordingCrashesOrPasses) {
-  const std::string root = RODEIRA_SOURCE_DIR;
+  const std::string root = SourceDir();
   const std::string empty = folder_.Write("empty.yaml", "rodeira: launch/1\nsnapshot_every_s: 0.01\nnodes:\n  a: {kind: empty}\n"
                                                         "  b: {kind: empty, period_s: 0.002, delay_s: 0.004}\n  c: {kind: empty}\n  recorder: {kind: recorder, period_s: 0.01}\n").string();
   const std::string without = folder_.Write("without.yaml", "rodeira: launch/1\nsnapshot_every_s: 0.01\nnodes:\n  a: {kind: empty}\n"

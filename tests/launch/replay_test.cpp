@@ -20,6 +20,7 @@
 #include "launch/verify.hpp"
 #include "tests/launch/replay_fixture.hpp"
 #include "tests/system/recording.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -217,7 +218,7 @@ TEST_F(ReplayTest, AnEmbeddedFileIsNamedAsItIsEmbedded) {
 
 // What counts is the file as it was, wherever the launch file says that it lies.
 TEST_F(ReplayTest, AFileNamedByItsWholePathIsTheEmbeddedOne) {
-  const std::string root = RODEIRA_SOURCE_DIR;
+  const std::string root = SourceDir();
   const auto vehicle = folder_.Write("car.yaml", base::ReadText(root + "/configs/vehicles/default.yaml").value());
   const auto launch = folder_.Write("launch/whole.yaml", "rodeira: launch/1\nworld: " + root + "/configs/worlds/plane.yaml\nnodes:\n  road: {kind: road}\n"
                                                          "  driver: {kind: input, config: {source: script, script: " + root + "/tests/data/standing.csv}}\n"

@@ -8,13 +8,14 @@
 #include "launch/start_window.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/system/command.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
 
 namespace fs = std::filesystem;
 
-StartFiles Here(const fs::path& data = "/nowhere") { return FindStartFiles(RODEIRA_SOURCE_DIR, data, "/nowhere"); }
+StartFiles Here(const fs::path& data = "/nowhere") { return FindStartFiles(SourceDir(), data, "/nowhere"); }
 
 // The launch file as the command changes it; an empty text where it is refused.
 std::string Refused(const std::vector<std::string>& arguments) {
@@ -52,7 +53,7 @@ TEST(Start, TheLaunchFileHasWhatWasChosen) {
   const StartFiles files = Here();
   StartChoice choice = DefaultChoice(files);
   choice.driver = StartDriver::kAutopilot;
-  choice.world = fs::path(RODEIRA_SOURCE_DIR) / "configs/worlds/motorway.yaml";
+  choice.world = fs::path(SourceDir()) / "configs/worlds/motorway.yaml";
   choice.traffic = 33;
   const auto arguments = CommandOf(files, choice);
   EXPECT_EQ(ShellText({arguments.begin() + 2, arguments.end()}),
@@ -95,8 +96,8 @@ TEST(Start, RecentRunsStandWithTheNewestFirst) {
 }
 
 TEST(Start, TheFoldersAreFoundFromBelowThem) {
-  EXPECT_EQ(FindStartRoot({fs::path(RODEIRA_SOURCE_DIR) / "build/bin"}), fs::path(RODEIRA_SOURCE_DIR));
-  EXPECT_EQ(FindStartRoot({"/proc/1", fs::path(RODEIRA_SOURCE_DIR) / "docs"}), fs::path(RODEIRA_SOURCE_DIR));
+  EXPECT_EQ(FindStartRoot({fs::path(SourceDir()) / "build/bin"}), fs::path(SourceDir()));
+  EXPECT_EQ(FindStartRoot({"/proc/1", fs::path(SourceDir()) / "docs"}), fs::path(SourceDir()));
   EXPECT_EQ(FindStartRoot({"/proc"}), fs::path());
   const StartFiles none = FindStartFiles({}, "/nowhere", "/nowhere");
   EXPECT_NE(WhatIsMissing(none, DefaultChoice(none)).find("were found neither here nor beside the program"), std::string::npos);

@@ -9,6 +9,7 @@
 #include "launch/start_window.hpp"
 #include "tests/common/window/hands.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -28,7 +29,7 @@ class StartWheel : public testing::Test {
     ASSERT_TRUE(made.ok());
     folder_.emplace(std::move(made).value());
     ::setenv("XDG_CONFIG_HOME", folder_->path().c_str(), 1);
-    std::filesystem::current_path(RODEIRA_SOURCE_DIR);
+    std::filesystem::current_path(SourceDir());
     start_.emplace(FindStartFiles(".", "/nowhere", folder_->path() / "rodeira"), "/bin/true");
   }
   void TearDown() override { ::unsetenv("XDG_CONFIG_HOME"); }

@@ -9,6 +9,7 @@
 
 #include "common/base/files.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -34,7 +35,7 @@ class TrafficCommand : public ::testing::Test {
  protected:
   TrafficCommand() {
     options_.map = folder_.path() / "ramp.motors";
-    std::filesystem::copy_file(RODEIRA_SOURCE_DIR "/configs/maps/ramp.motors", options_.map);
+    std::filesystem::copy_file(SourceDir() + "/configs/maps/ramp.motors", options_.map);
     options_.duration_s = 20.0;
   }
   void Beside(const std::string& companion) { ASSERT_TRUE(base::WriteWhole(options_.map + ".yaml", companion).ok()); }

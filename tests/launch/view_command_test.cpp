@@ -6,11 +6,12 @@
 #include <fstream>
 
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
 
-const std::string kThreeScreens = RODEIRA_SOURCE_DIR "/launch/three_screens.yaml";
+const std::string kThreeScreens = SourceDir() + "/launch/three_screens.yaml";
 
 ViewOptions Options(const std::string& file, const std::string& screen, bool headset = false) {
   ViewOptions options;
@@ -48,7 +49,7 @@ TEST(ViewCommand, WithAHostItIsThatHostsPartUnchanged) {
   std::ifstream in(kThreeScreens);
   std::string text((std::istreambuf_iterator<char>(in)), {});
   for (const std::string& folder : {std::string("configs/labs"), std::string("configs/worlds"), std::string("configs/drivers"), std::string("configs/vehicles")}) {
-    for (std::size_t at = text.find("../" + folder); at != std::string::npos; at = text.find("../" + folder)) text.replace(at, 3, std::string(RODEIRA_SOURCE_DIR) + "/");
+    for (std::size_t at = text.find("../" + folder); at != std::string::npos; at = text.find("../" + folder)) text.replace(at, 3, SourceDir() + "/");
   }
   const std::string left = "left: {kind: view, ";
   text.replace(text.find(left), left.size(), "left: {kind: view, host: west, ");
@@ -69,7 +70,7 @@ TEST(ViewCommand, WhatIsNotThereIsRefused) {
   ASSERT_FALSE(screen.ok());
   EXPECT_EQ(screen.error().exit_status(), 2);
   EXPECT_NE(screen.error().Text().find("no view looks through a screen 'rigth'; did you mean 'right'?"), std::string::npos) << screen.error().Text();
-  const auto none = RunOf(Options(RODEIRA_SOURCE_DIR "/launch/empty.yaml", ""));
+  const auto none = RunOf(Options(SourceDir() + "/launch/empty.yaml", ""));
   ASSERT_FALSE(none.ok());
   EXPECT_NE(none.error().Text().find("no node of kind view was found"), std::string::npos) << none.error().Text();
   EXPECT_EQ(View(Options("", "left")), 2);

@@ -32,13 +32,14 @@
 #include "tests/common/road/sample_world.hpp"
 #include "tests/common/vehicle/test_ground.hpp"
 #include "tests/property/fuzz.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::property {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = RODEIRA_SOURCE_DIR;
+const fs::path kRoot = SourceDir();
 
 std::string GoodFile(const char* path) {
   const auto text = base::ReadText(kRoot / path);

@@ -16,13 +16,14 @@
 #include "tests/common/opendrive/sample.hpp"
 #include "tests/property/fuzz.hpp"
 #include "tests/property/mutate_structure.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::property {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = RODEIRA_SOURCE_DIR;
+const fs::path kRoot = SourceDir();
 
 // With all that such a file may say.
 constexpr const char* kDrivers = R"(rodeira: traffic/1

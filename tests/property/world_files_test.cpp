@@ -12,11 +12,12 @@
 #include "common/road/world_report.hpp"
 #include "tests/property/fuzz.hpp"
 #include "tests/property/mutate_structure.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::property {
 namespace {
 
-const std::filesystem::path kExample = std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/example";
+const std::filesystem::path kExample = std::filesystem::path(SourceDir()) / "configs/worlds/example";
 
 // Small, with most of what a file may say; the files beside the example are beside this one too.
 constexpr const char* kHills = R"(rodeira: world/2

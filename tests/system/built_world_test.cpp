@@ -8,6 +8,7 @@
 #include "common/base/hash.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/system/command.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::system_test {
 namespace {
@@ -40,7 +41,7 @@ class BuiltWorld : public ::testing::Test {
   }
   // A second of driving, looked at twice, on the world file of that name.
   Driven Drive(const std::string& world, const std::string& name) const {
-    const std::string configs = std::string(RODEIRA_SOURCE_DIR) + "/configs/";
+    const std::string configs = SourceDir() + "/configs/";
     const fs::path launch = folder_.path() / (name + ".yaml");
     const std::string text = "rodeira: launch/1\nname: built\nworld: " + world + "\nseed: 1\nduration_s: 1\nnodes:\n  road: {kind: road}\n" +
                              "  driver: {kind: input, config: {source: autopilot, driver: " + configs + "drivers/default.yaml, vehicle: " + configs + "vehicles/default.yaml}}\n" +

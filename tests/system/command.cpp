@@ -11,12 +11,14 @@
 #include <sstream>
 #include <thread>
 
+#include "tests/tree.hpp"
+
 namespace rodeira::system_test {
 
 using WallClock = std::chrono::steady_clock;
 
-std::string Bin(const std::string& program) { return std::string(RODEIRA_BINARY_DIR) + "/bin/" + program; }
-std::string LaunchFile(const std::string& name) { return std::string(RODEIRA_SOURCE_DIR) + "/launch/" + name; }
+std::string Bin(const std::string& program) { return BinaryDir() + "/bin/" + program; }
+std::string LaunchFile(const std::string& name) { return SourceDir() + "/launch/" + name; }
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include "idl/topics.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::system_test {
 namespace {
@@ -20,7 +21,7 @@ class Crash : public ::testing::Test {
   ~Crash() override { std::filesystem::remove_all(folder_); }
   std::string Path(const std::string& name) const { return (folder_ / name).string(); }
   static Ended Run(const std::string& launch, std::vector<std::string> more) {
-    more.insert(more.begin(), {Bin("rodeira"), "run", std::string(RODEIRA_SOURCE_DIR) + "/tests/data/" + launch});
+    more.insert(more.begin(), {Bin("rodeira"), "run", SourceDir() + "/tests/data/" + launch});
     return RunCommand(more);
   }
   // Of one recording: the first partner, the impulse along x of its touch, and the car's fastest and last speed.
@@ -63,7 +64,7 @@ TEST_F(Crash, IntoAHouseIsRecordedAndComputedAgain) {
   EXPECT_LT(story.first->normal_x(), -0.99f);
   EXPECT_NEAR(story.first->position_x_m(), 294.0, 0.1);
   EXPECT_GT(story.speed_before_mps, 15.0);
-  const auto model = vehicle::LoadVehicle(std::string(RODEIRA_SOURCE_DIR) + "/configs/vehicles/default.yaml");
+  const auto model = vehicle::LoadVehicle(SourceDir() + "/configs/vehicles/default.yaml");
   // The house takes all of its momentum; what the engine goes on pushing comes on top.
   const double momentum = model.value()->dimensions().mass_kg * story.speed_before_mps;
   EXPECT_LT(story.impulse_x_Ns, -0.98 * momentum);

@@ -15,6 +15,7 @@
 #include "idl/topics.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::system_test {
 namespace {
@@ -101,7 +102,7 @@ TEST_F(Drive, TheRecordingHoldsEverySampleOnceAndTheCarHasDriven) {
 }
 
 TEST_F(Drive, AutopilotAndTrafficOnN222GiveTheSameDigestHoweverTheyRun) {
-  const std::string launch = std::string(RODEIRA_SOURCE_DIR) + "/tests/data/n222_traffic.yaml";
+  const std::string launch = SourceDir() + "/tests/data/n222_traffic.yaml";
   const auto digest = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {Bin("rodeira"), "run", launch, "--no-record", "--for", "10"});
     const Ended ended = RunCommand(more);
@@ -145,7 +146,7 @@ TEST_F(Drive, AutopilotAndTrafficDriveOnHaste) {
 TEST_F(Drive, TheGroundIsTheSameHereAndThere) {
   const auto samples = [&](const std::string& ground, std::int64_t& asked) {
     const std::string file = Path(ground + ".mcap");
-    const Ended ended = RunCommand({Bin("rodeira"), "run", std::string(RODEIRA_SOURCE_DIR) + "/tests/data/n222_traffic.yaml", "--for", "5", "--record", file,
+    const Ended ended = RunCommand({Bin("rodeira"), "run", SourceDir() + "/tests/data/n222_traffic.yaml", "--for", "5", "--record", file,
                                     "--set", "nodes.ego.config.ground=" + ground});
     EXPECT_EQ(ended.status, 0) << ended.out;
     const auto line = ended.out.find("\nego ");
@@ -217,7 +218,7 @@ TEST_F(Drive, WrongFilesAreRefusedInOneSentence) {
   write("world.yaml", "rodeira: world/1\nname: x\nground: {kind: plane, z_cm: 5}\n");
   refuses({"--set", "world=" + Path("world.yaml")}, "world.yaml:3: unknown key 'ground.z_cm'; the unit is part of the name: 'z_m'");
   refuses({"--set", "nodes.ego.config.vehicle=/no/car.yaml"}, "/no/car.yaml: there is no such file");
-  auto car = base::ReadText(std::string(RODEIRA_SOURCE_DIR) + "/configs/vehicles/default.yaml").value();
+  auto car = base::ReadText(SourceDir() + "/configs/vehicles/default.yaml").value();
   car.replace(car.find("model: bicycle"), 14, "model: bycicle");
   write("car.yaml", car);
   refuses({"--set", "nodes.ego.config.vehicle=" + Path("car.yaml")}, "did you mean 'bicycle'?");
@@ -244,7 +245,7 @@ TEST_F(Drive, AFullDiskStopsTheRunWithASentence) {
 
 // MCAP's reference reader and the IDL parser that robotics viewers use.
 TEST_F(Drive, TheReferenceReaderDecodesEveryTopic) {
-  const std::string npm = std::string(RODEIRA_SOURCE_DIR) + "/tests/record-npm";
+  const std::string npm = SourceDir() + "/tests/record-npm";
   if (!std::filesystem::exists(npm + "/node_modules")) GTEST_SKIP() << "npm's packages are not installed (npm ci in tests/record-npm)";
   ASSERT_EQ(RunCommand(Command({"--for", "2", "--record", Path("npm.mcap")})).status, 0);
   const Ended check = RunCommand({"/usr/bin/env", "node", npm + "/check.mjs", Path("npm.mcap")});

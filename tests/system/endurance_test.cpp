@@ -18,6 +18,7 @@
 #include "tests/setting.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::system_test {
 namespace {
@@ -80,7 +81,7 @@ class RecorderKilled : public Endurance {
     EXPECT_THAT(ended.out, HasSubstr(fmt::format("holds {:.3f} s of {:.3f} s", std::max(0.0, static_cast<double>(last) * 1e-3), reached_s)));
     EXPECT_THAT(ended.out, HasSubstr("rodeira repair " + recording));
   }
-  const std::string kLaunch = std::string(RODEIRA_SOURCE_DIR) + "/tests/data/n222_traffic.yaml";
+  const std::string kLaunch = SourceDir() + "/tests/data/n222_traffic.yaml";
   std::vector<Recorded> calm_;
   double worst_s_ = 0.0;
 };

@@ -9,6 +9,7 @@
 
 #include "common/base/files.hpp"
 #include "tests/system/command.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::system_test {
 namespace {
@@ -93,7 +94,7 @@ TEST(Fault, AnotherRosterIsRefused) { ExpectRefused("", {"--set", "nodes.b.perio
 
 // Two PCs with the same launch file and other world files: the road server and the traffic each load their own.
 TEST(Fault, AnotherWorldIsRefused) {
-  const std::string source(RODEIRA_SOURCE_DIR);
+  const std::string source(SourceDir());
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("rodeira-worlds-{}", ::getpid());
   std::string world = base::ReadText(source + "/tests/data/straight.yaml").value();
   const std::string vehicle = source + "/configs/vehicles/default.yaml";

@@ -13,6 +13,7 @@
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
 #include "tests/system/rig.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::system_test {
 namespace {
@@ -115,7 +116,7 @@ TEST_F(Hosts, ThreeByAServerInBadWeather) {
 
 // The car here, its ground and its recorder there: SUELO's questions cross the network at every step.
 TEST_F(Hosts, ADriveInBadWeatherIsRecordedTheSame) {
-  const std::string root = RODEIRA_SOURCE_DIR;
+  const std::string root = SourceDir();
   Make(2, kBad, "{kind: server}",
        "rodeira: launch/1\nname: drive\nworld: " + root + "/configs/worlds/plane.yaml\nduration_s: 2\nnodes:\n  road: {kind: road}\n"
        "  driver: {kind: input, config: {source: script, script: " + root + "/configs/scenarios/first_drive.csv}}\n"

@@ -17,6 +17,7 @@
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "tests/system/command.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::system_test {
 namespace {
@@ -30,7 +31,7 @@ class Live : public ::testing::Test {
  protected:
   Live() {
     std::filesystem::create_directories(folder_);
-    const std::string root = RODEIRA_SOURCE_DIR;
+    const std::string root = SourceDir();
     const std::string text = "rodeira: launch/1\nworld: " + root + "/configs/worlds/plane.yaml\nnodes:\n  road: {kind: road}\n" +
                              "  driver: {kind: input, config: {source: keyboard, keyboard: " + root +
                              "/configs/drivers/keyboard.yaml}}\n" + "  ego: {kind: vehicle, config: {vehicle: " + root +

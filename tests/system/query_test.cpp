@@ -15,13 +15,14 @@
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::system_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = RODEIRA_SOURCE_DIR;
+const fs::path kRoot = SourceDir();
 const std::string kN222 = (kRoot / "configs/worlds/n222.yaml").string();
 
 // The words behind "key: " in the answer.

@@ -17,13 +17,14 @@
 #include "tests/setting.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::system_test {
 namespace {
 
 using namespace std::chrono_literals;
 
-const std::string kLaunch = std::string(RODEIRA_SOURCE_DIR) + "/tests/data/n222_traffic.yaml";
+const std::string kLaunch = SourceDir() + "/tests/data/n222_traffic.yaml";
 const std::vector<std::string> kParts{"clock", "road", "driver", "ego", "traffic", "recorder"};
 
 std::vector<pid_t> ProcessesOf(const std::string& run, const std::string& part) {

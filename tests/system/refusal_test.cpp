@@ -11,6 +11,7 @@
 #include "launch/shared_memory.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/system/command.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::system_test {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const fs::path kRoot = RODEIRA_SOURCE_DIR;
+const fs::path kRoot = SourceDir();
 
 class Refusal : public ::testing::Test {
  protected:

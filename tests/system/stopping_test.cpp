@@ -13,6 +13,7 @@
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::system_test {
 namespace {
@@ -47,7 +48,7 @@ std::vector<Box> Everybody(const msg::VehicleState& wreck, const msg::VehicleSta
 TEST(Stopping, ABlockedLaneStopsTrafficAndAutopilotWithoutATouch) {
   const front::TemporaryFolder folder;
   const std::string recording = (folder.path() / "blocked.mcap").string();
-  const Ended ended = RunCommand({Bin("rodeira"), "run", std::string(RODEIRA_SOURCE_DIR) + "/tests/data/blocked_lane.yaml", "--in-process", "--record", recording});
+  const Ended ended = RunCommand({Bin("rodeira"), "run", SourceDir() + "/tests/data/blocked_lane.yaml", "--in-process", "--record", recording});
   ASSERT_EQ(ended.status, 0) << ended.out;
   const auto wreck = MessagesOf<msg::VehicleState>(recording, idl::topics::kVehicleState, "wreck");
   const auto ego = MessagesOf<msg::VehicleState>(recording, idl::topics::kVehicleState, "ego");

@@ -19,6 +19,7 @@
 #include "launch/local_nodes.hpp"
 #include "nodes/input/joysticks.hpp"
 #include "tests/bench/live/watched_display.hpp"
+#include "tests/tree.hpp"
 
 namespace {
 
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
   if (wheel == nullptr) Fail(SDL_GetError());
   for (const int pedal : {2, 3}) SDL_JoystickSetVirtualAxis(wheel, pedal, 32767);
 
-  const auto launch = launch::Launch::Parse(LaunchText(guid, argc > 2 ? argv[2] : "10", argc > 3 ? argv[3] : "20"), RODEIRA_SOURCE_DIR "/latency.yaml");
+  const auto launch = launch::Launch::Parse(LaunchText(guid, argc > 2 ? argv[2] : "10", argc > 3 ? argv[3] : "20"), SourceDir() + "/latency.yaml");
   if (!launch) Fail(launch.error().Text());
   auto nodes = front::LocalNodes::Make(launch.value());
   if (!nodes) Fail(nodes.error().Text());

@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/tree.hpp"
+
 namespace {
 
 using WallClock = std::chrono::steady_clock;
@@ -97,7 +99,7 @@ struct Rate {
 };
 
 Rate RodeiraRate(std::int64_t steps, const std::string& transport) {
-  const std::string command = fmt::format("{}/bin/rodeira run {}/launch/empty.yaml --no-record --for {} --set transport={}", RODEIRA_BINARY_DIR, RODEIRA_SOURCE_DIR,
+  const std::string command = fmt::format("{}/bin/rodeira run {}/launch/empty.yaml --no-record --for {} --set transport={}", rodeira::BinaryDir(), rodeira::SourceDir(),
                                           static_cast<double>(steps) * 1e-3, transport);
   FILE* pipe = ::popen(command.c_str(), "r");
   std::array<char, 512> line{};

@@ -5,12 +5,13 @@
 #include <string>
 
 #include "common/multibody/mechanism.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::multibody {
 namespace {
 
 void Step(benchmark::State& state, const std::string& name, double step_s) {
-  auto mechanism = LoadMechanism(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/mechanisms" / (name + ".yaml"));
+  auto mechanism = LoadMechanism(std::filesystem::path(SourceDir()) / "configs/mechanisms" / (name + ".yaml"));
   System& system = *mechanism.value().system;
   double iterations = 0.0, projections = 0.0, factorisations = 0.0;
   for (auto _ : state) {
@@ -34,7 +35,7 @@ BENCHMARK_CAPTURE(Step, andrews, "andrews", 1e-5);
 // A02 with 40 loops, 20 s at 1 ms: the benchmark library's measure of cost.
 void FourBar40For20s(benchmark::State& state) {
   for (auto _ : state) {
-    auto mechanism = LoadMechanism(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/mechanisms/four_bar_40.yaml");
+    auto mechanism = LoadMechanism(std::filesystem::path(SourceDir()) / "configs/mechanisms/four_bar_40.yaml");
     for (int i = 0; i < 20000; ++i) (void)mechanism.value().system->Step(1e-3);
     benchmark::DoNotOptimize(mechanism.value().system->q()[0]);
   }

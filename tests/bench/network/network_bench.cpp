@@ -8,6 +8,7 @@
 #include "common/base/files.hpp"
 #include "common/base/random.hpp"
 #include "common/opendrive/import.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::network {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 constexpr std::size_t kPoints = 1 << 16;
 
 std::filesystem::path Town04() {
-  const std::filesystem::path root(RODEIRA_SOURCE_DIR);
+  const std::filesystem::path root(SourceDir());
   const char* file = "shared/data/road/xodr/carla_Town04.xodr";
   return std::filesystem::exists(root / ".." / file) ? root / ".." / file : root / "../.." / file;
 }

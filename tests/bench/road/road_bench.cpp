@@ -9,6 +9,7 @@
 #include "common/geometry/clothoid.hpp"
 #include "common/network/network.hpp"
 #include "common/road/world.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 constexpr std::size_t kPoints = 1 << 16;
 
 std::shared_ptr<const World> N222() {
-  static const auto world = World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/n222.yaml");
+  static const auto world = World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml");
   return world.value();
 }
 
@@ -107,7 +108,7 @@ BENCHMARK_CAPTURE(PatchOn, Clothoid, "clothoid: {length_m: 400, radius_end_m: 20
 
 // The same on Town04's driving lanes, as they come (needs the real file beside the project).
 void Town04Patch(benchmark::State& state) {
-  const std::filesystem::path root(RODEIRA_SOURCE_DIR);
+  const std::filesystem::path root(SourceDir());
   const char* file = "shared/data/road/xodr/carla_Town04.xodr";
   const auto world = World::Load(std::filesystem::exists(root / ".." / file) ? root / ".." / file : root / "../.." / file);
   if (!world) return state.SkipWithError("no Town04");
@@ -190,7 +191,7 @@ void ClothoidEnd(benchmark::State& state) {
 BENCHMARK(ClothoidEnd);
 
 void LoadN222(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/n222.yaml"));
+  for (auto _ : state) benchmark::DoNotOptimize(World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml"));
 }
 BENCHMARK(LoadN222)->Unit(benchmark::kMillisecond);
 

@@ -12,12 +12,13 @@
 #include "common/vehicle/bicycle_model.hpp"
 #include "common/vehicle/car_array.hpp"
 #include "common/vehicle/multibody_model.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::vehicle {
 namespace {
 
 BicycleModel DefaultCar(terrain::Ground& ground, double speed_mps) {
-  auto loaded = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/default.yaml");
+  auto loaded = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml");
   BicycleModel car = static_cast<BicycleModel&>(*loaded.value());
   (void)car.Initialise({.speed_mps = speed_mps}, ground);
   return car;
@@ -53,7 +54,7 @@ void BM_Initialise(benchmark::State& state) {
 
 // The 159 variables through a lane change at 20 m/s, step after step: mean, and what one in ten thousand exceeds.
 void BM_PrototypeLaneChange(benchmark::State& state) {
-  auto loaded = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/prototype.yaml");
+  auto loaded = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/prototype.yaml");
   auto& car = static_cast<MultibodyModel&>(*loaded.value());
   terrain::PlaneGround ground;
   std::vector<double> microseconds;
@@ -86,7 +87,7 @@ void BM_PrototypeLaneChange(benchmark::State& state) {
 }
 
 void BM_PrototypeInitialise(benchmark::State& state) {
-  auto loaded = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/prototype.yaml");
+  auto loaded = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/prototype.yaml");
   terrain::PlaneGround ground(Eigen::Vector3d::Zero(), 0.1, 0.05);
   for (auto _ : state) benchmark::DoNotOptimize(loaded.value()->Initialise({.heading_rad = 0.3}, ground).ok());
 }
@@ -105,7 +106,7 @@ void BM_MagicFormula(benchmark::State& state) {
 void BM_CarArray(benchmark::State& state) {
   constexpr double kDecision_s = 0.01;
   terrain::PlaneGround ground;
-  auto loaded = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/default.yaml");
+  auto loaded = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml");
   BicycleSettings settings = static_cast<BicycleModel&>(*loaded.value()).settings();
   if (state.range(1) != 0) {
     for (TyreSettings& tyre : settings.tyre) tyre.slip_curve = SlipCurveSettings{};

@@ -13,12 +13,13 @@
 #include "nodes/view/find_built.hpp"
 #include "nodes/view/painter.hpp"
 #include "nodes/view/png.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
 
 const road::World& N222() {
-  static const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml");
+  static const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml");
   return *world.value();
 }
 
@@ -116,7 +117,7 @@ void EveryWorld(benchmark::State& state, const std::filesystem::path& file) {
   state.counters["triangles"] = static_cast<double>(most.triangles);
 }
 [[maybe_unused]] const bool kWorlds = [] {
-  for (const auto& entry : std::filesystem::directory_iterator(RODEIRA_SOURCE_DIR "/configs/worlds")) {
+  for (const auto& entry : std::filesystem::directory_iterator(SourceDir() + "/configs/worlds")) {
     if (entry.path().extension() != ".yaml" && entry.path().extension() != ".xodr") continue;
     benchmark::RegisterBenchmark(("EveryWorld/" + entry.path().stem().string()).c_str(), [file = entry.path()](benchmark::State& state) { EveryWorld(state, file); })
         ->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(20);
@@ -134,7 +135,7 @@ double Resident_MB() {
 
 // Trees, posts and what else is repeated, along N222's or HASTE's start at medium quality: merged (0), or one model at many places (1).
 void Repeated(benchmark::State& state, const char* name) {
-  const auto world = road::World::Load(std::string(RODEIRA_SOURCE_DIR "/configs/worlds/") + name).value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/" + name).value();
   const scene::WorldScene standing = scene::BuildWorldScene(*world);
   auto surface = Surface::Open(SurfaceKind::kOffscreen, 1280, 720, "bench", false, 0, Quality::kMedium);
   if (!surface) return state.SkipWithError(surface.error().Text().c_str());
@@ -167,7 +168,7 @@ BENCHMARK_CAPTURE(Repeated, haste, "haste.yaml")->Arg(0)->Arg(1)->Unit(benchmark
 
 // From a loaded HASTE to its first picture: the ground built in memory (0), or the built database found, checked and read (1).
 void FirstPictureOfHaste(benchmark::State& state) {
-  static const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/haste.yaml").value();
+  static const auto world = road::World::Load(SourceDir() + "/configs/worlds/haste.yaml").value();
   const auto folder = std::filesystem::temp_directory_path() / "rodeira-view-bench-haste";
   DatabaseOptions options;
   options.folder = folder;
@@ -196,7 +197,7 @@ BENCHMARK(FirstPictureOfHaste)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->U
 
 // HASTE's longest road from end to end, a picture each 50 m, from its built database: what is held of it.
 void DriveHaste(benchmark::State& state) {
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/haste.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/haste.yaml").value();
   const auto folder = std::filesystem::temp_directory_path() / "rodeira-view-bench-drive";
   DatabaseOptions options;
   options.folder = folder;

@@ -17,6 +17,7 @@
 #include "common/base/state_fields.hpp"
 #include "common/base/suggest.hpp"
 #include "common/base/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::base {
 namespace {
@@ -202,7 +203,7 @@ TEST(Mathematics, TheDigestIsTheSameTwice) { EXPECT_EQ(MathematicsDigest(), Math
 // choice gives other bits, and the digest sees it.
 TEST(Mathematics, TheFixedChoiceDiffersFromTheProcessorsOwn) {
   const auto ask = [](const std::string& environment) {
-    const std::string command = environment + " " + std::string(RODEIRA_BINARY_DIR) + "/bin/mathematics_digest";
+    const std::string command = environment + " " + BinaryDir() + "/bin/mathematics_digest";
     FILE* pipe = ::popen(command.c_str(), "r");
     char text[64] = {};
     const bool read = std::fgets(text, sizeof(text), pipe) != nullptr;

@@ -9,6 +9,7 @@
 
 #include "common/vehicle/bicycle_model.hpp"
 #include "tests/common/driver/test_road.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::driver {
 namespace {
@@ -21,7 +22,7 @@ struct Drive {
   Drive(std::shared_ptr<const road::World> in, int lane, double start_m, double speed_mps, int road_index = 0)
       : world(std::move(in)),
         ground(world->MakeGround()),
-        car(std::move(vehicle::LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/default.yaml")).value()),
+        car(std::move(vehicle::LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml")).value()),
         autopilot(AutopilotSettings{}, world->roads()[static_cast<std::size_t>(road_index)], lane) {
     const LaneFrame start = autopilot.path().At(start_m);
     const auto placed = car->Initialise(
@@ -100,7 +101,7 @@ TEST(Autopilot, KeepsItsLaneOnAWindingRoadBothWays) {
 }
 
 TEST(Autopilot, DrivesTheWholeOfN222) {
-  auto world = road::World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/n222.yaml");
+  auto world = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   for (const int lane : {-1, 1}) {
     Drive drive(world.value(), lane, 20.0, 0.0);

@@ -9,6 +9,7 @@
 #include "common/driver/autopilot.hpp"
 #include "common/geometry/angle.hpp"
 #include "tests/common/driver/test_road.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::driver {
 namespace {
@@ -110,7 +111,7 @@ TEST(Leader, OnlyWhatIsAheadAndInTheWay) {
 }
 
 TEST(DriverFile, LoadsAndRefuses) {
-  const auto driver = LoadDriver(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/drivers/default.yaml");
+  const auto driver = LoadDriver(std::filesystem::path(SourceDir()) / "configs/drivers/default.yaml");
   ASSERT_TRUE(driver.ok()) << driver.error().Text();
   EXPECT_TRUE(driver.value().speed.stop_at_end);
   const auto path = std::filesystem::temp_directory_path() / ("rodeira-driver-" + std::to_string(::getpid()) + ".yaml");

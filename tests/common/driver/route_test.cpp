@@ -8,6 +8,7 @@
 #include "common/road/world.hpp"
 #include "common/vehicle/bicycle_model.hpp"
 #include "tests/common/opendrive/sample.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::driver {
 namespace {
@@ -69,7 +70,7 @@ void Drive(const std::shared_ptr<const road::World>& world, double for_s, const 
   auto path = std::make_unique<RoutePath>(network, StraightOn(network, at->lane, 5000.0));
   const RoutePath& way = *path;
   auto ground = world->MakeGround();
-  auto car = vehicle::LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/default.yaml").value();
+  auto car = vehicle::LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml").value();
   ASSERT_TRUE(car->Initialise({.x_m = start.x_m, .y_m = start.y_m, .heading_rad = start.heading_rad}, *ground).ok());
   Autopilot autopilot(AutopilotSettings{}, std::move(path));
   vehicle::Controls controls;

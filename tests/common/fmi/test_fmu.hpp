@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/base/files.hpp"
+#include "tests/tree.hpp"
 
 // The FMU of tests/data/fmu, whole or spoilt, in a folder of the test's own.
 namespace rodeira::fmi {
@@ -33,7 +34,7 @@ class FmuFolder {
   ~FmuFolder() { std::filesystem::remove_all(path_); }
 
   const std::filesystem::path& path() const { return path_; }
-  static std::string Description() { return base::ReadText(std::filesystem::path(RODEIRA_SOURCE_DIR) / "tests/data/fmu/modelDescription.xml").value(); }
+  static std::string Description() { return base::ReadText(std::filesystem::path(SourceDir()) / "tests/data/fmu/modelDescription.xml").value(); }
   static std::string Binary() { return base::ReadText(RODEIRA_TEST_FMU_BINARY).value(); }
 
   // Replaces each first text by the second in the description.

@@ -3,11 +3,12 @@
 
 #include "common/hands/keyboard_driver.hpp"
 #include "common/hands/wheel_driver.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::hands {
 namespace {
 
-const std::filesystem::path kDrivers = std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/drivers";
+const std::filesystem::path kDrivers = std::filesystem::path(SourceDir()) / "configs/drivers";
 
 std::string KeyboardComplaint(const std::string& text) {
   auto file = config::File::Parse("rodeira: keyboard/1\n" + text, "keys.yaml");

@@ -10,11 +10,12 @@
 #include "common/hands/keyboard_driver.hpp"
 #include "common/vehicle/vehicle_model.hpp"
 #include "tests/common/driver/test_road.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::hands {
 namespace {
 
-const std::filesystem::path kConfigs = std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs";
+const std::filesystem::path kConfigs = std::filesystem::path(SourceDir()) / "configs";
 constexpr double kHalfLane_m = 1.5;
 constexpr double kLost_m = 6.0;
 

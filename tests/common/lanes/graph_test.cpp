@@ -7,13 +7,14 @@
 #include "common/lanes/ring.hpp"
 #include "common/lanes/signs.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::lanes {
 namespace {
 
 TEST(LaneGraph, HasTheMapsLanesAndConnections) {
   for (const std::string& name : MapNames()) {
-    const auto map = map::LoadLaneMap(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/maps" / (name + ".motors")).value();
+    const auto map = map::LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value();
     const auto network = MapNetwork(name);
     const Graph graph(*network);
     ASSERT_EQ(graph.tracks().size(), map.lanes.size()) << name;

@@ -9,19 +9,20 @@
 #include "common/base/assert.hpp"
 #include "common/map/map_network.hpp"
 #include "common/opendrive/import.hpp"
+#include "tests/tree.hpp"
 
 // Networks to try things on: the project's maps, and the real files where they lie beside the project.
 namespace rodeira::lanes {
 
 inline std::shared_ptr<const network::Network> MapNetwork(const std::string& name) {
-  auto made = map::LoadNetwork(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/maps" / (name + ".motors"));
+  auto made = map::LoadNetwork(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors"));
   RODEIRA_ASSERT(made.ok());
   return made.value();
 }
 
 inline std::vector<std::string> MapNames() { return {"crossing", "roundabout", "ramp", "town", "overpass", "lights"}; }
 
-inline std::filesystem::path RealFolder() { return std::filesystem::path(RODEIRA_SOURCE_DIR) / "../shared/data/road/xodr"; }
+inline std::filesystem::path RealFolder() { return std::filesystem::path(SourceDir()) / "../shared/data/road/xodr"; }
 
 inline std::vector<std::filesystem::path> RealFiles() {
   std::vector<std::filesystem::path> files;

@@ -5,6 +5,7 @@
 
 #include "common/map/map_network.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::lanes {
 namespace {
@@ -13,7 +14,7 @@ using testing::HasSubstr;
 
 // The crossing with lights, whose lanes 1, 3, 5 and 7 come from the east, north, west and south.
 std::shared_ptr<const network::Network> Crossing(const std::string& lights) {
-  const auto file = map::LoadMap(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/maps/lights.motors");
+  const auto file = map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps/lights.motors");
   const auto heights = map::ParseHeights("rodeira: motors/1\nlights:\n" + lights, "lights.motors.yaml");
   EXPECT_TRUE(heights.ok()) << heights.error().Text();
   const auto made = map::MakeLaneMap(file.value(), heights.value(), "lights.motors");

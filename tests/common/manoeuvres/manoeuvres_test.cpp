@@ -14,6 +14,7 @@
 #include "common/vehicle/multibody_model.hpp"
 #include "tests/common/vehicle/every_model.hpp"
 #include "tests/common/vehicle/test_car.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::manoeuvres {
 namespace {
@@ -158,7 +159,7 @@ TEST(Manoeuvres, BrakingKeepsToFriction) {
 
 // With ice on the right a car of four wheels turns to the left.
 TEST(Manoeuvres, BrakingHalfOnIceTurnsToTheSideWithGrip) {
-  auto car = vehicle::LoadVehicle(std::string(RODEIRA_SOURCE_DIR) + "/configs/vehicles/prototype.yaml");
+  auto car = vehicle::LoadVehicle(SourceDir() + "/configs/vehicles/prototype.yaml");
   ASSERT_TRUE(car.ok());
   const Outcome outcome = Driven(SplitFriction(*car.value(), kStep_s));
   double heading = 0.0;

@@ -13,11 +13,12 @@
 #include "common/map/open_drive.hpp"
 #include "common/opendrive/import.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::map {
 namespace {
 
-LaneMap Load(const std::string& name) { return LoadLaneMap(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/maps" / (name + ".motors")).value(); }
+LaneMap Load(const std::string& name) { return LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value(); }
 
 class CommonJunctions : public testing::TestWithParam<const char*> {
  protected:

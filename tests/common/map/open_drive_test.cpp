@@ -19,6 +19,7 @@
 #include "common/road/world.hpp"
 #include "tests/common/map/sample_map.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::map {
 namespace {
@@ -67,7 +68,7 @@ Read ReadAt(pugi::xml_node road, double s) {
 class Drive : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    auto map = LoadLaneMap(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/maps" / (std::string(GetParam()) + ".motors"));
+    auto map = LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps" / (std::string(GetParam()) + ".motors"));
     ASSERT_TRUE(map.ok()) << map.error().Text();
     map_ = std::move(map).value();
     auto drive = ToOpenDrive(map_, GetParam(), Junctions::kDirect);

@@ -9,11 +9,12 @@
 #include "common/map/lane_map.hpp"
 #include "common/map/map_plot.hpp"
 #include "common/map/map_report.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::map {
 namespace {
 
-const std::filesystem::path kMaps = std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/maps";
+const std::filesystem::path kMaps = std::filesystem::path(SourceDir()) / "configs/maps";
 
 class OwnMap : public testing::TestWithParam<const char*> {
  protected:

@@ -8,11 +8,12 @@
 #include <string>
 
 #include "common/multibody/mechanism.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::multibody {
 
 inline Mechanism Example(const std::string& name) {
-  auto mechanism = LoadMechanism(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/mechanisms" / (name + ".yaml"));
+  auto mechanism = LoadMechanism(std::filesystem::path(SourceDir()) / "configs/mechanisms" / (name + ".yaml"));
   EXPECT_TRUE(mechanism.ok()) << (mechanism.ok() ? "" : mechanism.error().Text());
   return std::move(mechanism).value();
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/opendrive/import.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::opendrive {
 
@@ -48,7 +49,7 @@ inline std::shared_ptr<const network::Network> MustRead(const std::string& text)
 
 // Real files lie beside the project's folder; nothing where they do not.
 inline std::vector<std::filesystem::path> RealFiles(const std::string& below = "") {
-  const std::filesystem::path root(RODEIRA_SOURCE_DIR);
+  const std::filesystem::path root(SourceDir());
   std::vector<std::filesystem::path> files;
   for (const auto& shared : {root / "../shared", root / "../../shared"}) {
     const std::filesystem::path folder = shared / "data/road/xodr" / below;

@@ -12,13 +12,14 @@
 #include "common/base/files.hpp"
 #include "tests/common/record/probe.hpp"
 #include "tests/common/record/sample.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::record {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kChecker = fs::path(RODEIRA_SOURCE_DIR) / "tests/record-npm";
+const fs::path kChecker = fs::path(SourceDir()) / "tests/record-npm";
 
 struct Outcome {
   int status = -1;

@@ -15,6 +15,7 @@
 #include "common/road/road_chains.hpp"
 #include "common/road/world_report.hpp"
 #include "tests/common/road/sample_world.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -287,7 +288,7 @@ TEST(BuiltWorld, IncludedFilesAreReadAndTheirMistakesToldWithTheirPlaces) {
 class WorldsOfTheProject : public testing::TestWithParam<const char*> {};
 
 TEST_P(WorldsOfTheProject, LoadAndHaveGroundUnderTheirLanes) {
-  const auto path = std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds" / GetParam();
+  const auto path = std::filesystem::path(SourceDir()) / "configs/worlds" / GetParam();
   for (const auto& problem : WorldProblems(path)) ADD_FAILURE() << problem.Text();
   const auto loaded = World::Load(path);
   ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
@@ -308,7 +309,7 @@ INSTANTIATE_TEST_SUITE_P(All, WorldsOfTheProject, testing::Values("haste.yaml", 
                          [](const auto& file) { return std::string(file.param).substr(0, std::string(file.param).find('.')); });
 
 TEST(Haste, IsAsLongAndCrossedAsItSays) {
-  const auto world = World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/haste.yaml").value();
+  const auto world = World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/haste.yaml").value();
   const auto chains = ChainsOf(*world->network());
   EXPECT_GT(chains[0].length_m, 29'000.0);
   EXPECT_GE(world->network()->junctions().size(), 4u);

@@ -8,13 +8,14 @@
 #include "common/base/files.hpp"
 #include "common/road/world.hpp"
 #include "common/road/world_report.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::road {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = RODEIRA_SOURCE_DIR;
+const fs::path kRoot = SourceDir();
 
 // The keys that the readers of version 2 ask for, as they stand in the program.
 std::set<std::string> AskedKeys() {

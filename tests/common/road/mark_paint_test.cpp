@@ -9,6 +9,7 @@
 #include "common/base/random.hpp"
 #include "common/road/world.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -40,7 +41,7 @@ TEST(MarkPaint, DashesAreRoadMarkWhereTheyAreByClosedForm) {
 
 TEST(MarkPaint, OnRealRoadsItIsTheLinesThatTheViewDraws) {
   for (const char* name : {"carla_Town04", "esmini_e6mini", "esmini_fabriksgatan", "esmini_straight_500m_roadmarks", "esmini_multi_intersections", "asamqc_positive_v18"}) {
-    const auto world = World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "../shared/data/road/xodr" / (std::string(name) + ".xodr"));
+    const auto world = World::Load(std::filesystem::path(SourceDir()) / "../shared/data/road/xodr" / (std::string(name) + ".xodr"));
     ASSERT_TRUE(world.ok()) << world.error().Text();
     const network::Network& network = *world.value()->network();
     const std::shared_ptr<const network::Network> shared(world.value(), &network);

@@ -14,6 +14,7 @@
 #include "tests/common/road/sample_world.hpp"
 #include "tests/common/surface/made_crg.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const fs::path kMeasured = fs::path(RODEIRA_SOURCE_DIR) / "../shared/data/road/crg";
+const fs::path kMeasured = fs::path(SourceDir()) / "../shared/data/road/crg";
 
 class MeasuredExport : public testing::Test {
  protected:

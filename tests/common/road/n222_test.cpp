@@ -7,6 +7,7 @@
 
 #include "common/base/random.hpp"
 #include "common/road/world.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 class N222 : public ::testing::Test {
  protected:
   void SetUp() override {
-    static const auto loaded = World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/n222.yaml");
+    static const auto loaded = World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml");
     ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
     world_ = loaded.value();
   }

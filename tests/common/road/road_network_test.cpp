@@ -11,6 +11,7 @@
 #include "common/network/strokes.hpp"
 #include "common/road/world.hpp"
 #include "tests/common/road/sample_world.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -56,7 +57,7 @@ void ExpectTheSame(const World& world) {
 TEST(RoadNetwork, TheSampleIsTheSame) { ExpectTheSame(*Sample()); }
 
 TEST(RoadNetwork, N222IsTheSame) {
-  ExpectTheSame(*World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/n222.yaml").value());
+  ExpectTheSame(*World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml").value());
 }
 
 TEST(RoadNetwork, LinesArePaintedWhereTheMarksWere) {
@@ -77,7 +78,7 @@ TEST(RoadNetwork, LinesArePaintedWhereTheMarksWere) {
 }
 
 TEST(RoadNetwork, AWorldWithoutRoadsHasNoNetwork) {
-  const auto plane = World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/plane.yaml").value();
+  const auto plane = World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/plane.yaml").value();
   EXPECT_EQ(plane->network(), nullptr);
 }
 

@@ -14,12 +14,13 @@
 #include "common/opendrive/import.hpp"
 #include "common/road/network_ground.hpp"
 #include "tests/common/road/sample_world.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::road {
 namespace {
 
 std::shared_ptr<const World> Of(const char* file) {
-  return World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds" / file).value();
+  return World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / file).value();
 }
 
 void ExpectTheSameRoad(const World& world) {

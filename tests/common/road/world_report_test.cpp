@@ -18,6 +18,7 @@
 #include "common/road/world_profile.hpp"
 #include "tests/common/road/sample_world.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -34,7 +35,7 @@ class WorldReport : public ::testing::Test {
 };
 
 TEST_F(WorldReport, QueryTellsTheCratersOracle) {
-  const fs::path crater = fs::path(RODEIRA_SOURCE_DIR) / "../shared/data/road/bt/crater_0513.bt";
+  const fs::path crater = fs::path(SourceDir()) / "../shared/data/road/bt/crater_0513.bt";
   if (!fs::exists(crater)) GTEST_SKIP() << crater << " is not on this machine";
   const auto world = World::Parse("rodeira: world/1\nname: crater\nterrain: {file: \"" + fs::absolute(crater).string() + "\"}\n", "crater.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
@@ -103,7 +104,7 @@ TEST_F(WorldReport, BuildWritesTheProjectionWhereThereIsOne) {
 
 // With its includes, pictures, points and surfaces, which stay where they are.
 TEST_F(WorldReport, BuildWritesTheExampleWorldOnAFile) {
-  const fs::path example = fs::path(RODEIRA_SOURCE_DIR) / "configs/worlds/example/world.yaml";
+  const fs::path example = fs::path(SourceDir()) / "configs/worlds/example/world.yaml";
   const auto report = BuildWorld(example, folder_ / "built");
   ASSERT_TRUE(report.ok()) << report.error().Text();
   const auto ours = World::Load(example), built = World::Load(folder_ / "built/world.yaml");
@@ -174,7 +175,7 @@ std::vector<Words> WordsOf(const std::string& svg) {
 }
 
 TEST(WorldPlot, NoWordStandsOverAnother) {
-  const std::filesystem::path root = RODEIRA_SOURCE_DIR;
+  const std::filesystem::path root = SourceDir();
   std::vector<std::filesystem::path> worlds = {root / "configs/worlds/example/world.yaml", root / "../shared/data/road/xodr/carla_Town04.xodr", root / "../shared/data/road/xodr/esmini_fabriksgatan.xodr"};
   for (const char* name : {"flat", "haste", "lights", "motorway", "n222", "plane", "ring"}) worlds.push_back(root / "configs/worlds" / (std::string(name) + ".yaml"));
   for (const auto& path : worlds) {

@@ -15,6 +15,7 @@
 #include "common/scene/ground_tile.hpp"
 #include "tests/common/scene/ground_worlds.hpp"
 #include "tests/setting.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -224,7 +225,7 @@ TEST(Ground, WhatIsLaidOnJunctionsIsWhereTheTyresAre) {
 TEST(Ground, OfTheProjectsWorldsIsWhereTheTyresAre) {
   const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 60);
   for (const std::string name : {"haste", "motorway", "n222", "example/world"}) {
-    const auto loaded = road::World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds" / (name + ".yaml"));
+    const auto loaded = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
     ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
     const road::World& world = *loaded.value();
     const GroundPlan plan(world);
@@ -313,7 +314,7 @@ TEST(Ground, IsClosed) {
 // their own.
 TEST(Ground, OfTheProjectsWorldsIsClosed) {
   for (const std::string name : {"haste", "motorway", "n222", "flat", "example/world"}) {
-    const auto world = road::World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds" / (name + ".yaml"));
+    const auto world = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
     ASSERT_TRUE(world.ok()) << world.error().Text();
     std::vector<Eigen::Vector2d> bridges;
     for (const network::Road& road : world.value()->network()->roads()) {

@@ -9,11 +9,12 @@
 #include <unistd.h>
 
 #include "common/road/world.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::scene {
 
 inline std::filesystem::path SharedXodr(const std::string& name) {
-  return std::filesystem::path(RODEIRA_SOURCE_DIR) / "../shared/data/road/xodr" / (name + ".xodr");
+  return std::filesystem::path(SourceDir()) / "../shared/data/road/xodr" / (name + ".xodr");
 }
 
 // A world of OpenDRIVE roads, by way of a file.

@@ -8,6 +8,7 @@
 #include "common/road/world.hpp"
 #include "common/scene/camera.hpp"
 #include "common/scene/display_clock.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -77,7 +78,7 @@ TEST_P(Motion, IsEvenAndNotLate) {
 
 // Camera, car and traffic are of one moment: between them nothing moves, to a millimetre.
 TEST_P(Motion, CameraCarAndTrafficMoveTogether) {
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
   for (const CameraKind kind : {CameraKind::kChase, CameraKind::kDriver, CameraKind::kBonnet, CameraKind::kOrbit}) {
     double worst_m = 0.0;
     std::optional<Vector3d> eye, agent;

@@ -11,13 +11,14 @@
 #include "common/scene/seen_digest.hpp"
 #include "common/scene/world_scene.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::scene {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kExample = fs::path(RODEIRA_SOURCE_DIR) / "configs/worlds/example";  // worn.png has 64 x 64 pixels, fields.png 256 x 208
+const fs::path kExample = fs::path(SourceDir()) / "configs/worlds/example";  // worn.png has 64 x 64 pixels, fields.png 256 x 208
 
 // A road on a plane, whose lanes may be of a material with a picture.
 std::shared_ptr<const road::World> Plane(const std::string& ground, const std::string& lanes = "", double x_m = 0.0) {

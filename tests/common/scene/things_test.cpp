@@ -8,6 +8,7 @@
 
 #include "common/scene/models.hpp"
 #include "tests/common/scene/ground_worlds.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -184,7 +185,7 @@ TEST(Things, ObjectsByTheirKindsAndDeclaredSizes) {
 }
 
 TEST(Things, StandOnTheGroundThatIsDrawn) {
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/example/world.yaml");
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/example/world.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   const Things things(*world.value());
   std::size_t count = 0;
@@ -200,7 +201,7 @@ TEST(Things, StandOnTheGroundThatIsDrawn) {
 }
 
 TEST(Things, GetFewerTrianglesWithEachLevel) {
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/example/world.yaml");
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/example/world.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   const Things things(*world.value());
   std::size_t before = Triangles(things, 0);

@@ -5,11 +5,12 @@
 #include <memory>
 
 #include "common/road/world.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::scene {
 
 inline std::shared_ptr<const road::World> N222() {
-  static const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml");
+  static const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml");
   EXPECT_TRUE(world.ok()) << world.error().Text();
   return world.value();
 }

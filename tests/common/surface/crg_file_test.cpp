@@ -13,6 +13,7 @@
 #include "common/surface/crg_report.hpp"
 #include "tests/common/surface/made_crg.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::surface {
 namespace {
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const fs::path kFolder = fs::path(RODEIRA_SOURCE_DIR) / "../shared/data/road/crg";
+const fs::path kFolder = fs::path(SourceDir()) / "../shared/data/road/crg";
 
 struct Known {
   double u, v, x, y, z;

@@ -14,6 +14,7 @@
 #include "common/base/random.hpp"
 #include "common/terrain/bt.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::terrain {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-const fs::path kCrater = fs::path(RODEIRA_SOURCE_DIR) / "../shared/data/road/bt/crater_0513.bt";
+const fs::path kCrater = fs::path(SourceDir()) / "../shared/data/road/bt/crater_0513.bt";
 
 class ElevationFile : public ::testing::Test {
  protected:

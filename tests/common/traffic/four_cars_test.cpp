@@ -11,6 +11,7 @@
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
 #include "tests/common/traffic/identical.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -38,7 +39,7 @@ struct Outcome {
 class FourCars : public testing::Test {
  protected:
   FourCars() : settings_(Identical(4, 1.4)) {
-    const auto file = map::LoadMap(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/maps/lights.motors");
+    const auto file = map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps/lights.motors");
     network_ = map::ToNetwork(map::MakeLaneMap(file.value(), {}, "crossing").value(), "crossing").value();  // without its lights
     model_ = std::make_unique<TrafficModel>(TrafficModel::Make(settings_, network_, {}).value());
     for (std::uint32_t track = 0; track < model_->graph().tracks().size(); ++track) {

@@ -14,6 +14,7 @@
 #include "common/traffic/study.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
 #include "tests/common/traffic/two_way_ring.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -101,7 +102,7 @@ TEST(FullDrive, NobodyPassesAtRed) {
 
 // Cars, vans, lorries and buses on two lanes of a direction pass one another, touch nobody and keep to the road.
 TEST(FullDrive, LanesAreChangedOnTheMotorway) {
-  const auto world = road::World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/motorway.yaml");
+  const auto world = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/motorway.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   StudySettings settings;
   settings.traffic = Full(50);

@@ -9,6 +9,7 @@
 #include "tests/common/lanes/lane_networks.hpp"
 #include "tests/common/opendrive/sample.hpp"
 #include "tests/common/traffic/identical.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -247,7 +248,7 @@ TEST(Lights, NobodyYieldsToACarThatComesToARedLight) {
 }
 
 TEST(Lights, ConflictingGreensAreRefused) {
-  const auto file = map::LoadMap(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/maps/lights.motors");
+  const auto file = map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps/lights.motors");
   const auto heights = map::ParseHeights("rodeira: motors/1\nlights: [{phases: [{green: [1, 3], for_s: 20}, {green: [5, 7], for_s: 9}]}]\n", "x.yaml");
   const auto network = map::ToNetwork(map::MakeLaneMap(file.value(), heights.value(), "x").value(), "x").value();
   const auto model = TrafficModel::Make({}, network, {});

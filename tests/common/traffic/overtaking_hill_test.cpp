@@ -12,13 +12,14 @@
 
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/traffic_model.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 // N222 with lorries' pace before them: passes happen, and only where the world file's middle line is dashed.
 TEST(Overtaking, OnTheHillRoadOnlyWhereTheMiddleIsDashed) {
-  const auto file = std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/n222.yaml";
+  const auto file = std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml";
   const auto world = road::World::Load(file);
   ASSERT_TRUE(world.ok()) << world.error().Text();
   std::set<std::pair<int, int>> dashed;

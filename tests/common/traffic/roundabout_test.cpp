@@ -9,6 +9,7 @@
 
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -51,7 +52,7 @@ Passed Measure(double circulating_per_h, double entering_per_h) {
   EXPECT_EQ(arms.size(), 4u);
   Passed passed;
   for (const std::size_t arm : {0u, 1u}) {
-    TrafficSettings settings = LoadTraffic(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/traffic/brisk.yaml", 3 + arm).value();
+    TrafficSettings settings = LoadTraffic(std::filesystem::path(SourceDir()) / "configs/traffic/brisk.yaml", 3 + arm).value();
     settings.vehicles = 100;
     const std::string& out = arms[arm + 2].exit;
     settings.demand.routes = {{"out", {out}, "here"}};

@@ -8,6 +8,7 @@
 #include "common/driver/autopilot.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/vehicle/vehicle_model.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using driver::Footprint;
 
 TEST(TrafficDrive, TwoMinutesAmongSixtyCarsWithoutTouching) {
-  const std::filesystem::path source = RODEIRA_SOURCE_DIR;
+  const std::filesystem::path source = SourceDir();
   const auto world = road::World::Load(source / "configs/worlds/n222.yaml").value();
   const auto ground = world->MakeGround();
   auto car = vehicle::LoadVehicle(source / "configs/vehicles/default.yaml").value();

@@ -10,6 +10,7 @@
 #include "common/driver/idm.hpp"
 #include "common/driver/lane_path.hpp"
 #include "tests/common/driver/test_road.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -22,7 +23,7 @@ using WorldPointer = std::shared_ptr<const road::World>;
 
 WorldPointer N222() {
   static const WorldPointer world = [] {
-    auto loaded = road::World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/n222.yaml");
+    auto loaded = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml");
     EXPECT_TRUE(loaded.ok()) << (loaded.ok() ? "" : loaded.error().Text());
     return loaded.value();
   }();

@@ -9,6 +9,7 @@
 
 #include "common/vehicle/vehicle_model.hpp"
 #include "tests/common/fmi/test_fmu.hpp"
+#include "tests/tree.hpp"
 
 // One car in each model, for what holds whatever the model is.
 namespace rodeira::vehicle {
@@ -27,7 +28,7 @@ inline constexpr ModelCase kBicycle{"bicycle", "default.yaml"}, kOde{"ode", "ode
 // `more`: lines of the FMU's vehicle file.
 inline std::unique_ptr<VehicleModel> MakeModel(const ModelCase& model, const std::string& more = "") {
   if (*model.file != '\0') {
-    auto car = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles" / model.file);
+    auto car = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles" / model.file);
     EXPECT_TRUE(car.ok()) << (car.ok() ? "" : car.error().Text());
     return std::move(car).value();
   }

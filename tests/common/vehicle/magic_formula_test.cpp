@@ -12,11 +12,12 @@
 #include "common/vehicle/tir_file.hpp"
 #include "common/vehicle/tyre.hpp"
 #include "tests/common/vehicle/test_car.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::vehicle {
 namespace {
 
-const std::filesystem::path kTir = std::filesystem::path(RODEIRA_SOURCE_DIR) / "../shared/data/tyre/mfeval_MagicFormula61_Parameters.tir";
+const std::filesystem::path kTir = std::filesystem::path(SourceDir()) / "../shared/data/tyre/mfeval_MagicFormula61_Parameters.tir";
 
 // Values of an independent implementation for a 255/55 tyre (facts page, Tyre).
 TEST(MagicFormula, AgreesWithAnIndependentImplementationOfVersion61) {

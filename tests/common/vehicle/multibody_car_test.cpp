@@ -13,6 +13,7 @@
 #include "common/base/files.hpp"
 #include "common/vehicle/multibody_model.hpp"
 #include "tests/common/vehicle/test_ground.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -23,7 +24,7 @@ constexpr double kStep = 0.001;
 constexpr double kG = 9.81;
 
 std::unique_ptr<VehicleModel> Prototype() {
-  auto model = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/prototype.yaml");
+  auto model = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/prototype.yaml");
   EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().Text());
   return std::move(model).value();
 }
@@ -58,7 +59,7 @@ TEST(Prototype, HasTheCoordinatesOfItsSource) {
 
 // The prototype with other outputs than its own (lines of `outputs`).
 base::Result<std::unique_ptr<VehicleModel>> WithOutputs(const std::string& outputs) {
-  std::string text = base::ReadText(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/prototype.yaml").value();
+  std::string text = base::ReadText(std::filesystem::path(SourceDir()) / "configs/vehicles/prototype.yaml").value();
   const auto from = text.find("  outputs:\n"), to = text.find("\nbody:");
   text.replace(from, to - from, "  outputs:\n" + outputs);
   const auto path = std::filesystem::temp_directory_path() / ("rodeira-outputs-" + std::to_string(::getpid()) + ".yaml");
@@ -284,7 +285,7 @@ TEST(PrototypeDynamics, LongStepsAgreeWithATenthOfAMillisecond) {
 // stays within 1e-5 over 10 s at 1 ms. At rest as a whole, where rounding of large speeds does not count, it is off by at most 5e-4 of what
 // swings, and by a quarter of that where the step is halved.
 TEST(PrototypeDynamics, WithoutDampersItsEnergyStays) {
-  std::string text = base::ReadText(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/prototype.yaml").value();
+  std::string text = base::ReadText(std::filesystem::path(SourceDir()) / "configs/vehicles/prototype.yaml").value();
   text = std::regex_replace(text, std::regex(R"(damper_mps_N: \[\[.*?\]\])"), "damping_Nspm: 0");
   text = std::regex_replace(text, std::regex(R"(stops_m: \[[^\]]*\], stop_stiffness_Npm: [0-9]*, stop_damping_Nspm: [0-9]*)"),
                             "stops_m: [0.05, 0.9], stop_stiffness_Npm: 1000, stop_damping_Nspm: 0");
@@ -325,7 +326,7 @@ TEST(PrototypeDynamics, WithoutDampersItsEnergyStays) {
 
 // Other suspensions, driven by the front wheels: a matter of the file.
 TEST(ASecondCar, IsMadeByItsFileAlone) {
-  auto loaded = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/double_wishbones.yaml");
+  auto loaded = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/double_wishbones.yaml");
   ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
   VehicleModel& car = *loaded.value();
   EXPECT_EQ(Multibody(car).system().degrees_of_freedom(), 11);
@@ -348,7 +349,7 @@ TEST(ASecondCar, IsMadeByItsFileAlone) {
 
 // What is wrong with a car's mechanism is told with its place, as for any mechanism.
 TEST(ASecondCar, WrongFilesAreRefused) {
-  const auto root = std::filesystem::path(RODEIRA_SOURCE_DIR);
+  const auto root = std::filesystem::path(SourceDir());
   const std::string good = base::ReadText(root / "configs/vehicles/prototype.yaml").value();
   const auto path = std::filesystem::temp_directory_path() / ("rodeira-car-" + std::to_string(::getpid()) + ".yaml");
   const auto refusal = [&](const std::string& from, const std::string& to) {

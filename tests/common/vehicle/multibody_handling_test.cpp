@@ -1,6 +1,7 @@
 // The prototype's handling against the single-track closed form with its own axles' stiffnesses, measured on a virtual rig.
 #include "common/vehicle/multibody_model.hpp"
 #include "tests/common/vehicle/handling_rig.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -8,7 +9,7 @@ namespace {
 constexpr double kDegreesPerG = 9.81 * 180.0 / 3.14159265358979323846;
 
 std::unique_ptr<VehicleModel> Car(const std::string& name) {
-  auto model = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles" / name);
+  auto model = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles" / name);
   EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().Text());
   return std::move(model).value();
 }

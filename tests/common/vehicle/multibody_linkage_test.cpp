@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/vehicle/multibody_model.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -51,7 +52,7 @@ struct Corner {
 class Linkage : public ::testing::Test {
  protected:
   void SetUp() override {
-    auto model = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/prototype.yaml");
+    auto model = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/prototype.yaml");
     ASSERT_TRUE(model.ok());
     settings_ = static_cast<const MultibodyModel&>(*model.value()).settings();
   }

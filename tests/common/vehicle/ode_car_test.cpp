@@ -12,6 +12,7 @@
 #include "common/vehicle/ode_model.hpp"
 #include "tests/common/vehicle/same_bits.hpp"
 #include "tests/common/vehicle/test_ground.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::vehicle {
 namespace {
@@ -21,7 +22,7 @@ using ::testing::HasSubstr;
 
 constexpr double kStep = 0.001;
 constexpr double kG = 9.81;
-const auto kFile = std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/ode.yaml";
+const auto kFile = std::filesystem::path(SourceDir()) / "configs/vehicles/ode.yaml";
 
 OdeSettings Settings() {
   auto model = LoadVehicle(kFile);
@@ -266,7 +267,7 @@ TEST(OdeCarFile, RefusalsNamePlaceAndRemedy) {
 
 // One car in several models: a file names the others.
 TEST(VehicleModels, AFileNamesTheSameCarInOtherModels) {
-  const auto configs = std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles";
+  const auto configs = std::filesystem::path(SourceDir()) / "configs/vehicles";
   const auto ode = LoadVehicle(configs / "default.yaml", "ode");
   ASSERT_TRUE(ode.ok()) << ode.error().Text();
   EXPECT_NE(dynamic_cast<const OdeModel*>(ode.value().get()), nullptr);

@@ -8,6 +8,7 @@
 #include "common/base/state.hpp"
 #include "common/terrain/ground.hpp"
 #include "common/vehicle/bicycle_model.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::vehicle {
 
@@ -16,7 +17,7 @@ inline constexpr double kG_mps2 = 9.81;
 
 inline BicycleSettings DefaultSettings() {
   static const BicycleSettings settings = [] {
-    auto model = LoadVehicle(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/default.yaml");
+    auto model = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml");
     EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().Text());
     return static_cast<const BicycleModel&>(*model.value()).settings();
   }();

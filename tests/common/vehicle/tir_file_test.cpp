@@ -10,12 +10,13 @@
 
 #include "common/base/random.hpp"
 #include "common/vehicle/tyre.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::vehicle {
 namespace {
 
 using testing::HasSubstr;
-const std::filesystem::path kTyres = std::filesystem::path(RODEIRA_SOURCE_DIR) / "../shared/data/tyre";
+const std::filesystem::path kTyres = std::filesystem::path(SourceDir()) / "../shared/data/tyre";
 
 // A file of our own, with what real ones have around the coefficients.
 const std::string kGood =

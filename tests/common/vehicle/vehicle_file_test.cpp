@@ -7,12 +7,13 @@
 #include <string>
 
 #include "tests/common/vehicle/test_car.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::vehicle {
 namespace {
 
 using testing::HasSubstr;
-const std::filesystem::path kDefault = std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/vehicles/default.yaml";
+const std::filesystem::path kDefault = std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml";
 
 std::string DefaultText() {
   std::ifstream in(kDefault);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/vehicle/vehicle_model.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::weather {
 namespace {
@@ -46,7 +47,7 @@ TEST(WetGround, OnlyTheFrictionBecomesLess) {
 // From 20 m/s with all wheels at their limit, d = v^2 / (2 mu g): on the wet road as much longer as its friction is less. The car's
 // drag (some 2 % of the wet deceleration at this speed) and its tyres' rise to full force are in both.
 double StoppingDistance_m(const std::string& file, double wetness) {
-  auto loaded = vehicle::LoadVehicle(std::string(RODEIRA_SOURCE_DIR "/configs/vehicles/") + file);
+  auto loaded = vehicle::LoadVehicle(SourceDir() + "/configs/vehicles/" + file);
   EXPECT_TRUE(loaded.ok()) << loaded.error().Text();
   terrain::PlaneGround plane;
   WetGround ground(plane);

@@ -7,13 +7,14 @@
 
 #include "common/road/world.hpp"
 #include "tests/nodes/editor/desk_fixture.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::desk {
 namespace {
 
 // Of `rodeira WORDS`, run in `folder`; what it says goes into the file said.txt there.
 int StatusOf(const std::filesystem::path& folder, const std::string& words) {
-  const int status = std::system(fmt::format("cd '{}' && timeout 300 '{}/bin/rodeira' {} > said.txt 2>&1 < /dev/null", folder.string(), RODEIRA_BINARY_DIR, words).c_str());
+  const int status = std::system(fmt::format("cd '{}' && timeout 300 '{}/bin/rodeira' {} > said.txt 2>&1 < /dev/null", folder.string(), BinaryDir(), words).c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
@@ -68,7 +69,7 @@ TEST_F(AnExport, IsAWorldThatIsCheckedAndDrivenOn) {
                                                              "  ego: {{kind: vehicle, config: {{vehicle: {0}/configs/vehicles/default.yaml}}}}\n"
                                                              "  traffic: {{kind: traffic, config: {{vehicles: 8}}}}\n"
                                                              "  recorder: {{kind: recorder}}\n",
-                                                             RODEIRA_SOURCE_DIR)).ok());
+                                                             SourceDir())).ok());
   ASSERT_EQ(StatusOf(folder_->path(), "run drive.yaml --in-process --headless --pace max --quiet --record drive.mcap"), 0) << Told();
   EXPECT_EQ(StatusOf(folder_->path(), "replay drive.mcap --verify --quiet"), 0) << Told();
   ASSERT_EQ(StatusOf(folder_->path(), "export drive.mcap --csv csv --quiet"), 0) << Told();

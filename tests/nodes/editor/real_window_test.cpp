@@ -18,11 +18,12 @@
 #include "common/base/temporary_folder.hpp"
 #include "common/map/lane_map.hpp"
 #include "tests/nodes/editor/desk_fixture.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::desk {
 namespace {
 
-const std::string kRodeira = RODEIRA_BINARY_DIR "/bin/rodeira";
+const std::string kRodeira = BinaryDir() + "/bin/rodeira";
 
 bool Has(const char* program) { return std::system(fmt::format("command -v {} >/dev/null 2>&1", program).c_str()) == 0; }
 

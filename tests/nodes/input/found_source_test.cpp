@@ -15,6 +15,7 @@
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/nodes/input/virtual_pad.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
@@ -39,7 +40,7 @@ class FoundSource : public testing::Test {
   void TearDown() override { ::unsetenv("XDG_CONFIG_HOME"); }
 
   static launch::Launch LaunchOf(const std::string& config) {
-    return launch::Launch::Parse(LiveLaunch(config), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml").value();
+    return launch::Launch::Parse(LiveLaunch(config), std::filesystem::path(SourceDir()) / "launch/live.yaml").value();
   }
   static void WriteOwn(const std::string& guid, const std::string& text) {
     std::filesystem::create_directories(hands::WheelFolder());

@@ -16,6 +16,7 @@
 #include "nodes/input/joysticks.hpp"
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
@@ -94,7 +95,7 @@ class InTime : public testing::Test {
   void Drive(VirtualWheel& wheel, lockstep::InProcessSettings settings, const std::function<void(Step)>& moves = {}, std::optional<Step> car_dies_at = std::nullopt) {
     wheel.Axis(2, -32768);
     const launch::Launch launch =
-        launch::Launch::Parse(LiveLaunch("{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}"), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml").value();
+        launch::Launch::Parse(LiveLaunch("{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}"), std::filesystem::path(SourceDir()) / "launch/live.yaml").value();
     hands::WheelSettings use;
     use.devices = {{"rim", wheel.guid(), ""}};
     use.axes[static_cast<std::size_t>(hands::WheelAxis::kSteering)].emplace();

@@ -12,6 +12,7 @@
 #include "nodes/input/joysticks.hpp"
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
@@ -64,7 +65,7 @@ TEST_F(InputSetup, WritesAFileThatARunFindsByTheWheelItself) {
   const auto file = folder_->path() / "rodeira/wheels" / (wheel.guid() + ".yaml");
   EXPECT_EQ(hands::WheelFileOf(wheel.guid()), file);
   EXPECT_NE(said.find("written: " + file.string()), std::string::npos) << said;
-  const launch::Launch launch = launch::Launch::Parse(LiveLaunch("{source: joystick}"), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml").value();
+  const launch::Launch launch = launch::Launch::Parse(LiveLaunch("{source: joystick}"), std::filesystem::path(SourceDir()) / "launch/live.yaml").value();
   auto nodes = front::LocalNodes::Make(launch);
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   const LiveDrive drive = DriveLive(launch, nodes.value(), 1500, [&](lockstep::Step step) {
@@ -88,7 +89,7 @@ TEST_F(InputSetup, WhoGivesUpOrHasNoWheelIsToldAndNothingIsWritten) {
 
 TEST_F(InputSetup, WithoutAFileARunNamesTheSetup) {
   VirtualWheel wheel;
-  const launch::Launch launch = launch::Launch::Parse(LiveLaunch("{source: joystick}"), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml").value();
+  const launch::Launch launch = launch::Launch::Parse(LiveLaunch("{source: joystick}"), std::filesystem::path(SourceDir()) / "launch/live.yaml").value();
   const auto nodes = front::LocalNodes::Make(launch);
   ASSERT_FALSE(nodes.ok());
   EXPECT_EQ(nodes.error().exit_status(), 2);

@@ -10,6 +10,7 @@
 #include "nodes/view/wheel_buttons.hpp"
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
@@ -34,7 +35,7 @@ class JoystickSource : public testing::Test {
     return path.string();
   }
   static launch::Launch LaunchOf(const std::string& config) {
-    return launch::Launch::Parse(LiveLaunch(config), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml").value();
+    return launch::Launch::Parse(LiveLaunch(config), std::filesystem::path(SourceDir()) / "launch/live.yaml").value();
   }
   static std::string Complaint(const std::string& config) {
     const launch::Launch launch = LaunchOf(config);

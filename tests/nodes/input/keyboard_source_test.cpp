@@ -5,6 +5,7 @@
 
 #include "common/hands/keyboard_driver.hpp"
 #include "tests/nodes/input/live_drive.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
@@ -15,7 +16,7 @@ const std::string kConfig = "{source: keyboard, keyboard: ../configs/drivers/key
 using Script = std::map<lockstep::Step, std::vector<std::string>>;
 
 LiveDrive Drive(const Script& script, lockstep::Step last) {
-  const auto launch = launch::Launch::Parse(LiveLaunch(kConfig), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml");
+  const auto launch = launch::Launch::Parse(LiveLaunch(kConfig), std::filesystem::path(SourceDir()) / "launch/live.yaml");
   EXPECT_TRUE(launch.ok()) << launch.error().Text();
   auto nodes = front::LocalNodes::Make(launch.value());
   EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
@@ -39,7 +40,7 @@ LiveDrive Drive(const Script& script, lockstep::Step last) {
 
 // Held when the sample valid at 100 appears (activation 90): activation 100 sees it first, its sample is valid at 110.
 TEST(KeyboardSource, AKeyBecomesControlsAtTheNextActivation) {
-  const auto settings = hands::LoadKeyboard(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/drivers/keyboard.yaml").value();
+  const auto settings = hands::LoadKeyboard(std::filesystem::path(SourceDir()) / "configs/drivers/keyboard.yaml").value();
   const LiveDrive drive = Drive({{100, {"w"}}, {2000, {}}}, 3000);
   for (const auto& [step, controls] : drive.controls) {
     const double held_s = std::clamp(static_cast<double>(step - 100), 0.0, 1900.0) * 1e-3;
@@ -91,7 +92,7 @@ TEST(KeyboardSource, NobodyTouchesAKeyAndTwoRunsAreEqual) {
   const base::Digest digest = Drive({}, 1500).outcome.digest;
   EXPECT_EQ(Drive({}, 1500).outcome.digest, digest);
   // Which window speaks, and how often, is in no state: only what is held.
-  const auto launch = launch::Launch::Parse(LiveLaunch(kConfig), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml");
+  const auto launch = launch::Launch::Parse(LiveLaunch(kConfig), std::filesystem::path(SourceDir()) / "launch/live.yaml");
   auto nodes = front::LocalNodes::Make(launch.value());
   EXPECT_EQ(DriveLive(launch.value(), nodes.value(), 1500, nullptr).outcome.digest, digest) << "without any window";
   EXPECT_NE(Drive({{100, {"w"}}}, 1500).outcome.digest, digest);
@@ -101,7 +102,7 @@ TEST(KeyboardSource, NobodyTouchesAKeyAndTwoRunsAreEqual) {
 
 TEST(KeyboardSource, WrongFilesAreRefused) {
   const auto complaint = [](const std::string& config) {
-    const auto launch = launch::Launch::Parse(LiveLaunch(config), std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/live.yaml");
+    const auto launch = launch::Launch::Parse(LiveLaunch(config), std::filesystem::path(SourceDir()) / "launch/live.yaml");
     if (!launch) return launch.error().Text();
     auto nodes = front::LocalNodes::Make(launch.value());
     if (nodes.ok()) return std::string();

@@ -16,6 +16,7 @@
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
 #include "tests/system/command.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -35,7 +36,7 @@ class LiveBranch : public ::testing::Test {
     ASSERT_EQ(ended.status, 0) << ended.out;
   }
   std::string File(const std::string& name) const { return (folder_.path() / name).string(); }
-  static std::string Source(const std::string& name) { return std::string(RODEIRA_SOURCE_DIR) + "/" + name; }
+  static std::string Source(const std::string& name) { return SourceDir() + "/" + name; }
   // What the driver did, by the step at which it was valid.
   static std::map<Step, msg::Controls> ControlsOf(const std::string& file) {
     std::map<Step, msg::Controls> all;

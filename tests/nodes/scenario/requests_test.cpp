@@ -17,6 +17,7 @@
 #include "idl/topics.hpp"
 #include "launch/local_nodes.hpp"
 #include "launch/verify.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
@@ -39,7 +40,7 @@ class Requests : public testing::Test {
  protected:
   // A script's drive on N222; `scenario` is the scenario node's config.
   launch::Launch LaunchOf(const std::string& scenario) const {
-    const std::string configs = RODEIRA_SOURCE_DIR "/configs";
+    const std::string configs = SourceDir() + "/configs";
     const std::string text =
         "rodeira: launch/1\nworld: " + configs + "/worlds/n222.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
         "  driver: {kind: input, config: {source: script, script: " + configs + "/scenarios/first_drive.csv}}\n"
@@ -102,7 +103,7 @@ double HeadingOf(const msg::VehicleState& car) {
 
 // Asked twice with the same number it happens once: at the scenario's next sample, and the car's INI there at that very step.
 TEST_F(Requests, TheCarStandsWhereItWasAskedToBeAndTheRecordingKnowsIt) {
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
   const road::Road& road = world->roads()[0];
   const Eigen::Vector3d place = road.Position(400.0, road.LaneCentre(-1, 400.0));
   const double heading = road.Evaluate(400.0).heading_rad;

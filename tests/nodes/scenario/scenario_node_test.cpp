@@ -14,6 +14,7 @@
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "launch/local_nodes.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
@@ -52,7 +53,7 @@ class Scenario : public testing::Test {
            scenario_file + "}" + scenario + "}\n";
   }
   static launch::Launch LaunchOf(const std::string& text) {
-    auto launch = launch::Launch::Parse(text, std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/story.yaml");
+    auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/story.yaml");
     EXPECT_TRUE(launch.ok()) << launch.error().Text();
     return std::move(launch).value();
   }

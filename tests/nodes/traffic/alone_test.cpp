@@ -9,6 +9,7 @@
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "launch/local_nodes.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
@@ -18,11 +19,11 @@ TEST(TrafficAlone, IsTheSameAsInARun) {
   const std::string text =
       "rodeira: launch/1\nworld: ../configs/worlds/lights.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
       "  others: {kind: traffic, config: {vehicles: 20}}\n";
-  auto launch = launch::Launch::Parse(text, std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/alone.yaml");
+  auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/alone.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
   auto nodes = front::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
-  const auto world = road::World::Load(std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs/worlds/lights.yaml").value();
+  const auto world = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/lights.yaml").value();
   traffic::TrafficSettings settings;
   settings.seed = 5;
   settings.vehicles = 20;

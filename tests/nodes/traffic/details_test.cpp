@@ -11,6 +11,7 @@
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "launch/local_nodes.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
@@ -22,7 +23,7 @@ TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
   const std::string text =
       "rodeira: launch/1\nworld: ../configs/worlds/lights.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
       "  others: {kind: traffic, config: {vehicles: 20}}\n";
-  auto launch = launch::Launch::Parse(text, std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/details.yaml");
+  auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/details.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
   auto nodes = front::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();

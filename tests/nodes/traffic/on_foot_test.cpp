@@ -10,6 +10,7 @@
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "launch/local_nodes.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
@@ -21,7 +22,7 @@ TEST(OnFoot, WhoIsCalledCrosses) {
       "rodeira: launch/1\nworld: ../configs/worlds/example/world.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
       "  others: {kind: traffic, config: {vehicles: 6, pedestrians: {per_hour: 0}}}\n"
       "  story: {kind: scenario, config: {scenario: ../tests/data/somebody_crosses.yaml}}\n";
-  auto launch = launch::Launch::Parse(text, std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/on_foot_test.yaml");
+  auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/on_foot_test.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
   auto nodes = front::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();

@@ -12,6 +12,7 @@
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "launch/local_nodes.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 using lockstep::Step;
 namespace topics = idl::topics;
 
-const std::filesystem::path kConfigs = std::filesystem::path(RODEIRA_SOURCE_DIR) / "configs";
+const std::filesystem::path kConfigs = std::filesystem::path(SourceDir()) / "configs";
 
 std::string Text(const std::string& world, int vehicles) {
   return "rodeira: launch/1\nworld: ../configs/worlds/" + world +
@@ -32,7 +33,7 @@ std::string Text(const std::string& world, int vehicles) {
 
 template <class Look>
 void Drive(const std::string& text, Step last, const Look& look) {
-  auto launch = launch::Launch::Parse(text, std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/signals.yaml");
+  auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/signals.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
   auto nodes = front::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();

@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/tree.hpp"
+
 namespace rodeira::nodes {
 namespace {
 
 constexpr double kReach_m = 3.0;
 
 ObstacleMap MapOf(const std::string& file) {
-  const auto world = road::World::Load(std::string(RODEIRA_SOURCE_DIR) + "/" + file);
+  const auto world = road::World::Load(SourceDir() + "/" + file);
   EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().Text());
   return ObstacleMap(*world.value(), kReach_m);
 }

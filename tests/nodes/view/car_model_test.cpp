@@ -13,6 +13,7 @@
 #include "nodes/view/screen.hpp"
 #include "nodes/view/surface.hpp"
 #include "tests/nodes/view/pictures.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -59,7 +60,7 @@ class CarModel : public ::testing::Test {
     RODEIRA_NEEDS_PICTURES();
     folder_ = fs::path(::testing::TempDir()) / ("rodeira-car-model-" + std::to_string(::getpid()));
     fs::create_directories(folder_);
-    world_ = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+    world_ = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
     picture_.show_instruments = false;
     picture_.moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
   }

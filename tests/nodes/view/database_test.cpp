@@ -19,6 +19,7 @@
 #include "tests/common/scene/ground_worlds.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/setting.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -229,7 +230,7 @@ TEST_F(Database, AModelFromAFileStandsAtItsPlace) {
 }
 
 TEST_F(Database, RoadsOfVersion1AreRefused) {
-  const auto world = road::World::Load(fs::path(RODEIRA_SOURCE_DIR) / "configs/worlds/n222.yaml");
+  const auto world = road::World::Load(fs::path(SourceDir()) / "configs/worlds/n222.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   DatabaseOptions options;
   options.folder = folder_ / "n222";

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "tests/nodes/view/pictures.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 
@@ -14,7 +15,7 @@ class DriverStill : public ::testing::Test {
 
   void SetUp() override {
     RODEIRA_NEEDS_PICTURES();
-    auto world = road::World::Load(std::string(RODEIRA_SOURCE_DIR "/configs/worlds/") + file_);
+    auto world = road::World::Load(SourceDir() + "/configs/worlds/" + file_);
     ASSERT_TRUE(world.ok()) << world.error().Text();
     world_ = world.value();
     auto surface = Surface::Open(SurfaceKind::kOffscreen, width_px_, height_px_, "test", false, 0, quality_);

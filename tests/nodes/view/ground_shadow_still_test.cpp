@@ -8,6 +8,7 @@
 #include "common/scene/air.hpp"
 #include "tests/common/scene/ground_worlds.hpp"
 #include "tests/nodes/view/pictures.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -45,7 +46,7 @@ double RoomUnderRay(const road::World& world, const Eigen::Vector3d& p_W, const 
 // In a valley of N222 early in the morning: where its ray is cut off, the light of the sun is missing, and elsewhere it is not.
 TEST(GroundShadow, HillsStandBeforeTheSun) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
   Picture picture;
   picture.show_instruments = false;
   picture.camera = scene::CameraKind::kTop;

@@ -7,6 +7,7 @@
 #include "nodes/view/stage.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/virtual_display.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -21,7 +22,7 @@ class NoGl : public ::testing::Test {
   }
   // Opens what draws a run, says what it answers and ends with that status; 0 and "nothing is drawn" where it goes on without.
   [[noreturn]] void Open() {
-    auto stage = Stage::Open(settings_, road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value());
+    auto stage = Stage::Open(settings_, road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value());
     std::fprintf(stderr, "%s\n", !stage.ok() ? stage.error().Text().c_str() : stage.value() == nullptr ? "nothing is drawn" : "it draws");
     std::_Exit(stage.ok() ? 0 : stage.error().exit_status());
   }

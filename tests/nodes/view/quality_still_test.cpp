@@ -5,6 +5,7 @@
 
 #include "common/scene/air.hpp"
 #include "tests/nodes/view/pictures.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr int kWidth = 640, kHeight = 480;
 constexpr double kShown_m = 24.0;  // of the map's height
 
-std::shared_ptr<const road::World> World(const char* name) { return road::World::Load(std::string(RODEIRA_SOURCE_DIR "/configs/worlds/") + name).value(); }
+std::shared_ptr<const road::World> World(const char* name) { return road::World::Load(SourceDir() + "/configs/worlds/" + name).value(); }
 
 double Brightness(const Probe& probe) { return (probe.red + probe.green + probe.blue) / 3.0; }
 

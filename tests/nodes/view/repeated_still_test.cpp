@@ -5,6 +5,7 @@
 
 #include "nodes/view/plain_geometry.hpp"
 #include "tests/nodes/view/pictures.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -57,7 +58,7 @@ constexpr double kEdges = 0.5;
 
 TEST_F(RepeatedStill, AsIfMerged) {
   const auto compare = [](const char* name, scene::CameraKind camera) {
-    const auto world = road::World::Load(std::string(RODEIRA_SOURCE_DIR "/configs/worlds/") + name);
+    const auto world = road::World::Load(SourceDir() + "/configs/worlds/" + name);
     ASSERT_TRUE(world.ok()) << world.error().Text();
     const Picture picture = From(*world.value(), camera);
     const Seen merged = See(*world.value(), picture, false, Quality::kMedium), repeated = See(*world.value(), picture, true, Quality::kMedium);
@@ -69,14 +70,14 @@ TEST_F(RepeatedStill, AsIfMerged) {
 }
 
 TEST_F(RepeatedStill, TheSamePictureAgain) {
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
   const Picture picture = From(*world, scene::CameraKind::kChase);
   EXPECT_EQ(See(*world, picture, true, Quality::kHigh).image.rgb, See(*world, picture, true, Quality::kHigh).image.rgb);
 }
 
 // At low quality models are merged: fewer calls of drawing.
 TEST_F(RepeatedStill, NotAtLowQuality) {
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
   const Picture picture = From(*world, scene::CameraKind::kChase);
   const Seen asked = See(*world, picture, true, Quality::kLow), merged = See(*world, picture, false, Quality::kLow);
   EXPECT_EQ(asked.image.rgb, merged.image.rgb);

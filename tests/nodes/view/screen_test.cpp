@@ -12,6 +12,7 @@
 #include "nodes/view/asker.hpp"
 #include "nodes/view/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -41,7 +42,7 @@ TEST(Screen, APictureIsWrittenAsItIsSeenAndNoneIsLost) {
   auto folder = base::TemporaryFolder::Make("pictures");
   ASSERT_TRUE(folder.ok());
   ::setenv("XDG_DATA_HOME", folder.value().path().c_str(), 1);
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
   ViewSettings settings;
   settings.width_px = 320;
   settings.height_px = 180;
@@ -67,7 +68,7 @@ TEST(Screen, APictureIsWrittenAsItIsSeenAndNoneIsLost) {
 // A click on a car of the traffic, seen from behind: it pulses with simulated time, its panel stands there; a click beside it ends that.
 TEST(Screen, AClickChoosesAVehicle) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
   ViewSettings settings;
   settings.width_px = 960;
   settings.height_px = 540;
@@ -103,7 +104,7 @@ TEST(Screen, AClickChoosesAVehicle) {
 // The driver of a chosen car of the traffic: the point that it steers for, the way there, the speed that it plans; gone with the choice.
 TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
   ViewSettings settings;
   settings.width_px = 960;
   settings.height_px = 540;
@@ -146,7 +147,7 @@ TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
 // Behind its key, or with ctrl held, a click asks for the place on the ground that is seen there, whoever drives; the next one does not.
 TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
   ViewSettings settings;
   settings.width_px = 320;
   settings.height_px = 180;
@@ -192,7 +193,7 @@ TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
 }
 
 TEST(AskPlace, WhereTheWorldEndsItSaysThatTheCarStays) {
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/n222.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
   scene::Moment moment;
   moment.cars.push_back(CarAt({0.0, 0.0, 0.0}, 0.6));
   const scene::Ray down{{world->extents().east_m - 0.5, 0.5 * (world->extents().south_m + world->extents().north_m), 5'000.0}, -Eigen::Vector3d::UnitZ()};
@@ -241,7 +242,7 @@ TEST(Asker, ARequestIsRepeatedUntilItHasHappened) {
 // Agents drive along a line; its ground becomes green where they are at the limit, and the ground beside it stays as it was.
 TEST(Screen, TheHeatMapColoursTheGroundThatWasDrivenOn) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
   ViewSettings settings;
   settings.width_px = 640;
   settings.height_px = 360;
@@ -280,7 +281,7 @@ TEST(Screen, TheHeatMapColoursTheGroundThatWasDrivenOn) {
 
 TEST(Screen, FromAboveAndBackToTheSameCamera) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
   ViewSettings settings;
   settings.width_px = 320;
   settings.height_px = 180;
@@ -364,7 +365,7 @@ TEST(Screen, TheFrameLogSaysWhatWasShown) {
   RODEIRA_NEEDS_PICTURES();
   auto folder = base::TemporaryFolder::Make("frame_log");
   ASSERT_TRUE(folder.ok());
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
   ViewSettings settings;
   settings.width_px = 160;
   settings.height_px = 90;
@@ -404,7 +405,7 @@ TEST(Screen, TheFrameLogSaysWhatWasShown) {
 
 TEST(Screen, MirrorsGoAndComeBackByTheirKey) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
   ViewSettings settings;
   settings.width_px = 320;
   settings.height_px = 180;

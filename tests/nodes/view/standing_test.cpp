@@ -14,6 +14,7 @@
 #include "nodes/view/loading.hpp"
 #include "nodes/view/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -24,7 +25,7 @@ class StandingRun : public testing::Test {
     auto made = base::TemporaryFolder::Make("desk");
     ASSERT_TRUE(made.ok());
     folder_.emplace(std::move(made).value());
-    world_ = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+    world_ = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
     moment_.time_ns = 1'500'000'000;
     moment_.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
   }

@@ -5,6 +5,7 @@
 
 #include "common/base/random.hpp"
 #include "tests/nodes/view/pictures.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr int kWidth = 960, kHeight = 540;
 
 std::shared_ptr<const road::World> Load(const char* name) {
-  const auto world = road::World::Load(std::string(RODEIRA_SOURCE_DIR "/configs/worlds/") + name);
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/" + name);
   EXPECT_TRUE(world.ok()) << world.error().Text();
   return world.value();
 }

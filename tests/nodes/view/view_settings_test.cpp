@@ -8,6 +8,7 @@
 #include "common/base/files.hpp"
 #include "nodes/view/view_node.hpp"
 #include "tests/nodes/view/fake_run.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -53,7 +54,7 @@ TEST(ViewSettings, KnowsByWhichKeysItsCarIsDriven) {
   const auto settings = [](const std::string& input) {
     std::string text = LaunchText("{}");
     text.replace(text.find("{kind: input}"), 13, "{kind: input, config: " + input + "}");
-    const auto launch = launch::Launch::Parse(text, std::filesystem::path(RODEIRA_SOURCE_DIR) / "launch/fake.yaml");
+    const auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/fake.yaml");
     EXPECT_TRUE(launch.ok());
     const PlainContext context(launch.value(), launch.value().roster().Find("picture"));
     const auto read = ReadViewSettings(context);

@@ -17,6 +17,7 @@
 #include "tests/nodes/view/headset/fake_headset.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/virtual_display.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -43,7 +44,7 @@ class InTheHeadset : public ::testing::Test {
     Fake().views[0].fov = Edges(-50.0, 35.0, 40.0, -45.0);
     Fake().views[1].fov = Edges(-35.0, 50.0, 40.0, -45.0);
     SetHead({0.0, 0.0, 0.0}, 0.0);
-    world_ = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml").value();
+    world_ = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
     settings_.width_px = 320;
     settings_.height_px = 180;
     settings_.headset = true;
