@@ -87,15 +87,16 @@ std::string Shortened(std::string text) {
   return text.substr(0, cut) + "...";
 }
 
-// Calls `take` for each message of a topic, in the order of the file, as long as it answers with success.
+// Calls `take` for each message of a topic, in the order of the file, until `stop`.
 template <class Message>
-base::Status ForEachOf(const replay::RecordedRun& run, std::string_view topic, const std::function<void(const Message&, std::int64_t time_ns)>& take) {
+base::Status ForEachOf(const replay::RecordedRun& run, std::string_view topic, const std::function<bool()>& stop,
+                       const std::function<void(const Message&, std::int64_t time_ns)>& take) {
   const auto channels = run.reader().ChannelsOf(topic);
   if (channels.empty()) return {};
   record::Query query;
   query.channels.emplace(channels.begin(), channels.end());
   auto cursor = run.reader().Messages(query);
-  for (;;) {
+  while (!stop || !stop()) {
     const auto message = cursor.Next();
     if (!message) return message.error();
     if (!message.value()) return {};
@@ -103,6 +104,7 @@ base::Status ForEachOf(const replay::RecordedRun& run, std::string_view topic, c
     if (!said) return base::WrongInput(said.error().Text(), run.path().string());
     take(said.value(), static_cast<std::int64_t>(message.value()->log_time_ns));
   }
+  return {};
 }
 
 // "weather rain 8", "traffic.brake ahead 4"; of a text that somebody wrote only that.
@@ -135,14 +137,14 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
   return seen;
 }
 
-base::Result<std::vector<view::ReplayMark>> MarksOf(const replay::RecordedRun& run) {
+base::Result<std::vector<view::ReplayMark>> MarksOf(const replay::RecordedRun& run, const std::function<bool()>& stop) {
   std::vector<view::ReplayMark> marks;
-  auto status = ForEachOf<msg::Remark>(run, topics::kRemarks, [&](const msg::Remark& remark, std::int64_t) {
+  auto status = ForEachOf<msg::Remark>(run, topics::kRemarks, stop, [&](const msg::Remark& remark, std::int64_t) {
     if (remark.kind() != "mark" && remark.kind() != "fault") return;
     marks.push_back({std::max<std::int64_t>(remark.time_ns(), 0), Shortened(remark.text().empty() ? remark.kind() : remark.text())});
   });
   if (!status) return status.error();
-  status = ForEachOf<msg::ScenarioEvents>(run, topics::kScenarioEvents, [&](const msg::ScenarioEvents& events, std::int64_t time_ns) {
+  status = ForEachOf<msg::ScenarioEvents>(run, topics::kScenarioEvents, stop, [&](const msg::ScenarioEvents& events, std::int64_t time_ns) {
     for (const msg::ScenarioEvent& event : events.events()) marks.push_back({time_ns, TextOf(event), view::MarkKind::kEvent});
   });
   if (!status) return status.error();

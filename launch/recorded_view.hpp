@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "common/replay/recorded_run.hpp"
@@ -22,7 +23,7 @@ struct Seen {
 base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& options);
 
 // The operator's marks, what failed, and the events of scenarios, those included that people asked for: weather, places, texts. Of a run without a
-// scenario only the chunks are read in which somebody remarked something.
-base::Result<std::vector<view::ReplayMark>> MarksOf(const replay::RecordedRun& run);
+// scenario only the chunks are read in which somebody remarked something. Those found so far where `stop`, asked between two messages, says so.
+base::Result<std::vector<view::ReplayMark>> MarksOf(const replay::RecordedRun& run, const std::function<bool()>& stop = {});
 
 }  // namespace rodeira::front

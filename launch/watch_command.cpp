@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "launch/interrupt.hpp"
+#include "launch/marks_reader.hpp"
 #include "launch/recorded_moments.hpp"
 #include "launch/recorded_view.hpp"
 #include "nodes/view/replay_window.hpp"
@@ -40,8 +41,6 @@ base::Status Watch(const WatchOptions& options) {
   if (auto status = CheckTime(run.value(), "--from", options.from_s); !status) return status;
   const auto seen = LookAt(run.value(), options);
   if (!seen) return seen.error();
-  const auto marks = MarksOf(run.value());
-  if (!marks) return marks.error();
   if (!view::HasDisplay()) {
     return base::WrongInput(
         "a window is wanted, but no display answers; set DISPLAY, or let --frames FOLDER --at S write pictures without one",
@@ -49,6 +48,7 @@ base::Status Watch(const WatchOptions& options) {
   }
   const auto world = view::WorldOf(run.value().launch());
   if (!world) return run.value().Named(world.error());
+  MarksReader marks(options.file);
   auto window = view::ReplayWindow::Open(seen.value().settings, *world.value());
   if (!window) return window.error();
   const std::int64_t base_step_ns = run.value().roster().base_step_ns();
@@ -58,7 +58,7 @@ base::Status Watch(const WatchOptions& options) {
   if (options.paused) player.Pause();
   RecordedMoments moments(run.value(), seen.value().sources, seen.value().period);
   return window.value()->Watch(
-      player, marks.value(), [&](std::int64_t time_ns) { return moments.At(time_ns); }, Interrupted);
+      player, [&] { return marks.Take(); }, [&](std::int64_t time_ns) { return moments.At(time_ns); }, Interrupted);
 }
 
 base::Result<std::vector<Step>> FrameSteps(const replay::RecordedRun& run, const std::vector<lockstep::SourceIndex>& cars,

@@ -55,14 +55,20 @@ base::Result<std::unique_ptr<ReplayWindow>> ReplayWindow::Open(const ViewSetting
   return std::unique_ptr<ReplayWindow>(new ReplayWindow(std::move(screen).value()));
 }
 
-base::Status ReplayWindow::Watch(scene::Player& player, const std::vector<ReplayMark>& marks, const MomentAt& moment_at,
-                                 const std::function<bool()>& stop) {
+base::Status ReplayWindow::Watch(scene::Player& player, const TakeMarks& take_marks, const MomentAt& moment_at, const std::function<bool()>& stop) {
+  std::vector<ReplayMark> marks;
   std::vector<std::int64_t> marks_ns;
-  for (const ReplayMark& mark : marks) marks_ns.push_back(mark.time_ns);
   base::Status problem;
   double looked_s = launch::WallSeconds();
   bool changed = true;
   while (!stop()) {
+    if (auto taken = take_marks()) {
+      if (!*taken && problem.ok()) problem = taken->error();
+      if (*taken) marks = std::move(*taken).value();
+      marks_ns.clear();
+      for (const ReplayMark& mark : marks) marks_ns.push_back(mark.time_ns);
+      changed = true;
+    }
     changed = ReadEvents(player, marks_ns) || changed;
     if (!open_) break;
     const double now_s = launch::WallSeconds();

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct ReplayMark {
 class ReplayWindow {
  public:
   using MomentAt = std::function<base::Result<scene::Moment>(std::int64_t time_ns)>;
+  using TakeMarks = std::function<std::optional<base::Result<std::vector<ReplayMark>>>()>;
 
   // The world must outlive it. Wrong input where a display or OpenGL is missing. `kind`: off-screen for tests.
   static base::Result<std::unique_ptr<ReplayWindow>> Open(const ViewSettings& settings, const road::World& world,
@@ -33,9 +35,9 @@ class ReplayWindow {
 
   // Until the person closes the window, or `stop` (asked between two pictures) says so. Where `moment_at` has an error the
   // player stands still, the picture stays and the bar says why; one can go elsewhere. The first such error is the answer.
-  // `marks` ascend.
-  base::Status Watch(scene::Player& player, const std::vector<ReplayMark>& marks, const MomentAt& moment_at,
-                     const std::function<bool()>& stop);
+  // `take_marks` is asked between two pictures; what it gives, ascending, is on the bar from then on, in the place of what it gave before. Marks
+  // that cannot be read are the answer as well, and are not on the bar.
+  base::Status Watch(scene::Player& player, const TakeMarks& take_marks, const MomentAt& moment_at, const std::function<bool()>& stop);
 
  private:
   explicit ReplayWindow(std::unique_ptr<Screen> screen) : screen_(std::move(screen)) {}

@@ -2,12 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "common/base/files.hpp"
 #include "common/base/random.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
+#include "launch/marks_reader.hpp"
 #include "launch/recorded_moments.hpp"
 #include "launch/recorded_view.hpp"
 #include "nodes/view/from_wire.hpp"
@@ -275,6 +278,34 @@ TEST_F(WatchTest, TheScenariosEventsAreOnTheBar) {
   EXPECT_EQ(marks.value()[0].time_ns, 1'000);
   EXPECT_EQ(marks.value()[2].time_ns, 3'000);
   for (const view::ReplayMark& mark : marks.value()) EXPECT_EQ(mark.kind, view::MarkKind::kEvent);
+}
+
+TEST_F(WatchTest, TheMarksAreReadBesideTheWindow) {
+  const std::filesystem::path file = Made(kLaunch, [&](record::McapWriter& writer) {
+    const auto channel = writer.AddChannel(idl::topics::kRemarks, 0, "cdr").value();
+    msg::Remark remark;
+    remark.time_ns(2'000);
+    remark.kind("mark");
+    remark.text("here");
+    replay::Must(writer.Write(channel, 0, 2'000, 0, idl::Encode(remark)));
+  });
+  MarksReader reader(file);
+  auto taken = reader.Take();
+  while (!taken) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    taken = reader.Take();
+  }
+  ASSERT_TRUE(taken->ok()) << taken->error().Text();
+  ASSERT_EQ(taken->value().size(), 1u);
+  EXPECT_EQ(taken->value()[0].text, "here");
+  EXPECT_FALSE(reader.Take().has_value()) << "they are given once";
+
+  const auto run = replay::RecordedRun::Open(file);
+  ASSERT_TRUE(run.ok()) << run.error().Text();
+  EXPECT_TRUE(MarksOf(run.value(), [] { return true; }).value().empty()) << "who closes the window does not wait for them";
+  MarksReader missing(folder_.path() / "missing.mcap");
+  while (!(taken = missing.Take())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_FALSE(taken->ok());
 }
 
 TEST_F(WatchTest, TheDemosFramesComeOutOfItsRecordingPixelByPixel) {

@@ -6,6 +6,7 @@
 #include "nodes/view/replay_window.hpp"
 #include "nodes/view/timeline_bar.hpp"
 #include "tests/nodes/view/pictures.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -89,7 +90,7 @@ TEST(TimelinePlace, PixelsAndSharesAreEachOthersInverse) {
 
 TEST(TimelineBar, IsSeenOverThePicture) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml");
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml");
   Picture picture;
   picture.moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
   const auto draw = [&] { return RenderStill(*world.value(), picture, 960, 540).value(); };
@@ -114,7 +115,7 @@ TEST(TimelineBar, IsSeenOverThePicture) {
 // The loop itself: one event at a time is put before it, and what it then shows is looked at.
 TEST(ReplayWindow, AnswersWhileItStands) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml");
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml");
   ViewSettings settings;
   settings.width_px = 640;
   settings.height_px = 360;
@@ -145,6 +146,7 @@ TEST(ReplayWindow, AnswersWhileItStands) {
     std::int64_t expected_ns;
   };
   const std::vector<Told> told = {{key(SDLK_RIGHT), 20 * kMs},
+                                  {key(SDLK_PAGEDOWN), 20 * kMs},  // no mark is known yet
                                   {key(SDLK_5), 5 * kS},
                                   {key(SDLK_k), 5 * kS},  // another camera, the same time
                                   {mouse(SDL_MOUSEBUTTONDOWN, 100, above), 5 * kS},
@@ -153,7 +155,8 @@ TEST(ReplayWindow, AnswersWhileItStands) {
                                   {mouse(SDL_MOUSEMOTION, middle, above), 5 * kS},  // and here it was
                                   {mouse(SDL_MOUSEBUTTONUP, middle, above), 5 * kS},
                                   {mouse(SDL_MOUSEMOTION, 0, bar), 5 * kS},
-                                  {key(SDLK_END), 10 * kS}};
+                                  {key(SDLK_END), 10 * kS},
+                                  {key(SDLK_PAGEUP), 2 * kS}};
   scene::Player player(10 * kS, 20 * kMs);
   player.Pause();
   std::size_t next = 0;
@@ -173,15 +176,45 @@ TEST(ReplayWindow, AnswersWhileItStands) {
     SDL_PushEvent(&event);
     return next > told.size() + 5;
   };
-  EXPECT_TRUE(window.value()->Watch(player, {{2 * kS, "mark"}}, moment_at, stop).ok());
+  bool given = false;
+  const auto take_marks = [&]() -> std::optional<base::Result<std::vector<ReplayMark>>> {
+    if (given || next < 5) return std::nullopt;  // they are read beside the window
+    given = true;
+    return std::vector<ReplayMark>{{2 * kS, "mark"}};
+  };
+  EXPECT_TRUE(window.value()->Watch(player, take_marks, moment_at, stop).ok());
   EXPECT_EQ(next, told.size() + 1) << "escape ends it";
-  EXPECT_EQ(shown_ns, 10 * kS);
+  EXPECT_EQ(shown_ns, 2 * kS);
+}
+
+// The recording is seen all the same, and why is told at the end.
+TEST(ReplayWindow, MarksThatCannotBeReadEndNothing) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml");
+  auto window = ReplayWindow::Open({}, *world.value(), SurfaceKind::kOffscreen);
+  ASSERT_TRUE(window.ok()) << window.error().Text();
+  scene::Player player(10 * kS, 20 * kMs);
+  int shown = 0, asked = 0;
+  const auto moment_at = [&](std::int64_t time_ns) {
+    ++shown;
+    scene::Moment moment;
+    moment.time_ns = time_ns;
+    return base::Result<scene::Moment>(moment);
+  };
+  const auto take_marks = [&]() -> std::optional<base::Result<std::vector<ReplayMark>>> {
+    if (asked != 1) return std::nullopt;
+    return base::Result<std::vector<ReplayMark>>(base::WrongInput("a mark is damaged"));
+  };
+  const auto status = window.value()->Watch(player, take_marks, moment_at, [&] { return ++asked > 4; });
+  EXPECT_EQ(shown, 4);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().Text(), "a mark is damaged");
 }
 
 // A damaged place holds the player; who goes past it sees the rest, and the error is told at the end.
 TEST(ReplayWindow, StandsStillWhereTheFileIsDamaged) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(RODEIRA_SOURCE_DIR "/configs/worlds/plane.yaml");
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml");
   auto window = ReplayWindow::Open({}, *world.value(), SurfaceKind::kOffscreen);
   ASSERT_TRUE(window.ok()) << window.error().Text();
   scene::Player player(10 * kS, 20 * kMs);
@@ -204,7 +237,7 @@ TEST(ReplayWindow, StandsStillWhereTheFileIsDamaged) {
     if (asked > 0) SDL_PushEvent(&event);
     return ++asked > 10;
   };
-  const auto status = window.value()->Watch(player, {}, moment_at, stop);
+  const auto status = window.value()->Watch(player, [] { return std::nullopt; }, moment_at, stop);
   EXPECT_TRUE(held);
   EXPECT_EQ(shown, std::vector<std::int64_t>{9 * kS});
   ASSERT_FALSE(status.ok());
