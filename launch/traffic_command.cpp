@@ -69,8 +69,8 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
 void Describe(const TrafficOptions& options, const traffic::StudyResult& r, double wall_s) {
   fmt::print("vehicles         {} on the road, {} waiting to enter, {} trips ended\n", r.on_road, r.waiting, r.arrivals);
   fmt::print("driven           {:.3f} km at {:.2f} m/s in the mean\n", r.driven_km, r.mean_speed_mps());
-  fmt::print("standing         {:.1f} % of the time, at most {:.1f} s (car {}), with room ahead {:.1f} s\n",
-             r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, r.longest_stand_s, r.longest_stand_id, r.longest_with_room_s);
+  fmt::print("standing         {:.1f} % of the time, at most {:.1f} s (car {}), with room ahead {:.1f} s (car {})\n",
+             r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, r.longest_stand_s, r.longest_stand_id, r.longest_with_room_s, r.longest_with_room_id);
   fmt::print("hardest braking  {:.2f} m/s2 by the foot, {:.2f} m/s2 in all\n", r.hardest_mps2, r.hardest_any_mps2);
   fmt::print("collisions       {}\n", r.collisions);
   fmt::print("beside its lane  {} times, looked at every 0.1 s\n", r.off_lane);

@@ -10,7 +10,6 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr std::uint32_t kBrake = 1, kLeft = 2, kRight = 4;
-constexpr int kOnRing = 2;  // TrackPlan::turn
 constexpr double kIndicates_s = 3.0, kIndicates_m = 30.0;  // before the turn
 
 }  // namespace
@@ -41,7 +40,7 @@ std::uint32_t TrafficModel::LightsOf(const AgentPose& pose) const {
       end += graph()[track].length_m() - on.from_d_m;
     }
     const int turn = map_->plans[track].turn;
-    const bool ring = turn == kOnRing;
+    const bool ring = turn == kRing;
     if (ring && begin > agent.o_m && (!on_ring || may_leave)) break;  // it enters the roundabout, or passes an exit, before it leaves it
     on_ring = ring;
     if (end > agent.o_m && !ring) side = turn;

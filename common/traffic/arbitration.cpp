@@ -41,13 +41,19 @@ bool TrafficModel::RoomBehind(std::uint32_t id, const Crossing& crossing, const 
   return crossing.out_m + its_rear + ReachOf(holder.id, 0) - holder.out_m >= passage.room_m;
 }
 
+// Whether who holds the zone takes up the same room behind it, and does not go round there.
+bool TrafficModel::TakesRoom(const Crossing& crossing) const {
+  const lanes::Zone& zone = zones()[static_cast<std::uint32_t>(crossing.zone)];
+  return zone.kind == lanes::ZoneKind::kMerge && map_->plans[zone.track[0]].turn != kRing && map_->plans[zone.track[1]].turn != kRing;
+}
+
 // Whether somebody keeps it out of the zone: who is in it, or has been granted it, and is not surely out before it comes.
 bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
   const auto zone = static_cast<std::size_t>(crossing.zone);
   const auto mine = static_cast<std::size_t>(crossing.side), theirs = 1 - mine;
   const Agent& agent = agents_[id];
   const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
-  for (const Holder& holder : holders_[zone][theirs]) {
+  for (const Holder& holder : now_[zone].holders[theirs]) {
     if (holder.id == id) continue;
     if (holder.id < agents_.size()) {
       const Agent& other = agents_[holder.id];
@@ -60,7 +66,7 @@ bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
     passages_[id].waits_for = holder.id == agents_.size() ? -1 : static_cast<std::int64_t>(holder.id);
     return true;
   }
-  return awaited_[zone][mine] && !Urgent(id);
+  return (now_[zone].awaited[mine] && !Urgent(id)) || now_[zone].room_for_s[mine] > agent.waited_s;
 }
 
 // Whether somebody who goes first is about to come to the zone before this one is out of it. Where lanes zip, it is the other side's turn as long as
@@ -69,9 +75,9 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
   const auto index = static_cast<std::size_t>(crossing.zone);
   const int theirs = 1 - crossing.side;
   const lanes::Zone& zone = zones()[static_cast<std::uint32_t>(index)];
-  const auto& claims = comers_[index][static_cast<std::size_t>(theirs)];
+  const auto& claims = now_[index].comers[static_cast<std::size_t>(theirs)];
   if (claims.empty()) return false;
-  const int last = map_->zips[index] ? LastLetIn(holders_[index], agents_.size()) : -1;
+  const int last = map_->zips[index] ? LastLetIn(now_[index].holders, agents_.size()) : -1;
   if (zone.first == crossing.side && last != crossing.side) return false;
   const Agent& agent = agents_[id];
   const double way_out = crossing.out_m - agent.o_m + 0.5 * traits_[id].length_m;
@@ -107,7 +113,7 @@ bool TrafficModel::Grant(std::uint32_t id, bool yields) {
   for (const Crossing& crossing : passage.crossings) {
     if (crossing.zone < 0) continue;
     Touch(static_cast<std::uint32_t>(crossing.zone));
-    holders_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)].push_back({id, grant, crossing.out_m});
+    now_[static_cast<std::size_t>(crossing.zone)].holders[static_cast<std::size_t>(crossing.side)].push_back({id, grant, crossing.out_m});
   }
   passage.any = false;
   return true;
@@ -133,59 +139,68 @@ void TrafficModel::ComeToLine(std::uint32_t id, double dt_s) {
 
 void TrafficModel::ForgetZones() {
   for (const std::uint32_t zone : touched_) {
-    for (const int side : {0, 1}) holders_[zone][side].clear(), comers_[zone][side].clear(), awaited_[zone][side] = false;
-    is_touched_[zone] = 0;
+    ZoneNow& now = now_[zone];
+    for (const std::size_t side : {0, 1}) now.holders[side].clear(), now.comers[side].clear();
+    now.awaited = {}, now.room_for_s = {}, now.touched = false;
   }
   touched_.clear();
 }
 
 void TrafficModel::Arbitrate(double dt_s) {
   ForgetZones();
-  for (std::uint32_t id = 0; id < agents_.size(); ++id) passages_[id].any = false;
   EachDriving([&](std::uint32_t id) { ComeToLine(id, dt_s); });
-  std::vector<std::uint32_t> order;
-  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    if (agents_[id].on_road) HoldZones(id);
-  }
   std::fill(reaches_.begin(), reaches_.end(), -1.0);
+  heads_.clear(), order_.clear();
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    if (!agents_[id].on_road || !passages_[id].any) continue;
-    FindRoom(id);
     Passage& passage = passages_[id];
+    if (!agents_[id].on_road) {
+      passage.any = false;
+      continue;
+    }
+    HoldZones(id);
+    if (!passage.any) continue;
+    FindRoom(id);
     if (passage.red || passage.barred) passage.waits_for = -1;
-    else if (passage.due && passage.head && !passage.must_stop) order.push_back(id);
+    else if (passage.due && passage.head && !passage.must_stop) order_.push_back(id);
+    if (!passage.head) continue;
+    heads_.push_back(id);
+    ComeToZones(id);
   }
-  ComeToZones();
   OthersAtZones();
   // Who has lost patience, by how long; then by when they come to the line, as told by their own motion; then by number.
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
     const double patience_a = Urgent(a) ? agents_[a].waited_s : 0.0, patience_b = Urgent(b) ? agents_[b].waited_s : 0.0;
     if (patience_a != patience_b) return patience_a > patience_b;
     if (passages_[a].arrives_s != passages_[b].arrives_s) return passages_[a].arrives_s < passages_[b].arrives_s;
     return a < b;
   });
-  for (const std::uint32_t id : order) {
+  for (const std::uint32_t id : order_) {
     Passage& passage = passages_[id];
-    if (!passage.able || Grant(id, true)) continue;
+    if (passage.able && Grant(id, true)) continue;
     if (!Urgent(id)) {
-      ComeLater(id);
+      if (passage.able) ComeLater(id);
       continue;
     }
-    for (const Crossing& crossing : passage.crossings) {  // nobody else takes up what it waits for
-      if (crossing.zone < 0) continue;
+    // Nobody else takes up what it waits for; nor, where there is not room enough for it yet, what there is of it, if he is shorter.
+    const bool comes_free = !passage.able && passage.lacks_m < traits_[id].length_m + settings_.idm.standing_gap_m;
+    for (const Crossing& crossing : passage.crossings) {
+      if (crossing.zone < 0 || !(passage.able || (comes_free && TakesRoom(crossing)))) continue;
       Touch(static_cast<std::uint32_t>(crossing.zone));
-      awaited_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(1 - crossing.side)] = true;
+      ZoneNow& now = now_[static_cast<std::size_t>(crossing.zone)];
+      const auto theirs = static_cast<std::size_t>(1 - crossing.side);
+      if (passage.able) now.awaited[theirs] = true;
+      else now.room_for_s[theirs] = std::max(now.room_for_s[theirs], agents_[id].waited_s);
     }
   }
-  for (const std::uint32_t id : order) {  // … and now who had to yield to such as cannot come yet
+  for (const std::uint32_t id : order_) {  // … and now who had to yield to such as cannot come yet
     if (passages_[id].any && passages_[id].able) Grant(id, true);
   }
   ResolveDeadlocks();
   EachDriving([&](std::uint32_t id) { YieldInZones(id); });
 }
 
-// Where the chain of who waits for whom closes, the one of it that has waited longest (of equals the first) goes although it
-// would have to yield, or though there is no room behind yet because those who stand there are in the same chain.
+// Where the chain of who waits for whom closes, those of it go who are not in one another's way, who has waited longest first (of equals
+// the first), although they would have to yield, or though there is no room behind yet because those who stand there are in the chain.
 void TrafficModel::ResolveDeadlocks() {
   const auto next = [&](std::uint32_t id) -> std::int64_t {
     if (agents_[id].speed_mps > kAtRest_mps) return -1;
@@ -194,8 +209,8 @@ void TrafficModel::ResolveDeadlocks() {
     return ahead_[id].any ? ahead_[id].id : -1;
   };
   std::vector<std::uint8_t> seen(agents_.size(), 0);  // 1: on a chain that has been looked at
-  for (std::uint32_t start = 0; start < agents_.size(); ++start) {
-    if (!agents_[start].on_road || seen[start] != 0 || !passages_[start].any || !passages_[start].head) continue;
+  for (const std::uint32_t start : heads_) {
+    if (seen[start] != 0 || !passages_[start].any) continue;
     std::vector<std::uint32_t> chain;
     std::int64_t at = start;
     while (at >= 0 && static_cast<std::size_t>(at) < agents_.size() && seen[static_cast<std::size_t>(at)] == 0) {
@@ -203,7 +218,8 @@ void TrafficModel::ResolveDeadlocks() {
       chain.push_back(static_cast<std::uint32_t>(at));
       at = next(static_cast<std::uint32_t>(at));
     }
-    const auto closes = std::find(chain.begin(), chain.end(), at < 0 ? start + 1000000000u : static_cast<std::uint32_t>(at));
+    if (at < 0) continue;
+    const auto closes = std::find(chain.begin(), chain.end(), static_cast<std::uint32_t>(at));
     if (closes == chain.end()) continue;
     std::vector<std::uint32_t> circle(closes, chain.end());
     std::sort(circle.begin(), circle.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -211,7 +227,7 @@ void TrafficModel::ResolveDeadlocks() {
     });
     for (const std::uint32_t id : circle) {
       Passage& passage = passages_[id];
-      if (passage.any && passage.head && passage.due && !passage.must_stop && !passage.red && !passage.barred && Grant(id, false)) break;
+      if (passage.any && passage.head && passage.due && !passage.must_stop && !passage.red && !passage.barred) Grant(id, false);
     }
   }
 }

@@ -15,8 +15,8 @@ constexpr double kLaterThan_s = 30.0;  // of no interest now
 
 // Only zones that something was said of are cleared for the next step.
 void TrafficModel::Touch(std::uint32_t zone) {
-  if (is_touched_[zone] != 0) return;
-  is_touched_[zone] = 1;
+  if (now_[zone].touched) return;
+  now_[zone].touched = true;
   touched_.push_back(zone);
 }
 
@@ -32,28 +32,26 @@ void TrafficModel::HoldZones(std::uint32_t id) {
       const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
       if (part.kind == lanes::ZoneKind::kDiverge || in >= to || out <= rear) continue;
       Touch(part.zone);
-      holders_[part.zone][static_cast<std::size_t>(part.side)].push_back({id, agent.GrantOf(out), out});
+      now_[part.zone].holders[static_cast<std::size_t>(part.side)].push_back({id, agent.GrantOf(out), out});
     }
   }
 }
 
-// Who comes to which zone: the heads of those that wait to be granted it.
-void TrafficModel::ComeToZones() {
-  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    const Passage& passage = passages_[id];
-    if (!agents_[id].on_road || !passage.any || !passage.head || !passage.able || passage.arrives_s > kLaterThan_s) continue;
-    if (agents_[id].brake_mps2 > 0.0 || passage.red || passage.barred) continue;
-    const double front = agents_[id].o_m + 0.5 * traits_[id].length_m, rear = front - traits_[id].length_m;
-    const Setting off{agents_[id].wish_mps2, settings_.smooth.planned_mps3};
-    for (const Crossing& crossing : passage.crossings) {
-      if (crossing.zone < 0) continue;
-      const double most = AllowedAt(id, crossing.in_m);
-      Touch(static_cast<std::uint32_t>(crossing.zone));
-      comers_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)].push_back(
-          {id, TravelTime(crossing.in_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2, off),
-           TravelTime(crossing.out_m - rear, agents_[id].speed_mps, most, traits_[id].start_mps2, off), crossing.out_m - front,
-           TravelTime(crossing.out_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2, off)});
-    }
+// A head that waits to be granted its zones comes to them.
+void TrafficModel::ComeToZones(std::uint32_t id) {
+  const Passage& passage = passages_[id];
+  if (!passage.able || passage.arrives_s > kLaterThan_s) return;
+  if (agents_[id].brake_mps2 > 0.0 || passage.red || passage.barred) return;
+  const double front = agents_[id].o_m + 0.5 * traits_[id].length_m, rear = front - traits_[id].length_m;
+  const Setting off{agents_[id].wish_mps2, settings_.smooth.planned_mps3};
+  for (const Crossing& crossing : passage.crossings) {
+    if (crossing.zone < 0) continue;
+    const double most = AllowedAt(id, crossing.in_m);
+    Touch(static_cast<std::uint32_t>(crossing.zone));
+    now_[static_cast<std::size_t>(crossing.zone)].comers[static_cast<std::size_t>(crossing.side)].push_back(
+        {id, TravelTime(crossing.in_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2, off),
+         TravelTime(crossing.out_m - rear, agents_[id].speed_mps, most, traits_[id].start_mps2, off), crossing.out_m - front,
+         TravelTime(crossing.out_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2, off)});
   }
 }
 
@@ -63,7 +61,7 @@ void TrafficModel::ComeLater(std::uint32_t id) {
   if (passage.delay_s <= 0.0) return;
   for (const Crossing& crossing : passage.crossings) {
     if (crossing.zone < 0) continue;
-    for (Claim& claim : comers_[static_cast<std::size_t>(crossing.zone)][static_cast<std::size_t>(crossing.side)]) {
+    for (Claim& claim : now_[static_cast<std::size_t>(crossing.zone)].comers[static_cast<std::size_t>(crossing.side)]) {
       if (claim.id == id) claim.arrives_s += passage.delay_s, claim.clears_s += passage.delay_s;
     }
   }
@@ -80,7 +78,7 @@ void TrafficModel::OthersAtZones() {
         if (zone.kind == lanes::ZoneKind::kDiverge || std::min(std::fabs(block.span.left_m), std::fabs(block.span.right_m)) > 1.2) continue;
         if (block.span.front_m <= zone.in_m[mine] || block.span.rear_m >= zone.out_m[mine]) continue;
         Touch(part.zone);
-        holders_[part.zone][mine].push_back({nobody, {}, 0.0});
+        now_[part.zone].holders[mine].push_back({nobody, {}, 0.0});
       }
       if (block.span.speed_mps < 0.5 || block.span.left_m < -1.0 || block.span.right_m > 1.0) continue;
       // Where it goes is not known: it comes to all zones within six seconds, on every way; but not past a light that is not green, if it can stop there.
@@ -95,7 +93,7 @@ void TrafficModel::OthersAtZones() {
           const double way = at.ahead_m + zone.in_m[mine], length = block.span.front_m - block.span.rear_m;
           if (zone.kind == lanes::ZoneKind::kDiverge || way < 0.0 || way > 6.0 * block.span.speed_mps || zone.in_m[mine] > stops_m) continue;
           Touch(part.zone);
-          comers_[part.zone][mine].push_back(
+          now_[part.zone].comers[mine].push_back(
               {nobody, way / block.span.speed_mps, (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
         }
         const double end = at.ahead_m + graph()[at.track].length_m();

@@ -51,11 +51,16 @@ double TrafficModel::StopAt(std::uint32_t id, double odometer_m, double share) c
   return v > there.speed_mps ? std::min(stop, -Needed_mps2(v, gap, settings_.smooth.planned_mps3)) : stop + (there.speed_mps - v) / settings_.tracking_s;
 }
 
+double TrafficModel::LimitOn(std::uint32_t track, double d_m) const {
+  const TrackPlan& plan = map_->plans[track];
+  return plan.one_limit ? plan.limit_mps : graph().SpeedLimit_mps(track, d_m);
+}
+
 // By the limit where it is: the speed without anybody and any bend.
 double TrafficModel::Desired_mps(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   for (const Stretch& stretch : stretches_[id]) {
-    if (stretch.end_m >= agent.o_m) return std::min(graph().SpeedLimit_mps(stretch.track, agent.o_m - stretch.zero_m) * traits_[id].speed_factor, Cap_mps(id));
+    if (stretch.end_m >= agent.o_m) return std::min(LimitOn(stretch.track, agent.o_m - stretch.zero_m) * traits_[id].speed_factor, Cap_mps(id));
   }
   return Cap_mps(id);
 }

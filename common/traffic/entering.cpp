@@ -105,7 +105,7 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
     const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;
     if (zone.kind == lanes::ZoneKind::kDiverge) continue;
     if (zone.in_m[mine] > traits.length_m + 2.0 && zone.in_m[mine] > agent.granted_m + traits.length_m + 2.0) break;
-    if (!holders_[part.zone][theirs].empty()) return wait();
+    if (!now_[part.zone].holders[theirs].empty()) return wait();
     agent.granted_m = std::max(agent.granted_m, zone.out_m[mine]);
   }
   speed = std::min(speed, AtMostForLine(id));

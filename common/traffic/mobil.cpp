@@ -23,7 +23,7 @@ constexpr double kAtEnd_mps2 = 5.0, kFrom_m = 400.0;  // … growing to so much 
 }  // namespace
 
 double TrafficModel::Limit_mps(std::uint32_t id, std::uint32_t track, double d_m) const {
-  return std::min(graph().SpeedLimit_mps(track, d_m) * traits_[id].speed_factor, Cap_mps(id));
+  return std::min(LimitOn(track, d_m) * traits_[id].speed_factor, Cap_mps(id));
 }
 
 double TrafficModel::Following(std::uint32_t id, double limit_mps, bool any, double gap_m, double leader_mps) const {
@@ -71,7 +71,7 @@ double TrafficModel::FollowerDoes(const Behind& behind, bool any, double gap_m, 
     const auto id = static_cast<std::uint32_t>(behind.id);
     return Following(id, Limit_mps(id, behind.track, d), any, gap_m, leader_mps);
   }
-  const double limit = std::max(behind.speed_mps, graph().SpeedLimit_mps(behind.track, d));
+  const double limit = std::max(behind.speed_mps, LimitOn(behind.track, d));
   return any ? driver::IdmAcceleration(settings_.idm, behind.speed_mps, limit, gap_m, leader_mps) : driver::IdmFreeAcceleration(settings_.idm, behind.speed_mps, limit);
 }
 

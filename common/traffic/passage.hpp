@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct Passage {
   double line_m = 0.0;     // odometer at which its front stops
   double end_m = 0.0;
   double room_m = 0.0;  // odometer up to which who is ahead must have left
+  double lacks_m = 0.0;  // of that, at most, when all ahead have come as far as they surely do
   double arrives_s = 0.0, clears_s = 0.0;
   double delay_s = 0.0;  // until who keeps it out is out of the way
   std::int64_t waits_for = -1;
@@ -46,6 +48,15 @@ struct Claim {
   std::uint32_t id = 0;
   double arrives_s = 0.0, clears_s = 0.0;
   double way_m = 0.0, ends_s = 0.0;  // of its front to the zone's end
+};
+
+// A zone in a step: all of it by side, in one piece of memory, since who comes to a junction asks for many of them.
+struct ZoneNow {
+  std::array<std::vector<Holder>, 2> holders;
+  std::array<std::vector<Claim>, 2> comers;
+  std::array<double, 2> room_for_s{};     // so long somebody has waited for room behind it that this side could take
+  std::array<bool, 2> awaited{};          // an urgent agent waits for this side to end
+  bool touched = false;                   // anything is said of it
 };
 
 }  // namespace rodeira::traffic

@@ -11,6 +11,7 @@ constexpr double kHardest_mps2 = 3.0;  // braking by which it is told where a ve
 constexpr double kSameLine_m = 1.2;    // lines nearer to one another than this are one
 constexpr double kLoose_m = 0.5;       // more than its standing gap that a queueing car leaves
 constexpr double kNever_m = 1e18;
+constexpr double kRoom_m = 5.0;        // before who stands anywhere else than at a line
 constexpr int kDeepest = 256;           // longer columns count as ending there
 
 double StopsWithin(double speed_mps) { return std::max(0.0, speed_mps) * speed_mps / (2.0 * kHardest_mps2); }
@@ -84,6 +85,7 @@ void TrafficModel::FindRoom(std::uint32_t id) {
   EachAhead(id, to, 0, [&](std::int64_t other, double rear_m, double comes_m) {
     if (comes_m < to) {
       passage.able = false;
+      passage.lacks_m = std::max(passage.lacks_m, to - comes_m);
       if (rear_m < nearest) passage.waits_for = other, nearest = rear_m;
     }
     if (other < 0) return;
@@ -91,6 +93,13 @@ void TrafficModel::FindRoom(std::uint32_t id) {
     const double its_line = rear_m + 0.5 * traits_[next].length_m + passages_[next].line_m - agents_[next].o_m;
     if (passages_[next].any && its_line < passage.line_m + kSameLine_m) passage.head = false;
   });
+}
+
+bool TrafficModel::RoomAhead(std::uint32_t id) const {
+  const Passage& passage = passages_[id];
+  const double front = agents_[id].o_m + 0.5 * traits_[id].length_m;
+  const bool at_line = passage.any && passage.line_m < front + kRoom_m;
+  return ahead_[id].gap_m > (at_line ? passage.room_m - front : kRoom_m);
 }
 
 }  // namespace rodeira::traffic

@@ -13,14 +13,13 @@ namespace {
 
 constexpr std::size_t kIncidents = 20;
 constexpr double kStanding_mps = 0.05;
-constexpr double kRoom_m = 5.0;
 constexpr double kHard_mps2 = 3.0;
 constexpr double kOnLane_m = 1e-3;
 
 class Watcher {
  public:
   Watcher(const network::Network& network, const StudySettings& settings)
-      : network_(network), settings_(settings), stands_s_(settings.traffic.vehicles, 0.0) {}
+      : network_(network), settings_(settings), stands_s_(settings.traffic.vehicles, 0.0), with_room_s_(settings.traffic.vehicles, 0.0) {}
 
   StudyResult& result() { return result_; }
 
@@ -57,14 +56,16 @@ class Watcher {
         Tell("off its lane ({} m)", pose, place ? place->distance_m : -1.0);
       }
       double& stands = stands_s_[pose.id];
+      double& with_room = with_room_s_[pose.id];
       if (pose.speed_mps > kStanding_mps) {
-        stands = 0.0;
+        stands = with_room = 0.0;
         continue;
       }
       stands += settings_.watch_s;
+      if (model.RoomAhead(pose.id)) with_room += settings_.watch_s;
       result_.standing_s += settings_.watch_s;
       if (stands > result_.longest_stand_s) result_.longest_stand_s = stands, result_.longest_stand_id = pose.id;
-      if (stands > result_.longest_with_room_s && model.GapAhead(pose.id) > kRoom_m) result_.longest_with_room_s = stands;
+      if (with_room > result_.longest_with_room_s) result_.longest_with_room_s = with_room, result_.longest_with_room_id = pose.id;
     }
   }
 
@@ -113,7 +114,7 @@ class Watcher {
   StudyResult result_;
   double time_s_ = 0.0;
   network::Hint hint_;
-  std::vector<double> stands_s_;
+  std::vector<double> stands_s_, with_room_s_;  // by agent: its stand as yet, and how much of it with room ahead
   std::vector<AgentPose> before_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> touching_;
 };

@@ -27,7 +27,8 @@ struct StudyResult {
   double standing_s = 0.0;
   double longest_stand_s = 0.0;
   std::uint32_t longest_stand_id = 0;
-  double longest_with_room_s = 0.0;  // of those with more than 5 m before them
+  double longest_with_room_s = 0.0;  // the part of one stand in which there was room ahead (TrafficModel::RoomAhead)
+  std::uint32_t longest_with_room_id = 0;
   std::int64_t collisions = 0;       // times that two rectangles on one level came to overlap
   std::int64_t off_lane = 0;         // times that a middle was looked at beside every drivable lane
   double worst_step_m = 0.0;         // |distance between two poses - mean speed · step|, in plan

@@ -36,10 +36,7 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   blocks_.resize(graph().tracks().size());
   facing_.resize(graph().tracks().size());
   is_overtaken_.resize(agents_.size());
-  holders_.resize(zones().zones().size());
-  comers_.resize(zones().zones().size());
-  awaited_.resize(zones().zones().size());
-  is_touched_.resize(zones().zones().size());
+  now_.resize(zones().zones().size());
 }
 
 base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, std::shared_ptr<const road::World> world,

@@ -89,6 +89,9 @@ class TrafficModel {
   void HitPedestrian(std::uint32_t id);
   // From its front bumper to who is ahead, as it was seen in the last step; 1e9 where nobody is in sight.
   double GapAhead(std::uint32_t id) const { return ahead_[id].gap_m; }
+  // Whether who stands has where to go, as it was seen in the last step: nobody within 5 m before it or, where it stands at a line before
+  // conflict zones, none up to where it would stand behind them.
+  bool RoomAhead(std::uint32_t id) const;
   // Whether its driver braked in an emergency in the last step (docs/traffic.md).
   bool Hurries(std::uint32_t id) const { return hurries_[id] != 0; }
   // Which lights it shows, bits as in vehicle.idl: brake 1, left 2, right 4. Who changes lanes, or is to turn within 30 m or three seconds,
@@ -180,10 +183,11 @@ class TrafficModel {
   void EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell);
   double ReachOf(std::uint32_t id, int depth);
   void FindRoom(std::uint32_t id);
-  void ComeToZones();
+  void ComeToZones(std::uint32_t id);
   void ComeLater(std::uint32_t id);
   void OthersAtZones();
   bool RoomBehind(std::uint32_t id, const Crossing& crossing, const Holder& holder);
+  bool TakesRoom(const Crossing& crossing) const;
   bool Held(std::uint32_t id, const Crossing& crossing);
   bool Yields(std::uint32_t id, const Crossing& crossing);
   bool Grant(std::uint32_t id, bool yields);
@@ -222,6 +226,7 @@ class TrafficModel {
   // Driving.
   void Decide(double dt_s);
   double Wanted(std::uint32_t id) const;
+  double LimitOn(std::uint32_t track, double d_m) const;
   double Desired_mps(std::uint32_t id) const;
   driver::SpeedPlan::Allowed Allowed(std::uint32_t id) const;
   double Cap_mps(std::uint32_t id) const { return std::min(agents_[id].cap_mps, traits_[id].top_mps); }
@@ -294,12 +299,11 @@ class TrafficModel {
   std::vector<Eigen::Vector2d> segments_;              // by agent: where MOTORS' driver looks to
   std::vector<AtCrossing> at_crossings_;               // by crossing for people on foot
   std::vector<ToCrossing> to_crossings_;
-  std::vector<std::array<std::vector<Holder>, 2>> holders_;         // by zone
-  std::vector<std::array<std::vector<Claim>, 2>> comers_;           // by zone
+  std::vector<ZoneNow> now_;                                        // by zone
+  std::vector<std::uint32_t> touched_;                              // zones of which anything is said
+  std::vector<std::uint32_t> heads_;                                // agents that wait at a line, ascending
+  std::vector<std::uint32_t> order_;                                // of them who may ask to be let in, in the order in which they are looked at
   std::vector<std::vector<std::uint32_t>> present_;                 // by track: agents on it while others enter
-  std::vector<std::uint32_t> touched_;                              // zones of which anything is said above or below
-  std::vector<std::uint8_t> is_touched_;                            // by zone
-  std::vector<std::array<bool, 2>> awaited_;                        // by zone: an urgent agent waits for that side to end
 };
 
 template <class Tell>

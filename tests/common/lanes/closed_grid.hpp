@@ -17,6 +17,9 @@ namespace rodeira::lanes {
 
 class ClosedGrid {
  public:
+  // Lanes of the streets, from node to node: two of each street.
+  static double Lanes_km(int count) { return 1e-3 * 4.0 * count * (count - 1) * kStreet_m; }
+
   static std::shared_ptr<const network::Network> Make(int count) {
     ClosedGrid grid;
     grid.Lay(count);

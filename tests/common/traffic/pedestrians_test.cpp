@@ -67,7 +67,7 @@ void NobodyIsTouched(const std::string& name, const NetworkPointer& network, std
   EXPECT_EQ(r.collisions, 0) << name << told;
   EXPECT_EQ(r.off_lane, 0) << name << told;
   EXPECT_LE(r.hardest_mps2, 3.0) << name << told;
-  EXPECT_LT(r.longest_with_room_s, 300.0) << name << " car " << r.longest_stand_id;
+  EXPECT_LT(r.longest_with_room_s, 300.0) << name << " car " << r.longest_with_room_id;
   EXPECT_EQ(r.on_road + r.waiting, vehicles) << name;
   EXPECT_GT(watcher.crossed, 0u) << name;
   testing::Test::RecordProperty(name, fmt::format("crossed {}, longest wait {:.1f} s, hardest {:.2f} m/s2, driven {:.1f} km, stood {:.0f} of {:.0f} s", watcher.crossed, watcher.longest_wait_s, r.hardest_mps2, r.driven_km, r.standing_s, r.vehicle_s));
