@@ -32,12 +32,21 @@ double SecondsSince(Clock::time_point begin) { return std::chrono::duration<doub
 
 bool IsTrafficMap(const std::string& map) { return std::filesystem::path(map).extension() == ".motors"; }
 
-base::Result<std::shared_ptr<const network::Network>> Roads(const std::string& map) {
-  if (IsTrafficMap(map)) return map::LoadNetwork(map);
-  const auto world = road::World::Load(map);
-  if (!world) return world.error();
-  return traffic::NetworkOf(world.value());
-}
+struct Roads {
+  std::shared_ptr<const network::Network> network;
+  std::shared_ptr<const road::World> world;  // null: a traffic map, which has nothing but roads
+
+  static base::Result<Roads> Load(const std::string& map) {
+    if (IsTrafficMap(map)) {
+      auto network = map::LoadNetwork(map);
+      if (!network) return network.error();
+      return Roads{std::move(network).value(), nullptr};
+    }
+    auto world = road::World::Load(map);
+    if (!world) return world.error();
+    return Roads{traffic::NetworkOf(world.value()), std::move(world).value()};
+  }
+};
 
 // As the file of settings says; without flows there those of a traffic map's companion.
 base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& options) {
@@ -94,7 +103,7 @@ void Describe(const FlowsSeen& seen) {
 }  // namespace
 
 int TrafficRun(const TrafficOptions& options) {
-  const auto roads = Roads(options.map);
+  const auto roads = Roads::Load(options.map);
   if (!roads) return Complain(roads.error());
   auto how = HowTrafficIs(options);
   if (!how) return Complain(how.error());
@@ -103,7 +112,7 @@ int TrafficRun(const TrafficOptions& options) {
   settings.duration_s = options.duration_s;
   settings.step_s = options.step_s;
   settings.watch_s = std::max(0.1, options.step_s);
-  auto opened = TrafficFiles::Open(options, *roads.value());
+  auto opened = TrafficFiles::Open(options, *roads.value().network);
   if (!opened) return Complain(opened.error());
   TrafficFiles files = std::move(opened).value();
   if (files.wants_cells()) settings.cell_m = kCell_m;
@@ -111,16 +120,17 @@ int TrafficRun(const TrafficOptions& options) {
   const auto begin = Clock::now();
   bool shown = false;
   FlowsSeen flows;
-  const auto result = traffic::RunStudy(settings, roads.value(), [&](const traffic::StudyMoment& moment) {
+  const auto watch = [&](const traffic::StudyMoment& moment) {
     files.Write(moment);
     flows = {moment.model.flows(), moment.model.missed()};
     if (!terminal || SecondsSince(begin) < 2.0) return;
     fmt::print(stderr, "\r{:3.0f} %", 100.0 * moment.time_s / options.duration_s);
     shown = true;
-  });
+  };
+  const auto result = roads.value().world ? traffic::RunStudy(settings, roads.value().world, watch) : traffic::RunStudy(settings, roads.value().network, watch);
   if (shown) fmt::print(stderr, "\r     \r");
   if (!result) return Complain(result.error());
-  const auto written = files.Close(*roads.value(), result.value());
+  const auto written = files.Close(*roads.value().network, result.value());
   if (!written) return Complain(written.error());
   if (options.quiet) return 0;
   Describe(options, result.value(), SecondsSince(begin));

@@ -35,13 +35,16 @@ double TrafficModel::Following(std::uint32_t id, double limit_mps, bool any, dou
 // Who follows a rectangle whose middle and rear are there on a track: on it, or on those that lead to it.
 Behind TrafficModel::FindBehind(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const {
   Behind behind;
+  bool here = false;  // who is farther back on the same branch is nobody's follower
   const auto consider = [&](std::int64_t other, std::uint32_t on, double d_m, double gap_m, double speed_mps) {
+    here = true;
     if (gap_m < settings_.sight_m && (!behind.any || gap_m < behind.gap_m)) behind = {gap_m, speed_mps, other, on, d_m, true};
   };
   struct At { std::uint32_t track; double middle_m, rear_m; };
   std::vector<At> open{{track, middle_m, rear_m}};
   for (std::size_t i = 0; i < open.size() && i < 32; ++i) {
     const At at = open[i];
+    here = false;
     const auto& all = occupants_[at.track];
     for (std::size_t k = all.size() - Beyond(at.track, at.middle_m).size(); k-- > 0;) {
       if (all[k].id == id) continue;
@@ -52,7 +55,7 @@ Behind TrafficModel::FindBehind(std::uint32_t id, std::uint32_t track, double mi
       if (block.middle_m >= at.middle_m || block.span.right_m > kOnLane_m || block.span.left_m < -kOnLane_m) continue;
       consider(-1, at.track, block.span.front_m, at.rear_m - block.span.front_m, block.span.speed_mps);
     }
-    if (behind.any || at.rear_m > settings_.sight_m) continue;
+    if (here || at.rear_m - longest_half_m_ > std::min(settings_.sight_m, behind.any ? behind.gap_m : kNoBarrier_m)) continue;
     for (const std::uint32_t before : graph()[at.track].before) {
       for (const lanes::Link& link : graph()[before].next) {
         const double further = graph()[before].length_m() - link.from_d_m;

@@ -14,4 +14,10 @@ std::shared_ptr<const road::World> WorldOf(std::shared_ptr<const network::Networ
   return road::World::Make(std::move(spec));
 }
 
+driver::Footprint KeptClear(const road::World& world) {
+  constexpr double kLength_m = 20.0, kWidth_m = 2.0;
+  const road::StartPose& start = world.start();
+  return {0, start.x_m, start.y_m, start.heading_rad, 0.0, kLength_m, kWidth_m};
+}
+
 }  // namespace rodeira::traffic

@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "common/traffic/road_network.hpp"
+
 namespace rodeira::traffic {
 namespace {
 
@@ -119,11 +121,7 @@ class Watcher {
   std::set<std::pair<std::uint32_t, std::uint32_t>> touching_;
 };
 
-}  // namespace
-
-base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_ptr<const network::Network> network,
-                                   const std::function<void(const StudyMoment&)>& watch) {
-  auto made = TrafficModel::Make(settings.traffic, std::move(network), {});
+base::Result<StudyResult> Study(const StudySettings& settings, base::Result<TrafficModel> made, const std::function<void(const StudyMoment&)>& watch) {
   if (!made) return made.error();
   TrafficModel model = std::move(made).value();
   Watcher watcher(model.graph().network(), settings);
@@ -149,6 +147,19 @@ base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_pt
   result.waiting = model.waiting();
   for (std::uint32_t id = 0; id < model.vehicles(); ++id) result.arrivals += model.agent(id).trip;
   return result;
+}
+
+}  // namespace
+
+base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_ptr<const network::Network> network,
+                                   const std::function<void(const StudyMoment&)>& watch) {
+  return Study(settings, TrafficModel::Make(settings.traffic, std::move(network), {}), watch);
+}
+
+base::Result<StudyResult> RunStudy(const StudySettings& settings, const std::shared_ptr<const road::World>& world,
+                                   const std::function<void(const StudyMoment&)>& watch) {
+  const driver::Footprint clear = KeptClear(*world);
+  return Study(settings, TrafficModel::Make(settings.traffic, world, {&clear, 1}), watch);
 }
 
 }  // namespace rodeira::traffic

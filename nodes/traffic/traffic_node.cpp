@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/scenario/event.hpp"
+#include "common/traffic/road_network.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -239,10 +240,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
   auto world = road::World::Load(context.launch().world());
   if (!world) return world.error();
   context.set_world_hash(world.value()->content_hash());
-  // Nobody is placed where the driver's car starts: it is the only thing known before anything is published.
-  const road::StartPose& start = world.value()->start();
-  const std::vector<driver::Footprint> clear{{0, start.x_m, start.y_m, start.heading_rad, 0.0, 20.0, 2.0}};
-  auto model = traffic::TrafficModel::Make(settings, std::move(world).value(), clear);
+  const driver::Footprint clear = traffic::KeptClear(*world.value());
+  auto model = traffic::TrafficModel::Make(settings, std::move(world).value(), {&clear, 1});
   if (!model) return model.error();
   lockstep::SourceIndex stream = 0;
   for (const lockstep::SourceIndex output : context.spec().outputs) {

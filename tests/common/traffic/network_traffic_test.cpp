@@ -69,6 +69,22 @@ TEST(NetworkTraffic, DrivesTheRealFiles) {
   }
 }
 
+// Lanes that several ways lead to: who follows is looked for on all of them, whoever else is found first on another.
+TEST(NetworkTraffic, NobodyChangesLanesBeforeWhoComesFromARoadBehind) {
+  const auto file = lanes::RealFolder() / "carla_Town04.xodr";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real files are not beside the project";
+  const auto network = opendrive::LoadNetwork(file).value();
+  for (const std::uint64_t seed : {1, 4}) {
+    StudySettings settings;
+    settings.traffic.vehicles = 250;
+    settings.traffic.seed = seed;
+    settings.duration_s = 60.0;
+    const StudyResult r = RunStudy(settings, network).value();
+    EXPECT_LE(r.hardest_mps2, 3.0) << Told(r);
+    EXPECT_EQ(r.collisions, 0) << Told(r);
+  }
+}
+
 // What a person in a car of traffic feels, from the published headings and speeds: lateral acceleration and yaw acceleration.
 TEST(NetworkTraffic, TurnsAreComfortable) {
   constexpr double kStep_s = 0.01, kYaw_radps2 = 200.0 * std::numbers::pi / 180.0;
