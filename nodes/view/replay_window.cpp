@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #include "common/launch/live_keys.hpp"
 #include "nodes/view/replay_keys.hpp"
@@ -13,7 +15,6 @@
 namespace rodeira::view {
 namespace {
 
-constexpr double kLongestRate_Hz = 60.0;
 constexpr double kLongestTick_s = 0.25;  // a machine that stalls slips; it does not leap
 constexpr int kWait_ms = 20;             // between two looks whether to stop, while nothing moves
 constexpr std::int64_t kNear_ns = 1'000'000'000;
@@ -92,8 +93,8 @@ base::Status ReplayWindow::Watch(scene::Player& player, const TakeMarks& take_ma
       if (problem.ok()) problem = moment.error();
     }
     screen_->Show(shown_, player.speed(), std::move(timeline));
-    const double rest_s = 1.0 / kLongestRate_Hz - (launch::WallSeconds() - now_s);
-    if (rest_s > 0.0) SDL_Delay(static_cast<Uint32>(rest_s * 1e3));  // where the display does not hold us back
+    const double rest_s = pace_.Next(now_s, screen_->surface().beat()) - launch::WallSeconds();
+    if (rest_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(rest_s));
   }
   return problem;
 }

@@ -47,6 +47,7 @@ class ReplayWindow {
 
   std::unique_ptr<Screen> screen_;
   scene::Moment shown_;
+  scene::PicturePace pace_;
   bool open_ = true;
   bool drags_ = false;  // the mouse holds the bar
 };

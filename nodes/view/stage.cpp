@@ -11,17 +11,13 @@
 #include "nodes/view/screen.hpp"
 
 namespace rodeira::view {
-namespace {
-
-constexpr double kLongestRate_Hz = 60.0;
-
-}  // namespace
 
 struct Stage::Hand {
   std::unique_ptr<Screen> screen;
   std::unique_ptr<KeyForwarder> keys;  // null: nobody drives by this window
   std::unique_ptr<Asker> asker;        // null: nobody takes requests
   std::unique_ptr<WheelButtons> wheel;  // null: it has no buttons for the window
+  scene::PicturePace pace;
 };
 
 Stage::Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world, std::unique_ptr<launch::LiveKeysSender> keys,
@@ -172,8 +168,7 @@ void Stage::ShowWindow(Hand& hand, std::unique_lock<std::mutex>& lock) {
   open = open && (hand.screen->surface().kind() == SurfaceKind::kWindow || hand.screen->has_headset());
   if (!open) window_ = false;
   if (waited) return;
-  // Where the display does not hold us back, we do it ourselves.
-  const double rest_s = 1.0 / kLongestRate_Hz - (launch::WallSeconds() - begin_s);
+  const double rest_s = hand.pace.Next(begin_s, hand.screen->surface().beat()) - launch::WallSeconds();
   if (rest_s > 0.0) changed_.wait_for(lock, std::chrono::duration<double>(rest_s), [&] { return quit_ || !orders_.empty(); });
 }
 

@@ -110,7 +110,8 @@ base::Status Surface::MakeWindow(int width_px, int height_px, const std::string&
     made = make(TraitsOf(quality_).samples);
   }
   if (!made) return base::WrongInput(std::string("no OpenGL context can be made (") + SDL_GetError() + "); the package libgl1-mesa-dri was expected");
-  if (kind_ == SurfaceKind::kWindow && SDL_GL_SetSwapInterval(1) != 0) SDL_ClearError();
+  if (kind_ == SurfaceKind::kWindow) holds_ = SDL_GL_SetSwapInterval(1) == 0;
+  if (!holds_) SDL_ClearError();
   renderer_ = RendererName();
   return {};
 }
@@ -134,7 +135,15 @@ int Surface::height_px() const {
 
 void Surface::Swap() { SDL_GL_SwapWindow(window_); }
 
+scene::DisplayBeat Surface::beat() const {
+  SDL_DisplayMode mode{};
+  const int display = kind_ == SurfaceKind::kWindow ? SDL_GetWindowDisplayIndex(window_) : -1;
+  if (display < 0 || SDL_GetCurrentDisplayMode(display, &mode) != 0) mode.refresh_rate = 0;
+  return {static_cast<double>(mode.refresh_rate), holds_};
+}
+
 void Surface::NeverWait() {
+  holds_ = false;
   if (SDL_GL_SetSwapInterval(0) != 0) SDL_ClearError();
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/base/result.hpp"
+#include "common/scene/picture_pace.hpp"
 #include "nodes/view/quality.hpp"
 
 struct SDL_Window;
@@ -31,6 +32,8 @@ class Surface {
   int height_px() const;
   // Shows what was drawn (waits for the display where it can).
   void Swap();
+  // How often the display under the window is refreshed now, and whether Swap waits for it.
+  scene::DisplayBeat beat() const;
   // From now on it does not wait for the display: somebody else says when.
   void NeverWait();
   void ToggleFullScreen();
@@ -52,6 +55,7 @@ class Surface {
   bool video_ = false;
   bool resizable_ = false;
   bool full_screen_ = false;
+  bool holds_ = false;  // the display has taken it upon itself
   std::string renderer_;
   Quality quality_ = Quality::kMedium;
 };

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "common/base/random.hpp"
 #include "common/road/world.hpp"
 #include "common/scene/camera.hpp"
 #include "common/scene/display_clock.hpp"
+#include "common/scene/picture_pace.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::scene {
@@ -40,6 +42,23 @@ Moment At(double time_s) {
   return moment;
 }
 
+// When a window begins its pictures: it draws for so long, shows, which waits for the display's next refresh where that holds it, and for its pace.
+// `refresh_Hz`: the display's, 0 where showing never waits, whatever it says of itself. It wakes a tenth of a millisecond late.
+std::vector<double> BeginsOf(const DisplayBeat& beat, double refresh_Hz, double drawing_s) {
+  constexpr double kWakes_s = 1e-4;
+  PicturePace pace;
+  std::vector<double> begins;
+  double begin_s = 0.0;
+  while (begin_s < kEnd_s) {
+    begins.push_back(begin_s);
+    double shown_s = begin_s + drawing_s;
+    if (refresh_Hz > 0.0) shown_s = std::ceil(shown_s * refresh_Hz - 1e-6) / refresh_Hz;
+    const double next_s = pace.Next(begin_s, beat);
+    begin_s = next_s > shown_s ? next_s + kWakes_s : shown_s;
+  }
+  return begins;
+}
+
 // Calls seen(wall time, moment) for each picture of a display, as the stage does.
 template <class Seen>
 void Watch(const Display& display, Seen seen) {
@@ -47,8 +66,7 @@ void Watch(const Display& display, Seen seen) {
   PoseHistory history;
   int k = 0;
   const auto arrival = [&](int i) { return i * display.period_s + kLate_s * base::RandomUniform({5, static_cast<std::uint64_t>(i)}); };
-  for (int picture = 0; picture / display.rate_Hz < kEnd_s; ++picture) {
-    const double wall_s = picture / display.rate_Hz;
+  for (const double wall_s : BeginsOf({display.rate_Hz, true}, display.rate_Hz, 0.7 / display.rate_Hz)) {
     for (; arrival(k) <= wall_s; ++k) {
       history.Add(At(k * display.period_s));
       clock.Arrived(arrival(k), static_cast<double>(history.newest_ns()) * 1e-9, static_cast<double>(history.interval_ns()) * 1e-9);
@@ -90,6 +108,40 @@ TEST_P(Motion, CameraCarAndTrafficMoveTogether) {
     });
     EXPECT_LT(worst_m, 0.001) << static_cast<int>(kind);
   }
+}
+
+// Each refresh has its picture, of displays as slow and as fast as they are sold.
+TEST(PicturePace, AWindowThatTheDisplayHoldsMissesNoRefresh) {
+  for (const double rate_Hz : {50.0, 60.0, 75.0, 144.0, 240.0}) {
+    for (const double share : {0.05, 0.5, 0.95}) {
+      for (const double said_Hz : {rate_Hz - 0.9, rate_Hz, rate_Hz + 0.9}) {  // whole numbers are said
+        const auto begins = BeginsOf({said_Hz, true}, rate_Hz, share / rate_Hz);
+        ASSERT_NEAR(static_cast<double>(begins.size()), kEnd_s * rate_Hz, 1.5) << rate_Hz << " Hz, drawing takes " << share << " of a period";
+        for (std::size_t i = 1; i < begins.size(); ++i) EXPECT_NEAR(begins[i] - begins[i - 1], 1.0 / rate_Hz, 1e-9);
+      }
+    }
+  }
+}
+
+TEST(PicturePace, WithoutTheDisplaysHoldAWindowKeepsItsRate) {
+  for (const double rate_Hz : {60.0, 144.0}) {
+    EXPECT_NEAR(static_cast<double>(BeginsOf({rate_Hz, false}, 0.0, 0.003).size()), kEnd_s * rate_Hz, 2.0) << "although it wakes late each time";
+  }
+  for (const double unknown_Hz : {0.0, 1.0, 65535.0}) EXPECT_NEAR(static_cast<double>(BeginsOf({unknown_Hz, false}, 0.0, 0.003).size()), kEnd_s * 60.0, 2.0);
+}
+
+TEST(PicturePace, ADisplayThatDoesNotKeepItsWordCostsATenthMore) {
+  const auto pictures = static_cast<double>(BeginsOf({60.0, true}, 0.0, 0.003).size());
+  EXPECT_LE(pictures, kEnd_s * 60.0 / PicturePace::kHeldShare);
+  EXPECT_GE(pictures, kEnd_s * 60.0);
+}
+
+TEST(PicturePace, WhoDrawsTooSlowlyWaitsForNobody) {
+  EXPECT_NEAR(static_cast<double>(BeginsOf({60.0, false}, 0.0, 0.03).size()), kEnd_s / 0.03, 1.5);
+  EXPECT_NEAR(static_cast<double>(BeginsOf({60.0, false}, 0.0, 0.02).size()), kEnd_s / 0.02, 1.5);
+  PicturePace pace;
+  EXPECT_NEAR(pace.Next(5.0, {100.0, false}), 5.01, 1e-12);
+  EXPECT_NEAR(pace.Next(7.0, {100.0, false}), 7.01, 1e-12) << "what was missed is not made up for";
 }
 
 INSTANTIATE_TEST_SUITE_P(Displays, Motion,
