@@ -65,7 +65,7 @@ constexpr std::array kNamed = std::to_array<Named>({
 
 constexpr std::array kWindow = std::to_array<WindowKey>({
     {14, "k", "camera"},
-    {43, "tab", "next car, then the traffic's"},
+    {43, "tab", "choose and follow the next vehicle; with shift the one before"},
     {9, "f", "full screen"},
     {60, "f3", "statistics"},
     {61, "f4", "mirrors"},

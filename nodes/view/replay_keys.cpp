@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "common/hands/key_names.hpp"
+#include "nodes/view/screen.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -75,7 +76,7 @@ std::string ReplayHelp() {
     const bool runs = key.name == "space" || key.name == "return" || key.name == "escape";  // a recording has its own
     if (!runs) text += fmt::format("\n{}  {}", key.name, key.does);
   }
-  return text + "\nescape  end";
+  return text + MouseHelp(kLeftButton) + "\nescape  end";
 }
 
 std::string ReplayKeysInShort() { return "space  left right  + -  r  h: keys"; }

@@ -51,7 +51,9 @@ Timeline TimelineOf(const scene::Player& player, const std::vector<ReplayMark>& 
 
 base::Result<std::unique_ptr<ReplayWindow>> ReplayWindow::Open(const ViewSettings& settings, const road::World& world,
                                                                SurfaceKind kind) {
-  auto screen = Screen::Open(kind, settings, world, true, ReplayHelp());
+  ViewSettings watched = settings;
+  watched.mouse_button = kLeftButton;  // nobody drives any more
+  auto screen = Screen::Open(kind, watched, world, true, ReplayHelp());
   if (!screen) return screen.error();
   return std::unique_ptr<ReplayWindow>(new ReplayWindow(std::move(screen).value()));
 }
@@ -122,15 +124,15 @@ void ReplayWindow::Take(const SDL_Event& event, scene::Player& player, const std
       drags_ = event.button.button == SDL_BUTTON_LEFT;
       drags_ = drags_ && TimelinePlace::Holds(screen_->surface().height_px() - 1 - event.button.y);
       if (drags_) Drag(event.button.x, player);
-      else (void)screen_->TakeMouse(event, false);
+      else (void)screen_->TakeMouse(event);
       break;
     case SDL_MOUSEMOTION:
       if (drags_) Drag(event.motion.x, player);
-      else (void)screen_->TakeMouse(event, false);
+      else (void)screen_->TakeMouse(event);
       break;
-    case SDL_MOUSEWHEEL: (void)screen_->TakeMouse(event, false); break;
+    case SDL_MOUSEWHEEL: (void)screen_->TakeMouse(event); break;
     case SDL_MOUSEBUTTONUP:
-      if (!drags_) (void)screen_->TakeMouse(event, false);
+      if (!drags_) (void)screen_->TakeMouse(event);
       drags_ = false;
       break;
     case SDL_WINDOWEVENT:

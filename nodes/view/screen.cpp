@@ -44,12 +44,19 @@ std::string WindowTitle(const road::World& world) { return world.name().empty() 
 
 }  // namespace
 
-std::string WindowHelp() {
+std::string MouseHelp(int mouse_button) {
+  constexpr const char* kNear = "\nmouse wheel  nearer, farther: orbit and top";
+  if (mouse_button == kNoButton) return kNear;
+  const char* button = mouse_button == kLeftButton ? "left" : mouse_button == kRightButton ? "right" : "middle";
+  return fmt::format("\n{} mouse button  choose a vehicle; held: turn the camera orbit{}", button, kNear);
+}
+
+std::string WindowHelp(int mouse_button) {
   std::string text;
   for (const hands::WindowKey& key : hands::WindowKeys()) {
     text += fmt::format("{}{}  {}", text.empty() ? "" : "\n", key.name, key.does);
   }
-  return text;
+  return text + MouseHelp(mouse_button);
 }
 
 base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
@@ -77,6 +84,8 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   screen->title_ = world.name().empty() ? "rodeira" : world.name();
   std::replace(screen->title_.begin(), screen->title_.end(), '/', '-');
   screen->live_ = PictureOf(settings, {});
+  screen->home_ = settings.followed;
+  screen->mouse_button_ = settings.mouse_button;
   if (settings.headset) screen->OpenHeadset(settings);
   if (kind == SurfaceKind::kWindow && settings.sound) {
     auto speaker = Speaker::Open();
@@ -135,12 +144,7 @@ bool Screen::TakeKey(int symbol, bool driven) {
       before_above_.reset();
       live_.camera = scene::NextCamera(live_.camera);
       return true;
-    case SDLK_TAB: {
-      const std::size_t cars = live_.moment.cars.size(), all = cars + live_.moment.agents.size();
-      live_.followed = all == 0 ? 0 : (live_.followed + 1) % all;
-      followed_agent_ = live_.followed < cars || all == 0 ? std::nullopt : std::optional(live_.moment.agents[live_.followed - cars].id);
-      return true;
-    }
+    case SDLK_TAB: FollowNext((SDL_GetModState() & KMOD_SHIFT) != 0 ? -1 : 1); return true;
     case SDLK_h: help_ = !help_; return true;
     case SDLK_F4: live_.mirrors = live_.mirrors == kNoMirrors ? mirrors_ : kNoMirrors; return true;
     case SDLK_F12: picture_wanted_ = true; return true;
@@ -164,39 +168,47 @@ bool Screen::TakeKey(int symbol, bool driven) {
   }
 }
 
-bool Screen::TakeMouse(const SDL_Event& event, bool driven) {
+bool Screen::TakeMouse(const SDL_Event& event) {
   if (event.type == SDL_MOUSEWHEEL) {
     live_.aim.Zoom(std::pow(kZoom, -event.wheel.y));
     return true;
   }
-  const bool left = (event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP) && event.button.button == SDL_BUTTON_LEFT;
-  if (left && event.type == SDL_MOUSEBUTTONDOWN && (placing_ || (SDL_GetModState() & KMOD_CTRL) != 0)) {
+  const bool down = event.type == SDL_MOUSEBUTTONDOWN, up = event.type == SDL_MOUSEBUTTONUP;
+  if (down && event.button.button == SDL_BUTTON_LEFT && (placing_ || (SDL_GetModState() & KMOD_CTRL) != 0)) {
     placing_ = false;
     swallows_up_ = true;
     AskForPlace(event.button.x, event.button.y);
     return true;
   }
-  if (left && event.type == SDL_MOUSEBUTTONUP && swallows_up_) {
+  if (up && event.button.button == SDL_BUTTON_LEFT && swallows_up_) {
     swallows_up_ = false;
     return true;
   }
-  if (driven) return false;
-  if (event.type == SDL_MOUSEBUTTONDOWN && event.button.button == SDL_BUTTON_LEFT) {
-    dragged_px_ = 0;
-    return false;
-  }
-  if (event.type == SDL_MOUSEBUTTONUP && event.button.button == SDL_BUTTON_LEFT && dragged_px_ <= kClick_px) {
-    // Nobody who is looked at from the driver's seat sits in its own way.
-    const bool inside = live_.camera == scene::CameraKind::kDriver || live_.camera == scene::CameraKind::kBonnet;
-    const scene::Ray ray = RayAt(event.button.x, event.button.y);
-    chosen_.Choose(live_.moment, scene::BodyOn(live_.moment, ray, inside ? std::optional(live_.followed) : std::nullopt));
+  if ((down || up) && event.button.button == mouse_button_) {
+    if (down) dragged_px_ = 0;
+    else if (dragged_px_ <= kClick_px) ChooseAt(event.button.x, event.button.y);
     return true;
   }
-  if (event.type == SDL_MOUSEMOTION && (event.motion.state & SDL_BUTTON_LMASK) != 0) dragged_px_ += std::abs(event.motion.xrel) + std::abs(event.motion.yrel);
-  const bool turns = event.type == SDL_MOUSEMOTION && (event.motion.state & SDL_BUTTON_LMASK) != 0;
-  if (!turns) return false;
+  if (event.type != SDL_MOUSEMOTION || mouse_button_ == kNoButton || (event.motion.state & SDL_BUTTON(mouse_button_)) == 0) return false;
+  dragged_px_ += std::abs(event.motion.xrel) + std::abs(event.motion.yrel);
   live_.aim.Turn(kTurn_rad * event.motion.xrel, kTurn_rad * event.motion.yrel);
   return true;
+}
+
+// Whom the next one is of all, the traffic behind the cars; also whom the person looks at, until it comes home.
+void Screen::FollowNext(int step) {
+  const std::size_t cars = live_.moment.cars.size(), all = cars + live_.moment.agents.size();
+  if (all == 0) return;
+  live_.followed = (live_.followed + (step < 0 ? all - 1 : 1)) % all;
+  followed_agent_ = live_.followed < cars ? std::nullopt : std::optional(live_.moment.agents[live_.followed - cars].id);
+  const bool home = live_.followed == home_ && home_ < cars;
+  chosen_.Choose(live_.moment, home ? std::nullopt : std::optional(live_.followed));
+}
+
+void Screen::ChooseAt(int x_px, int y_px) {
+  // Nobody who is looked at from the driver's seat sits in its own way.
+  const bool inside = live_.camera == scene::CameraKind::kDriver || live_.camera == scene::CameraKind::kBonnet;
+  chosen_.Choose(live_.moment, scene::BodyOn(live_.moment, RayAt(x_px, y_px), inside ? std::optional(live_.followed) : std::nullopt));
 }
 
 scene::Ray Screen::RayAt(int x_px, int y_px) const {

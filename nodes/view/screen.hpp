@@ -38,10 +38,10 @@ class Screen {
   // The picture changes without the world's time going on: camera, car, texts. False where the key is not the window's own.
   // `driven`: somebody drives by this window, and s is the brake.
   bool TakeKey(int symbol, bool driven);
-  // The wheel brings free cameras nearer and farther; the left button, held, turns the one about the car, where the mouse's
-  // buttons do not drive; there a click chooses the vehicle that is seen at its place, or nobody. Behind the placing key, or with ctrl
-  // held, a click places the car instead, whoever drives. False where nothing changed.
-  bool TakeMouse(const SDL_Event& event, bool driven);
+  // The wheel brings free cameras nearer and farther; the window's own button (ViewSettings::mouse_button), held, turns the one about the car; a
+  // click of it chooses the vehicle that is seen at its place, or nobody. Behind the placing key, or with ctrl held, a click of the left
+  // button places the car instead. False where the event is not the window's.
+  bool TakeMouse(const SDL_Event& event);
   // Waits until the headset wants its next pictures; true where Show is then to draw them. False where there is none, or nobody wears it: the
   // window is drawn as without one.
   bool WaitForHeadset();
@@ -57,6 +57,7 @@ class Screen {
   void AskForPlace(int x_px, int y_px);
   void AskForWeather();
   scene::Ray RayAt(int x_px, int y_px) const;
+  void ChooseAt(int x_px, int y_px);
   void NextHeat();
   void GatherHeat();
   void FromAboveOrBack();
@@ -88,12 +89,15 @@ class Screen {
   bool muted_ = false;
   std::string help_text_, title_;
   void TakePicture();
+  void FollowNext(int step);
   void Follow();  // whom the person chose, wherever it stands among the others now
 
   Picture live_;  // camera, followed car as the person chose
   std::optional<std::uint64_t> followed_agent_;  // of the traffic
   Chosen chosen_;
-  int dragged_px_ = 0;  // since the left button went down
+  std::size_t home_ = 0;  // whom the window followed first: there nobody is chosen by key
+  int mouse_button_ = kLeftButton;
+  int dragged_px_ = 0;  // since that button went down
   static constexpr std::array<bool, scene::kMirrors> kNoMirrors{};
   std::array<bool, scene::kMirrors> mirrors_ = {true, true, true};  // those that the key brings back
   bool picture_wanted_ = false;
@@ -107,7 +111,9 @@ class Screen {
   double shown_wall_s_ = 0.0;
 };
 
-// The window's own keys, a line each.
-std::string WindowHelp();
+// What the mouse does in a window whose own button this is, a line each, with a line's end before each.
+std::string MouseHelp(int mouse_button);
+// The window's own keys, and what its button of the mouse does (0: it has none), a line each.
+std::string WindowHelp(int mouse_button);
 
 }  // namespace rodeira::view

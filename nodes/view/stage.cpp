@@ -96,7 +96,7 @@ void Stage::Run() {
 }
 
 base::Status Stage::SetUp(Hand& hand) {
-  const std::string help = settings_.driving_help.empty() ? WindowHelp() : WindowHelp() + "\n\n" + settings_.driving_help;
+  const std::string own = WindowHelp(settings_.mouse_button), help = settings_.driving_help.empty() ? own : own + "\n\n" + settings_.driving_help;
   const auto open = [&](SurfaceKind kind) -> base::Status {
     auto screen = Screen::Open(kind, settings_, *world_, settings_.frame_steps.empty(), help);
     if (!screen) return screen.error();
@@ -181,7 +181,7 @@ bool Stage::ReadKeys(Hand& hand) {
     if (event.type == SDL_KEYDOWN && event.key.repeat == 0 && event.key.keysym.sym == SDLK_ESCAPE) open = false;
     const bool own = event.type == SDL_KEYDOWN && event.key.repeat == 0 &&
                      (event.key.keysym.sym == SDLK_ESCAPE || hand.screen->TakeKey(event.key.keysym.sym, hand.keys != nullptr));
-    if (hand.screen->TakeMouse(event, hand.keys != nullptr)) continue;
+    if (hand.screen->TakeMouse(event)) continue;
     if (!own && hand.keys != nullptr) hand.keys->Take(event);
   }
   if (hand.wheel != nullptr && hand.wheel->Pressed()) (void)hand.screen->TakeKey(SDLK_k, true);

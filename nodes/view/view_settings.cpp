@@ -71,6 +71,20 @@ void ReadWheelButtons(const launch::Launch& launch, const launch::LaunchNode& no
   if (use) settings.camera_buttons.push_back({wheel->devices[use->device].guid, static_cast<int>(use->button)});
 }
 
+bool Drives(const hands::KeyboardSettings& keyboard, int mouse_button) {
+  const auto holds = [&](const std::vector<hands::Key>& keys) { return std::find(keys.begin(), keys.end(), hands::kMouse + static_cast<hands::Key>(mouse_button)) != keys.end(); };
+  return std::any_of(std::begin(keyboard.keys), std::end(keyboard.keys), holds);
+}
+
+// The first button from this one on, in the order in which a window takes one, that the keyboard file leaves alone.
+int FreeButton(const hands::KeyboardSettings& keyboard, int mouse_button) {
+  constexpr std::array kOrder = {kLeftButton, kRightButton, kMiddleButton};
+  for (auto button = std::find(kOrder.begin(), kOrder.end(), mouse_button); button != kOrder.end(); ++button) {
+    if (!Drives(keyboard, *button)) return *button;
+  }
+  return kNoButton;
+}
+
 // Whether an input of the run drives by its windows' keys, and by which. What is wrong there the input itself says.
 void ReadDriving(const launch::Launch& launch, ViewSettings& settings) {
   for (const launch::LaunchNode& node : launch.nodes()) {
@@ -84,7 +98,9 @@ void ReadDriving(const launch::Launch& launch, ViewSettings& settings) {
     settings.drives = true;
     if (!file) continue;
     const auto keyboard = hands::LoadKeyboard((launch.path().parent_path() / *file).lexically_normal());
-    if (keyboard) settings.driving_help = hands::KeyboardHelp(keyboard.value());
+    if (!keyboard) continue;
+    settings.driving_help = hands::KeyboardHelp(keyboard.value());
+    settings.mouse_button = FreeButton(keyboard.value(), settings.mouse_button);
   }
 }
 

@@ -20,6 +20,9 @@ namespace rodeira::view {
 
 enum class WindowWish { kAuto, kAlways, kNever };
 
+// Buttons of the mouse, by SDL's numbers.
+inline constexpr int kNoButton = 0, kLeftButton = 1, kMiddleButton = 2, kRightButton = 3;
+
 // What the launch file says under `nodes.NAME.config`.
 struct ViewSettings {
   int width_px = 1280;
@@ -44,6 +47,7 @@ struct ViewSettings {
   std::filesystem::path car_model;           // of driven cars; empty: the procedural one
   bool drives = false;                       // somebody in this run drives by the keys of its windows …
   std::string driving_help;                  // … by these
+  int mouse_button = kLeftButton;            // the window's own: the first of left, right, middle that no car of the run is driven by
   std::vector<WheelButtonUse> camera_buttons;  // of wheels that drive in this run
   bool can_ask = false;                      // a scenario of this run makes events of what windows ask for
   CarNames cars;                             // wired to the view

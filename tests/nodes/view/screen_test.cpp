@@ -17,19 +17,19 @@
 namespace rodeira::view {
 namespace {
 
-SDL_Event ButtonAt(const Eigen::Vector2d& at, bool down) {
+SDL_Event ButtonAt(const Eigen::Vector2d& at, bool down, int button = SDL_BUTTON_LEFT) {
   SDL_Event event{};
   event.type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
-  event.button.button = SDL_BUTTON_LEFT;
+  event.button.button = static_cast<Uint8>(button);
   event.button.x = static_cast<int>(at.x());
   event.button.y = static_cast<int>(at.y());
   return event;
 }
 
-// Down and up there by nobody who drives; whether it was for the window.
-bool Click(Screen& screen, const Eigen::Vector2d& at) {
-  (void)screen.TakeMouse(ButtonAt(at, true), false);
-  return screen.TakeMouse(ButtonAt(at, false), false);
+// Down and up there; whether both were for the window.
+bool Click(Screen& screen, const Eigen::Vector2d& at, int button = SDL_BUTTON_LEFT) {
+  const bool down = screen.TakeMouse(ButtonAt(at, true, button));
+  return screen.TakeMouse(ButtonAt(at, false, button)) && down;
 }
 
 Image Shown(Screen& screen, const scene::Moment& moment) {
@@ -101,6 +101,99 @@ TEST(Screen, AClickChoosesAVehicle) {
   EXPECT_EQ(shown().rgb, before.rgb);
 }
 
+// A car and two of the traffic before it, on a plane.
+scene::Moment CarAndTwoOthers() {
+  scene::Moment moment;
+  moment.time_ns = 800'000'000;
+  moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
+  for (const int number : {1, 2}) {
+    scene::AgentPose agent;
+    agent.id = static_cast<std::uint64_t>(number) << 24;
+    agent.speed_mps = 4.0 * number;
+    agent.p_WB_W = moment.cars[0].p_WB_W + moment.cars[0].q_WB * Eigen::Vector3d(12.0 * number, 4.0, 0.0);
+    agent.q_WB = moment.cars[0].q_WB;
+    moment.agents.push_back(agent);
+  }
+  return moment;
+}
+
+// The key goes from vehicle to vehicle: the camera goes with each, it pulses, and its panel stands there; back at the window's own car nobody is chosen.
+TEST(Screen, TabChoosesOneVehicleAfterTheOtherAndComesHome) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
+  ViewSettings settings;
+  settings.width_px = 640;
+  settings.height_px = 360;
+  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  ASSERT_TRUE(screen.ok()) << screen.error().Text();
+  scene::Moment moment = CarAndTwoOthers();
+  moment.time_ns = 400'000'000;  // the pulse's middle
+  const auto expected = [&](std::size_t followed, std::optional<std::size_t> chosen) {
+    Picture picture = PictureOf(settings, moment);
+    picture.followed = followed;
+    picture.chosen = chosen;
+    Chosen panel;
+    panel.Choose(moment, chosen);
+    picture.panel = panel.Panel(moment);
+    EXPECT_EQ(picture.panel.empty(), !chosen);
+    screen.value()->painter().Draw(picture);
+    return screen.value()->painter().Read();
+  };
+  const auto press = [&](SDL_Keymod shift) {
+    SDL_SetModState(shift);
+    EXPECT_TRUE(screen.value()->TakeKey(SDLK_TAB, true));
+    SDL_SetModState(KMOD_NONE);
+    return Shown(*screen.value(), moment).rgb;
+  };
+  const auto home = Shown(*screen.value(), moment).rgb;
+  EXPECT_EQ(home, expected(0, std::nullopt).rgb);
+  EXPECT_EQ(press(KMOD_NONE), expected(1, 1).rgb);
+  EXPECT_EQ(press(KMOD_NONE), expected(2, 2).rgb);
+  EXPECT_EQ(press(KMOD_NONE), home);
+  EXPECT_EQ(press(KMOD_LSHIFT), expected(2, 2).rgb);
+  EXPECT_EQ(press(KMOD_RSHIFT), expected(1, 1).rgb);
+}
+
+// Where the left button drives the right one chooses, and turns the camera about the car; whatever button the window has, the others are not its own.
+TEST(Screen, ChoosingAndTurningHaveAButtonThatDoesNotDrive) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
+  for (const int own : {kLeftButton, kRightButton, kMiddleButton, kNoButton}) {
+    ViewSettings settings;
+    settings.width_px = 640;
+    settings.height_px = 360;
+    settings.mouse_button = own;
+    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+    ASSERT_TRUE(screen.ok()) << screen.error().Text();
+    const scene::Moment moment = CarAndTwoOthers();
+    const auto shown = [&] { return Shown(*screen.value(), moment).rgb; };
+    const auto before = shown();
+    const Eigen::Vector2d at = *scene::ChaseCamera(moment.cars[0], *world).Project(moment.agents[0].p_WB_W + Eigen::Vector3d(0.0, 0.0, 0.8), 640, 360);
+    for (const int button : {kLeftButton, kRightButton, kMiddleButton}) {
+      EXPECT_EQ(Click(*screen.value(), at, button), button == own);
+      EXPECT_EQ(shown() != before, button == own) << button << " of " << own;
+      (void)Click(*screen.value(), {320.0, 8.0}, button);  // on nobody
+      SDL_Event drawn{};
+      drawn.type = SDL_MOUSEMOTION;
+      drawn.motion.state = static_cast<Uint32>(SDL_BUTTON(button));
+      drawn.motion.xrel = 50;
+      EXPECT_EQ(screen.value()->TakeMouse(drawn), button == own);
+    }
+    for (int i = 0; i < 3; ++i) (void)screen.value()->TakeKey(SDLK_k, true);  // chase, driver, bonnet, orbit
+    Picture picture = PictureOf(settings, moment);
+    picture.camera = scene::CameraKind::kOrbit;
+    screen.value()->painter().Draw(picture);
+    const auto not_turned = screen.value()->painter().Read().rgb;
+    EXPECT_EQ(shown() == not_turned, own == kNoButton) << own;
+  }
+}
+
+TEST(WindowHelp, SaysWhichButtonOfTheMouseIsTheWindows) {
+  EXPECT_NE(WindowHelp(kRightButton).find("\nright mouse button  choose a vehicle"), std::string::npos) << WindowHelp(kRightButton);
+  EXPECT_EQ(WindowHelp(kNoButton).find("mouse button"), std::string::npos);
+  EXPECT_NE(WindowHelp(kNoButton).find("\nmouse wheel  "), std::string::npos);
+}
+
 // The driver of a chosen car of the traffic: the point that it steers for, the way there, the speed that it plans; gone with the choice.
 TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
   RODEIRA_NEEDS_PICTURES();
@@ -153,6 +246,7 @@ TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
   settings.height_px = 180;
   settings.camera = scene::CameraKind::kTop;
   settings.cars = {{0, "ego"}};
+  settings.mouse_button = kRightButton;  // the left one drives
   auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
   ASSERT_TRUE(screen.ok()) << screen.error().Text();
   std::vector<scenario::Request> asked;
@@ -167,23 +261,19 @@ TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
   screen.value()->Show(moment, 1.0);
   const scene::Camera camera = scene::TopCamera(moment.cars[0], {});
   const Eigen::Vector3d there = road.Position(312.0, road.LaneCentre(1, 312.0));
-  const auto click = [&](bool driven) {
-    const bool down = screen.value()->TakeMouse(ButtonAt(*camera.Project(there, 320, 180), true), driven);
-    const bool up = screen.value()->TakeMouse(ButtonAt(*camera.Project(there, 320, 180), false), driven);
-    return down && up;
-  };
-  EXPECT_FALSE(click(true)) << "the car's own";
+  const auto click = [&] { return Click(*screen.value(), *camera.Project(there, 320, 180)); };
+  EXPECT_FALSE(click()) << "the car's own";
   EXPECT_TRUE(screen.value()->TakeKey(SDLK_F6, true));
-  EXPECT_TRUE(click(true));
+  EXPECT_TRUE(click());
   ASSERT_EQ(asked.size(), 1u);
   EXPECT_EQ(asked[0].name, "place");
   EXPECT_NEAR(asked[0].x_m, there.x(), 0.6) << "a pixel is 0.44 m";
   EXPECT_NEAR(asked[0].y_m, there.y(), 0.6);
   EXPECT_NEAR(std::remainder(asked[0].value - (road.Evaluate(312.0).heading_rad * 180.0 / 3.14159265358979 + 180.0), 360.0), 0.0, 1.0) << "against the axis, as lane 1 drives";
   EXPECT_EQ(scenario::ParsePlace("ego 0 0" + asked[0].argument.substr(3)).value().z_m.has_value(), true);
-  EXPECT_FALSE(click(true));
+  EXPECT_FALSE(click());
   SDL_SetModState(KMOD_LCTRL);
-  EXPECT_TRUE(click(false));
+  EXPECT_TRUE(click());
   SDL_SetModState(KMOD_NONE);
   EXPECT_EQ(asked.size(), 2u);
   EXPECT_TRUE(screen.value()->TakeKey(SDLK_F7, true));
@@ -295,7 +385,7 @@ TEST(Screen, FromAboveAndBackToTheSameCamera) {
   turned.type = SDL_MOUSEMOTION;
   turned.motion.state = SDL_BUTTON_LMASK;
   turned.motion.xrel = 70;
-  EXPECT_TRUE(screen.value()->TakeMouse(turned, false));
+  EXPECT_TRUE(screen.value()->TakeMouse(turned));
   const Image before = shown();
   EXPECT_TRUE(screen.value()->TakeKey(SDLK_F9, true));
   const Image above = shown();
@@ -303,7 +393,7 @@ TEST(Screen, FromAboveAndBackToTheSameCamera) {
   SDL_Event wheel{};
   wheel.type = SDL_MOUSEWHEEL;
   wheel.wheel.y = 3;
-  EXPECT_TRUE(screen.value()->TakeMouse(wheel, false));
+  EXPECT_TRUE(screen.value()->TakeMouse(wheel));
   EXPECT_NE(shown().rgb, above.rgb) << "the map can be zoomed";
   EXPECT_TRUE(screen.value()->TakeKey(SDLK_F9, true));
   EXPECT_EQ(shown().rgb, before.rgb);

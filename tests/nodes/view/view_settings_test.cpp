@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <fstream>
 
 #include "common/base/files.hpp"
+#include "common/base/temporary_folder.hpp"
 #include "nodes/view/view_node.hpp"
 #include "tests/nodes/view/fake_run.hpp"
 #include "tests/tree.hpp"
@@ -73,6 +75,27 @@ TEST(ViewSettings, KnowsByWhichKeysItsCarIsDriven) {
   EXPECT_TRUE(settings("{source: joystick, wheel: ~, " + keys + "}").drives);
   EXPECT_FALSE(settings("{source: joystick, wheel: ../configs/drivers/wheel.yaml, " + keys + "}").drives) << "a wheel that is named is the only hand";
   EXPECT_EQ(settings("{source: gamepad}").camera_buttons.size(), 1u);
+}
+
+// The window takes the first button of the mouse that drives nothing.
+TEST(ViewSettings, TheWindowHasAButtonOfTheMouseThatDoesNotDrive) {
+  auto folder = base::TemporaryFolder::Make("buttons");
+  ASSERT_TRUE(folder.ok());
+  const auto button = [&](const std::string& throttle, const std::string& brake) {
+    std::ofstream(folder.value().path() / "keys.yaml") << "rodeira: keyboard/1\nkeys: {steer_left: [a], steer_right: [d], throttle: " << throttle << ", brake: " << brake << "}\n";
+    std::string text = LaunchText("{}");
+    text.replace(text.find("{kind: input}"), 13, "{kind: input, config: {source: keyboard, keyboard: keys.yaml}}");
+    const auto launch = launch::Launch::Parse(text, folder.value().path() / "fake.yaml");
+    EXPECT_TRUE(launch.ok());
+    const PlainContext context(launch.value(), launch.value().roster().Find("picture"));
+    const auto read = ReadViewSettings(context);
+    EXPECT_TRUE(read.ok() && read.value().drives && !read.value().driving_help.empty());
+    return read.value().mouse_button;
+  };
+  EXPECT_EQ(button("[w, mouse_forward]", "[s]"), kLeftButton);
+  EXPECT_EQ(button("[w, mouse_left]", "[s]"), kRightButton);
+  EXPECT_EQ(button("[mouse_right]", "[s, mouse_left]"), kMiddleButton);
+  EXPECT_EQ(button("[mouse_right, mouse_middle]", "[mouse_left]"), kNoButton);
 }
 
 TEST(ViewSettings, AFramesTimeMustBeASampleOfTheCar) {
