@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/network/marking.hpp"
 #include "tests/common/opendrive/sample.hpp"
 
 namespace rodeira::opendrive {
@@ -65,6 +66,25 @@ TEST(OpenDrive, SmallGapsAreWarningsAndStrictlyErrors) {
                                                                                       HasSubstr("road.geometry.contact_heading: road 1, s 50")));
   road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50.051" y="0" hdg="0" length="50"><line/></geometry>)";
   EXPECT_THAT(Errors(Document(road.Text())), testing::ElementsAre(HasSubstr("a gap of 0.051 m")));
+}
+
+// A graph v = 0.005 u^2 over 60 m of u, by an element that says another length: a millimetre is passed over, a little more is told, half of it is
+// refused; strictly all beyond a millimetre.
+TEST(OpenDrive, ACubicsLengthIsHeldAgainstItsCurves) {
+  const double u = 60.0, x = 0.01 * u, length = (x * std::sqrt(1.0 + x * x) + std::asinh(x)) / 0.02;
+  const auto with = [&](double said) {
+    RoadText road;
+    road.length = said;
+    road.geometry = fmt::format(R"(<geometry s="0" x="0" y="0" hdg="0" length="{}"><paramPoly3 pRange="normalized" aU="0" bU="60" cU="0" dU="0" aV="0" bV="0" cV="18" dV="0"/></geometry>)", said);
+    return Document(road.Text());
+  };
+  EXPECT_TRUE(MustImport(with(length + 0.0009)).warnings.empty());
+  EXPECT_THAT(Errors(with(length + 0.0009), Tolerance::Strict()), testing::IsEmpty());
+  const auto import = MustImport(with(length + 0.0011));
+  ASSERT_EQ(import.warnings.size(), 1u);
+  EXPECT_EQ(import.warnings[0].rule, "road.geometry.paramPoly3.length_match");
+  EXPECT_THAT(Errors(with(length + 0.0011), Tolerance::Strict()), testing::ElementsAre(HasSubstr("f.xodr:6: road.geometry.paramPoly3.length_match: road 1, s 0: the curve is 63.4")));
+  EXPECT_THAT(Errors(with(2.1 * length)), testing::ElementsAre(HasSubstr("road.geometry.paramPoly3.length_match")));
 }
 
 TEST(OpenDrive, WrongThingsAreNamedWithTheirPlace) {
@@ -142,6 +162,45 @@ TEST(OpenDrive, SignalsObjectsAndTheRestAreKept) {
   EXPECT_EQ(import.network->controllers()[0].controls[0].signal_id, "294");
   EXPECT_THAT(Describe(import), testing::AllOf(HasSubstr("roads: 1, 100.000 m"), HasSubstr("lanes: 2 in 1 sections, of which 2 drivable, 200.000 m"),
                                                HasSubstr("signals: 1\nobjects: 1\n"), HasSubstr("geoReference: +proj=utm +zone=29\n"), HasSubstr("warnings: 0\n")));
+}
+
+TEST(OpenDrive, ReferencesDependenciesAndWhoMayDriveAreKept) {
+  RoadText road;
+  road.right = R"(<lane id="-1" type="driving" direction="reversed"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><access sOffset="20" rule="deny" restriction="trucks"/>
+      <access sOffset="60" rule="allow"><restriction type="bus"/><restriction type="taxi"/></access></lane>
+      <lane id="-2" type="driving" direction="both"><width sOffset="0" a="3" b="0" c="0" d="0"/></lane>)";
+  road.more = R"(<objects><objectReference s="30" t="-6" id="wall" orientation="+"/></objects>
+      <signals><signal id="main" s="90" t="-5" type="1000001"/><signal id="arrow" s="90" t="-5" type="1000011"><dependency id="main" type="x"/><dependency id="other"/></signal></signals>)";
+  const auto network = MustRead(Document(road.Text()));
+  const network::RoadSpec& spec = network->roads()[0].spec();
+  ASSERT_EQ(spec.object_references.size(), 1u);
+  EXPECT_TRUE(spec.object_references[0].id == "wall" && spec.object_references[0].s_m == 30.0 && spec.object_references[0].t_m == -6.0 && spec.object_references[0].orientation == "+");
+  ASSERT_EQ(spec.signals.size(), 2u);
+  EXPECT_TRUE(spec.signals[0].depends_on.empty());
+  EXPECT_THAT(spec.signals[1].depends_on, testing::ElementsAre("main", "other"));
+  const network::Lane &lane = *spec.sections[0].Find(-1), &both = *spec.sections[0].Find(-2);
+  EXPECT_EQ(lane.direction, -1);
+  EXPECT_EQ(both.direction, 0);
+  ASSERT_EQ(lane.access.size(), 2u);
+  EXPECT_EQ(lane.access[0].rule, "deny");
+  EXPECT_EQ(lane.access[0].s_m, 20.0);
+  EXPECT_THAT(lane.access[0].restrictions, testing::ElementsAre("trucks"));
+  EXPECT_THAT(lane.access[1].restrictions, testing::ElementsAre("bus", "taxi"));
+}
+
+// A line that sways about the edge by 0.01 (s - 20) from s = 20 on, and from 50 on at 0.3.
+TEST(OpenDrive, AMarkSwaysAboutItsEdge) {
+  RoadText road;
+  road.right = R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><roadMark sOffset="20" type="solid" color="white" width="0.12">
+      <sway ds="0" a="0" b="0.01" c="0" d="0"/><sway ds="30" a="0.3" b="0" c="0" d="0"/></roadMark></lane>)";
+  const auto network = MustRead(Document(road.Text()));
+  const auto markings = network::MarkingsOf(network->roads()[0]);
+  ASSERT_EQ(markings.size(), 1u);
+  EXPECT_EQ(markings[0].from_s_m, 20.0);
+  EXPECT_NEAR(network::MarkingAt(network->roads()[0], markings[0], 35.0).value, -3.5 + 0.15, 1e-12);
+  EXPECT_NEAR(network::MarkingAt(network->roads()[0], markings[0], 80.0).value, -3.5 + 0.3, 1e-12);
+  road.right.replace(road.right.find("ds=\"30\""), 7, "ds=\"-1\"");
+  EXPECT_THAT(Errors(Document(road.Text())), testing::ElementsAre(HasSubstr("road.lane.roadMark.sway.elem_asc_order")));
 }
 
 TEST(OpenDrive, PolynomialsBorderAndOldSpellings) {
