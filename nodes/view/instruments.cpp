@@ -11,7 +11,7 @@ namespace {
 constexpr float kPanelWidth_px = 236.0F;
 constexpr float kPanelHeight_px = 92.0F;
 constexpr float kMargin_px = 18.0F;
-constexpr float kAbout_px = 20.0F, kAboutWidth_px = 400.0F;
+constexpr float kAbout_px = 20.0F, kAboutWidth_px = 448.0F;
 const osg::Vec4 kBehind(0.04F, 0.05F, 0.07F, 0.55F);
 
 std::string GearName(std::int32_t gear) { return gear < 0 ? "R" : gear == 0 ? "N" : fmt::format("{}", gear); }

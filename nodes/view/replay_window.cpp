@@ -114,7 +114,7 @@ void ReplayWindow::Take(const SDL_Event& event, scene::Player& player, const std
     case SDL_KEYDOWN:
       if (event.key.keysym.sym == SDLK_ESCAPE) {
         open_ = false;
-      } else if (event.key.repeat == 0 && screen_->TakeKey(event.key.keysym.sym, false)) {
+      } else if (event.key.repeat == 0 && screen_->TakeKey(event.key.keysym.sym, false, event.key.keysym.mod)) {
         break;
       } else if (event.key.repeat == 0 || event.key.keysym.sym == SDLK_LEFT || event.key.keysym.sym == SDLK_RIGHT) {
         TakeReplayKey(player, marks_ns, event.key.keysym.sym, event.key.keysym.mod);

@@ -138,13 +138,13 @@ void Screen::ShowInHeadset() {
   headset_waits_ = false;
 }
 
-bool Screen::TakeKey(int symbol, bool driven) {
+bool Screen::TakeKey(int symbol, bool driven, int modifiers) {
   switch (symbol) {
     case SDLK_k:
       before_above_.reset();
       live_.camera = scene::NextCamera(live_.camera);
       return true;
-    case SDLK_TAB: FollowNext((SDL_GetModState() & KMOD_SHIFT) != 0 ? -1 : 1); return true;
+    case SDLK_TAB: FollowNext((modifiers & KMOD_SHIFT) != 0 ? -1 : 1); return true;
     case SDLK_h: help_ = !help_; return true;
     case SDLK_F4: live_.mirrors = live_.mirrors == kNoMirrors ? mirrors_ : kNoMirrors; return true;
     case SDLK_F12: picture_wanted_ = true; return true;

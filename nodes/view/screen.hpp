@@ -36,8 +36,8 @@ class Screen {
   Surface& surface() { return *surface_; }
   Painter& painter() { return *painter_; }
   // The picture changes without the world's time going on: camera, car, texts. False where the key is not the window's own.
-  // `driven`: somebody drives by this window, and s is the brake.
-  bool TakeKey(int symbol, bool driven);
+  // `driven`: somebody drives by this window, and s is the brake. `modifiers`: SDL's, of the moment of the press.
+  bool TakeKey(int symbol, bool driven, int modifiers = 0);
   // The wheel brings free cameras nearer and farther; the window's own button (ViewSettings::mouse_button), held, turns the one about the car; a
   // click of it chooses the vehicle that is seen at its place, or nobody. Behind the placing key, or with ctrl held, a click of the left
   // button places the car instead. False where the event is not the window's.

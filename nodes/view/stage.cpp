@@ -180,7 +180,7 @@ bool Stage::ReadKeys(Hand& hand) {
     if (event.type == SDL_QUIT) open = false;
     if (event.type == SDL_KEYDOWN && event.key.repeat == 0 && event.key.keysym.sym == SDLK_ESCAPE) open = false;
     const bool own = event.type == SDL_KEYDOWN && event.key.repeat == 0 &&
-                     (event.key.keysym.sym == SDLK_ESCAPE || hand.screen->TakeKey(event.key.keysym.sym, hand.keys != nullptr));
+                     (event.key.keysym.sym == SDLK_ESCAPE || hand.screen->TakeKey(event.key.keysym.sym, hand.keys != nullptr, event.key.keysym.mod));
     if (hand.screen->TakeMouse(event)) continue;
     if (!own && hand.keys != nullptr) hand.keys->Take(event);
   }

@@ -139,10 +139,8 @@ TEST(Screen, TabChoosesOneVehicleAfterTheOtherAndComesHome) {
     screen.value()->painter().Draw(picture);
     return screen.value()->painter().Read();
   };
-  const auto press = [&](SDL_Keymod shift) {
-    SDL_SetModState(shift);
-    EXPECT_TRUE(screen.value()->TakeKey(SDLK_TAB, true));
-    SDL_SetModState(KMOD_NONE);
+  const auto press = [&](int shift) {
+    EXPECT_TRUE(screen.value()->TakeKey(SDLK_TAB, true, shift));
     return Shown(*screen.value(), moment).rgb;
   };
   const auto home = Shown(*screen.value(), moment).rgb;
