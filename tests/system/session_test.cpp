@@ -16,6 +16,7 @@
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
+#include "tests/nodes/view/read_png.hpp"
 #include "tests/system/command.hpp"
 
 namespace rodeira::system_test {
@@ -65,6 +66,24 @@ Recorded ReadRecorded(const fs::path& file) {
     for (const msg::ScenarioEvent& event : sample.events()) recorded.placed += event.name() == "vehicle.place" ? 1 : 0;
   }
   return recorded;
+}
+
+constexpr int kWidth = 1280, kHeight = 720;  // of the run's window
+
+// How much of the lower left corner, where a chosen vehicle's panel stands (nodes/view/instruments), is darker than it was, as behind glass.
+double Darker(const view::Image& before, const view::Image& after) {
+  int darker = 0, all = 0;
+  for (int y = kHeight - 130; y < kHeight - 25; ++y) {
+    for (int x = 25; x < 410; ++x, ++all) darker += after.At(x, y)[1] < 0.7 * before.At(x, y)[1] ? 1 : 0;
+  }
+  return static_cast<double>(darker) / all;
+}
+
+// Red, yellow and green from left to right, where the legend's bar is (nodes/view/heat_node).
+bool HasLegend(const view::Image& image) {
+  constexpr int kBar = 157;
+  const std::uint8_t *red = image.At(32, kBar), *yellow = image.At(208, kBar), *green = image.At(384, kBar);
+  return red[0] > 150 && red[1] < 90 && red[2] < 90 && yellow[0] > 150 && yellow[1] > 150 && yellow[2] < 90 && green[0] < 90 && green[1] > 120 && green[2] < 90;
 }
 
 class Session : public ::testing::Test {
@@ -145,19 +164,48 @@ TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
   Do({"keydown", "w"});
   EXPECT_TRUE(Until(60s, [&] { return ReadRecorded(recording).driven_m > 2.0; })) << "the car drives";
   Do({"keyup", "w"});
-  for (const char* state : {"paused at ", "runs "}) {
-    EXPECT_TRUE(Until(60s, [&] {
+  const auto becomes = [&](const std::string& state) {
+    return Until(60s, [&] {
       Do({"key", "space"});
       return Until(5s, [&] { return RunCommand({runtime, "/usr/bin/env", Bin("rodeira"), "ctl", "state"}).out.find(state) != std::string::npos; });
-    })) << state;
-  }
-  for (const char* key : {"Tab", "Tab", "F8", "F9"}) {
-    Do({"key", key});
-    std::this_thread::sleep_for(400ms);
-  }
-  const auto before = whole_pictures();
-  Do({"key", "F12"});
-  EXPECT_TRUE(Until(60s, [&] { return whole_pictures() > before; })) << "a picture from above";
+    });
+  };
+  EXPECT_TRUE(becomes("paused at "));
+  std::this_thread::sleep_for(2s);  // the window has come up with the run: all its pictures are of one moment
+  const auto picture = [&]() -> view::Image {
+    const auto before = FilesOn(pictures, ".png");
+    Do({"key", "F12"});
+    EXPECT_TRUE(Until(60s, [&] { return whole_pictures() > static_cast<std::ptrdiff_t>(before.size()); })) << "a picture";
+    for (const fs::path& file : FilesOn(pictures, ".png")) {
+      if (std::find(before.begin(), before.end(), file) != before.end()) continue;
+      // For people, where they ask for it.
+      if (const char* kept = std::getenv("RODEIRA_PICTURES")) fs::copy_file(file, fs::path(kept) / ("session_" + std::to_string(before.size()) + ".png"), fs::copy_options::overwrite_existing);
+      return view::ReadPng(file);
+    }
+    return {};
+  };
+  const view::Image plain = picture();
+  ASSERT_EQ(std::pair(plain.width_px, plain.height_px), std::pair(kWidth, kHeight));
+  EXPECT_FALSE(HasLegend(plain));
+  const auto after = [&](const std::function<void()>& hand) {
+    hand();
+    std::this_thread::sleep_for(1s);
+    return picture();
+  };
+  const auto click = [&](int y_px) { return [this, y_px] { Click(kScreenWidth / 2, (kScreenHeight - kHeight) / 2 + y_px); }; };
+  const auto key = [&](const char* name) { return [this, name] { Do({"key", name}); }; };
+  constexpr int kOwnCar = 470, kSky = 20;  // of the camera behind the car
+  const view::Image clicked = after(click(kOwnCar));
+  EXPECT_GT(Darker(plain, clicked), 0.8) << "the panel of the car that was clicked on";
+  EXPECT_TRUE(std::equal(plain.rgb.begin(), plain.rgb.begin() + 3 * kWidth * 200, clicked.rgb.begin())) << "and nothing else above it";
+  EXPECT_EQ(after(click(kSky)).rgb, plain.rgb) << "nobody is chosen";
+  const view::Image next = after(key("Tab")), followed = after(click(kSky));
+  EXPECT_GT(Darker(followed, next), 0.8) << "the panel of the vehicle that was chosen by the key";
+  EXPECT_NE(followed.rgb, plain.rgb) << "which is still followed";
+  EXPECT_EQ(after(key("shift+Tab")).rgb, plain.rgb) << "home again";
+  Do({"key", "F9"});
+  EXPECT_TRUE(HasLegend(after(key("F8")))) << "statistics over the ground, from above";
+  EXPECT_TRUE(becomes("runs "));
   ::kill(start.pid(), SIGINT);
   (void)start.Wait(60s);
 
