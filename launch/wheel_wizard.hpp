@@ -15,7 +15,7 @@ namespace rodeira::front {
 // Setting up a wheel, whoever shows it, a terminal or a window: reads the devices, asks for one movement after the other, writes the file.
 class WheelWizard {
  public:
-  static constexpr int kMovements = 5;         // at most
+  static constexpr int kMovements = 6;         // at most
   static constexpr double kPatience_s = 60.0;  // without any progress
 
   // With all devices that are plugged in now. Wrong input where there is none.

@@ -71,6 +71,8 @@ std::string WheelSetup::Prompt() const {
     case Stage::kBrake: return "Press the brake to the floor and release it.";
     case Stage::kClutch: return "Press the clutch to the floor and release it. There is none? Press any button.";
     case Stage::kGears: return "Press the button for a higher gear, then the one for a lower gear. There are none? Press the throttle and release it.";
+    case Stage::kWindow:
+      return "Press the button for another camera, then the one that pauses the run and lets it go on. There are none? Press the throttle and release it.";
     case Stage::kDone: break;
   }
   return "";
@@ -213,21 +215,34 @@ void WheelSetup::TakeButtons(std::span<const DeviceReading> devices) {
     for (std::size_t b = 0; b < buttons.size(); ++b) {
       const bool now = buttons[b] != 0, pressed = now && !down_[d][b];
       down_[d][b] = now;
-      if (!pressed) continue;
-      if (stage_ == Stage::kClutch) return Begin(Stage::kGears);
-      if (stage_ != Stage::kGears) continue;
-      auto& up = settings_.buttons[static_cast<std::size_t>(WheelButton::kGearUp)];
-      auto& lower = settings_.buttons[static_cast<std::size_t>(WheelButton::kGearDown)];
-      if (!up) {
-        up = ButtonUse{d, b, ""};
-      } else if (up->device == d && up->button == b) {
-        remark_ = "That was the same button; another one was asked for.";
-      } else {
-        lower = ButtonUse{d, b, ""};
-        return Begin(Stage::kDone);
-      }
+      if (pressed) TakeButton({d, b, ""});
     }
   }
+}
+
+void WheelSetup::TakeButton(const ButtonUse& pressed) {
+  if (stage_ == Stage::kClutch) return Begin(Stage::kGears);
+  if (stage_ == Stage::kGears) return TakePair(pressed, WheelButton::kGearUp, WheelButton::kGearDown, Stage::kWindow);
+  if (stage_ != Stage::kWindow) return;
+  if (!Is(pressed, WheelButton::kGearUp) && !Is(pressed, WheelButton::kGearDown)) return TakePair(pressed, WheelButton::kCamera, WheelButton::kPause, Stage::kDone);
+  remark_ = "That button changes gears; another one was asked for.";
+}
+
+void WheelSetup::TakePair(const ButtonUse& pressed, WheelButton first, WheelButton second, Stage next) {
+  auto& one = settings_.buttons[static_cast<std::size_t>(first)];
+  if (!one) {
+    one = pressed;
+  } else if (Is(pressed, first)) {
+    remark_ = "That was the same button; another one was asked for.";
+  } else {
+    settings_.buttons[static_cast<std::size_t>(second)] = pressed;
+    Begin(next);
+  }
+}
+
+bool WheelSetup::Is(const ButtonUse& pressed, WheelButton button) const {
+  const auto& use = settings_.buttons[static_cast<std::size_t>(button)];
+  return use && use->device == pressed.device && use->button == pressed.button;
 }
 
 void WheelSetup::Step(std::span<const DeviceReading> devices, double dt_s) {
@@ -246,7 +261,8 @@ void WheelSetup::Step(std::span<const DeviceReading> devices, double dt_s) {
     case Stage::kClutch: return TakeClutch(track);
     case Stage::kGears:
       settings_.buttons[static_cast<std::size_t>(WheelButton::kGearUp)].reset();  // one alone is none
-      return Begin(Stage::kDone);
+      return Begin(Stage::kWindow);
+    case Stage::kWindow: return Begin(Stage::kDone);  // with the camera's alone, if that was pressed
     case Stage::kDone: break;
   }
 }

@@ -15,7 +15,7 @@ namespace rodeira::hands {
 // A pedal that is held down is waited for: released is where it comes back to.
 class WheelSetup {
  public:
-  enum class Stage { kSteering, kThrottle, kBrake, kClutch, kGears, kDone };
+  enum class Stage { kSteering, kThrottle, kBrake, kClutch, kGears, kWindow, kDone };
 
   // All devices that are plugged in; `lock_rad`: of the car's steering wheel where the axis is at its end.
   WheelSetup(std::vector<DeviceUse> devices, double lock_rad);
@@ -52,6 +52,10 @@ class WheelSetup {
   void TakeBrake(const Track& track);
   void TakeClutch(const Track& track);
   void TakeButtons(std::span<const DeviceReading> devices);
+  void TakeButton(const ButtonUse& pressed);
+  // The first of a stage's two buttons, or the second one, behind which the next stage begins.
+  void TakePair(const ButtonUse& pressed, WheelButton first, WheelButton second, Stage next);
+  bool Is(const ButtonUse& pressed, WheelButton button) const;
   void Refuse(std::string remark);
   // Whether a pedal that is still at an end of its way was pressed and released; a remark where it is only held.
   bool IsReleased(const Track& track, const char* pedal);

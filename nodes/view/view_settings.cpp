@@ -61,10 +61,13 @@ void ReadTimes(const launch::NodeContext& context, const config::Map& frames, Vi
   settings.frame_steps.erase(std::unique(settings.frame_steps.begin(), settings.frame_steps.end()), settings.frame_steps.end());
 }
 
-// Buttons of a wheel that a launch file names by its file.
+// Buttons of the wheel that a launch file names by its file, or of those that may drive where it names none.
 void ReadWheelButtons(const launch::Launch& launch, const launch::LaunchNode& node, ViewSettings& settings) {
   const auto file = node.config->Peek({"config", "wheel"});
-  if (!file || *file == "~") return settings.camera_buttons.push_back({"", kPadCameraButton});  // a game pad may drive
+  if (!file || *file == "~") {
+    settings.camera_buttons.push_back({"", 0, true});
+    return settings.camera_buttons.push_back({"", kPadCameraButton});
+  }
   const auto wheel = hands::PeekWheel((launch.path().parent_path() / *file).lexically_normal(),
                                       [&](const std::string& device) { return node.config->Peek({"config", "devices", device}); });
   const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(hands::WheelButton::kCamera)] : std::optional<hands::ButtonUse>();

@@ -9,14 +9,17 @@ struct _SDL_GameController;
 
 namespace rodeira::view {
 
-// A button of a steering wheel on the window's PC; without a GUID: of the first game pad, by SDL's numbers of their buttons.
+// A button of a steering wheel on the window's PC; without a GUID: of the first game pad, by SDL's numbers of their buttons. `own`: what the
+// files of the wheels that are plugged in (`rodeira input setup`) call `camera`, whichever these are, and the rest of it is not looked at.
 struct WheelButtonUse {
   std::string guid;
   int button = 0;
+  bool own = false;
 };
 inline constexpr int kPadCameraButton = 3;  // y
 
-// Buttons of the wheel that change what the window shows (`camera` of a wheel file). Used on the thread of the window.
+// Buttons of the wheel that change what the window shows (`camera` of a wheel file). A file that cannot be read names none: that is the
+// input's to say. Used on the thread of the window.
 class WheelButtons {
  public:
   // Null where none is named, or SDL cannot look at devices.
@@ -33,10 +36,12 @@ class WheelButtons {
     WheelButtonUse use;
     _SDL_Joystick* joystick = nullptr;
     _SDL_GameController* pad = nullptr;  // instead of it
+    int seen = -1;                       // so many devices were there when their own files were looked for
     bool down = true;  // one that is held as it begins is no press
   };
   WheelButtons() = default;
   static void Find(Button& button);
+  static void FindOwn(Button& button);
   static void Drop(Button& button);
   std::vector<Button> buttons_;
 };

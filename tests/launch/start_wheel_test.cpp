@@ -81,7 +81,7 @@ class StartWheel : public testing::Test {
   std::optional<StartWindow> start_;
 };
 
-TEST_F(StartWheel, FiveMovementsAndTheWheelIsTheOneToDriveWith) {
+TEST_F(StartWheel, SixMovementsAndTheWheelIsTheOneToDriveWith) {
   VirtualWheel wheel;
   wheel.Axis(2, 32767);
   wheel.Axis(3, 32767);
@@ -111,7 +111,7 @@ TEST_F(StartWheel, FiveMovementsAndTheWheelIsTheOneToDriveWith) {
   Move(wheel, 3, -32768, 32767);
   Rest();
   EXPECT_EQ(Asked(), 4);
-  for (const int button : {1, 4, 5}) {  // there is no clutch; then up and down
+  for (const int button : {1, 4, 5, 6, 7}) {  // there is no clutch; then up and down, camera and pause
     wheel.Button(button, true);
     Frame();
     wheel.Button(button, false);
@@ -126,6 +126,7 @@ TEST_F(StartWheel, FiveMovementsAndTheWheelIsTheOneToDriveWith) {
   EXPECT_EQ(written.value().AxisOf(hands::WheelAxis::kThrottle)->axis, 2u);
   EXPECT_EQ(written.value().AxisOf(hands::WheelAxis::kBrake)->axis, 3u);
   EXPECT_EQ(written.value().buttons[static_cast<std::size_t>(hands::WheelButton::kGearUp)]->button, 4u);
+  EXPECT_EQ(written.value().buttons[static_cast<std::size_t>(hands::WheelButton::kCamera)]->button, 6u);
   EXPECT_NEAR(written.value().lock_rad, 450.0 * 3.14159265358979 / 180.0, 1e-6) << "half of 900 degrees";
   EXPECT_EQ(start_->choice().driver, StartDriver::kWheel);
   EXPECT_EQ(start_->choice().wheel, file);
@@ -167,7 +168,7 @@ TEST_F(StartWheel, WhatCannotBeWrittenIsSaid) {
     Move(wheel, pedal, 32767, -32768);
     Rest();
   }
-  for (const int button : {1, 4, 5}) {
+  for (const int button : {1, 4, 5, 6, 7}) {
     wheel.Button(button, true);
     Frame();
     wheel.Button(button, false);

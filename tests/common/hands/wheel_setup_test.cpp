@@ -90,7 +90,7 @@ vehicle::Controls Driven(const WheelSettings& settings, const std::vector<std::v
   return controls;
 }
 
-TEST(WheelSetup, AnOrdinaryWheelInFiveMovements) {
+TEST(WheelSetup, AnOrdinaryWheelInSixMovements) {
   Person person({{0.0, 500.0, 32767.0, 32767.0}});
   EXPECT_EQ(person.setup().stage(), Stage::kSteering);
   Steer(person, 0, 0, -32000.0, 32300.0);
@@ -105,11 +105,18 @@ TEST(WheelSetup, AnOrdinaryWheelInFiveMovements) {
   person.Press(0, 4);
   EXPECT_EQ(person.setup().remark(), "That was the same button; another one was asked for.");
   person.Press(0, 5);
+  ASSERT_EQ(person.setup().stage(), Stage::kWindow);
+  person.Press(0, 4);
+  EXPECT_EQ(person.setup().remark(), "That button changes gears; another one was asked for.");
+  person.Press(0, 6);
+  person.Press(0, 7);
   ASSERT_EQ(person.setup().stage(), Stage::kDone);
   EXPECT_LT(person.passed_s(), 60.0) << "at most a minute";
   const WheelSettings settings = person.setup().settings();
   EXPECT_EQ(settings.buttons[0]->button, 4u);
   EXPECT_EQ(settings.buttons[1]->button, 5u);
+  EXPECT_EQ(settings.buttons[static_cast<std::size_t>(WheelButton::kCamera)]->button, 6u);
+  EXPECT_EQ(settings.buttons[static_cast<std::size_t>(WheelButton::kPause)]->button, 7u);
   EXPECT_FALSE(settings.AxisOf(WheelAxis::kClutch));
   const std::vector<std::vector<double>> rest = {{0.0, 500.0, 32767.0, 32767.0}};
   const vehicle::Controls left = Driven(settings, {rest, {{-32000.0, 500.0, -32768.0, 32767.0}}});
@@ -133,6 +140,8 @@ TEST(WheelSetup, SeveralDevicesAndInvertedAxes) {
   person.Pedal(2, 2, -32768.0);
   ASSERT_EQ(person.setup().stage(), Stage::kGears) << person.setup().remark();
   person.Pedal(2, 0, 32767.0);  // no buttons
+  ASSERT_EQ(person.setup().stage(), Stage::kWindow) << person.setup().remark();
+  person.Pedal(2, 0, 32767.0);
   ASSERT_EQ(person.setup().stage(), Stage::kDone);
   const WheelSettings settings = person.setup().settings();
   ASSERT_EQ(settings.devices.size(), 2u) << "the second one has nothing to do";
@@ -157,7 +166,12 @@ TEST(WheelSetup, TwoPedalsOnOneAxis) {
     person.Press(0, 0);
     person.Press(0, 1);
     person.Press(0, 2);
+    person.Press(0, 3);
+    person.Pedal(0, 1, throttle);  // a button for the camera, none that pauses
+    ASSERT_EQ(person.setup().stage(), Stage::kDone);
     const WheelSettings settings = person.setup().settings();
+    EXPECT_TRUE(settings.buttons[static_cast<std::size_t>(WheelButton::kCamera)]);
+    EXPECT_FALSE(settings.buttons[static_cast<std::size_t>(WheelButton::kPause)]);
     const vehicle::Controls go = Driven(settings, {{{0.0, 0.0}}, {{0.0, throttle}}}), stop = Driven(settings, {{{0.0, 0.0}}, {{0.0, -throttle}}});
     EXPECT_EQ(go.throttle, 1.0);
     EXPECT_EQ(go.brake, 0.0);
@@ -177,8 +191,7 @@ TEST(WheelSetup, WhatADeviceSaysBeforeItMovesIsNotBelieved) {
   person.Pedal(0, 2, -32768.0);
   ASSERT_EQ(person.setup().stage(), Stage::kClutch) << person.setup().remark();
   person.Press(0, 0);
-  person.Press(0, 1);
-  person.Press(0, 2);
+  for (const std::size_t button : {1, 2, 3, 4}) person.Press(0, button);
   const vehicle::Controls c = Driven(person.setup().settings(), {{{0.0, 32767.0, 32767.0}}, {{0.0, -32768.0, 30000.0}}});
   EXPECT_EQ(c.throttle, 1.0);
   EXPECT_LT(c.brake, 0.05);
@@ -202,8 +215,7 @@ TEST(WheelSetup, APedalThatIsHeldIsWaitedFor) {
       person.Wait(0.7);
     }
     ASSERT_EQ(person.setup().stage(), Stage::kGears) << person.setup().remark();
-    person.Press(0, 1);
-    person.Press(0, 2);
+    for (const std::size_t button : {1, 2, 3, 4}) person.Press(0, button);
     const WheelSettings settings = person.setup().settings();
     const std::vector<std::vector<double>> rest = {{0.0, up, up, up}};
     const vehicle::Controls free = Driven(settings, {rest}), floor = Driven(settings, {rest, {{0.0, -up, -up, -up}}});
@@ -240,6 +252,8 @@ TEST(WheelText, IsReadAsTheSame) {
   person.Pedal(1, 2, -32768.0);
   person.Press(0, 4);
   person.Press(1, 5);
+  person.Press(1, 6);
+  person.Press(0, 5);
   ASSERT_EQ(person.setup().stage(), Stage::kDone);
   WheelSettings settings = person.setup().settings();
   settings.lever[-1] = {0, 7, ""};
@@ -254,6 +268,7 @@ TEST(WheelText, IsReadAsTheSame) {
   EXPECT_EQ(read.value().AxisOf(WheelAxis::kClutch)->inverted, true);
   EXPECT_NEAR(read.value().lock_rad, settings.lock_rad, 1e-12);
   EXPECT_EQ(read.value().lever.at(1).device, 1u);
+  EXPECT_EQ(read.value().buttons[static_cast<std::size_t>(WheelButton::kPause)]->button, 5u);
 }
 
 }  // namespace

@@ -219,5 +219,33 @@ TEST_F(FoundSource, APadsStartPausesAndItsYIsTheCamera) {
   EXPECT_FALSE(camera->Pressed());
 }
 
+// The window finds its button as the input finds its wheel: by the file of what is plugged in, also later and again.
+TEST_F(FoundSource, AWheelsOwnFileNamesTheCamerasButton) {
+  const auto camera = view::WheelButtons::Open({{"", 0, true}});
+  ASSERT_NE(camera, nullptr);
+  EXPECT_FALSE(camera->Pressed()) << "nothing is plugged in";
+  VirtualWheel wheel;
+  EXPECT_FALSE(camera->Pressed()) << "it has no file";
+  wheel.Detach();
+  EXPECT_FALSE(camera->Pressed());
+  WriteOwn(wheel.guid(), "rodeira: wheel/1\ndevices: {rim: \"" + wheel.guid() + "\"}\nsteering: {axis: 0}\nthrottle: {axis: 2}\nbrake: {axis: 3}\nbuttons: {camera: {button: 6}}\n");
+  for (int times = 0; times < 2; ++times) {
+    wheel.Attach();
+    EXPECT_FALSE(camera->Pressed());
+    wheel.Button(5, true);
+    EXPECT_FALSE(camera->Pressed()) << "another button";
+    wheel.Button(6, true);
+    EXPECT_TRUE(camera->Pressed());
+    EXPECT_FALSE(camera->Pressed()) << "still held";
+    wheel.Detach();
+    EXPECT_FALSE(camera->Pressed());
+  }
+  WriteOwn(wheel.guid(), "rodeira: wheel/1\ndevices: [");
+  wheel.Attach();
+  EXPECT_FALSE(camera->Pressed());
+  wheel.Button(6, true);
+  EXPECT_FALSE(camera->Pressed()) << "a broken file names none";
+}
+
 }  // namespace
 }  // namespace rodeira

@@ -51,9 +51,9 @@ TEST_F(InputSetup, WritesAFileThatARunFindsByTheWheelItself) {
     if (at < moves.size()) {
       const Move& move = moves[at];
       if (move.axis >= 0) wheel.Axis(move.axis, move.from + (move.to - move.from) * (tick % 50 + 1) / 50);
-    } else {  // no clutch: a button; then two for the gears
+    } else {  // no clutch: a button; then two for the gears, and two for camera and pause
       const int after = tick - 50 * static_cast<int>(moves.size());
-      for (const int press : {0, 1, 2}) wheel.Button(3 + press, after >= 30 * press + 10 && after < 30 * press + 20);
+      for (const int press : {0, 1, 2, 3, 4}) wheel.Button(3 + press, after >= 30 * press + 10 && after < 30 * press + 20);
     }
     ++tick;
     return tick < 3000;
@@ -61,7 +61,8 @@ TEST_F(InputSetup, WritesAFileThatARunFindsByTheWheelItself) {
   ASSERT_EQ(front::SetUpInput({}, [&](const std::string& line) { said += line + "\n"; }, wait), 0) << said;
   EXPECT_NE(said.find("1. Turn the steering wheel"), std::string::npos) << said;
   EXPECT_NE(said.find("5. Press the button for a higher gear"), std::string::npos) << said;
-  EXPECT_EQ(said.find("6. "), std::string::npos) << said;
+  EXPECT_NE(said.find("6. Press the button for another camera"), std::string::npos) << said;
+  EXPECT_EQ(said.find("7. "), std::string::npos) << said;
   const auto file = folder_->path() / "rodeira/wheels" / (wheel.guid() + ".yaml");
   EXPECT_EQ(hands::WheelFileOf(wheel.guid()), file);
   EXPECT_NE(said.find("written: " + file.string()), std::string::npos) << said;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
@@ -75,6 +76,11 @@ TEST(ViewSettings, KnowsByWhichKeysItsCarIsDriven) {
   EXPECT_TRUE(settings("{source: joystick, wheel: ~, " + keys + "}").drives);
   EXPECT_FALSE(settings("{source: joystick, wheel: ../configs/drivers/wheel.yaml, " + keys + "}").drives) << "a wheel that is named is the only hand";
   EXPECT_EQ(settings("{source: gamepad}").camera_buttons.size(), 1u);
+  for (const char* found : {"{source: joystick}", "{source: joystick, wheel: ~}"}) {
+    const auto buttons = settings(found).camera_buttons;
+    EXPECT_EQ(std::count_if(buttons.begin(), buttons.end(), [](const WheelButtonUse& use) { return use.own; }), 1) << found;
+    EXPECT_EQ(std::count_if(buttons.begin(), buttons.end(), [](const WheelButtonUse& use) { return !use.own && use.guid.empty() && use.button == kPadCameraButton; }), 1) << found;
+  }
 }
 
 // The window takes the first button of the mouse that drives nothing.
