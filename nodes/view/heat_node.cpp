@@ -32,6 +32,12 @@ osg::ref_ptr<osg::Texture2D> MakeSquares() {
 
 }  // namespace
 
+HeatLegend LegendOf(const HeatPicture& heat) {
+  const scene::HeatScale& scale = scene::ScaleOf(heat.kind);
+  return {fmt::format("{}, {}, of {:.0f} s", scale.name, scale.unit, heat.watched_s), fmt::format("{:g}", scale.red), fmt::format("{:g}", 0.5 * (scale.red + scale.green)),
+          fmt::format("{:g}", scale.green)};
+}
+
 HeatNode::HeatNode(osg::Group& overlay, osg::StateSet& state) : squares_(MakeSquares()), ground_(overlay, {0.04F, 0.05F, 0.07F, 0.55F}) {
   state.addUniform(new osg::Uniform("heat_map", static_cast<int>(kUnit)));
   for (std::size_t i = 0; i < kSteps; ++i) {
@@ -82,20 +88,20 @@ void HeatNode::ShowLegend(const HeatPicture* heat, float high_px) {
     for (auto& step : bar_) step->Set({});
     return;
   }
-  const scene::HeatScale& scale = scene::ScaleOf(heat->kind);
+  const HeatLegend legend = LegendOf(*heat);
   const float low = high_px - kHeight_px, left = kLeft_px + kGap_px, width = kWidth_px - 2.0F * kGap_px, bar = low + 28.0F;
   ground_.Set({{kLeft_px, low, kLeft_px + kWidth_px, high_px}});
   for (std::size_t i = 0; i < kSteps; ++i) {
     const float part = width / static_cast<float>(kSteps);
     bar_[i]->Set({{left + part * static_cast<float>(i), bar, left + part * static_cast<float>(i + 1), bar + kBarHeight_px}});
   }
-  title_->setText(fmt::format("{}, {}, of {:.0f} s", scale.name, scale.unit, heat->watched_s));
+  title_->setText(legend.title);
   title_->setPosition({left, bar + kBarHeight_px + 9.0F, 0.0F});
-  low_->setText(fmt::format("{:g}", scale.red));
+  low_->setText(legend.low);
   low_->setPosition({left, low + 8.0F, 0.0F});
-  middle_->setText(fmt::format("{:g}", 0.5 * (scale.red + scale.green)));
+  middle_->setText(legend.middle);
   middle_->setPosition({left + 0.5F * width, low + 8.0F, 0.0F});
-  high_->setText(fmt::format("{:g}", scale.green));
+  high_->setText(legend.high);
   high_->setPosition({left + width, low + 8.0F, 0.0F});
 }
 

@@ -91,8 +91,8 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
     auto speaker = Speaker::Open();
     if (speaker) screen->speaker_ = std::move(speaker).value();
     else fmt::print(stderr, "rodeira: no sound: {}\n", speaker.error().Text());
-    screen->volume_ = settings.volume;
   }
+  screen->volume_ = settings.sound ? settings.volume : 0.0;
   if (!settings.frame_log.empty()) {
     auto log = FrameLog::Open(settings.frame_log);
     if (!log) return log.error();
@@ -305,6 +305,8 @@ void Screen::TakePicture() {
   Note(written ? "written: " + file.string() : written.error().Text());
 }
 
+double Screen::Loudness(double rate) const { return muted_ ? 0.0 : volume_ * std::min(std::fabs(rate), 1.0); }
+
 void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> timeline) {
   const double begin_s = launch::WallSeconds();
   live_.moment = std::move(moment);
@@ -318,8 +320,7 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
     live_.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", help_ ? "\n\n" : "", 1.0 / interval_s_,
                               frame_s_ * 1e3, rate, surface_->renderer());
   }
-  // In slow motion it is fainter, and silent where time stands.
-  if (speaker_) speaker_->Play(HeardBy(live_.moment, live_.followed, muted_ ? 0.0 : volume_ * std::min(std::fabs(rate), 1.0)), interval_s_);
+  if (speaker_) speaker_->Play(HeardBy(live_.moment, live_.followed, Loudness(rate)), interval_s_);
   if (picture_wanted_) TakePicture();
   const std::string standing = is_live() ? standing_.See(live_.moment.time_ns, begin_s) : "";
   if (!standing.empty()) live_.text += (live_.text.empty() ? "" : "\n\n") + standing;

@@ -46,6 +46,9 @@ class Screen {
   // window is drawn as without one.
   bool WaitForHeadset();
   bool has_headset() const { return headset_ != nullptr; }
+  // How loud what is shown is heard, from 0 to 1, where there is a device and time goes on so fast: fainter in slow motion, never louder, silent where
+  // time stands, where the person switched it off, and where the settings want no sound.
+  double Loudness(double rate) const;
   // Draws the moment as the person wishes to see it, and shows it. `rate`: simulated seconds a second, for the statistics.
   void Show(scene::Moment moment, double rate, std::optional<Timeline> timeline = std::nullopt);
 

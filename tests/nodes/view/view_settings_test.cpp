@@ -47,6 +47,8 @@ TEST(ViewSettings, WrongOnesAreRefusedWithTheirPlace) {
   EXPECT_EQ(Complaint("{follow: egg}"), "fake.yaml:9: 'egg' is no vehicle that this view is wired to; did you mean 'ego'?");
   EXPECT_EQ(Complaint("{mirrors: [left, middle]}"), "fake.yaml:9: 'middle' is no mirror; left, inside or right was expected");
   EXPECT_EQ(Complaint("{mirrors: []}"), "");
+  EXPECT_EQ(Complaint("{sound: false, volume: 0.3}"), "");
+  EXPECT_NE(Complaint("{volume: 1.5}").find("fake.yaml:9: "), std::string::npos) << Complaint("{volume: 1.5}");
   EXPECT_EQ(Complaint("{headset: true}"), "");
   EXPECT_EQ(Complaint("{haedset: true}"), "fake.yaml:9: unknown key 'nodes.picture.config.haedset'; did you mean 'headset'?");
   EXPECT_EQ(Complaint("{follow: ego}"), "");
