@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "common/geometry/angle.hpp"
 
@@ -21,6 +22,47 @@ Vector2d NoseInPlan(const Body& car) {
   const Vector3d nose = car.q_WB * Vector3d::UnitX();
   const double length = std::hypot(nose.x(), nose.y());
   return length > 1e-3 ? Vector2d(nose.x() / length, nose.y() / length) : Vector2d::UnitX();
+}
+
+// 0 up to `from`, 1 from `to` on, smooth between.
+double Smooth(double x, double from, double to) {
+  const double share = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return share * share * (3.0 - 2.0 * share);
+}
+
+constexpr double kChase_m = 7.2, kChaseHigh_m = 2.45;
+constexpr double kLeastChase_m = 1.0;
+
+// How far behind the car its eye is, where so many others may stand between it and the car. In plan, along the car's nose.
+double ChaseDistance(const Body& car, double eye_z_m, std::span<const Body> others) {
+  constexpr double kBefore_m = 0.5;                       // of another's front
+  constexpr double kClear_m = 1.4, kInTheWay_m = 0.3;     // from the line of sight to its side
+  constexpr double kBelow_m = 0.3, kAbove_m = 0.1;        // of the line of sight: its roof
+  const Vector2d nose = NoseInPlan(car), left(-nose.y(), nose.x());
+  const double rear = car.length_m - car.front_m, roof_z_m = car.p_WB_W.z() + car.height_m;
+  double distance = kChase_m;
+  for (const Body& other : others) {
+    const Vector2d to = (other.p_WB_W - car.p_WB_W).head<2>();
+    if (to.squaredNorm() > 40.0 * 40.0) continue;
+    double first = -1e9, last = 1e9, low = 1e9, high = -1e9;  // of its corners: along the nose, to the left
+    for (const double x : {other.front_m, other.front_m - other.length_m}) {
+      for (const double y : {0.5 * other.width_m, -0.5 * other.width_m}) {
+        const Vector2d corner = to + (other.q_WB * Vector3d(x, y, 0.0)).head<2>();
+        first = std::max(first, corner.dot(nose));
+        last = std::min(last, corner.dot(nose));
+        low = std::min(low, corner.dot(left));
+        high = std::max(high, corner.dot(left));
+      }
+    }
+    if (last > -rear) continue;  // beside or before it
+    const double front = std::min(first, -rear), aside = std::max({low, -high, 0.0});
+    const double sight_z_m = roof_z_m + (eye_z_m - roof_z_m) * std::min(-front / kChase_m, 1.0);
+    const double wheels_m = other.p_WB_W.z() - sight_z_m;  // over the line of sight: on a bridge
+    const double weight = (1.0 - Smooth(aside, kInTheWay_m, kClear_m)) * Smooth(wheels_m + other.height_m, -kBelow_m, kAbove_m) * (1.0 - Smooth(wheels_m, 0.0, 1.0));
+    const double wanted = std::clamp(-front - kBefore_m, kLeastChase_m, kChase_m);
+    distance = std::min(distance, kChase_m - weight * (kChase_m - wanted));
+  }
+  return distance;
 }
 
 Vector3d AboveGround(Vector3d eye_W, const road::World& world) {
@@ -85,10 +127,11 @@ void Aim::Zoom(double factor) {
   map_height_m = std::clamp(map_height_m * factor, 8.0, 5000.0);
 }
 
-Camera ChaseCamera(const Body& car, const road::World& world) {
+Camera ChaseCamera(const Body& car, const road::World& world, std::span<const Body> others) {
   const Vector3d nose = car.q_WB * Vector3d::UnitX();
   const Vector3d ahead = std::hypot(nose.x(), nose.y()) > 1e-3 ? Vector3d(nose.x(), nose.y(), 0.7 * nose.z()).normalized() : Vector3d::UnitX();
-  const Vector3d eye = AboveGround(car.p_WB_W - 7.2 * ahead + Vector3d(0.0, 0.0, 2.45), world);
+  const double away_m = ChaseDistance(car, car.p_WB_W.z() - kChase_m * ahead.z() + kChaseHigh_m, others);
+  const Vector3d eye = AboveGround(car.p_WB_W - away_m * ahead + Vector3d(0.0, 0.0, kChaseHigh_m), world);
   const Vector3d target = car.p_WB_W + 9.0 * ahead + Vector3d(0.0, 0.0, 0.75);
   return LookFrom(eye, target - eye, Vector3d::UnitZ(), 48.0 * kDegree);
 }
@@ -133,16 +176,26 @@ Camera TopCamera(const Body& car, const Aim& aim) {
   return camera;
 }
 
-Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::World& world) {
+Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::World& world, std::span<const Body> others) {
   switch (kind) {
-    case CameraKind::kChase: return ChaseCamera(car, world);
+    case CameraKind::kChase: return ChaseCamera(car, world, others);
     case CameraKind::kDriver: return DriverCamera(car);
     case CameraKind::kBonnet: return BonnetCamera(car);
     case CameraKind::kOrbit: return OrbitCamera(car, aim, world);
     case CameraKind::kTop: return TopCamera(car, aim);
     case CameraKind::kTrackside: return TracksideCamera(car, world);
   }
-  return ChaseCamera(car, world);
+  return ChaseCamera(car, world, others);
+}
+
+std::optional<Camera> MakeCamera(CameraKind kind, const Moment& moment, std::size_t number, const Aim& aim, const road::World& world) {
+  const auto body = BodyAt(moment, number);
+  if (!body) return std::nullopt;
+  std::vector<Body> others;
+  for (std::size_t i = 0, all = moment.cars.size() + moment.agents.size(); i < all; ++i) {
+    if (i != number) others.push_back(*BodyAt(moment, i));
+  }
+  return MakeCamera(kind, *body, aim, world, others);
 }
 
 }  // namespace rodeira::scene

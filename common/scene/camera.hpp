@@ -75,8 +75,9 @@ struct ScreenPlane {
 
 // The driver's eye, in B.
 Eigen::Vector3d DriversEye_B(const Body& car);
-// Behind and above the car, without its roll.
-Camera ChaseCamera(const Body& car, const road::World& world);
+// Behind and above the car, without its roll. `others`: who stands in the way of the eye, as a lorry does that is close behind, has it come nearer, to
+// before its front; evenly, as they come and go.
+Camera ChaseCamera(const Body& car, const road::World& world, std::span<const Body> others = {});
 // In the driver's seat, on the left.
 Camera DriverCamera(const Body& car);
 // From the driver's eye through a screen: what is seen there lies where it would be without the screen.
@@ -90,6 +91,8 @@ Camera TopCamera(const Body& car, const Aim& aim);
 // From posts beside the road, 120 m apart and left and right in turn, each for the part of the road around it; where no road is
 // near, from posts on a lattice. The picture is as wide as the car needs.
 Camera TracksideCamera(const Body& car, const road::World& world);
-Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::World& world);
+Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::World& world, std::span<const Body> others = {});
+// The camera with one of the moment's bodies, among all others of it; nothing where there is nobody of that number.
+std::optional<Camera> MakeCamera(CameraKind kind, const Moment& moment, std::size_t number, const Aim& aim, const road::World& world);
 
 }  // namespace rodeira::scene

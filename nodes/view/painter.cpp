@@ -215,7 +215,7 @@ scene::Camera Painter::CameraOf(const Picture& picture) const {
   if (!body) return {};
   if (picture.eye && picture.camera == scene::CameraKind::kDriver) return scene::EyeCamera(*body, *picture.eye);
   if (picture.screen && picture.camera == scene::CameraKind::kDriver) return scene::ScreenCamera(*body, *picture.screen);
-  return scene::MakeCamera(picture.camera, *body, picture.aim, world_);
+  return *scene::MakeCamera(picture.camera, picture.moment, picture.followed, picture.aim, world_);
 }
 
 base::Status Painter::WearCarModel(const std::filesystem::path& file) {

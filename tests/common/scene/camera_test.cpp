@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/scene/pick.hpp"
 #include "tests/common/scene/worlds.hpp"
 
 namespace rodeira::scene {
@@ -46,6 +47,57 @@ TEST(Camera, ChasesFromBehindAndAboveTheGround) {
     EXPECT_GT(at->y(), 360.0);
     EXPECT_LT(at->y(), 720.0);
   }
+}
+
+AgentPose LorryBehind(const CarPose& car, double gap_m, double left_m) {
+  AgentPose lorry;
+  lorry.length_m = 9.0;
+  lorry.width_m = 2.5;
+  lorry.height_m = 3.6;
+  const double behind_m = (car.length_m - car.front_m) + gap_m + 0.5 * lorry.length_m;
+  lorry.p_WB_W = car.p_WB_W + car.q_WB * Eigen::Vector3d(-behind_m, left_m, 0.0);
+  lorry.q_WB = car.q_WB;
+  return lorry;
+}
+
+// However near a lorry comes from behind, and from whichever side: the eye is not in it, sees its own car, and does not leap.
+TEST(Camera, ALorryCloseBehindIsNotWhereTheEyeIs) {
+  const auto world = PlaneWithRoad();
+  Moment moment;
+  moment.cars.emplace_back();
+  CarPose& car = moment.cars[0];
+  car.p_WB_W = {60.0, 0.0, world->At(60.0, 0.0).z_m};
+  car.q_WB = Attitude(0.4, 0.0, 0.0);
+  moment.agents.emplace_back();
+  const auto eye = [&](double gap_m, double left_m) {
+    moment.agents[0] = LorryBehind(car, gap_m, left_m);
+    return MakeCamera(CameraKind::kChase, moment, 0, {}, *world)->eye_W;
+  };
+  const Eigen::Vector3d alone = ChaseCamera(car, *world).eye_W, roof = car.p_WB_W + Eigen::Vector3d(0.0, 0.0, 0.8 * car.height_m);
+  Eigen::Vector3d before = eye(0.5, 0.0);
+  for (double gap_m = 0.5; gap_m < 12.0; gap_m += 0.05) {
+    const Eigen::Vector3d at = eye(gap_m, 0.0), in_lorry = moment.agents[0].q_WB.conjugate() * (at - moment.agents[0].p_WB_W);
+    EXPECT_GT(in_lorry.x(), 0.5 * moment.agents[0].length_m + 0.2) << "before its front, " << gap_m;
+    EXPECT_EQ(BodyOn(moment, {at, (roof - at).normalized()}), std::optional<std::size_t>(0)) << gap_m;
+    EXPECT_LT((at - before).norm(), 0.08) << gap_m;
+    before = at;
+  }
+  EXPECT_EQ(eye(6.0, 0.0), alone);
+  EXPECT_EQ(eye(1.0, 3.5), alone) << "in the lane beside";
+  before = eye(1.0, 0.0);
+  for (double left_m = 0.0; left_m < 5.0; left_m += 0.02) {
+    const Eigen::Vector3d at = eye(1.0, left_m);
+    EXPECT_LT((at - before).norm(), 0.15) << left_m;
+    before = at;
+  }
+  moment.agents[0].p_WB_W = car.p_WB_W + car.q_WB * Eigen::Vector3d(-6.0, 0.0, 6.0);
+  EXPECT_EQ(MakeCamera(CameraKind::kChase, moment, 0, {}, *world)->eye_W, alone) << "on a bridge above";
+  moment.agents[0] = LorryBehind(car, -20.0, 0.0);
+  EXPECT_EQ(MakeCamera(CameraKind::kChase, moment, 0, {}, *world)->eye_W, alone) << "it drives ahead";
+  moment.agents[0] = LorryBehind(car, 1.5, 0.0);
+  moment.agents[0].height_m = 1.5;
+  EXPECT_EQ(MakeCamera(CameraKind::kChase, moment, 0, {}, *world)->eye_W, alone) << "over an ordinary car it looks away";
+  EXPECT_FALSE(MakeCamera(CameraKind::kChase, moment, 2, {}, *world));
 }
 
 TEST(Camera, TheDriverSitsOnTheLeftAndRollsWithTheCar) {
