@@ -1,5 +1,5 @@
 // From a wheel that is turned to a changed pixel on the display: a virtual joystick, the input node, the vehicle, the view with its window, in real
-// time, in this process. latency_bench [TURNS] [INPUT_PERIOD_MS] [VIEW_PERIOD_MS]
+// time, in this process. latency_bench [TURNS] [INPUT_PERIOD_MS] [VIEW_PERIOD_MS] [WIDTH HEIGHT]
 #include <SDL.h>
 #include <fmt/format.h>
 
@@ -26,14 +26,16 @@ namespace {
 using namespace rodeira;
 using Wall = std::chrono::steady_clock;
 
-constexpr int kWidth = 320, kHeight = 180;
+struct Size {
+  int width_px = 320, height_px = 180;
+};
 
 [[noreturn]] void Fail(const std::string& why) {
   fmt::print(stderr, "{}\n", why);
   std::exit(1);
 }
 
-std::string LaunchText(const std::string& guid, const std::string& input_ms, const std::string& view_ms) {
+std::string LaunchText(const std::string& guid, const std::string& input_ms, const std::string& view_ms, const Size& size) {
   return fmt::format(R"(rodeira: launch/1
 world: configs/worlds/plane.yaml
 nodes:
@@ -41,13 +43,13 @@ nodes:
   driver: {{kind: input, period_s: {}e-3, config: {{source: joystick, wheel: configs/drivers/wheel.yaml, devices: {{wheel: "{}"}}}}}}
   ego: {{kind: vehicle, config: {{vehicle: configs/vehicles/default.yaml}}}}
   view: {{kind: view, period_s: {}e-3, config: {{window: always, camera: driver, width_px: {}, height_px: {}, mirrors: [], instruments: false, sound: false}}}}
-)", input_ms, guid, view_ms, kWidth, kHeight);
+)", input_ms, guid, view_ms, size.width_px, size.height_px);
 }
 
 // Milliseconds from each turn of the wheel to the first other pixel in the lower middle of the picture, where the steering wheel is.
-std::vector<double> Turn(const bench::WatchedDisplay& display, SDL_Joystick* wheel, int turns) {
+std::vector<double> Turn(const bench::WatchedDisplay& display, const Size& size, SDL_Joystick* wheel, int turns) {
   std::vector<double> latencies_ms;
-  const auto seen = [&] { return display.HashOf(kWidth / 4, kHeight / 2, kWidth / 2, kHeight / 2); };
+  const auto seen = [&] { return display.HashOf(size.width_px / 4, size.height_px / 2, size.width_px / 2, size.height_px / 2); };
   for (int turn = 0; turn < turns; ++turn) {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     const auto before = seen();
@@ -70,7 +72,9 @@ std::vector<double> Turn(const bench::WatchedDisplay& display, SDL_Joystick* whe
 int main(int argc, char** argv) {
   base::FixMathematics(argv);
   const int turns = argc > 1 ? std::atoi(argv[1]) : 100;
-  const bench::WatchedDisplay display(97, kWidth, kHeight);
+  const Size size = argc > 5 ? Size{std::atoi(argv[4]), std::atoi(argv[5])} : Size();
+  if (size.width_px < 64 || size.height_px < 64) Fail("width and height are wanted in pixels, at least 64");
+  const bench::WatchedDisplay display(97, size.width_px, size.height_px);
   ::setenv("DISPLAY", display.name().c_str(), 1);
   auto joysticks = nodes::Joysticks::Start();
   if (!joysticks) Fail(joysticks.error().Text());
@@ -81,7 +85,7 @@ int main(int argc, char** argv) {
   if (wheel == nullptr) Fail(SDL_GetError());
   for (const int pedal : {2, 3}) SDL_JoystickSetVirtualAxis(wheel, pedal, 32767);
 
-  const auto launch = launch::Launch::Parse(LaunchText(guid, argc > 2 ? argv[2] : "10", argc > 3 ? argv[3] : "20"), SourceDir() + "/latency.yaml");
+  const auto launch = launch::Launch::Parse(LaunchText(guid, argc > 2 ? argv[2] : "10", argc > 3 ? argv[3] : "20", size), SourceDir() + "/latency.yaml");
   if (!launch) Fail(launch.error().Text());
   auto nodes = front::LocalNodes::Make(launch.value());
   if (!nodes) Fail(nodes.error().Text());
@@ -92,11 +96,11 @@ int main(int argc, char** argv) {
   lockstep::RunOutcome outcome;
   std::thread run([&] { outcome = lockstep::RunThreaded(launch.value().roster(), nodes.value().nodes(), settings); });
   std::this_thread::sleep_for(std::chrono::seconds(3));
-  std::vector<double> latencies_ms = Turn(display, wheel, turns);
+  std::vector<double> latencies_ms = Turn(display, size, wheel, turns);
   over = true;
   run.join();
   if (!outcome.ok) Fail(outcome.fault);
   std::sort(latencies_ms.begin(), latencies_ms.end());
-  fmt::print("wheel to pixel, {} turns: median {:.1f} ms, best {:.1f}, worst {:.1f}; late steps {} of {}, mean {:.2f} ms\n", latencies_ms.size(), latencies_ms[latencies_ms.size() / 2], latencies_ms.front(),
+  fmt::print("wheel to pixel, {} x {}, {} turns: median {:.1f} ms, best {:.1f}, worst {:.1f}; late steps {} of {}, mean {:.2f} ms\n", size.width_px, size.height_px, latencies_ms.size(), latencies_ms[latencies_ms.size() / 2], latencies_ms.front(),
              latencies_ms.back(), outcome.lateness.late, outcome.lateness.steps, outcome.lateness.mean_ns() * 1e-6);
 }

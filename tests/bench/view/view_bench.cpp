@@ -1,12 +1,16 @@
-// What pictures cost: a world's meshes once, a frame of 1280 x 720 pixels each time, its PNG file.
+// What pictures cost: a world's meshes once, a frame of 1280 x 720 pixels each time, its PNG file. RODEIRA_BENCH_SIZE=1920x1080 draws frames and
+// worlds in that size.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "common/base/temporary_folder.hpp"
 #include "common/road/world.hpp"
 #include "common/scene/world_scene.hpp"
 #include "nodes/view/database.hpp"
@@ -21,6 +25,28 @@ namespace {
 const road::World& N222() {
   static const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml");
   return *world.value();
+}
+
+struct Size {
+  int width_px = 1280, height_px = 720;
+};
+
+// Without the variable 1280 x 720; the program ends with a sentence where it says anything else than a size.
+Size AskedSize() {
+  static const Size size = [] {
+    Size asked;
+    const char* text = std::getenv("RODEIRA_BENCH_SIZE");
+    char rest = 0;
+    if (text == nullptr) return asked;
+    if (std::sscanf(text, "%dx%d%c", &asked.width_px, &asked.height_px, &rest) == 2 && asked.width_px >= 64 && asked.width_px <= 7680 && asked.height_px >= 64 && asked.height_px <= 4320) return asked;
+    std::fprintf(stderr, "RODEIRA_BENCH_SIZE is '%s'; a size as 1920x1080 was expected, from 64x64 to 7680x4320\n", text);
+    std::exit(2);
+  }();
+  return size;
+}
+
+base::Result<std::unique_ptr<Surface>> SurfaceOf(Quality quality) {
+  return Surface::Open(SurfaceKind::kOffscreen, AskedSize().width_px, AskedSize().height_px, "bench", false, 0, quality);
 }
 
 Picture AlongTheRoad(double s_m, scene::CameraKind camera) {
@@ -61,7 +87,7 @@ void AddTraffic(Picture& picture) {
 // Pictures along N222 among fifty cars; first argument: quality, second: chase, driver, driver with three mirrors.
 void Frame(benchmark::State& state) {
   const auto quality = static_cast<Quality>(state.range(0));
-  auto surface = Surface::Open(SurfaceKind::kOffscreen, 1280, 720, "bench", false, 0, quality);
+  auto surface = SurfaceOf(quality);
   if (!surface) return state.SkipWithError(surface.error().Text().c_str());
   const scene::WorldScene standing = scene::BuildWorldScene(N222());
   Painter painter(*surface.value(), N222(), standing);
@@ -93,7 +119,7 @@ void EveryWorld(benchmark::State& state, const std::filesystem::path& file) {
   const auto quality = static_cast<Quality>(state.range(0));
   const auto world = road::World::Load(file.string());
   if (!world) return state.SkipWithError(world.error().Text().c_str());
-  auto surface = Surface::Open(SurfaceKind::kOffscreen, 1280, 720, "bench", false, 0, quality);
+  auto surface = SurfaceOf(quality);
   if (!surface) return state.SkipWithError(surface.error().Text().c_str());
   auto painter = PainterOf(*surface.value(), *world.value(), {});
   if (!painter) return state.SkipWithError(painter.error().Text().c_str());
@@ -116,12 +142,32 @@ void EveryWorld(benchmark::State& state, const std::filesystem::path& file) {
   state.counters["calls"] = static_cast<double>(most.calls);
   state.counters["triangles"] = static_cast<double>(most.triangles);
 }
+template <class Run>
+void RegisterWorld(const std::string& name, Run run) {
+  benchmark::RegisterBenchmark(("EveryWorld/" + name).c_str(), run)->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(20);
+}
+
+// Its elevations are no part of the project: beside its file, or where the project's data lie, or nothing is measured.
+void Crater(benchmark::State& state) {
+  const std::filesystem::path worlds = SourceDir() + "/configs/worlds", name = "crater_0513.bt";
+  std::filesystem::path elevations = worlds / name;
+  if (!std::filesystem::exists(elevations)) elevations = std::filesystem::path(SourceDir()) / "../shared/data/road/bt" / name;
+  if (!std::filesystem::exists(elevations)) return state.SkipWithError("its elevations (crater_0513.bt) are not here");
+  const auto folder = base::TemporaryFolder::Make("crater");
+  if (!folder) return state.SkipWithError(folder.error().Text().c_str());
+  std::filesystem::copy_file(worlds / "crater.yaml", folder.value().path() / "crater.yaml");
+  std::filesystem::create_symlink(std::filesystem::weakly_canonical(elevations), folder.value().path() / name);
+  EveryWorld(state, folder.value().path() / "crater.yaml");
+}
+
 [[maybe_unused]] const bool kWorlds = [] {
-  for (const auto& entry : std::filesystem::directory_iterator(SourceDir() + "/configs/worlds")) {
-    if (entry.path().extension() != ".yaml" && entry.path().extension() != ".xodr") continue;
-    benchmark::RegisterBenchmark(("EveryWorld/" + entry.path().stem().string()).c_str(), [file = entry.path()](benchmark::State& state) { EveryWorld(state, file); })
-        ->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(20);
+  const std::filesystem::path worlds = SourceDir() + "/configs/worlds";
+  for (const auto& entry : std::filesystem::directory_iterator(worlds)) {
+    if (entry.path().stem() == "crater" || (entry.path().extension() != ".yaml" && entry.path().extension() != ".xodr")) continue;
+    RegisterWorld(entry.path().stem().string(), [file = entry.path()](benchmark::State& state) { EveryWorld(state, file); });
   }
+  RegisterWorld("example", [file = worlds / "example/world.yaml"](benchmark::State& state) { EveryWorld(state, file); });
+  RegisterWorld("crater", Crater);
   return true;
 }();
 
