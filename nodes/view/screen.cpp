@@ -189,7 +189,7 @@ bool Screen::TakeMouse(const SDL_Event& event) {
     else if (dragged_px_ <= kClick_px) ChooseAt(event.button.x, event.button.y);
     return true;
   }
-  if (event.type != SDL_MOUSEMOTION || mouse_button_ == kNoButton || (event.motion.state & SDL_BUTTON(mouse_button_)) == 0) return false;
+  if (event.type != SDL_MOUSEMOTION || mouse_button_ == kNoButton || (event.motion.state & static_cast<Uint32>(SDL_BUTTON(mouse_button_))) == 0) return false;
   dragged_px_ += std::abs(event.motion.xrel) + std::abs(event.motion.yrel);
   live_.aim.Turn(kTurn_rad * event.motion.xrel, kTurn_rad * event.motion.yrel);
   return true;
