@@ -73,8 +73,8 @@ std::string ReplayHelp() {
       "r  the other way\n"
       "mouse on the bar  there\n";
   for (const hands::WindowKey& key : hands::WindowKeys()) {
-    const bool runs = key.name == "space" || key.name == "return" || key.name == "escape";  // a recording has its own
-    if (!runs) text += fmt::format("\n{}  {}", key.name, key.does);
+    const bool own = key.name == "space" || key.name == "return" || key.name == "escape", asks = key.name == "f6" || key.name == "f7";  // of a run that goes on
+    if (!own && !asks) text += fmt::format("\n{}  {}", key.name, key.does);
   }
   return text + MouseHelp(kLeftButton) + "\nescape  end";
 }

@@ -55,6 +55,8 @@ TEST(ReplayKeys, AreAllInTheHelp) {
                            "\nk  camera", "escape  end"}) {
     EXPECT_NE(ReplayHelp().find(part), std::string::npos) << part;
   }
+  EXPECT_EQ(ReplayHelp().find("place the car"), std::string::npos) << "what was recorded stays as it is";
+  EXPECT_EQ(ReplayHelp().find("weather"), std::string::npos);
 }
 
 TEST(TimelineOf, SaysWhereOneIs) {
