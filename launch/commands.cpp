@@ -90,8 +90,8 @@ CLI::App* AddCtl(CLI::App& app, CtlOptions& options) {
 void AddWorld(CLI::App& app, WorldOptions& options) {
   CLI::App* world = app.add_subcommand("world", "check, describe and ask a world");
   world->require_subcommand(1);
-  for (const auto& [name, text] : {std::pair("check", "name every problem of a world file"), std::pair("info", "what the world is"),
-                                   std::pair("map", "draw the plan as SVG"), std::pair("export", "write the roads as OpenDRIVE"), std::pair("query", "SUELO: the ground at X Y"), std::pair("build", "write a world's files: its roads (.xodr), generated terrain (.bt), what an OpenDRIVE world looks like (.osgb)")}) {
+  for (const auto& [name, text] : {std::pair("check", "name every problem of a world file, or of a folder that was built"), std::pair("info", "what the world is"),
+                                   std::pair("map", "draw the plan as SVG"), std::pair("export", "write the roads as OpenDRIVE"), std::pair("query", "SUELO: the ground at X Y"), std::pair("build", "write a world's files: its roads (.xodr), generated terrain (.bt), what it looks like (.osgb; not of version 1)")}) {
     CLI::App* command = world->add_subcommand(name, text);
     command->add_option("WORLD", options.world_file, "world file (.yaml), or OpenDRIVE (.xodr)")->required();
     if (std::string(name) == "query") {

@@ -4,12 +4,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/base/files.hpp"
+#include "common/road/logical_files.hpp"
 #include "common/road/measured_files.hpp"
 #include "common/road/network_world.hpp"
 #include "common/road/world_export.hpp"
@@ -35,7 +38,18 @@ int CheckOpenDrive(const WorldOptions& options) {
   return 0;
 }
 
+// A folder that was built.
+int CheckBuilt(const WorldOptions& options) {
+  const auto problems = road::LogicalProblems(options.world_file);
+  for (const base::Error& problem : problems) fmt::print(stderr, "rodeira: {}\n", problem.Text());
+  if (!problems.empty()) return problems.front().exit_status();
+  fmt::print("{}: every file of '{}' is as it was written\n", options.world_file, road::kLogicalManifest);
+  return 0;
+}
+
 int Check(const WorldOptions& options) {
+  std::error_code none;
+  if (std::filesystem::is_directory(options.world_file, none)) return CheckBuilt(options);
   if (road::IsOpenDrive(options.world_file)) return CheckOpenDrive(options);
   if (options.strict) return Complain(base::WrongInput("'--strict' is for OpenDRIVE files", options.world_file));
   for (const std::string& warning : road::WorldWarnings(options.world_file)) fmt::print(stderr, "rodeira: warning: {}\n", warning);
@@ -52,14 +66,36 @@ int Written(const std::filesystem::path& file, const base::Status& status) {
   return 0;
 }
 
-// The OpenDRIVE file of a world that is one, with its measured surfaces.
-int CopyOpenDrive(const std::filesystem::path& file, const std::filesystem::path& copy) {
+// The OpenDRIVE file of a world that is one, with its measured surfaces, which are added to `files`.
+int CopyOpenDrive(const std::filesystem::path& file, const std::filesystem::path& copy, std::vector<std::filesystem::path>& files) {
   const auto text = base::ReadText(file);
   if (!text) return Complain(text.error());
-  const auto warnings = road::CopyMeasured(file, copy);
+  const auto warnings = road::CopyMeasured(file, copy, &files);
   if (!warnings) return Complain(warnings.error());
   for (const std::string& warning : warnings.value()) fmt::print(stderr, "rodeira: warning: {}\n", warning);
   return Written(copy, base::WriteWhole(copy, text.value()));
+}
+
+// The world file with what it names and its generated terrain, which are added to `files`.
+int WriteWorldFile(const WorldOptions& options, const road::World& world, std::vector<std::filesystem::path>& files) {
+  const std::filesystem::path file(options.world_file), out(options.out);
+  if (road::IsGenerated(file) || world.network() == nullptr) {
+    const auto written = road::BuildWorld(world, file, out);
+    if (!written) return Complain(written.error());
+    fmt::print("{}", written.value());
+    std::error_code none;
+    for (const char* ending : {".bt", ".prj"}) {
+      const std::filesystem::path name = file.filename().replace_extension(ending);
+      if (std::filesystem::exists(out / name, none)) files.push_back(name);
+    }
+  } else if (const int status = Written(out / file.filename(), road::CopyWorld(file, out)); status != 0) {
+    return status;
+  }
+  const auto named = road::CopyNamed(file, out);
+  if (!named) return Complain(named.error());
+  files.push_back(file.filename());
+  files.insert(files.end(), named.value().begin(), named.value().end());
+  return 0;
 }
 
 // What a world looks like, tile by tile.
@@ -80,28 +116,32 @@ int BuildDatabase(const WorldOptions& options, const road::World& world) {
   return 0;
 }
 
-// What is seen of an OpenDRIVE file, and the file itself beside it; of a world file its generated terrain, its roads as
-// OpenDRIVE, and, where they are of version 2, what is seen.
+// What is seen, where the roads are not of version 1; the roads as OpenDRIVE; the world file with all that it names; and a list of all these but what is seen.
 int Build(const WorldOptions& options) {
-  const auto world = road::World::Load(options.world_file);
-  if (!world) return Complain(world.error());
-  const std::filesystem::path copy = std::filesystem::path(options.out) / "world.xodr";
-  if (world.value()->open_drive()) {
-    const int status = BuildDatabase(options, *world.value());
-    return status != 0 ? status : CopyOpenDrive(road::OpenDriveOf(options.world_file), copy);
+  const auto loaded = road::World::Load(options.world_file);
+  if (!loaded) return Complain(loaded.error());
+  const road::World& world = *loaded.value();
+  const std::filesystem::path out(options.out), copy = out / "world.xodr";
+  std::vector<std::filesystem::path> files;
+  if (!road::IsOpenDrive(options.world_file)) {
+    if (const int status = WriteWorldFile(options, world, files); status != 0) return status;
   }
-  if (road::IsGenerated(options.world_file) || world.value()->network() == nullptr) {
-    const auto written = road::BuildWorld(*world.value(), options.world_file, options.out);
-    if (!written) return Complain(written.error());
-    fmt::print("{}", written.value());
+  if (world.network() != nullptr) {
+    if (world.roads().empty()) {
+      if (const int status = BuildDatabase(options, world); status != 0) return status;
+    }
+    std::error_code problem;
+    std::filesystem::create_directories(out, problem);
+    const int status = world.open_drive() ? CopyOpenDrive(road::OpenDriveOf(options.world_file), copy, files) : Written(copy, road::WriteOpenDrive(world, copy));
+    if (status != 0) return status;
+    files.emplace_back("world.xodr");
+    for (const auto& measured : std::filesystem::directory_iterator(out / "world_surfaces", problem)) {
+      if (!world.open_drive()) files.push_back(std::filesystem::path("world_surfaces") / measured.path().filename());
+    }
   }
-  if (world.value()->network() == nullptr) return 0;
-  if (world.value()->roads().empty()) {
-    if (const int status = BuildDatabase(options, *world.value()); status != 0) return status;
-  }
-  std::error_code problem;
-  std::filesystem::create_directories(options.out, problem);
-  return Written(copy, road::WriteOpenDrive(*world.value(), copy));
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return Written(out / road::kLogicalManifest, road::WriteLogical(out, world.content_hash(), files));
 }
 
 }  // namespace

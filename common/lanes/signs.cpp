@@ -21,14 +21,6 @@ std::optional<Sign> SignOf(const network::Signal& signal) {
 
 }  // namespace
 
-bool HoldsFor(int lane, bool along, std::string_view orientation, const std::vector<network::LaneValidity>& validity) {
-  if (orientation == "+" && !along) return false;
-  if (orientation == "-" && along) return false;
-  return validity.empty() || std::any_of(validity.begin(), validity.end(), [&](const network::LaneValidity& lanes) {
-           return lane >= std::min(lanes.from_lane, lanes.to_lane) && lane <= std::max(lanes.from_lane, lanes.to_lane);
-         });
-}
-
 std::vector<SignPlace> SignsOf(const Graph& graph, std::uint32_t track) {
   const Track& t = graph[track];
   const network::RoadSpec& road = graph.network().roads()[t.lane.road].spec();

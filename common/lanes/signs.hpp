@@ -2,10 +2,10 @@
 
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "common/lanes/graph.hpp"
+#include "common/network/placing.hpp"
 
 namespace rodeira::lanes {
 
@@ -17,9 +17,7 @@ struct SignPlace {
   Sign sign = Sign::kNone;
 };
 
-// Whether something beside the road is for the traffic of a lane of it, by its orientation ("+", "-", "none") and lanes.
-// along: the lane's traffic goes with growing s.
-bool HoldsFor(int lane, bool along, std::string_view orientation, const std::vector<network::LaneValidity>& validity);
+using network::HoldsFor;
 
 // STOP, give-way and priority signs (206, 205, 301, 306 and 307, which ends a priority road) for the traffic of a track, by
 // the Vienna Convention's German numbers, which OpenDRIVE files and this project use; ascending.

@@ -108,4 +108,37 @@ Furniture PlaceFurniture(const Network& network) {
   return furniture;
 }
 
+bool HoldsFor(int lane, bool along, std::string_view orientation, const std::vector<LaneValidity>& validity) {
+  if (orientation == "+" && !along) return false;
+  if (orientation == "-" && along) return false;
+  return validity.empty() || std::any_of(validity.begin(), validity.end(), [&](const LaneValidity& lanes) {
+           return lane >= std::min(lanes.from_lane, lanes.to_lane) && lane <= std::max(lanes.from_lane, lanes.to_lane);
+         });
+}
+
+std::vector<SignalOnLane> SignalsFor(const Network& network, const LaneKey& key) {
+  const RoadSpec& road = network.roads()[key.road].spec();
+  const LaneSection& section = network.Section(key);
+  const Lane* lane = network.Find(key);
+  std::vector<SignalOnLane> signals;
+  if (lane == nullptr) return signals;
+  const auto add = [&](double s_m, std::string_view orientation, const std::vector<LaneValidity>& validity, const Signal* signal) {
+    const bool here = signal != nullptr && s_m >= section.s_m && (s_m < section.end_s_m || key.section + 1 == road.sections.size());
+    const bool meant = (lane->direction >= 0 && HoldsFor(key.lane, true, orientation, validity)) || (lane->direction <= 0 && HoldsFor(key.lane, false, orientation, validity));
+    if (here && meant) signals.push_back({s_m, signal});
+  };
+  for (const Signal& signal : road.signals) add(signal.s_m, signal.orientation, signal.validity, &signal);
+  for (const SignalReference& reference : road.signal_references) {
+    const Signal* found = nullptr;
+    for (const Road& other : network.roads()) {
+      for (const Signal& signal : other.spec().signals) {
+        if (signal.id == reference.id) found = &signal;
+      }
+    }
+    add(reference.s_m, reference.orientation, reference.validity, found);
+  }
+  std::stable_sort(signals.begin(), signals.end(), [](const SignalOnLane& a, const SignalOnLane& b) { return a.s_m < b.s_m; });
+  return signals;
+}
+
 }  // namespace rodeira::network

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string_view>
 #include <vector>
 
 #include "common/network/network.hpp"
@@ -42,5 +43,18 @@ struct Furniture {
 // repeated every d metres over a length L stands at floor(L / d) + 1 stations as its repeats say, and not at its own; stations
 // beyond the road's end are left out, and what is said once for a road that ends before counts to its end.
 Furniture PlaceFurniture(const Network& network);
+
+// Whether something beside the road is for the traffic of a lane of it, by its orientation ("+", "-", "none") and lanes.
+// along: the lane's traffic goes with growing s.
+bool HoldsFor(int lane, bool along, std::string_view orientation, const std::vector<LaneValidity>& validity);
+
+// A signal for a lane, at its place along the lane's road; it may stand at another road.
+struct SignalOnLane {
+  double s_m = 0.0;
+  const Signal* signal = nullptr;  // lives as long as the network
+};
+// All signals for the traffic of a lane within its section, ascending in s; of a lane of both directions those for either. A reference to a signal
+// that the network has nowhere is passed over.
+std::vector<SignalOnLane> SignalsFor(const Network& network, const LaneKey& lane);
 
 }  // namespace rodeira::network

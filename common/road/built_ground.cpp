@@ -11,6 +11,13 @@
 namespace rodeira::road {
 namespace {
 
+constexpr double kTunnelRoof_m = 5.0;  // of a tunnel's mouth, over the road in it
+
+bool IsInTunnel(const network::RoadSpec& road, double s_m) {
+  return std::any_of(road.structures.begin(), road.structures.end(),
+                     [s_m](const network::Structure& structure) { return !structure.bridge && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m; });
+}
+
 // A surface over or under a point.
 struct Layer {
   double z_m;
@@ -107,6 +114,22 @@ SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, co
   return point;
 }
 
+// The cut before a tunnel's mouth slopes up from the road's own edges: over the tunnel it would begin at the road, and who drives in would climb it.
+// So there the hill stays, up to its roof.
+void BuiltGround::KeepTunnels(std::span<const network::Surfacing> surfaces, const SurfacePoint& bare, SurfacePoint& ground) const {
+  for (const network::Surfacing& surfacing : surfaces) {
+    const network::Place& place = surfacing.place;
+    const double roof_m = surfacing.sample.p_W.z() + kTunnelRoof_m;
+    if (place.lane.lane == 0 || ground.z_m >= roof_m || !IsInTunnel(network_->roads()[place.lane.road].spec(), place.s_m)) continue;
+    if (bare.z_m <= roof_m) {
+      ground.z_m = bare.z_m, ground.slope_x = bare.slope_x, ground.slope_y = bare.slope_y;
+    } else {
+      const Eigen::Vector3d normal = surfacing.sample.ds_W.cross(surfacing.sample.dt_W);
+      ground.z_m = roof_m, ground.slope_x = -normal.x() / normal.z(), ground.slope_y = -normal.y() / normal.z();
+    }
+  }
+}
+
 SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
   const Eigen::Vector2d p(x_m, y_m);
   thread_local std::vector<network::Surfacing> surfaces;
@@ -140,7 +163,9 @@ SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
   if (!covered) {
     ground = terrain_.At(x_m, y_m);
     if (ground.inside) {
+      const SurfacePoint bare = ground;
       earthworks_.Shape(p, ground);
+      if (ground.z_m < bare.z_m) KeepTunnels(surfaces, bare, ground);
       layers.push_back({ground.z_m, nullptr, nullptr});
     }
   }

@@ -34,6 +34,7 @@ class BuiltGround {
   bool OneRoadAlone(const network::Cluster& cluster) const;
   SurfacePoint OnRoad(const network::Surfacing& surfacing) const;
   SurfacePoint OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W, std::span<const network::Surfacing> surfaces) const;
+  void KeepTunnels(std::span<const network::Surfacing> surfaces, const SurfacePoint& bare, SurfacePoint& ground) const;
   void LayOnJunction(std::span<const network::Surfacing> surfaces, SurfacePoint& point) const;
 
   std::shared_ptr<const network::Network> network_;

@@ -62,8 +62,8 @@ std::string MarksText(const std::vector<Mark>& marks, const network::LaneSection
       type += (type.empty() ? "" : " ") + std::string(dashed ? "broken" : "solid");
       const double period = line.stroke_m + line.gap_m;
       const double phase = dashed ? std::fmod(s - line.from_s_m, period) : 0.0;
-      lines += fmt::format("<line length=\"{}\" space=\"{}\" tOffset=\"{}\" sOffset=\"{}\" width=\"{}\"/>", dashed ? line.stroke_m : 0.0,
-                           dashed ? line.gap_m : 0.0, mark.t_offset_m, phase > 0.0 ? period - phase : 0.0, line.width_m);
+      lines += fmt::format("<line length=\"{}\" space=\"{}\" tOffset=\"{}\" sOffset=\"{}\" width=\"{}\" color=\"{}\"/>", dashed ? line.stroke_m : 0.0,
+                           dashed ? line.gap_m : 0.0, mark.t_offset_m, phase > 0.0 ? period - phase : 0.0, line.width_m, line.colour);
     }
     if (first == nullptr) {
       text += fmt::format("<roadMark sOffset=\"{}\" type=\"none\"/>\n", s - section.s_m);

@@ -96,7 +96,7 @@ base::Status MeasuredFiles::Write() const {
   return {};
 }
 
-base::Result<std::vector<std::string>> CopyMeasured(const fs::path& open_drive, const fs::path& copy) {
+base::Result<std::vector<std::string>> CopyMeasured(const fs::path& open_drive, const fs::path& copy, std::vector<fs::path>* copied) {
   const auto import = opendrive::Load(open_drive);
   if (!import) return import.error();
   std::vector<std::string> warnings;
@@ -116,8 +116,15 @@ base::Result<std::vector<std::string>> CopyMeasured(const fs::path& open_drive, 
     }
     const fs::path to = copy.parent_path() / named, from = open_drive.parent_path() / named;
     std::error_code problem;
-    if (fs::equivalent(from, to, problem)) continue;
-    if (auto copied = Copy(from, to, used); !copied) return copied.error();
+    const std::set<std::string> before = used;
+    if (!fs::equivalent(from, to, problem)) {
+      if (auto written = Copy(from, to, used); !written) return written.error();
+    }
+    if (copied == nullptr) continue;
+    copied->push_back(named);
+    for (const std::string& name : used) {
+      if (!before.contains(name)) copied->push_back(named.parent_path() / name);  // its numbers
+    }
   }
   return warnings;
 }

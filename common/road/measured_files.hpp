@@ -27,7 +27,8 @@ class MeasuredFiles {
 };
 
 // The measured surfaces of a copy of an OpenDRIVE file: those that it names by a path below its own folder lie below the copy's as
-// well. Warnings: of those which the copy does not find, as their path leaves the folder.
-base::Result<std::vector<std::string>> CopyMeasured(const std::filesystem::path& open_drive, const std::filesystem::path& copy);
+// well. Warnings: of those which the copy does not find, as their path leaves the folder. To `copied`, where it is not null, the paths of what lies
+// below the copy's folder now are added, counted from there.
+base::Result<std::vector<std::string>> CopyMeasured(const std::filesystem::path& open_drive, const std::filesystem::path& copy, std::vector<std::filesystem::path>* copied = nullptr);
 
 }  // namespace rodeira::road

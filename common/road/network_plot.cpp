@@ -77,6 +77,50 @@ std::string Line(const network::RoadMark* mark, const std::string& path, double 
                      std::max(0.35, 0.15 * scale), dashes);
 }
 
+// Each road's own stations and the radii of its arcs, where there is room: a dot and how far it is from the road's beginning.
+std::string StationsAndRadii(const Network& network, const Frame& frame, PlotLabels& labels) {
+  constexpr double kDot = 2.0;
+  double step_m = 50.0;
+  while (step_m * frame.scale < 60.0) step_m *= 2.0;
+  std::string dots;
+  const auto on_picture = [&](const network::Road& road, double s_m) {
+    const Eigen::Vector3d p = road.Surface(s_m, 0.0).p_W;
+    return Eigen::Vector2d((p.x() - frame.west) * frame.scale, (frame.north - p.y()) * frame.scale);
+  };
+  // Beside the road, where they are read; on it where there is no other room.
+  const auto half_width = [&](const network::Road& road, double s_m) {
+    double right, left;
+    road.SectionAt(s_m).Bounds(road.spec().lane_offset, s_m, s_m, right, left);
+    return std::max(std::fabs(right), std::fabs(left)) * frame.scale;
+  };
+  for (const network::Road& road : network.roads()) {
+    for (double s = 0.0; s < road.length_m();) {
+      const double half = std::max(1.0, half_width(road, s));
+      labels.Avoid(on_picture(road, s), half);
+      s += half / frame.scale;
+    }
+  }
+  for (const network::Road& road : network.roads()) {
+    if (!road.spec().junction.empty()) continue;
+    for (double s = step_m; s < road.length_m(); s += step_m) {
+      const Eigen::Vector2d at = on_picture(road, s);
+      const PlotLabels before = labels;
+      if (!labels.Keep(at - Eigen::Vector2d::Constant(kDot), Eigen::Vector2d::Constant(2.0 * kDot)) || !labels.Put(at, half_width(road, s) + 3.0, 8.0, "#101010", fmt::format("{:.0f} m", s))) {
+        labels = before;
+        continue;
+      }
+      dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"#ffffff\" stroke=\"#303038\" stroke-width=\"0.6\"/>\n", at.x(), at.y(), kDot);
+    }
+    for (const geometry::PlanElement& element : road.axis().elements()) {
+      const double k = element.curvature_start_1pm;
+      if (element.kind != geometry::PlanElement::Kind::kClothoid || k == 0.0 || k != element.curvature_end_1pm || element.length_m * frame.scale < 15.0) continue;
+      const double middle_m = std::min(element.s_m + 0.5 * element.length_m, road.length_m());
+      labels.Put(on_picture(road, middle_m), half_width(road, middle_m) + 3.0, 8.0, "#203060", fmt::format("R{:.0f}", 1.0 / std::fabs(k)));
+    }
+  }
+  return dots;
+}
+
 }  // namespace
 
 std::string PlotNetwork(const Network& network) {
@@ -112,11 +156,12 @@ std::string PlotNetwork(const Network& network) {
       if (names.Put({(p.x() - frame.west) * frame.scale, (frame.north - p.y()) * frame.scale}, 1.0, 9.0, "#b03020", fmt::format("{:.12}", road.id()))) break;
     }
   }
+  const std::string dots = StationsAndRadii(network, frame, names);
   const double bar = std::pow(10.0, std::floor(std::log10(0.3 * size.x())));
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n",
       size.x() * frame.scale, height + 30.0);
-  svg += "<rect width=\"100%\" height=\"100%\" fill=\"#eef0ea\"/>\n" + areas + ways + lines + names.svg();
+  svg += "<rect width=\"100%\" height=\"100%\" fill=\"#eef0ea\"/>\n" + areas + ways + lines + dots + names.svg();
   svg += fmt::format(
       "<path d=\"M12 {0:.1f}h{1:.1f}\" stroke=\"#202020\" stroke-width=\"2\"/><text x=\"{2:.1f}\" y=\"{3:.1f}\" "
       "font-family=\"sans-serif\" font-size=\"12\">{4:g} m, {5} roads, {6} junctions</text>\n",

@@ -1,5 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "common/network/marking.hpp"
+#include "common/network/placing.hpp"
 #include "common/opendrive/import.hpp"
 #include "common/road/network_world.hpp"
 
@@ -30,6 +36,43 @@ std::string DescribeNetwork(const network::Network& network) {
   return text;
 }
 
+namespace {
+
+constexpr double kAtEdge_m = 0.3;  // a line so near to a lane's edge is one of its borders
+
+std::string NamesOf(const network::Network& network, std::span<const network::LaneEnd> ends) {
+  std::vector<std::string> names;
+  for (const network::LaneEnd& end : ends) names.push_back(fmt::format("{}:{}", network.roads()[end.lane.road].id(), end.lane.lane));
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
+}
+
+// What lies around a place on a lane: its edges, what is painted at them, lanes beside, ahead and behind as it is driven, its signs.
+std::string DescribeLane(const network::Network& network, const network::Place& place) {
+  const network::LaneKey& key = place.lane;
+  const network::Road& road = network.roads()[key.road];
+  const auto span = network.Span(key, place.s_m);
+  if (!span) return "";
+  const auto beside = [](const std::optional<network::LaneKey>& lane) { return lane ? std::to_string(lane->lane) : std::string("none"); };
+  std::string text = fmt::format("lane_width_m: {:.6f}\nlane_edges_t_m: {:.6f} {:.6f}\nlane_middle_t_m: {:.6f}\n", span->width_m(), span->inner_t_m, span->outer_t_m, span->centre_t_m());
+  text += fmt::format("curvature_1pm: {:.9f}\n", road.axis().Evaluate(place.s_m).curvature_1pm);
+  text += fmt::format("lane_left: {}\nlane_right: {}\n", beside(network.Left(key)), beside(network.Right(key)));
+  text += fmt::format("lanes_ahead: {}\nlanes_behind: {}\n", NamesOf(network, network.Successors(key)), NamesOf(network, network.Predecessors(key)));
+  const double low = std::min(span->inner_t_m, span->outer_t_m) - kAtEdge_m, high = std::max(span->inner_t_m, span->outer_t_m) + kAtEdge_m;
+  for (const network::Marking& line : network::MarkingsOf(road)) {
+    if (line.from_s_m > place.s_m || line.to_s_m < place.s_m || (line.painted == nullptr && line.section != key.section)) continue;
+    const double t = network::MarkingAt(road, line, place.s_m).value;
+    if (t < low || t > high) continue;
+    text += fmt::format("line: t_m {:.6f}, {} m wide, {}, {}\n", t, line.width_m, line.colour,
+                        line.gap_m > 0.0 ? fmt::format("strokes of {} m, gaps of {} m", line.stroke_m, line.gap_m) : "continuous");
+  }
+  for (const auto& [s_m, signal] : network::SignalsFor(network, key)) {
+    text += fmt::format("sign: s_m {:.3f}, {} {}{}{}\n", s_m, signal->type, signal->name, signal->value ? fmt::format(" {:g}", *signal->value) : "", signal->text.empty() ? "" : " '" + signal->text + "'");
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string DescribePlace(const network::Network& network, double x_m, double y_m, std::optional<double> z_m) {
   const auto place = network.Locate(x_m, y_m, z_m);
   if (!place) return "";
@@ -40,7 +83,7 @@ std::string DescribePlace(const network::Network& network, double x_m, double y_
   const network::Lane& lane = *network.Find(place->lane);
   text += fmt::format("lane: {} ({})\n", lane.id, network::LaneTypeName(lane.type));
   if (const auto limit = road.SpeedLimitAt(lane, place->s_m)) text += fmt::format("speed_limit_kmh: {:.1f}\n", *limit * 3.6);
-  return text;
+  return text + DescribeLane(network, *place);
 }
 
 }  // namespace rodeira::road

@@ -6,6 +6,7 @@
 
 #include "common/base/files.hpp"
 #include "common/config/config.hpp"
+#include "common/road/logical_files.hpp"
 #include "common/road/network_world.hpp"
 #include "common/road/world_report.hpp"
 #include "common/terrain/bt.hpp"
@@ -13,9 +14,13 @@
 namespace rodeira::road {
 namespace {
 
-// The picture on the terrain, wherever the file is read from.
-std::string TextureText(const terrain::LaidPicture& picture) {
-  const std::string start = fmt::format("  texture:\n    file: \"{}\"\n", picture.file);
+bool LeadsOut(const std::filesystem::path& name) { return name.is_absolute() || name.lexically_normal().begin()->string() == ".."; }
+
+// The picture on the terrain: below the world file's folder it is copied, elsewhere it stays.
+std::string TextureText(const terrain::LaidPicture& picture, const std::filesystem::path& world_yaml) {
+  const std::filesystem::path whole = std::filesystem::absolute(picture.file).lexically_normal();
+  const std::filesystem::path below = whole.lexically_relative(std::filesystem::absolute(world_yaml).lexically_normal().parent_path());
+  const std::string start = fmt::format("  texture:\n    file: \"{}\"\n", (below.empty() || LeadsOut(below) ? whole : below).string());
   if (picture.repeats) return start + fmt::format("    kind: geotypical\n    repeat_m: {}\n", picture.width_m);
   return start + fmt::format("    kind: draped\n    west_m: {}\n    south_m: {}\n    east_m: {}\n    north_m: {}\n", picture.west_m, picture.south_m, picture.west_m + picture.width_m,
                              picture.south_m + picture.height_m);
@@ -40,14 +45,14 @@ std::string WithTerrain(const std::string& text, const std::string& block) {
 
 bool IsPartOfAPath(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("/._-~+").find(c) != std::string_view::npos; }
 
-// The files that the world file names, by their whole paths: the text is written into another folder.
+// The files that the world file names outside of its own folder, by their whole paths: the text is written into another folder, and the others are copied.
 std::string WithWholePaths(std::string text, const config::File& file) {
   const std::filesystem::path folder = std::filesystem::absolute(file.path()).parent_path();
   std::set<std::string> names;
   for (const std::string& scalar : file.Scalars()) {
     std::error_code problem;
     const std::filesystem::path name(scalar);
-    if (name.is_relative() && name.has_extension() && std::filesystem::is_regular_file(folder / name, problem)) names.insert(scalar);
+    if (name.is_relative() && name.has_extension() && LeadsOut(name) && std::filesystem::is_regular_file(folder / name, problem)) names.insert(scalar);
   }
   for (const std::string& name : names) {
     const std::string whole = (folder / name).lexically_normal().string();
@@ -67,6 +72,16 @@ bool IsGenerated(const std::filesystem::path& world_file) {
   if (IsOpenDrive(world_file)) return false;
   const auto file = config::File::Load(world_file);
   return file.ok() && file.value().root().OptionalChild("terrain").Has("generate");
+}
+
+base::Status CopyWorld(const std::filesystem::path& world_yaml, const std::filesystem::path& folder) {
+  const auto file = config::File::Load(world_yaml);
+  if (!file) return file.error();
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  const auto target = folder / world_yaml.filename();
+  if (std::filesystem::equivalent(target, world_yaml, problem)) return {};
+  return base::WriteWhole(target, std::string_view(WithWholePaths(file.value().text(), file.value())));
 }
 
 base::Result<std::string> BuildWorld(const std::filesystem::path& world_yaml, const std::filesystem::path& folder) {
@@ -92,8 +107,9 @@ base::Result<std::string> BuildWorld(const World& wanted, const std::filesystem:
   elevation.replace_extension(".bt");
   const auto surface = terrain::SurfaceName(wanted.terrain_surface());
   std::string terrain = fmt::format("terrain:\n  surface: {}\n  file: {}\n", surface, elevation.filename().string());
-  if (wanted.ground_picture() != nullptr) terrain += TextureText(*wanted.ground_picture());
+  if (wanted.ground_picture() != nullptr) terrain += TextureText(*wanted.ground_picture(), world_yaml);
   const std::string text = WithTerrain(WithWholePaths(file.value().text(), file.value()), terrain);
+  if (const auto copied = CopyNamed(world_yaml, folder); !copied) return copied.error();
   if (const auto written = terrain::WriteBt(elevation, *wanted.grid()); !written) return written.error();
   const auto again = World::Parse(text, target);
   if (!again) return base::Failed(fmt::format("the world built cannot be read: {}", again.error().Text()), world_yaml.string());

@@ -98,33 +98,71 @@ std::string Types(const network::RoadSpec& spec) {
   return text;
 }
 
+// The lanes that something is for; nothing: all of them.
+std::string ValidityText(const std::vector<network::LaneValidity>& lanes) {
+  std::string text;
+  for (const network::LaneValidity& lane : lanes) text += fmt::format("<validity fromLane=\"{}\" toLane=\"{}\"/>", lane.from_lane, lane.to_lane);
+  return text;
+}
+
+std::string OutlinesText(const std::vector<network::Outline>& outlines) {
+  if (outlines.empty()) return "";
+  std::string text = "<outlines>";
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    text += fmt::format("<outline id=\"{}\" closed=\"{}\">", i, outlines[i].closed);
+    for (const network::Corner& corner : outlines[i].corners) {
+      text += corner.local ? fmt::format("<cornerLocal u=\"{}\" v=\"{}\" z=\"{}\" height=\"{}\"/>", corner.first_m, corner.second_m, corner.dz_m, corner.height_m)
+                           : fmt::format("<cornerRoad s=\"{}\" t=\"{}\" dz=\"{}\" height=\"{}\"/>", corner.first_m, corner.second_m, corner.dz_m, corner.height_m);
+    }
+    text += "</outline>";
+  }
+  return text + "</outlines>";
+}
+
+std::string ObjectText(const network::Object& object) {
+  std::string text = fmt::format("<object id=\"{}\" name=\"{}\" type=\"{}\" subtype=\"{}\" s=\"{}\" t=\"{}\" zOffset=\"{}\" hdg=\"{}\" pitch=\"{}\" roll=\"{}\" orientation=\"{}\" dynamic=\"{}\" ",
+                                 Escaped(object.id), Escaped(object.name), object.type, object.subtype, object.s_m, object.t_m, object.z_offset_m, object.hdg_rad, object.pitch_rad,
+                                 object.roll_rad, object.orientation, object.dynamic ? "yes" : "no");
+  // What is round has a radius in the place of a length and a width.
+  if (object.radius_m > 0.0) text += fmt::format("radius=\"{}\" ", object.radius_m);
+  if (object.radius_m == 0.0 || object.length_m != 0.0 || object.width_m != 0.0) text += fmt::format("length=\"{}\" width=\"{}\" ", object.length_m, object.width_m);
+  if (object.valid_length_m > 0.0) text += fmt::format("validLength=\"{}\" ", object.valid_length_m);
+  text += fmt::format("height=\"{}\">", object.height_m);
+  for (const network::Repeat& r : object.repeats) {
+    text += fmt::format("<repeat s=\"{}\" length=\"{}\" distance=\"{}\" tStart=\"{}\" tEnd=\"{}\" zOffsetStart=\"{}\" zOffsetEnd=\"{}\" "
+                        "heightStart=\"{}\" heightEnd=\"{}\" widthStart=\"{}\" widthEnd=\"{}\"/>",
+                        r.s_m, r.length_m, r.distance_m, r.t_start_m, r.t_end_m, r.z_start_m, r.z_end_m, r.height_start_m, r.height_end_m,
+                        r.width_start_m, r.width_end_m);
+  }
+  return text + OutlinesText(object.outlines) + ValidityText(object.validity) + "</object>\n";
+}
+
+std::string SignalText(const network::Signal& signal) {
+  std::string text = fmt::format("<signal id=\"{}\" name=\"{}\" s=\"{}\" t=\"{}\" zOffset=\"{}\" orientation=\"{}\" dynamic=\"{}\" country=\"{}\" "
+                                 "type=\"{}\" subtype=\"{}\" hOffset=\"{}\" pitch=\"{}\" roll=\"{}\" height=\"{}\" width=\"{}\"",
+                                 Escaped(signal.id), Escaped(signal.name), signal.s_m, signal.t_m, signal.z_offset_m, signal.orientation,
+                                 signal.dynamic ? "yes" : "no", signal.country, signal.type, signal.subtype, signal.h_offset_rad, signal.pitch_rad, signal.roll_rad, signal.height_m, signal.width_m);
+  if (signal.value) text += fmt::format(" value=\"{}\" unit=\"{}\"", *signal.value, signal.unit);
+  if (!signal.text.empty()) text += fmt::format(" text=\"{}\"", Escaped(signal.text));
+  text += ">" + ValidityText(signal.validity);
+  for (const std::string& id : signal.depends_on) text += fmt::format("<dependency id=\"{}\"/>", Escaped(id));
+  return text + "</signal>\n";
+}
+
 std::string Furniture(const network::RoadSpec& spec) {
   std::string objects, signals;
-  for (const network::Object& object : spec.objects) {
-    objects += fmt::format("<object id=\"{}\" name=\"{}\" type=\"{}\" subtype=\"{}\" s=\"{}\" t=\"{}\" zOffset=\"{}\" hdg=\"{}\" orientation=\"none\" "
-                           "length=\"{}\" width=\"{}\" height=\"{}\">",
-                           Escaped(object.id), Escaped(object.name), object.type, object.subtype, object.s_m, object.t_m, object.z_offset_m,
-                           object.hdg_rad, object.length_m, object.width_m, object.height_m);
-    for (const network::Repeat& r : object.repeats) {
-      objects += fmt::format("<repeat s=\"{}\" length=\"{}\" distance=\"{}\" tStart=\"{}\" tEnd=\"{}\" zOffsetStart=\"{}\" zOffsetEnd=\"{}\" "
-                             "heightStart=\"{}\" heightEnd=\"{}\" widthStart=\"{}\" widthEnd=\"{}\"/>",
-                             r.s_m, r.length_m, r.distance_m, r.t_start_m, r.t_end_m, r.z_start_m, r.z_end_m, r.height_start_m, r.height_end_m,
-                             r.width_start_m, r.width_end_m);
-    }
-    objects += "</object>\n";
+  for (const network::Object& object : spec.objects) objects += ObjectText(object);
+  for (const network::ObjectReference& other : spec.object_references) {
+    objects += fmt::format("<objectReference id=\"{}\" s=\"{}\" t=\"{}\" orientation=\"{}\"/>\n", Escaped(other.id), other.s_m, other.t_m, other.orientation);
   }
   for (const network::Structure& structure : spec.structures) {
     objects += fmt::format("<{} id=\"{}\" name=\"{}\" type=\"{}\" s=\"{}\" length=\"{}\"/>\n", structure.bridge ? "bridge" : "tunnel",
                            Escaped(structure.id), Escaped(structure.name), structure.type, structure.s_m, structure.length_m);
   }
-  for (const network::Signal& signal : spec.signals) {
-    signals += fmt::format("<signal id=\"{}\" name=\"{}\" s=\"{}\" t=\"{}\" zOffset=\"{}\" orientation=\"{}\" dynamic=\"{}\" country=\"{}\" "
-                           "type=\"{}\" subtype=\"{}\" hOffset=\"{}\" height=\"{}\" width=\"{}\"",
-                           Escaped(signal.id), Escaped(signal.name), signal.s_m, signal.t_m, signal.z_offset_m, signal.orientation,
-                           signal.dynamic ? "yes" : "no", signal.country, signal.type, signal.subtype, signal.h_offset_rad, signal.height_m, signal.width_m);
-    if (signal.value) signals += fmt::format(" value=\"{}\" unit=\"{}\"", *signal.value, signal.unit);
-    if (!signal.text.empty()) signals += fmt::format(" text=\"{}\"", Escaped(signal.text));
-    signals += "/>\n";
+  for (const network::Signal& signal : spec.signals) signals += SignalText(signal);
+  for (const network::SignalReference& other : spec.signal_references) {
+    signals += fmt::format("<signalReference id=\"{}\" s=\"{}\" t=\"{}\" orientation=\"{}\">{}</signalReference>\n", Escaped(other.id), other.s_m, other.t_m, other.orientation,
+                           ValidityText(other.validity));
   }
   std::string text;
   if (!objects.empty()) text += "<objects>\n" + objects + "</objects>\n";

@@ -31,8 +31,12 @@ base::Result<Eigen::Vector2d> PlaceOnMap(const World& world, double longitude_de
 // Whether a world file says that its terrain is generated, so that there is something for BuildWorld to write. False for what cannot be read.
 bool IsGenerated(const std::filesystem::path& world_file);
 
+// Writes a world file into `folder` as it stands, but for the files that it names outside of its own folder, which it names there by their whole paths.
+// Nothing where it lies there itself. Wrong input where it cannot be read or written.
+base::Status CopyWorld(const std::filesystem::path& world_yaml, const std::filesystem::path& folder);
+
 // Writes the generated terrain of a world as STEM.bt and STEM.prj into `folder` and beside them STEM.yaml, the same
-// world file naming the .bt instead of the generator; STEM is the world file's. That world has the same content hash,
+// world file naming the .bt instead of the generator, with the files that it names (CopyNamed, logical_files.hpp); STEM is the world file's. That world has the same content hash,
 // or it is a failure and no world file is written. Returns what was written. Wrong input where the terrain is no
 // generated one, or where the world file itself would be overwritten.
 base::Result<std::string> BuildWorld(const std::filesystem::path& world_yaml, const std::filesystem::path& folder);

@@ -14,6 +14,8 @@
 #include "common/road/world.hpp"
 #include "launch/world_command.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/system/command.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -59,6 +61,26 @@ TEST(WorldBuild, AnOpenDriveWorldIsWrittenAsItIsSeen) {
   EXPECT_TRUE(fs::exists(out / "tiles" / "0_0_0.osgb"));
   EXPECT_EQ(base::ReadText(out / "world.xodr").value(), text);
   EXPECT_THAT(Build(file, out).out, HasSubstr(" 0 built, "));
+}
+
+// As a person types it: what is a warning otherwise is an error, and status 2.
+TEST(WorldCheck, StrictlyAsAsamsOwnToleranceAsks) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.Write("gap.xodr", "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" length=\"60\" junction=\"-1\">\n"
+      "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"40\"><line/></geometry>\n<geometry s=\"40\" x=\"40.0015\" y=\"0\" hdg=\"0\" length=\"20\"><line/></geometry></planView>"
+      "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right>"
+      "</laneSection></lanes></road>\n</OpenDRIVE>\n");
+  const system_test::Ended usual = system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", file.string()});
+  EXPECT_EQ(usual.status, 0) << usual.out;
+  EXPECT_THAT(usual.out, HasSubstr("rodeira: warning: "));
+  EXPECT_THAT(usual.out, HasSubstr("gap.xodr: no error found\n"));
+  const system_test::Ended strict = system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", file.string(), "--strict"});
+  EXPECT_EQ(strict.status, 2) << strict.out;
+  EXPECT_THAT(strict.out, HasSubstr("gap.xodr:6: road.geometry.contact_point: road 1, s 40: a gap of 0.0015 m to the element before; at most 1e-06 m was expected\n"));
+  const fs::path world = folder.Write("w.yaml", "rodeira: world/2\nname: w\nground: {kind: plane}\n");
+  const system_test::Ended other = system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", world.string(), "--strict"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.out, HasSubstr("'--strict' is for OpenDRIVE files"));
 }
 
 // What is said on a terminal while `work` goes on.
@@ -144,6 +166,60 @@ TEST(WorldBuild, AWorldFileOfVersion2IsWrittenAsItIsSeenToo) {
   EXPECT_TRUE(fs::exists(out / "tiles" / "0_0_0.osgb"));
   EXPECT_TRUE(road::World::Load(out / "world.xodr").ok());
   EXPECT_THAT(Build(file, out).out, HasSubstr(" 0 built, "));
+}
+
+std::vector<std::string> Listed(const fs::path& out) {
+  std::vector<std::string> names;
+  std::istringstream lines(base::ReadText(out / "logical.txt").value());
+  for (std::string line; std::getline(lines, line);) {
+    if (names.size() < 2) names.push_back(line);
+    else names.push_back(line.substr(line.find(' ') + 1));
+  }
+  return names;
+}
+
+// The example with all that it names, moved to where nothing else is found: the same world, checked file by file.
+TEST(WorldBuild, ABuiltFolderIsListedAndMayBeMoved) {
+  const TemporaryFolder folder;
+  const fs::path example = fs::path(SourceDir()) / "configs/worlds/example", in = folder.path() / "in", built = folder.path() / "built", moved = folder.path() / "moved";
+  fs::copy(example, in, fs::copy_options::recursive);
+  const base::Digest hash = road::World::Load(in / "world.yaml").value()->content_hash();
+  const Said said = Build(in / "world.yaml", built);
+  EXPECT_EQ(said.status, 0) << said.errors;
+  fs::rename(built, moved);
+  fs::remove_all(in);
+  EXPECT_THAT(Listed(moved), testing::ElementsAre("rodeira: logical/1", "content_hash: " + base::Hex(hash), "bumps.crg", "fields.png", "track.csv", "village.yaml", "world.bt", "world.prj", "world.xodr",
+                                                  "world.yaml", "world_surfaces/bumps.crg", "worn.png"));
+  const auto again = road::World::Load(moved / "world.yaml");
+  ASSERT_TRUE(again.ok()) << again.error().Text();
+  EXPECT_EQ(again.value()->content_hash(), hash);
+  WorldOptions check;
+  check.command = "check";
+  check.world_file = moved.string();
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(World(check), 0);
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("every file of 'logical.txt' is as it was written"));
+  ASSERT_TRUE(base::WriteWhole(moved / "track.csv", base::ReadText(moved / "track.csv").value() + "\n").ok());
+  fs::remove(moved / "worn.png");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(World(check), 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "rodeira: " + (moved / "track.csv").string() + ": this file of the built world is not as it was written\nrodeira: " + (moved / "worn.png").string() +
+                                                        ": this file of the built world is missing\n");
+  check.world_file = folder.path().string();
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(World(check), 2);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("there is no 'logical.txt'; a folder that `rodeira world build` wrote was expected"));
+}
+
+// On a plane too the world file comes along: bumps and patches stand nowhere else.
+TEST(WorldBuild, AWorldOnAPlaneIsListedWithItsFile) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const Said said = Build(fs::path(SourceDir()) / "configs/worlds/lights.yaml", out);
+  EXPECT_EQ(said.status, 0) << said.errors;
+  EXPECT_EQ(Listed(out).size(), 4u);
+  EXPECT_EQ(Listed(out)[2], "lights.yaml");
+  EXPECT_EQ(base::ReadText(out / "lights.yaml").value(), base::ReadText(fs::path(SourceDir()) / "configs/worlds/lights.yaml").value());
 }
 
 }  // namespace

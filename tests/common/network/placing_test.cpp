@@ -112,5 +112,28 @@ TEST(Placing, ByRoadThenSignalsThenObjectsAsWritten) {
   EXPECT_EQ(order, "0s0z0a1s1z1a");
 }
 
+// By orientation, by lanes, by section, and by reference to one that stands at another road.
+TEST(Placing, SignalsAreForTheTrafficOfTheirLanes) {
+  RoadText road = Circle(), other;
+  road.left = R"(<lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
+  road.right = R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane><lane id="-2" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
+  road.more = R"(<signals><signal id="along" s="60" t="-8" type="274" orientation="+"/><signal id="against" s="20" t="5" type="274" orientation="-"/><signal id="all" s="40" t="5" type="276" orientation="none"/>
+      <signal id="second" s="10" t="-8" type="101" orientation="+"><validity fromLane="-2" toLane="-2"/></signal>
+      <signalReference s="30" t="0" id="there" orientation="+"/><signalReference s="35" t="0" id="nowhere" orientation="+"/></signals>)";
+  other.id = "2";
+  other.geometry = R"(<geometry s="0" x="500" y="500" hdg="0" length="100"><line/></geometry>)";
+  other.more = R"(<signals><signal id="there" s="5" t="5" type="206" orientation="-"/></signals>)";
+  const auto network = MustRead(Document(road.Text() + other.Text()));
+  const auto of = [&](int lane) {
+    std::string text;
+    for (const auto& [s_m, signal] : SignalsFor(*network, {0, 0, lane})) text += fmt::format("{}@{} ", signal->id, s_m);
+    return text;
+  };
+  EXPECT_EQ(of(-1), "there@30 all@40 along@60 ");
+  EXPECT_EQ(of(-2), "second@10 there@30 all@40 along@60 ");
+  EXPECT_EQ(of(1), "against@20 all@40 ");
+  EXPECT_EQ(of(7), "");
+}
+
 }  // namespace
 }  // namespace rodeira::network

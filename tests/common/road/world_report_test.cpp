@@ -56,6 +56,40 @@ TEST_F(WorldReport, QueryTellsThePlaceOnTheRoad) {
   EXPECT_THAT(DescribePoint(*Sample(), 1e6, 0.0), HasSubstr("inside: false\nextents_m: x -100.000 to 410.000"));
 }
 
+// On a bend of 100 m radius: what lies around a place on its lane.
+TEST_F(WorldReport, QueryTellsWhatLiesAroundAPlaceOnALane) {
+  const auto world = MustParse(R"(rodeira: world/2
+name: around
+ground: {kind: plane, surface: grass}
+roads:
+  - id: a
+    axis: [line: {length_m: 40}]
+    z_m: 0
+    section: {lanes: [{id: -1, width_m: 3}, {id: 1, width_m: 3}]}
+    successor: {road: b, end: start}
+  - id: b
+    start: {x_m: 40, y_m: 0}
+    axis: [arc: {length_m: 60, radius_m: 100}]
+    z_m: 0
+    section: {lanes: [{id: -2, type: shoulder, width_m: 1}, {id: -1, width_m: 3}, {id: 1, width_m: 3.5}]}
+    lines: [{lane: 0, kind: dashed, stroke_m: 3, gap_m: 6}, {lane: -1, kind: continuous, width_m: 0.15, colour: yellow}]
+    signs: [{type: speed_limit, value: 70, s_m: 20}, {type: stop, s_m: 50, for: against}]
+)");
+  ASSERT_NE(world, nullptr);
+  const Eigen::Vector3d p = world->network()->roads()[1].Surface(30.0, -1.25).p_W;
+  const std::string text = DescribePoint(*world, p.x(), p.y());
+  for (const char* part : {"road: b\ns_m: 30.000000\nt_m: -1.250000\nlane: -1 (driving)\n", "lane_width_m: 3.000000\nlane_edges_t_m: 0.000000 -3.000000\nlane_middle_t_m: -1.500000\n",
+                           "curvature_1pm: 0.010000000\n", "lane_left: 1\nlane_right: -2\n", "lanes_ahead: none\nlanes_behind: a:-1\n",
+                           "line: t_m 0.000000, 0.12 m wide, white, strokes of 3 m, gaps of 6 m\n", "line: t_m -3.000000, 0.15 m wide, yellow, continuous\n",
+                           "sign: s_m 20.000, 274 speed_limit 70\n"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  EXPECT_THAT(text, Not(HasSubstr("206 stop")));  // it is for the others
+  const Eigen::Vector3d q = world->network()->roads()[1].Surface(30.0, 1.0).p_W;
+  const std::string other = DescribePoint(*world, q.x(), q.y());
+  EXPECT_THAT(other, testing::AllOf(HasSubstr("lane: 1 (driving)"), HasSubstr("lanes_ahead: a:1\nlanes_behind: none\n"), HasSubstr("sign: s_m 50.000, 206 stop\n"), Not(HasSubstr("speed_limit 70"))));
+}
+
 // Hills in UTM zone 29, around its meridian 9 degrees west: x = 500 000 m lies on it, whatever y is.
 TEST_F(WorldReport, TellsWhereOnTheEarthAPointLies) {
   const auto world = World::Parse(
@@ -102,7 +136,7 @@ TEST_F(WorldReport, BuildWritesTheProjectionWhereThereIsOne) {
   EXPECT_THAT(built.value()->grid()->projection_wkt(), HasSubstr("Transverse_Mercator"));
 }
 
-// With its includes, pictures, points and surfaces, which stay where they are.
+// With its includes, pictures, points and surfaces, which are copied.
 TEST_F(WorldReport, BuildWritesTheExampleWorldOnAFile) {
   const fs::path example = fs::path(SourceDir()) / "configs/worlds/example/world.yaml";
   const auto report = BuildWorld(example, folder_ / "built");
@@ -111,7 +145,11 @@ TEST_F(WorldReport, BuildWritesTheExampleWorldOnAFile) {
   ASSERT_TRUE(built.ok()) << built.error().Text();
   EXPECT_EQ(built.value()->content_hash(), ours.value()->content_hash());
   ASSERT_NE(built.value()->ground_picture(), nullptr);
-  EXPECT_EQ(*built.value()->ground_picture(), *ours.value()->ground_picture());
+  terrain::LaidPicture picture = *built.value()->ground_picture();
+  EXPECT_EQ(fs::path(picture.file).lexically_normal(), (folder_ / "built/fields.png").lexically_normal());
+  EXPECT_EQ(base::ReadBytes(picture.file).value(), base::ReadBytes(example.parent_path() / "fields.png").value());
+  picture.file = ours.value()->ground_picture()->file;
+  EXPECT_EQ(picture, *ours.value()->ground_picture());
 }
 
 TEST_F(WorldReport, BuildRefusesToOverwriteAndToBuildNothing) {
@@ -131,6 +169,21 @@ TEST_F(WorldReport, ThePlotIsAWholeSvg) {
   EXPECT_THAT(svg, HasSubstr("main</text>"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   EXPECT_THAT(PlotWorld(*MustParse("rodeira: world/1\nname: p\nground: {kind: plane}\n")), Not(HasSubstr("nan")));
+}
+
+// A station each hundred metres, and the radii of all arcs: of a world file, and of each road of an OpenDRIVE file.
+TEST_F(WorldReport, ThePlanHasStationsAndRadii) {
+  const std::string svg = PlotWorld(*Sample());
+  for (const char* word : {">100 m</text>", ">200 m</text>", ">300 m</text>", ">R45</text>", ">R60</text>"}) EXPECT_THAT(svg, HasSubstr(word));
+  EXPECT_THAT(svg, Not(HasSubstr(">400 m</text>")));
+  const fs::path file = folder_ / "bend.xodr";
+  ASSERT_TRUE(base::WriteWhole(file, std::string_view("<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"bend\" length=\"160\" junction=\"-1\"><planView>"
+      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"60\"><line/></geometry><geometry s=\"60\" x=\"60\" y=\"0\" hdg=\"0\" length=\"100\"><arc curvature=\"-0.0125\"/></geometry></planView>"
+      "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>\n"
+      "</OpenDRIVE>\n")).ok());
+  const std::string network = PlotWorld(*World::Load(file).value());
+  for (const char* word : {">50 m</text>", ">100 m</text>", ">150 m</text>", ">R80</text>", ">bend</text>"}) EXPECT_THAT(network, HasSubstr(word));
+  EXPECT_THAT(network, Not(HasSubstr(">200 m</text>")));
 }
 
 TEST_F(WorldReport, TheProfileShowsGradesRadiiAndSlopes) {

@@ -1,0 +1,291 @@
+// The project's worlds of version 2 as OpenDRIVE: read again by the strict rules they hold the same roads, lanes, ways, lines, signs and
+// objects, and SUMO's netconvert finds all of their edges.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <tuple>
+
+#include "common/base/files.hpp"
+#include "common/base/random.hpp"
+#include "common/network/marking.hpp"
+#include "common/opendrive/import.hpp"
+#include "common/road/world.hpp"
+#include "common/road/world_export.hpp"
+#include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
+
+namespace rodeira::road {
+namespace {
+
+using network::LaneKey;
+using network::Network;
+
+class NetworkExport : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const auto loaded = World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / GetParam());
+    ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
+    world_ = loaded.value();
+    const auto written = WriteOpenDrive(*world_, file_);
+    ASSERT_TRUE(written.ok()) << written.error().Text();
+    // The example shows that gaps of up to 5 cm between an author's elements are closed, which strictly they may not be.
+    const auto import = opendrive::Load(file_, IsExample() ? opendrive::Tolerance::Usual() : opendrive::Tolerance::Strict());
+    ASSERT_TRUE(import.ok()) << import.error().Text();
+    for (const auto& error : import.value().errors) ADD_FAILURE() << error.Text();
+    again_ = import.value().network;
+    ASSERT_NE(again_, nullptr);
+    ASSERT_EQ(again_->roads().size(), ours().roads().size());
+  }
+  const Network& ours() const { return *world_->network(); }
+  static bool IsExample() { return std::string(GetParam()).starts_with("example"); }
+
+  const front::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_.path() / "it.xodr";
+  std::shared_ptr<const World> world_;
+  std::shared_ptr<const Network> again_;
+};
+
+TEST_P(NetworkExport, RoadsComeBackWithTheirSurfaces) {
+  double worst_m = 0.0;
+  for (std::uint32_t r = 0; r < ours().roads().size(); ++r) {
+    const network::Road &a = ours().roads()[r], &b = again_->roads()[r];
+    EXPECT_EQ(a.id(), b.id());
+    EXPECT_EQ(a.spec().name, b.spec().name);
+    EXPECT_EQ(a.spec().junction, b.spec().junction);
+    EXPECT_EQ(a.spec().left_hand, b.spec().left_hand);
+    EXPECT_NEAR(a.length_m(), b.length_m(), 1e-9);
+    ASSERT_EQ(a.spec().sections.size(), b.spec().sections.size());
+    const double left_m = a.SpanAt(0, static_cast<int>(a.spec().sections[0].left.size()), 0.0).value_or(network::LaneSpan{}).outer_t_m;
+    const double right_m = a.SpanAt(0, -static_cast<int>(a.spec().sections[0].right.size()), 0.0).value_or(network::LaneSpan{}).outer_t_m;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+      const double s = base::RandomUniform({r, i, 1}, 0.0, a.length_m()), t = base::RandomUniform({r, i, 2}, right_m, left_m);
+      const network::SurfaceSample ours = a.Surface(s, t), theirs = b.Surface(s, t);
+      worst_m = std::max(worst_m, (ours.p_W - theirs.p_W).norm());
+      EXPECT_NEAR((ours.ds_W.cross(ours.dt_W).normalized() - theirs.ds_W.cross(theirs.dt_W).normalized()).norm(), 0.0, 1e-8) << a.id() << " " << s << " " << t;
+      EXPECT_NEAR(a.spec().superelevation.Value(s), b.spec().superelevation.Value(s), 1e-9);
+      EXPECT_NEAR(a.CentreAt(s).value, b.CentreAt(s).value, 1e-9);
+    }
+  }
+  EXPECT_LT(worst_m, 1e-8);
+}
+
+TEST_P(NetworkExport, LanesComeBackWithTheirWidthsLimitsGroundsAndWays) {
+  const auto lanes = ours().Lanes();
+  EXPECT_EQ(lanes, again_->Lanes());
+  const auto same = [](std::span<const network::LaneEnd> a, std::span<const network::LaneEnd> b) { return std::equal(a.begin(), a.end(), b.begin(), b.end()); };
+  for (const LaneKey& key : lanes) {
+    const network::Road &a = ours().roads()[key.road], &b = again_->roads()[key.road];
+    const network::Lane &ours_lane = *ours().Find(key), &theirs = *again_->Find(key);
+    EXPECT_EQ(ours_lane.type, theirs.type);
+    EXPECT_EQ(ours_lane.direction, theirs.direction);
+    EXPECT_TRUE(same(ours().AtEnd(key), again_->AtEnd(key)) && same(ours().AtStart(key), again_->AtStart(key))) << a.id() << " " << key.lane;
+    for (std::uint64_t i = 0; i < 40; ++i) {
+      const double s = base::RandomUniform({key.road, i, 3}, 0.0, a.length_m());
+      EXPECT_NEAR(ours().Span(key, s)->inner_t_m, again_->Span(key, s)->inner_t_m, 1e-9);
+      EXPECT_NEAR(ours().Span(key, s)->outer_t_m, again_->Span(key, s)->outer_t_m, 1e-9);
+      const auto limit = a.SpeedLimitAt(ours_lane, s), again = b.SpeedLimitAt(theirs, s);
+      ASSERT_EQ(limit.has_value(), again.has_value());
+      EXPECT_NEAR(limit.value_or(0.0), again.value_or(0.0), 1e-12);
+      const network::LaneMaterial *ground = a.MaterialAt(ours_lane, s), *theirs_ground = b.MaterialAt(theirs, s);
+      ASSERT_EQ(ground == nullptr, theirs_ground == nullptr);
+      if (ground == nullptr) continue;
+      EXPECT_EQ(ground->surface, theirs_ground->surface);
+      EXPECT_EQ(ground->friction, theirs_ground->friction);
+    }
+  }
+}
+
+// The lines at a station: where, how wide, of which colour, in which strokes.
+std::vector<std::tuple<double, double, std::string, double, double>> LinesAt(const network::Road& road, const std::vector<network::Marking>& markings, double s_m) {
+  std::vector<std::tuple<double, double, std::string, double, double>> lines;
+  for (const network::Marking& line : markings) {
+    if (line.from_s_m > s_m || line.to_s_m <= s_m) continue;
+    lines.emplace_back(network::MarkingAt(road, line, s_m).value, line.width_m, std::string(line.colour), line.stroke_m, line.gap_m);
+  }
+  // By how they are painted, and only then by t: a crossing's stripes lie over the road's own lines.
+  std::sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
+    return std::tuple(std::get<1>(a), std::get<2>(a), std::get<3>(a), std::get<4>(a), std::get<0>(a)) < std::tuple(std::get<1>(b), std::get<2>(b), std::get<3>(b), std::get<4>(b), std::get<0>(b));
+  });
+  return lines;
+}
+
+// A line keeps the distance to the nearest lane's edge that it has in its middle: those of the example that cross over their road alone are moved.
+TEST_P(NetworkExport, LinesComeBackWhereTheyWere) {
+  double worst_m = 0.0;
+  for (std::uint32_t r = 0; r < ours().roads().size(); ++r) {
+    const network::Road &a = ours().roads()[r], &b = again_->roads()[r];
+    const auto lines = network::MarkingsOf(a), again = network::MarkingsOf(b);
+    for (std::uint64_t i = 0; i < 60; ++i) {
+      const double s = base::RandomUniform({r, i, 4}, 0.0, a.length_m());
+      const auto painted = LinesAt(a, lines, s), theirs = LinesAt(b, again, s);
+      ASSERT_EQ(painted.size(), theirs.size()) << a.id() << " " << s;
+      for (std::size_t k = 0; k < painted.size(); ++k) {
+        const double apart_m = std::fabs(std::get<0>(painted[k]) - std::get<0>(theirs[k]));
+        worst_m = std::max(worst_m, apart_m);
+        EXPECT_EQ(std::get<1>(painted[k]), std::get<1>(theirs[k])) << a.id() << " " << s;
+        EXPECT_EQ(std::get<2>(painted[k]), std::get<2>(theirs[k])) << a.id() << " " << s;
+        EXPECT_EQ(std::get<3>(painted[k]), std::get<3>(theirs[k])) << a.id() << " " << s;
+        EXPECT_EQ(std::get<4>(painted[k]), std::get<4>(theirs[k])) << a.id() << " " << s;
+      }
+    }
+  }
+  EXPECT_LT(worst_m, IsExample() ? 0.6 : 1e-9);
+}
+
+std::string Said(const std::vector<network::LaneValidity>& lanes) {
+  std::string text;
+  for (const auto& [from, to] : lanes) text += fmt::format(" [{} {}]", from, to);
+  return text;
+}
+std::string Said(const network::Signal& s) {
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} '{}' {} {} {} {} {} {}{} {}", s.id, s.name, s.s_m, s.t_m, s.z_offset_m, s.orientation, s.dynamic, s.country, s.type, s.subtype, s.unit,
+                     s.text, s.value.value_or(-1.0), s.height_m, s.width_m, s.h_offset_rad, s.pitch_rad, s.roll_rad, Said(s.validity), fmt::join(s.depends_on, " "));
+}
+std::string Said(const network::Object& o) {
+  std::string text = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}", o.id, o.name, o.type, o.subtype, o.orientation, o.s_m, o.t_m, o.z_offset_m, o.hdg_rad, o.pitch_rad, o.roll_rad,
+                                 o.length_m, o.width_m, o.height_m, o.radius_m, o.valid_length_m, o.dynamic, Said(o.validity));
+  for (const network::Repeat& r : o.repeats) {
+    text += fmt::format(" ({} {} {} {} {} {} {} {} {} {} {})", r.s_m, r.length_m, r.distance_m, r.t_start_m, r.t_end_m, r.z_start_m, r.z_end_m, r.height_start_m, r.height_end_m, r.width_start_m, r.width_end_m);
+  }
+  for (const network::Outline& outline : o.outlines) {
+    text += outline.closed ? " closed" : " open";
+    for (const network::Corner& c : outline.corners) text += fmt::format(" ({} {} {} {} {})", c.local, c.first_m, c.second_m, c.dz_m, c.height_m);
+  }
+  return text;
+}
+template <class Things>
+std::vector<std::string> AllSaid(const Things& things) {
+  std::vector<std::string> said;
+  for (const auto& thing : things) said.push_back(Said(thing));
+  return said;
+}
+
+TEST_P(NetworkExport, WhatStandsThereComesBack) {
+  std::size_t things = 0;
+  for (std::uint32_t r = 0; r < ours().roads().size(); ++r) {
+    const network::RoadSpec &a = ours().roads()[r].spec(), &b = again_->roads()[r].spec();
+    EXPECT_EQ(AllSaid(a.signals), AllSaid(b.signals));
+    EXPECT_EQ(AllSaid(a.objects), AllSaid(b.objects));
+    things += a.signals.size() + a.objects.size();
+    ASSERT_EQ(a.structures.size(), b.structures.size());
+    for (std::size_t i = 0; i < a.structures.size(); ++i) {
+      // Bridges are written before tunnels or behind them, as they were said; they are read tunnels first.
+      const auto same = [&](const network::Structure& other) {
+        return other.id == a.structures[i].id && other.bridge == a.structures[i].bridge && other.name == a.structures[i].name && other.s_m == a.structures[i].s_m && other.length_m == a.structures[i].length_m;
+      };
+      EXPECT_EQ(std::count_if(b.structures.begin(), b.structures.end(), same), 1) << a.structures[i].id;
+    }
+    EXPECT_EQ(a.crg.size(), b.crg.size());
+    EXPECT_EQ(a.unevenness.size(), b.unevenness.size());
+  }
+  EXPECT_GT(things, 3u);
+}
+
+TEST_P(NetworkExport, JunctionsAndLightsComeBack) {
+  ASSERT_EQ(ours().junctions().size(), again_->junctions().size());
+  for (std::size_t j = 0; j < ours().junctions().size(); ++j) {
+    const network::Junction &a = ours().junctions()[j], &b = again_->junctions()[j];
+    const auto said = [](const network::Junction& junction) {
+      std::string text = junction.id + " '" + junction.name + "'";
+      for (const auto& c : junction.connections) {
+        text += fmt::format(" {} {} {} {}", c.id, c.incoming_road, c.connecting_road, c.contact == network::End::kStart);
+        for (const auto& link : c.lane_links) text += fmt::format(" {}>{}", link.from, link.to);
+      }
+      for (const auto& p : junction.priorities) text += fmt::format(" {} before {}", p.high, p.low);
+      return text + fmt::format(" {}", fmt::join(junction.controllers, " "));
+    };
+    EXPECT_EQ(said(a), said(b));
+  }
+  ASSERT_EQ(ours().controllers().size(), again_->controllers().size());
+  for (std::size_t c = 0; c < ours().controllers().size(); ++c) {
+    const network::Controller &a = ours().controllers()[c], &b = again_->controllers()[c];
+    EXPECT_EQ(a.id, b.id);
+    EXPECT_EQ(a.name, b.name);
+    ASSERT_EQ(a.controls.size(), b.controls.size());
+    for (std::size_t i = 0; i < a.controls.size(); ++i) EXPECT_EQ(a.controls[i].signal_id, b.controls[i].signal_id);
+    ASSERT_EQ(a.times.has_value(), b.times.has_value());
+    if (!a.times) continue;
+    EXPECT_TRUE(a.times->cycle_s == b.times->cycle_s && a.times->green_from_s == b.times->green_from_s && a.times->green_s == b.times->green_s && a.times->amber_s == b.times->amber_s &&
+                a.times->red_amber_s == b.times->red_amber_s);
+  }
+}
+
+// How long a line of "x,y[,z]" is in the plane.
+double LengthOf(const std::string& shape) {
+  std::istringstream words(shape);
+  double length_m = 0.0;
+  Eigen::Vector2d before, p;
+  int count = 0;
+  for (std::string word; words >> word; before = p, ++count) {
+    std::sscanf(word.c_str(), "%lf,%lf", &p.x(), &p.y());
+    if (count > 0) length_m += (p - before).norm();
+  }
+  return length_m;
+}
+
+// An attribute of the element that begins at `at`; empty where it has none.
+std::string Attribute(const std::string& text, std::size_t at, const std::string& name) {
+  const std::size_t begin = text.find(" " + name + "=\"", at), end = text.find('>', at);
+  if (begin == std::string::npos || begin > end) return "";
+  return text.substr(begin + name.size() + 3, text.find('"', begin + name.size() + 3) - begin - name.size() - 3);
+}
+
+// Of an edge, or of all that a road closed in itself is split into (ID#0, ID#1 …). A straight one has no shape of its own: it goes from node to node.
+double LengthOfEdge(const std::string& edges, const std::string& nodes, const std::string& id) {
+  const auto place = [&](const std::string& node) {
+    const std::size_t at = nodes.find("<node id=\"" + node + "\"");
+    return at == std::string::npos ? std::string() : Attribute(nodes, at, "x") + "," + Attribute(nodes, at, "y");
+  };
+  double length_m = 0.0;
+  for (std::size_t at = edges.find("<edge id=\""); at != std::string::npos; at = edges.find("<edge id=\"", at + 1)) {
+    const std::string own = Attribute(edges, at, "id");
+    if (own != id && !own.starts_with(id + "#")) continue;
+    const std::string shape = Attribute(edges, at, "shape");
+    length_m += LengthOf(shape.empty() ? place(Attribute(edges, at, "from")) + " " + place(Attribute(edges, at, "to")) : shape);
+  }
+  return length_m;
+}
+
+// SUMO draws an edge along the line that lanes are counted from; here before it cuts that by the shapes of its own junctions.
+TEST_P(NetworkExport, NetconvertFindsEveryEdgeWithItsLength) {
+  if (std::system("command -v netconvert > /dev/null 2>&1") != 0) GTEST_SKIP() << "SUMO's netconvert is not installed";
+  const std::string command = "cd " + folder_.path().string() +
+                              " && { [ -n \"$SUMO_HOME\" ] || [ ! -d /usr/share/sumo ] || export SUMO_HOME=/usr/share/sumo; } && netconvert --opendrive-files it.xodr "
+                              "--opendrive.curve-resolution 0.2 --precision 6 --plain-output-prefix it --output-file it.net.xml > log 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0) << base::ReadText(folder_.path() / "log").value();
+  const std::string edges = base::ReadText(folder_.path() / "it.edg.xml").value(), nodes = base::ReadText(folder_.path() / "it.nod.xml").value();
+  int found = 0;
+  for (const network::Road& road : ours().roads()) {
+    if (!road.spec().junction.empty()) continue;
+    double length_m = 0.0;
+    constexpr int kSteps = 4000;
+    Eigen::Vector2d before;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double s = road.length_m() * i / kSteps;
+      const Eigen::Vector2d p = road.Surface(s, road.CentreAt(s).value).p_W.head<2>();
+      if (i > 0) length_m += (p - before).norm();
+      before = p;
+    }
+    for (const bool left : {false, true}) {
+      const network::LaneSection& section = road.spec().sections[0];
+      const auto& side = left ? section.left : section.right;
+      if (std::none_of(side.begin(), side.end(), [](const network::Lane& lane) { return network::IsDrivable(lane.type); })) continue;
+      EXPECT_NEAR(LengthOfEdge(edges, nodes, std::string(left ? "" : "-") + road.id()), length_m, 2e-4 * length_m + 0.03) << road.id();
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, NetworkExport, testing::Values("haste.yaml", "motorway.yaml", "flat.yaml", "lights.yaml", "example/world.yaml"),
+                         [](const auto& file) { return std::string(file.param).substr(0, std::string(file.param).find_first_of("./")); });
+
+}  // namespace
+}  // namespace rodeira::road
