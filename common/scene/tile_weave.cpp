@@ -16,7 +16,7 @@ namespace {
 
 using partition::Triangulation;
 
-constexpr double kApron_m = 0.9;    // of a bridge's side
+constexpr double kApron_m = 0.9;    // of a bridge's side, and as deep its underside lies
 constexpr double kKerb_m = 0.35;    // lower steps are stone, higher ones earth
 constexpr std::size_t kNobody = 99;
 
@@ -33,7 +33,10 @@ class Weaver {
     const auto triangles = plan_.triangles.triangles();
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
       const Face& face = plan_.faces[plan_.face_of[i]];
-      for (std::size_t level = 0; level < face.levels.size(); ++level) Ground(i, level);
+      for (std::size_t level = 0; level < face.levels.size(); ++level) {
+        Ground(i, level);
+        if (level + 1 < face.levels.size() && !face.skins[level].land) Underside(i, level);
+      }
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t beyond = triangles[i].across[k];
         if (beyond != Triangulation::kNone && plan_.face_of[beyond] != plan_.face_of[i]) Steps(i, k, beyond);
@@ -95,6 +98,17 @@ class Weaver {
     ground.normal_W = (ground.p_W[1] - ground.p_W[0]).cross(ground.p_W[2] - ground.p_W[0]).normalized();
     mesh.AddTriangle(index[0], index[1], index[2]);
     woven_.triangles.push_back(ground);
+  }
+
+  // Of a deck, as deep as its sides: seen from the road below it.
+  void Underside(std::uint32_t triangle, std::size_t level) {
+    const auto& corner = plan_.triangles.triangles()[triangle].corner;
+    const Colour concrete = SurfaceColour(terrain::Surface::kConcrete);
+    std::array<std::uint32_t, 3> index{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      index[k] = wall_.Add(Place(corner[k], heights_.At(corner[k], plan_.face_of[triangle])[level].z_m - kApron_m), -Eigen::Vector3d::UnitZ(), concrete);
+    }
+    wall_.AddTriangle(index[0], index[2], index[1]);
   }
 
   double MeanHeight(const std::array<std::uint32_t, 2>& side, std::uint32_t face, std::size_t level) const {

@@ -15,7 +15,7 @@ struct GroundTriangle {
 };
 
 struct WovenTile {
-  std::vector<Mesh> meshes;               // the ground by material; then walls
+  std::vector<Mesh> meshes;               // the ground by material; then walls and undersides
   std::vector<GroundTriangle> triangles;  // the ground again, without walls
 };
 
@@ -23,7 +23,7 @@ struct WovenTile {
 Eigen::Vector3d TileOrigin(const TileKey& key, double z_m);
 
 // The plan's triangles at SUELO's heights. Where SUELO steps between two faces there is a wall, and where a level ends in
-// the air (a bridge's side) an apron hangs from it. Nothing where no ground is known.
+// the air (a bridge's side) an apron hangs from it; a deck over another level has an underside, whose normals look down. Nothing where no ground is known.
 WovenTile WeaveTile(const road::World& world, const TilePlan& plan);
 
 }  // namespace rodeira::scene

@@ -314,6 +314,42 @@ TEST(Ground, IsClosed) {
   }
 }
 
+// From the road below a deck is seen: all of it, 0.9 m under its lanes and verges.
+TEST(Ground, ABridgeHasAnUnderside) {
+  const auto loaded = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/motorway.yaml");
+  ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
+  const road::World& world = *loaded.value();
+  const network::Network& network = *world.network();
+  const network::Road& road = network.roads()[*network.FindRoad("over")];
+  const network::Structure& bridge = road.spec().structures.at(0);
+  const Eigen::Vector2d middle = road.Surface(bridge.s_m + 0.5 * bridge.length_m, 0.0).p_W.head<2>();
+  const network::LaneSection& section = road.spec().sections[0];
+  const double width_m = road.SpanAt(0, static_cast<int>(section.left.size()), 400.0)->outer_t_m - road.SpanAt(0, -static_cast<int>(section.right.size()), 400.0)->outer_t_m;
+  const GroundPlan plan(world);
+  for (std::size_t level = 0; level < kGroundLevels; ++level) {
+    double area_m2 = 0.0;
+    for (const TileKey& key : plan.tiles()) {
+      const Eigen::Vector2d tile_middle = key.south_west_W() + Eigen::Vector2d::Constant(0.5 * kTile_m);
+      if ((tile_middle - middle).cwiseAbs().maxCoeff() > kTile_m) continue;
+      const GroundTile tile = plan.Build(key);
+      for (const Mesh& mesh : tile.levels[level].ground) {
+        for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
+          if (mesh.normals[mesh.triangles[3 * i]].z() > -0.5F) continue;
+          const auto c = CornersOf(mesh, i);
+          const Eigen::Vector3d u = c[1] - c[0], v = c[2] - c[0];
+          area_m2 -= 0.5 * (u.x() * v.y() - u.y() * v.x());
+          if (level > 0 || u.cross(v).norm() < 0.02) continue;  // slivers at the edges lie beside the deck
+          const Eigen::Vector3d p = (c[0] + c[1] + c[2]) / 3.0;
+          EXPECT_NEAR(world.At(p.x(), p.y()).z_m - p.z(), 0.9, 0.01) << p.transpose();
+        }
+      }
+    }
+    // At its ends a deck lies on the land.
+    EXPECT_GT(area_m2 / (bridge.length_m * width_m), 0.9) << "level " << level;
+    EXPECT_LT(area_m2 / (bridge.length_m * width_m), 1.02) << "level " << level;
+  }
+}
+
 // What is not closed of a tile at one level: sides of triangles that none goes back along, but on the tile's own edge, and faces that look down.
 struct Flaws {
   std::vector<Eigen::Vector3d> open;  // sides of the ground: where they begin
