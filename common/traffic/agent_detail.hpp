@@ -14,7 +14,7 @@ struct AgentDetail {
   double fuel_mgps = 0.0;
   double fuel_used_mg = 0.0;  // since it entered
   double target_mps = 0.0;    // what it plans for here and now, whoever is ahead
-  Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // on its path, as far ahead of its rear axle as the autopilot steers for
+  Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // on its path, as far ahead of its rear axle as the autopilot steers for; of MOTORS' driver where he looks to
 };
 
 }  // namespace rodeira::traffic

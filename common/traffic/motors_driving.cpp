@@ -88,6 +88,18 @@ void TrafficModel::FollowTrajectory(std::uint32_t id) {
   }
 }
 
+Vector2d TrafficModel::MotorsLook(std::uint32_t id) const {
+  const MotorsDriver& driver = motors_[id];
+  const auto ahead = driver.checkpoint + static_cast<std::uint32_t>(kLookAhead_s * agents_[id].speed_mps / kCheckpoint_m);
+  return MotorsPoint(driver, std::min(ahead, MotorsPoints(driver) - 2));
+}
+
+// At the end of its lane the point lies beside the car, or behind, and says nothing.
+double TrafficModel::MotorsTurn_rad(std::uint32_t id, const Vector2d& look_W) const {
+  const Vector2d to_W = look_W - full_->cars().p_WB_W(id).head<2>();
+  return to_W.norm() < 2.0 * kCheckpoint_m ? 0.0 : AngleBetween((full_->cars().car(id).body.q_WG * Eigen::Vector3d::UnitX()).head<2>(), to_W);
+}
+
 // Who sees his look-ahead cross that of somebody on his right stops (left-hand traffic: on his left). Two seconds of way, to the lane's end.
 void TrafficModel::GiveWay() {
   struct Look {
@@ -99,10 +111,8 @@ void TrafficModel::GiveWay() {
   };
   EachDriving([&](std::uint32_t id) {
     FollowTrajectory(id);
-    MotorsDriver& driver = motors_[id];
-    driver.stops = false;
-    const auto ahead = driver.checkpoint + static_cast<std::uint32_t>(kLookAhead_s * agents_[id].speed_mps / kCheckpoint_m);
-    segments_[id] = MotorsPoint(driver, std::min(ahead, MotorsPoints(driver) - 2));
+    motors_[id].stops = false;
+    segments_[id] = MotorsLook(id);
   });
   std::vector<Look> all;
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
@@ -131,14 +141,13 @@ void TrafficModel::DriveMotors(std::uint32_t id, double dt_s) {
   const vehicle::BicycleCar& car = full_->cars().car(id);
   const vehicle::BicycleSettings& settings = full_->cars().chassis(id).settings;
   const Vector2d at = full_->cars().p_WB_W(id).head<2>(), ahead = (car.body.q_WG * Eigen::Vector3d::UnitX()).head<2>();
-  const Vector2d current = MotorsPoint(driver, driver.checkpoint), target = MotorsPoint(driver, driver.checkpoint + 1), look = segments_[id];
+  const Vector2d current = MotorsPoint(driver, driver.checkpoint), target = MotorsPoint(driver, driver.checkpoint + 1);
   MotorsView view;
   view.speed_mps = agent.speed_mps;
   view.to_path_rad = AngleBetween(ahead, target - current);
   view.to_target_rad = AngleBetween(ahead, target - at);
   view.distance_m = (current - at).norm();
-  // At the end of its lane the point lies beside the car, or behind, and says nothing.
-  view.turn_rad = (look - at).norm() < 2.0 * kCheckpoint_m ? 0.0 : AngleBetween(ahead, look - at);
+  view.turn_rad = MotorsTurn_rad(id, segments_[id]);
   view.limit_mps = std::min(kMotorsLimit_mps, Cap_mps(id));
   view.stops = driver.stops || agent.brake_mps2 > 0.0;
   view.engine_radps = car.powertrain.engine().speed_radps();

@@ -117,14 +117,21 @@ TEST(Motors, DrivesAloneToItsLimit) {
   road.right = "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" max=\"10\" unit=\"m/s\"/></lane>";
   TrafficModel model = TrafficModel::Make(AsMotors(1), opendrive::MustRead(opendrive::Document(road.Text())), {}).value();
   double fastest = 0.0, aside = 0.0;
+  int published = 0;
   for (int i = 0; i < 12000 && model.agent(0).trip == 0; ++i) {
     model.Step(0.01, {});
     if (model.poses().empty()) continue;
     fastest = std::max(fastest, model.poses()[0].speed_mps);
     aside = std::max(aside, std::fabs(model.poses()[0].p_WB_W.y() + 1.75));
+    if (model.poses()[0].speed_mps < 16.0 || model.poses()[0].p_WB_W.x() > 7900.0) continue;
+    const AgentDetail detail = model.Details()[0];  // what is published of him is his own, not the other drivers'
+    ASSERT_NEAR(detail.target_mps, 17.0, 1e-9);
+    ASSERT_NEAR(detail.look_ahead_W.x() - model.poses()[0].p_WB_W.x(), 2.0 * model.poses()[0].speed_mps, 1.0);
+    ++published;
   }
   EXPECT_GT(fastest, 16.5);
   EXPECT_LT(fastest, 17.3);
+  EXPECT_GT(published, 1000);
   EXPECT_LT(aside, 0.15 * 3.5 + 0.3);  // the weight's range, and what he is beside his trajectory
 }
 
