@@ -5,6 +5,7 @@
 #include "common/base/random.hpp"
 #include "common/geometry/plane.hpp"
 #include "common/traffic/car_of.hpp"
+#include "common/traffic/motors_looks.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
@@ -102,37 +103,26 @@ double TrafficModel::MotorsTurn_rad(std::uint32_t id, const Vector2d& look_W) co
 
 // Who sees his look-ahead cross that of somebody on his right stops (left-hand traffic: on his left). Two seconds of way, to the lane's end.
 void TrafficModel::GiveWay() {
-  struct Look {
-    Vector2d from, to;
-    double z_m = 0.0;
-    std::int64_t id = -1;
-    double low_m() const { return std::min(from.x(), to.x()); }
-    double high_m() const { return std::max(from.x(), to.x()); }
-  };
   EachDriving([&](std::uint32_t id) {
     FollowTrajectory(id);
     motors_[id].stops = false;
     segments_[id] = MotorsLook(id);
   });
-  std::vector<Look> all;
+  std::vector<MotorsLook> all;
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     if (!agents_[id].on_road) continue;
     const Eigen::Vector3d at = full_->cars().p_WB_W(id);
     all.push_back({at.head<2>(), segments_[id], at.z(), id});
   }
-  std::sort(all.begin(), all.end(), [](const Look& a, const Look& b) { return a.low_m() != b.low_m() ? a.low_m() < b.low_m() : a.id < b.id; });
-  const auto yields = [&](const Look& me, const Look& other) {
+  const auto yields = [&](const MotorsLook& me, const MotorsLook& other) {
     const double side = geometry::Cross(me.to - me.from, other.from - me.from);
-    MotorsDriver& driver = motors_[static_cast<std::size_t>(me.id)];
+    MotorsDriver& driver = motors_[me.id];
     driver.stops = driver.stops || (graph()[driver.track].left_hand ? side >= 0.0 : side <= 0.0);
   };
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t k = i + 1; k < all.size() && all[k].low_m() <= all[i].high_m(); ++k) {
-      if (std::fabs(all[i].z_m - all[k].z_m) > network::Network::kLevel_m || !SegmentsCross(all[i].from, all[i].to, all[k].from, all[k].to)) continue;
-      yields(all[i], all[k]);
-      yields(all[k], all[i]);
-    }
-  }
+  EachCrossing(all, [&](const MotorsLook& a, const MotorsLook& b) {
+    yields(a, b);
+    yields(b, a);
+  });
 }
 
 void TrafficModel::DriveMotors(std::uint32_t id, double dt_s) {

@@ -9,6 +9,8 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "common/traffic/car_of.hpp"
+#include "common/traffic/drivetrain.hpp"
 #include "common/traffic/floating_cars.hpp"
 #include "common/traffic/lane_tables.hpp"
 #include "common/traffic/study.hpp"
@@ -19,6 +21,44 @@
 
 namespace rodeira::traffic {
 namespace {
+
+// Planar cars of all kinds: what the tank has lost on a trip is the integral of the flow of engines that turn as is told, to 1e-9; none in overrun, which
+// there is, and some wherever the throttle is open.
+TEST(PlanarFuel, IsTheIntegralOfItsFlowAndNoneInOverrun) {
+  TrafficSettings settings;
+  settings.vehicles = 30;
+  settings.mix.shares = {0.6, 0.1, 0.2, 0.1};
+  TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("overpass"), {}).value();
+  constexpr double kStep_s = 0.02;
+  std::vector<double> burnt_mg(settings.vehicles, 0.0);
+  std::vector<std::uint32_t> trips(settings.vehicles, 0);
+  int overruns = 0, driven = 0;
+  for (int i = 0; i < 6000; ++i) {
+    std::vector<bool> was_there;
+    for (std::uint32_t id = 0; id < settings.vehicles; ++id) was_there.push_back(model.agent(id).on_road);
+    model.Step(kStep_s, {});
+    for (std::uint32_t id = 0; id < settings.vehicles; ++id) {
+      const Agent& agent = model.agent(id);
+      if (!agent.on_road) continue;
+      if (!was_there[id] || trips[id] != agent.trip) {  // it has entered in this step, and not driven yet
+        trips[id] = agent.trip;
+        burnt_mg[id] = 0.0;
+        EXPECT_EQ(agent.fuel_mg, 0.0);
+        continue;
+      }
+      const double flow_mgps = FuelFlow_mgps(CarOfBody(model.traits(id).body), agent.driving);
+      burnt_mg[id] += flow_mgps * kStep_s;
+      ASSERT_NEAR(agent.fuel_mg, burnt_mg[id], 1e-9 * (1.0 + burnt_mg[id])) << id << " at " << i;
+      const bool overrun = agent.driving.throttle == 0.0 && agent.driving.clutch == 0.0 && agent.speed_mps > 5.0;
+      overruns += overrun ? 1 : 0;
+      driven += agent.driving.throttle > 0.0 ? 1 : 0;
+      EXPECT_TRUE(!overrun || flow_mgps == 0.0) << id;
+      EXPECT_TRUE(agent.driving.throttle == 0.0 || flow_mgps > 0.0) << id;
+    }
+  }
+  EXPECT_GT(overruns, 1000);
+  EXPECT_GT(driven, 10000);
+}
 
 // In a town where cars come, go and queue: q = k v in every cell to 1e-9; all cells together have the vehicle seconds and the way that
 // were there; and nobody comes or goes uncounted.

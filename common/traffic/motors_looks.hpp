@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace rodeira::traffic {
+
+// The straight line to the look-ahead point of MOTORS' driver, at the height of his car.
+struct MotorsLook {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();
+  double z_m = 0.0;
+  std::uint32_t id = 0;
+};
+
+// tell(a, b) once for every two whose lines cross on one level. The lines are put into order by their least x, so that only those are compared that
+// may meet.
+void EachCrossing(std::vector<MotorsLook>& looks, const std::function<void(const MotorsLook&, const MotorsLook&)>& tell);
+
+}  // namespace rodeira::traffic
