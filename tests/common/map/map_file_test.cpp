@@ -134,6 +134,18 @@ TEST(MapFile, SavedAndLoaded) {
   EXPECT_THAT(LoadMap(path).error().Text(), HasSubstr("there is no such file"));
 }
 
+// A picture of 300 MB behind the lines is not even read.
+TEST(MapFile, AHugeFileIsRefused) {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("huge-" + std::to_string(::getpid()) + ".motors");
+  ASSERT_TRUE(base::WriteWhole(path, GoodMap()).ok());
+  std::filesystem::resize_file(path, 300'000'000);  // a hole: no disk is used
+  const auto map = LoadMap(path);
+  std::filesystem::remove(path);
+  ASSERT_FALSE(map.ok());
+  EXPECT_EQ(map.error().exit_status(), 2);
+  EXPECT_THAT(map.error().Text(), testing::AllOf(HasSubstr(path.string()), HasSubstr("268435456")));
+}
+
 TEST(MapFile, WhatIsWrongIsSaid) {
   const std::string good = GoodMap();
   EXPECT_THAT(Refused(""), HasSubstr("x.motors: the file ends at byte 0 without a line 'i'"));

@@ -144,7 +144,7 @@ TEST_P(Drive, EveryConnectionIsThereOnce) {
   EXPECT_EQ(junctions, drive_.junctions);
 }
 
-INSTANTIATE_TEST_SUITE_P(Maps, Drive, testing::Values("crossing", "roundabout", "ramp", "town", "overpass"),
+INSTANTIATE_TEST_SUITE_P(Maps, Drive, testing::Values("crossing", "roundabout", "ramp", "town", "overpass", "lights"),
                          [](const auto& made) { return made.param; });
 
 TEST(OpenDrive, StopAndMarks) {
