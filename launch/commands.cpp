@@ -123,10 +123,10 @@ void AddMap(CLI::App& app, MapOptions& options) {
   CLI::App* map = app.add_subcommand("map", "traffic maps (.motors): check and convert them");
   map->require_subcommand(1);
   for (const auto& [name, text] : {std::pair("check", "name everything that is wrong, and what the map holds"),
-                                   std::pair("convert", "draw it (.svg) or write it as OpenDRIVE (.xodr)")}) {
+                                   std::pair("convert", "draw it (.svg), or write it as OpenDRIVE (.xodr) or as a world of this project (.yaml)")}) {
     CLI::App* command = map->add_subcommand(name, text);
     command->add_option("FILE.motors", options.file, "map")->required();
-    if (std::string(name) == "convert") command->add_option("-o,--out", options.out, "file to write: OUT.svg or OUT.xodr")->required();
+    if (std::string(name) == "convert") command->add_option("-o,--out", options.out, "file to write: OUT.svg, OUT.xodr or OUT.yaml (with OUT.xodr beside it)")->required();
     command->callback([&options, name] { options.command = name; });
   }
 }

@@ -9,7 +9,7 @@
 #include "common/map/lane_map.hpp"
 #include "common/map/map_plot.hpp"
 #include "common/map/map_report.hpp"
-#include "common/map/open_drive.hpp"
+#include "common/map/world_files.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -35,30 +35,27 @@ int Check(const std::string& path) {
   return status;
 }
 
-int Write(const MapOptions& options, std::string_view text, std::string_view remark) {
-  if (auto status = base::WriteWhole(options.out, text); !status) return Complain(status.error());
-  fmt::print("wrote {}{}\n", options.out, remark);
-  return 0;
-}
-
 int Convert(const MapOptions& options) {
-  const std::string kind = std::filesystem::path(options.out).extension();
-  if (kind != ".svg" && kind != ".xodr") {
+  const std::filesystem::path out = options.out, from = options.file;
+  const std::string kind = out.extension();
+  if (kind != ".svg" && kind != ".xodr" && kind != ".yaml") {
     return Complain(
-        base::WrongInput(fmt::format("the file's name ends with '{}'; .svg or .xodr was expected", kind), options.out));
+        base::WrongInput(fmt::format("the file's name ends with '{}'; .svg, .xodr or, for a world, .yaml was expected", kind), options.out));
   }
   const auto made = map::LoadLaneMap(options.file);
   if (!made) return Complain(made.error());
-  if (kind == ".svg") return Write(options, map::PlotMap(made.value()), "");
-  const auto written = map::ToOpenDrive(made.value(), std::filesystem::path(options.file).stem());
-  if (!written) return Complain(base::WrongInput(written.error().message, options.file));
+  if (kind == ".svg") {
+    if (auto status = base::WriteWhole(out, map::PlotMap(made.value())); !status) return Complain(status.error());
+    fmt::print("wrote {}\n", options.out);
+    return 0;
+  }
+  const auto written = map::WriteWorld(made.value(), out, "made of " + from.filename().string());
+  if (!written) return Complain(written.error().context.empty() ? base::WrongInput(written.error().message, options.file) : written.error());
   const map::OpenDrive& drive = written.value();
-  return Write(
-      options, drive.xml,
-      fmt::format(
-          ": {} roads in {} pieces, {} junctions; off by at most {:.2f} mm (middle), {:.2f} mm (borders), {:.2f} mm (height)",
-          drive.roads, drive.pieces, drive.junctions, 1e3 * drive.middle_error_m, 1e3 * drive.border_error_m,
-          1e3 * drive.height_error_m));
+  fmt::print("wrote {}{}: {} roads in {} pieces, {} junctions; off by at most {:.2f} mm (middle), {:.2f} mm (borders), {:.2f} mm (height)\n", options.out,
+             kind == ".yaml" ? " and " + std::filesystem::path(out).replace_extension(".xodr").string() : "", drive.roads, drive.pieces, drive.junctions,
+             1e3 * drive.middle_error_m, 1e3 * drive.border_error_m, 1e3 * drive.height_error_m);
+  return 0;
 }
 
 }  // namespace

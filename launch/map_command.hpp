@@ -4,7 +4,7 @@
 
 namespace rodeira::front {
 
-// `rodeira map check FILE.motors`, `rodeira map convert FILE.motors -o OUT.svg|OUT.xodr`
+// `rodeira map check FILE.motors`, `rodeira map convert FILE.motors -o OUT.svg|OUT.xodr|OUT.yaml`
 struct MapOptions {
   std::string command;  // empty: another command was given
   std::string file;

@@ -7,6 +7,8 @@
 #include <filesystem>
 
 #include "common/base/files.hpp"
+#include "common/road/world.hpp"
+#include "common/road/world_report.hpp"
 #include "tests/common/map/sample_map.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/tree.hpp"
@@ -70,7 +72,29 @@ TEST(MapCommand, Converts) {
   EXPECT_THAT(base::ReadText(drive).value(), HasSubstr("<OpenDRIVE>"));
   const Said wrong = Asked({"convert", kCrossing, folder.path() / "a.png"});
   EXPECT_EQ(wrong.status, 2);
-  EXPECT_THAT(wrong.errors, HasSubstr("the file's name ends with '.png'; .svg or .xodr was expected"));
+  EXPECT_THAT(wrong.errors, HasSubstr("the file's name ends with '.png'; .svg, .xodr or, for a world, .yaml was expected"));
+}
+
+// A world that its roads lie beside, and that traffic drives on as on the map.
+TEST(MapCommand, WritesAWorldOfThisProject) {
+  const TemporaryFolder folder;
+  const std::filesystem::path world = folder.path() / "over.yaml", roads = folder.path() / "over.xodr";
+  const Said said = Asked({"convert", SourceDir() + "/configs/maps/overpass.motors", world});
+  EXPECT_EQ(said.status, 0) << said.errors;
+  EXPECT_THAT(said.out, testing::StartsWith("wrote " + world.string() + " and " + roads.string() + ": 28 roads"));
+  for (const auto& problem : road::WorldProblems(world)) ADD_FAILURE() << problem.Text();
+  const auto made = road::World::Load(world);
+  ASSERT_TRUE(made.ok()) << made.error().Text();
+  EXPECT_EQ(made.value()->name(), "over");
+  EXPECT_EQ(made.value()->network()->roads().size(), 28u);  // of 20 lanes: some are cut where they part
+  // The same again is no mistake; a file of somebody else's is kept.
+  EXPECT_EQ(Asked({"convert", kCrossing, world}).status, 0);
+  ASSERT_TRUE(base::WriteWhole(folder.path() / "mine.xodr", "mine").ok());
+  const Said kept = Asked({"convert", kCrossing, folder.path() / "mine.yaml"});
+  EXPECT_EQ(kept.status, 2);
+  EXPECT_THAT(kept.errors, HasSubstr("mine.xodr: this file is there already and is not this world's; another name was expected"));
+  EXPECT_EQ(base::ReadText(folder.path() / "mine.xodr").value(), "mine");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "mine.yaml"));
 }
 
 }  // namespace
