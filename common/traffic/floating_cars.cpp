@@ -7,21 +7,12 @@
 #include <iterator>
 #include <numbers>
 
+#include "common/traffic/xml_text.hpp"
+
 namespace rodeira::traffic {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-std::string Escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') out += "&lt;";
-    else if (c == '&') out += "&amp;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
-  }
-  return out;
-}
 
 // From the right edge of its direction.
 int IndexOf(const lanes::Graph& graph, std::uint32_t track) {
@@ -49,7 +40,7 @@ std::string FloatingCarsAt(double time_s, const TrafficModel& model) {
     fmt::format_to(std::back_inserter(text),
                    "        <vehicle id=\"{}.{}\" x=\"{:.2f}\" y=\"{:.2f}\" angle=\"{:.2f}\" type=\"car\" speed=\"{:.2f}\" pos=\"{:.2f}\" lane=\"{}_{}\" slope=\"{:.2f}\"/>\n",
                    pose.id, pose.trip, front.x(), front.y(), angle < 0.0 ? angle + 360.0 : angle, pose.speed_mps, agent.o_m + half - agent.path[i].zero_m,
-                   Escaped(graph.network().roads()[static_cast<std::size_t>(pose.road)].id()), IndexOf(graph, agent.path[i].track),
+                   XmlText(graph.network().roads()[static_cast<std::size_t>(pose.road)].id()), IndexOf(graph, agent.path[i].track),
                    kDegrees * std::asin(std::clamp(ahead.z(), -1.0, 1.0)));
   }
   return text + "    </timestep>\n";

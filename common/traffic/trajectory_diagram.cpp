@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "common/traffic/xml_text.hpp"
+
 namespace rodeira::traffic {
 namespace {
 
@@ -37,7 +39,7 @@ std::string TrajectoryDiagram::ToSvg(const lanes::Graph& graph, const std::strin
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} {1:.0f}' font-family='sans-serif' font-size='12'>\n"
       "<rect width='{0:.0f}' height='{1:.0f}' fill='white'/>\n<text x='{2}' y='20' font-size='14'>{3}</text>\n"
       "<rect x='{2}' y='{4}' width='{5}' height='{6}' fill='none' stroke='#bbb'/>\n",
-      kLeft_px + kWide_px + 20.0, kTop_px + kHigh_px + 40.0, kLeft_px, title, kTop_px, kWide_px, kHigh_px);
+      kLeft_px + kWide_px + 20.0, kTop_px + kHigh_px + 40.0, kLeft_px, XmlText(title), kTop_px, kWide_px, kHigh_px);
   for (int k = 0; k <= 4; ++k) {
     fmt::format_to(std::back_inserter(svg), "<text x='{:.0f}' y='{:.0f}' text-anchor='middle'>{:.5g} s</text><text x='{:.0f}' y='{:.0f}' text-anchor='end'>{:.4g} m</text>\n",
                    x(0.25 * k * last_s_), kTop_px + kHigh_px + 18.0, 0.25 * k * last_s_, kLeft_px - 6.0, y(0.25 * k * length) + 4.0, 0.25 * k * length);

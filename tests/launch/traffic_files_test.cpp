@@ -1,0 +1,243 @@
+// What `rodeira traffic run` writes, file by file, and which wishes it refuses.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <pugixml.hpp>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "common/base/files.hpp"
+#include "launch/traffic_command.hpp"
+#include "tests/launch/temporary_folder.hpp"
+#include "tests/tree.hpp"
+
+namespace rodeira::front {
+namespace {
+
+using testing::HasSubstr;
+using Rows = std::vector<std::map<std::string, std::string>>;
+
+struct Said {
+  int status;
+  std::string out;
+  std::string errors;
+};
+
+Said Asked(const TrafficOptions& options) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int status = TrafficRun(options);
+  return {status, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
+}
+
+// A table by the names in its first line.
+Rows Table(const std::filesystem::path& file, const std::string& header) {
+  std::istringstream text(base::ReadText(file).value());
+  const auto fields = [](const std::string& line) {
+    std::vector<std::string> all;
+    std::istringstream parts(line);
+    for (std::string part; std::getline(parts, part, ',');) all.push_back(part);
+    return all;
+  };
+  std::string line;
+  std::getline(text, line);
+  EXPECT_EQ(line, header);
+  const auto names = fields(line);
+  Rows rows;
+  while (std::getline(text, line)) {
+    const auto values = fields(line);
+    EXPECT_EQ(values.size(), names.size()) << line;
+    rows.emplace_back();
+    for (std::size_t i = 0; i < std::min(names.size(), values.size()); ++i) rows.back()[names[i]] = values[i];
+  }
+  return rows;
+}
+
+double Number(const std::map<std::string, std::string>& row, const std::string& key) { return std::stod(row.at(key)); }
+
+// Ten cars for a minute and a half on the ramp's map, whose name is one that XML has to spell otherwise.
+class TrafficFilesTest : public testing::Test {
+ protected:
+  TrafficFilesTest() {
+    options_.map = folder_.path() / "a & <b>.motors";
+    std::filesystem::copy_file(SourceDir() + "/configs/maps/ramp.motors", options_.map);
+    options_.vehicles = 10;
+    options_.duration_s = 90.0;
+    options_.step_s = 0.05;
+  }
+  std::string In(const char* name) const { return folder_.path() / name; }
+
+  const TemporaryFolder folder_;
+  TrafficOptions options_;
+};
+
+TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
+  options_.csv = In("out");
+  const Said said = Asked(options_);
+  ASSERT_EQ(said.status, 0) << said.errors;
+  for (const char* name : {"trajectories.csv", "lanes.csv", "queues.csv", "trips.csv"}) EXPECT_THAT(said.out, HasSubstr("wrote            " + In("out") + "/" + name + "\n"));
+  // A row a car and half second: what a car goes between two of them is what its speed says.
+  const Rows cars = Table(In("out") + "/trajectories.csv", "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane");
+  std::map<std::string, const std::map<std::string, std::string>*> before;
+  std::set<std::string> times, ids;
+  double way_m = 0.0;
+  for (const auto& row : cars) {
+    times.insert(row.at("time_s"));
+    ids.insert(row.at("car"));
+    const auto*& last = before[row.at("car")];
+    if (last != nullptr && last->at("trip") == row.at("trip")) {
+      const double moved = std::hypot(Number(row, "x_m") - Number(*last, "x_m"), Number(row, "y_m") - Number(*last, "y_m"));
+      EXPECT_NEAR(Number(row, "time_s") - Number(*last, "time_s"), 0.5, 1e-9);
+      EXPECT_NEAR(moved, 0.25 * (Number(row, "speed_mps") + Number(*last, "speed_mps")), 0.15) << row.at("time_s");
+      way_m += moved;
+    }
+    last = &row;
+  }
+  EXPECT_EQ(times.size(), 181u);
+  EXPECT_EQ(ids.size(), 10u);
+  // A row a metre of lane: flow = density · speed, and all flows together are the way that was driven.
+  const Rows lanes = Table(In("out") + "/lanes.csv", "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm");
+  double flows_m = 0.0, lanes_m = 0.0;
+  for (const auto& row : lanes) {
+    EXPECT_NEAR(Number(row, "length_m"), 1.0, 0.2);
+    EXPECT_NEAR(Number(row, "flow_vehph"), 3.6 * Number(row, "density_vehpkm") * Number(row, "speed_mps"), 0.01 * Number(row, "flow_vehph") + 0.2);
+    flows_m += Number(row, "flow_vehph") / 3600.0 * Number(row, "length_m") * options_.duration_s;
+    lanes_m += Number(row, "length_m");
+  }
+  EXPECT_NEAR(flows_m, way_m, 0.05 * way_m);  // the table's rows miss what is driven from the last half second to a lane's end
+  const Rows queues = Table(In("out") + "/queues.csv", "road,lane,length_m,queue_longest,queue_mean");
+  double queues_m = 0.0;
+  for (const auto& row : queues) {
+    queues_m += Number(row, "length_m");
+    EXPECT_GE(Number(row, "queue_longest"), Number(row, "queue_mean"));
+  }
+  EXPECT_EQ(queues.size(), 19u);
+  EXPECT_NEAR(queues_m, lanes_m, 0.2);
+  const Rows trips = Table(In("out") + "/trips.csv", "travel_time_s");
+  EXPECT_GT(trips.size(), 0u);
+  const std::string ended = said.out.substr(0, said.out.find(" trips ended"));
+  EXPECT_LE(trips.size(), std::stoul(ended.substr(ended.rfind(' ') + 1)));  // those that began on the way have no whole time
+  for (const auto& row : trips) EXPECT_GT(Number(row, "travel_time_s"), 1.0);
+}
+
+TEST_F(TrafficFilesTest, PicturesAreWholeAndNameTheMap) {
+  options_.duration_s = 30.0;
+  for (const bool heat : {true, false}) {
+    TrafficOptions options = options_;
+    (heat ? options.heat : options.diagram) = In("picture.svg");
+    const Said said = Asked(options);
+    ASSERT_EQ(said.status, 0) << said.errors;
+    EXPECT_THAT(said.out, HasSubstr("wrote            " + In("picture.svg")));
+    pugi::xml_document picture;
+    ASSERT_TRUE(picture.load_file(In("picture.svg").c_str()));
+    EXPECT_THAT(picture.select_node("//text").node().text().get(), testing::EndsWith("a & <b>.motors: 10 vehicles, 30 s"));
+    EXPECT_GT(picture.select_nodes("//polyline").size(), heat ? 5u : 0u);
+  }
+  options_.heat = In("heat.tif");
+  ASSERT_EQ(Asked(options_).status, 0);
+  EXPECT_THAT(base::ReadText(In("heat.tif")).value(), testing::StartsWith("II*"));
+}
+
+TEST_F(TrafficFilesTest, ADiagramIsOfTheLaneThatIsAskedFor) {
+  options_.diagram = In("a.svg");
+  options_.lane = "1:-1";
+  ASSERT_EQ(Asked(options_).status, 0);
+  TrafficOptions other = options_;
+  other.diagram = In("b.svg");
+  other.lane = "2:-1";
+  ASSERT_EQ(Asked(other).status, 0);
+  EXPECT_NE(base::ReadText(In("a.svg")).value(), base::ReadText(In("b.svg")).value());
+}
+
+// Each vehicle at each half second, and SUMO's own tool reads them.
+TEST_F(TrafficFilesTest, FloatingCarsAreAsSumoWritesThem) {
+  options_.fcd = In("cars.xml");
+  options_.csv = In("out");
+  ASSERT_EQ(Asked(options_).status, 0);
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_file(options_.fcd.c_str()));
+  const Rows cars = Table(In("out") + "/trajectories.csv", "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane");
+  std::size_t i = 0;
+  for (const pugi::xml_node step : document.child("fcd-export").children("timestep")) {
+    for (const pugi::xml_node car : step.children("vehicle")) {
+      ASSERT_LT(i, cars.size());
+      const auto& row = cars[i++];
+      EXPECT_EQ(step.attribute("time").value(), row.at("time_s"));
+      EXPECT_EQ(car.attribute("id").value(), row.at("car") + "." + row.at("trip"));
+      EXPECT_NEAR(car.attribute("speed").as_double(), Number(row, "speed_mps"), 0.006);
+      EXPECT_EQ(car.attribute("lane").value(), row.at("road") + "_0");
+      for (const char* key : {"x", "y", "angle", "pos", "slope", "type"}) EXPECT_TRUE(car.attribute(key)) << key;
+    }
+  }
+  EXPECT_EQ(i, cars.size());
+  const char* tool = "/usr/share/sumo/tools/traceExporter.py";
+  if (!std::filesystem::exists(tool)) GTEST_SKIP() << "SUMO's traceExporter.py is not installed (package sumo-tools)";
+  const std::string command = fmt::format("SUMO_HOME=/usr/share/sumo /usr/bin/python3 {} --fcd-input {} --gpx-output {} > {} 2>&1", tool, options_.fcd, In("ways.gpx"), In("said"));
+  ASSERT_EQ(std::system(command.c_str()), 0) << base::ReadText(In("said")).value();
+  pugi::xml_document ways;
+  ASSERT_TRUE(ways.load_file(In("ways.gpx").c_str()));
+  EXPECT_EQ(ways.select_nodes("//trkpt").size(), cars.size());
+}
+
+TEST_F(TrafficFilesTest, AWishThatCannotBeIsRefusedBeforeAnythingDrives) {
+  struct Case {
+    std::function<void(TrafficOptions&)> wish;
+    int status;
+    std::string sentence;
+  };
+  ASSERT_TRUE(base::WriteWhole(In("file"), "a file").ok());
+  ASSERT_TRUE(base::WriteWhole(In("bad.yaml"), "rodeira: traffic/1\nvariety: 0.6\n").ok());
+  for (const Case& c : std::vector<Case>{
+           {[&](TrafficOptions& o) { o.heat = In("heat.png"); }, 2, "--heat: '" + In("heat.png") + "' was found; a file on .svg or .tif was expected"},
+           {[&](TrafficOptions& o) { o.diagram = In("d.svg"), o.lane = "1:-7"; }, 2, "--lane: '1:-7' was found; a drivable lane as ROAD:LANE was expected"},
+           {[&](TrafficOptions& o) { o.diagram = In("d.svg"), o.lane = "1"; }, 2, "--lane: '1' was found; a drivable lane as ROAD:LANE was expected"},
+           {[&](TrafficOptions& o) { o.csv = In("file") + "/out"; }, 1, In("file") + "/out: the folder cannot be written to"},
+           {[&](TrafficOptions& o) { o.fcd = In("no/such/cars.xml"); }, 1, In("no/such/cars.xml") + ": the file cannot be written"},
+           {[&](TrafficOptions& o) { o.settings = In("bad.yaml"); }, 2, In("bad.yaml") + ":2: 'variety' is 0.6"},
+           {[&](TrafficOptions& o) { o.settings = In("none.yaml"); }, 2, In("none.yaml")},
+           {[&](TrafficOptions& o) { o.map = In("none.motors"); }, 2, In("none.motors")},
+           {[&](TrafficOptions& o) { o.map = In("none.yaml"); }, 2, In("none.yaml")},
+           {[&](TrafficOptions& o) { o.map = In("file"); }, 2, In("file")},
+       }) {
+    TrafficOptions options = options_;
+    c.wish(options);
+    const Said said = Asked(options);
+    EXPECT_EQ(said.status, c.status) << c.sentence;
+    EXPECT_THAT(said.errors, testing::StartsWith("rodeira: " + c.sentence));
+    EXPECT_EQ(said.out, "") << c.sentence;
+  }
+}
+
+// What is wrong with a map is told with its line; nothing drives.
+TEST_F(TrafficFilesTest, AMapThatIsWrongIsRefused) {
+  const std::string whole = base::ReadText(SourceDir() + "/configs/maps/lights.motors").value();
+  const auto replaced = [&](const std::string& what, const std::string& with) {
+    std::string text = whole;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) text.replace(at, what.size(), with);
+    return text;
+  };
+  options_.map = In("it.motors");
+  const auto says = [&](const std::string& text, const std::string& companion, const std::string& sentence) {
+    ASSERT_TRUE(base::WriteWhole(options_.map, text).ok());
+    ASSERT_TRUE(base::WriteWhole(options_.map + ".yaml", companion).ok());
+    const Said said = Asked(options_);
+    EXPECT_EQ(said.status, 2) << sentence;
+    EXPECT_THAT(said.errors, testing::AllOf(testing::StartsWith("rodeira: "), HasSubstr(sentence)));
+    EXPECT_EQ(said.out, "") << sentence;
+  };
+  const std::string none = "rodeira: motors/1\n";
+  says(whole.substr(0, 1000), none, "it.motors: the file ends at byte 1000");
+  says(replaced(",1,1\n", ",1,0\n"), none, "start");
+  says(replaced("s,34", "c,1,999,False,0,0,0\ns,34"), none, "999");
+  says(whole, none + "lights:\n  - phases: [{green: [1, 3], for_s: 20}, {green: [5, 7], for_s: 20}]\n", "green or amber together");
+}
+
+}  // namespace
+}  // namespace rodeira::front
