@@ -54,15 +54,32 @@ const EventKind* FindEventKind(std::string_view name) {
 }
 
 base::Result<AgentChoice> ParseAgent(std::string_view text) {
-  if (text == "all") return AgentChoice{AgentChoice::Kind::kAll, 0};
-  if (text == "ahead") return AgentChoice{AgentChoice::Kind::kAhead, 0};
-  std::uint32_t id = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), id);
-  if (problem != std::errc{} || end != text.data() + text.size() || id >= kMostAgents) {
-    return base::WrongInput("'" + std::string(text.substr(0, 40)) + "' is no agent; its number, all or ahead was expected");
+  AgentChoice choice;
+  constexpr std::string_view kAt = " at ";
+  const std::size_t at = text.find(kAt);
+  const std::string_view whom = text.substr(0, at);
+  if (at != std::string_view::npos) {
+    const std::string_view place = text.substr(at + kAt.size());
+    const std::size_t space = place.rfind(' ');
+    const auto station = space == std::string_view::npos || space == 0 ? std::nullopt : NumberIn(place.substr(space + 1));
+    if (!station || *station < 0.0) {
+      return base::WrongInput(fmt::format("'{}' is no place; a road and metres along it were expected, as in 'next at main 350'", place.substr(0, 60)));
+    }
+    choice.at = AgentChoice::At{std::string(place.substr(0, space)), *station};
   }
-  return AgentChoice{AgentChoice::Kind::kOne, id};
+  if (whom == "next" && !choice.at) return base::WrongInput("'next' is whoever comes to a place first; one was expected, as in 'next at main 350'");
+  if (whom == "all" || whom == "ahead" || whom == "next") {
+    choice.kind = whom == "all" ? AgentChoice::Kind::kAll : whom == "ahead" ? AgentChoice::Kind::kAhead : AgentChoice::Kind::kNext;
+    return choice;
+  }
+  const auto [end, problem] = std::from_chars(whom.data(), whom.data() + whom.size(), choice.id);
+  if (problem != std::errc{} || end != whom.data() + whom.size() || choice.id >= kMostAgents) {
+    return base::WrongInput("'" + std::string(whom.substr(0, 40)) + "' is no agent; its number, all or ahead was expected");
+  }
+  return choice;
 }
+
+std::string AgentText(std::string_view agent, const AgentChoice::At& at) { return fmt::format("{} at {} {}", agent, at.road, at.s_m); }
 
 base::Result<PlaceChoice> ParsePlace(std::string_view text) {
   const auto words = WordsOf(text);

@@ -41,13 +41,20 @@ std::span<const EventKind> EventKinds();
 const EventKind* FindEventKind(std::string_view name);
 
 // Which agents of the traffic are meant: a number, "all", or "ahead": the next one in front of the driver's car in its lane
-// at the moment at which the event acts.
+// at the moment at which the event acts. With a place ("12 at main 350") when they pass it from then on: the one, each one, the one that was ahead, or
+// "next": whoever passes first.
 struct AgentChoice {
-  enum class Kind { kOne, kAll, kAhead };
+  enum class Kind { kOne, kAll, kAhead, kNext };
+  struct At {
+    std::string road;
+    double s_m = 0.0;  // of the road's axis
+  };
   Kind kind = Kind::kOne;
   std::uint32_t id = 0;
+  std::optional<At> at;  // kNext: always
 };
 base::Result<AgentChoice> ParseAgent(std::string_view text);
+std::string AgentText(std::string_view agent, const AgentChoice::At& at);
 
 // Which car, and where: "ego 12.5 -3.25", metres; with a third number the height near which the ground is meant.
 struct PlaceChoice {

@@ -10,6 +10,7 @@ namespace rodeira::scenario {
 namespace {
 
 constexpr double kLongest_s = 1e6;
+constexpr double kLongest_m = 1e7;
 
 std::vector<std::string> KindNames() {
   std::vector<std::string> names;
@@ -51,6 +52,11 @@ Event ReadEvent(const config::Map& map) {
   const std::string argument_key(kind->argument_key);
   event.argument = map.Text(argument_key);
   const bool told = map.Has(argument_key);
+  if (kind->argument == ArgumentKind::kAgent && map.Has("at")) {
+    const config::Map at = map.Child("at");
+    const std::string road = at.Text("road");
+    event.argument = AgentText(event.argument, {road, at.Number("s_m", {0.0, kLongest_m})});
+  }
   if (!kind->value_key.empty()) event.value = map.Number(kind->value_key, {kind->low, kind->high});
   // A value out of its range is said already.
   const Event argument_only{event.name, event.argument, std::clamp(event.value, kind->low, kind->high)};

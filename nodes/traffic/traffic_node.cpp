@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/scenario/event.hpp"
+#include "common/traffic/place_orders.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "idl/codec.hpp"
@@ -123,14 +124,22 @@ class TrafficNode final : public lockstep::Node {
         if (auto status = Obey(sample); !status) return status;
       }
     }
+    orders_.Before(model_);
     model_.Step(step.dt_s, others_);
+    orders_.After(model_);
     constexpr std::int64_t kDetailsEvery_ns = 100'000'000;
     const std::int64_t period_ns = std::llround(step.dt_s * 1e9), end_ns = step.time_ns + period_ns;
     Publish(outbox, end_ns / kDetailsEvery_ns > step.time_ns / kDetailsEvery_ns);
     return {};
   }
-  void Save(base::StateWriter& out) const override { out.Put("model", model_); }
-  void Restore(base::StateReader& in) override { in.Get("model", model_); }
+  void Save(base::StateWriter& out) const override {
+    out.Put("model", model_);
+    orders_.Save(out);
+  }
+  void Restore(base::StateReader& in) override {
+    in.Get("model", model_);
+    orders_.Restore(in, model_);
+  }
 
  private:
   // The opposite of what the car took from its agents.
@@ -158,14 +167,11 @@ class TrafficNode final : public lockstep::Node {
         if (auto status = Call(event.argument(), where); !status) return status;
         continue;
       }
-      const auto agents = Meant(event.argument(), where);
-      if (!agents) return agents.error();
-      for (const std::uint32_t id : agents.value()) {
-        if (event.name() == scenario::kTrafficBrake) model_.Brake(id, event.value());
-        else if (event.name() == scenario::kTrafficSpeed) model_.CapSpeed(id, event.value());
-        else if (event.name() == scenario::kTrafficRelease) model_.Release(id);
-        else return base::WrongInput("the traffic does not know this event", where);
-      }
+      traffic::OrderKind kind = traffic::OrderKind::kBrake;
+      if (event.name() == scenario::kTrafficSpeed) kind = traffic::OrderKind::kSpeed;
+      else if (event.name() == scenario::kTrafficRelease) kind = traffic::OrderKind::kRelease;
+      else if (event.name() != scenario::kTrafficBrake) return base::WrongInput("the traffic does not know this event", where);
+      if (auto status = Tell(event.argument(), kind, event.value(), where); !status) return status;
     }
     return {};
   }
@@ -175,17 +181,34 @@ class TrafficNode final : public lockstep::Node {
     const auto status = model_.CallPedestrian(crossing.value().road, crossing.value().s_m, crossing.value().from_left);
     return status ? status : base::WrongInput(status.error().message, where);
   }
-  // The agents that an event speaks to. Nobody ahead is no mistake of the scenario's, but a person should know.
-  base::Result<std::vector<std::uint32_t>> Meant(const std::string& argument, const std::string& where) const {
+  // Those that an event speaks to, at once or when they come to a place.
+  base::Status Tell(const std::string& argument, traffic::OrderKind kind, double value, const std::string& where) {
     const auto choice = scenario::ParseAgent(argument);
     if (!choice) return base::WrongInput(choice.error().message, where);
+    const auto agents = Meant(choice.value(), where);
+    if (!agents) return agents.error();
+    if (!choice.value().at) {
+      for (const std::uint32_t id : agents.value()) traffic::Obey(model_, id, kind, value);
+      return {};
+    }
+    auto order = traffic::PlaceOrders::At(model_, choice.value().at->road, choice.value().at->s_m);
+    if (!order) return base::WrongInput(order.error().message, where);
+    order.value().kind = kind, order.value().value = value;
+    using Whom = traffic::PlaceOrder::Whom;
+    using Kind = scenario::AgentChoice::Kind;
+    order.value().whom = choice.value().kind == Kind::kAll ? Whom::kAll : choice.value().kind == Kind::kNext ? Whom::kNext : Whom::kOne;
+    if (order.value().whom == Whom::kOne && agents.value().empty()) return {};  // nobody was ahead
+    if (order.value().whom == Whom::kOne) order.value().id = agents.value().front();
+    orders_.Add(order.value());
+    return {};
+  }
+  // Nobody ahead is no mistake of the scenario's, but a person should know.
+  base::Result<std::vector<std::uint32_t>> Meant(const scenario::AgentChoice& choice, const std::string& where) const {
     std::vector<std::uint32_t> agents;
-    switch (choice.value().kind) {
+    switch (choice.kind) {
       case scenario::AgentChoice::Kind::kOne:
-        if (choice.value().id >= model_.vehicles()) {
-          return base::WrongInput(fmt::format("there is no agent {}; there are {}, from 0 on", choice.value().id, model_.vehicles()), where);
-        }
-        agents.push_back(choice.value().id);
+        if (choice.id >= model_.vehicles()) return base::WrongInput(fmt::format("there is no agent {}; there are {}, from 0 on", choice.id, model_.vehicles()), where);
+        agents.push_back(choice.id);
         break;
       case scenario::AgentChoice::Kind::kAll:
         for (std::uint32_t id = 0; id < model_.vehicles(); ++id) agents.push_back(id);
@@ -193,6 +216,8 @@ class TrafficNode final : public lockstep::Node {
       case scenario::AgentChoice::Kind::kAhead:
         if (const auto ahead = others_.empty() ? std::nullopt : model_.AheadOf(others_.front())) agents.push_back(*ahead);
         else fmt::print(stderr, "rodeira: node '{}': {}: nobody is ahead of the driver's car, nothing happens\n", name_, where);
+        break;
+      case scenario::AgentChoice::Kind::kNext:
         break;
     }
     return agents;
@@ -228,6 +253,7 @@ class TrafficNode final : public lockstep::Node {
   std::string name_;
   lockstep::SourceIndex stream_;
   traffic::TrafficModel model_;
+  traffic::PlaceOrders orders_;
   std::vector<driver::Footprint> others_;
 };
 

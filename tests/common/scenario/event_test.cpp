@@ -48,6 +48,27 @@ TEST(Event, ACrossingIsARoadAPlaceAndASide) {
   }
 }
 
+TEST(Event, AnAgentMayBeMeantAtAPlace) {
+  const auto one = ParseAgent("12"), at = ParseAgent("12 at main 350.5"), next = ParseAgent("next at long road 3"), all = ParseAgent("all at 7 0");
+  ASSERT_TRUE(one.ok() && at.ok() && next.ok() && all.ok());
+  EXPECT_FALSE(one.value().at);
+  EXPECT_EQ(at.value().kind, AgentChoice::Kind::kOne);
+  EXPECT_EQ(at.value().id, 12u);
+  EXPECT_EQ(at.value().at->road, "main");
+  EXPECT_EQ(at.value().at->s_m, 350.5);
+  EXPECT_EQ(next.value().kind, AgentChoice::Kind::kNext);
+  EXPECT_EQ(next.value().at->road, "long road");
+  EXPECT_EQ(all.value().kind, AgentChoice::Kind::kAll);
+  EXPECT_EQ(AgentText("next", *next.value().at), "next at long road 3");
+  for (const char* text : {"12 at", "12 at ", "12 at main", "12 at main x", "12 at main -3", "12 at  5", "12 at main nan"}) {
+    const auto read = ParseAgent(text);
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_EQ(read.error().exit_status(), 2);
+  }
+  EXPECT_EQ(ParseAgent("next").error().Text(), "'next' is whoever comes to a place first; one was expected, as in 'next at main 350'");
+  EXPECT_EQ(ParseAgent("first at main 3").error().Text(), "'first' is no agent; its number, all or ahead was expected");
+}
+
 TEST(Event, WhatCannotBeObeyedIsSaid) {
   EXPECT_TRUE(CheckEvent({"vehicle.place", "ego 1 2", 90.0}));
   EXPECT_TRUE(CheckEvent({"weather", "fog", 5.0}));

@@ -44,6 +44,19 @@ TEST(ScenarioFile, HoldsExactStepsInOrder) {
   EXPECT_EQ(read.value().conditional[0].place, "scenario.yaml:6");
 }
 
+TEST(ScenarioFile, AnAgentMayBeToldAtAPlace) {
+  const auto read = Read(
+      "  - {at_s: 1, name: traffic.brake, agent: next, at: {road: main, s_m: 350.5}, deceleration_mps2: 3.5}\n"
+      "  - {when: {passes_m: 30}, name: traffic.release, agent: all, at: {road: side road, s_m: 4}}\n");
+  ASSERT_TRUE(read.ok()) << read.error().Text();
+  EXPECT_EQ(read.value().scheduled.at(0).event.argument, "next at main 350.5");
+  EXPECT_EQ(read.value().conditional.at(0).event.argument, "all at side road 4");
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.release, agent: next}\n").find("'next' is whoever comes to a place first"), std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.release, agent: 1, at: {s_m: 3}}\n").find("road' is missing"), std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.release, agent: 1, at: {road: main, s_m: -3}}\n").find("s_m' is -3"), std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: mark, text: x, at: {road: main, s_m: 3}}\n").find("at"), std::string::npos);
+}
+
 // 0.1 has no exact binary form: every multiple must still be the step that it names.
 TEST(ScenarioFile, EveryMultipleOfThePeriodIsItsStep) {
   for (const std::int64_t tenths : {1, 3, 7, 1001, 99999, 123456}) {

@@ -206,7 +206,7 @@ TEST_F(Scenario, RestoredAnywhereItGoesOnWithTheSameDigest) {
       LaunchOf(Text(File("  - {at_s: 1, name: traffic.speed, agent: all, speed_mps: 9}\n  - {when: {passes_m: 40}, name: "
                          "traffic.brake, agent: 3, deceleration_mps2: 4}\n"
                          "  - {when: {passes_m: 60}, name: traffic.release, agent: all}\n  - {at_s: 7.77, name: traffic.brake, "
-                         "agent: all, deceleration_mps2: 2}\n")));
+                         "agent: all, deceleration_mps2: 2}\n  - {at_s: 8, name: traffic.speed, agent: all, at: {road: n222, s_m: 500}, speed_mps: 7}\n")));
   for (const Step at : {1003, 5555, 7771}) {
     const Driven whole = Drive(launch, 9000, at);
     ASSERT_TRUE(whole.outcome.ok) << whole.outcome.fault;
@@ -248,6 +248,9 @@ TEST_F(Scenario, AnAgentThatIsNotThereFailsTheRunWithASentence) {
   EXPECT_NE(run.outcome.fault.find("event 'traffic.brake' at step 1000: there is no agent 20; there are 20, from 0 on"),
             std::string::npos)
       << run.outcome.fault;
+  const Driven nowhere = Drive(LaunchOf(Text(File("  - {at_s: 1, name: traffic.brake, agent: next, at: {road: n22, s_m: 3}, deceleration_mps2: 3}\n"))), 2000);
+  EXPECT_FALSE(nowhere.outcome.ok);
+  EXPECT_NE(nowhere.outcome.fault.find("event 'traffic.brake' at step 1000: there is no road 'n22'; did you mean 'n222'?"), std::string::npos) << nowhere.outcome.fault;
 }
 
 }  // namespace
