@@ -239,25 +239,26 @@ def town():
 
 
 def overpass():
-    """A road to the north goes over one to the east on ramps of 7.5 %; two slip roads join them on the ground."""
+    """A road to the north goes over one to the east on ramps of 7 %; two slip roads join them on the ground.
+    They are clear of the road that they leave before it climbs: beside a ramp they would lie below it."""
     plan = Map("overpass")
     height, level, low = 6.0, (0.0,) * 4, 320
-    stations = [-low, -170, -40, 40, 170, low]
-    heights = [level, (0.0, 0.0, height, height), (height,) * 4, (height, height, 0.0, 0.0), level]
+    stations = [-low, -215, -170, -40, 40, 170, low]
+    heights = [level, level, (0.0, 0.0, height, height), (height,) * 4, (height, height, 0.0, 0.0), level]
     for quarter in (0, math.pi):
         c, s = math.cos(quarter), math.sin(quarter)
         pose = lambda x, y, heading: Pose(c * x - s * y, s * x + c * y, heading + quarter)
         over = []
         for i, (a, b) in enumerate(zip(stations, stations[1:])):
-            mode = START if i == 0 else END if i == 4 else MIDDLE
+            mode = START if i == 0 else END if i == 5 else MIDDLE
             z = heights[i]
             over.append(plan.lane(pose(LANE / 2, a, math.pi / 2), pose(LANE / 2, b, math.pi / 2), LANE, SINGLE, BOUNDARY, mode, z))
         under = [plan.lane(pose(a, -LANE / 2, 0), pose(b, -LANE / 2, 0), LANE, SINGLE, BOUNDARY, mode)
                  for a, b, mode in ((-low, 210, START), (210, low, END))]
         plan.chain(*over)
         plan.chain(*under)
-        slip = [plan.lane(pose(LANE / 2, -170, math.pi / 2), pose(6, -145, math.radians(70)), LANE, NONE, BOUNDARY),
-                plan.lane(pose(6, -145, math.radians(70)), pose(120, -16, math.radians(20)), LANE, BOUNDARY, BOUNDARY),
+        slip = [plan.lane(pose(LANE / 2, -215, math.pi / 2), pose(6, -190, math.radians(70)), LANE, NONE, BOUNDARY),
+                plan.lane(pose(6, -190, math.radians(70)), pose(120, -16, math.radians(20)), LANE, BOUNDARY, BOUNDARY),
                 plan.lane(pose(120, -16, math.radians(20)), pose(210, -LANE / 2, 0), LANE, NONE, BOUNDARY)]
         plan.chain(over[0], *slip, under[1])
     return plan

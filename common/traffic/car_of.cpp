@@ -14,6 +14,8 @@ constexpr double kDamping = 0.3;         // share of the critical
 constexpr double kSunk_m = 0.018;        // of a tyre under its load at rest
 constexpr double kRollingRadius = 0.97;  // share of the wheel's
 constexpr double kMostSteer_rad = 0.75;
+// Changes of gear without a jerk: these engines need so long to come up to a lower gear's speed; closed sooner the clutch brakes the car for it.
+constexpr double kSwap_s = 0.5, kClose_s = 0.7;
 
 double Rpm(double rpm) { return rpm * 2.0 * std::numbers::pi / 60.0; }
 
@@ -112,6 +114,8 @@ vehicle::BicycleSettings CarOf(const AgentTraits& traits) {
   car.brakes.rear_Nm = 0.5 * (1.0 - make.front_brakes) * full_Nm;
   car.brakes.handbrake_Nm = 0.5 * m * kHandbrake_mps2 * car.wheel.rolling_radius_m;
   car.powertrain = heavy ? HeavyPowertrain(size) : CarPowertrain(size);
+  car.powertrain.automatic.swap_s = kSwap_s;
+  car.powertrain.automatic.close_s = kClose_s;
   car.front_driven = !heavy;
   vehicle::VehicleDimensions& d = car.dimensions;
   d.wheelbase_m = traits.wheelbase_m;

@@ -14,7 +14,7 @@ constexpr double kRounding_mps2 = 1e-6;
 }  // namespace
 
 // By no more than the planned jerk, so that it also comes to rest without one. In an emergency by the emergency's: it would have to brake harder than is comfortable,
-// and sooner than it can so; or as hard as it may; or it has come to brake harder than it could let go of so. What a scenario commands is done exactly.
+// and sooner than it can so; or as hard as it may, but not for traffic that drives away from it; or it has come to brake harder than it could let go of so. What a scenario commands is done exactly.
 double TrafficModel::Smoothed(std::uint32_t id, double wanted_mps2, double dt_s) {
   const Agent& agent = agents_[id];
   const double before = agent.wish_mps2, v = agent.speed_mps, b = traits_[id].idm.braking_mps2;
@@ -22,8 +22,9 @@ double TrafficModel::Smoothed(std::uint32_t id, double wanted_mps2, double dt_s)
   hurries_[id] = 0;
   if (agent.brake_mps2 > 0.0) return wanted_mps2;
   const double lets_go = driver::EasedStop_mps2(v, smooth.planned_mps3, dt_s);
+  const bool parts = ahead_[id].any && ahead_[id].id >= 0 && ahead_[id].speed_mps > v;  // who has merged in before it, and drives away
   const bool hurries = -before > std::min(kHarder * b, lets_go + smooth.planned_mps3 * dt_s + kRounding_mps2) ||
-                       wanted_mps2 <= -traits_[id].idm.hardest_mps2 ||
+                       (wanted_mps2 <= -traits_[id].idm.hardest_mps2 && !parts) ||
                        (wanted_mps2 < -b && driver::NeedsHaste(wanted_mps2, v, before, smooth.planned_mps3));
   hurries_[id] = hurries ? 1 : 0;
   const double jerk = hurries ? smooth.emergency_mps3 : smooth.planned_mps3;

@@ -10,7 +10,8 @@ namespace rodeira::traffic {
 namespace {
 
 // 45 vehicles a kilometre of lane, streets counted from the middle of a crossing to that of the next, for 1800 s: nobody stands longer than 300 s while there is room at the exit, nobody touches
-// anybody, nobody is lost, and as many kilometres are driven in the last third as in the first, nearly.
+// anybody, nobody is lost, nobody stands half of the time, and it goes on: so full the flow falls where streets fill one another up in
+// a circle (docs/traffic.md), but a quarter of the first third's kilometres are driven in the last.
 // RODEIRA_CLOSED_GRID: crossings each way (3; tests/run --endurance takes 10), RODEIRA_CLOSED_GRID_SEED (1).
 TEST(ClosedGrid, AsFullAsItMayBeItGoesOn) {
   const char* wish = std::getenv("RODEIRA_CLOSED_GRID");
@@ -42,7 +43,8 @@ TEST(ClosedGrid, AsFullAsItMayBeItGoesOn) {
   // Who comes to rest within a step goes v²/(2 a), up to a dt²/8 less than the mean of both speeds says.
   EXPECT_LT(r.worst_step_m, 1e-3 + r.hardest_mps2 * settings.step_s * settings.step_s / 8.0) << told;
   EXPECT_LT(r.longest_with_room_s, 300.0) << "car " << r.longest_with_room_id << told;
-  EXPECT_GT(driven_m - second_m, 0.5 * first_m) << first_m << " m, " << second_m << " m, " << driven_m << " m";
+  EXPECT_LT(r.longest_stand_s, 900.0) << "car " << r.longest_stand_id << told;
+  EXPECT_GT(driven_m - second_m, 0.25 * first_m) << first_m << " m, " << second_m << " m, " << driven_m << " m";
 }
 
 }  // namespace

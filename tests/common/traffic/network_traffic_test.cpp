@@ -121,6 +121,14 @@ TEST(NetworkTraffic, DrivesTheMotorway) {
   Behaves("motorway", NetworkOf(world.value()), 150, 2);
 }
 
+TEST(NetworkTraffic, DrivesTheHillRoadAndTheLongOne) {
+  for (const char* name : {"n222", "haste"}) {
+    const auto world = road::World::Load(SourceDir() + "/configs/worlds/" + name + ".yaml");
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    Behaves(name, NetworkOf(world.value()), 60, 1);
+  }
+}
+
 // More cars than the town bears without queues that reach back into the next junction: it goes on, and everybody with it.
 TEST(NetworkTraffic, AFullTownGoesOn) {
   StudySettings settings;
