@@ -126,10 +126,9 @@ int Build(const WorldOptions& options) {
   if (!road::IsOpenDrive(options.world_file)) {
     if (const int status = WriteWorldFile(options, world, files); status != 0) return status;
   }
+  if (const std::string why = road::WhyNoTiles(world); !why.empty()) fmt::print(stderr, "rodeira: warning: {}: {}\n", options.world_file, why);
+  else if (const int status = BuildDatabase(options, world); status != 0) return status;
   if (world.network() != nullptr) {
-    if (world.roads().empty()) {
-      if (const int status = BuildDatabase(options, world); status != 0) return status;
-    }
     std::error_code problem;
     std::filesystem::create_directories(out, problem);
     const int status = world.open_drive() ? CopyOpenDrive(road::OpenDriveOf(options.world_file), copy, files) : Written(copy, road::WriteOpenDrive(world, copy));

@@ -18,6 +18,8 @@ namespace {
 
 double Degrees(double angle_rad) { return angle_rad * 180.0 / geometry::kPi; }
 
+constexpr const char* kVersion1IsNotWritten = "its road is of version 1, of which 'rodeira world build' writes no tiles of what is seen; of version 2 it does";
+
 // How much the terrain is cut or filled to meet the road's verges, and the steepest slope of the blend.
 struct Earthwork {
   double cut_m = 0.0;
@@ -127,7 +129,15 @@ std::string DescribeEarth(const World& world, double x_m, double y_m) {
 std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) {
   if (IsOpenDrive(world_yaml)) return CheckNetwork(world_yaml, false).warnings;
   const auto file = config::File::Load(world_yaml);
-  return file ? ReadWorld(file.value()).warnings : std::vector<std::string>();
+  if (!file) return {};
+  WorldReading reading = ReadWorld(file.value());
+  if (reading.spec && !reading.spec->roads.empty()) reading.warnings.push_back(fmt::format("{}: {}", world_yaml.string(), kVersion1IsNotWritten));
+  return std::move(reading.warnings);
+}
+
+std::string WhyNoTiles(const World& world) {
+  if (world.network() == nullptr) return "the world has no road: no tiles of what is seen are written";
+  return world.roads().empty() ? "" : kVersion1IsNotWritten;
 }
 
 std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml) {

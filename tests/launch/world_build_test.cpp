@@ -29,9 +29,9 @@ struct Said {
   std::string errors;
 };
 
-Said Build(const fs::path& world, const fs::path& folder) {
+Said Asked(const std::string& command, const fs::path& world, const fs::path& folder = {}) {
   WorldOptions options;
-  options.command = "build";
+  options.command = command;
   options.world_file = world;
   options.out = folder;
   options.quiet = true;
@@ -40,6 +40,8 @@ Said Build(const fs::path& world, const fs::path& folder) {
   const int status = World(options);
   return {status, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
 }
+
+Said Build(const fs::path& world, const fs::path& folder) { return Asked("build", world, folder); }
 
 constexpr const char* kHills = "rodeira: world/1\nname: hills\nterrain:\n  surface: grass\n"
                                "  generate: {seed: 1, columns: 65, rows: 65, spacing_m: 10, west_m: 0, south_m: 0, relief: [{wavelength_m: 80, amplitude_m: 2}]}\n";
@@ -143,12 +145,15 @@ TEST(WorldBuild, AWorldFilesRoadsAndHills) {
   EXPECT_TRUE(fs::exists(out / "hills.bt"));
   EXPECT_TRUE(fs::exists(out / "hills.yaml"));
   EXPECT_FALSE(fs::exists(out / "world.osgb"));
+  EXPECT_EQ(said.errors, "rodeira: warning: " + file.string() + ": its road is of version 1, of which 'rodeira world build' writes no tiles of what is seen; of version 2 it does\n");
+  EXPECT_EQ(Asked("check", file).errors, said.errors) << "the check says so, too";
   EXPECT_TRUE(road::World::Load(out / "world.xodr").ok());
   // Without roads there are only the hills; with neither there is nothing.
   ASSERT_TRUE(base::WriteWhole(file, kHills).ok());
   const Said bare = Build(file, folder.path() / "bare");
   EXPECT_EQ(bare.status, 0) << bare.errors;
   EXPECT_FALSE(fs::exists(folder.path() / "bare" / "world.xodr"));
+  EXPECT_THAT(bare.errors, HasSubstr("hills.yaml: the world has no road: no tiles of what is seen are written\n"));
   ASSERT_TRUE(base::WriteWhole(file, "rodeira: world/1\nname: plane\nground: {kind: plane, z_m: 0}\n").ok());
   const Said nothing = Build(file, folder.path() / "none");
   EXPECT_EQ(nothing.status, 2);
@@ -162,6 +167,8 @@ TEST(WorldBuild, AWorldFileOfVersion2IsWrittenAsItIsSeenToo) {
                                                  "    axis: [{line: {length_m: 60}}]\n    z_m: 0\n    section: {template: rural}\n    signs: [{type: stop, s_m: 50}]\n")).ok());
   const Said said = Build(file, out);
   EXPECT_EQ(said.status, 0) << said.errors;
+  EXPECT_EQ(said.errors, "");
+  EXPECT_EQ(Asked("check", file).errors, "");
   EXPECT_TRUE(fs::exists(out / "world.osgb"));
   EXPECT_TRUE(fs::exists(out / "tiles" / "0_0_0.osgb"));
   EXPECT_TRUE(road::World::Load(out / "world.xodr").ok());
