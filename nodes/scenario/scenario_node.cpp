@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/base/suggest.hpp"
+#include "common/road/road_chains.hpp"
 #include "common/road/world.hpp"
 #include "common/scenario/request.hpp"
 #include "common/scenario/scenario_file.hpp"
@@ -24,16 +25,60 @@ namespace topics = idl::topics;
 
 constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 
+// A road with stations: as a world file of version 1 says it, or a network's chain of roads.
+class Stations {
+ public:
+  explicit Stations(const road::Road& road) : id_(road.id()), length_m_(road.length_m()), road_(&road) {}
+  Stations(const network::Network& network, road::RoadChain chain)
+      : length_m_(chain.length_m), network_(&network), chain_(std::move(chain)) {
+    const std::string& first = network.roads()[chain_.parts.front().road].id();
+    id_ = first.substr(0, first.find('/'));  // what remains of a road between junctions is ID/1, ID/2 …
+  }
+
+  const std::string& id() const { return id_; }
+  double length_m() const { return length_m_; }
+
+  // Where the car is along the road: kNowhere where it is not on this one. In a junction, on a way that is another road's, nothing new is known:
+  // `before_m` again.
+  double At(const Eigen::Vector3d& p_W, double before_m) const {
+    if (road_ != nullptr) {
+      const auto place = road_->Locate(p_W.x(), p_W.y());
+      return place ? place->s_m : kNowhere;
+    }
+    const auto place = network_->Locate(p_W.x(), p_W.y(), p_W.z());
+    if (!place) return kNowhere;
+    for (const road::RoadChain::Part& part : chain_.parts) {
+      if (part.road == place->lane.road) return part.from_s_m + place->s_m;
+    }
+    return network_->roads()[place->lane.road].spec().junction.empty() ? kNowhere : before_m;
+  }
+
+ private:
+  std::string id_;
+  double length_m_;
+  const road::Road* road_ = nullptr;  // or
+  const network::Network* network_ = nullptr;
+  road::RoadChain chain_;
+};
+
+std::vector<Stations> StationsOf(const road::World& world) {
+  std::vector<Stations> all;
+  for (const road::Road& road : world.roads()) all.emplace_back(road);
+  if (all.empty() && world.network() != nullptr) {
+    for (road::RoadChain& chain : road::ChainsOf(*world.network())) all.emplace_back(*world.network(), std::move(chain));
+  }
+  return all;
+}
+
 // A station that the car may pass, and whether it has.
 class Gate {
  public:
-  Gate(const road::Road& road, double passes_m) : road_(&road), passes_m_(passes_m) {}
+  Gate(Stations road, double passes_m) : road_(std::move(road)), passes_m_(passes_m) {}
 
-  // Whether the car, now at (x, y), has passed since it was last seen; true once only.
-  bool Passed(double x_m, double y_m) {
-    const auto place = road_->Locate(x_m, y_m);
+  // Whether the car, now at p_W, has passed since it was last seen; true once only.
+  bool Passed(const Eigen::Vector3d& p_W) {
     const double before_m = seen_m_;
-    seen_m_ = place ? place->s_m : kNowhere;
+    seen_m_ = road_.At(p_W, before_m);
     if (done_ || std::isnan(before_m) || std::isnan(seen_m_)) return false;
     done_ = (before_m < passes_m_) != (seen_m_ < passes_m_);
     return done_;
@@ -49,7 +94,7 @@ class Gate {
   }
 
  private:
-  const road::Road* road_;
+  Stations road_;
   double passes_m_;
   double seen_m_ = kNowhere;
   bool done_ = false;
@@ -88,7 +133,7 @@ class ScenarioNode final : public lockstep::Node {
       const auto car = idl::Decode<msg::VehicleState>(*inbox.Latest(topics::kVehicleState).payload);
       if (!car) return car.error();
       for (std::size_t i = 0; i < gates_.size(); ++i) {
-        if (gates_[i].Passed(car.value().position_w_m().x(), car.value().position_w_m().y()))
+        if (gates_[i].Passed({car.value().position_w_m().x(), car.value().position_w_m().y(), car.value().position_w_m().z()}))
           Add(scenario_.conditional[i].event, step.output_valid, events);
       }
     }
@@ -230,20 +275,21 @@ base::Result<std::vector<Gate>> MakeGates(const launch::NodeContext& context, co
   const bool sees = std::any_of(context.spec().inputs.begin(), context.spec().inputs.end(),
                                 [](const lockstep::Port& port) { return port.topic == topics::kVehicleState; });
   std::vector<std::string> names;
-  for (const road::Road& road : world.roads()) names.push_back(road.id());
+  const std::vector<Stations> roads = StationsOf(world);
+  for (const Stations& road : roads) names.push_back(road.id());
   std::vector<Gate> gates;
   for (const scenario::ConditionalEvent& event : scenario.conditional) {
     if (!sees)
       return base::WrongInput("'passes_m' waits for the driver's car; wire 'vehicle_state' to the scenario", event.place);
-    if (names.empty() && world.network() != nullptr) {
-      return base::WrongInput("'passes_m' is known on the roads of world files of version 1; this world has others, so give the event a time ('at_s')", event.place);
-    }
     auto road = std::find(names.begin(), names.end(), event.road);
     if (event.road.empty() && names.size() == 1) road = names.begin();
+    if (event.road.empty() && names.size() > 1) {
+      return base::WrongInput(fmt::format("'passes_m' is on no road that is named, and the world has {}; 'road' was expected beside it", names.size()), event.place);
+    }
     if (road == names.end())
       return base::WrongInput(fmt::format("there is no road '{}'{}", event.road, base::DidYouMean(event.road, names)),
                               event.place);
-    const road::Road& found = world.roads()[static_cast<std::size_t>(road - names.begin())];
+    const Stations& found = roads[static_cast<std::size_t>(road - names.begin())];
     if (event.passes_m > found.length_m()) {
       return base::WrongInput(
           fmt::format("'passes_m' is {}; road '{}' is {:.1f} m long", event.passes_m, found.id(), found.length_m()), event.place);

@@ -17,7 +17,7 @@
 #include "idl/topics.hpp"
 #include "launch/local_nodes.hpp"
 #include "launch/verify.hpp"
-#include "tests/tree.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira {
 namespace {
@@ -103,8 +103,8 @@ double HeadingOf(const msg::VehicleState& car) {
 
 // Asked twice with the same number it happens once: at the scenario's next sample, and the car's INI there at that very step.
 TEST_F(Requests, TheCarStandsWhereItWasAskedToBeAndTheRecordingKnowsIt) {
-  const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
-  const road::Road& road = world->roads()[0];
+  const auto world = N222();
+  const road::Road& road = N222Road();
   const Eigen::Vector3d place = road.Position(400.0, road.LaneCentre(-1, 400.0));
   const double heading = road.Evaluate(400.0).heading_rad;
   const auto request = scenario::PlaceRequest({"ego", place.x(), place.y(), place.z()}, heading * 180.0 / 3.14159265358979323846);

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "common/road/world.hpp"
+#include "tests/tree.hpp"
+
+namespace rodeira {
+
+// The world that most launch files drive on, `configs/worlds/n222.yaml`.
+inline std::shared_ptr<const road::World> N222() {
+  static const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml");
+  EXPECT_TRUE(world.ok()) << world.error().Text();
+  return world.value();
+}
+
+// The same road in other hills, as the world file of version 1 that it was: for what is about version 1.
+inline std::shared_ptr<const road::World> N222OfVersion1() {
+  static const auto world = road::World::Load(SourceDir() + "/tests/data/n222_version1.yaml");
+  EXPECT_TRUE(world.ok()) << world.error().Text();
+  return world.value();
+}
+
+// Where N222's road lies, by the formulas of version 1, which share none with the network that drives, draws and answers
+// (N222.LiesWhereItDidInVersion1): an oracle.
+inline const road::Road& N222Road() { return N222OfVersion1()->roads()[0]; }
+
+}  // namespace rodeira
