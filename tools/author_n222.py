@@ -4,12 +4,23 @@
 Nothing of it is surveyed. What is taken from the real road between Regua and Pinhao: 93 bends on 27 km (3.4 a km), radii
 of 30 to 200 m, a carriageway of at least 5.50 m, paved shoulders of 0.50 m. The rest is drawn from a seed. The axis is
 accepted where it stays within the terrain and keeps clear of itself; `rodeira world check` has the last word.
+
+What stands beside the road follows from it and from the hills, which are computed here as `common/road/hills.cpp` does: guard
+rails where the land falls away, chevrons and warnings at the sharp bends, rows of vines, olives and trees where there is room.
 """
+import bisect
 import math
 
 BENDS = 19
 LANE_M, SHOULDER_M, EDGE_LINE_M = 2.90, 0.50, 0.12
 GENERAL_HEADING_DEG = 20.0
+VERGE_M, FALL, VERGE_FALL = 1.2, 0.025, 0.08
+EDGE_M = LANE_M + SHOULDER_M + VERGE_M  # of all that is built, from the axis
+SHARP_M = 50.0                          # radius: from here on a bend has a warning and chevrons
+# Of this seed's hills none stands before those who may overtake; tests/common/road/n222_test.cpp looks along every such stretch.
+HILLS = {"seed": 230, "columns": 513, "rows": 513, "spacing_m": 10, "west_m": -2560, "south_m": -2560, "below_m": 0.3, "flat_m": 8, "full_m": 90}
+REACH_M = 20                            # of cuts and fills: less than to the centre of the sharpest bend, where they would meet themselves
+RELIEF = [(1900, 260), (800, 110), (350, 40), (140, 10), (60, 2)]  # wavelength, amplitude
 
 
 class Draw:
@@ -138,16 +149,219 @@ def centre_line(road, length):
     return pieces
 
 
+def height(points, s):
+    """Of the profile and its slope, parabolas included."""
+    grades = [(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(points, points[1:])]
+    for i in range(1, len(points) - 1):
+        at, z, parabola = points[i]
+        into = s - (at - 0.5 * parabola)
+        if parabola and 0.0 <= into < parabola:
+            turn = (grades[i] - grades[i - 1]) / parabola
+            return z - 0.5 * parabola * grades[i - 1] + grades[i - 1] * into + 0.5 * turn * into * into, grades[i - 1] + turn * into
+    i = max((k for k in range(len(points) - 1) if points[k][0] <= s), default=0)
+    return points[i][1] + grades[i] * (s - points[i][0]), grades[i]
+
+
+class Axis:
+    """Where the road lies: (x, y, heading, curvature) at a station."""
+
+    def __init__(self, road, origin, length, grades):
+        self.length, self.grades, self.stations, self.poses = length, grades, [], []
+        x, y = origin
+        heading, s = math.radians(GENERAL_HEADING_DEG), 0.0
+        for _, piece, k0, k1 in elements(road):
+            count = math.ceil(piece)
+            h = piece / count
+            for i in range(count):
+                self.stations.append(s + i * h)
+                k = k0 + (k1 - k0) * i / count
+                self.poses.append((x, y, heading, k))
+                middle = heading + 0.5 * h * (k + 0.25 * (k1 - k0) / count)
+                x, y = x + h * math.cos(middle), y + h * math.sin(middle)
+                heading += h * (k + 0.5 * (k1 - k0) / count)
+            s += piece
+        self.stations.append(s)
+        self.poses.append((x, y, heading, 0.0))
+
+    def at(self, s):
+        i = min(max(bisect.bisect_right(self.stations, s) - 1, 0), len(self.stations) - 1)
+        x, y, heading, k = self.poses[i]
+        ahead = s - self.stations[i]
+        return x + ahead * math.cos(heading + 0.5 * k * ahead), y + ahead * math.sin(heading + 0.5 * k * ahead), heading + k * ahead, k
+
+    def beside(self, s, t):
+        x, y, heading, _ = self.at(s)
+        return x - t * math.sin(heading), y + t * math.cos(heading)
+
+
+class Hills:
+    """The terrain that the world file's `generate` makes, before it is cut and filled."""
+
+    def __init__(self, axis):
+        steps = math.ceil(axis.length / 40.0)
+        stations = [axis.length * i / steps for i in range(steps + 1)]
+        self.road = [(*axis.at(s)[:2], height(axis.grades, s)[0]) for s in stations]
+        self.gradients = {}
+
+    @staticmethod
+    def draw(keys):
+        z = 0x9E3779B97F4A7C15
+        for key in keys:
+            z = ((z ^ key) + 0x9E3779B97F4A7C15) % 2**64
+            z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9 % 2**64
+            z = (z ^ (z >> 27)) * 0x94D049BB133111EB % 2**64
+            z ^= z >> 31
+        return -1.0 + 2.0 * (z >> 11) / 2**53
+
+    def noise(self, layer, east, north):
+        across, along = east / RELIEF[layer][0], north / RELIEF[layer][0]
+        column, row = int(across), int(along)
+        u, v = across - column, along - row
+        value = {}
+        for i in (0, 1):
+            for j in (0, 1):
+                key = (HILLS["seed"], layer, column + i, row + j)
+                if key not in self.gradients:
+                    self.gradients[key] = (self.draw((*key, 0)), self.draw((*key, 1)))
+                g = self.gradients[key]
+                value[i, j] = g[0] * (u - i) + g[1] * (v - j)
+        fu, fv = (w * w * w * (w * (w * 6.0 - 15.0) + 10.0) for w in (u, v))
+        south, north = (value[0, j] + fu * (value[1, j] - value[0, j]) for j in (0, 1))
+        return south + fv * (north - south)
+
+    def at(self, x, y):
+        weights = heights = 0.0
+        nearest = 1e18
+        for px, py, pz in self.road:
+            squared = (x - px) ** 2 + (y - py) ** 2
+            weight = 1.0 / (squared + HILLS["flat_m"] ** 2) ** 2
+            weights, heights, nearest = weights + weight, heights + weight * pz, min(nearest, squared)
+        u = min(1.0, max(0.0, (math.sqrt(nearest) - HILLS["flat_m"]) / (HILLS["full_m"] - HILLS["flat_m"])))
+        east, north = x - HILLS["west_m"], y - HILLS["south_m"]
+        grown = u * u * (3.0 - 2.0 * u)
+        return heights / weights - HILLS["below_m"] + grown * sum(a * self.noise(i, east, north) for i, (_, a) in enumerate(RELIEF))
+
+
 def number(value):
     return f"{value:.3f}".rstrip("0").rstrip(".")
 
 
+def spans(road):
+    """(begin, end, radius) of each bend with its clothoids."""
+    found, s = [], 0.0
+    for radius, clothoid, arc, straight in road:
+        found.append((s + straight, s + straight + 2 * clothoid + arc, radius))
+        s = found[-1][1]
+    return found
+
+
+def signs(road, grades, length):
+    """Limits at both ends; before sharp bends and long grades a warning; chevrons on a sharp bend's outside. One post stands at a place."""
+    found = [("{type: speed_limit, value: 70, s_m: 20}", 20.0, "along"), (f"{{type: speed_limit, value: 70, s_m: {number(length - 20)}, for: against}}", length - 20.0, "against")]
+
+    def put(text, s, way):
+        if 10.0 < s < length - 10.0 and all(way != other or abs(s - at) > 35.0 for _, at, other in found):
+            found.append((f"{{{text}, s_m: {number(s)}{', for: against' if way == 'against' else ''}}}", s, way))
+
+    for begin, end, radius in spans(road):
+        if abs(radius) > SHARP_M:
+            continue
+        left = radius > 0.0
+        put(f"type: bend_{'left' if left else 'right'}", begin - 90.0, "along")
+        put(f"type: bend_{'right' if left else 'left'}", end + 90.0, "against")
+    for (s0, z0, p0), (s1, z1, p1) in zip(grades, grades[1:]):
+        percent = round(100.0 * abs(z1 - z0) / (s1 - s0))
+        if percent < 6:
+            continue
+        put(f"type: {'uphill' if z1 > z0 else 'downhill'}, value: {percent}", round(s0 + 0.5 * p0), "along")
+        put(f"type: {'downhill' if z1 > z0 else 'uphill'}, value: {percent}", round(s1 - 0.5 * p1), "against")
+    lines = [text for text, _, _ in sorted(found, key=lambda sign: sign[1])]
+    for begin, end, radius in spans(road):
+        if abs(radius) > SHARP_M:
+            continue
+        outside, every = "right" if radius > 0.0 else "left", 12
+        for way, first in (("along", begin), ("against", begin + 6)):
+            lines.append(f"{{type: chevron, side: {outside}, z_m: 1, for: {way}, from_s_m: {number(first)}, every_m: {every}, to_s_m: {number(end)}}}")
+    return lines
+
+
+def rails(road, axis, hills):
+    """(side, from, to): where the finished ground, FAR_M beyond the verge, lies more than DEEP_M below its edge."""
+    FAR_M, DEEP_M, STEP_M = 12.0, 2.5, 6.0
+    found = []
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        runs = []
+        for k in range(int(axis.length / STEP_M) + 1):
+            s = k * STEP_M
+            edge = height(axis.grades, s)[0] - FALL * (LANE_M + SHOULDER_M) - VERGE_FALL * VERGE_M
+            if hills.at(*axis.beside(s, sign * (EDGE_M + FAR_M))) > edge - DEEP_M:
+                continue
+            begin, end = max(0.0, s - 8.0), min(axis.length, s + 8.0)
+            if runs and begin - runs[-1][1] < 25.0:
+                runs[-1] = (runs[-1][0], end)
+            else:
+                runs.append((begin, end))
+        found += [(side, begin, end) for begin, end in runs if end - begin >= 30.0]
+    return found
+
+
+def rows(road, axis, hills, draw):
+    """Rows of what grows beside the road, and some houses: (type, side, beside, from, every, to, height). On a bend's inner side they keep
+    the sight clear, and none comes near another part of the road."""
+    found = []
+
+    def fits(side, beside, begin, end):
+        sign = 1.0 if side == "left" else -1.0
+        for s in range(math.floor(begin), math.ceil(end), 4):
+            t = sign * (EDGE_M + beside)
+            if axis.at(s)[3] * t > 0.0 and (beside < 15.0 or axis.at(s)[3] * t > 0.6):
+                return False
+            x, y = axis.beside(s, t)
+            if any(abs(s - at) > 1.2 * (EDGE_M + beside) and math.dist((x, y), pose[:2]) < EDGE_M + 8.0 for at, pose in zip(axis.stations[::4], axis.poses[::4])):
+                return False
+        return True
+
+    def level(side, beside, begin, end):
+        """How far the land rises or falls from the road's edge, at most."""
+        sign = 1.0 if side == "left" else -1.0
+        return max(abs(hills.at(*axis.beside(s, sign * (EDGE_M + beside))) - height(axis.grades, s)[0]) for s in (begin, 0.5 * (begin + end), end))
+
+    s = 60.0
+    while s < axis.length - 120.0:
+        side = "left" if draw.uniform(0.0, 1.0) < 0.5 else "right"
+        what, length = draw.uniform(0.0, 1.0), round(draw.uniform(50.0, 130.0))
+        begin, end = round(s), round(s) + length
+        if what < 0.3:    # vines, in rows along the slope
+            for row in range(4):
+                if fits(side, 9.0 + 3.0 * row, begin, end):
+                    found.append(("bush", side, 9.0 + 3.0 * row, begin, 2.5, end, 1.3))
+        elif what < 0.65:  # olives
+            for row in range(3):
+                beside = round(7.0 + 7.0 * row + draw.uniform(0.0, 2.0), 1)
+                if fits(side, beside, begin, end):
+                    found.append(("tree", side, beside, begin + 3 * row, 8 + row, end, round(draw.uniform(3.5, 5.5), 1)))
+        else:             # a wood
+            for row in range(4):
+                beside, every = round(6.5 + 5.0 * row + draw.uniform(0.0, 3.5), 1), round(draw.uniform(7.0, 16.0), 1)
+                if fits(side, beside, begin, end):
+                    found.append(("tree", side, beside, begin + round(draw.uniform(0.0, 9.0)), every, end, round(draw.uniform(5.0, 11.0), 1)))
+        if draw.uniform(0.0, 1.0) < 0.2:
+            other = "right" if side == "left" else "left"
+            if fits(other, 20.0, begin, begin + 16) and level(other, 20.0, begin, begin + 16) < 2.5:
+                found.append(("house", other, 20.0, begin + 8, None, None, 6.5))
+        s += draw.uniform(45.0, 110.0)
+    return found
+
+
 def write(seed, road, length, points):
     box = [(min(p[i] for p in points) + max(p[i] for p in points)) / 2 for i in (0, 1)]
+    origin, grades = (round(-box[0]), round(-box[1])), profile(seed, length)
+    axis = Axis(road, origin, length, grades)
+    hills = Hills(axis)
     print(f"""# A world inspired by the Portuguese national road 222 between Regua and Pinhao. Invented, not surveyed: only the
 # number of bends a km, their range of radii and the widths are those of the real road. Written by
 # tools/author_n222.py (its seed {seed}); the format is described in docs/formats.md.
-rodeira: world/1
+rodeira: world/2
 name: N222
 description: {number(length)} m of winding hill road, {BENDS} bends, inspired by N222
 
@@ -155,35 +369,27 @@ friction: {{asphalt: 1.0, gravel: 0.6, grass: 0.55, soil: 0.65, road_mark: 0.9}}
 
 terrain:
   surface: grass
-  generate:                     # hills from a seed, level with the road near it
-    seed: 222
-    columns: 513
-    rows: 513
-    spacing_m: 10
-    west_m: -2560
-    south_m: -2560
-    below_m: 0.3
-    flat_m: 14
-    full_m: 260
-    relief:
-      - {{wavelength_m: 1900, amplitude_m: 260}}
-      - {{wavelength_m: 800, amplitude_m: 110}}
-      - {{wavelength_m: 350, amplitude_m: 40}}
-      - {{wavelength_m: 140, amplitude_m: 10}}
-      - {{wavelength_m: 60, amplitude_m: 2}}
-    # A local system whose origin lies in the Douro valley; the hills are none of that place.
+  generate:                     # hills from a seed, level with the road near it""")
+    for key, value in HILLS.items():
+        print(f"    {key}: {value}")
+    print("    relief:")
+    for wavelength, amplitude in RELIEF:
+        print(f"      - {{wavelength_m: {wavelength}, amplitude_m: {amplitude}}}")
+    print(f"""    # A local system whose origin lies in the Douro valley; the hills are none of that place.
     projection: "+proj=tmerc +lat_0=41.16 +lon_0=-7.66 +k=1 +x_0=0 +y_0=0 +ellps=GRS80 +units=m"
 
 start: {{road: n222, lane: -1, s_m: 30}}
 
 roads:
   - id: n222
-    start: {{x_m: {number(round(-box[0]))}, y_m: {number(round(-box[1]))}, heading_deg: {number(GENERAL_HEADING_DEG)}}}
+    kind: rural
+    start: {{x_m: {number(origin[0])}, y_m: {number(origin[1])}, heading_deg: {number(GENERAL_HEADING_DEG)}}}
     axis:""")
     s = 0.0
     for n, (radius, clothoid, arc, straight) in enumerate(road, 1):
         side = "left" if radius > 0.0 else "right"
-        print(f"      # bend {n}, to the {side}, from s = {number(s + straight)} m")
+        up = height(grades, s + straight)[1] > 0.04 and height(grades, s + straight + 2 * clothoid + arc)[1] > 0.04
+        print(f"      # bend {n}, to the {side}{', uphill' if up else ''}, from s = {number(s + straight)} m")
         print(f"      - line: {{length_m: {number(straight)}}}")
         print(f"      - clothoid: {{length_m: {number(clothoid)}, radius_end_m: {number(radius)}}}")
         print(f"      - arc: {{length_m: {number(arc)}, radius_m: {number(radius)}}}")
@@ -191,27 +397,38 @@ roads:
         s += straight + 2 * clothoid + arc
     print("      - line: {length_m: 120}")
     print("    vertical:                   # points where two grades meet, each rounded by a parabola")
-    for s, z, parabola in profile(seed, length):
+    for s, z, parabola in grades:
         tail = f", parabola_m: {number(parabola)}" if parabola else ""
         print(f"      - {{s_m: {number(s)}, z_m: {number(z)}{tail}}}")
-    print(f"""    section:
+    print(f"""    speed_limit_kmh: 70
+    section:
       lanes:                      # carriageway {number(2 * LANE_M)} m
-        - {{id: -1, width_m: {number(LANE_M)}, speed_limit_kmh: 70}}
-        - {{id: 1, width_m: {number(LANE_M)}, speed_limit_kmh: 70}}
-      surface: asphalt
-      crossfall: {{kind: crown, fall: 0.025}}
+        - {{id: -1, width_m: {number(LANE_M)}}}
+        - {{id: 1, width_m: {number(LANE_M)}}}
+      crossfall: {{kind: crown, fall: {FALL}}}
       shoulders:
-        left: {{width_m: {number(SHOULDER_M)}, surface: asphalt, fall: 0.025}}
-        right: {{width_m: {number(SHOULDER_M)}, surface: asphalt, fall: 0.025}}
-      verge: {{width_m: 1.2, fall: 0.08, surface: grass}}
-      blend_m: 9
-    marks:""")
+        left: {{width_m: {number(SHOULDER_M)}, fall: {FALL}}}
+        right: {{width_m: {number(SHOULDER_M)}, fall: {FALL}}}
+      verge: {{width_m: {number(VERGE_M)}, fall: {VERGE_FALL}}}
+      slopes: {{cut: 1.5, fill: 2, reach_m: {REACH_M}}}
+    lines:""")
     edge = LANE_M + EDGE_LINE_M / 2
     for t in (-edge, edge):
         print(f"      - {{t_m: {number(t)}, width_m: {number(EDGE_LINE_M)}, kind: continuous}}")
     kinds = {"free": "dashed, stroke_m: 4, gap_m: 8", "approach": "dashed, stroke_m: 5, gap_m: 2", "closed": "continuous"}
     for begin, end, kind in centre_line(road, length):
         print(f"      - {{t_m: 0, width_m: 0.1, from_s_m: {number(begin)}, to_s_m: {number(end)}, kind: {kinds[kind]}}}")
+    print("    signs:")
+    for line in signs(road, grades, length):
+        print(f"      - {line}")
+    print("    objects:")
+    for side in ("left", "right"):
+        print(f"      - {{type: post, side: {side}, beside_m: -0.8, from_s_m: 25, every_m: 50}}")
+    for side, begin, end in rails(road, axis, hills):
+        print(f"      - {{type: guard_rail, side: {side}, from_s_m: {number(begin)}, to_s_m: {number(end)}}}")
+    for kind, side, beside, begin, every, end, tall in rows(road, axis, hills, Draw(seed + 2_000_000)):
+        where = f"s_m: {number(begin)}" if every is None else f"from_s_m: {number(begin)}, every_m: {number(every)}, to_s_m: {number(end)}"
+        print(f"      - {{type: {kind}, side: {side}, beside_m: {number(beside)}, {where}, height_m: {number(tall)}}}")
 
 
 if __name__ == "__main__":

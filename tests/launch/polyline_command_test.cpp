@@ -11,7 +11,7 @@
 #include "common/geometry/polyline.hpp"
 #include "common/road/world.hpp"
 #include "launch/world_axis.hpp"
-#include "tests/tree.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -26,21 +26,21 @@ TEST(WorldAxis, IsNamedByFileAndRoad) {
 
 // The axis is where the world has it, from its beginning to its end, at its height.
 TEST(WorldAxis, LiesOnTheRoad) {
-  for (const auto& [file, road] : {std::pair("n222.yaml", "n222"), std::pair("motorway.yaml", "")}) {
-    const auto world = road::World::Load(kWorlds + file).value();
-    const std::string id = *road != '\0' ? road : world->network()->roads()[0].id();
-    const auto line = AxisOf({kWorlds + file, id}, 5.0);
+  for (const std::string& file : {kWorlds + "n222.yaml", SourceDir() + "/tests/data/n222_version1.yaml", kWorlds + "motorway.yaml"}) {
+    const auto world = road::World::Load(file).value();
+    const network::Road& road = world->network()->roads()[0];
+    const auto line = AxisOf({file, road.id()}, 5.0);
     ASSERT_TRUE(line.ok()) << line.error().Text();
-    const double length_m = *road != '\0' ? world->roads()[0].length_m() : world->network()->roads()[0].length_m();
+    const double length_m = road.length_m();
     EXPECT_EQ(line.value().points_W.size(), static_cast<std::size_t>(std::ceil(length_m / 5.0 - 1e-9)) + 1);
     EXPECT_NEAR(geometry::StationsOf(line.value()).back(), length_m, 2e-3 * length_m) << "chords are shorter";
-    if (*road == '\0') continue;
+    if (road.id() != "n222") continue;
     for (std::size_t i = 0; i < line.value().points_W.size(); i += 37) {
-      const auto at = world->roads()[0].Locate(line.value().points_W[i].x(), line.value().points_W[i].y());
+      const auto at = N222Road().Locate(line.value().points_W[i].x(), line.value().points_W[i].y());
       ASSERT_TRUE(at);
       EXPECT_NEAR(at->t_m, 0.0, 1e-6);
       EXPECT_NEAR(at->s_m, std::min(5.0 * static_cast<double>(i), length_m), 1e-6);
-      EXPECT_NEAR(line.value().points_W[i].z(), world->roads()[0].Evaluate(at->s_m).p_W.z(), 1e-6);
+      EXPECT_NEAR(line.value().points_W[i].z(), N222Road().Evaluate(at->s_m).p_W.z(), 1e-6);
     }
   }
 }

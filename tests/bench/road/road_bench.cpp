@@ -16,16 +16,21 @@ namespace {
 
 constexpr std::size_t kPoints = 1 << 16;
 
+std::shared_ptr<const World> Loaded(const char* file) { return World::Load(std::filesystem::path(SourceDir()) / file).value(); }
 std::shared_ptr<const World> N222() {
-  static const auto world = World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml");
-  return world.value();
+  static const auto world = Loaded("configs/worlds/n222.yaml");
+  return world;
+}
+std::shared_ptr<const World> N222OfVersion1() {
+  static const auto world = Loaded("tests/data/n222_version1.yaml");
+  return world;
 }
 
 std::vector<terrain::GroundQuery> OnRoad(const World& world, double from_t_m, double to_t_m) {
   std::vector<terrain::GroundQuery> queries;
-  const Road& road = world.roads()[0];
+  const network::Road& road = world.network()->roads()[0];
   for (std::uint64_t i = 0; i < kPoints; ++i) {
-    const Eigen::Vector3d p = road.Position(base::RandomUniform({i, 1}, 0.0, road.length_m()), base::RandomUniform({i, 2}, from_t_m, to_t_m));
+    const Eigen::Vector3d p = road.Surface(base::RandomUniform({i, 1}, 0.0, road.length_m()), base::RandomUniform({i, 2}, from_t_m, to_t_m)).p_W;
     queries.push_back({p.x(), p.y(), p.z()});
   }
   return queries;
@@ -63,10 +68,10 @@ void N222Patch(benchmark::State& state) {
   const auto ground = world->MakeGround();
   std::vector<terrain::GroundPatch> patches;
   for (std::uint64_t i = 0; i < 1024; ++i) {
-    const Road& road = world->roads()[0];
+    const network::Road& road = world->network()->roads()[0];
     const double s = base::RandomUniform({i, 1}, 1.0, road.length_m() - 1.0);
-    const Eigen::Vector3d p = road.Position(s, base::RandomUniform({i, 2}, -2.5, 2.5));
-    patches.push_back({p.x(), p.y(), road.Evaluate(s).heading_rad, 0.2, 0.18, 20, 20, p.z()});
+    const Eigen::Vector3d p = road.Surface(s, base::RandomUniform({i, 2}, -2.5, 2.5)).p_W;
+    patches.push_back({p.x(), p.y(), road.axis().Evaluate(s).heading_rad, 0.2, 0.18, 20, 20, p.z()});
   }
   std::vector<terrain::GroundPoint> points(400);
   std::size_t i = 0;
@@ -145,18 +150,21 @@ void N222RoadRandom(benchmark::State& state) {
 }
 BENCHMARK(N222RoadRandom);
 
-void N222BlendRandom(benchmark::State& state) {
+// Of version 2: cuts and fills. Of version 1: where road and terrain are blended.
+void N222SlopesRandom(benchmark::State& state) {
   const auto world = N222();
   Ask(state, *world->MakeGround(), OnRoad(*world, 4.7, 13.0), 64);
 }
-BENCHMARK(N222BlendRandom);
+BENCHMARK(N222SlopesRandom);
+void N222OfVersion1BlendRandom(benchmark::State& state) { Ask(state, *N222OfVersion1()->MakeGround(), OnRoad(*N222OfVersion1(), 4.7, 13.0), 64); }
+BENCHMARK(N222OfVersion1BlendRandom);
 
 void N222FourWheels(benchmark::State& state) {
   const auto world = N222();
   std::vector<terrain::GroundQuery> queries;
   for (std::size_t i = 0; i < kPoints / 4; ++i) {  // 20 m/s at 1 kHz
     for (const auto& [forward, left] : {std::pair{2.6, 0.75}, {2.6, -0.75}, {0.0, 0.75}, {0.0, -0.75}}) {
-      const Eigen::Vector3d p = world->roads()[0].Position(100.0 + 0.02 * static_cast<double>(i) + forward, -1.45 + left);
+      const Eigen::Vector3d p = world->network()->roads()[0].Surface(100.0 + 0.02 * static_cast<double>(i) + forward, -1.45 + left).p_W;
       queries.push_back({p.x(), p.y(), p.z()});
     }
   }
@@ -164,8 +172,9 @@ void N222FourWheels(benchmark::State& state) {
 }
 BENCHMARK(N222FourWheels);
 
+// Of a road of version 1.
 void LocateFarAway(benchmark::State& state) {
-  const auto world = N222();
+  const auto world = N222OfVersion1();
   std::uint64_t i = 0;
   for (auto _ : state) {
     ++i;
@@ -175,7 +184,7 @@ void LocateFarAway(benchmark::State& state) {
 BENCHMARK(LocateFarAway);
 
 void EvaluateAxis(benchmark::State& state) {
-  const auto world = N222();
+  const auto world = N222OfVersion1();
   std::uint64_t i = 0;
   for (auto _ : state) benchmark::DoNotOptimize(world->roads()[0].Evaluate(base::RandomUniform({++i}, 0.0, 5400.0)));
 }

@@ -49,14 +49,19 @@ base::Result<std::unique_ptr<Surface>> SurfaceOf(Quality quality) {
   return Surface::Open(SurfaceKind::kOffscreen, AskedSize().width_px, AskedSize().height_px, "bench", false, 0, quality);
 }
 
+const network::Road& Road() { return N222().network()->roads()[0]; }
+
+Eigen::Quaterniond Along(double s_m, bool back = false) {
+  const double pitch_rad = std::atan(Road().spec().elevation.Evaluate(s_m).slope);
+  return scene::Attitude(Road().axis().Evaluate(s_m).heading_rad + (back ? 3.14159265358979 : 0.0), back ? pitch_rad : -pitch_rad, 0.0);
+}
+
 Picture AlongTheRoad(double s_m, scene::CameraKind camera) {
-  const road::Road& road = N222().roads()[0];
-  const road::RoadFrame frame = road.Evaluate(s_m);
   Picture picture;
   picture.camera = camera;
   scene::CarPose car;
-  car.p_WB_W = road.Position(s_m, -1.45);
-  car.q_WB = scene::Attitude(frame.heading_rad, -std::atan(frame.grade), 0.0);
+  car.p_WB_W = Road().Surface(s_m, -1.45).p_W;
+  car.q_WB = Along(s_m);
   for (std::size_t i = 0; i < 4; ++i) car.wheels[i].hub_B = {i < 2 ? 1.23 : -1.23, i % 2 == 0 ? 0.71 : -0.71, 0.29};
   picture.moment.cars.push_back(car);
   return picture;
@@ -69,17 +74,15 @@ BENCHMARK(Meshes)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 // Fifty cars of the traffic along the road, in both lanes.
 void AddTraffic(Picture& picture) {
-  const road::Road& road = N222().roads()[0];
   constexpr int kCars = 50;
   for (int i = 0; i < kCars; ++i) {
-    const double s_m = road.length_m() * (i + 0.5) / kCars;
+    const double s_m = Road().length_m() * (i + 0.5) / kCars;
     const bool back = i % 2 == 1;
-    const road::RoadFrame frame = road.Evaluate(s_m);
     scene::AgentPose agent;
     agent.id = static_cast<std::uint64_t>(i);
     agent.colour = scene::Colour::Of(0x203040U + 0x031507U * static_cast<std::uint32_t>(i));
-    agent.p_WB_W = road.Position(s_m, back ? 1.45 : -1.45);
-    agent.q_WB = scene::Attitude(frame.heading_rad + (back ? 3.14159265358979 : 0.0), back ? std::atan(frame.grade) : -std::atan(frame.grade), 0.0);
+    agent.p_WB_W = Road().Surface(s_m, back ? 1.45 : -1.45).p_W;
+    agent.q_WB = Along(s_m, back);
     picture.moment.agents.push_back(agent);
   }
 }
@@ -102,7 +105,7 @@ void Frame(benchmark::State& state) {
     picture.moment.time_ns = time_ns += 200'000'000;  // at 45 m/s: pictures that follow one another
     painter.Draw(picture);
     benchmark::DoNotOptimize(painter.Read());
-    s_m = std::fmod(s_m + 9.0, N222().roads()[0].length_m() - 60.0);
+    s_m = std::fmod(s_m + 9.0, Road().length_m() - 60.0);
   };
   for (int i = 0; i < 12; ++i) draw_next();  // the renderer compiles what it needs
   for (auto _ : state) draw_next();

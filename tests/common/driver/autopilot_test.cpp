@@ -7,9 +7,10 @@
 #include <cmath>
 #include <vector>
 
+#include "common/driver/route_path.hpp"
 #include "common/vehicle/bicycle_model.hpp"
 #include "tests/common/driver/test_road.hpp"
-#include "tests/tree.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::driver {
 namespace {
@@ -20,10 +21,12 @@ constexpr int kDriverEvery = 10;  // 100 Hz
 // A car in a lane with its driver.
 struct Drive {
   Drive(std::shared_ptr<const road::World> in, int lane, double start_m, double speed_mps, int road_index = 0)
+      : Drive(in, std::make_unique<LanePath>(in->roads()[static_cast<std::size_t>(road_index)], lane), start_m, speed_mps) {}
+  Drive(std::shared_ptr<const road::World> in, std::unique_ptr<const Way> way, double start_m, double speed_mps)
       : world(std::move(in)),
         ground(world->MakeGround()),
         car(std::move(vehicle::LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml")).value()),
-        autopilot(AutopilotSettings{}, world->roads()[static_cast<std::size_t>(road_index)], lane) {
+        autopilot(AutopilotSettings{}, std::move(way)) {
     const LaneFrame start = autopilot.path().At(start_m);
     const auto placed = car->Initialise(
         {.x_m = start.p_W.x(), .y_m = start.p_W.y(), .z_hint_m = start.p_W.z(), .heading_rad = start.heading_rad, .speed_mps = speed_mps}, *ground);
@@ -101,10 +104,10 @@ TEST(Autopilot, KeepsItsLaneOnAWindingRoadBothWays) {
 }
 
 TEST(Autopilot, DrivesTheWholeOfN222) {
-  auto world = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml");
-  ASSERT_TRUE(world.ok()) << world.error().Text();
+  const auto world = N222();
+  const network::Network& network = *world->network();
   for (const int lane : {-1, 1}) {
-    Drive drive(world.value(), lane, 20.0, 0.0);
+    Drive drive(world, std::make_unique<RoutePath>(network, StraightOn(network, {0, 0, lane}, 1e5)), 20.0, 0.0);
     const double limit = drive.autopilot.path().SpeedLimit_mps(0.0);
     const Record record = DriveToTheEnd(drive, limit, 900.0);
     EXPECT_LT(record.aside_m, 0.5) << lane;

@@ -5,13 +5,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <filesystem>
 
 #include "common/base/random.hpp"
 #include "common/network/strokes.hpp"
 #include "common/road/world.hpp"
 #include "tests/common/road/sample_world.hpp"
-#include "tests/tree.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -56,9 +55,7 @@ void ExpectTheSame(const World& world) {
 
 TEST(RoadNetwork, TheSampleIsTheSame) { ExpectTheSame(*Sample()); }
 
-TEST(RoadNetwork, N222IsTheSame) {
-  ExpectTheSame(*World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml").value());
-}
+TEST(RoadNetwork, N222OfVersion1IsTheSame) { ExpectTheSame(*N222OfVersion1()); }
 
 TEST(RoadNetwork, LinesArePaintedWhereTheMarksWere) {
   const auto world = Sample();

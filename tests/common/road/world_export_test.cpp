@@ -14,7 +14,7 @@
 #include "common/opendrive/import.hpp"
 #include "common/road/network_ground.hpp"
 #include "tests/common/road/sample_world.hpp"
-#include "tests/tree.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -56,7 +56,7 @@ void ExpectTheSameRoad(const World& world) {
   }
 }
 
-TEST(WorldExport, N222ComesBack) { ExpectTheSameRoad(*Of("n222.yaml")); }
+TEST(WorldExport, N222OfVersion1ComesBack) { ExpectTheSameRoad(*N222OfVersion1()); }
 TEST(WorldExport, TheSampleComesBack) { ExpectTheSameRoad(*Sample()); }
 
 TEST(WorldExport, MarksStandAtTheNearestEdge) {

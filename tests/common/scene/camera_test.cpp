@@ -30,8 +30,8 @@ TEST(Camera, ProjectsAsAPinholeDoes) {
 
 TEST(Camera, ChasesFromBehindAndAboveTheGround) {
   const auto world = N222();
-  for (double s = 0.0; s < world->roads()[0].length_m(); s += 37.0) {
-    const road::RoadFrame frame = world->roads()[0].Evaluate(s);
+  for (double s = 0.0; s < N222Road().length_m(); s += 37.0) {
+    const road::RoadFrame frame = N222Road().Evaluate(s);
     CarPose car;
     car.p_WB_W = frame.p_W;
     car.q_WB = Attitude(frame.heading_rad, -std::atan(frame.grade), 0.1);
@@ -178,7 +178,7 @@ TEST(Camera, AFreeEyeTurnsAboutTheCarAndStaysOverTheGround) {
 // stands still for as long as the car is on its part of the road.
 TEST(Camera, BesideTheRoadPostsTakeTurns) {
   const auto world = N222();
-  const road::Road& road = world->roads()[0];
+  const road::Road& road = N222Road();
   std::vector<Eigen::Vector3d> posts;
   for (double s = 2.0; s < road.length_m(); s += 5.0) {
     const road::RoadFrame frame = road.Evaluate(s);

@@ -26,7 +26,7 @@ Built Build(const road::World& world) {
 }
 
 class RoadMesh : public testing::TestWithParam<std::shared_ptr<const road::World> (*)()> {};
-INSTANTIATE_TEST_SUITE_P(Worlds, RoadMesh, testing::Values(N222, PlaneWithRoad));
+INSTANTIATE_TEST_SUITE_P(Worlds, RoadMesh, testing::Values(N222OfVersion1, PlaneWithRoad));
 
 TEST_P(RoadMesh, EveryVertexLiesOnSuelo) {
   const auto world = GetParam()();

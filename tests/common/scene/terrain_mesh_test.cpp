@@ -38,7 +38,7 @@ Level Look(const road::World& world, std::size_t level) {
 
 class TerrainMesh : public testing::TestWithParam<std::tuple<std::shared_ptr<const road::World> (*)(), std::size_t>> {};
 INSTANTIATE_TEST_SUITE_P(WorldsAndLevels, TerrainMesh,
-                         testing::Combine(testing::Values(N222, PlaneWithRoad), testing::Values(std::size_t{0}, std::size_t{1}, std::size_t{2})));
+                         testing::Combine(testing::Values(N222OfVersion1, PlaneWithRoad), testing::Values(std::size_t{0}, std::size_t{1}, std::size_t{2})));
 
 // Together, terrain and road are the whole rectangle: no hole, nothing twice.
 TEST_P(TerrainMesh, FillsExactlyWhatTheRoadLeaves) {
@@ -85,7 +85,7 @@ TEST_P(TerrainMesh, MeetsTheRoadsEdge) {
 }
 
 TEST(TerrainMeshLevels, TheFinestIsSueloItself) {
-  const auto world = N222();
+  const auto world = N222OfVersion1();
   const Level look = Look(*world, 0);
   const auto ground = world->MakeGround();
   const road::Extents extents = world->extents();
@@ -98,7 +98,7 @@ TEST(TerrainMeshLevels, TheFinestIsSueloItself) {
 
 // Any two levels of neighbouring tiles fit: on a tile's edge every level has the same vertices.
 TEST(TerrainMeshLevels, ShareTheVerticesOnATilesEdge) {
-  const auto world = N222();
+  const auto world = N222OfVersion1();
   const Lattice lattice(*world);
   const std::vector<Ribbon> ribbons = {LayRibbon(world->roads()[0], {})};
   const double side_m = 32.0 * lattice.spacing_m().x();
@@ -153,7 +153,7 @@ TEST(WorldScene, IsAPureFunctionOfTheWorld) {
   };
   const auto world = PlaneWithRoad();
   EXPECT_EQ(digest(BuildWorldScene(*world)), digest(BuildWorldScene(*world)));
-  EXPECT_EQ(digest(BuildWorldScene(*N222())), digest(BuildWorldScene(*N222())));
+  EXPECT_EQ(digest(BuildWorldScene(*N222OfVersion1())), digest(BuildWorldScene(*N222OfVersion1())));
 }
 
 TEST(RibbonCover, CuttingKeepsTheArea) {

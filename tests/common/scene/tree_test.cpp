@@ -10,7 +10,7 @@ namespace rodeira::scene {
 namespace {
 
 TEST(Trees, StandOnTheGroundBesideTheRoad) {
-  const auto world = N222();
+  const auto world = N222OfVersion1();
   const road::Road& road = world->roads()[0];
   const std::vector<Tree> trees = PlantTrees(*world, 1);
   EXPECT_GT(trees.size(), 2'000U);
@@ -25,7 +25,7 @@ TEST(Trees, StandOnTheGroundBesideTheRoad) {
 }
 
 TEST(Trees, ComeFromTheSeedAlone) {
-  const auto world = N222();
+  const auto world = N222OfVersion1();
   const std::vector<Tree> one = PlantTrees(*world, 1), again = PlantTrees(*world, 1), other = PlantTrees(*world, 2);
   ASSERT_EQ(one.size(), again.size());
   for (std::size_t i = 0; i < one.size(); ++i) ASSERT_EQ(one[i].foot_W, again[i].foot_W);

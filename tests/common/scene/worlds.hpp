@@ -5,15 +5,9 @@
 #include <memory>
 
 #include "common/road/world.hpp"
-#include "tests/tree.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::scene {
-
-inline std::shared_ptr<const road::World> N222() {
-  static const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml");
-  EXPECT_TRUE(world.ok()) << world.error().Text();
-  return world.value();
-}
 
 // A sloping plane with one road that bends once, a double white line and a dashed yellow one.
 inline std::shared_ptr<const road::World> PlaneWithRoad() {

@@ -6,9 +6,10 @@
 #include <filesystem>
 
 #include "common/driver/autopilot.hpp"
+#include "common/driver/route_path.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/vehicle/vehicle_model.hpp"
-#include "tests/tree.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -17,10 +18,10 @@ using driver::Footprint;
 
 TEST(TrafficDrive, TwoMinutesAmongSixtyCarsWithoutTouching) {
   const std::filesystem::path source = SourceDir();
-  const auto world = road::World::Load(source / "configs/worlds/n222.yaml").value();
+  const auto world = N222();
   const auto ground = world->MakeGround();
   auto car = vehicle::LoadVehicle(source / "configs/vehicles/default.yaml").value();
-  driver::Autopilot autopilot(driver::AutopilotSettings{}, world->roads()[0], -1);
+  driver::Autopilot autopilot(driver::AutopilotSettings{}, std::make_unique<driver::RoutePath>(*world->network(), driver::StraightOn(*world->network(), {0, 0, -1}, 1e5)));
   const driver::LaneFrame start = autopilot.path().At(400.0);
   ASSERT_TRUE(car->Initialise({.x_m = start.p_W.x(), .y_m = start.p_W.y(), .heading_rad = start.heading_rad, .speed_mps = 8.0}, *ground).ok());
   std::vector<Footprint> driver_car{driver::FootprintOf(0, car->state(), car->dimensions())};

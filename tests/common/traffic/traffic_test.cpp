@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 
 #include "common/driver/idm.hpp"
 #include "common/driver/lane_path.hpp"
 #include "tests/common/driver/test_road.hpp"
-#include "tests/tree.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -20,15 +19,6 @@ using driver::LanePath;
 
 constexpr double kStep_s = 0.01;
 using WorldPointer = std::shared_ptr<const road::World>;
-
-WorldPointer N222() {
-  static const WorldPointer world = [] {
-    auto loaded = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml");
-    EXPECT_TRUE(loaded.ok()) << (loaded.ok() ? "" : loaded.error().Text());
-    return loaded.value();
-  }();
-  return world;
-}
 
 TrafficModel Made(const TrafficSettings& settings, WorldPointer world, std::span<const Footprint> others = {}) {
   auto model = TrafficModel::Make(settings, std::move(world), others);
@@ -54,8 +44,9 @@ struct Pair {
 };
 // The lanes of a world's only road.
 std::map<int, LanePath> PathsOf(const road::World& world) {
+  const road::Road& road = world.roads().empty() ? N222Road() : world.roads()[0];
   std::map<int, LanePath> paths;
-  for (const road::Lane& lane : world.roads()[0].lanes()) paths.emplace(lane.id, LanePath(world.roads()[0], lane.id));
+  for (const road::Lane& lane : road.lanes()) paths.emplace(lane.id, LanePath(road, lane.id));
   return paths;
 }
 
@@ -155,7 +146,7 @@ TEST(Traffic, StandsOnTheGroundOfSuelo) {
       }
     }
     const Eigen::Vector3d forward = pose.q_WB * Eigen::Vector3d::UnitX();
-    const LanePath path(world->roads()[0], pose.lane);
+    const LanePath path(N222Road(), pose.lane);
     const auto place = path.Locate(pose.p_WB_W.x(), pose.p_WB_W.y());
     EXPECT_NEAR(forward.z() / std::hypot(forward.x(), forward.y()), path.At(place->d_m).grade, 0.005);
   }
@@ -165,7 +156,7 @@ TEST(Traffic, FollowersStopBehindTheDriversStandingCarAndGoOnAfterwards) {
   const WorldPointer world = N222();
   TrafficSettings settings;
   settings.vehicles = 30;
-  const LanePath path(world->roads()[0], -1);
+  const LanePath path(N222Road(), -1);
   const std::vector<Footprint> standing{Car(path, 2500.0, 0.0)};
   TrafficModel model = Made(settings, world, standing);
   double least = 1e9;
@@ -223,7 +214,7 @@ TEST(Traffic, TheSeedAloneDecides) {
 TEST(Traffic, RestoredAnywhereItGoesOnWithTheSameBits) {
   TrafficSettings settings;
   settings.vehicles = 40;
-  const LanePath path(N222()->roads()[0], -1);
+  const LanePath path(N222Road(), -1);
   for (const int restore_at : {0, 777, 20000}) {
     TrafficModel a = Made(settings, N222());
     for (int i = 0; i < restore_at; ++i) a.Step(kStep_s, {});

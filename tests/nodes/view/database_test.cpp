@@ -19,6 +19,7 @@
 #include "tests/common/scene/ground_worlds.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/setting.hpp"
+#include "tests/n222.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::view {
@@ -230,11 +231,9 @@ TEST_F(Database, AModelFromAFileStandsAtItsPlace) {
 }
 
 TEST_F(Database, RoadsOfVersion1AreRefused) {
-  const auto world = road::World::Load(fs::path(SourceDir()) / "configs/worlds/n222.yaml");
-  ASSERT_TRUE(world.ok()) << world.error().Text();
   DatabaseOptions options;
   options.folder = folder_ / "n222";
-  const auto report = WriteDatabase(*world.value(), options);
+  const auto report = WriteDatabase(*N222OfVersion1(), options);
   ASSERT_FALSE(report.ok());
   EXPECT_NE(report.error().Text().find("only an OpenDRIVE world or the roads of a world file of version 2"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "n222"));

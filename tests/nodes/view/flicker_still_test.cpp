@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/nodes/view/driver_still.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -22,10 +23,10 @@ class FlickerStill : public DriverStill {
 // The right edge line, 10 to 45 m ahead (there it is a pixel and a half wide), in pictures 7 cm apart (30 m/s at 430 pictures a second: far finer than any display): in each it is
 // lighter than the asphalt beside it, wherever the ground does not hide it.
 TEST_F(FlickerStill, AnEdgeLineIsThereInEveryPicture) {
-  const road::Road& road = world_->roads()[0];
+  const road::Road& road = N222Road();
   int asked = 0, worst_s = 0;
   double least = 1e9;
-  for (const double begin_m : {60.0, 1700.0, 3300.0}) {
+  for (const double begin_m : {27.0, 1677.0, 3277.0}) {  // between two marker posts
     for (int k = 0; k < 12; ++k) {
       Car() = CarOn(road, begin_m + 0.07 * k, -1.45);
       const scene::Camera camera = scene::DriverCamera(Car());

@@ -8,7 +8,7 @@
 #include "common/scene/air.hpp"
 #include "tests/common/scene/ground_worlds.hpp"
 #include "tests/nodes/view/pictures.hpp"
-#include "tests/tree.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -53,7 +53,7 @@ TEST(GroundShadow, HillsStandBeforeTheSun) {
   picture.aim.map_height_m = 900.0;
   picture.moment.weather.clouds = 0.0;
   picture.moment.weather.hour = 6.8;
-  picture.moment.cars.push_back(CarOn(world->roads()[0], kValley_s_m, -1.45));
+  picture.moment.cars.push_back(CarOn(N222Road(), kValley_s_m, -1.45));
   const Pair pair = Drawn(*world, picture);
   const scene::Camera camera = scene::MakeCamera(picture.camera, picture.moment.cars[0], picture.aim, *world);
   const scene::Air air = scene::MakeAir(picture.moment.weather);

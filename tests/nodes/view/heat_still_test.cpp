@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/nodes/view/driver_still.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -16,7 +17,7 @@ class HeatStill : public DriverStill {
     if (IsSkipped()) return;
     picture_.camera = scene::CameraKind::kTop;
     picture_.aim.map_height_m = 60.0;
-    Car() = CarOn(world_->roads()[0], 200.0, -1.45);
+    Car() = CarOn(N222Road(), 200.0, -1.45);
   }
   // Squares about the car, 16 by 16, each with its share of the scale; heights are those of the ground, and `above_m`.
   template <class Share>

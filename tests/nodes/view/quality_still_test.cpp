@@ -5,7 +5,7 @@
 
 #include "common/scene/air.hpp"
 #include "tests/nodes/view/pictures.hpp"
-#include "tests/tree.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -81,7 +81,7 @@ TEST(SunShadow, ThereIsNoneWithoutTheSunNorAtLowQuality) {
 TEST(Quality, RoadLinesLandSkyAndCarAreThereAtEachOfThem) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = World("n222.yaml");
-  const road::Road& road = world->roads()[0];
+  const road::Road& road = N222Road();
   Picture picture;
   picture.show_instruments = false;
   picture.moment.cars.push_back(CarOn(road, 60.0, -1.45));

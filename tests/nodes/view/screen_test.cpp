@@ -12,7 +12,7 @@
 #include "nodes/view/asker.hpp"
 #include "nodes/view/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
-#include "tests/tree.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -252,7 +252,7 @@ TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
     asked.push_back(request);
     return true;
   });
-  const road::Road& road = world->roads()[0];
+  const road::Road& road = N222Road();
   const Eigen::Vector3d here = road.Position(300.0, road.LaneCentre(-1, 300.0));
   scene::Moment moment;
   moment.cars.push_back(CarAt(here, 1.0));

@@ -5,7 +5,7 @@
 
 #include "common/base/random.hpp"
 #include "tests/nodes/view/pictures.hpp"
-#include "tests/tree.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -78,7 +78,7 @@ TEST(Still, OnAPlane) {
 TEST(Still, OnN222) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = Load("n222.yaml");
-  const road::Road& road = world->roads()[0];
+  const road::Road& road = N222Road();
   // One surface and painter for all, as the node has them.
   auto surface = Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test");
   ASSERT_TRUE(surface.ok());
@@ -103,8 +103,8 @@ TEST(Still, OnN222) {
     count(asphalt, 2.0, probe(2.0).IsAsphalt());
     count(edges, -2.96, probe(-2.96).IsWhite());
     count(edges, 2.96, probe(2.96).IsWhite());
-    count(green, -6.5, probe(-6.5).IsGrown());
-    count(green, 6.5, probe(6.5).IsGrown());
+    count(green, -3.7, probe(-3.7).IsGrown());  // before posts and rails
+    count(green, 3.7, probe(3.7).IsGrown());
     ++sky.asked;
     sky.right += ProbeAt(image, 0.5 * kWidth, 10).IsSky();
     EXPECT_TRUE(ProbeAt(image, camera, picture.moment.cars[0].p_WB_W + picture.moment.cars[0].q_WB * Eigen::Vector3d(-1.8, 0.0, 0.80)).IsRed()) << s;
@@ -131,7 +131,7 @@ TEST(Still, ThreeScreensAreOnePicture) {
   Picture picture;
   picture.camera = scene::CameraKind::kDriver;
   picture.show_instruments = false;
-  picture.moment.cars.push_back(CarOn(world->roads()[0], 40.0, -1.45));
+  picture.moment.cars.push_back(CarOn(N222Road(), 40.0, -1.45));
   const double width = 0.708, distance = 0.7, angle = 2.0 * std::atan(0.5 * width / distance);
   const auto seen = [&](double angle_rad) {
     picture.screen = scene::ScreenPlane{width, 0.398, distance, angle_rad, 0.22, 0.0};
@@ -159,7 +159,7 @@ TEST(Still, ThreeScreensAreOnePicture) {
 TEST(Still, TheDriverSeesTheRoadAndNotTheCabin) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = Load("n222.yaml");
-  const road::Road& road = world->roads()[0];
+  const road::Road& road = N222Road();
   Picture picture;
   picture.camera = scene::CameraKind::kDriver;
   picture.show_instruments = false;
@@ -175,7 +175,7 @@ TEST(Still, TheDriverSeesTheRoadAndNotTheCabin) {
 TEST(Still, TrafficIsWhereItIs) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = Load("n222.yaml");
-  const road::Road& road = world->roads()[0];
+  const road::Road& road = N222Road();
   Picture picture;
   picture.show_instruments = false;
   picture.moment.cars.push_back(CarOn(road, 30.0, -1.45));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/nodes/view/driver_still.hpp"
+#include "tests/n222.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -17,7 +18,7 @@ class WeatherStill : public DriverStill {
   void SetUp() override {
     DriverStill::SetUp();
     if (IsSkipped()) return;
-    Car() = CarOn(world_->roads()[0], 60.0, -1.45);
+    Car() = CarOn(N222Road(), 60.0, -1.45);
     camera_ = scene::DriverCamera(Car());
   }
   Image In(const weather::Weather& weather) {
@@ -26,7 +27,7 @@ class WeatherStill : public DriverStill {
   }
   // The road's surface so far ahead of the driver, in his lane and the other one.
   Probe Road(const Image& image, double ahead_m, double t_m = -1.45) {
-    return ProbeAt(image, camera_, world_->roads()[0].Position(60.0 + ahead_m, t_m), 2);
+    return ProbeAt(image, camera_, N222Road().Position(60.0 + ahead_m, t_m), 2);
   }
   static double Brightness(const Probe& probe) { return (probe.red + probe.green + probe.blue) / 3.0; }
 
@@ -67,9 +68,9 @@ TEST_F(WeatherStill, FogTakesTheContrast) {
   thick.visibility_m = 60.0;
   thin.visibility_m = 150.0;
   const Image in_thick = In(thick), in_thin = In(thin);
-  const double fog = Brightness(ProbeAt(in_thick, 0.03 * kWidth, kHeight * 0.47, 2));
+  const double fog = Brightness(ProbeAt(in_thick, 0.5 * kWidth, kHeight * 0.47, 2));
   for (const double ahead_m : {10.0, 25.0, 40.0}) {
-    const Eigen::Vector3d place = world_->roads()[0].Position(60.0 + ahead_m, -1.45);
+    const Eigen::Vector3d place = N222Road().Position(60.0 + ahead_m, -1.45);
     const double distance_m = (place - camera_.eye_W).norm(), expected = std::exp(-3.0 * distance_m / 60.0 + 3.0 * distance_m / 150.0);
     const double much = fog - Brightness(Road(in_thin, ahead_m)), little = fog - Brightness(Road(in_thick, ahead_m));
     EXPECT_GT(much, 20.0) << ahead_m;
