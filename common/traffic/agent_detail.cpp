@@ -72,7 +72,7 @@ std::vector<AgentDetail> TrafficModel::Details() {
       detail.look_ahead_W = FrameAt(graph(), path, at).p_W.head<2>();
       detail.target_mps = std::min(Allowed(id).speed_mps * traits_[id].speed_factor, Cap_mps(id));
       if (const MotorsDriver* own = motors(id); own != nullptr && own->lanes > 0 && own->trip == agent.trip) {
-        detail.look_ahead_W = MotorsLook(id);
+        detail.look_ahead_W = MotorsLooksAt(id);
         detail.target_mps = own->stops || agent.brake_mps2 > 0.0 ? 0.0 : TurningSpeed_mps(MotorsTurn_rad(id, detail.look_ahead_W), std::min(kMotorsLimit_mps, Cap_mps(id)));
       }
       const vehicle::BicycleSettings& car = CarOfBody(traits_[id].body);

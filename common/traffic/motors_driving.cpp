@@ -89,7 +89,7 @@ void TrafficModel::FollowTrajectory(std::uint32_t id) {
   }
 }
 
-Vector2d TrafficModel::MotorsLook(std::uint32_t id) const {
+Vector2d TrafficModel::MotorsLooksAt(std::uint32_t id) const {
   const MotorsDriver& driver = motors_[id];
   const auto ahead = driver.checkpoint + static_cast<std::uint32_t>(kLookAhead_s * agents_[id].speed_mps / kCheckpoint_m);
   return MotorsPoint(driver, std::min(ahead, MotorsPoints(driver) - 2));
@@ -106,7 +106,7 @@ void TrafficModel::GiveWay() {
   EachDriving([&](std::uint32_t id) {
     FollowTrajectory(id);
     motors_[id].stops = false;
-    segments_[id] = MotorsLook(id);
+    segments_[id] = MotorsLooksAt(id);
   });
   std::vector<MotorsLook> all;
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {

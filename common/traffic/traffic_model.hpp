@@ -221,7 +221,7 @@ class TrafficModel {
   void TakeLane(std::uint32_t id, const Piece& piece);
   void FollowTrajectory(std::uint32_t id);
   // The point that he looks to, two seconds of way on and not beyond the lane's end, and its angle from where his car points.
-  Eigen::Vector2d MotorsLook(std::uint32_t id) const;
+  Eigen::Vector2d MotorsLooksAt(std::uint32_t id) const;
   double MotorsTurn_rad(std::uint32_t id, const Eigen::Vector2d& look_W) const;
   void GiveWay();
   void DriveMotors(std::uint32_t id, double dt_s);
