@@ -10,6 +10,7 @@
 #include "common/road/world.hpp"
 #include "common/road/world_report.hpp"
 #include "tests/common/map/sample_map.hpp"
+#include "tests/launch/said.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
@@ -18,18 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-struct Said {
-  int status;
-  std::string out;
-  std::string errors;
-};
-
-Said Asked(const MapOptions& options) {
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int status = MapCommand(options);
-  return {status, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
+Said Asked(const MapOptions& options) { return SaidBy(MapCommand, options); }
 
 const std::string kCrossing = SourceDir() + "/configs/maps/crossing.motors";
 

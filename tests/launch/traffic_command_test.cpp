@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "common/base/files.hpp"
+#include "tests/launch/said.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
@@ -17,18 +18,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-struct Said {
-  int status;
-  std::string out;
-  std::string errors;
-};
-
-Said Asked(const TrafficOptions& options) {
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int status = TrafficRun(options);
-  return {status, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
+Said Asked(const TrafficOptions& options) { return SaidBy(TrafficRun, options); }
 
 // The ramp's map with a companion of the test's.
 class TrafficCommand : public ::testing::Test {

@@ -15,6 +15,7 @@
 
 #include "common/base/files.hpp"
 #include "launch/traffic_command.hpp"
+#include "tests/launch/said.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
@@ -24,18 +25,7 @@ namespace {
 using testing::HasSubstr;
 using Rows = std::vector<std::map<std::string, std::string>>;
 
-struct Said {
-  int status;
-  std::string out;
-  std::string errors;
-};
-
-Said Asked(const TrafficOptions& options) {
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int status = TrafficRun(options);
-  return {status, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
+Said Asked(const TrafficOptions& options) { return SaidBy(TrafficRun, options); }
 
 // A table by the names in its first line.
 Rows Table(const std::filesystem::path& file, const std::string& header) {

@@ -1,4 +1,4 @@
-// The ground as it is drawn, against SUELO and against itself.
+// The ground as it is drawn, against SUELO and against the file.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -6,33 +6,17 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <numeric>
-#include <set>
 
 #include "common/base/random.hpp"
 #include "common/network/marking.hpp"
-#include "common/scene/ground_tile.hpp"
+#include "tests/common/scene/ground_tiles.hpp"
 #include "tests/common/scene/ground_worlds.hpp"
 #include "tests/setting.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::scene {
 namespace {
-
-std::vector<GroundTile> BuildAll(const road::World& world, unsigned threads = 0) {
-  const GroundPlan plan(world, threads);
-  std::vector<GroundTile> tiles(plan.tiles().size());
-  ForEachAtOnce(tiles.size(), threads, [&](std::size_t i) { tiles[i] = plan.Build(plan.tiles()[i]); });
-  return tiles;
-}
-
-// Or the underside of a deck.
-bool IsWall(const Mesh& mesh, std::size_t triangle) { return mesh.normals[mesh.triangles[3 * triangle]].z() < 1e-6F; }
-
-std::array<Eigen::Vector3d, 3> CornersOf(const Mesh& mesh, std::size_t triangle) {
-  return {mesh.PositionW(mesh.triangles[3 * triangle]), mesh.PositionW(mesh.triangles[3 * triangle + 1]), mesh.PositionW(mesh.triangles[3 * triangle + 2])};
-}
 
 struct Correlation {
   int asked = 0;
@@ -262,248 +246,15 @@ TEST(Ground, OfTheProjectsWorldsIsWhereTheTyresAre) {
 
 // In files of other programs surfaces of overlapping roads cross and step anywhere: nearly all points agree, not all.
 TEST(Ground, IsNearlyWhereTheTyresAreOnRealFiles) {
-  std::uint64_t files = Setting("RODEIRA_GROUND_FILES", 2);
-  for (const char* name : {"esmini_curves_elevation", "esmini_fabriksgatan", "esmini_e6mini", "esmini_highway_exit", "carla_Town04"}) {
-    if (files-- == 0) break;
+  for (const std::string& name : RealGrounds()) {
     if (!std::filesystem::exists(SharedXodr(name))) GTEST_SKIP() << "skipped: " << SharedXodr(name) << " is absent";
     const auto world = road::World::Load(SharedXodr(name));
     ASSERT_TRUE(world.ok()) << world.error().Text();
     const Correlation found = Correlate(*world.value(), BuildAll(*world.value()), Points(), 2);
     EXPECT_LT(found.far, 0.001 * found.asked) << name << ": worst " << found.worst_m << " m at " << found.where.transpose();
     EXPECT_LT(found.stepped, 0.002 * found.asked) << name;
-    std::printf("%s: %d of %d more than 5 mm from SUELO, worst %.4f m\n", name, found.far, found.asked, found.worst_m);
+    std::printf("%s: %d of %d more than 5 mm from SUELO, worst %.4f m\n", name.c_str(), found.far, found.asked, found.worst_m);
   }
-}
-
-// A place to the bit: coordinates of drawn points are whole steps.
-using Place = std::array<double, 3>;
-Place PlaceOf(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-
-// Every side of every triangle has one that goes back along it, but on the tile's own edge, at the end of the ground, and
-// at the free lower edge of a bridge's apron. So there is no hole, no T-junction and nothing that faces down.
-TEST(Ground, IsClosed) {
-  const auto world = OpenDriveWorld(BendUnderBridge());
-  ASSERT_NE(world, nullptr);
-  for (const GroundTile& tile : BuildAll(*world)) {
-    for (const GroundLevel& level : tile.levels) {
-      std::map<std::pair<Place, Place>, int> sides;
-      for (const Mesh& mesh : level.ground) {
-        for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-          const auto corners = CornersOf(mesh, i);
-          if (!IsWall(mesh, i)) {
-            const Eigen::Vector3d u = corners[1] - corners[0], v = corners[2] - corners[0];
-            EXPECT_GT(u.x() * v.y() - u.y() * v.x(), 0.0) << "it faces down";
-            for (std::size_t k = 0; k < 3; ++k) EXPECT_GT(mesh.normals[mesh.triangles[3 * i + k]].z(), 0.0F);
-          }
-          for (std::size_t k = 0; k < 3; ++k) ++sides[{PlaceOf(corners[k]), PlaceOf(corners[(k + 1) % 3])}];
-        }
-      }
-      const Eigen::Vector2d low = tile.key.south_west_W(), high = low + Eigen::Vector2d::Constant(kTile_m);
-      int open = 0, aprons = 0;
-      for (const auto& [side, count] : sides) {
-        const auto back = sides.find({side.second, side.first});
-        if (back != sides.end() && back->second == count) continue;
-        const auto on_edge = [&](const Place& p) { return p[0] == low.x() || p[1] == low.y() || p[0] == high.x() || p[1] == high.y(); };
-        if (on_edge(side.first) && on_edge(side.second)) continue;
-        // The bridge's aprons hang 0.9 m below it: their lower edges and ends are free, and nothing else at that height is.
-        const bool apron = side.first[2] > 14.5 && side.second[2] > 14.5;
-        apron ? ++aprons : ++open;
-      }
-      EXPECT_EQ(open, 0) << "tile " << tile.key.column << " " << tile.key.row;
-    }
-  }
-}
-
-// From the road below a deck is seen: all of it, 0.9 m under its lanes and verges.
-TEST(Ground, ABridgeHasAnUnderside) {
-  const auto loaded = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/motorway.yaml");
-  ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
-  const road::World& world = *loaded.value();
-  const network::Network& network = *world.network();
-  const network::Road& road = network.roads()[*network.FindRoad("over")];
-  const network::Structure& bridge = road.spec().structures.at(0);
-  const Eigen::Vector2d middle = road.Surface(bridge.s_m + 0.5 * bridge.length_m, 0.0).p_W.head<2>();
-  const network::LaneSection& section = road.spec().sections[0];
-  const double width_m = road.SpanAt(0, static_cast<int>(section.left.size()), 400.0)->outer_t_m - road.SpanAt(0, -static_cast<int>(section.right.size()), 400.0)->outer_t_m;
-  const GroundPlan plan(world);
-  for (std::size_t level = 0; level < kGroundLevels; ++level) {
-    double area_m2 = 0.0;
-    for (const TileKey& key : plan.tiles()) {
-      const Eigen::Vector2d tile_middle = key.south_west_W() + Eigen::Vector2d::Constant(0.5 * kTile_m);
-      if ((tile_middle - middle).cwiseAbs().maxCoeff() > kTile_m) continue;
-      const GroundTile tile = plan.Build(key);
-      for (const Mesh& mesh : tile.levels[level].ground) {
-        for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-          if (mesh.normals[mesh.triangles[3 * i]].z() > -0.5F) continue;
-          const auto c = CornersOf(mesh, i);
-          const Eigen::Vector3d u = c[1] - c[0], v = c[2] - c[0];
-          area_m2 -= 0.5 * (u.x() * v.y() - u.y() * v.x());
-          if (level > 0 || u.cross(v).norm() < 0.02) continue;  // slivers at the edges lie beside the deck
-          const Eigen::Vector3d p = (c[0] + c[1] + c[2]) / 3.0;
-          EXPECT_NEAR(world.At(p.x(), p.y()).z_m - p.z(), 0.9, 0.01) << p.transpose();
-        }
-      }
-    }
-    // At its ends a deck lies on the land.
-    EXPECT_GT(area_m2 / (bridge.length_m * width_m), 0.9) << "level " << level;
-    EXPECT_LT(area_m2 / (bridge.length_m * width_m), 1.02) << "level " << level;
-  }
-}
-
-// What is not closed of a tile at one level: sides of triangles that none goes back along, but on the tile's own edge, and faces that look down.
-struct Flaws {
-  std::vector<Eigen::Vector3d> open;  // sides of the ground: where they begin
-  int free = 0;    // lower sides and ends of walls, which hang: aprons of bridges, cliffs beside them
-  int turned = 0;  // triangles of the ground that face down, or whose corners' normals do
-};
-
-Flaws FlawsOf(const GroundTile& tile, std::size_t level) {
-  struct Side {
-    int count = 0;
-    bool wall = false;
-  };
-  std::map<std::pair<Place, Place>, Side> sides;
-  Flaws flaws;
-  for (const Mesh& mesh : tile.levels[level].ground) {
-    for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-      const auto corners = CornersOf(mesh, i);
-      const bool wall = IsWall(mesh, i);
-      if (!wall) {
-        const Eigen::Vector3d u = corners[1] - corners[0], v = corners[2] - corners[0];
-        bool up = u.x() * v.y() - u.y() * v.x() > 0.0;
-        for (std::size_t k = 0; k < 3; ++k) up = up && mesh.normals[mesh.triangles[3 * i + k]].z() > 0.0F;
-        flaws.turned += !up;
-      }
-      for (std::size_t k = 0; k < 3; ++k) {
-        Side& side = sides[{PlaceOf(corners[k]), PlaceOf(corners[(k + 1) % 3])}];
-        ++side.count;
-        side.wall = side.wall || wall;
-      }
-    }
-  }
-  const Eigen::Vector2d low = tile.key.south_west_W(), high = low + Eigen::Vector2d::Constant(kTile_m);
-  const auto on_edge = [&](const Place& p) { return p[0] == low.x() || p[1] == low.y() || p[0] == high.x() || p[1] == high.y(); };
-  for (const auto& [side, found] : sides) {
-    const auto back = sides.find({side.second, side.first});
-    if (back != sides.end() && back->second.count == found.count) continue;
-    if (on_edge(side.first) && on_edge(side.second)) continue;
-    if (found.wall) ++flaws.free;
-    else flaws.open.emplace_back(side.first[0], side.first[1], side.first[2]);
-  }
-  return flaws;
-}
-
-// The same for the project's worlds at every level, on tiles drawn by lot and on all at bridges, and for real files. At bridges aprons hang free, and the
-// ground below a deck ends where the deck comes down to the land: there it is open to nobody who stands on it.
-TEST(Ground, OfTheProjectsWorldsIsClosed) {
-  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 60) / 3;  // each of them at all levels
-  for (const std::string name : {"haste", "motorway", "n222", "flat", "example/world"}) {
-    const auto world = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
-    ASSERT_TRUE(world.ok()) << world.error().Text();
-    std::vector<Eigen::Vector2d> bridges;
-    for (const network::Road& road : world.value()->network()->roads()) {
-      for (const network::Structure& structure : road.spec().structures) {
-        for (double s = structure.s_m; s <= structure.s_m + structure.length_m; s += 5.0) bridges.push_back(road.Surface(std::min(s, road.length_m()), 0.0).p_W.head<2>());
-      }
-    }
-    const GroundPlan plan(*world.value());
-    std::set<TileKey> keys;
-    for (std::uint64_t n = 0; n < at_most; ++n) keys.insert(plan.tiles()[base::RandomBits({n, 23}) % plan.tiles().size()]);
-    const auto is_near = [&](const TileKey& key) {
-      const Eigen::Vector2d low = key.south_west_W(), high = low + Eigen::Vector2d::Constant(kTile_m);
-      return std::any_of(bridges.begin(), bridges.end(), [&](const Eigen::Vector2d& p) { return (p.array() > low.array() - 20.0).all() && (p.array() < high.array() + 20.0).all(); });
-    };
-    for (const TileKey& key : plan.tiles()) {
-      if (is_near(key)) keys.insert(key);
-    }
-    int hang = 0, below_decks = 0, at_bridges = 0;
-    for (const TileKey& key : keys) {
-      const GroundTile tile = plan.Build(key);
-      const bool at_bridge = is_near(key);
-      at_bridges += at_bridge;
-      for (std::size_t level = 0; level < kGroundLevels; ++level) {
-        const Flaws flaws = FlawsOf(tile, level);
-        for (const Eigen::Vector3d& p : flaws.open) {
-          const bool below_deck = std::any_of(bridges.begin(), bridges.end(), [&](const Eigen::Vector2d& bridge) { return (bridge - p.head<2>()).norm() < 20.0; });
-          EXPECT_TRUE(below_deck) << name << ", level " << level << ", tile " << key.column << " " << key.row << ": open at " << p.transpose();
-          below_decks += below_deck;
-        }
-        EXPECT_EQ(flaws.turned, 0) << name << ", level " << level << ", tile " << key.column << " " << key.row;
-        EXPECT_TRUE(at_bridge || flaws.free == 0) << name << ", level " << level << ", tile " << key.column << " " << key.row << ": " << flaws.free;
-        hang += flaws.free;
-      }
-    }
-    std::printf("%s: %zu of %zu tiles looked through at every level, %d of them at bridges, where %d sides of walls hang free and %d of the ground end below decks\n", name.c_str(), keys.size(),
-                plan.tiles().size(), at_bridges, hang, below_decks);
-  }
-}
-
-// Roads of real files cross and step anywhere, and walls hang there; the ground itself has no open side and nothing that faces down.
-TEST(Ground, OfRealFilesIsClosed) {
-  std::uint64_t files = Setting("RODEIRA_GROUND_FILES", 2);
-  for (const char* name : {"esmini_curves_elevation", "esmini_fabriksgatan", "esmini_e6mini", "esmini_highway_exit", "carla_Town04"}) {
-    if (files-- == 0) break;
-    if (!std::filesystem::exists(SharedXodr(name))) GTEST_SKIP() << "skipped: " << SharedXodr(name) << " is absent";
-    const auto world = road::World::Load(SharedXodr(name));
-    ASSERT_TRUE(world.ok()) << world.error().Text();
-    int open = 0, turned = 0, hang = 0;
-    for (const GroundTile& tile : BuildAll(*world.value())) {
-      for (std::size_t level = 0; level < kGroundLevels; ++level) {
-        const Flaws flaws = FlawsOf(tile, level);
-        open += static_cast<int>(flaws.open.size()), turned += flaws.turned, hang += flaws.free;
-        for (const Eigen::Vector3d& p : flaws.open) ADD_FAILURE() << name << ", level " << level << ", tile " << tile.key.column << " " << tile.key.row << ": open at " << p.transpose();
-      }
-    }
-    EXPECT_EQ(turned, 0) << name;
-    std::printf("%s: %d open sides, %d faces look down, %d sides of walls hang free\n", name, open, turned, hang);
-  }
-}
-
-// The points on a common edge of two tiles, whatever their levels.
-void ExpectNeighboursFit(const road::World& world, std::size_t least_points, int least_pairs) {
-  std::map<TileKey, GroundTile> tiles;
-  for (GroundTile& tile : BuildAll(world)) tiles[tile.key] = std::move(tile);
-  const auto along = [](const GroundTile& tile, std::size_t level, bool column, double at) {
-    std::set<Place> places;
-    for (const Mesh& mesh : tile.levels[level].ground) {
-      for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const Eigen::Vector3d p = mesh.PositionW(i);
-        if ((column ? p.x() : p.y()) == at && mesh.normals[i].z() > 1e-6F) places.insert(PlaceOf(p));
-      }
-    }
-    return places;
-  };
-  int pairs = 0;
-  for (const auto& [key, tile] : tiles) {
-    for (const bool column : {true, false}) {
-      const auto other = tiles.find(column ? TileKey{key.column + 1, key.row} : TileKey{key.column, key.row + 1});
-      if (other == tiles.end()) continue;
-      const double at = column ? other->second.key.south_west_W().x() : other->second.key.south_west_W().y();
-      const auto expected = along(tile, 0, column, at);
-      EXPECT_GE(expected.size(), least_points);
-      for (std::size_t level = 0; level < kGroundLevels; ++level) {
-        EXPECT_EQ(along(tile, level, column, at), expected) << "level " << level;
-        EXPECT_EQ(along(other->second, level, column, at), expected) << "level " << level << " of the neighbour";
-      }
-      ++pairs;
-    }
-  }
-  EXPECT_GE(pairs, least_pairs);
-}
-
-TEST(Ground, NeighboursFitAtEveryPairOfLevels) {
-  const auto world = OpenDriveWorld(BendUnderBridge(700.0, -300.0));
-  ASSERT_NE(world, nullptr);
-  ExpectNeighboursFit(*world, 17, 21);
-}
-
-// Where land is the terrain's own triangles, and where slopes pass from one tile into another, each tile's edge has points of its own.
-TEST(Ground, NeighboursFitOnATerrain) {
-  const auto parsed = road::World::Parse(
-      "rodeira: world/2\nname: slopes\nterrain:\n  generate: {seed: 6, columns: 81, rows: 81, spacing_m: 15, west_m: -600, south_m: -600, full_m: 50, flat_m: 8, relief: [{wavelength_m: 160, amplitude_m: 15}]}\n"
-      "roads:\n  - id: a\n    start: {x_m: -300, y_m: -100, heading_deg: 20}\n    axis: [line: {length_m: 200}, arc: {length_m: 300, radius_m: 250}]\n    z_m: 2\n    section: {template: rural}\n", "slopes.yaml");
-  ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
-  ExpectNeighboursFit(*parsed.value(), 2, 40);
 }
 
 // 5 000 km away the same file gives the same ground, as exactly: only where a height lies between two steps it may go to

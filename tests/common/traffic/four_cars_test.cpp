@@ -11,6 +11,7 @@
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
 #include "tests/common/traffic/identical.hpp"
+#include "tests/common/traffic/restored.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {
@@ -57,24 +58,16 @@ class FourCars : public testing::Test {
 
   // Everybody at the limit, 80 m and `later_s` before the crossing; those whose `there` is false are not there at all.
   Outcome Run(const Meeting& meeting, const std::array<bool, 4>& there, double step_s) {
-    base::StateWriter writer;
+    std::array<Agent, 4> agents;
     for (std::uint32_t id = 0; id < 4; ++id) {
-      Agent agent;
+      Agent& agent = agents[id];
       agent.on_road = there[id];
       agent.trip = TripFor(id, meeting.turn[id]);
       agent.speed_mps = kSpeed_mps;
       agent.o_m = model_->graph()[arms_[id]].length_m() - kFrom_m - kSpeed_mps * meeting.later_s[id] - 0.5 * model_->traits(id).length_m;
       agent.path = {{arms_[id], 0.0, 0.0, 0.0, 0.0, 1.0}};
-      writer.Put("agent", agent);
     }
-    writer.Put("waiting", std::vector<std::uint32_t>{});
-    writer.Put("next_grant", std::uint64_t{1});
-    writer.Put("time_ns", std::int64_t{0});
-    writer.Put("ended", std::uint64_t{0});
-    writer.Put("missed", std::uint64_t{0});
-    base::StateReader reader(writer.bytes());
-    model_->Restore(reader);
-    EXPECT_TRUE(reader.Finish().ok());
+    RestoreWith(*model_, agents);
     Outcome outcome;
     std::array<bool, 4> left{};
     for (std::uint32_t id = 0; id < 4; ++id) outcome.out_s[id] = -1.0;

@@ -10,6 +10,7 @@
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/lanes/mirrored.hpp"
 #include "tests/common/traffic/identical.hpp"
+#include "tests/common/traffic/restored.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -88,10 +89,10 @@ class Meeting : public testing::TestWithParam<bool> {
   }
 
   std::array<Came, 2> Run(const std::array<std::optional<Comes>, 2>& both, const std::array<Meets, 2>& meets) {
-    base::StateWriter writer;
+    std::array<Agent, 2> agents;
     std::array<std::uint32_t, 2> trips{};
     for (std::uint32_t id = 0; id < 2; ++id) {
-      Agent agent;
+      Agent& agent = agents[id];
       if (both[id]) {
         agent.on_road = true;
         agent.trip = trips[id] = TripFor(id, *both[id]);
@@ -99,16 +100,8 @@ class Meeting : public testing::TestWithParam<bool> {
         agent.o_m = graph()[both[id]->track].length_m() - both[id]->before_m - 0.5 * model_->traits(id).length_m;
         agent.path = {{both[id]->track, 0.0, 0.0, 0.0, 0.0, 1.0}};
       }
-      writer.Put("agent", agent);
     }
-    writer.Put("waiting", std::vector<std::uint32_t>{});
-    writer.Put("next_grant", std::uint64_t{1});
-    writer.Put("time_ns", std::int64_t{0});
-    writer.Put("ended", std::uint64_t{0});
-    writer.Put("missed", std::uint64_t{0});
-    base::StateReader reader(writer.bytes());
-    model_->Restore(reader);
-    EXPECT_TRUE(reader.Finish().ok());
+    RestoreWith(*model_, agents);
     std::array<Came, 2> came;
     for (int i = 1; i * kStep_s < 60.0; ++i) {
       model_->Step(kStep_s, {});
