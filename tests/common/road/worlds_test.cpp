@@ -11,6 +11,7 @@
 #include "common/network/placing.hpp"
 #include "common/road/road_chains.hpp"
 #include "common/road/world.hpp"
+#include "common/road/world_report.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::road {
@@ -135,6 +136,45 @@ TEST(Flat, HasTheLanesOfAnIsoLaneChange) {
     EXPECT_NEAR(0.5 * (*painted.rbegin() + *painted.begin()), gate.middle_t_m, 1e-9) << gate.from_s_m;
   }
 }
+
+TEST(Haste, IsAsLongAndCrossedAsItSays) {
+  const auto world = World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/haste.yaml").value();
+  const auto chains = ChainsOf(*world->network());
+  EXPECT_GT(chains[0].length_m, 29'000.0);
+  EXPECT_GE(world->network()->junctions().size(), 4u);
+  double sharpest = 0.0, steepest = 0.0;
+  for (double at = 0.0; at < chains[0].length_m; at += 1.0) {
+    const auto [road, s] = chains[0].At(*world->network(), at);
+    if (!road->spec().junction.empty()) continue;  // there the crossing road's height takes part
+    sharpest = std::max(sharpest, std::fabs(road->axis().Evaluate(s).curvature_1pm));
+    steepest = std::max(steepest, std::fabs(road->spec().elevation.Evaluate(s).slope));
+  }
+  EXPECT_LE(sharpest, 1.0 / 249.0);
+  EXPECT_LE(steepest, 0.045);
+}
+
+class WorldsOfTheProject : public testing::TestWithParam<const char*> {};
+
+TEST_P(WorldsOfTheProject, LoadAndHaveGroundUnderTheirLanes) {
+  const auto path = std::filesystem::path(SourceDir()) / "configs/worlds" / GetParam();
+  for (const auto& problem : WorldProblems(path)) ADD_FAILURE() << problem.Text();
+  const auto loaded = World::Load(path);
+  ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
+  const World& world = *loaded.value();
+  for (const network::LaneKey& key : world.network()->Lanes()) {
+    const network::Road& road = world.network()->roads()[key.road];
+    if (!road.spec().unevenness.empty()) continue;  // it stands on the road
+    for (double s = 0.5; s < road.length_m(); s += 23.0) {
+      const Eigen::Vector3d p = world.network()->Centre(key, s);
+      const SurfacePoint at = world.At(p.x(), p.y(), p.z());
+      ASSERT_TRUE(at.inside) << road.id() << " " << s;
+      EXPECT_NEAR(at.z_m, p.z(), 0.005) << road.id() << " " << key.lane << " " << s;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WorldsOfTheProject, testing::Values("haste.yaml", "motorway.yaml", "flat.yaml", "n222.yaml"),
+                         [](const auto& file) { return std::string(file.param).substr(0, std::string(file.param).find('.')); });
 
 }  // namespace
 }  // namespace rodeira::road

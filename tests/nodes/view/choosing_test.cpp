@@ -1,0 +1,238 @@
+// How a person chooses a vehicle, and what is then said and shown of it.
+#include <SDL.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "nodes/view/screen.hpp"
+#include "tests/nodes/view/pictures.hpp"
+#include "tests/nodes/view/screen_hands.hpp"
+#include "tests/tree.hpp"
+
+namespace rodeira::view {
+namespace {
+
+// A click on a car of the traffic, seen from behind: it pulses with simulated time, its panel stands there; a click beside it ends that.
+TEST(Screen, AClickChoosesAVehicle) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
+  ViewSettings settings;
+  settings.width_px = 960;
+  settings.height_px = 540;
+  settings.instruments = false;
+  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  ASSERT_TRUE(screen.ok()) << screen.error().Text();
+  scene::Moment moment;
+  moment.time_ns = 400'000'000;  // half of the pulse's 0.8 s: at its most
+  moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
+  scene::AgentPose agent;
+  agent.id = 5;
+  agent.colour = scene::Colour::Of(0x1040e0);
+  agent.p_WB_W = moment.cars[0].p_WB_W + moment.cars[0].q_WB * Eigen::Vector3d(14.0, 4.0, 0.0);
+  agent.q_WB = moment.cars[0].q_WB;
+  moment.agents.push_back(agent);
+  const scene::Camera camera = scene::ChaseCamera(moment.cars[0], *world);
+  const Eigen::Vector3d tail_W = agent.p_WB_W + agent.q_WB * Eigen::Vector3d(-1.95, 0.0, 0.80);
+  const auto shown = [&] { return Shown(*screen.value(), moment); };
+  const auto click = [&](const Eigen::Vector2d& at) { return Click(*screen.value(), at); };
+  const Image before = shown();
+  EXPECT_TRUE(ProbeAt(before, camera, tail_W).IsBlue()) << ProbeAt(before, camera, tail_W);
+  EXPECT_TRUE(click(*camera.Project(tail_W, 960, 540)));
+  const Image chosen = shown();
+  EXPECT_GT(ProbeAt(chosen, camera, tail_W).red, ProbeAt(before, camera, tail_W).red + 80.0) << ProbeAt(chosen, camera, tail_W);
+  EXPECT_LT(ProbeAt(chosen, 380, 540 - 60, 3).green, 0.75 * ProbeAt(before, 380, 540 - 60, 3).green) << "the panel's box";
+  moment.time_ns = 800'000'000;
+  EXPECT_TRUE(ProbeAt(shown(), camera, tail_W).IsBlue()) << "between two pulses";
+  moment.time_ns = 400'000'000;
+  EXPECT_TRUE(click({480.0, 20.0}));
+  EXPECT_EQ(shown().rgb, before.rgb);
+}
+
+// A car and two of the traffic before it, on a plane.
+scene::Moment CarAndTwoOthers() {
+  scene::Moment moment;
+  moment.time_ns = 800'000'000;
+  moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
+  for (const int number : {1, 2}) {
+    scene::AgentPose agent;
+    agent.id = static_cast<std::uint64_t>(number) << 24;
+    agent.speed_mps = 4.0 * number;
+    agent.p_WB_W = moment.cars[0].p_WB_W + moment.cars[0].q_WB * Eigen::Vector3d(12.0 * number, 4.0, 0.0);
+    agent.q_WB = moment.cars[0].q_WB;
+    moment.agents.push_back(agent);
+  }
+  return moment;
+}
+
+// The key goes from vehicle to vehicle: the camera goes with each, it pulses, and its panel stands there; back at the window's own car nobody is chosen.
+TEST(Screen, TabChoosesOneVehicleAfterTheOtherAndComesHome) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
+  ViewSettings settings;
+  settings.width_px = 640;
+  settings.height_px = 360;
+  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  ASSERT_TRUE(screen.ok()) << screen.error().Text();
+  scene::Moment moment = CarAndTwoOthers();
+  moment.time_ns = 400'000'000;  // the pulse's middle
+  const auto expected = [&](std::size_t followed, std::optional<std::size_t> chosen) {
+    Picture picture = PictureOf(settings, moment);
+    picture.followed = followed;
+    picture.chosen = chosen;
+    Chosen panel;
+    panel.Choose(moment, chosen);
+    picture.panel = panel.Panel(moment);
+    EXPECT_EQ(picture.panel.empty(), !chosen);
+    screen.value()->painter().Draw(picture);
+    return screen.value()->painter().Read();
+  };
+  const auto press = [&](int shift) {
+    EXPECT_TRUE(screen.value()->TakeKey(SDLK_TAB, true, shift));
+    return Shown(*screen.value(), moment).rgb;
+  };
+  const auto home = Shown(*screen.value(), moment).rgb;
+  EXPECT_EQ(home, expected(0, std::nullopt).rgb);
+  EXPECT_EQ(press(KMOD_NONE), expected(1, 1).rgb);
+  EXPECT_EQ(press(KMOD_NONE), expected(2, 2).rgb);
+  EXPECT_EQ(press(KMOD_NONE), home);
+  EXPECT_EQ(press(KMOD_LSHIFT), expected(2, 2).rgb);
+  EXPECT_EQ(press(KMOD_RSHIFT), expected(1, 1).rgb);
+}
+
+// Where the left button drives the right one chooses, and turns the camera about the car; whatever button the window has, the others are not its own.
+TEST(Screen, ChoosingAndTurningHaveAButtonThatDoesNotDrive) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
+  for (const int own : {kLeftButton, kRightButton, kMiddleButton, kNoButton}) {
+    ViewSettings settings;
+    settings.width_px = 640;
+    settings.height_px = 360;
+    settings.mouse_button = own;
+    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+    ASSERT_TRUE(screen.ok()) << screen.error().Text();
+    const scene::Moment moment = CarAndTwoOthers();
+    const auto shown = [&] { return Shown(*screen.value(), moment).rgb; };
+    const auto before = shown();
+    const Eigen::Vector2d at = *scene::ChaseCamera(moment.cars[0], *world).Project(moment.agents[0].p_WB_W + Eigen::Vector3d(0.0, 0.0, 0.8), 640, 360);
+    for (const int button : {kLeftButton, kRightButton, kMiddleButton}) {
+      EXPECT_EQ(Click(*screen.value(), at, button), button == own);
+      EXPECT_EQ(shown() != before, button == own) << button << " of " << own;
+      (void)Click(*screen.value(), {320.0, 8.0}, button);  // on nobody
+      SDL_Event drawn{};
+      drawn.type = SDL_MOUSEMOTION;
+      drawn.motion.state = static_cast<Uint32>(SDL_BUTTON(button));
+      drawn.motion.xrel = 50;
+      EXPECT_EQ(screen.value()->TakeMouse(drawn), button == own);
+    }
+    for (int i = 0; i < 3; ++i) (void)screen.value()->TakeKey(SDLK_k, true);  // chase, driver, bonnet, orbit
+    Picture picture = PictureOf(settings, moment);
+    picture.camera = scene::CameraKind::kOrbit;
+    screen.value()->painter().Draw(picture);
+    const auto not_turned = screen.value()->painter().Read().rgb;
+    EXPECT_EQ(shown() == not_turned, own == kNoButton) << own;
+  }
+}
+
+TEST(WindowHelp, SaysWhichButtonOfTheMouseIsTheWindows) {
+  EXPECT_NE(WindowHelp(kRightButton).find("\nright mouse button  choose a vehicle"), std::string::npos) << WindowHelp(kRightButton);
+  EXPECT_EQ(WindowHelp(kNoButton).find("mouse button"), std::string::npos);
+  EXPECT_NE(WindowHelp(kNoButton).find("\nmouse wheel  "), std::string::npos);
+}
+
+// The driver of a chosen car of the traffic: the point that it steers for, the way there, the speed that it plans; gone with the choice.
+TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
+  ViewSettings settings;
+  settings.width_px = 960;
+  settings.height_px = 540;
+  settings.instruments = false;
+  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  ASSERT_TRUE(screen.ok()) << screen.error().Text();
+  scene::Moment moment;
+  moment.time_ns = 800'000'000;  // between two pulses
+  moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
+  const auto from_car = [&](double ahead, double left, double up) -> Eigen::Vector3d { return moment.cars[0].p_WB_W + moment.cars[0].q_WB * Eigen::Vector3d(ahead, left, up); };
+  scene::AgentPose agent;
+  agent.id = 5;
+  agent.colour = scene::Colour::Of(0x1040e0);
+  agent.p_WB_W = from_car(14.0, 4.0, 0.0);
+  agent.q_WB = moment.cars[0].q_WB;
+  agent.detail.emplace();
+  agent.detail->look_ahead_W = from_car(26.0, 1.0, 0.0).head<2>();
+  agent.detail->target_speed_mps = 15.0;
+  moment.agents.push_back(agent);
+  const scene::Camera camera = scene::ChaseCamera(moment.cars[0], *world);
+  const auto shown = [&] { return Shown(*screen.value(), moment); };
+  const auto click = [&](const Eigen::Vector2d& at) { return Click(*screen.value(), at); };
+  const Image before = shown();
+  EXPECT_TRUE(click(*camera.Project(from_car(12.05, 4.0, 0.8), 960, 540)));
+  const Image chosen = shown();
+  const auto post = ProbeAt(chosen, camera, from_car(26.0, 1.0, 1.1), 1), tip = ProbeAt(chosen, camera, from_car(28.7, 4.0, agent.height_m + 0.4), 0);
+  EXPECT_TRUE(post.green > post.red + 60.0 && post.blue > post.red + 60.0) << "cyan: " << post;
+  EXPECT_TRUE(tip.green > tip.red + 60.0 && tip.green > tip.blue + 60.0) << "green, a second of 15 m/s ahead: " << tip;
+  const Eigen::Vector3d on_path_W = from_car(16.0 + 0.8 * 10.0, 4.0 - 0.8 * 3.0, 0.5);
+  const auto path = ProbeAt(chosen, camera, on_path_W, 0);
+  EXPECT_TRUE(path.red > path.blue + 60.0 && path.green > path.blue + 60.0) << "yellow: " << path;
+  moment.agents[0].detail.reset();
+  const auto bare = ProbeAt(shown(), camera, from_car(26.0, 1.0, 1.1), 1);
+  EXPECT_LT(bare.blue, bare.red + 60.0) << "nothing is said of it: " << bare;
+  moment.agents[0].detail = agent.detail;
+  EXPECT_TRUE(click({480.0, 20.0}));
+  EXPECT_EQ(shown().rgb, before.rgb);
+}
+
+TEST(Chosen, SaysWhatTheCarDoesAndSinceWhen) {
+  scene::Moment moment;
+  moment.cars.emplace_back();
+  scene::CarPose& car = moment.cars[0];
+  car.id = 3;
+  car.speed_mps = 25.0;
+  car.gear = 4;
+  car.engine_rpm = 2900.0;
+  car.throttle = 0.4;
+  car.fuel_l = 40.0;
+  car.fuel_lph = 5.4;  // at 90 km/h: 6 l for 100 km
+  car.odometer_m = 1000.0;
+  Chosen chosen;
+  chosen.Choose(moment, 0);
+  EXPECT_NE(chosen.Panel(moment).find("90.0 km/h   gear 4   2900 1/min\nthrottle 40 %   brake 0 %"), std::string::npos) << chosen.Panel(moment);
+  EXPECT_NE(chosen.Panel(moment).find("now 6.0 l/100 km"), std::string::npos) << chosen.Panel(moment);
+  moment.time_ns = 80'000'000'000;
+  car.odometer_m = 3000.0;
+  car.fuel_l = 39.86;
+  EXPECT_NE(chosen.Panel(moment).find("mean 7.0 l/100 km over 2.00 km"), std::string::npos) << chosen.Panel(moment);
+  moment.time_ns = 0;
+  car.odometer_m = 500.0;  // back in a recording: counted from there
+  EXPECT_NE(chosen.Panel(moment).find("mean -"), std::string::npos) << chosen.Panel(moment);
+  car.id = 4;
+  EXPECT_EQ(chosen.Panel(moment), "") << "it has left";
+  EXPECT_FALSE(chosen.In(moment));
+}
+
+TEST(Chosen, SaysOfTheTrafficWhatItPublishes) {
+  scene::Moment moment;
+  moment.agents.emplace_back();
+  scene::AgentPose& agent = moment.agents[0];
+  agent.id = std::uint64_t{7} << 24;
+  agent.speed_mps = 10.0;
+  Chosen chosen;
+  chosen.Choose(moment, 0);
+  EXPECT_EQ(chosen.Panel(moment), "traffic 7\n36.0 km/h\nwheels 0.0 deg") << "of recordings that say no more";
+  agent.detail = scene::AgentDetail{0.3, 0.0, 0.0, 2, 2100.0, 2.88, 1.5, 12.5, {0.0, 0.0}};
+  chosen.Choose(moment, 0);
+  EXPECT_EQ(chosen.Panel(moment), "traffic 7   36.0 km/h of 45\ngear 2   2100 1/min\nthrottle 30 %   brake 0 %\nclutch 0 %   wheels 0.0 deg\nnow 8.0 l/100 km\nmean -");
+  for (int i = 1; i <= 100; ++i) {  // 1 km in 100 s; it burns 0.07 l
+    moment.time_ns = i * 1'000'000'000LL;
+    agent.p_WB_W.x() = 10.0 * i;
+    agent.detail->fuel_used_l = 1.5 + 0.0007 * i;
+    (void)chosen.Panel(moment);
+  }
+  EXPECT_NE(chosen.Panel(moment).find("mean 7.0 l/100 km over 1.00 km"), std::string::npos) << chosen.Panel(moment);
+  moment.time_ns = 0;  // back in a recording
+  EXPECT_NE(chosen.Panel(moment).find("mean -"), std::string::npos) << chosen.Panel(moment);
+}
+
+}  // namespace
+}  // namespace rodeira::view

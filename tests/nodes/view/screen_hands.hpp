@@ -1,0 +1,32 @@
+#pragma once
+
+#include <SDL.h>
+
+#include <Eigen/Core>
+
+#include "nodes/view/screen.hpp"
+#include "tests/nodes/view/pictures.hpp"
+
+namespace rodeira::view {
+
+inline SDL_Event ButtonAt(const Eigen::Vector2d& at, bool down, int button = SDL_BUTTON_LEFT) {
+  SDL_Event event{};
+  event.type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
+  event.button.button = static_cast<Uint8>(button);
+  event.button.x = static_cast<int>(at.x());
+  event.button.y = static_cast<int>(at.y());
+  return event;
+}
+
+// Down and up there; whether both were for the window.
+inline bool Click(Screen& screen, const Eigen::Vector2d& at, int button = SDL_BUTTON_LEFT) {
+  const bool down = screen.TakeMouse(ButtonAt(at, true, button));
+  return screen.TakeMouse(ButtonAt(at, false, button)) && down;
+}
+
+inline Image Shown(Screen& screen, const scene::Moment& moment) {
+  screen.Show(moment, 1.0);
+  return screen.painter().Read();
+}
+
+}  // namespace rodeira::view
