@@ -2,8 +2,10 @@
 
 find_program(RODEIRA_CCACHE ccache)
 if(RODEIRA_CCACHE)
-  set(CMAKE_C_COMPILER_LAUNCHER ${RODEIRA_CCACHE})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${RODEIRA_CCACHE})
+  # Paths below the sources are told relative to the build folder, so that what one clone has compiled serves another.
+  set(RODEIRA_LAUNCHER /usr/bin/env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${RODEIRA_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${RODEIRA_LAUNCHER})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${RODEIRA_LAUNCHER})
 endif()
 find_program(RODEIRA_MOLD mold)
 if(RODEIRA_MOLD)
