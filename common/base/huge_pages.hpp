@@ -8,4 +8,10 @@ namespace rodeira::base {
 // nothing but time; where the system has none, or the piece is small, nothing at all.
 void PreferHugePages(const void* begin, std::size_t bytes);
 
+// Of all that a vector holds now.
+template <class Vector>
+void PreferHugePages(const Vector& all) {
+  PreferHugePages(all.data(), all.size() * sizeof(*all.data()));
+}
+
 }  // namespace rodeira::base

@@ -41,12 +41,18 @@ SpeedPlan::SpeedPlan(const Way& path, const SpeedPlanSettings& settings) {
     nodes_.push_back({static_cast<double>(i) * step, squared[i]});
     if (i < count) rise = squared[i + 1] - squared[i];
   }
+  first_ = nodes_.front(), last_ = nodes_.back();
+  is_even_ = nodes_.size() == 2;
 }
 
 SpeedPlan::Allowed SpeedPlan::At(double d_m) const {
-  if (d_m >= nodes_.back().d_m) return {std::sqrt(nodes_.back().squared_m2ps2), 0.0};
+  if (d_m >= last_.d_m) return {std::sqrt(last_.squared_m2ps2), 0.0};
+  if (is_even_) return Between(first_, last_, d_m);
   const auto after = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, d_m, [](double d, const Node& node) { return d < node.d_m; });
-  const Node &a = *(after - 1), &b = *after;
+  return Between(*(after - 1), *after, d_m);
+}
+
+SpeedPlan::Allowed SpeedPlan::Between(const Node& a, const Node& b, double d_m) const {
   const double rise = (b.squared_m2ps2 - a.squared_m2ps2) / (b.d_m - a.d_m);  // d(v²)/dd = 2 v dv/dd
   const double squared = a.squared_m2ps2 + (std::max(0.0, d_m) - a.d_m) * rise;
   return {std::sqrt(std::max(0.0, squared)), 0.5 * rise / std::sqrt(std::max(squared, kLeastSquared_m2ps2))};

@@ -33,7 +33,11 @@ class SpeedPlan {
   struct Node {
     double d_m = 0.0, squared_m2ps2 = 0.0;
   };
+  Allowed Between(const Node& a, const Node& b, double d_m) const;
+
   std::vector<Node> nodes_;
+  bool is_even_ = false;
+  Node first_, last_;  // of them; where there are no others they are all that is asked
 };
 
 }  // namespace rodeira::driver

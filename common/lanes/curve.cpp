@@ -12,6 +12,7 @@ namespace {
 constexpr double kNode_m = 1.0;
 constexpr double kShortest_m = 1e-6;  // between nodes
 constexpr double kTold = 1e-6;         // m, and of directions, grades, banks; 1/m
+constexpr double kStraight = 1e-9;     // m a m, and 1/m: less is straight
 constexpr double kAside_m = 0.7;      // over twice this the bank is measured
 
 struct Motion {
@@ -144,9 +145,23 @@ void Curve::FindBends() {
     from = to;
   }
   for (const Node& bend : bends_) bends_d_m_.push_back(bend.d_m);
+  const Node &a = bends_.front(), &b = bends_.back();
+  const double h = b.d_m - a.d_m;
+  const auto is_along = [&](const Eigen::Vector3d& along_W) { return ((b.p_W - a.p_W) / h - along_W).cwiseAbs().maxCoeff() < kStraight; };
+  if (bends_.size() > 2 || !is_along(a.along_W) || !is_along(b.along_W)) return;
+  if (std::fabs(a.curvature_1pm) > kStraight || std::fabs(b.curvature_1pm) > kStraight) return;
+  straight_ = {a.p_W, a.along_W, a.bank, (b.bank - a.bank) / h};
 }
 
 CurvePoint Curve::At(double d_m) const {
+  if (straight_) {
+    CurvePoint point;
+    point.p_W = straight_->p_W + d_m * straight_->along_W;
+    point.ahead_W = straight_->along_W.head<2>();
+    point.grade = straight_->along_W.z();
+    point.bank = straight_->bank + std::clamp(d_m, 0.0, length_m_) * straight_->bank_1pm;
+    return point;
+  }
   if (d_m < 0.0 || d_m > length_m()) {
     CurvePoint point;
     const Node& end = d_m < 0.0 ? bends_.front() : bends_.back();

@@ -43,6 +43,7 @@ class Curve {
   const std::vector<Node>& nodes() const { return nodes_; }
   // Beyond the ends straight on.
   CurvePoint At(double d_m) const;
+  bool is_straight() const { return straight_.has_value(); }
   double WidthAt(double d_m) const;
   double StationAt(double d_m) const;  // s of the road, held within the section
   double AtStation(double s_m) const;  // its inverse: d, held at the ends
@@ -59,10 +60,17 @@ class Curve {
   bool Tells(std::size_t from, std::size_t to) const;  // the cubic from node to node tells those between
   void FindBends();
 
+  // A straight line from the first node to the last, with all that At needs of it beside the length: most of a town's ways are that.
+  struct Straight {
+    Eigen::Vector3d p_W, along_W;
+    double bank = 0.0, bank_1pm = 0.0;
+  };
+
   std::vector<Node> nodes_;  // at least two
   std::vector<Node> bends_;  // of them those that At needs: few where the line is straight, so that they stay in near memory
   std::vector<double> bends_d_m_;
   double length_m_ = 0.0;    // as the last node says: asked for far more often than that node
+  std::optional<Straight> straight_;
 };
 
 }  // namespace rodeira::lanes

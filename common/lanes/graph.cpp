@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/huge_pages.hpp"
+
 namespace rodeira::lanes {
 namespace {
 
@@ -35,6 +37,7 @@ Graph::Graph(const network::Network& network) : network_(&network) {
   }
   FindEntries();
   BuildGrid();
+  base::PreferHugePages(tracks_);
 }
 
 void Graph::AddTracks() {

@@ -42,7 +42,7 @@ bool SamePlace(const CurvePoint& a, const CurvePoint& b) {
 
 }  // namespace
 
-Zones::Zones(const Graph& graph, const LargestCar& car) : of_(graph.tracks().size()) {
+Zones::Zones(const Graph& graph, const LargestCar& car) {
   const double reach = 2.0 * HalfSwath_m(1.0, car) + kMargin_m + kSpacing_m;
   std::vector<NodeKey> near;
   for (std::uint32_t a = 0; a < graph.tracks().size(); ++a) {
@@ -62,17 +62,26 @@ Zones::Zones(const Graph& graph, const LargestCar& car) : of_(graph.tracks().siz
     }
     for (const auto& [b, places] : touches) Pair(graph, a, b, places);
   }
+  std::vector<std::vector<ZoneSide>> all(graph.tracks().size()), conflicts(all.size());
+  std::vector<std::vector<Parting>> partings(all.size());
   for (std::uint32_t z = 0; z < zones_.size(); ++z) {
     Zone& zone = zones_[z];
     Decide(graph, zone);
     for (int side = 0; side < 2; ++side) {
       const auto mine = static_cast<std::size_t>(side);
-      of_[zone.track[mine]].push_back({z, side, zone.in_m[mine], zone.out_m[mine], zone.kind});
+      all[zone.track[mine]].push_back({z, side, zone.in_m[mine], zone.out_m[mine], zone.kind});
     }
   }
-  for (std::uint32_t t = 0; t < of_.size(); ++t) {
-    std::stable_sort(of_[t].begin(), of_[t].end(), [](const ZoneSide& x, const ZoneSide& y) { return x.in_m < y.in_m; });
+  for (std::uint32_t t = 0; t < all.size(); ++t) {
+    std::stable_sort(all[t].begin(), all[t].end(), [](const ZoneSide& x, const ZoneSide& y) { return x.in_m < y.in_m; });
+    for (const ZoneSide& part : all[t]) {
+      const Zone& zone = zones_[part.zone];
+      const auto theirs = static_cast<std::size_t>(1 - part.side);
+      if (part.kind == ZoneKind::kDiverge) partings[t].push_back({part.out_m, zone.track[theirs], zone.in_m[theirs], zone.out_m[theirs]});
+      else conflicts[t].push_back(part);
+    }
   }
+  all_.Take(all), conflicts_.Take(conflicts), partings_.Take(partings);
 }
 
 void Zones::Pair(const Graph& graph, std::uint32_t a, std::uint32_t b, const std::vector<Touch>& touches) {

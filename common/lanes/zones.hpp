@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "common/base/huge_pages.hpp"
 #include "common/lanes/graph.hpp"
 #include "common/lanes/swath.hpp"
 
@@ -33,6 +35,32 @@ struct ZoneSide {
   ZoneKind kind = ZoneKind::kCross;
 };
 
+// A track's part in a zone of tracks that part, with what is asked of the other one there.
+struct Parting {
+  double out_m = 0.0;  // along the track
+  std::uint32_t other = 0;
+  double other_in_m = 0.0, other_out_m = 0.0;  // along that one
+};
+
+// Something of every track, by track, in one piece of memory.
+template <class Item>
+class ByTrack {
+ public:
+  void Take(const std::vector<std::vector<Item>>& of) {
+    for (const auto& items : of) {
+      begins_.push_back(static_cast<std::uint32_t>(items_.size()));
+      items_.insert(items_.end(), items.begin(), items.end());
+    }
+    begins_.push_back(static_cast<std::uint32_t>(items_.size()));
+    base::PreferHugePages(items_);
+  }
+  std::span<const Item> Of(std::uint32_t track) const { return {items_.data() + begins_[track], items_.data() + begins_[track + 1]}; }
+
+ private:
+  std::vector<Item> items_;
+  std::vector<std::uint32_t> begins_{};
+};
+
 // All conflict zones of a network's tracks, and for each track those that it leads through, by where they begin.
 class Zones {
  public:
@@ -41,7 +69,10 @@ class Zones {
 
   const std::vector<Zone>& zones() const { return zones_; }
   const Zone& operator[](std::uint32_t zone) const { return zones_[zone]; }
-  const std::vector<ZoneSide>& Of(std::uint32_t track) const { return of_[track]; }
+  std::span<const ZoneSide> Of(std::uint32_t track) const { return all_.Of(track); }
+  // Of these only where it crosses or merges; only where it parts from others.
+  std::span<const ZoneSide> ConflictsOf(std::uint32_t track) const { return conflicts_.Of(track); }
+  std::span<const Parting> PartingsOf(std::uint32_t track) const { return partings_.Of(track); }
 
  private:
   struct Touch {
@@ -50,7 +81,8 @@ class Zones {
   void Pair(const Graph& graph, std::uint32_t a, std::uint32_t b, const std::vector<Touch>& touches);  // ascending in a_m
 
   std::vector<Zone> zones_;
-  std::vector<std::vector<ZoneSide>> of_;
+  ByTrack<ZoneSide> all_, conflicts_;
+  ByTrack<Parting> partings_;
 };
 
 }  // namespace rodeira::lanes

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/traffic/each_driving.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/traffic/travel_time.hpp"
 
@@ -53,13 +54,14 @@ bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
   const auto mine = static_cast<std::size_t>(crossing.side), theirs = 1 - mine;
   const Agent& agent = agents_[id];
   const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
+  double arrives = -1.0;
   for (const Holder& holder : now_[zone].holders[theirs]) {
     if (holder.id == id) continue;
     if (holder.id < agents_.size()) {
       const Agent& other = agents_[holder.id];
       const double way_out = holder.out_m - other.o_m + 0.5 * traits_[holder.id].length_m;
       const double clears = TravelTime(way_out, other.speed_mps, AllowedAt(holder.id, holder.out_m), traits_[holder.id].start_mps2, {other.wish_mps2, settings_.smooth.planned_mps3});
-      const double arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
+      if (arrives < 0.0) arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
       if (holder.grant.sure && (clears < arrives + kBehind_s || MayFollow(id, crossing, holder)) && RoomBehind(id, crossing, holder)) continue;
       passages_[id].delay_s = clears - arrives;
     }
@@ -75,24 +77,28 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
   const auto index = static_cast<std::size_t>(crossing.zone);
   const int theirs = 1 - crossing.side;
   const lanes::Zone& zone = zones()[static_cast<std::uint32_t>(index)];
-  const auto& claims = now_[index].comers[static_cast<std::size_t>(theirs)];
-  if (claims.empty()) return false;
+  const auto& comers = now_[index].comers[static_cast<std::size_t>(theirs)];
+  if (comers.empty()) return false;
   const int last = map_->zips[index] ? LastLetIn(now_[index].holders, agents_.size()) : -1;
   if (zone.first == crossing.side && last != crossing.side) return false;
   const Agent& agent = agents_[id];
   const double way_out = crossing.out_m - agent.o_m + 0.5 * traits_[id].length_m;
   const double clears = TravelTime(way_out, agent.speed_mps, AllowedAt(id, crossing.out_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
-  for (const Claim& claim : claims) {
-    if (claim.id == id) continue;
-    const bool agents = claim.id < agents_.size();
-    const bool slow = agents && agents_[claim.id].speed_mps < kZips_mps && passages_[claim.id].arrives_s < kSoon_s;
+  for (const Comer& comer : comers) {
+    if (comer.id == id) continue;
+    const bool agents = comer.id < agents_.size();
+    const bool slow = agents && agents_[comer.id].speed_mps < kZips_mps && passages_[comer.id].arrives_s < kSoon_s;
     const bool its_turn = slow && last == crossing.side;
     if (slow && last == theirs) continue;
-    if (!its_turn && (zone.first == crossing.side || claim.arrives_s > clears + kGap_s || IsFarEnough(id, crossing, claim, clears))) continue;
-    if (agents && Urgent(id) && agents_[claim.id].waited_s < agent.waited_s) continue;
-    passages_[id].waits_for = agents ? static_cast<std::int64_t>(claim.id) : -1;
+    if (agents && Urgent(id) && agents_[comer.id].waited_s < agent.waited_s) continue;
+    if (!its_turn) {
+      if (zone.first == crossing.side) continue;
+      const double arrives = ArrivesAt(comer);
+      if (arrives > clears + kGap_s || IsFarEnough(id, crossing, comer, arrives, clears)) continue;
+    }
+    passages_[id].waits_for = agents ? static_cast<std::int64_t>(comer.id) : -1;
     const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
-    passages_[id].delay_s = claim.clears_s - TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
+    passages_[id].delay_s = ClearsAt(comer) - TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
     return true;
   }
   return false;
@@ -162,10 +168,10 @@ void TrafficModel::Arbitrate(double dt_s) {
     FindRoom(id);
     if (passage.red || passage.barred) passage.waits_for = -1;
     else if (passage.due && passage.head && !passage.must_stop) order_.push_back(id);
-    if (!passage.head) continue;
-    heads_.push_back(id);
-    ComeToZones(id);
+    if (passage.head) heads_.push_back(id);
   }
+  AskForZones();
+  for (const std::uint32_t id : heads_) ComeToZones(id);
   OthersAtZones();
   // Who has lost patience, by how long; then by when they come to the line, as told by their own motion; then by number.
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {

@@ -1,6 +1,7 @@
 // Who holds and who comes to each conflict zone.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/traffic/traffic_model.hpp"
 #include "common/traffic/travel_time.hpp"
@@ -27,48 +28,69 @@ void TrafficModel::HoldZones(std::uint32_t id) {
   const double to = std::max(front - kOverLine_m, agent.granted_m);
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.begin_m > to) break;
-    if (stretch.end_m < rear) continue;
-    for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
+    if (stretch.end_m < rear || !stretch.crosses) continue;
+    for (const lanes::ZoneSide& part : zones().ConflictsOf(stretch.track)) {
       const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
-      if (part.kind == lanes::ZoneKind::kDiverge || in >= to || out <= rear) continue;
+      if (in >= to || out <= rear) continue;
       Touch(part.zone);
       now_[part.zone].holders[static_cast<std::size_t>(part.side)].push_back({id, agent.GrantOf(out), out});
     }
   }
 }
 
-// A head that waits to be granted its zones comes to them.
-void TrafficModel::ComeToZones(std::uint32_t id) {
-  const Passage& passage = passages_[id];
-  if (!passage.able || passage.arrives_s > kLaterThan_s) return;
-  if (agents_[id].brake_mps2 > 0.0 || passage.red || passage.barred) return;
-  const double front = agents_[id].o_m + 0.5 * traits_[id].length_m, rear = front - traits_[id].length_m;
-  const Setting off{agents_[id].wish_mps2, settings_.smooth.planned_mps3};
-  for (const Crossing& crossing : passage.crossings) {
-    if (crossing.zone < 0) continue;
-    const double most = AllowedAt(id, crossing.in_m);
-    Touch(static_cast<std::uint32_t>(crossing.zone));
-    now_[static_cast<std::size_t>(crossing.zone)].comers[static_cast<std::size_t>(crossing.side)].push_back(
-        {id, TravelTime(crossing.in_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2, off),
-         TravelTime(crossing.out_m - rear, agents_[id].speed_mps, most, traits_[id].start_mps2, off), crossing.out_m - front,
-         TravelTime(crossing.out_m - front, agents_[id].speed_mps, most, traits_[id].start_mps2, off)});
-  }
-}
-
-// Who has just been refused does not come before whoever keeps it out is gone.
-void TrafficModel::ComeLater(std::uint32_t id) {
-  const Passage& passage = passages_[id];
-  if (passage.delay_s <= 0.0) return;
-  for (const Crossing& crossing : passage.crossings) {
-    if (crossing.zone < 0) continue;
-    for (Claim& claim : now_[static_cast<std::size_t>(crossing.zone)].comers[static_cast<std::size_t>(crossing.side)]) {
-      if (claim.id == id) claim.arrives_s += passage.delay_s, claim.clears_s += passage.delay_s;
+// Which sides of zones those ask about who may be let in now.
+void TrafficModel::AskForZones() {
+  for (const std::uint32_t side : asked_sides_) is_asked_[side] = 0;
+  asked_sides_.clear();
+  for (const std::uint32_t id : order_) {
+    if (!passages_[id].able) continue;
+    for (const Crossing& crossing : passages_[id].crossings) {
+      if (crossing.zone < 0) continue;
+      const auto theirs = static_cast<std::uint32_t>(2 * crossing.zone + 1 - crossing.side);
+      if (std::exchange(is_asked_[theirs], 1) == 0) asked_sides_.push_back(theirs);
     }
   }
 }
 
+// A head that waits to be granted its zones comes to them; where nobody asks it is not told.
+void TrafficModel::ComeToZones(std::uint32_t id) {
+  const Passage& passage = passages_[id];
+  if (!passage.able || passage.arrives_s > kLaterThan_s) return;
+  if (agents_[id].brake_mps2 > 0.0 || passage.red || passage.barred) return;
+  for (const Crossing& crossing : passage.crossings) {
+    if (crossing.zone < 0 || is_asked_[static_cast<std::size_t>(2 * crossing.zone + crossing.side)] == 0) continue;
+    Touch(static_cast<std::uint32_t>(crossing.zone));
+    now_[static_cast<std::size_t>(crossing.zone)].comers[static_cast<std::size_t>(crossing.side)].push_back({id, crossing.in_m, crossing.out_m});
+  }
+}
+
+// Its front at the zone's beginning.
+double TrafficModel::ArrivesAt(const Comer& comer) const {
+  if (comer.id >= agents_.size()) return comer.arrives_s;
+  return ComesWithin(comer, comer.in_m - FrontOf(comer.id)) + passages_[comer.id].later_s;
+}
+
+// Its rear at the zone's end.
+double TrafficModel::ClearsAt(const Comer& comer) const {
+  if (comer.id >= agents_.size()) return comer.clears_s;
+  return ComesWithin(comer, comer.out_m - (FrontOf(comer.id) - traits_[comer.id].length_m)) + passages_[comer.id].later_s;
+}
+
+// When it has come so far, if it may go on as fast as it may at the zone's beginning.
+double TrafficModel::ComesWithin(const Comer& comer, double way_m) const {
+  const Agent& agent = agents_[comer.id];
+  return TravelTime(way_m, agent.speed_mps, AllowedAt(comer.id, comer.in_m), traits_[comer.id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
+}
+
+// Who has just been refused does not come before whoever keeps it out is gone.
+void TrafficModel::ComeLater(std::uint32_t id) {
+  Passage& passage = passages_[id];
+  passage.later_s = std::max(0.0, passage.delay_s);
+}
+
 // Vehicles that are no agents.
 void TrafficModel::OthersAtZones() {
+  if (!any_block_) return;
   const auto nobody = static_cast<std::uint32_t>(agents_.size());
   for (std::uint32_t track = 0; track < blocks_.size(); ++track) {
     for (const Block& block : blocks_[track]) {
@@ -94,7 +116,7 @@ void TrafficModel::OthersAtZones() {
           if (zone.kind == lanes::ZoneKind::kDiverge || way < 0.0 || way > 6.0 * block.span.speed_mps || zone.in_m[mine] > stops_m) continue;
           Touch(part.zone);
           now_[part.zone].comers[mine].push_back(
-              {nobody, way / block.span.speed_mps, (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
+              {nobody, 0.0, 0.0, way / block.span.speed_mps, (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
         }
         const double end = at.ahead_m + graph()[at.track].length_m();
         if (end > 6.0 * block.span.speed_mps || stops_m < kNoBarrier_m) continue;

@@ -15,9 +15,11 @@ double TrafficModel::WantedCourteous(std::uint32_t id, double limit_mps) const {
   const Agent& agent = agents_[id];
   const AgentTraits& traits = traits_[id];
   double wanted = traits.idm.hardest_mps2;
+  const double front = FrontOf(id);
+  const auto beside_it = [&](const Stretch& stretch) { return stretch.has_beside && stretch.begin_m <= front; };
+  if (agent.change.side != 0 || std::none_of(stretches_[id].begin(), stretches_[id].end(), beside_it)) return wanted;
   const Piece& here = agent.path.back();
   const lanes::Track& track = graph()[here.track];
-  if ((!track.left && !track.right) || agent.change.side != 0) return wanted;
   const double d = agent.o_m - here.zero_m;
   for (const auto& beside : {track.left, track.right}) {
     if (!beside) continue;

@@ -28,12 +28,11 @@ driver::SpeedPlan::Allowed TrafficModel::Allowed(std::uint32_t id) const {
   driver::SpeedPlan::Allowed allowed{1e3, 0.0};
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.end_m < agent.o_m) continue;
-    const driver::SpeedPlan& plan = map_->plans[stretch.track].plan;
     if (stretch.begin_m <= agent.o_m) {
-      allowed = plan.At(agent.o_m - stretch.zero_m);
+      allowed = map_->plans[stretch.track].plan.At(agent.o_m - stretch.zero_m);
       continue;
     }
-    const double there = plan.At(stretch.begin_m - stretch.zero_m).speed_mps;
+    const double there = stretch.planned_mps;
     const double b = settings_.speed.braking_mps2;
     const double now = std::sqrt(there * there + 2.0 * b * (stretch.begin_m - agent.o_m));
     if (now < allowed.speed_mps) allowed = {now, -b / std::max(now, kLeast_mps)};
@@ -60,7 +59,9 @@ double TrafficModel::LimitOn(std::uint32_t track, double d_m) const {
 double TrafficModel::Desired_mps(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   for (const Stretch& stretch : stretches_[id]) {
-    if (stretch.end_m >= agent.o_m) return std::min(LimitOn(stretch.track, agent.o_m - stretch.zero_m) * traits_[id].speed_factor, Cap_mps(id));
+    if (stretch.end_m < agent.o_m) continue;
+    const double limit = stretch.limit_mps >= 0.0 ? stretch.limit_mps : LimitOn(stretch.track, agent.o_m - stretch.zero_m);
+    return std::min(limit * traits_[id].speed_factor, Cap_mps(id));
   }
   return Cap_mps(id);
 }

@@ -37,13 +37,15 @@ bool TrafficModel::MayFollow(std::uint32_t id, const Crossing& crossing, const H
 }
 
 // Where two ways merge, whether who comes, surely behind it, need not brake much for it to stay there until it is out of the zone.
-bool TrafficModel::IsFarEnough(std::uint32_t id, const Crossing& crossing, const Claim& claim, double clears_s) const {
-  if (zones()[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge || claim.id >= agents_.size()) return false;
+bool TrafficModel::IsFarEnough(std::uint32_t id, const Crossing& crossing, const Comer& comer, double comes_s, double clears_s) const {
+  if (zones()[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge || comer.id >= agents_.size()) return false;
   const Agent& agent = agents_[id];
   const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
   const double arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
-  const double comes = claim.way_m * clears_s / std::max(0.1, claim.ends_s), may_come = claim.way_m - settings_.idm.standing_gap_m;
-  return claim.arrives_s > arrives + kLag_s && 2.0 * (comes - may_come) < kYielded_mps2 * clears_s * clears_s;
+  if (!(comes_s > arrives + kLag_s)) return false;
+  const double way = comer.out_m - FrontOf(comer.id), ends = ComesWithin(comer, way);
+  const double comes = way * clears_s / std::max(0.1, ends), may_come = way - settings_.idm.standing_gap_m;
+  return 2.0 * (comes - may_come) < kYielded_mps2 * clears_s * clears_s;
 }
 
 // What those who hold its zones before it leave it: it stops at the line before each zone or, where ways merge, follows who is nearer
@@ -56,10 +58,11 @@ void TrafficModel::YieldInZones(std::uint32_t id) {
   const std::int64_t eased_for = std::exchange(agent.eased_for, -1);
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.begin_m > agent.granted_m) break;
-    for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
+    if (!stretch.crosses) continue;
+    for (const lanes::ZoneSide& part : zones().ConflictsOf(stretch.track)) {
       const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
       const bool merges = part.kind == lanes::ZoneKind::kMerge;
-      if (part.kind == lanes::ZoneKind::kDiverge || in >= agent.granted_m || (merges ? out : in) < front) continue;
+      if (in >= agent.granted_m || (merges ? out : in) < front) continue;
       const std::uint64_t number = agent.GrantOf(out).number;
       for (const Holder& holder : now_[part.zone].holders[static_cast<std::size_t>(1 - part.side)]) {
         if (holder.id >= agents_.size() || holder.id == id || holder.grant.number >= number) continue;

@@ -6,6 +6,7 @@
 #include "common/geometry/plane.hpp"
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/motors_looks.hpp"
+#include "common/traffic/each_driving.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {

@@ -30,6 +30,7 @@ void TrafficModel::FaceOncoming(std::uint32_t id) {
     const auto track = static_cast<std::uint32_t>(opposite);
     const double middle = graph().Across(stretch.track, agent.o_m - stretch.zero_m, track);
     facing_[track].push_back({id, middle - half, middle + half});
+    any_facing_ = true;
     return;
   }
 }
@@ -81,6 +82,7 @@ double TrafficModel::WantedFacing(std::uint32_t id, double limit_mps) const {
   const Agent& agent = agents_[id];
   const double front = agent.o_m + 0.5 * traits_[id].length_m, v = agent.speed_mps;
   double wanted = traits_[id].idm.hardest_mps2;
+  if (!any_facing_) return wanted;
   for (const Stretch& stretch : stretches_[id]) {
     for (const Facing& other : facing_[stretch.track]) {
       const Agent& overtakes = agents_[other.id];

@@ -20,7 +20,23 @@ constexpr double kOverLine_m = 0.3;     // a front so far beyond a light's line 
 double TrafficModel::AllowedAt(std::uint32_t id, double odometer_m) const {
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.end_m < odometer_m && &stretch != &stretches_[id].back()) continue;
-    return map_->plans[stretch.track].plan.At(odometer_m - stretch.zero_m).speed_mps * traits_[id].speed_factor;
+    const double d = odometer_m - stretch.zero_m;
+    for (const PlannedAt& known : known_[id]) {
+      if (known.track == stretch.track && known.d_m == d) return known.planned_mps * traits_[id].speed_factor;
+    }
+    return map_->plans[stretch.track].plan.At(d).speed_mps * traits_[id].speed_factor;
+  }
+  return 0.0;
+}
+
+// The same of the place that an agent asks of again and again, and then knows.
+double TrafficModel::KnowAllowedAt(std::uint32_t id, double odometer_m, std::size_t place) {
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.end_m < odometer_m && &stretch != &stretches_[id].back()) continue;
+    const double d = odometer_m - stretch.zero_m;
+    PlannedAt& known = known_[id][place];
+    if (known.track != stretch.track || known.d_m != d) known = {stretch.track, d, map_->plans[stretch.track].plan.At(d).speed_mps};
+    return known.planned_mps * traits_[id].speed_factor;
   }
   return 0.0;
 }
@@ -42,7 +58,8 @@ void TrafficModel::FindPassage(std::uint32_t id) {
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.end_m < rear || stretch.end_m < agent.granted_m || stretch.changes) continue;
     if (passage.any && stretch.begin_m > passage.end_m + stand) break;
-    const auto& sides = zones().Of(stretch.track);
+    if (!stretch.crosses && !stretch.has_lines) continue;
+    const auto sides = zones().ConflictsOf(stretch.track);
     const auto& lines = map_->plans[stretch.track].lines;
     std::size_t next = 0;
     const auto take_lines = [&](double before_m) {
@@ -64,7 +81,7 @@ void TrafficModel::FindPassage(std::uint32_t id) {
     };
     for (const lanes::ZoneSide& part : sides) {
       const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
-      if (part.kind == lanes::ZoneKind::kDiverge || out <= rear || out <= agent.granted_m || in < front - 0.5 * kLine_m) continue;
+      if (out <= rear || out <= agent.granted_m || in < front - 0.5 * kLine_m) continue;
       take_lines(in + kLine_m);
       if (passage.any && in > passage.end_m + stand) break;
       take({part.zone, part.side, in, out});
@@ -76,10 +93,10 @@ void TrafficModel::FindPassage(std::uint32_t id) {
   const double to_line = passage.line_m - front;
   const double v = agent.speed_mps;
   passage.due = to_line < v * v / (2.0 * traits_[id].idm.braking_mps2) + kReaction_s * v + kEarly_m;
-  const double most = AllowedAt(id, passage.crossings.front().in_m);
+  const double most = KnowAllowedAt(id, passage.crossings.front().in_m, 0);
   const double way_in = passage.crossings.front().in_m - front, way_out = passage.end_m - rear;
   passage.arrives_s = TravelTime(way_in, v, most, traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
-  passage.clears_s = TravelTime(way_out, v, std::max(most, AllowedAt(id, passage.end_m)), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
+  passage.clears_s = TravelTime(way_out, v, std::max(most, KnowAllowedAt(id, passage.end_m, 1)), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
 }
 
 }  // namespace rodeira::traffic

@@ -32,8 +32,15 @@ struct Passage {
   double lacks_m = 0.0;  // of that, at most, when all ahead have come as far as they surely do
   double arrives_s = 0.0, clears_s = 0.0;
   double delay_s = 0.0;  // until who keeps it out is out of the way
+  double later_s = 0.0;  // so much later than it could it comes, as others are told
   std::int64_t waits_for = -1;
   std::vector<Crossing> crossings;
+};
+
+// What a track's plan allows at a place.
+struct PlannedAt {
+  std::uint32_t track = 0;
+  double d_m = -1e18, planned_mps = 0.0;
 };
 
 // Somebody who holds a side of a zone. Ids from agents_.size() on are others.
@@ -43,20 +50,20 @@ struct Holder {
   double out_m = 0.0;  // odometer at the zone's end
 };
 
-// Somebody who comes to a side of a zone.
-struct Claim {
+// Somebody who comes to a side of a zone. When, is found out where it is asked for: few are.
+struct Comer {
   std::uint32_t id = 0;
-  double arrives_s = 0.0, clears_s = 0.0;
-  double way_m = 0.0, ends_s = 0.0;  // of its front to the zone's end
+  double in_m = 0.0, out_m = 0.0;          // odometer; of agents
+  double arrives_s = 0.0, clears_s = 0.0;  // of others
 };
 
-// A zone in a step: all of it by side, in one piece of memory, since who comes to a junction asks for many of them.
-struct ZoneNow {
+// A zone in a step: all of it by side, in two lines of memory, of which most ask for the first alone, since who comes to a junction asks for many of them.
+struct alignas(64) ZoneNow {
+  bool touched = false;           // anything is said of it
+  std::array<bool, 2> awaited{};  // an urgent agent waits for this side to end
   std::array<std::vector<Holder>, 2> holders;
-  std::array<std::vector<Claim>, 2> comers;
-  std::array<double, 2> room_for_s{};     // so long somebody has waited for room behind it that this side could take
-  std::array<bool, 2> awaited{};          // an urgent agent waits for this side to end
-  bool touched = false;                   // anything is said of it
+  std::array<std::vector<Comer>, 2> comers;
+  std::array<double, 2> room_for_s{};  // so long somebody has waited for room behind it that this side could take
 };
 
 }  // namespace rodeira::traffic

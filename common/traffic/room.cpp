@@ -30,25 +30,28 @@ void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tel
     const double comes = other.rear_m + ReachOf(other.id, depth + 1);
     if (comes < clear_m) tell(static_cast<std::int64_t>(other.id), rear, zero_m + comes);
   };
+  const auto by_id = [](const Occupant& a, const Occupant& b) { return a.id < b.id; };
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.begin_m > to_m) break;
     if (stretch.end_m < agent.o_m) continue;
-    std::vector<Occupant> near;
-    for (const Occupant& other : Beyond(stretch.track, agent.o_m - stretch.zero_m)) {
-      if (stretch.zero_m + other.middle_m() - longest_half_m_ > to_m) break;
-      if (other.id != id) near.push_back(other);
+    auto near = Beyond(stretch.track, agent.o_m - stretch.zero_m);
+    std::size_t count = 0;
+    while (count < near.size() && stretch.zero_m + near[count].middle_m() - longest_half_m_ <= to_m) ++count;
+    near = near.first(count);
+    if (count <= 2 && std::is_sorted(near.begin(), near.end(), by_id)) {
+      for (const Occupant& other : near) told(other, stretch.zero_m, kNever_m);
+    } else {
+      std::vector<Occupant> sorted(near.begin(), near.end());
+      std::sort(sorted.begin(), sorted.end(), by_id);
+      for (const Occupant& other : sorted) told(other, stretch.zero_m, kNever_m);
     }
-    std::sort(near.begin(), near.end(), [](const Occupant& a, const Occupant& b) { return a.id < b.id; });
-    for (const Occupant& other : near) told(other, stretch.zero_m, kNever_m);
-    for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
-      if (part.kind != lanes::ZoneKind::kDiverge || stretch.zero_m + part.out_m < agent.o_m) continue;
-      const lanes::Zone& zone = zones()[part.zone];
-      const auto theirs = static_cast<std::size_t>(1 - part.side);
-      for (const Occupant& other : occupants_[zone.track[theirs]]) {
-        if (other.rear_m < zone.out_m[theirs] && other.front_m > zone.in_m[theirs]) told(other, stretch.zero_m, zone.out_m[theirs]);
+    for (const lanes::Parting& part : zones().PartingsOf(stretch.track)) {
+      if (stretch.zero_m + part.out_m < agent.o_m) continue;
+      for (const Occupant& other : occupants_[part.other]) {
+        if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m) told(other, stretch.zero_m, part.other_out_m);
       }
     }
-    for (const Block& block : blocks_[stretch.track]) {
+    for (const Block& block : BlocksOn(stretch.track)) {
       const double rear = stretch.zero_m + block.span.rear_m;
       if (rear > to_m || stretch.zero_m + block.middle_m <= agent.o_m || block.span.right_m > half_width || block.span.left_m < -half_width) continue;
       tell(std::int64_t{-1}, rear, rear + StopsWithin(block.span.speed_mps));

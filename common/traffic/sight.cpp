@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/lanes/swath.hpp"
+#include "common/traffic/each_driving.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
@@ -27,9 +28,15 @@ bool TrafficModel::KeepStretches(std::uint32_t id, double far_m) {
   auto& stretches = stretches_[id];
   const WayKey key{agent.trip, agent.links, agent.leg, agent.path.back().track, agent.path.size(), agent.path.front().begin_m, agent.path.back().zero_m};
   if (key != std::exchange(way_keys_[id], key) || stretches.size() < key.pieces) return false;
-  if (stretches.back().end_m < far_m && !graph()[stretches.back().track].next.empty()) return false;
+  if (stretches.back().end_m < far_m && stretches.back().goes_on) return false;
   while (stretches.size() > key.pieces && stretches[stretches.size() - 2].end_m >= far_m) stretches.pop_back();
   return true;
+}
+
+Stretch TrafficModel::StretchOn(std::uint32_t track, double zero_m, double begin_m, double end_m, bool changes) const {
+  const lanes::Track& on = graph()[track];
+  const TrackPlan& plan = map_->plans[track];
+  return {track, zero_m, begin_m, end_m, changes, !on.next.empty(), on.left || on.right, !plan.lines.empty(), !zones().ConflictsOf(track).empty(), plan.one_limit ? plan.limit_mps : -1.0, plan.plan.At(begin_m - zero_m).speed_mps};
 }
 
 // From the piece under the rear bumper to `range` beyond the front one.
@@ -47,22 +54,25 @@ void TrafficModel::FindStretches(std::uint32_t id, double range_m) {
       stretches.back().changes = end < piece.zero_m + graph()[piece.track].length_m() - kWithout_m;
       continue;
     }
-    stretches.push_back({piece.track, piece.zero_m, piece.begin_m, end, end < piece.zero_m + graph()[piece.track].length_m() - kWithout_m});
+    stretches.push_back(StretchOn(piece.track, piece.zero_m, piece.begin_m, end, end < piece.zero_m + graph()[piece.track].length_m() - kWithout_m));
   }
   const Route* route = RouteOf(agent);
   Choice choice{agent.links, route != nullptr ? route->LegOn(agent.leg, stretches.back().track) : 0};
   while (stretches.back().end_m < far) {
     const Stretch& last = stretches.back();
-    if (graph()[last.track].next.empty()) break;
+    if (!last.goes_on) break;
     const lanes::Link& on = NextLink(id, last.track, choice);
     const double zero = last.end_m - on.from_d_m;
-    stretches.push_back({on.to, zero, last.end_m, zero + graph()[on.to].length_m(), false});
+    stretches.push_back(StretchOn(on.to, zero, last.end_m, zero + graph()[on.to].length_m(), false));
   }
 }
 
 void TrafficModel::SeeOthers(std::span<const driver::Footprint> others) {
   constexpr double kWidest_m = 3.0;
-  for (auto& blocks : blocks_) blocks.clear();
+  if (any_block_) {
+    for (auto& blocks : blocks_) blocks.clear();
+  }
+  any_block_ = !others.empty();
   for (const driver::Footprint& other : others) {
     const double reach = 0.5 * std::hypot(other.length_m, other.width_m) + kWidest_m;
     for (const lanes::Graph::Beside& beside : graph().TracksAt({other.x_m, other.y_m}, reach)) {
@@ -81,7 +91,10 @@ void TrafficModel::SeeOthers(std::span<const driver::Footprint> others) {
 void TrafficModel::See(std::span<const driver::Footprint> others) {
   SeeOthers(others);
   for (auto& occupants : occupants_) occupants.clear();
-  for (auto& facing : facing_) facing.clear();
+  if (any_facing_) {
+    for (auto& facing : facing_) facing.clear();
+  }
+  any_facing_ = false;
   is_overtaken_.assign(agents_.size(), 0);
   EachDriving([&](std::uint32_t id) {  // and as far as zones are its own, however slowly it drives now, or it looks who overtakes
     const Agent& agent = agents_[id];
@@ -127,10 +140,11 @@ Ahead TrafficModel::FindAhead(std::uint32_t id) const {
   const auto consider = [&](const Occupant& other, double zero_m, Ahead& nearest) {
     if (other.id == id || zero_m + other.middle_m() <= agent.o_m + kWithout_m) return;
     const double gap = zero_m + other.rear_m - front;
+    if (nearest.any && gap >= nearest.gap_m) return;
     if (agent.overtaking.active() && IsPassed(agent.overtaking, front, other.id, -1, gap)) return;
     if (agents_[other.id].overtaking.passed == id && !agents_[other.id].overtaking.back) return;  // it is beside
     const double side = 0.5 * traits_[other.id].width_m;
-    if (!nearest.any || gap < nearest.gap_m) nearest = {gap, agents_[other.id].speed_mps, other.id, true, -1, traits_[other.id].length_m, side, -side};
+    nearest = {gap, agents_[other.id].speed_mps, other.id, true, -1, traits_[other.id].length_m, side, -side};
   };
   const auto consider_block = [&](const Block& block, double zero_m) {
     const bool comes = block.span.speed_mps < 0.0;  // who comes on the lane beside is looked for otherwise (oncoming.cpp)
@@ -153,20 +167,18 @@ Ahead TrafficModel::FindAhead(std::uint32_t id) const {
       if (from >= 0 && other.from >= 0 && other.from != from) other.rear_m = std::max(other.rear_m, stretch.begin_m - stretch.zero_m);
       consider(other, stretch.zero_m, ahead);
     }
-    for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
-      if (part.kind != lanes::ZoneKind::kDiverge || agent.o_m - half > stretch.zero_m + part.out_m) continue;
-      const lanes::Zone& zone = zones()[part.zone];
-      const auto theirs = static_cast<std::size_t>(1 - part.side);
-      for (const Occupant& other : occupants_[zone.track[theirs]]) {
-        if (other.rear_m < zone.out_m[theirs] && other.front_m > zone.in_m[theirs]) consider(other, stretch.zero_m, parting);
+    for (const lanes::Parting& part : zones().PartingsOf(stretch.track)) {
+      if (agent.o_m - half > stretch.zero_m + part.out_m) continue;
+      for (const Occupant& other : occupants_[part.other]) {
+        if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m) consider(other, stretch.zero_m, parting);
       }
     }
-    for (const Block& block : blocks_[stretch.track]) consider_block(block, stretch.zero_m);
+    for (const Block& block : BlocksOn(stretch.track)) consider_block(block, stretch.zero_m);
     if (agent.change.side == 0) continue;
     if (const auto old = LaneLeft(id, stretch, front)) {
       const double at = std::max(agent.o_m, stretch.begin_m), zero = at - graph().Across(stretch.track, at - stretch.zero_m, *old);
       for (const Occupant& other : Beyond(*old, agent.o_m - zero)) consider(other, zero, ahead);
-      for (const Block& block : blocks_[*old]) consider_block(block, zero);
+      for (const Block& block : BlocksOn(*old)) consider_block(block, zero);
     }
   }
   const auto lets = [&](const Ahead& other) { return driver::IdmAcceleration(traits_[id].idm, agent.speed_mps, kAnySpeed_mps, other.gap_m, other.speed_mps); };

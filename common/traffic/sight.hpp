@@ -11,11 +11,17 @@ namespace rodeira::traffic {
 
 // Who is where on the tracks, as agents see it in a step.
 
-// A track on an agent's way, in its odometer.
+// A track on an agent's way, in its odometer, with what is asked of that track in each step: beside the agent it is in near memory.
 struct Stretch {
   std::uint32_t track = 0;
   double zero_m = 0.0, begin_m = 0.0, end_m = 0.0;
-  bool changes = false;  // goes over to the lane beside at its end
+  bool changes = false;      // goes over to the lane beside at its end
+  bool goes_on = false;      // its track leads to others
+  bool has_beside = false;   // there is another lane of its direction beside it
+  bool has_lines = false;    // there are stop lines or lights on its track
+  bool crosses = false;      // its track leads through conflict zones
+  double limit_mps = -1.0;   // everywhere on the track; below 0: it has several
+  double planned_mps = 0.0;  // that the track's plan allows where it begins here
 };
 
 // Of what the stretches of a way were found from: as long as it is the same they are as well, but for how far they go.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/base/huge_pages.hpp"
 #include "common/lanes/ring.hpp"
 
 namespace rodeira::traffic {
@@ -30,6 +31,7 @@ TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const Traffic
     }
     if (!entries.empty()) break;
   }
+  base::PreferHugePages(plans);
   for (const lanes::Zone& zone : zones.zones()) zips.push_back(Zips(graph, zone));
   enters.resize(graph.tracks().size());
   for (std::uint32_t track = 0; track < enters.size(); ++track) enters[track] = graph[track].entry;

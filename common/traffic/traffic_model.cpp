@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "common/base/assert.hpp"
+#include "common/base/huge_pages.hpp"
 #include "common/base/random.hpp"
+#include "common/traffic/each_driving.hpp"
 #include "common/traffic/road_network.hpp"
 
 namespace rodeira::traffic {
@@ -25,10 +27,14 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   way_keys_.resize(agents_.size());
   ahead_.resize(agents_.size());
   passages_.resize(agents_.size());
+  known_.resize(agents_.size());
   reaches_.resize(agents_.size());
   wanted_.resize(agents_.size());
   hurries_.resize(agents_.size());
   missed_now_.resize(agents_.size());
+  ends_.resize(agents_.size());
+  moved_.resize(agents_.size());
+  is_moved_.resize(agents_.size());
   leaves_.resize(agents_.size());
   bars_.assign(agents_.size(), kNoBarrier_m);
   occupants_.resize(graph().tracks().size());
@@ -37,6 +43,13 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   facing_.resize(graph().tracks().size());
   is_overtaken_.resize(agents_.size());
   now_.resize(zones().zones().size());
+  is_asked_.resize(2 * zones().zones().size());
+  base::PreferHugePages(agents_);
+  base::PreferHugePages(stretches_);
+  base::PreferHugePages(passages_);
+  base::PreferHugePages(occupants_);
+  base::PreferHugePages(now_);
+  base::PreferHugePages(moved_);
 }
 
 base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, std::shared_ptr<const road::World> world,
@@ -142,11 +155,15 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
     if (full_) FollowFull(id, dt_s);
     else MovePlanar(id, wanted_[id], dt_s);
     missed_now_[id] = Follow(id);
+    ends_[id] = AtTheEnd(id);
+    if (!ends_[id]) moved_[id] = PoseOf(id);
   });
+  std::fill(is_moved_.begin(), is_moved_.end(), 0);
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     if (!agents_[id].on_road) continue;
     missed_ += missed_now_[id];
-    if (AtTheEnd(id)) Leave(id);
+    if (ends_[id]) Leave(id);
+    else is_moved_[id] = 1;
   }
   SlideStruck(dt_s);
   if (people_) people_->Step(dt_s, time_ns_ + step_ns);
@@ -168,6 +185,9 @@ double TrafficModel::Advance(std::uint32_t id, double odometer_m) const {
 // The odometer when that point has gone so far; where bends are tight, and beside a lane's middle, found by secants.
 double TrafficModel::Moved(std::uint32_t id, double travel_m) const {
   const Agent& agent = agents_[id];
+  const Piece& piece = agent.path.front();
+  const bool on_line = agent.path.size() == 1 && piece.offset_m == 0.0 && piece.slope == 0.0 && piece.aside_m == 0.0;
+  if (on_line && graph()[piece.track].curve.is_straight()) return agent.o_m + travel_m;
   const double rate = Advance(id, agent.o_m + 0.5 * travel_m);
   double odometer = agent.o_m + travel_m / rate;
   if (std::fabs(rate - 1.0) * travel_m < kGentle_m && agent.change.side == 0 && !agent.overtaking.active()) return odometer;

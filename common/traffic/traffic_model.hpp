@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -116,16 +117,21 @@ class TrafficModel {
 
   TrafficModel(const TrafficSettings& settings, std::shared_ptr<const TrafficMap> map);
 
-  // tell(id) for all that drive, by several threads: it may write what is that agent's alone, and read what nobody writes meanwhile.
+  // tell(id) for all that drive, by several threads: it may write what is that agent's alone, and read what nobody writes meanwhile (each_driving.hpp).
   template <class Tell>
   void EachDriving(const Tell& tell);
+
+  // Brings what is asked of agents that come soon, and of the tracks below them, from far memory while others are told.
+  void Fetch(std::size_t id, std::size_t end) const;
 
   // Sight: who is where.
   void See(std::span<const driver::Footprint> others);
   void FindStretches(std::uint32_t id, double range_m);
+  Stretch StretchOn(std::uint32_t track, double zero_m, double begin_m, double end_m, bool changes) const;
   bool KeepStretches(std::uint32_t id, double far_m);
   void SeeOthers(std::span<const driver::Footprint> others);
   std::span<const Occupant> Beyond(std::uint32_t track, double d_m) const;
+  std::span<const Block> BlocksOn(std::uint32_t track) const { return any_block_ ? std::span<const Block>(blocks_[track]) : std::span<const Block>(); }
   Ahead FindAhead(std::uint32_t id) const;
   const lanes::Link& NextLink(std::uint32_t id, std::uint32_t track, Choice& choice) const;
   const Route* RouteOf(const Agent& agent) const;
@@ -183,7 +189,11 @@ class TrafficModel {
   void EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell);
   double ReachOf(std::uint32_t id, int depth);
   void FindRoom(std::uint32_t id);
+  void AskForZones();
   void ComeToZones(std::uint32_t id);
+  double ArrivesAt(const Comer& comer) const;
+  double ClearsAt(const Comer& comer) const;
+  double ComesWithin(const Comer& comer, double way_m) const;
   void ComeLater(std::uint32_t id);
   void OthersAtZones();
   bool RoomBehind(std::uint32_t id, const Crossing& crossing, const Holder& holder);
@@ -195,7 +205,7 @@ class TrafficModel {
   double MergingGap(std::uint32_t id, double out_m, const Holder& before) const;
   double FollowComing(std::uint32_t id, std::uint32_t leader, double gap_m) const;
   bool MayFollow(std::uint32_t id, const Crossing& crossing, const Holder& holder) const;
-  bool IsFarEnough(std::uint32_t id, const Crossing& crossing, const Claim& claim, double clears_s) const;
+  bool IsFarEnough(std::uint32_t id, const Crossing& crossing, const Comer& comer, double comes_s, double clears_s) const;
   void ResolveDeadlocks();
   bool IsGreen(std::int64_t light) const { return colours_[static_cast<std::size_t>(light)] == network::LightColour::kGreen; }
   double RedAhead(std::uint32_t track, double from_m, double speed_mps) const;
@@ -203,6 +213,7 @@ class TrafficModel {
   void ObeyLights(std::uint32_t id);
   bool Urgent(std::uint32_t id) const;
   double AllowedAt(std::uint32_t id, double odometer_m) const;
+  double KnowAllowedAt(std::uint32_t id, double odometer_m, std::size_t place);
 
   // People on foot.
   void LookAtPeople(double dt_s);
@@ -242,6 +253,7 @@ class TrafficModel {
   void FollowFull(std::uint32_t id, double dt_s);
   double Advance(std::uint32_t id, double odometer_m) const;
   double Moved(std::uint32_t id, double travel_m) const;
+  double FrontOf(std::uint32_t id) const { return agents_[id].o_m + 0.5 * traits_[id].length_m; }  // odometer
   double HalfBase(std::uint32_t id) const { return 0.5 * traits_[id].wheelbase_m; }  // of the odometer
   std::uint32_t Follow(std::uint32_t id);
   bool AtTheEnd(std::uint32_t id) const;
@@ -290,13 +302,18 @@ class TrafficModel {
   std::vector<std::vector<Occupant>> occupants_;       // by track, ascending by their middles
   std::vector<std::vector<Block>> blocks_;             // by track
   std::vector<std::vector<Facing>> facing_;            // by track
+  bool any_block_ = false, any_facing_ = false;        // on whatever track
   std::vector<std::uint8_t> is_overtaken_;             // by agent
   std::vector<Ahead> ahead_;                           // by agent
   std::vector<Passage> passages_;                      // by agent
+  std::vector<std::array<PlannedAt, 2>> known_;        // by agent: at the beginning and the end of its passage; the map alone says it, so that it is never wrong
   std::vector<double> reaches_;                        // by agent: how far its front comes whatever others decide; below 0 not yet told
   std::vector<double> wanted_;                         // by agent: acceleration
   std::vector<std::uint8_t> hurries_;                  // by agent: brakes in an emergency
   std::vector<std::uint32_t> missed_now_;              // by agent
+  std::vector<std::uint8_t> ends_;                     // by agent: has come to the end of its last lane
+  std::vector<AgentPose> moved_;                       // by agent: where the step has brought it …
+  std::vector<std::uint8_t> is_moved_;                 // … if that is known, and it has not left or been struck since
   std::vector<double> leaves_;                         // by agent: acceleration that who holds its zones before it leaves it
   std::vector<double> bars_;                           // by agent: odometer at which it waits for people on foot
   std::vector<Eigen::Vector2d> segments_;              // by agent: where MOTORS' driver looks to
@@ -304,19 +321,11 @@ class TrafficModel {
   std::vector<ToCrossing> to_crossings_;
   std::vector<ZoneNow> now_;                                        // by zone
   std::vector<std::uint32_t> touched_;                              // zones of which anything is said
+  std::vector<std::uint8_t> is_asked_;                              // by 2 zone + side: somebody asks who comes there
+  std::vector<std::uint32_t> asked_sides_;                          // … of which he does
   std::vector<std::uint32_t> heads_;                                // agents that wait at a line, ascending
   std::vector<std::uint32_t> order_;                                // of them who may ask to be let in, in the order in which they are looked at
   std::vector<std::vector<std::uint32_t>> present_;                 // by track: agents on it while others enter
 };
-
-template <class Tell>
-void TrafficModel::EachDriving(const Tell& tell) {
-  const auto some = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t id = begin; id < end; ++id) {
-      if (agents_[id].on_road) tell(static_cast<std::uint32_t>(id));
-    }
-  };
-  base::Share(crew_.get(), agents_.size(), some);
-}
 
 }  // namespace rodeira::traffic

@@ -58,7 +58,8 @@ void TrafficModel::FindPoses() {
   poses_.resize(ids.size());
   const auto some = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      poses_[i] = agents_[ids[i]].on_road ? PoseOf(ids[i]) : PoseOfStruck(ids[i]);
+      if (is_moved_[ids[i]] != 0 && agents_[ids[i]].on_road) poses_[i] = moved_[ids[i]];
+      else poses_[i] = agents_[ids[i]].on_road ? PoseOf(ids[i]) : PoseOfStruck(ids[i]);
       const Eigen::Vector3d ahead = poses_[i].q_WB * Eigen::Vector3d::UnitX();
       agents_[ids[i]].grade = ahead.z() / std::max(1e-3, std::hypot(ahead.x(), ahead.y()));
     }

@@ -66,6 +66,7 @@ void TrafficModel::Restore(base::StateReader& reader) {
   for (std::uint32_t id = 0; has_flows() && id < agents_.size(); ++id) traits_[id] = TraitsFor(id);
   std::erase_if(waiting_, [&](std::uint32_t id) { return id >= agents_.size(); });
   FindColours();
+  std::fill(is_moved_.begin(), is_moved_.end(), 0);
   FindPoses();
 }
 
