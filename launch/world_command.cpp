@@ -79,7 +79,7 @@ int CopyOpenDrive(const std::filesystem::path& file, const std::filesystem::path
 // The world file with what it names and its generated terrain, which are added to `files`.
 int WriteWorldFile(const WorldOptions& options, const road::World& world, std::vector<std::filesystem::path>& files) {
   const std::filesystem::path file(options.world_file), out(options.out);
-  if (road::IsGenerated(file) || world.network() == nullptr) {
+  if (road::IsGenerated(file)) {
     const auto written = road::BuildWorld(world, file, out);
     if (!written) return Complain(written.error());
     fmt::print("{}", written.value());

@@ -135,10 +135,7 @@ std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) 
   return std::move(reading.warnings);
 }
 
-std::string WhyNoTiles(const World& world) {
-  if (world.network() == nullptr) return "the world has no road: no tiles of what is seen are written";
-  return world.roads().empty() ? "" : kVersion1IsNotWritten;
-}
+std::string WhyNoTiles(const World& world) { return world.roads().empty() ? "" : kVersion1IsNotWritten; }
 
 std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml) {
   if (IsOpenDrive(world_yaml)) return CheckNetwork(world_yaml, false).errors;

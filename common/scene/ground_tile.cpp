@@ -19,6 +19,7 @@ namespace rodeira::scene {
 namespace {
 
 constexpr std::array<double, kGroundLevels - 1> kPaintChords_m = {0.001, 0.01, 0.05};
+constexpr double kJunctionBeyond_m = 20.0;  // so far a junction's edge may lie from the ways through it
 
 // Tiles within reach of a road's lines.
 void AddReach(const Line3& line, std::set<TileKey>& tiles) {
@@ -57,7 +58,7 @@ void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void
   for (std::thread& other : others) other.join();
 }
 
-GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere is_there) : world_(world), things_(world, std::move(is_there)), posts_(world), edges_(posts_) {
+GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere is_there) : world_(world), things_(world, std::move(is_there)), land_{PostLines(world), {}}, edges_(land_.posts) {
   const auto roads = world.network()->roads();
   std::vector<std::vector<Line3>> lines(roads.size());
   std::vector<std::array<TilePaint, kGroundLevels - 1>> paint(roads.size());
@@ -107,7 +108,13 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
     const network::RoadSpec& spec = roads[i].spec();
     // Detail comes from files: the world's own hash knows them.
     if (!spec.crg.empty() || !spec.unevenness.empty()) trace.digest = base::Combine(trace.digest, world.content_hash());
-    if (spec.earthwork) slopes_reach_m_ = std::max({slopes_reach_m_, spec.earthwork->reach_m, spec.earthwork->blend_m});
+    double reach_m = 0.0;
+    if (spec.earthwork) reach_m = std::max(spec.earthwork->reach_m, spec.earthwork->blend_m);
+    if (!spec.junction.empty()) reach_m = std::max(reach_m, network::Earthwork().reach_m + kJunctionBeyond_m);
+    slopes_reach_m_ = std::max(slopes_reach_m_, reach_m);
+    if (world.grid() != nullptr) {  // cells that the road itself cuts, too
+      land_.slopes.Add(lines[i], std::max(reach_m + 1.0, 1.5 * std::max(world.grid()->spacing_x_m(), world.grid()->spacing_y_m())));
+    }
     traces_.push_back(std::move(trace));
   }
   terrain_digest_ = TerrainDigest(world);
@@ -142,23 +149,36 @@ TileBall GroundPlan::BallOf(const TileKey& key) const {
   return ball;
 }
 
+int GroundPlan::FinestAlike(const TileKey& key, int level) const {
+  const auto is_painted = [&](const TilePaint& paint) { return paint.contains(key); };
+  if (!IsBare(key) || things_.tiles().contains(key) || std::any_of(paint_.begin(), paint_.end(), is_painted)) return level;
+  int finest = level;
+  while (finest > 0 && land_.EveryPost(finest) == 1 && land_.EveryPost(finest - 1) == 1) --finest;
+  return finest;
+}
+
 GroundTile GroundPlan::Build(const TileKey& key) const {
   GroundTile tile;
   tile.key = key;
   static const std::vector<partition::GridSegment> kNone;
   const auto found = segments_.find(key);
   const auto& finest = found == segments_.end() ? kNone : found->second;
+  const bool bare = IsBare(key);
   std::vector<partition::GridPoint> edge = edges_.Of(key);
-  RefineEdges(world_, key, edge);
+  if (!bare) RefineEdges(world_, key, edge);  // the terrain's triangles have their points there
+  WovenTile woven;
   for (int level = 0; level < kGroundLevels; ++level) {
     const auto at = static_cast<std::size_t>(level);
-    const auto segments = level == 0 || finest.empty() ? finest : Simplify(finest, key, world_, kRoadTolerances[at]);
-    const TilePlan plan = PlanTile(world_, posts_, key, segments, edge, level);
-    WovenTile woven = WeaveTile(world_, plan);
+    if (bare && level > 0 && land_.EveryPost(level) == 1) {  // as the level before
+      tile.levels[at].ground = tile.levels[at - 1].ground;
+    } else {
+      const auto segments = level == 0 || finest.empty() ? finest : Simplify(finest, key, world_, kRoadTolerances[at]);
+      woven = WeaveTile(world_, PlanTile(world_, land_, key, segments, edge, level));
+      tile.levels[at].ground = std::move(woven.meshes);
+    }
     if (at < paint_.size()) {
       if (const auto paint = paint_[at].find(key); paint != paint_[at].end()) tile.levels[at].marks = LayPaint(paint->second, key, woven.triangles);
     }
-    tile.levels[at].ground = std::move(woven.meshes);
     if (const auto things = things_.tiles().find(key); things != things_.tiles().end()) {
       DrawnThings drawn = DrawThings(things->second, key, level);
       tile.levels[at].things = std::move(drawn.meshes);

@@ -52,6 +52,8 @@ class GroundPlan {
 
   std::span<const TileKey> tiles() const { return tiles_; }
   GroundTile Build(const TileKey& tile) const;
+  // The finest level that is drawn as this one is, to the bit: bare land on which nothing stands has fewer levels.
+  int FinestAlike(const TileKey& tile, int level) const;
   TileBall BallOf(const TileKey& tile) const;
   // Of everything that can change a bit of the tile: the roads that are nearest to any of its points, or lie in it, with
   // their heights, lanes and paint, the terrain, and what stands in it. (A change in a tile's roads changes it; it may change without need.)
@@ -70,12 +72,14 @@ class GroundPlan {
     base::Digest digest = 0;
   };
   static std::vector<TracePiece> PiecesOf(std::span<const Eigen::Vector2d> points_W);
+  // Whether nothing but the terrain itself is in the tile.
+  bool IsBare(const TileKey& tile) const { return !segments_.contains(tile) && land_.IsBare(tile); }
 
   const road::World& world_;
   Things things_;
   std::vector<TileKey> tiles_;  // ascending
   std::map<TileKey, std::vector<partition::GridSegment>> segments_;
-  PostLines posts_;
+  Land land_;
   TileEdges edges_;
   std::vector<RoadTrace> traces_;  // by road
   base::Digest terrain_digest_ = 0;

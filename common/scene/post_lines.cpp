@@ -11,7 +11,8 @@ constexpr double kDensest_m = 8.0, kSparsest_m = 40.0;
 }  // namespace
 
 PostLines::PostLines(const road::World& world) {
-  if (world.grid() == nullptr) return;
+  grid_ = world.grid();
+  if (grid_ == nullptr) return;
   const auto& frame = world.grid()->frame();
   south_west_W_ = {frame.west_m, frame.south_m}, north_east_W_ = {frame.east_m, frame.north_m};
   spacing_m_ = {world.grid()->spacing_x_m(), world.grid()->spacing_y_m()};
@@ -21,6 +22,18 @@ PostLines::PostLines(const road::World& world) {
 bool PostLines::Holds(const TileKey& tile) const {
   const Eigen::Vector2d low = tile.south_west_W(), high = low + Eigen::Vector2d::Constant(kTile_m);
   return any_ && (low.array() >= south_west_W_.array()).all() && (high.array() <= north_east_W_.array()).all();
+}
+
+bool PostLines::HoldsAll(const TileKey& tile) const {
+  if (!Holds(tile)) return false;
+  const Eigen::Array2d low = (tile.south_west_W() - south_west_W_).array() / spacing_m_.array(), high = low + kTile_m / spacing_m_.array();
+  const int last_column = std::min(static_cast<int>(std::ceil(high.x())), grid_->frame().columns - 1), last_row = std::min(static_cast<int>(std::ceil(high.y())), grid_->frame().rows - 1);
+  for (int column = static_cast<int>(low.x()); column <= last_column; ++column) {
+    for (int row = static_cast<int>(low.y()); row <= last_row; ++row) {
+      if (grid_->Post(column, row) == terrain::ElevationGrid::kVoid) return false;
+    }
+  }
+  return true;
 }
 
 std::vector<std::int32_t> PostLines::Places(double first_m, double spacing_m, double begin_m, double shift, int every) {

@@ -19,6 +19,8 @@ class PostLines {
 
   // Whether a tile lies within the terrain, with posts to be used.
   bool Holds(const TileKey& tile) const;
+  // The same, and none of the posts in it or around it is void.
+  bool HoldsAll(const TileKey& tile) const;
   // The places, within the tile, of columns of posts, and of rows; those whose number is a multiple of `every`. Ascending.
   std::vector<std::int32_t> Columns(const TileKey& tile, int every) const;
   std::vector<std::int32_t> Rows(const TileKey& tile, int every) const;
@@ -36,6 +38,7 @@ class PostLines {
   static std::vector<std::int32_t> Places(double first_m, double spacing_m, double begin_m, double shift, int every);
 
   bool any_ = false;
+  const terrain::ElevationGrid* grid_ = nullptr;
   Eigen::Vector2d south_west_W_ = Eigen::Vector2d::Zero(), north_east_W_ = Eigen::Vector2d::Zero(), spacing_m_ = Eigen::Vector2d::Ones();
 };
 

@@ -15,6 +15,7 @@ namespace rodeira::scene {
 
 base::Digest SeenDigest(const road::World& world) {
   base::Digest digest = base::Combine(base::Combine(base::Hash(kGroundVersion), world.content_hash()), PicturesDigest(world));
+  if (world.network() == nullptr) return digest;
   std::map<std::string, std::size_t> pictures;  // by the number of their first place
   for (const terrain::LaidPicture& picture : PicturesOf(world)) pictures.try_emplace(picture.file, pictures.size());
   std::vector<TilePaint> paint(world.network()->roads().size());

@@ -8,6 +8,7 @@ namespace rodeira::scene {
 namespace {
 
 constexpr int kTileCells = 32;
+constexpr std::array<float, kTerrainLevels> kSeen_m = {450.0F, 1'300.0F, 1e9F};  // from the tile's edge
 constexpr std::array<int, kTerrainLevels> kStrides = {1, 2, 8};  // cells a block, level by level
 
 struct Span {  // of cells: [from, to)
@@ -128,6 +129,8 @@ class TileWeaver {
 
 }  // namespace
 
+float TerrainSeen_m(const TerrainTile& tile, std::size_t level) { return kSeen_m[level] + static_cast<float>(tile.radius_m); }
+
 std::vector<TerrainTile> BuildTerrain(const Lattice& lattice, const std::vector<Ribbon>& ribbons) {
   const RibbonCover cover(lattice, ribbons);
   std::vector<TerrainTile> tiles;
@@ -136,6 +139,7 @@ std::vector<TerrainTile> BuildTerrain(const Lattice& lattice, const std::vector<
       const Span columns{column, std::min(column + kTileCells, lattice.columns() - 1)};
       const Span rows{row, std::min(row + kTileCells, lattice.rows() - 1)};
       TerrainTile tile;
+      tile.column = column / kTileCells, tile.row = row / kTileCells;
       const Eigen::Vector3d low = lattice.Post(columns.from, rows.from).p_W, high = lattice.Post(columns.to, rows.to).p_W;
       const Eigen::Vector3d origin = OriginNear(0.5 * (low + high));
       for (std::size_t level = 0; level < kTerrainLevels; ++level) {

@@ -18,7 +18,9 @@ constexpr std::uint32_t kNone = Triangulation::kNone;
 constexpr int kRounds = 12;  // of points put in where the ground is not met
 constexpr int kSlopeRounds = 12;  // where cuts and fills are followed
 constexpr double kMiddle = 0.7;  // of what the sides may be off: within a triangle both come together
-constexpr BendRange kSlope = {0.0023, 0.01};
+// Cuts and fills, level by level: less than they may be off, for it is asked at few places.
+constexpr std::array<BendRange, kGroundLevels> kSlopes = {{{0.0023, 0.01}, {0.015, 0.02}, {0.075, 0.1}, {0.375, 0.5}}};
+constexpr double kTerrainsRoom_m = 0.002;  // where the terrain's own triangles are kept no post is left out but as near to another point
 constexpr double kWithin_m = 1e-3;
 // In the middle of thinner triangles nothing is put: on roads, and on land.
 constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.15, 0.5, 1.5, 4.0}, kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
@@ -33,7 +35,7 @@ bool OnEdge(const GridPoint& p) { return p.x == 0 || p.y == 0 || p.x == kTileSte
 
 class Planner {
  public:
-  Planner(const road::World& world, const PostLines& posts, const TileKey& key, int level) : world_(world), posts_(posts), level_(static_cast<std::size_t>(level)) {
+  Planner(const road::World& world, const Land& land, const TileKey& key, int level) : world_(world), land_(land), level_(static_cast<std::size_t>(level)) {
     plan_.key = key;
   }
 
@@ -45,13 +47,17 @@ class Planner {
       fixed_.push_back({a, b});
     }
     for (const auto& [a, b] : fixed_) plan_.left_out += !t.Fix(a, b);
+    kept_ = OwnLines() && land_.posts.HoldsAll(plan_.key);
+    const bool slopes = land_.slopes.InTile(plan_.key), bare = kept_ && segments.empty() && !slopes;
+    follows_slopes_ = world_.grid() != nullptr && (level_ == 0 || slopes);
     plan_.face_of = t.Faces();
     Classify();
     SpreadOverLand();
+    if (bare) return std::move(plan_);  // these are SUELO's own triangles
     for (int round = 0; round < kRounds; ++round) {
       if (!MeetGround()) break;
     }
-    for (int round = 0; FollowsSlopes() && round < kSlopeRounds; ++round) {
+    for (int round = 0; follows_slopes_ && round < kSlopeRounds; ++round) {
       if (!MeetSlopes()) break;
     }
     return std::move(plan_);
@@ -101,12 +107,12 @@ class Planner {
     std::vector<std::int32_t> x, y;
     double room = 0.0;  // nearer to another point there is none
   };
-  int EveryPost() const { return std::max(1, static_cast<int>(kLandSpacings_m[level_] / posts_.spacing_m())); }
+  int EveryPost() const { return land_.EveryPost(static_cast<int>(level_)); }
   // Whether all posts of the tile are used.
-  bool OwnLines() const { return posts_.Holds(plan_.key) && EveryPost() == 1; }
+  bool OwnLines() const { return land_.posts.Holds(plan_.key) && EveryPost() == 1; }
   LandLines LinesOverLand() const {
     LandLines lines;
-    if (posts_.Holds(plan_.key)) return {posts_.Columns(plan_.key, EveryPost()), posts_.Rows(plan_.key, EveryPost()), 1.0 / kStep_m};
+    if (land_.posts.Holds(plan_.key)) return {land_.posts.Columns(plan_.key, EveryPost()), land_.posts.Rows(plan_.key, EveryPost()), 1.0 / kStep_m};
     const auto every = static_cast<std::int32_t>(std::lround(kLandSpacings_m[level_] / kStep_m));
     for (std::int32_t k = every; k < kTileSteps; k += every) lines.x.push_back(k), lines.y.push_back(k);
     lines.room = 0.4 * every;
@@ -115,7 +121,7 @@ class Planner {
 
   void SpreadOverLand() {
     const LandLines lines = LinesOverLand();
-    const double room2 = lines.room * lines.room;
+    const double room2 = lines.room * lines.room, least2 = std::pow(kTerrainsRoom_m / kStep_m, 2.0);
     std::vector<GridPoint> fresh;
     for (const std::int32_t x : lines.x) {
       for (const std::int32_t y : lines.y) {
@@ -123,16 +129,17 @@ class Planner {
         const std::uint32_t at = plan_.triangles.Find(p);
         if (!plan_.faces[plan_.face_of[at]].land) continue;
         const auto& corner = plan_.triangles.triangles()[at].corner;
+        const double room = kept_ && !land_.slopes.Touch(plan_.key, p, p) ? least2 : room2;
         const bool close = std::any_of(corner.begin(), corner.end(), [&](std::uint32_t c) {
           const GridPoint q = plan_.triangles.points()[c];
-          return Squared(q, p) < room2;
+          return Squared(q, p) < room;
         });
         if (!close) fresh.push_back(p);
       }
     }
     for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
     CarryFaces();
-    if (FollowsSlopes() && OwnLines()) KeepTerrainsSides();
+    if (kept_ || (follows_slopes_ && OwnLines())) KeepTerrainsSides();
   }
 
   // The terrain's own triangles stay what they are where a slope is put in beside them.
@@ -145,7 +152,7 @@ class Planner {
       const auto found = std::lower_bound(numbers.begin(), numbers.end(), std::pair(p, std::uint32_t{0}));
       return found != numbers.end() && found->first == p ? found->second : kNone;
     };
-    for (const auto& [from, to] : posts_.Sides(plan_.key)) {
+    for (const auto& [from, to] : land_.posts.Sides(plan_.key)) {
       const std::uint32_t a = number(from), b = number(to);
       if (a == kNone || b == kNone) continue;
       const GridPoint middle{from.x + (to.x - from.x) / 2, from.y + (to.y - from.y) / 2};
@@ -171,6 +178,7 @@ class Planner {
       if (tried_[i] == triangles[i].corner) continue;
       tried_[i] = triangles[i].corner;
       const bool land = plan_.faces[plan_.face_of[i]].land;
+      if (land && kept_ && !SlopesTouch(triangles[i])) continue;  // it is SUELO's own
       const bool thin = ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < (land ? kThinnestLand_m : kThinnestRoad_m)[level_];
       std::optional<Corners> corners;  // asked where they are needed
       const auto know = [&]() -> const Corners& { return corners ? *corners : corners.emplace(CornersOf(triangles[i], plan_.face_of[i], thin)); };
@@ -216,10 +224,10 @@ class Planner {
     if (std::fabs(Height(c.middle_W) - (c.z[0] + c.z[1] + c.z[2]) / 3.0) > tolerance) fresh.push_back(Middle(t));
   }
 
-  // At the finest level of a world with a terrain land is followed as roads are, along every side between two of its triangles: toes of
-  // slopes and the terrain's own edges run anywhere. False where nothing was put in.
-  bool FollowsSlopes() const { return level_ == 0 && world_.grid() != nullptr; }
+  // In a world with a terrain land is followed as roads are, along every side between two of its triangles: toes of slopes and the terrain's
+  // own edges run anywhere. At the finest level all of it, at coarser ones where slopes may be. False where nothing was put in.
   bool MeetSlopes() {
+    const BendRange& slope = kSlopes[level_];
     std::vector<GridPoint> fresh;
     on_kept_.clear();
     const auto triangles = plan_.triangles.triangles();
@@ -227,13 +235,13 @@ class Planner {
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
       if (followed_[i] == triangles[i].corner) continue;
       followed_[i] = triangles[i].corner;
-      if (!plan_.faces[plan_.face_of[i]].land) continue;
+      if (!plan_.faces[plan_.face_of[i]].land || ((level_ > 0 || kept_) && !SlopesTouch(triangles[i]))) continue;
       const std::size_t before = fresh.size() + on_kept_.size();
       const Corners corners = CornersOf(triangles[i], plan_.face_of[i], false);
       FollowSides(triangles[i], plan_.face_of[i], corners, fresh);
       // What bends within a triangle and crosses none of its sides.
-      if (fresh.size() + on_kept_.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < kSlope.margin_m) continue;
-      if (world_.At(corners.middle_W.x(), corners.middle_W.y()).inside) CheckMiddle(triangles[i], kSlope.tolerance_m, corners, fresh);
+      if (fresh.size() + on_kept_.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < slope.margin_m) continue;
+      if (world_.At(corners.middle_W.x(), corners.middle_W.y()).inside) CheckMiddle(triangles[i], slope.tolerance_m, corners, fresh);
     }
     for (const OnKept& on : on_kept_) {
       plan_.triangles.Release(on.a, on.b);
@@ -250,6 +258,16 @@ class Planner {
     return !fresh.empty();
   }
 
+  bool SlopesTouch(const Triangulation::Triangle& t) const {
+    const auto points = plan_.triangles.points();
+    GridPoint low = points[t.corner[0]], high = low;
+    for (const std::uint32_t corner : t.corner) {
+      low = {std::min(low.x, points[corner].x), std::min(low.y, points[corner].y)};
+      high = {std::max(high.x, points[corner].x), std::max(high.y, points[corner].y)};
+    }
+    return land_.slopes.Touch(plan_.key, low, high);
+  }
+
   void FollowSides(const Triangulation::Triangle& t, std::uint32_t face, const Corners& c, std::vector<GridPoint>& fresh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t n = (k + 1) % 3;
@@ -262,7 +280,7 @@ class Planner {
         const Eigen::Vector2d within = kWithin_m * (c.middle_W - 0.5 * (p_W + q_W)).normalized();
         p_W += within, q_W += within;
       }
-      const auto part = BendBetween(world_, p_W, c.z[k], q_W, c.z[n], kSlope);
+      const auto part = BendBetween(world_, p_W, c.z[k], q_W, c.z[n], kSlopes[level_]);
       const GridPoint p = plan_.triangles.points()[t.corner[k]], q = plan_.triangles.points()[t.corner[n]];
       if (!part) continue;
       const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + *part * (to - from))); };
@@ -294,8 +312,10 @@ class Planner {
   }
 
   const road::World& world_;
-  const PostLines& posts_;
+  const Land& land_;
   std::size_t level_;
+  bool kept_ = false;            // beyond slopes the land is the terrain's own triangles
+  bool follows_slopes_ = false;
   TilePlan plan_;
   std::vector<std::array<std::uint32_t, 2>> fixed_;
   std::vector<std::array<std::uint32_t, 3>> tried_, followed_;
@@ -326,9 +346,9 @@ double ThicknessOf(const Triangulation& triangles, const Triangulation::Triangle
   return static_cast<double>(partition::Turn(p[triangle.corner[0]], p[triangle.corner[1]], p[triangle.corner[2]])) / std::sqrt(longest);
 }
 
-TilePlan PlanTile(const road::World& world, const PostLines& posts, const TileKey& key, std::span<const partition::GridSegment> segments,
+TilePlan PlanTile(const road::World& world, const Land& land, const TileKey& key, std::span<const partition::GridSegment> segments,
                   std::span<const GridPoint> edge, int level) {
-  return Planner(world, posts, key, level).Plan(segments, edge);
+  return Planner(world, land, key, level).Plan(segments, edge);
 }
 
 }  // namespace rodeira::scene

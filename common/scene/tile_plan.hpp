@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -10,13 +11,14 @@
 #include "common/scene/post_lines.hpp"
 #include "common/scene/road_lines.hpp"
 #include "common/scene/skin.hpp"
+#include "common/scene/slope_squares.hpp"
 #include "common/scene/tile_grid.hpp"
 
 namespace rodeira::scene {
 
 inline constexpr int kGroundLevels = 4;
 inline constexpr std::size_t kMostLevels = 4;  // of roads over one another
-// How closely the ground is followed, level by level: on roads, and beside them.
+// How closely the ground is followed, level by level: on roads with their verges, cuts and fills, and on the land beyond.
 inline constexpr std::array<Tolerance, kGroundLevels> kRoadTolerances = {{{0.001, 0.003}, {0.02, 0.02}, {0.10, 0.10}, {0.50, 0.50}}};
 inline constexpr std::array<double, kGroundLevels> kLandTolerances_m = {0.03, 0.15, 0.6, 2.0};
 inline constexpr std::array<double, kGroundLevels> kLandSpacings_m = {16.0, 16.0, 32.0, 64.0};
@@ -40,8 +42,19 @@ struct TilePlan {
 // A triangle's smallest height, in steps.
 double ThicknessOf(const partition::Triangulation& triangles, const partition::Triangulation::Triangle& triangle);
 
+// Of what the land in tiles is made: the terrain's posts, and where roads and their slopes change it.
+struct Land {
+  PostLines posts;
+  SlopeSquares slopes;
+
+  // The terrain itself, with all of its posts, is all the ground that a tile without any line has.
+  bool IsBare(const TileKey& tile) const { return posts.HoldsAll(tile) && !slopes.InTile(tile); }
+  // Of how many posts the land has one at a level.
+  int EveryPost(int level) const { return std::max(1, static_cast<int>(kLandSpacings_m[static_cast<std::size_t>(level)] / posts.spacing_m())); }
+};
+
 // segments: noded, of the finest level. edge: all points on the tile's edges.
-TilePlan PlanTile(const road::World& world, const PostLines& posts, const TileKey& key, std::span<const partition::GridSegment> segments,
+TilePlan PlanTile(const road::World& world, const Land& land, const TileKey& key, std::span<const partition::GridSegment> segments,
                   std::span<const partition::GridPoint> edge, int level);
 
 // The same lines with fewer points, none farther from what it leaves out than the tolerance; ends, crossings and points on

@@ -8,7 +8,20 @@ namespace {
 
 constexpr std::uint64_t kTreeSeed = 1;
 
+void LayOnLand(const road::World& world, std::vector<TerrainTile>& tiles) {
+  if (world.ground_picture() == nullptr) return;
+  for (TerrainTile& tile : tiles) {
+    for (Mesh& mesh : tile.levels) LayPicture(*world.ground_picture(), mesh);
+  }
+}
+
 }  // namespace
+
+std::vector<TerrainTile> BareLand(const road::World& world) {
+  std::vector<TerrainTile> tiles = BuildTerrain(Lattice(world), {});
+  LayOnLand(world, tiles);
+  return tiles;
+}
 
 WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance, const ModelIsThere& is_there) {
   WorldScene scene;
@@ -25,10 +38,8 @@ WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolera
   for (std::size_t i = 0; i < ribbons.size(); ++i) {
     for (RoadTile& tile : BuildRoad(world, world.roads()[i], ribbons[i], lattice)) scene.roads.push_back(std::move(tile));
   }
+  LayOnLand(world, scene.terrain);
   if (const terrain::LaidPicture* picture = world.ground_picture()) {
-    for (TerrainTile& tile : scene.terrain) {
-      for (Mesh& mesh : tile.levels) LayPicture(*picture, mesh);
-    }
     for (RoadTile& tile : scene.roads) {
       for (Mesh& mesh : tile.ground) {
         if (mesh.material == lattice.material()) LayPicture(*picture, mesh);  // verges, and what passes into the terrain

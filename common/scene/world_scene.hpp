@@ -18,6 +18,9 @@ struct WorldScene {
   std::vector<std::vector<Repeated>> trees;  // by the square in which they stand
 };
 
+// The land of a world without roads, with the picture that lies on it: a plane as far as it is drawn.
+std::vector<TerrainTile> BareLand(const road::World& world);
+
 // A pure function of the world and of which models can be read: the same meshes, bit by bit.
 WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance = {}, const ModelIsThere& is_there = {});
 

@@ -2,12 +2,12 @@
 
 #include <osg/Geometry>
 #include <osg/NodeVisitor>
-#include <osg/PagedLOD>
 #include <osgDB/ReadFile>
 
 #include <charconv>
 #include <limits>
 #include <string_view>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -101,6 +101,24 @@ class DressWhatIsRead : public osgDB::ReadFileCallback {
   std::filesystem::path folder_;
 };
 
+// The tiles below groups; anything else is strange.
+class FindTiles : public osg::NodeVisitor {
+ public:
+  explicit FindTiles(std::vector<osg::PagedLOD*>& tiles) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), tiles_(tiles) {}
+
+  void apply(osg::PagedLOD& tile) override { tiles_.push_back(&tile); }
+  void apply(osg::Group& group) override {
+    if (typeid(group) != typeid(osg::Group)) strange_ = true;
+    else traverse(group);
+  }
+  void apply(osg::Node&) override { strange_ = true; }
+  bool strange() const { return strange_; }
+
+ private:
+  std::vector<osg::PagedLOD*>& tiles_;
+  bool strange_ = false;
+};
+
 }  // namespace
 
 base::Result<BuiltWorld> ReadBuilt(const std::filesystem::path& folder, Look& look) {
@@ -113,19 +131,20 @@ base::Result<BuiltWorld> ReadBuilt(const std::filesystem::path& folder, Look& lo
   if (!built.root.valid()) return base::Failed("OpenSceneGraph cannot read this file", file);
   const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
   options->setReadFileCallback(new DressWhatIsRead(look, folder));
-  for (unsigned i = 0; i < built.root->getNumChildren(); ++i) {
-    auto* tile = dynamic_cast<osg::PagedLOD*>(built.root->getChild(i));
-    if (tile == nullptr) return base::Failed("this is no database of tiles", file);
+  FindTiles find(built.tiles);
+  built.root->accept(find);
+  if (find.strange()) return base::Failed("this is no database of tiles", file);
+  for (osg::PagedLOD* tile : built.tiles) {
     tile->setDatabasePath(folder.string() + "/");
     tile->setDatabaseOptions(options);
   }
   return built;
 }
 
-void GiveBack(osg::Group& root, const osg::Vec3d& eye_W, double far_m, double detail_scale) {
+void GiveBack(const BuiltWorld& built, const osg::Vec3d& eye_W, double far_m, double detail_scale) {
   constexpr double kBeyond = 1.25;
-  for (unsigned i = 0; i < root.getNumChildren(); ++i) {
-    auto& tile = static_cast<osg::PagedLOD&>(*root.getChild(i));
+  for (osg::PagedLOD* const at : built.tiles) {
+    osg::PagedLOD& tile = *at;
     const double distance_m = (tile.getCenter() - eye_W).length();
     while (tile.getNumChildren() > 0) {  // the finest is the last one, and has the shortest range
       const unsigned last = tile.getNumChildren() - 1;
@@ -136,9 +155,9 @@ void GiveBack(osg::Group& root, const osg::Vec3d& eye_W, double far_m, double de
   }
 }
 
-std::size_t HeldLevels(const osg::Group& root) {
+std::size_t HeldLevels(const BuiltWorld& built) {
   std::size_t held = 0;
-  for (unsigned i = 0; i < root.getNumChildren(); ++i) held += static_cast<const osg::PagedLOD&>(*root.getChild(i)).getNumChildren();
+  for (const osg::PagedLOD* tile : built.tiles) held += tile->getNumChildren();
   return held;
 }
 

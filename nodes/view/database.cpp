@@ -13,17 +13,20 @@
 #include <cctype>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <sstream>
+#include <vector>
 
 #include "common/base/files.hpp"
-#include "common/scene/ground_tile.hpp"
 #include "common/scene/lay_picture.hpp"
 #include "common/scene/seen_digest.hpp"
+#include "nodes/view/database_tiles.hpp"
 #include "nodes/view/face_texture.hpp"
 #include "nodes/view/model_file.hpp"
 #include "nodes/view/picture_texture.hpp"
 #include "nodes/view/plain_geometry.hpp"
+#include "nodes/view/tile_tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -120,12 +123,10 @@ Manifest ReadManifest(const fs::path& folder) {
   return manifest;
 }
 
-std::string TileName(const scene::TileKey& key, int level) { return fmt::format("tiles/{}_{}_{}.osgb", key.column, key.row, level); }
-
 // Whether all files of a tile are there, made from the same, byte for byte as they were written.
-bool IsFresh(const fs::path& folder, const Manifest& before, const scene::TileKey& key, base::Digest source) {
-  for (int level = 0; level < scene::kGroundLevels; ++level) {
-    const auto known = before.find(TileName(key, level));
+bool IsFresh(const fs::path& folder, const Manifest& before, const TileFiles& tile, base::Digest source) {
+  for (const TileLevel& level : tile.levels) {
+    const auto known = before.find(level.file);
     if (known == before.end() || known->second.source != source) return false;
     std::ifstream file(folder / known->first, std::ios::binary);
     std::ostringstream bytes;
@@ -161,81 +162,82 @@ base::Result<Pictures> WritePictures(const road::World& world, const fs::path& f
   return pictures;
 }
 
-osg::ref_ptr<osg::Node> RootNode(const scene::GroundPlan& plan, const std::map<scene::TileKey, scene::TileBall>& balls) {
-  osg::ref_ptr<osg::Group> root = new osg::Group;
-  for (const scene::TileKey& key : plan.tiles()) {
-    const scene::TileBall& ball = balls.at(key);
+osg::ref_ptr<osg::Node> RootNode(const std::vector<TileFiles>& tiles) {
+  std::vector<PlacedNode> parts;
+  for (const TileFiles& tile : tiles) {
     osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
     lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-    lod->setCenter(osg::Vec3d(ball.centre_W.x(), ball.centre_W.y(), ball.centre_W.z()));
-    lod->setRadius(static_cast<float>(ball.radius_m));
+    lod->setCenter(osg::Vec3d(tile.ball.centre_W.x(), tile.ball.centre_W.y(), tile.ball.centre_W.z()));
+    lod->setRadius(static_cast<float>(tile.ball.radius_m));
     // The coarsest first: files are read in this order, and what is there already is shown until the next one is.
-    for (int level = 0; level < scene::kGroundLevels; ++level) {
-      const auto child = static_cast<unsigned>(scene::kGroundLevels - 1 - level);
-      lod->setFileName(child, TileName(key, level));
-      lod->setRange(child, level == 0 ? 0.0F : scene::kGroundSeen_m[static_cast<std::size_t>(level - 1)], scene::kGroundSeen_m[static_cast<std::size_t>(level)]);
+    unsigned child = 0;
+    for (auto level = tile.levels.rbegin(); level != tile.levels.rend(); ++level, ++child) {
+      lod->setFileName(child, level->file);
+      lod->setRange(child, level->from_m, level->to_m);
     }
-    root->addChild(lod);
+    parts.push_back({tile.ball.centre_W.head<2>(), lod});
   }
-  return root;
+  return TileTree(parts);
+}
+
+// Makes a tile and writes its files.
+base::Result<Manifest> WriteTile(const DatabaseTiles& tiles, std::size_t tile, const TileFiles& names, base::Digest source, const Pictures& pictures, const fs::path& folder) {
+  const std::vector<scene::GroundLevel> levels = tiles.Make(tile);
+  for (const scene::PlacedModel& model : levels.front().models) {
+    if (auto read = ReadModel(model.file); !read) return read.error();
+  }
+  Manifest files;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const auto bytes = Serialise(*LevelNode(levels[level], pictures));
+    if (!bytes) return bytes.error();
+    const std::string& name = names.levels[level].file;
+    files[name] = {base::Hash(bytes.value()), source};
+    if (auto written = base::WriteWhole(folder / name, bytes.value()); !written) return written.error();
+  }
+  return files;
 }
 
 }  // namespace
 
 base::Result<DatabaseReport> WriteDatabase(const road::World& world, const DatabaseOptions& options) {
-  if (world.network() == nullptr || !world.roads().empty()) {
-    return base::WrongInput("only an OpenDRIVE world or the roads of a world file of version 2 can be written as they are seen", world.name());
+  if (!world.roads().empty()) {
+    return base::WrongInput("only an OpenDRIVE world, the roads of a world file of version 2, or land without roads can be written as they are seen", world.name());
   }
   std::error_code problem;
   fs::create_directories(options.folder / "tiles", problem);
   if (!fs::is_directory(options.folder / "tiles", problem)) return base::WrongInput("this is no folder, and none can be made", options.folder.string());
   const Manifest before = ReadManifest(options.folder);
-  const scene::GroundPlan plan(world, options.threads);
-  const std::size_t count = plan.tiles().size();
+  const std::unique_ptr<DatabaseTiles> tiles = TilesOf(world, options.threads);
+  const std::size_t count = tiles->count();
 
   Manifest after;
   const auto pictures = WritePictures(world, options.folder, after);
   if (!pictures) return pictures.error();
-  std::map<scene::TileKey, scene::TileBall> balls;
+  std::vector<TileFiles> placed(count);
   DatabaseReport report;
   report.tiles = count;
   std::mutex mutex;  // of the four below
   base::Status status;
   std::size_t done = 0;
   scene::ForEachAtOnce(count, options.threads, [&](std::size_t i) {
-    const scene::TileKey& key = plan.tiles()[i];
-    const base::Digest source = plan.SourceDigest(key);
-    const scene::TileBall ball = plan.BallOf(key);
-    const bool fresh = IsFresh(options.folder, before, key, source);
-    Manifest files;
-    base::Status written;
-    if (!fresh) {
-      const scene::GroundTile tile = plan.Build(key);
-      for (const scene::PlacedModel& model : tile.levels[0].models) {
-        if (auto read = ReadModel(model.file); !read) written = read;
-      }
-      for (int level = 0; level < scene::kGroundLevels && written; ++level) {
-        const auto bytes = Serialise(*LevelNode(tile.levels[static_cast<std::size_t>(level)], pictures.value()));
-        if (!bytes) {
-          written = bytes.error();
-          break;
-        }
-        files[TileName(key, level)] = {base::Hash(bytes.value()), source};
-        written = base::WriteWhole(options.folder / TileName(key, level), bytes.value());
-      }
+    const base::Digest source = tiles->SourceOf(i);
+    const TileFiles& names = placed[i] = tiles->FilesOf(i);
+    const bool fresh = IsFresh(options.folder, before, names, source);
+    base::Result<Manifest> files = Manifest();
+    if (fresh) {
+      for (const TileLevel& level : names.levels) files.value()[level.file] = before.at(level.file);
     } else {
-      for (int level = 0; level < scene::kGroundLevels; ++level) files[TileName(key, level)] = before.at(TileName(key, level));
+      files = WriteTile(*tiles, i, names, source, pictures.value(), options.folder);
     }
     const std::lock_guard lock(mutex);
-    if (status && !written) status = written;
-    after.merge(files);
-    balls[key] = ball;
+    if (!files && status) status = files.error();
+    if (files) after.merge(files.value());
     report.built += !fresh;
     options.progress(++done, count);
   });
   if (!status) return status.error();
 
-  const auto root = Serialise(*RootNode(plan, balls));
+  const auto root = Serialise(*RootNode(placed));
   if (!root) return root.error();
   if (auto written = base::WriteWhole(options.folder / "world.osgb", root.value()); !written) return written.error();
   std::string manifest = fmt::format("# The world {} as it is seen: hash of each file, hash of what it was made from, file\n# content_hash: {}\n# seen: {}\n{} {} world.osgb\n",

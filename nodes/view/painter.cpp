@@ -32,6 +32,7 @@
 #include "nodes/view/overlay.hpp"
 #include "nodes/view/plain_geometry.hpp"
 #include "nodes/view/sun_shadow.hpp"
+#include "nodes/view/tile_tree.hpp"
 #include "nodes/view/timeline_bar.hpp"
 #include "nodes/view/vectors_node.hpp"
 
@@ -43,7 +44,6 @@ constexpr double kShadowsAhead_m = 35.0;
 constexpr float kMarksSeen_m = 650.0F;
 constexpr float kTreesSeen_m = 1'100.0F;
 constexpr double kHighestTree_m = 12.0;
-constexpr std::array<float, scene::kTerrainLevels> kLevelSeen_m = {450.0F, 1'300.0F, 1e9F};  // up to this distance of the tile's centre
 
 osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -55,7 +55,7 @@ osg::ref_ptr<osg::Node> TerrainNode(Look& look, const scene::TerrainTile& tile) 
   float from = 0.0F;
   for (std::size_t level = 0; level < tile.levels.size(); ++level) {
     const scene::Mesh* mesh = &tile.levels[level];
-    const float to = kLevelSeen_m[level] + static_cast<float>(tile.radius_m);
+    const float to = scene::TerrainSeen_m(tile, level);
     lod->addChild(look.Placed({&mesh, 1}), from, to);
     from = to;
   }
@@ -102,7 +102,7 @@ void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group) {
 }
 
 // Trees of a square, seen from so far as it is from the middle of their feet: however they are drawn.
-osg::ref_ptr<osg::Node> TreesNode(Look& look, const std::vector<scene::Repeated>& trees) {
+PlacedNode TreesNode(Look& look, const std::vector<scene::Repeated>& trees) {
   Eigen::AlignedBox3d feet_W;
   for (const scene::Repeated& kind : trees) {
     for (const scene::StandingPlace& place : kind.places) feet_W.extend(place.stand.foot_W);
@@ -112,7 +112,7 @@ osg::ref_ptr<osg::Node> TreesNode(Look& look, const std::vector<scene::Repeated>
   lod->setCenter(ToOsg(feet_W.center()));
   lod->setRadius(0.5 * feet_W.diagonal().norm() + kHighestTree_m);
   lod->addChild(look.Placed(trees), 0.0F, kTreesSeen_m);
-  return lod;
+  return {feet_W.center().head<2>(), lod};
 }
 
 // About which place shadows are seen best: before the eye where it looks along the road, else about the car.
@@ -141,7 +141,7 @@ struct Painter::Parts {
   SunShadow shadow;
   Mirrors mirrors{*root, *scene, *overlay};
   osg::ref_ptr<osg::Node> rain = look.MakeRain();
-  osg::ref_ptr<osg::Group> built;  // the tiles of a database; null: the ground is in memory
+  BuiltWorld built;  // the tiles of a database; without a root: the ground is in memory
   osgViewer::Viewer viewer;
 };
 
@@ -151,10 +151,13 @@ Painter::Painter(Surface& surface, const road::World& world, bool repeats)
 Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing, bool repeats) : Painter(surface, world, repeats) {
   Look& look = parts_->look;
   osg::Group& group = *parts_->scene;
-  for (const scene::GroundTile& tile : standing.ground) group.addChild(GroundNode(look, tile));
-  for (const scene::TerrainTile& tile : standing.terrain) group.addChild(TerrainNode(look, tile));
+  std::vector<PlacedNode> land, trees;
+  for (const scene::GroundTile& tile : standing.ground) land.push_back({tile.ball.centre_W.head<2>(), GroundNode(look, tile)});
+  for (const scene::TerrainTile& tile : standing.terrain) land.push_back({tile.centre_W.head<2>(), TerrainNode(look, tile)});
+  for (const std::vector<scene::Repeated>& square : standing.trees) trees.push_back(TreesNode(look, square));
+  group.addChild(TileTree(land));
   for (const scene::RoadTile& tile : standing.roads) AddRoadTile(look, tile, group);
-  for (const std::vector<scene::Repeated>& trees : standing.trees) group.addChild(TreesNode(look, trees));
+  group.addChild(TileTree(trees));
   SetUp();
 }
 
@@ -162,7 +165,7 @@ base::Result<std::unique_ptr<Painter>> Painter::Make(Surface& surface, const roa
   std::unique_ptr<Painter> painter(new Painter(surface, world, repeats));
   auto ground = ReadBuilt(built, painter->parts_->look);
   if (!ground) return ground.error();
-  painter->parts_->built = ground.value().root;
+  painter->parts_->built = ground.value();
   painter->parts_->scene->addChild(ground.value().root);
   painter->SetUp();
   return painter;
@@ -202,7 +205,7 @@ void Painter::SetUp() {
   camera.setLODScale(TraitsOf(surface.quality()).detail_scale);
   viewer.setSceneData(&root);
   // What was read stays until the eye has left it (GiveBack), also behind its back: turning round shows no gaps.
-  if (parts_->built) viewer.getDatabasePager()->setTargetMaximumNumberOfPageLOD(parts_->built->getNumChildren());
+  if (parts_->built.root) viewer.getDatabasePager()->setTargetMaximumNumberOfPageLOD(static_cast<unsigned>(parts_->built.tiles.size()));
   viewer.realize();
 }
 
@@ -261,12 +264,12 @@ void Painter::DrawOnce(const Picture& picture, const PictureTarget& target, bool
   parts_->instruments.Show(picture, width, height, picture.timeline ? TimelinePlace::kHeight_px : 0.0F);
   parts_->timeline.Show(picture.timeline, width);
   parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);
-  if (parts_->built && !parts_->viewer.getDatabasePager()->getRequestsInProgress()) GiveBack(*parts_->built, ToOsg(camera.eye_W), kFar_m, static_cast<double>(eye.getLODScale()));
+  if (parts_->built.root && !parts_->viewer.getDatabasePager()->getRequestsInProgress()) GiveBack(parts_->built, ToOsg(camera.eye_W), kFar_m, static_cast<double>(eye.getLODScale()));
 }
 
 void Painter::DrawWhole(const Picture& picture) {
   DrawInto(picture, {0, surface_.width_px(), surface_.height_px()});
-  if (!parts_->built) return;
+  if (!parts_->built.root) return;
   // Each level of a tile is asked for when the one before it is there.
   while (parts_->viewer.getDatabasePager()->getRequestsInProgress()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -274,7 +277,7 @@ void Painter::DrawWhole(const Picture& picture) {
   }
 }
 
-std::size_t Painter::HeldLevels() const { return parts_->built ? view::HeldLevels(*parts_->built) : 0; }
+std::size_t Painter::HeldLevels() const { return view::HeldLevels(parts_->built); }
 
 PictureCost Painter::CostOfLast() const {
   auto& renderer = dynamic_cast<osgViewer::Renderer&>(*parts_->viewer.getCamera()->getRenderer());

@@ -48,6 +48,16 @@ constexpr const char* kHills = "rodeira: world/1\nname: hills\nterrain:\n  surfa
 constexpr const char* kRoad = "roads:\n  - id: main\n    start: {x_m: 100, y_m: 300, heading_deg: 0}\n    axis: [{line: {length_m: 400}}]\n"
                               "    vertical: [{s_m: 0, z_m: 0}]\n    section:\n      lanes: [{id: -1, width_m: 3, speed_limit_kmh: 50}, {id: 1, width_m: 3, speed_limit_kmh: 50}]\n      surface: asphalt\n";
 
+std::vector<std::string> Listed(const fs::path& out) {
+  std::vector<std::string> names;
+  std::istringstream lines(base::ReadText(out / "logical.txt").value());
+  for (std::string line; std::getline(lines, line);) {
+    if (names.size() < 2) names.push_back(line);
+    else names.push_back(line.substr(line.find(' ') + 1));
+  }
+  return names;
+}
+
 TEST(WorldBuild, AnOpenDriveWorldIsWrittenAsItIsSeen) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "town.xodr", out = folder.path() / "out";
@@ -148,16 +158,31 @@ TEST(WorldBuild, AWorldFilesRoadsAndHills) {
   EXPECT_EQ(said.errors, "rodeira: warning: " + file.string() + ": its road is of version 1, of which 'rodeira world build' writes no tiles of what is seen; of version 2 it does\n");
   EXPECT_EQ(Asked("check", file).errors, said.errors) << "the check says so, too";
   EXPECT_TRUE(road::World::Load(out / "world.xodr").ok());
-  // Without roads there are only the hills; with neither there is nothing.
+}
+
+// Land without any road is written as it is seen, too: generated hills, an elevation file, a plane.
+TEST(WorldBuild, LandWithoutRoads) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "hills.yaml", out = folder.path() / "out";
   ASSERT_TRUE(base::WriteWhole(file, kHills).ok());
-  const Said bare = Build(file, folder.path() / "bare");
+  const Said bare = Build(file, out);
   EXPECT_EQ(bare.status, 0) << bare.errors;
-  EXPECT_FALSE(fs::exists(folder.path() / "bare" / "world.xodr"));
-  EXPECT_THAT(bare.errors, HasSubstr("hills.yaml: the world has no road: no tiles of what is seen are written\n"));
-  ASSERT_TRUE(base::WriteWhole(file, "rodeira: world/1\nname: plane\nground: {kind: plane, z_m: 0}\n").ok());
-  const Said nothing = Build(file, folder.path() / "none");
-  EXPECT_EQ(nothing.status, 2);
-  EXPECT_THAT(nothing.errors, HasSubstr("there is nothing to build"));
+  EXPECT_EQ(bare.errors, "");
+  EXPECT_FALSE(fs::exists(out / "world.xodr"));
+  EXPECT_TRUE(fs::exists(out / "world.osgb"));
+  EXPECT_TRUE(fs::exists(out / "tiles" / "1_1_2.osgb"));
+  EXPECT_THAT(Listed(out), testing::ElementsAre(testing::_, testing::_, "hills.bt", "hills.yaml"));
+  // What was written is a world on a file: it is built with that file.
+  const Said again = Build(out / "hills.yaml", folder.path() / "again");
+  EXPECT_EQ(again.status, 0) << again.errors;
+  EXPECT_EQ(again.errors, "");
+  EXPECT_THAT(Listed(folder.path() / "again"), testing::ElementsAre(testing::_, testing::_, "hills.bt", "hills.yaml"));
+  EXPECT_EQ(base::ReadText(folder.path() / "again" / "tiles" / "1_1_0.osgb").value(), base::ReadText(out / "tiles" / "1_1_0.osgb").value());
+  const Said plane = Build(fs::path(SourceDir()) / "configs/worlds/plane.yaml", folder.path() / "plane");
+  EXPECT_EQ(plane.status, 0) << plane.errors;
+  EXPECT_EQ(plane.errors, "");
+  EXPECT_TRUE(fs::exists(folder.path() / "plane" / "world.osgb"));
+  EXPECT_THAT(Listed(folder.path() / "plane"), testing::ElementsAre(testing::_, testing::_, "plane.yaml"));
 }
 
 TEST(WorldBuild, AWorldFileOfVersion2IsWrittenAsItIsSeenToo) {
@@ -173,16 +198,6 @@ TEST(WorldBuild, AWorldFileOfVersion2IsWrittenAsItIsSeenToo) {
   EXPECT_TRUE(fs::exists(out / "tiles" / "0_0_0.osgb"));
   EXPECT_TRUE(road::World::Load(out / "world.xodr").ok());
   EXPECT_THAT(Build(file, out).out, HasSubstr(" 0 built, "));
-}
-
-std::vector<std::string> Listed(const fs::path& out) {
-  std::vector<std::string> names;
-  std::istringstream lines(base::ReadText(out / "logical.txt").value());
-  for (std::string line; std::getline(lines, line);) {
-    if (names.size() < 2) names.push_back(line);
-    else names.push_back(line.substr(line.find(' ') + 1));
-  }
-  return names;
 }
 
 // The example with all that it names, moved to where nothing else is found: the same world, checked file by file.

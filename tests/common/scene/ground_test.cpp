@@ -10,6 +10,7 @@
 
 #include "common/base/random.hpp"
 #include "common/network/marking.hpp"
+#include "tests/common/scene/correlation.hpp"
 #include "tests/common/scene/ground_tiles.hpp"
 #include "tests/common/scene/ground_worlds.hpp"
 #include "tests/setting.hpp"
@@ -17,77 +18,6 @@
 
 namespace rodeira::scene {
 namespace {
-
-struct Correlation {
-  int asked = 0;
-  int stepped = 0;  // within 3 mm of a step of SUELO
-  int far = 0;      // more than 5 mm from SUELO elsewhere
-  double worst_m = 0.0;
-  Eigen::Vector3d where = Eigen::Vector3d::Zero();
-};
-
-// Whether SUELO is at a height within 3 mm of a place: where SUELO steps, a drawn line is up to 1 mm beside the edge.
-bool MeetsNearby(const road::World& world, const Eigen::Vector3d& p, double within_m) {
-  for (int k = 0; k < 8; ++k) {
-    const double angle = 0.785398 * k;
-    const road::SurfacePoint near = world.At(p.x() + 0.003 * std::cos(angle), p.y() + 0.003 * std::sin(angle), p.z() + 0.3);
-    if (near.inside && std::fabs(near.z_m - p.z()) < within_m) return true;
-  }
-  return false;
-}
-
-// A point of the triangles whose areas add up to these sums: one of many that are spread evenly over all of them.
-Eigen::Vector3d PointIn(const std::vector<std::array<Eigen::Vector3d, 3>>& triangles, const std::vector<double>& sums, std::uint64_t seed, std::uint64_t n) {
-  const auto draw = [&](std::uint64_t what) { return base::RandomUniform({seed, n, what}, 0.0, 1.0); };
-  const auto found = std::upper_bound(sums.begin(), sums.end(), draw(0) * sums.back());
-  const auto& t = triangles[std::min(static_cast<std::size_t>(found - sums.begin()), triangles.size() - 1)];
-  double a = draw(1), b = draw(2);
-  if (a + b > 1.0) a = 1.0 - a, b = 1.0 - b;
-  return t[0] + a * (t[1] - t[0]) + b * (t[2] - t[0]);
-}
-
-bool IsRoad(const Mesh& mesh) { return mesh.material == Material::kRoad || mesh.material == Material::kConcrete || mesh.material == Material::kGravel; }
-
-// Points on the finest level's triangles that count, evenly by area, against SUELO at the same place and level.
-template <class Counts>
-Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed, const Counts& counts) {
-  std::vector<std::array<Eigen::Vector3d, 3>> triangles;
-  std::vector<double> sums;
-  for (const GroundTile& tile : tiles) {
-    for (const Mesh& mesh : tile.levels[0].ground) {
-      for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-        if (IsWall(mesh, i) || !counts(mesh, i)) continue;
-        triangles.push_back(CornersOf(mesh, i));
-        const Eigen::Vector3d u = triangles.back()[1] - triangles.back()[0], v = triangles.back()[2] - triangles.back()[0];
-        sums.push_back((sums.empty() ? 0.0 : sums.back()) + 0.5 * u.cross(v).norm());
-      }
-    }
-  }
-  Correlation result;
-  if (triangles.empty()) return result;
-  for (int n = 0; n < count; ++n) {
-    const Eigen::Vector3d p = PointIn(triangles, sums, seed, static_cast<std::uint64_t>(n));
-    ++result.asked;
-    const road::SurfacePoint at = world.At(p.x(), p.y(), p.z() + 0.3);
-    const double error = at.inside ? std::fabs(at.z_m - p.z()) : 1e9;
-    if (error > 0.005) {
-      const bool steps = MeetsNearby(world, p, 0.005);
-      if (steps) {
-        ++result.stepped;
-        continue;
-      }
-    }
-    result.far += error > 0.005;
-    if (error > result.worst_m) result.worst_m = error, result.where = p;
-  }
-  return result;
-}
-
-Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed) {
-  return Correlate(world, tiles, count, seed, [](const Mesh& mesh, std::size_t) { return IsRoad(mesh); });
-}
-
-int Points() { return static_cast<int>(Setting("RODEIRA_GROUND_POINTS", 5'000)); }
 
 TEST(Ground, IsWhereTheTyresAre) {
   const auto world = OpenDriveWorld(BendUnderBridge());

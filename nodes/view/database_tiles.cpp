@@ -1,0 +1,87 @@
+#include "nodes/view/database_tiles.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "common/base/assert.hpp"
+#include "common/scene/ground_digest.hpp"
+#include "common/scene/world_scene.hpp"
+
+namespace rodeira::view {
+namespace {
+
+std::string TileName(std::int64_t column, std::int64_t row, int level) { return fmt::format("tiles/{}_{}_{}.osgb", column, row, level); }
+
+// Of a network: squares of 256 m.
+class NetworkTiles final : public DatabaseTiles {
+ public:
+  NetworkTiles(const road::World& world, unsigned threads) : plan_(world, threads) {}
+
+  std::size_t count() const override { return plan_.tiles().size(); }
+  TileFiles FilesOf(std::size_t tile) const override {
+    const scene::TileKey& key = plan_.tiles()[tile];
+    TileFiles files{plan_.BallOf(key), {}};
+    float from_m = 0.0F;
+    for (int level = 0; level < scene::kGroundLevels; ++level) {
+      const float to_m = scene::kGroundSeen_m[static_cast<std::size_t>(level)];
+      if (plan_.FinestAlike(key, level) == level) files.levels.push_back({TileName(key.column, key.row, level), from_m, to_m});
+      else files.levels.back().to_m = to_m;
+      from_m = to_m;
+    }
+    return files;
+  }
+  base::Digest SourceOf(std::size_t tile) const override { return plan_.SourceDigest(plan_.tiles()[tile]); }
+  std::vector<scene::GroundLevel> Make(std::size_t tile) const override {
+    const scene::TileKey& key = plan_.tiles()[tile];
+    scene::GroundTile made = plan_.Build(key);
+    std::vector<scene::GroundLevel> levels;
+    for (int level = 0; level < scene::kGroundLevels; ++level) {
+      if (plan_.FinestAlike(key, level) == level) levels.push_back(std::move(made.levels[static_cast<std::size_t>(level)]));
+    }
+    return levels;
+  }
+
+ private:
+  scene::GroundPlan plan_;
+};
+
+// Of a world without any road: what is drawn of it from memory. They are made at once, as each needs little more than its posts.
+class TerrainTiles final : public DatabaseTiles {
+ public:
+  explicit TerrainTiles(const road::World& world)
+      : tiles_(scene::BareLand(world)), source_(base::Combine(base::Combine(base::Hash(scene::kGroundVersion), world.content_hash()), scene::TerrainDigest(world))) {}
+
+  std::size_t count() const override { return tiles_.size(); }
+  TileFiles FilesOf(std::size_t tile) const override {
+    const scene::TerrainTile& of = tiles_[tile];
+    TileFiles files{{of.centre_W, of.radius_m}, {}};
+    float from_m = 0.0F;
+    for (std::size_t level = 0; level < scene::kTerrainLevels; ++level) {
+      const float to_m = scene::TerrainSeen_m(of, level);
+      files.levels.push_back({TileName(of.column, of.row, static_cast<int>(level)), from_m, to_m});
+      from_m = to_m;
+    }
+    return files;
+  }
+  base::Digest SourceOf(std::size_t tile) const override { return base::Combine(source_, base::Hash(TileName(tiles_[tile].column, tiles_[tile].row, 0))); }
+  std::vector<scene::GroundLevel> Make(std::size_t tile) const override {
+    std::vector<scene::GroundLevel> levels;
+    for (const scene::Mesh& mesh : tiles_[tile].levels) levels.emplace_back().ground.push_back(mesh);
+    return levels;
+  }
+
+ private:
+  std::vector<scene::TerrainTile> tiles_;
+  base::Digest source_;
+};
+
+}  // namespace
+
+std::unique_ptr<DatabaseTiles> TilesOf(const road::World& world, unsigned threads) {
+  RODEIRA_ASSERT(world.roads().empty());
+  if (world.network() == nullptr) return std::make_unique<TerrainTiles>(world);
+  return std::make_unique<NetworkTiles>(world, threads);
+}
+
+}  // namespace rodeira::view
