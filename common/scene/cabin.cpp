@@ -74,19 +74,19 @@ Mesh BuildSteeringWheel() {
 }
 
 Mesh BuildDashboard(double car_width_m, double eye_left_m) {
-  const double left = 0.47 * car_width_m - eye_left_m, right = -0.47 * car_width_m - eye_left_m;
+  const double half_m = 0.5 * car_width_m - 0.05, left = half_m - eye_left_m, right = -half_m - eye_left_m;  // from door to door
   const auto slice = [&](double ahead_m, double top) {
     return std::vector<Vector3d>{{ahead_m, right, -0.80}, {ahead_m, left, -0.80}, {ahead_m, left, top}, {ahead_m, right, top}};
   };
-  Mesh mesh = Loft({slice(0.57, -0.315), slice(0.60, -0.282), slice(0.95, -0.262)}, Material::kMatt, kDash, 0.2);
-  // The housing around the dials leans as they do.
-  const auto ring = [](double ahead_m, double grown_m) {
+  Mesh mesh = Loft({slice(0.55, -0.345), slice(0.585, -0.312), slice(0.72, -0.292), slice(0.86, -0.302)}, Material::kMatt, kDash, 0.2);
+  // The housing around the dials; behind its edge it falls away, so that no more is seen of it.
+  const auto ring = [](double ahead_m, double grown_m, double top) {
     const auto corner = [&](double y, double z) { return Vector3d(ahead_m, y, z); };
-    const double wide_left = 0.145 + grown_m, wide_right = -0.145 - grown_m, low = -0.32, top = -0.128 + 0.4 * grown_m;
+    const double wide_left = 0.145 + grown_m, wide_right = -0.145 - grown_m, low = -0.32;
     return std::vector<Vector3d>{corner(wide_right, low), corner(wide_left, low), corner(wide_left, top - 0.03), corner(wide_left - 0.03, top), corner(wide_right + 0.03, top),
                                  corner(wide_right, top - 0.03)};
   };
-  mesh.Append(Loft({ring(kInstruments_m + 0.045, 0.0), ring(0.78, 0.01)}, Material::kMatt, kHousing, 0.4));
+  mesh.Append(Loft({ring(kInstruments_m + 0.045, 0.0, -0.128), ring(0.78, 0.01, -0.19)}, Material::kMatt, kHousing, 0.4));
   return mesh;
 }
 

@@ -66,10 +66,11 @@ CabinNode::CabinNode(Look& look) : look_(look), group_(new osg::MatrixTransform)
   group_->getOrCreateStateSet()->setDefine("SUN_SHADOW", osg::StateAttribute::OFF);  // the roof would darken it all
 }
 
-void CabinNode::Build(double car_width_m, double eye_left_m) {
+void CabinNode::Build(const scene::CabinShape& shape) {
   group_->removeChildren(0, group_->getNumChildren());
   gears_.clear();
-  group_->addChild(look_.GeometryOf(scene::BuildDashboard(car_width_m, eye_left_m)));
+  group_->addChild(look_.GeometryOf(scene::BuildDashboard(shape.width_m, shape.eye_left_m)));
+  group_->addChild(look_.GeometryOf(scene::BuildCabinBody(shape)));
   for (std::size_t i = 0; i < needles_.size(); ++i) {
     const scene::CabinDial& dial = scene::CabinDials()[i];
     osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(MatrixOf(dial.place));
@@ -96,9 +97,9 @@ void CabinNode::Show(const scene::CarPose* car) {
   group_->setNodeMask(car != nullptr ? ~0U : 0U);
   if (car == nullptr) return;
   const Eigen::Vector3d eye_B = scene::DriversEye_B(*car);
-  if (built_for_m_ != car->width_m) {
-    built_for_m_ = car->width_m;
-    Build(car->width_m, eye_B.y());
+  if (const scene::CabinShape shape{car->width_m, car->height_m, eye_B.y(), eye_B.z()}; built_for_ != shape) {
+    built_for_ = shape;
+    Build(shape);
   }
   const Eigen::Vector3d at = car->p_WB_W + car->q_WB * eye_B;
   const Eigen::Quaterniond& q = car->q_WB;

@@ -7,12 +7,13 @@
 #include <optional>
 #include <vector>
 
+#include "common/scene/cabin_body.hpp"
 #include "common/scene/moment.hpp"
 #include "nodes/view/look.hpp"
 
 namespace rodeira::view {
 
-// The dashboard before the driver: needles of speed, engine and fuel, the gear, the steering wheel that turns.
+// The inside of a car: doors, posts, roof and seats, and the dashboard with needles of speed, engine and fuel, the gear, the steering wheel that turns.
 class CabinNode {
  public:
   explicit CabinNode(Look& look);
@@ -23,14 +24,14 @@ class CabinNode {
 
  private:
   static constexpr std::int32_t kLowestGear = -1, kHighestGear = 9;
-  void Build(double car_width_m, double eye_left_m);
+  void Build(const scene::CabinShape& shape);
 
   Look& look_;
   osg::ref_ptr<osg::MatrixTransform> group_;
   std::array<osg::ref_ptr<osg::MatrixTransform>, 3> needles_;
   std::vector<osg::ref_ptr<osg::Node>> gears_;
   osg::ref_ptr<osg::MatrixTransform> wheel_;
-  double built_for_m_ = 0.0;  // the car's width; 0: nothing is built yet
+  std::optional<scene::CabinShape> built_for_;  // none: nothing is built yet
 };
 
 }  // namespace rodeira::view

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "common/scene/cabin_body.hpp"
 #include "common/scene/camera.hpp"
 
 namespace rodeira::scene {
@@ -57,6 +59,24 @@ TEST(Cabin, TheInstrumentsAreSeenAndTheRoadToo) {
   for (std::size_t i = 0; i < dashboard.positions.size(); ++i) {
     const auto at = camera.Project(eye_B + dashboard.PositionW(i), 1280, 720);
     EXPECT_TRUE(!at || at->y() > road->y()) << dashboard.PositionW(i).transpose();
+  }
+}
+
+// Nobody sits in a post: nothing is nearer to the eye than a hand, and the left half of the body is the right one mirrored at the car's middle.
+TEST(CabinBody, LeavesRoomForAHeadAndIsTheSameOnBothSides) {
+  for (const auto& [width_m, height_m] : {std::pair(1.65, 1.42), std::pair(1.9, 1.9)}) {
+    const CabinShape shape{width_m, height_m, 0.22 * width_m, 1.20};
+    const Mesh body = BuildCabinBody(shape);
+    Eigen::Vector3d left = Eigen::Vector3d::Zero(), right = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < body.triangles.size(); i += 3) {
+      const Eigen::Vector3d a = body.PositionW(body.triangles[i]), b = body.PositionW(body.triangles[i + 1]), c = body.PositionW(body.triangles[i + 2]);
+      const Eigen::Vector3d across = (b - a).cross(c - a);
+      EXPECT_GT(std::min({a.norm(), b.norm(), c.norm(), ((a + b + c) / 3.0).norm()}), 0.13);
+      const double middle = (a.y() + b.y() + c.y()) / 3.0 + shape.eye_left_m;  // left of the car's middle
+      (middle > 0.0 ? left : right) += across.cwiseAbs();
+      for (const Eigen::Vector3d& p : {a, b, c}) EXPECT_LT(std::fabs(p.y() + shape.eye_left_m), 0.5 * width_m) << "within the body";
+    }
+    EXPECT_LT((left - right).norm(), 0.02 * left.norm());
   }
 }
 

@@ -6,6 +6,8 @@
 #include <map>
 #include <tuple>
 
+#include "common/scene/cabin_body.hpp"
+
 namespace rodeira::scene {
 namespace {
 
@@ -49,6 +51,11 @@ TEST(CarMesh, EveryPartIsClosedAndLooksOutward) {
       for (const Mesh& mesh : car.wheel) ExpectClosed(mesh, "a part of the wheel");
     }
   }
+}
+
+TEST(CarMesh, TheInsideIsClosedToo) {
+  ExpectClosed(BuildCabinBody({}), "the cabin");
+  ExpectClosed(BuildCabinBody({1.9, 1.9, 0.42, 1.20}), "the cabin of a van");
 }
 
 // Whichever picture comes first: how far the springs give there is no part of the car.
