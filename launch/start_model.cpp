@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -11,34 +10,6 @@ namespace rodeira::front {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kBase = "launch/keyboard.yaml";  // road, driver, ego, traffic, story, recorder, view
-
-std::vector<fs::path> FilesIn(const fs::path& folder, const std::set<std::string>& endings) {
-  std::vector<fs::path> files;
-  std::error_code problem;
-  for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem)) {
-    std::error_code unread;
-    if (entry->is_regular_file(unread) && endings.contains(entry->path().extension().string())) files.push_back(entry->path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::vector<fs::path> NewestIn(const fs::path& folder) {
-  std::vector<std::pair<fs::file_time_type, fs::path>> dated;
-  for (const fs::path& file : FilesIn(folder, {".mcap"})) {
-    std::error_code unread;
-    const auto written = fs::last_write_time(file, unread);
-    if (!unread) dated.emplace_back(written, file);
-  }
-  std::sort(dated.begin(), dated.end(), [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
-  std::vector<fs::path> files;
-  for (const auto& [written, file] : dated) {
-    if (files.size() < StartFiles::kRecent) files.push_back(file);
-  }
-  return files;
-}
 
 // Values in a launch file are relative to it; what lies elsewhere is named whole.
 std::string Named(const fs::path& root, const fs::path& file) {
@@ -65,28 +36,6 @@ std::string DriverValue(const StartFiles& files, const StartChoice& choice) {
 
 }  // namespace
 
-StartFiles FindStartFiles(const fs::path& root, const fs::path& data, const fs::path& config) {
-  StartFiles files;
-  files.root = root;
-  files.recordings = NewestIn(data);
-  files.wheels = FilesIn(config / "wheels", {".yaml"});
-  if (root.empty()) return files;
-  files.worlds = FilesIn(root / "configs/worlds", {".yaml", ".xodr"});
-  files.vehicles = FilesIn(root / "configs/vehicles", {".yaml"});
-  return files;
-}
-
-fs::path FindStartRoot(const std::vector<fs::path>& near) {
-  for (const fs::path& begin : near) {
-    for (fs::path folder = begin; !folder.empty(); folder = folder.parent_path()) {
-      std::error_code problem;
-      if (fs::is_regular_file(folder / kBase, problem) && fs::is_directory(folder / "configs", problem)) return folder;
-      if (folder == folder.parent_path()) break;
-    }
-  }
-  return {};
-}
-
 StartChoice DefaultChoice(const StartFiles& files) {
   const auto named = [](const std::vector<fs::path>& all, const char* name) {
     const auto found = std::find_if(all.begin(), all.end(), [name](const fs::path& file) { return file.filename() == name; });
@@ -108,12 +57,17 @@ std::string WhatIsMissing(const StartFiles& files, const StartChoice& choice) {
   if (files.root.empty()) return "the folders launch and configs were found neither here nor beside the program";
   if (choice.world.empty()) return "choose a world";
   if (!fs::is_regular_file(choice.world, problem)) return fmt::format("there is no file '{}'", choice.world.string());
-  return choice.vehicle.empty() ? "choose a vehicle" : "";
+  if (choice.world.extension() == ".motors") {
+    return fmt::format("'{}' is a traffic map; `rodeira map convert {} -o {}` makes a world of it", choice.world.string(), choice.world.string(), fs::path(choice.world).filename().replace_extension(".yaml").string());
+  }
+  if (choice.world.extension() != ".yaml" && choice.world.extension() != ".xodr") return fmt::format("'{}' is no world; a file that ends on .yaml or .xodr was expected", choice.world.string());
+  if (choice.vehicle.empty()) return "choose a vehicle";
+  return fs::is_regular_file(choice.vehicle, problem) ? "" : fmt::format("there is no file '{}'", choice.vehicle.string());
 }
 
 std::vector<std::string> CommandOf(const StartFiles& files, const StartChoice& choice) {
   if (choice.way == StartWay::kWatch) return {"replay", choice.recording.string(), "--view"};
-  std::vector<std::string> arguments{"run", (files.root / kBase).lexically_normal().string()};
+  std::vector<std::string> arguments{"run", (files.root / kStartLaunch).lexically_normal().string()};
   const auto set = [&](const std::string& key, const std::string& value) {
     arguments.emplace_back("--set");
     arguments.push_back(key + "=" + value);

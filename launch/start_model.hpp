@@ -4,22 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "launch/start_files.hpp"
+
 namespace rodeira::front {
-
-// What may be chosen in the start window.
-struct StartFiles {
-  std::filesystem::path root;                      // the folder that holds launch/ and configs/; empty: none was found
-  std::vector<std::filesystem::path> worlds;       // by name
-  std::vector<std::filesystem::path> vehicles;     // by name
-  std::vector<std::filesystem::path> wheels;       // set up by `rodeira input setup`, by name
-  std::vector<std::filesystem::path> recordings;   // the newest first, at most kRecent
-  static constexpr std::size_t kRecent = 12;
-};
-
-// Looks in `root` and in the user's folders. What cannot be read is not there.
-StartFiles FindStartFiles(const std::filesystem::path& root, const std::filesystem::path& data, const std::filesystem::path& config);
-// The folder with launch/ and configs/ at or above one of these, the nearest first; empty where there is none.
-std::filesystem::path FindStartRoot(const std::vector<std::filesystem::path>& near);
 
 enum class StartDriver { kKeyboard, kWheel, kPad, kAutopilot };
 enum class StartWay { kDrive, kWatch };

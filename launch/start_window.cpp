@@ -23,13 +23,24 @@ constexpr std::size_t kMostLines = 200;
 constexpr int kWait_ms = 100;
 constexpr int kWheelWait_ms = 10;  // bars follow the hand
 
-// One of several files, by its name.
-void ChooseFile(const char* label, const std::vector<std::filesystem::path>& files, std::filesystem::path& chosen) {
-  if (!ImGui::BeginCombo(label, chosen.empty() ? "none" : chosen.filename().c_str())) return;
+constexpr float kListWidth = 260.0F;  // of a list of files, with the field for any other one beside it
+constexpr float kLabelWidth = 100.0F;
+
+// One of several files.
+void ListFiles(const char* label, const std::vector<std::filesystem::path>& files, std::filesystem::path& chosen, const std::function<std::string(const std::filesystem::path&)>& name) {
+  if (!ImGui::BeginCombo(label, chosen.empty() ? "none" : name(chosen).c_str(), ImGuiComboFlags_HeightLarge)) return;
   for (const auto& file : files) {
-    if (ImGui::Selectable(file.filename().c_str(), file == chosen)) chosen = file;
+    if (ImGui::Selectable(name(file).c_str(), file == chosen)) chosen = file;
   }
   ImGui::EndCombo();
+}
+
+// A file's path, as it is typed.
+void TypeFile(const char* label, std::filesystem::path& chosen) {
+  std::array<char, 1024> text{};
+  const std::string now = chosen.string();
+  now.copy(text.data(), text.size() - 1);
+  if (ImGui::InputText(label, text.data(), text.size())) chosen = text.data();
 }
 
 }  // namespace
@@ -103,6 +114,15 @@ void StartWindow::TakeWheel(const std::filesystem::path& file) {
   choice_.wheel = file;
 }
 
+// One of the files that were found, or any other one, by its path.
+void StartWindow::ChooseFile(const char* label, const std::vector<std::filesystem::path>& files, std::filesystem::path& chosen) const {
+  ImGui::SetNextItemWidth(kListWidth);
+  ListFiles(fmt::format("##{}", label).c_str(), files, chosen, [this](const std::filesystem::path& file) { return ShownName(files_.root, file); });
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-kLabelWidth);
+  TypeFile(label, chosen);
+}
+
 void StartWindow::DrawDrive() {
   ChooseFile("world", files_.worlds, choice_.world);
   ChooseFile("vehicle", files_.vehicles, choice_.vehicle);
@@ -123,7 +143,9 @@ void StartWindow::DrawDrive() {
 
 void StartWindow::DrawWheel() {
   if (ImGui::Button("set up a steering wheel")) wheel_.Open();
-  if (choice_.driver == StartDriver::kWheel && !files_.wheels.empty()) ChooseFile("wheel", files_.wheels, choice_.wheel);
+  if (choice_.driver == StartDriver::kWheel && !files_.wheels.empty()) {
+    ListFiles("wheel", files_.wheels, choice_.wheel, [](const std::filesystem::path& file) { return file.filename().string(); });
+  }
   if (!wheel_.said().empty()) ImGui::TextWrapped("%s", wheel_.said().c_str());
 }
 
@@ -132,10 +154,7 @@ void StartWindow::DrawWatch() {
   for (const auto& file : files_.recordings) {
     if (ImGui::Selectable(file.filename().c_str(), file == choice_.recording)) choice_.recording = file;
   }
-  std::array<char, 1024> text{};
-  const std::string now = choice_.recording.string();
-  now.copy(text.data(), text.size() - 1);
-  if (ImGui::InputText("file", text.data(), text.size())) choice_.recording = text.data();
+  TypeFile("file", choice_.recording);
 }
 
 void StartWindow::DrawCommand() {

@@ -53,6 +53,7 @@ class StartWindow {
  private:
   void DrawChoices();
   void DrawDrive();
+  void ChooseFile(const char* label, const std::vector<std::filesystem::path>& files, std::filesystem::path& chosen) const;
   void DrawWheel();
   void TakeWheel(const std::filesystem::path& file);
   void DrawWatch();

@@ -49,6 +49,48 @@ TEST(Start, EveryChoiceIsACommandThatALaunchFileTakes) {
   }
 }
 
+// The project's own, those in folders of their own, and a person's own beside the folder launch; no parts of worlds, no other files.
+TEST(Start, WorldsAndVehiclesAreFoundWherePeopleHaveThem) {
+  TemporaryFolder folder;
+  for (const char* made : {"launch", "configs/worlds/town", "configs/vehicles/mine"}) fs::create_directories(folder.path() / made);
+  (void)folder.Write("launch/keyboard.yaml", "rodeira: launch/1\n");
+  (void)folder.Write("configs/worlds/b.yaml", "rodeira: world/2\n");
+  (void)folder.Write("configs/worlds/a.xodr", "<OpenDRIVE/>");
+  (void)folder.Write("configs/worlds/town/world.yaml", "# a town\nrodeira: world/2\ninclude: [houses.yaml]\n");
+  (void)folder.Write("configs/worlds/town/houses.yaml", "rodeira: world/2\n");
+  (void)folder.Write("configs/worlds/town/notes.yaml", "who: me\n");
+  (void)folder.Write("configs/vehicles/default.yaml", "rodeira: vehicle/1\n");
+  (void)folder.Write("configs/vehicles/mine/lorry.yaml", "rodeira: vehicle/1\n");
+  (void)folder.Write("first_road.yaml", "rodeira: world/2\n");
+  (void)folder.Write("racer.yaml", "rodeira: vehicle/1\n");
+  (void)folder.Write("study.yaml", "rodeira: launch/1\nworld: first_road.yaml\n");
+  (void)folder.Write("lane.xodr", "<OpenDRIVE/>");
+  const StartFiles files = FindStartFiles(folder.path(), "/nowhere", "/nowhere");
+  const auto names = [&](const std::vector<fs::path>& all) {
+    std::vector<std::string> shown;
+    for (const fs::path& file : all) shown.push_back(ShownName(files.root, file));
+    return shown;
+  };
+  EXPECT_EQ(names(files.worlds), (std::vector<std::string>{"a.xodr", "b.yaml", "town/world.yaml", "first_road.yaml", "lane.xodr"}));
+  EXPECT_EQ(names(files.vehicles), (std::vector<std::string>{"default.yaml", "mine/lorry.yaml", "racer.yaml"}));
+  EXPECT_EQ(ShownName(files.root, "/elsewhere/x.yaml"), "/elsewhere/x.yaml");
+  StartChoice choice = DefaultChoice(files);
+  choice.world = folder.path() / "first_road.yaml";
+  EXPECT_EQ(CommandOf(files, choice)[3], "world=\"../first_road.yaml\"");
+}
+
+TEST(Start, WhatIsNoWorldIsSaidInTheWindow) {
+  const StartFiles files = Here();
+  StartChoice choice = DefaultChoice(files);
+  choice.world = fs::path(SourceDir()) / "configs/maps/town.motors";
+  EXPECT_EQ(WhatIsMissing(files, choice), "'" + choice.world.string() + "' is a traffic map; `rodeira map convert " + choice.world.string() + " -o town.yaml` makes a world of it");
+  choice.world = fs::path(SourceDir()) / "README.md";
+  EXPECT_EQ(WhatIsMissing(files, choice), "'" + choice.world.string() + "' is no world; a file that ends on .yaml or .xodr was expected");
+  choice = DefaultChoice(files);
+  choice.vehicle = "/elsewhere/car.yaml";
+  EXPECT_EQ(WhatIsMissing(files, choice), "there is no file '/elsewhere/car.yaml'");
+}
+
 TEST(Start, TheLaunchFileHasWhatWasChosen) {
   const StartFiles files = Here();
   StartChoice choice = DefaultChoice(files);
