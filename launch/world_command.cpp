@@ -20,6 +20,7 @@
 #include "common/road/world_profile.hpp"
 #include "common/road/world_report.hpp"
 #include "nodes/view/database.hpp"
+#include "nodes/view/visual_files.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -40,10 +41,18 @@ int CheckOpenDrive(const WorldOptions& options) {
 
 // A folder that was built.
 int CheckBuilt(const WorldOptions& options) {
-  const auto problems = road::LogicalProblems(options.world_file);
+  const std::filesystem::path folder(options.world_file);
+  auto problems = road::LogicalProblems(folder);
+  const std::string hash = road::LogicalContentHash(folder);
+  if (!hash.empty()) {  // otherwise it is no built folder, which is said
+    const auto seen = view::VisualProblems(folder, hash);
+    problems.insert(problems.end(), seen.begin(), seen.end());
+  }
   for (const base::Error& problem : problems) fmt::print(stderr, "rodeira: {}\n", problem.Text());
   if (!problems.empty()) return problems.front().exit_status();
-  fmt::print("{}: every file of '{}' is as it was written\n", options.world_file, road::kLogicalManifest);
+  std::error_code none;
+  const bool is_seen = std::filesystem::exists(folder / view::kManifest, none);
+  fmt::print("{}: every file of '{}'{} is as it was written\n", options.world_file, road::kLogicalManifest, is_seen ? fmt::format(" and '{}'", view::kManifest) : "");
   return 0;
 }
 

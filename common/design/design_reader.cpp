@@ -239,7 +239,7 @@ std::vector<network::Laid> LayOn(const std::vector<RoadDesign>& designs, const L
 }  // namespace
 
 Design ReadDesign(const config::File& file, const std::array<double, 7>& friction, const std::string& name,
-                  const std::string& geo_reference, const StartWish& start, const Map& start_map) {
+                  const std::string& geo_reference, const StartWish& start, const Map& start_map, const TerrainIsAt& terrain_is_at) {
   Design design;
   const Files files(file);
   Context context;
@@ -292,6 +292,7 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
   if (!sound()) return design;
   JoinRoads(links, designs, layout);
   design.laid = LayOn(designs, layout);
+  for (std::size_t i = 0; i < roads.size(); ++i) CheckFits(i, designs[i], roads[i], layout.pieces, terrain_is_at);
   if (start_map.Has("x_m") == false) design.start = FindStart(start, start_map, designs, layout);
   if (!sound()) return design;
   layout.network.name = name;

@@ -9,6 +9,7 @@
 #include "common/base/result.hpp"
 #include "common/config/config.hpp"
 #include "common/design/junction_surface.hpp"
+#include "common/design/road_fit.hpp"
 #include "common/network/laid.hpp"
 #include "common/network/network.hpp"
 
@@ -38,8 +39,9 @@ struct Design {
 };
 
 // Reads 'include', 'rule', 'materials', 'templates', 'roads' and 'junctions' of a file and of all files that it includes.
-// `friction` by surface. The start, where it is on a road, must be on a lane outside of the junctions; `start_map` has it.
+// `friction` by surface. The start, where it is on a road, must be on a lane outside of the junctions; `start_map` has it. Roads
+// must keep within the terrain, and clear of themselves (CheckFits).
 Design ReadDesign(const config::File& file, const std::array<double, 7>& friction, const std::string& name,
-                  const std::string& geo_reference, const StartWish& start, const config::Map& start_map);
+                  const std::string& geo_reference, const StartWish& start, const config::Map& start_map, const TerrainIsAt& terrain_is_at = {});
 
 }  // namespace rodeira::design

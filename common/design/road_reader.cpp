@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/suggest.hpp"
@@ -117,19 +118,26 @@ std::optional<network::Road> BuildRoad(const RoadDesign& design) {
 }
 
 void CheckBends(const RoadDesign& design, const network::Road& road) {
-  const int steps = static_cast<int>(std::ceil(road.length_m()));
   const int left_lane = static_cast<int>(design.spec.sections[0].left.size());
   const int right_lane = -static_cast<int>(design.spec.sections[0].right.size());
   const geometry::CubicTable left = EdgeOf(design.spec, left_lane), right = EdgeOf(design.spec, right_lane);
-  for (int i = 0; i <= steps; ++i) {
-    const double s = road.length_m() * i / steps;
-    const double k = road.axis().Evaluate(s).curvature_1pm;
+  const auto folds = [&](double s, double k) {
     const double inner = k > 0.0 ? left.Value(s) : right.Value(s);
-    if (k * inner <= kSharpest) continue;
+    if (k * inner <= kSharpest) return false;
     design.map.Problem(design.map.Has("points") ? "points" : "axis",
                        fmt::format("the edge of road '{}' {:.2f} m to the {} folds at s = {:.0f} m: the bend there has a radius of {:.6g} m",
                                    design.spec.id, std::fabs(inner), k > 0.0 ? "left" : "right", s, 1.0 / std::fabs(k)));
-    return;
+    return true;
+  };
+  // Every metre, and at both ends of each element by its own formula, however short it is.
+  for (const geometry::PlanElement& element : design.elements) {
+    if (element.kind == geometry::PlanElement::Kind::kClothoid && folds(element.s_m, element.curvature_start_1pm)) return;
+    const int steps = std::max(1, static_cast<int>(std::ceil(element.length_m)));
+    for (int i = 0; i < steps; ++i) {
+      const double s = element.s_m + element.length_m * (i + 0.5) / steps;
+      if (folds(s, road.axis().Evaluate(s).curvature_1pm)) return;
+    }
+    if (folds(element.s_m + element.length_m, geometry::PlanAxis::End(element).curvature_1pm)) return;
   }
 }
 

@@ -65,6 +65,7 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   std::vector<JunctionReading> junctions;
   for (const Node& junction : root.Children("junction")) junctions.push_back(ReadJunction(junction));
   for (const Node& controller : root.Children("controller")) spec.controllers.push_back(ReadController(controller));
+  TellUnread(root);
   if (readings.empty()) root.Wrong("core.roads", "there is no <road> in the file");
   import.errors = source.errors;
   import.warnings.insert(import.warnings.end(), source.warnings.begin(), source.warnings.end());

@@ -61,6 +61,8 @@ network::Controller ReadController(const Node& controller);
 // Controllers that a junction names and that say no times take turns, in the junction's order: 20 s of green, 3 s of amber,
 // 2 s of red for all. Those of lights for people on foot alone stay dark.
 void TakeTurns(network::NetworkSpec& spec);
+// A warning for each kind of element or attribute that says something about the world and is passed over; at the first of them.
+void TellUnread(const Node& root);
 // In m/s from the attributes 'max' or 'speed' and 'unit'; infinite: no limit; nothing: not said.
 std::optional<double> ReadSpeed(const Node& speed, const char* attribute);
 

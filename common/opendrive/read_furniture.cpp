@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/suggest.hpp"
+#include "common/network/sign_kinds.hpp"
 #include "common/opendrive/read.hpp"
 
 namespace rodeira::opendrive {
@@ -15,6 +16,18 @@ std::vector<network::LaneValidity> ReadValidity(const Node& node) {
     validity.push_back({std::min(from, to), std::max(from, to)});
   }
   return validity;
+}
+
+// A sign of another catalogue, or a limit without its number, is no error: a plate stands there that nobody can read.
+void CheckSign(const Node& node, const network::Signal& signal) {
+  constexpr double kFlat_m = 0.05;  // what is no higher is paint
+  const bool painted = signal.type == "1000003" || (signal.height_m > 0.0 && signal.height_m <= kFlat_m);
+  if (signal.dynamic || painted || signal.type.empty() || signal.type == "-1") return;
+  const auto kind = network::SignKindOf(signal);
+  if (kind && (*kind != "speed_limit" || !network::SignNumberOf(signal).empty())) return;
+  const std::string what = kind ? "says no limit" : fmt::format("is none that is known (type '{}', subtype '{}', country '{}')", signal.type, signal.subtype, signal.country);
+  Source& source = node.source();
+  source.warnings.push_back({"road.signal.type", fmt::format("the sign '{}' {}: it is drawn as a grey plate", signal.id, what), node.line(), source.where.road, source.where.lane, source.where.s_m});
 }
 
 network::Signal ReadSignal(const Node& node) {
@@ -39,6 +52,7 @@ network::Signal ReadSignal(const Node& node) {
   signal.roll_rad = node.Number("roll", 0.0);
   signal.validity = ReadValidity(node);
   for (const Node& dependency : node.Children("dependency")) signal.depends_on.push_back(dependency.Text("id"));
+  CheckSign(node, signal);
   return signal;
 }
 

@@ -93,6 +93,15 @@ base::Status WriteLogical(const fs::path& folder, base::Digest content_hash, std
   return base::WriteWhole(folder / kLogicalManifest, std::string_view(text));
 }
 
+std::string LogicalContentHash(const fs::path& folder) {
+  constexpr std::string_view kKey = "\ncontent_hash: ";
+  const auto text = base::ReadText(folder / kLogicalManifest);
+  const std::size_t at = text ? text.value().find(kKey) : std::string::npos;
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + kKey.size();
+  return text.value().substr(begin, text.value().find('\n', begin) - begin);
+}
+
 std::vector<base::Error> LogicalProblems(const fs::path& folder) {
   const auto text = base::ReadText(folder / kLogicalManifest);
   if (!text) return {base::WrongInput(fmt::format("there is no '{}'; a folder that `rodeira world build` wrote was expected", kLogicalManifest), folder.string())};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "common/base/hash.hpp"
@@ -20,6 +21,9 @@ base::Result<std::vector<std::filesystem::path>> CopyNamed(const std::filesystem
 
 // Writes `logical.txt`. files: from the folder, in any order, once each.
 base::Status WriteLogical(const std::filesystem::path& folder, base::Digest content_hash, std::vector<std::filesystem::path> files);
+
+// The world's content hash as `logical.txt` says it; empty where there is none.
+std::string LogicalContentHash(const std::filesystem::path& folder);
 
 // What is not as it was written; a folder without `logical.txt` is a problem. Empty: every file is there, byte for byte.
 std::vector<base::Error> LogicalProblems(const std::filesystem::path& folder);

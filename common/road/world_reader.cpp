@@ -212,12 +212,21 @@ bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
   return true;
 }
 
+// Where roads may lie: on the heights of a file, or on hills, which are made when the roads are known; on a plane anywhere.
+design::TerrainIsAt TerrainOf(const Keys& keys) {
+  if (const auto grid = keys.spec.grid) return [grid](double x_m, double y_m) { return grid->At(x_m, y_m).inside; };
+  if (!keys.hills) return {};
+  const HillsSpec& hills = *keys.hills;
+  const double west = hills.west_m, south = hills.south_m, east = west + (hills.columns - 1) * hills.spacing_m, north = south + (hills.rows - 1) * hills.spacing_m;
+  return [=](double x_m, double y_m) { return x_m >= west && x_m <= east && y_m >= south && y_m <= north; };
+}
+
 WorldReading ReadSecond(const config::File& file, Keys keys) {
   const Map root = file.root();
   WorldReading reading;
   if (keys.elevation_file && !PutTerrain(keys, std::span<const Road>(), reading)) return reading;
   const std::string projection = keys.hills ? keys.hills->projection_wkt : keys.spec.grid != nullptr ? keys.spec.grid->projection_wkt() : "";
-  design::Design design = design::ReadDesign(file, keys.spec.friction, keys.spec.name, projection, keys.start, root.OptionalChild("start"));
+  design::Design design = design::ReadDesign(file, keys.spec.friction, keys.spec.name, projection, keys.start, root.OptionalChild("start"), TerrainOf(keys));
   reading.warnings = std::move(design.warnings);
   reading.missing = std::move(keys.missing);
   std::move(design.missing.begin(), design.missing.end(), std::back_inserter(reading.missing));

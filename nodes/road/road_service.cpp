@@ -25,7 +25,7 @@ class RoadService final : public launch::Service {
     info.start_x_m(summary.start_x_m);
     info.start_y_m(summary.start_y_m);
     info.start_heading_rad(summary.start_heading_rad);
-    info.roads(static_cast<std::uint32_t>(world_->roads().size()));
+    info.roads(world_->network() == nullptr ? 0u : static_cast<std::uint32_t>(world_->network()->roads().size()));  // what junctions cut, and ways through them, count each
     return idl::Encode(info);
   }
 

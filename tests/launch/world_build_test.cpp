@@ -220,7 +220,7 @@ TEST(WorldBuild, ABuiltFolderIsListedAndMayBeMoved) {
   check.world_file = moved.string();
   testing::internal::CaptureStdout();
   EXPECT_EQ(World(check), 0);
-  EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("every file of 'logical.txt' is as it was written"));
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("every file of 'logical.txt' and 'visual.txt' is as it was written"));
   ASSERT_TRUE(base::WriteWhole(moved / "track.csv", base::ReadText(moved / "track.csv").value() + "\n").ok());
   fs::remove(moved / "worn.png");
   testing::internal::CaptureStderr();
@@ -231,6 +231,53 @@ TEST(WorldBuild, ABuiltFolderIsListedAndMayBeMoved) {
   testing::internal::CaptureStderr();
   EXPECT_EQ(World(check), 2);
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("there is no 'logical.txt'; a folder that `rodeira world build` wrote was expected"));
+}
+
+// What is seen is part of the folder: a tile that is broken or missing, a line that says nothing, tiles of another world, no list at all.
+TEST(WorldBuild, ABuiltFoldersTilesAreCheckedToo) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "w.yaml", out = folder.path() / "out";
+  const auto write = [&](int length_m) {
+    return base::WriteWhole(file, "rodeira: world/2\nname: w\nground: {kind: plane}\nroads:\n  - id: a\n    axis: [line: {length_m: " + std::to_string(length_m) + "}]\n    section: {template: rural}\n");
+  };
+  ASSERT_TRUE(write(40).ok());
+  ASSERT_EQ(Build(file, out).status, 0);
+  EXPECT_EQ(Asked("check", out).errors, "");
+  EXPECT_THAT(Asked("check", out).out, HasSubstr(": every file of 'logical.txt' and 'visual.txt' is as it was written\n"));
+  const auto problem = [&](const fs::path& where, const std::string& what) { return "rodeira: " + where.string() + ": " + what + "\n"; };
+
+  const fs::path tile = out / "tiles/0_0_1.osgb", other = out / "tiles/0_0_2.osgb", manifest = out / "visual.txt";
+  std::string bytes = base::ReadText(tile).value();
+  bytes[bytes.size() / 2] ^= 1;
+  ASSERT_TRUE(base::WriteWhole(tile, bytes).ok());
+  const Said broken = Asked("check", out);
+  EXPECT_EQ(broken.status, 2);
+  EXPECT_EQ(broken.errors, problem(tile, "this file of what is seen is not as it was written"));
+  fs::remove(other);
+  const Said missing = Asked("check", out);
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_EQ(missing.errors, broken.errors + problem(other, "this file of what is seen is missing"));
+  EXPECT_EQ(missing.out, "");
+  ASSERT_EQ(Build(file, out).status, 0);  // both are made anew
+  EXPECT_EQ(Asked("check", out).status, 0);
+
+  const std::string list = base::ReadText(manifest).value();
+  const std::size_t line = list.find(" tiles/0_0_1.osgb") - 33, end = list.find('\n', line);
+  std::string odd = list;
+  odd[line] = 'x';  // no digit: what the line names would go unseen
+  ASSERT_TRUE(base::WriteWhole(manifest, odd).ok());
+  EXPECT_EQ(Asked("check", out).errors, problem(manifest, "the line '" + odd.substr(line, end - line) + "' names no file with its hash"));
+  fs::remove(manifest);
+  const Said unlisted = Asked("check", out);
+  EXPECT_EQ(unlisted.status, 2);
+  EXPECT_EQ(unlisted.errors, problem(out, "there is 'world.osgb' but no 'visual.txt', which names every file of what is seen with its hash"));
+
+  // The tiles of one world beside the roads of another.
+  ASSERT_TRUE(write(50).ok());
+  ASSERT_EQ(Build(file, out).status, 0);
+  EXPECT_EQ(Asked("check", out).status, 0);
+  ASSERT_TRUE(base::WriteWhole(manifest, list).ok());
+  EXPECT_THAT(Asked("check", out).errors, testing::StartsWith("rodeira: " + manifest.string() + ": it was written from a world whose content hash is '"));
 }
 
 // On a plane too the world file comes along: bumps and patches stand nowhere else.

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/network/marking.hpp"
 #include "tests/common/opendrive/sample.hpp"
@@ -232,6 +234,39 @@ TEST(OpenDrive, AnUnknownTypeOfObjectIsToldWithTheNearestRightOne) {
   ASSERT_EQ(import.warnings.size(), 1u);
   EXPECT_EQ(import.warnings[0].Text(), "road.object.type: road 1, s 10: the object '7' has the type 'tre', which OpenDRIVE does not know; did you mean 'tree'?");
   EXPECT_GT(import.warnings[0].line, 0u);
+}
+
+// A plate that nobody can read is told of; what is known, hangs as a light, or is paint is not.
+TEST(OpenDrive, ASignThatIsNotKnownIsTold) {
+  RoadText road;
+  const auto sign = [](const std::string& id, const std::string& rest) { return "<signal id=\"" + id + "\" s=\"10\" t=\"-5\" " + rest + "/>\n"; };
+  road.more = "<signals>" + sign("a", R"(type="274" subtype="-1" country="DE" value="70" unit="km/h")") + sign("b", R"(type="274" subtype="57" country="OpenDRIVE")") + sign("c", R"(type="1000001" subtype="-1" dynamic="yes")") +
+              sign("d", R"(type="294" subtype="-1")") + sign("e", R"(type="1000003" subtype="-1")") + sign("f", R"(type="-1" subtype="-1")") + sign("g", R"(type="777" subtype="-1" height="0.03")") +
+              sign("w", R"(type="c" subtype="31" country="se")") + sign("x", R"(type="777" subtype="-1" country="DE")") + sign("y", R"(type="103" subtype="30")") + sign("z", R"(type="274" subtype="-1" country="DE")") + "</signals>";
+  const Import import = MustImport(Document(road.Text()));
+  ASSERT_EQ(import.warnings.size(), 4u);
+  EXPECT_EQ(import.warnings[0].Text(), "road.signal.type: road 1, s 10: the sign 'w' is none that is known (type 'c', subtype '31', country 'se'): it is drawn as a grey plate");
+  EXPECT_EQ(import.warnings[1].Text(), "road.signal.type: road 1, s 10: the sign 'x' is none that is known (type '777', subtype '-1', country 'DE'): it is drawn as a grey plate");
+  EXPECT_THAT(import.warnings[2].Text(), HasSubstr("the sign 'y' is none that is known (type '103', subtype '30'"));
+  EXPECT_EQ(import.warnings[3].Text(), "road.signal.type: road 1, s 10: the sign 'z' says no limit: it is drawn as a grey plate");
+  EXPECT_GT(import.warnings[0].line, 0u);
+}
+
+// What is passed over is said once a kind, at the first, with how often.
+TEST(OpenDrive, WhatIsNotReadIsTold) {
+  RoadText road;
+  road.more = "<objects><object id=\"7\" type=\"parkingSpace\" s=\"10\" t=\"8\"><repeat s=\"1\" length=\"9\" distance=\"3\" lengthStart=\"2\" lengthEnd=\"3\"/>\n<parkingSpace access=\"all\"/><markings><marking side=\"left\"/></markings></object>\n"
+              "<object id=\"8\" type=\"parkingSpace\" s=\"20\" t=\"8\"><parkingSpace access=\"all\"/></object></objects>\n"
+              "<signals><signal id=\"1\" s=\"5\" t=\"-4\" type=\"206\" subtype=\"-1\"><positionInertial x=\"1\" y=\"2\" z=\"3\" hdg=\"0\"/></signal></signals>";
+  const std::string text = Document(road.Text() + "<junctionGroup id=\"1\" type=\"roundabout\"/>\n");
+  const auto line_of = [&](const std::string& what) { return static_cast<std::size_t>(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(what)), '\n')); };
+  const Import import = MustImport(text);
+  std::vector<std::pair<std::string, std::size_t>> said;
+  for (const Finding& warning : import.warnings) said.emplace_back(warning.Text(), warning.line);
+  EXPECT_THAT(said, testing::UnorderedElementsAre(
+                        std::pair(std::string("not_read: the attribute 'lengthStart' of <repeat> is not read"), line_of("<repeat")), std::pair(std::string("not_read: <parkingSpace> of <object> is not read (2 times)"), line_of("<parkingSpace")),
+                        std::pair(std::string("not_read: <markings> of <object> is not read"), line_of("<markings")), std::pair(std::string("not_read: <positionInertial> of <signal> is not read"), line_of("<positionInertial")),
+                        std::pair(std::string("not_read: <junctionGroup> of <OpenDRIVE> is not read"), line_of("<junctionGroup"))));
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <sstream>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "common/base/files.hpp"
 #include "common/base/random.hpp"
@@ -185,7 +187,7 @@ TEST_P(NetworkExport, WhatStandsThereComesBack) {
     EXPECT_EQ(a.crg.size(), b.crg.size());
     EXPECT_EQ(a.unevenness.size(), b.unevenness.size());
   }
-  EXPECT_GT(things, 3u);
+  EXPECT_GT(things, std::string(GetParam()) == "ring.yaml" ? 0u : 3u);
 }
 
 TEST_P(NetworkExport, JunctionsAndLightsComeBack) {
@@ -237,19 +239,34 @@ std::string Attribute(const std::string& text, std::size_t at, const std::string
   return text.substr(begin + name.size() + 3, text.find('"', begin + name.size() + 3) - begin - name.size() - 3);
 }
 
-// Of an edge, or of all that a road closed in itself is split into (ID#0, ID#1 …). A straight one has no shape of its own: it goes from node to node.
+// The first and the last point of a shape.
+std::pair<Eigen::Vector2d, Eigen::Vector2d> EndsOf(const std::string& shape) {
+  const auto point = [](const std::string& word) {
+    Eigen::Vector2d p = Eigen::Vector2d::Zero();
+    std::sscanf(word.c_str(), "%lf,%lf", &p.x(), &p.y());
+    return p;
+  };
+  return {point(shape.substr(0, shape.find(' '))), point(shape.substr(shape.rfind(' ') + 1))};
+}
+
+// Of an edge, or of all that a road closed in itself is split into (ID#0, ID#1 …), with the decimetre that SUMO leaves between two such parts. A straight one has no
+// shape of its own: it goes from node to node.
 double LengthOfEdge(const std::string& edges, const std::string& nodes, const std::string& id) {
   const auto place = [&](const std::string& node) {
     const std::size_t at = nodes.find("<node id=\"" + node + "\"");
     return at == std::string::npos ? std::string() : Attribute(nodes, at, "x") + "," + Attribute(nodes, at, "y");
   };
   double length_m = 0.0;
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> parts;
   for (std::size_t at = edges.find("<edge id=\""); at != std::string::npos; at = edges.find("<edge id=\"", at + 1)) {
     const std::string own = Attribute(edges, at, "id");
     if (own != id && !own.starts_with(id + "#")) continue;
-    const std::string shape = Attribute(edges, at, "shape");
-    length_m += LengthOf(shape.empty() ? place(Attribute(edges, at, "from")) + " " + place(Attribute(edges, at, "to")) : shape);
+    std::string shape = Attribute(edges, at, "shape");
+    if (shape.empty()) shape = place(Attribute(edges, at, "from")) + " " + place(Attribute(edges, at, "to"));
+    length_m += LengthOf(shape);
+    parts.push_back(EndsOf(shape));
   }
+  for (std::size_t i = 0; parts.size() > 1 && i < parts.size(); ++i) length_m += (parts[(i + 1) % parts.size()].first - parts[i].second).norm();
   return length_m;
 }
 
@@ -281,10 +298,10 @@ TEST_P(NetworkExport, NetconvertFindsEveryEdgeWithItsLength) {
       ++found;
     }
   }
-  EXPECT_GT(found, 1);
+  EXPECT_GE(found, std::string(GetParam()) == "ring.yaml" ? 1 : 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, NetworkExport, testing::Values("haste.yaml", "motorway.yaml", "flat.yaml", "lights.yaml", "example/world.yaml"),
+INSTANTIATE_TEST_SUITE_P(All, NetworkExport, testing::Values("haste.yaml", "motorway.yaml", "flat.yaml", "lights.yaml", "n222.yaml", "ring.yaml", "example/world.yaml"),
                          [](const auto& file) { return std::string(file.param).substr(0, std::string(file.param).find_first_of("./")); });
 
 }  // namespace

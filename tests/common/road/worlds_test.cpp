@@ -2,8 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -12,6 +16,7 @@
 #include "common/road/road_chains.hpp"
 #include "common/road/world.hpp"
 #include "common/road/world_report.hpp"
+#include "tests/launch/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::road {
@@ -151,6 +156,84 @@ TEST(Haste, IsAsLongAndCrossedAsItSays) {
   }
   EXPECT_LE(sharpest, 1.0 / 249.0);
   EXPECT_LE(steepest, 0.045);
+}
+
+// The heights of a .bt file, read by its format's description (https://vterrain.org/Implementation/Formats/BT.html) and by nothing of ours.
+struct RawHeights {
+  std::int32_t columns = 0, rows = 0;
+  double west_m = 0.0, east_m = 0.0, south_m = 0.0, north_m = 0.0;
+  std::vector<double> z_m;  // columns from west to east, each from south to north
+
+  double At(int column, int row) const { return z_m[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row)]; }
+};
+RawHeights ReadRaw(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::array<char, 256> header{};
+  in.read(header.data(), header.size());
+  EXPECT_EQ(std::string(header.data(), 9), "binterr1.");
+  const auto read = [&](std::size_t at, auto& value) { std::memcpy(&value, header.data() + at, sizeof value); };
+  RawHeights raw;
+  std::int16_t bytes = 0, real = 0;
+  float scale = 0.0F;
+  read(10, raw.columns), read(14, raw.rows), read(18, bytes), read(20, real), read(28, raw.west_m), read(36, raw.east_m), read(44, raw.south_m), read(52, raw.north_m), read(62, scale);
+  EXPECT_TRUE((bytes == 2 || bytes == 4) && (real == 0 || bytes == 4));
+  for (std::int64_t i = 0; i < std::int64_t{raw.columns} * raw.rows; ++i) {
+    std::array<char, 4> cell{};
+    in.read(cell.data(), bytes);
+    double z = 0.0;
+    if (real != 0) z = std::bit_cast<float>(cell);
+    else if (bytes == 4) z = std::bit_cast<std::int32_t>(cell);
+    else z = std::bit_cast<std::int16_t>(std::array{cell[0], cell[1]});
+    raw.z_m.push_back(z * (scale == 0.0F ? 1.0 : static_cast<double>(scale)));
+  }
+  EXPECT_TRUE(in.good());
+  return raw;
+}
+
+// `crater.yaml` as it stands, beside the elevation file that it names.
+TEST(Crater, IsTheElevationFileBesideIt) {
+  const std::filesystem::path elevations = std::filesystem::path(SourceDir()) / "../shared/data/road/bt/crater_0513.bt";
+  if (!std::filesystem::exists(elevations)) GTEST_SKIP() << elevations << " is not on this machine";
+  const front::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "crater.yaml";
+  std::filesystem::copy_file(std::filesystem::path(SourceDir()) / "configs/worlds/crater.yaml", file);
+  std::filesystem::create_symlink(std::filesystem::canonical(elevations), folder.path() / elevations.filename());
+  for (const auto& problem : WorldProblems(file)) ADD_FAILURE() << problem.Text();
+  const auto loaded = World::Load(file);
+  ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
+  const World& world = *loaded.value();
+  const RawHeights raw = ReadRaw(elevations);
+  ASSERT_EQ(raw.columns, 513);
+  ASSERT_EQ(raw.rows, 513);
+  const double step_x = (raw.east_m - raw.west_m) / 512.0, step_y = (raw.north_m - raw.south_m) / 512.0;
+  const auto suelo = world.MakeGround();
+  const auto expect = [&](double column, double row, double z_m) {
+    const terrain::GroundPoint at = suelo->At(raw.west_m + column * step_x, raw.south_m + row * step_y);
+    ASSERT_TRUE(at.inside);
+    EXPECT_NEAR(at.z_m, z_m, 1e-6) << column << " " << row;
+    EXPECT_EQ(at.surface, terrain::Surface::kSoil);
+    EXPECT_EQ(at.friction, 0.65);
+  };
+  int uneven = 0;
+  for (int column = 3; column < 510; column += 17) {
+    for (int row = 5; row < 510; row += 13) {
+      const double sw = raw.At(column, row), se = raw.At(column + 1, row), nw = raw.At(column, row + 1), ne = raw.At(column + 1, row + 1);
+      expect(column, row, sw);
+      expect(column + 0.5, row, 0.5 * (sw + se));
+      expect(column, row + 0.5, 0.5 * (sw + nw));
+      expect(column + 0.5, row + 0.5, 0.5 * (se + nw));  // the cell is split from its south-east to its north-west corner
+      expect(column + 0.25, row + 0.25, sw + 0.25 * (se - sw) + 0.25 * (nw - sw));
+      expect(column + 0.75, row + 0.75, ne + 0.25 * (nw - ne) + 0.25 * (se - ne));
+      uneven += std::fabs(sw + ne - se - nw) > 0.1;
+    }
+  }
+  EXPECT_GT(uneven, 100) << "so that the diagonal matters";
+  for (const auto& [column, row] : {std::pair(0, 0), std::pair(512, 0), std::pair(0, 512), std::pair(512, 512)}) expect(column, row, raw.At(column, row));  // all edges belong to it
+  EXPECT_FALSE(suelo->At(raw.west_m - 0.01, raw.south_m + 100.0).inside);
+  EXPECT_FALSE(suelo->At(raw.east_m + 0.01, raw.south_m + 100.0).inside);
+  // The car starts in its middle.
+  EXPECT_NEAR(world.start().x_m, 0.5 * (raw.west_m + raw.east_m), 1e-6);
+  EXPECT_NEAR(world.start().y_m, 0.5 * (raw.south_m + raw.north_m), 1e-6);
 }
 
 class WorldsOfTheProject : public testing::TestWithParam<const char*> {};

@@ -10,7 +10,10 @@
 
 #include "common/base/random.hpp"
 #include "common/dds/remote_ground.hpp"
+#include "idl/codec.hpp"
+#include "idl/messages.hpp"
 #include "idl/topics.hpp"
+#include "tests/launch/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::nodes {
@@ -53,6 +56,30 @@ class Wire final : public dds::Participant {
   launch::Service& service_;
   dds::OnPayload on_payload_;
 };
+
+msg::WorldInfo AnnouncedOf(const std::string& world) {
+  auto launch = launch::Launch::Parse("rodeira: launch/1\nworld: " + world + "\nnodes:\n  road: {kind: road}\n  other: {kind: empty}\n", "made.yaml", {});
+  EXPECT_TRUE(launch.ok()) << launch.error().Text();
+  Context context(launch.value(), 0);
+  auto service = MakeRoadService(context);
+  EXPECT_TRUE(service.ok()) << service.error().Text();
+  return idl::Decode<msg::WorldInfo>(service.value()->Announcement()).value();
+}
+
+// What the server announces of a world, whichever kind of file it is: counted by hand.
+TEST(RoadServerAnnounces, TheRoadsOfEveryKindOfWorld) {
+  const front::TemporaryFolder folder;
+  const std::string straight = "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"60\"><line/></geometry></planView><lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center>"
+                               "<right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>\n";
+  const auto open_drive = folder.Write("two.xodr", "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" length=\"60\" junction=\"-1\">" + straight +
+                                                   "<road id=\"2\" length=\"60\" junction=\"-1\">" + straight + "</OpenDRIVE>\n");
+  EXPECT_EQ(AnnouncedOf(open_drive.string()).roads(), 2u);
+  EXPECT_EQ(AnnouncedOf(SourceDir() + "/tests/data/n222_version1.yaml").roads(), 1u);
+  const msg::WorldInfo ring = AnnouncedOf(SourceDir() + "/configs/worlds/ring.yaml");  // of version 2
+  EXPECT_EQ(ring.roads(), 1u);
+  EXPECT_EQ(ring.name(), "ring");
+  EXPECT_EQ(AnnouncedOf(SourceDir() + "/configs/worlds/plane.yaml").roads(), 0u);
+}
 
 bool Same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 bool Same(const terrain::GroundPoint& a, const terrain::GroundPoint& b) {
