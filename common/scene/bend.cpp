@@ -8,12 +8,13 @@ namespace {
 
 constexpr double kInside_m = 0.02;  // tangents are asked so far from the ends, which may lie on an edge themselves
 constexpr double kShort_m = 1.0;    // shorter ways are asked in their middle alone
+constexpr double kStraight_m = 10.0;  // and so are those whose ends say that they are straight
 constexpr double kSameSlope = 1e-6;
 
 }  // namespace
 
 std::optional<double> BendBetween(const road::World& world, const Eigen::Vector2d& a_W, double a_z_m, const Eigen::Vector2d& b_W, double b_z_m,
-                                  const BendRange& range) {
+                                  const BendRange& range, bool straight_ends) {
   const double length_m = (b_W - a_W).norm();
   if (length_m < 4.0 * range.margin_m) return std::nullopt;
   const auto at = [&](double part) {
@@ -25,7 +26,7 @@ std::optional<double> BendBetween(const road::World& world, const Eigen::Vector2
     return ground.inside ? std::fabs(ground.z_m - (a_z_m + part * (b_z_m - a_z_m))) : 0.0;
   };
   double worst_m = off(0.5), worst_part = 0.5;
-  if (worst_m <= range.tolerance_m && length_m > kShort_m) {  // an S is straight in its middle
+  if (worst_m <= range.tolerance_m && length_m > (straight_ends ? kStraight_m : kShort_m)) {  // an S is straight in its middle
     for (const double part : {0.25, 0.75}) {
       if (const double m = off(part); m > worst_m) worst_m = m, worst_part = part;
     }

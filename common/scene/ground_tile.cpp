@@ -166,13 +166,14 @@ GroundTile GroundPlan::Build(const TileKey& key) const {
   const bool bare = IsBare(key);
   std::vector<partition::GridPoint> edge = edges_.Of(key);
   if (!bare) RefineEdges(world_, key, edge);  // the terrain's triangles have their points there
+  const TileChains lines(finest, key, world_);
   WovenTile woven;
   for (int level = 0; level < kGroundLevels; ++level) {
     const auto at = static_cast<std::size_t>(level);
     if (bare && level > 0 && land_.EveryPost(level) == 1) {  // as the level before
       tile.levels[at].ground = tile.levels[at - 1].ground;
     } else {
-      const auto segments = level == 0 || finest.empty() ? finest : Simplify(finest, key, world_, kRoadTolerances[at]);
+      const auto segments = level == 0 || finest.empty() ? finest : lines.Simplified(kRoadTolerances[at]);
       woven = WeaveTile(world_, PlanTile(world_, land_, key, segments, edge, level));
       tile.levels[at].ground = std::move(woven.meshes);
     }

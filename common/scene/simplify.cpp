@@ -13,10 +13,10 @@ using partition::GridSegment;
 
 bool OnEdge(const GridPoint& p) { return p.x == 0 || p.y == 0 || p.x == kTileSteps || p.y == kTileSteps; }
 
-class Chains {
+// The lines between knots: where other than two segments meet, and on the tile's edge.
+class Follower {
  public:
-  Chains(std::span<const GridSegment> segments, const TileKey& key, const road::World& world, const Tolerance& tolerance)
-      : key_(key), world_(world), tolerance_(tolerance) {
+  explicit Follower(std::span<const GridSegment> segments) {
     for (const GridSegment& segment : segments) {
       around_[segment.a].push_back(segment.b);
       around_[segment.b].push_back(segment.a);
@@ -34,11 +34,6 @@ class Chains {
   }
 
  private:
-  struct Point {
-    GridPoint p;
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-  };
-
   bool IsKnot(const GridPoint& p) {
     auto [found, fresh] = knots_.try_emplace(p, false);
     if (fresh) found->second = OnEdge(p) || around_[p].size() != 2;
@@ -60,53 +55,9 @@ class Chains {
       Drop(to, from);
       chain.push_back(to);
     } while (!IsKnot(chain.back()) && chain.back() != first);
-    Thin(chain);
+    lines_.push_back(std::move(chain));
   }
 
-  void Thin(const std::vector<GridPoint>& chain) {
-    std::vector<Point> points;
-    for (const GridPoint& p : chain) {
-      const Eigen::Vector2d at = ToWorld(key_, p);
-      points.push_back({p, {at.x(), at.y(), world_.At(at.x(), at.y()).z_m}});
-    }
-    std::vector<bool> kept(points.size(), false);
-    kept.front() = kept.back() = true;
-    if (chain.front() == chain.back() && points.size() > 2) kept[points.size() / 2] = true;
-    std::size_t from = 0;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      if (!kept[i]) continue;
-      Keep(points, from, i, kept);
-      from = i;
-    }
-    partition::GridLine line;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (kept[i]) line.push_back(points[i].p);
-    }
-    lines_.push_back(std::move(line));
-  }
-
-  void Keep(const std::vector<Point>& points, std::size_t from, std::size_t to, std::vector<bool>& kept) const {
-    const Eigen::Vector3d& a = points[from].at;
-    const Eigen::Vector3d along = points[to].at - a;
-    const double length2 = along.head<2>().squaredNorm();
-    double worst = 1.0;
-    std::size_t farthest = 0;
-    for (std::size_t i = from + 1; i < to; ++i) {
-      const Eigen::Vector3d d = points[i].at - a;
-      const double part = length2 > 0.0 ? std::clamp(d.head<2>().dot(along.head<2>()) / length2, 0.0, 1.0) : 0.0;
-      const double plan = (d - part * along).head<2>().norm(), height = std::fabs(d.z() - part * along.z());
-      const double error = std::max(plan / tolerance_.plan_m, height / tolerance_.height_m);
-      if (error > worst) worst = error, farthest = i;
-    }
-    if (farthest == 0) return;
-    kept[farthest] = true;
-    Keep(points, from, farthest, kept);
-    Keep(points, farthest, to, kept);
-  }
-
-  const TileKey& key_;
-  const road::World& world_;
-  Tolerance tolerance_;
   std::map<GridPoint, std::vector<GridPoint>> around_;
   std::map<GridPoint, bool> knots_;
   std::vector<partition::GridLine> lines_;
@@ -114,9 +65,56 @@ class Chains {
 
 }  // namespace
 
-std::vector<GridSegment> Simplify(std::span<const GridSegment> segments, const TileKey& key, const road::World& world,
-                                  const Tolerance& tolerance) {
-  return partition::Node(Chains(segments, key, world, tolerance).Take());
+TileChains::TileChains(std::span<const GridSegment> segments, const TileKey& key, const road::World& world) {
+  for (const partition::GridLine& line : Follower(segments).Take()) {
+    Chain& chain = chains_.emplace_back();
+    for (const GridPoint& p : line) {
+      const Eigen::Vector2d at_W = ToWorld(key, p);
+      chain.push_back({p, {at_W.x(), at_W.y(), world.At(at_W.x(), at_W.y()).z_m}});
+    }
+  }
+}
+
+std::vector<GridSegment> TileChains::Simplified(const Tolerance& tolerance) const {
+  std::vector<partition::GridLine> lines;
+  for (const Chain& chain : chains_) lines.push_back(Thin(chain, tolerance));
+  return partition::Node(lines);
+}
+
+partition::GridLine TileChains::Thin(const Chain& chain, const Tolerance& tolerance) {
+  std::vector<bool> kept(chain.size(), false);
+  kept.front() = kept.back() = true;
+  if (chain.front().p == chain.back().p && chain.size() > 2) kept[chain.size() / 2] = true;
+  std::size_t from = 0;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    if (!kept[i]) continue;
+    Keep(chain, from, i, tolerance, kept);
+    from = i;
+  }
+  partition::GridLine line;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    if (kept[i]) line.push_back(chain[i].p);
+  }
+  return line;
+}
+
+void TileChains::Keep(const Chain& chain, std::size_t from, std::size_t to, const Tolerance& tolerance, std::vector<bool>& kept) {
+  const Eigen::Vector3d& a = chain[from].at_W;
+  const Eigen::Vector3d along = chain[to].at_W - a;
+  const double length2 = along.head<2>().squaredNorm();
+  double worst = 1.0;
+  std::size_t farthest = 0;
+  for (std::size_t i = from + 1; i < to; ++i) {
+    const Eigen::Vector3d d = chain[i].at_W - a;
+    const double part = length2 > 0.0 ? std::clamp(d.head<2>().dot(along.head<2>()) / length2, 0.0, 1.0) : 0.0;
+    const double plan = (d - part * along).head<2>().norm(), height = std::fabs(d.z() - part * along.z());
+    const double error = std::max(plan / tolerance.plan_m, height / tolerance.height_m);
+    if (error > worst) worst = error, farthest = i;
+  }
+  if (farthest == 0) return;
+  kept[farthest] = true;
+  Keep(chain, from, farthest, tolerance, kept);
+  Keep(chain, farthest, to, tolerance, kept);
 }
 
 }  // namespace rodeira::scene

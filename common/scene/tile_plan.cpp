@@ -20,6 +20,7 @@ constexpr int kSlopeRounds = 12;  // where cuts and fills are followed
 constexpr double kMiddle = 0.7;  // of what the sides may be off: within a triangle both come together
 // Cuts and fills, level by level: less than they may be off, for it is asked at few places.
 constexpr std::array<BendRange, kGroundLevels> kSlopes = {{{0.0023, 0.01}, {0.015, 0.02}, {0.075, 0.1}, {0.375, 0.5}}};
+constexpr double kFlat_m = 10.0;  // no longer side of a triangle whose corners may say that it is flat
 constexpr double kTerrainsRoom_m = 0.002;  // where the terrain's own triangles are kept no post is left out but as near to another point
 constexpr double kWithin_m = 1e-3;
 // In the middle of thinner triangles nothing is put: on roads, and on land.
@@ -47,7 +48,8 @@ class Planner {
       fixed_.push_back({a, b});
     }
     for (const auto& [a, b] : fixed_) plan_.left_out += !t.Fix(a, b);
-    kept_ = OwnLines() && land_.posts.HoldsAll(plan_.key);
+    whole_ = land_.posts.HoldsAll(plan_.key);
+    kept_ = OwnLines() && whole_;
     const bool slopes = land_.slopes.InTile(plan_.key), bare = kept_ && segments.empty() && !slopes;
     follows_slopes_ = world_.grid() != nullptr && (level_ == 0 || slopes);
     plan_.face_of = t.Faces();
@@ -164,10 +166,17 @@ class Planner {
     LevelsAt(world_, p_W, 1, levels_);
     return levels_.empty() ? 0.0 : levels_.front().z_m;
   }
-  double HeightWithin(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) {
+  // The highest ground, and how it rises.
+  struct Ground {
+    double z_m = 0.0;
+    Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  };
+  Ground GroundWithin(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) {
     LevelsWithin(world_, p_W, towards_W, 1, levels_);
-    return levels_.empty() ? 0.0 : levels_.front().z_m;
+    if (levels_.empty()) return {};
+    return {levels_.front().z_m, {levels_.front().slope_x, levels_.front().slope_y}};
   }
+  double HeightWithin(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) { return GroundWithin(p_W, towards_W).z_m; }
 
   // Puts points where a triangle, in its middle or at a quarter of a side, is too far from the ground. False where none is.
   bool MeetGround() {
@@ -178,7 +187,8 @@ class Planner {
       if (tried_[i] == triangles[i].corner) continue;
       tried_[i] = triangles[i].corner;
       const bool land = plan_.faces[plan_.face_of[i]].land;
-      if (land && kept_ && !SlopesTouch(triangles[i])) continue;  // it is SUELO's own
+      // Where it is SUELO's own there is nothing to do, and where it is followed more closely it is looked at then.
+      if (land && (SlopesTouch(triangles[i]) ? whole_ && follows_slopes_ : kept_)) continue;
       const bool thin = ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < (land ? kThinnestLand_m : kThinnestRoad_m)[level_];
       std::optional<Corners> corners;  // asked where they are needed
       const auto know = [&]() -> const Corners& { return corners ? *corners : corners.emplace(CornersOf(triangles[i], plan_.face_of[i], thin)); };
@@ -197,31 +207,34 @@ class Planner {
     Eigen::Vector2d middle_W;
     std::array<Eigen::Vector2d, 3> at;
     std::array<double, 3> z{};
+    std::array<Eigen::Vector2d, 3> slope;
   };
   Corners CornersOf(const Triangulation::Triangle& t, std::uint32_t face, bool thin) {
     Corners corners;
     corners.middle_W = ToWorld(plan_.key, Middle(t));
     for (std::size_t k = 0; k < 3; ++k) {
       corners.at[k] = ToWorld(plan_.key, plan_.triangles.points()[t.corner[k]]);
-      corners.z[k] = thin ? HeightWithin(corners.at[k], corners.middle_W) : CornerHeight(t.corner[k], face, corners.at[k], corners.middle_W);
+      const Ground ground = thin ? GroundWithin(corners.at[k], corners.middle_W) : CornerGround(t.corner[k], face, corners.at[k], corners.middle_W);
+      corners.z[k] = ground.z_m, corners.slope[k] = ground.slope;
     }
     return corners;
   }
 
   // Of a face at one of its points, asked from within the first triangle there.
-  double CornerHeight(std::uint32_t point, std::uint32_t face, const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) {
+  Ground CornerGround(std::uint32_t point, std::uint32_t face, const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) {
     if (first_known_.size() < plan_.triangles.points().size()) first_known_.resize(plan_.triangles.points().size(), kNone);
     for (std::uint32_t i = first_known_[point]; i != kNone; i = known_[i].next) {
-      if (known_[i].face == face) return known_[i].z_m;
+      if (known_[i].face == face) return known_[i].ground;
     }
-    const double z = HeightWithin(p_W, towards_W);
-    known_.push_back({face, first_known_[point], z});
+    const Ground ground = GroundWithin(p_W, towards_W);
+    known_.push_back({face, first_known_[point], ground});
     first_known_[point] = static_cast<std::uint32_t>(known_.size() - 1);
-    return z;
+    return ground;
   }
 
-  void CheckMiddle(const Triangulation::Triangle& t, double tolerance, const Corners& c, std::vector<GridPoint>& fresh) {
-    if (std::fabs(Height(c.middle_W) - (c.z[0] + c.z[1] + c.z[2]) / 3.0) > tolerance) fresh.push_back(Middle(t));
+  static bool IsOff(double middle_z_m, const Corners& c, double tolerance_m) { return std::fabs(middle_z_m - (c.z[0] + c.z[1] + c.z[2]) / 3.0) > tolerance_m; }
+  void CheckMiddle(const Triangulation::Triangle& t, double tolerance_m, const Corners& c, std::vector<GridPoint>& fresh) {
+    if (IsOff(Height(c.middle_W), c, tolerance_m)) fresh.push_back(Middle(t));
   }
 
   // In a world with a terrain land is followed as roads are, along every side between two of its triangles: toes of slopes and the terrain's
@@ -239,9 +252,10 @@ class Planner {
       const std::size_t before = fresh.size() + on_kept_.size();
       const Corners corners = CornersOf(triangles[i], plan_.face_of[i], false);
       FollowSides(triangles[i], plan_.face_of[i], corners, fresh);
-      // What bends within a triangle and crosses none of its sides.
-      if (fresh.size() + on_kept_.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < slope.margin_m) continue;
-      if (world_.At(corners.middle_W.x(), corners.middle_W.y()).inside) CheckMiddle(triangles[i], slope.tolerance_m, corners, fresh);
+      // What bends within a triangle and crosses none of its sides; not where it is small and its corners say that it is flat.
+      if (fresh.size() + on_kept_.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < slope.margin_m || IsFlat(corners)) continue;
+      const road::SurfacePoint middle = world_.At(corners.middle_W.x(), corners.middle_W.y());
+      if (middle.inside && IsOff(middle.z_m, corners, slope.tolerance_m)) fresh.push_back(Middle(triangles[i]));
     }
     for (const OnKept& on : on_kept_) {
       plan_.triangles.Release(on.a, on.b);
@@ -268,6 +282,20 @@ class Planner {
     return land_.slopes.Touch(plan_.key, low, high);
   }
 
+  // Whether the tangents at both ends of a side lie along it.
+  bool HasStraightEnds(const Corners& c, std::size_t k) const {
+    const std::size_t n = (k + 1) % 3;
+    const Eigen::Vector2d way = c.at[n] - c.at[k];
+    const double rise_m = c.z[n] - c.z[k], most_m = kSlopes[level_].tolerance_m;
+    return std::fabs(c.slope[k].dot(way) - rise_m) <= most_m && std::fabs(c.slope[n].dot(way) - rise_m) <= most_m;
+  }
+  bool IsFlat(const Corners& c) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if ((c.at[(k + 1) % 3] - c.at[k]).squaredNorm() > kFlat_m * kFlat_m || !HasStraightEnds(c, k)) return false;
+    }
+    return true;
+  }
+
   void FollowSides(const Triangulation::Triangle& t, std::uint32_t face, const Corners& c, std::vector<GridPoint>& fresh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t n = (k + 1) % 3;
@@ -280,7 +308,7 @@ class Planner {
         const Eigen::Vector2d within = kWithin_m * (c.middle_W - 0.5 * (p_W + q_W)).normalized();
         p_W += within, q_W += within;
       }
-      const auto part = BendBetween(world_, p_W, c.z[k], q_W, c.z[n], kSlopes[level_]);
+      const auto part = BendBetween(world_, p_W, c.z[k], q_W, c.z[n], kSlopes[level_], HasStraightEnds(c, k));
       const GridPoint p = plan_.triangles.points()[t.corner[k]], q = plan_.triangles.points()[t.corner[n]];
       if (!part) continue;
       const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + *part * (to - from))); };
@@ -314,6 +342,7 @@ class Planner {
   const road::World& world_;
   const Land& land_;
   std::size_t level_;
+  bool whole_ = false;           // the terrain is everywhere in the tile
   bool kept_ = false;            // beyond slopes the land is the terrain's own triangles
   bool follows_slopes_ = false;
   TilePlan plan_;
@@ -327,7 +356,7 @@ class Planner {
   struct Known {
     std::uint32_t face;
     std::uint32_t next;  // of the same point
-    double z_m;
+    Ground ground;
   };
   std::vector<Known> known_;
   std::vector<std::uint32_t> first_known_;  // by point

@@ -57,9 +57,26 @@ struct Land {
 TilePlan PlanTile(const road::World& world, const Land& land, const TileKey& key, std::span<const partition::GridSegment> segments,
                   std::span<const partition::GridPoint> edge, int level);
 
-// The same lines with fewer points, none farther from what it leaves out than the tolerance; ends, crossings and points on
-// the tile's edge stay.
-std::vector<partition::GridSegment> Simplify(std::span<const partition::GridSegment> segments, const TileKey& key,
-                                             const road::World& world, const Tolerance& tolerance);
+// A tile's lines, to be drawn with fewer points at coarser levels.
+class TileChains {
+ public:
+  // segments: noded.
+  TileChains(std::span<const partition::GridSegment> segments, const TileKey& key, const road::World& world);
+
+  // The same lines, noded, with fewer points, none farther from what it leaves out than the tolerance; ends, crossings and points on
+  // the tile's edge stay.
+  std::vector<partition::GridSegment> Simplified(const Tolerance& tolerance) const;
+
+ private:
+  struct Point {
+    partition::GridPoint p;
+    Eigen::Vector3d at_W = Eigen::Vector3d::Zero();  // on the ground
+  };
+  using Chain = std::vector<Point>;
+  static partition::GridLine Thin(const Chain& chain, const Tolerance& tolerance);
+  static void Keep(const Chain& chain, std::size_t from, std::size_t to, const Tolerance& tolerance, std::vector<bool>& kept);
+
+  std::vector<Chain> chains_;  // from a knot to the next one, or around
+};
 
 }  // namespace rodeira::scene

@@ -69,7 +69,7 @@ Correlation Correlate(const road::World& world, const std::vector<GroundTile>& t
   }
   Correlation result;
   if (triangles.empty()) return result;
-  for (int n = 0; n < 100 * count && result.asked < count; ++n) {
+  for (int n = 0; n < 500 * count && result.asked < count; ++n) {
     const Eigen::Vector3d p = PointIn(triangles, sums, seed, static_cast<std::uint64_t>(n));
     if (!point_counts(p)) continue;
     ++result.asked;

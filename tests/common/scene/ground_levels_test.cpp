@@ -50,8 +50,8 @@ void ExpectLevels(const std::string& name, const road::World& world, const std::
   const auto near = [&](const Mesh& mesh, std::size_t i) { return IsNearARoad(world, mesh, i); };
   for (std::size_t level = 1; level < kAsked.size(); ++level) {
     for (const auto& [kind, what] : {std::pair(Kind::kRoad, "roads"), std::pair(Kind::kVerge, "verges"), std::pair(Kind::kSlope, "slopes")}) {
-      const Correlation found = Correlate(world, tiles, Points(), 29, near, kAsked[level], [&, of = kind](const Eigen::Vector3d& p) { return KindAt(world, p) == of; });
-      EXPECT_EQ(found.asked, Points()) << name << ", level " << level << ", " << what;
+      const Correlation found = Correlate(world, tiles, Points() / 5, 29, near, kAsked[level], [&, of = kind](const Eigen::Vector3d& p) { return KindAt(world, p) == of; });
+      EXPECT_EQ(found.asked, Points() / 5) << name << ", level " << level << ", " << what;
       EXPECT_EQ(found.far, 0) << name << ", level " << level << ", " << what << ": worst " << found.worst_m << " m at " << found.where.transpose();
       EXPECT_LT(found.stepped, 0.01 * found.asked) << name << ", level " << level << ", " << what;
       std::printf("%s, level %zu, %s: %d points, %d farther off than %.2f m, %d at steps, worst %.4f m\n", name.c_str(), level, what, found.asked, found.far, kAsked[level].height_m, found.stepped,
@@ -147,10 +147,13 @@ TEST(GroundLevels, LinesOfASmallRadiusLieWhereTheyAreAskedTo) {
     std::size_t all = 0;
     for (std::size_t k = 0; k < radii_m.size(); ++k) {
       EXPECT_LE(worst_m[k], kInPlan_m[level]) << "level " << level << ", radius " << radii_m[k];
-      EXPECT_GE(seen[k], level < 2 ? 10u : 2u) << "level " << level << ", radius " << radii_m[k];
+      if (level < 3) {  // then lines are no longer nearer to their own circle than to the next one
+        EXPECT_GE(seen[k], level < 2 ? 10u : 4u) << "level " << level << ", radius " << radii_m[k];
+      }
       all += seen[k];
     }
     EXPECT_LT(all, before) << "level " << level;
+    EXPECT_GT(all, 20u) << "level " << level;
     before = all;
     std::printf("level %zu: %zu sides of lanes' edges, worst %.4f m from them\n", level, all, *std::max_element(worst_m.begin(), worst_m.end()));
   }

@@ -294,7 +294,9 @@ TEST_F(Database, LandWithoutRoadsIsWrittenFoundAndShown) {
     }
     EXPECT_GT(meet.corners, 1000u);
     EXPECT_LT(meet.worst_m, 1e-3);
-    if (name == "hills") EXPECT_NEAR(meet.area_m2, 1490.0 * 990.0, 1.0);
+    if (name == "hills") {
+      EXPECT_NEAR(meet.area_m2, 1490.0 * 990.0, 1.0);
+    }
     EXPECT_EQ(FindBuilt(folder_ / (name + ".yaml"), world).folder, folder_ / name);
     std::string text_of_another = text;
     const std::size_t number = text_of_another.find(name == "hills" ? "seed: 3" : "z_m: 1");
@@ -358,7 +360,7 @@ TEST_F(Database, TilesStandInATree) {
     for (int row = 0; row < 50; ++row) {
       osg::ref_ptr<osg::PagedLOD> tile = new osg::PagedLOD;
       tile->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-      tile->setCenter({256.0 * column, 256.0 * row, 5.0});
+      tile->setCenter(osg::Vec3d(256.0 * column, 256.0 * row, 5.0));
       tile->setRadius(350.0F);
       parts.push_back({{256.0 * column, 256.0 * row}, tile});
     }
