@@ -53,7 +53,11 @@ struct AgentDetail {
   double engine_rpm = 0.0, fuel_lph = 0.0;
   double fuel_used_l = 0.0;       // since it entered
   double target_speed_mps = 0.0;  // what its driver plans for here and now
-  Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // the point that it steers for
+  // The point that it steers for, ahead and to the left of B, and where its path leads beside it, from the car's heading, positive to the left:
+  // both go with the car, as what was said of it is held for a tenth of a second.
+  Eigen::Vector2d target_B = Eigen::Vector2d::Zero();
+  double path_turn_rad = 0.0;
+  Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // up to where it looks for what slows it
 };
 
 // A car of the traffic, or somebody on foot: B's origin is the middle of its footprint, between the axles, on the ground.

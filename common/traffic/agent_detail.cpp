@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/driver/steering.hpp"
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/traffic_model.hpp"
 
@@ -53,25 +52,33 @@ std::uint32_t TrafficModel::LightsOf(const AgentPose& pose) const {
 std::vector<AgentDetail> TrafficModel::Details() {
   std::vector<AgentDetail> details;
   details.reserve(poses_.size());
-  const driver::SteeringSettings steering;
   for (const AgentPose& pose : poses_) {
     const std::uint32_t id = pose.id;
     const Agent& agent = agents_[id];
     AgentDetail detail;
     detail.id = id;
     if (agent.on_road) {
-      FindStretches(id, SightOf(agent));
+      const double sight_m = SightOf(agent), rear_m = agent.o_m - HalfBase(id);
+      FindStretches(id, sight_m);
+      const Stretch& last = stretches_[id].back();
+      const double sees_m = std::min(agent.o_m + 0.5 * traits_[id].length_m + sight_m, last.end_m);
+      detail.look_ahead_W = graph()[last.track].curve.At(sees_m - last.zero_m).p_W.head<2>();
       std::vector<Piece> path = agent.path;
-      const double at = agent.o_m - HalfBase(id) + driver::PreviewDistance(steering, agent.speed_mps);
+      const double at = rear_m + SteeredWay_m(agent.speed_mps);
       Choice choice{agent.links, agent.leg};
       while (true) {
         const lanes::Track& track = graph()[path.back().track];
         if (at <= path.back().zero_m + track.length_m() || track.next.empty()) break;
         path.push_back(Onward(graph(), path, NextLink(id, path.back().track, choice), agent.speed_mps));
       }
-      detail.look_ahead_W = FrameAt(graph(), path, at).p_W.head<2>();
+      detail.target_W = FrameAt(graph(), path, at).p_W.head<2>();
+      const Eigen::Vector2d along = FrameAt(graph(), agent.path, rear_m).ahead_W;
+      detail.path_heading_rad = std::atan2(along.y(), along.x());
       detail.target_mps = std::min(Allowed(id).speed_mps * traits_[id].speed_factor, Cap_mps(id));
       if (const MotorsDriver* own = motors(id); own != nullptr && own->lanes > 0 && own->trip == agent.trip) {
+        const Eigen::Vector2d current = MotorsPoint(*own, own->checkpoint);
+        detail.target_W = MotorsPoint(*own, own->checkpoint + 1);
+        detail.path_heading_rad = std::atan2(detail.target_W.y() - current.y(), detail.target_W.x() - current.x());
         detail.look_ahead_W = MotorsLooksAt(id);
         detail.target_mps = own->stops || agent.brake_mps2 > 0.0 ? 0.0 : TurningSpeed_mps(MotorsTurn_rad(id, detail.look_ahead_W), std::min(kMotorsLimit_mps, Cap_mps(id)));
       }
@@ -81,7 +88,9 @@ std::vector<AgentDetail> TrafficModel::Details() {
       detail.fuel_mgps = full_ ? agent.fuel_mgps : FuelFlow_mgps(car, detail.driving);
       detail.fuel_used_mg = agent.fuel_mg;
     } else {  // struck: its engine stands, its wheels are locked
-      detail.look_ahead_W = pose.p_WB_W.head<2>();
+      detail.target_W = detail.look_ahead_W = pose.p_WB_W.head<2>();
+      const Eigen::Vector3d ahead_W = pose.q_WB * Eigen::Vector3d::UnitX();
+      detail.path_heading_rad = std::atan2(ahead_W.y(), ahead_W.x());
       detail.driving = {0.0, 1.0, 1.0, 0.0, 0};
     }
     details.push_back(detail);

@@ -53,6 +53,8 @@ base::Status FullCars::Place(std::uint32_t id, std::uint32_t body, const vehicle
   return {};
 }
 
+double SteeredWay_m(double speed_mps) { return std::max(kPreviewLeast_m, kPreview_s * speed_mps); }
+
 Eigen::Vector2d FullCars::RearAxle_W(std::uint32_t id) const {
   const Eigen::Vector3d ahead_W = cars_.car(id).body.q_WG * Eigen::Vector3d::UnitX();
   return (cars_.p_WB_W(id) - 0.5 * cars_.chassis(id).settings.body.wheelbase_m * ahead_W).head<2>();
@@ -78,7 +80,7 @@ double FullCars::SteeringWheel(std::uint32_t id, const PathAhead& path, double d
   const Eigen::Vector2d path_left(-path.ahead_W.y(), path.ahead_W.x());
   const double turned = std::atan2(ahead.dot(path_left), ahead.dot(path.ahead_W)) + slip;
   const double aside = (rear_W.head<2>() - path.rear_W).dot(path_left) - 0.25 * wheelbase * wheelbase * path.curvature_1pm;
-  const double way = std::max(kPreviewLeast_m, kPreview_s * v.norm());
+  const double way = SteeredWay_m(v.norm());
   const double curvature = path.curvature_1pm - 2.0 * turned / way - aside / (way * way);
   const double wanted = std::clamp(std::atan(wheelbase * curvature) * settings.steering.ratio, -settings.steering.limit_rad, settings.steering.limit_rad);
   const double move = (wanted - now) * dt_s / (kSmoothing_s + dt_s), most = kRate_radps * dt_s;

@@ -17,14 +17,6 @@ bool IsFile(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::filesystem::path FontFile() {
-  for (const char* folder : {"/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu-sans-fonts", "/usr/share/fonts/TTF"}) {
-    const std::filesystem::path file = std::filesystem::path(folder) / "DejaVuSans.ttf";
-    if (IsFile(file)) return file;
-  }
-  return {};
-}
-
 void UseFont(const std::filesystem::path& file) {
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
   if (IsFile(file) && fonts.AddFontFromFileTTF(file.c_str(), kHeight_px, nullptr, kLetters) != nullptr) return;

@@ -2,10 +2,11 @@
 
 #include <filesystem>
 
+#include "common/base/font_file.hpp"
+
 namespace rodeira::window {
 
-// Where DejaVu Sans is installed (Debian's fonts-dejavu-core); empty where it is not.
-std::filesystem::path FontFile();
+using base::FontFile;
 
 // The current Dear ImGui context writes with this file's letters: Latin, Greek, Cyrillic, punctuation and arrows; 13 pixels, as high as its own.
 // Its own, of which ASCII and Latin-1 are there, where there is no such file.

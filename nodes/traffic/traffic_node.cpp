@@ -80,6 +80,9 @@ msg::TrafficDetail ToWire(const traffic::AgentDetail& detail) {
   out.fuel_rate_kgps(Single(kKilograms * detail.fuel_mgps));
   out.fuel_used_kg(Single(kKilograms * detail.fuel_used_mg));
   out.target_speed_mps(Single(detail.target_mps));
+  out.target_x_m(Single(detail.target_W.x()));
+  out.target_y_m(Single(detail.target_W.y()));
+  out.path_heading_rad(Single(detail.path_heading_rad));
   out.look_ahead_x_m(Single(detail.look_ahead_W.x()));
   out.look_ahead_y_m(Single(detail.look_ahead_W.y()));
   out.gear(detail.driving.gear);

@@ -1,6 +1,9 @@
 #include "nodes/view/car_node.hpp"
 
+#include <osg/BlendFunc>
+#include <osg/Depth>
 #include <osg/NodeVisitor>
+#include <osg/PolygonOffset>
 
 #include <cmath>
 #include <numbers>
@@ -73,6 +76,21 @@ class MakeLamp final : public osg::NodeVisitor {
   osg::ref_ptr<osg::StateSet> state_;
 };
 
+// How the pulse lies over a model, whatever its own states: its shape once more in the pulse's colour, as dense as the share that is seen.
+osg::ref_ptr<osg::StateSet> PulseState(const osg::ref_ptr<osg::Uniform>& pulse) {
+  constexpr int kBin = 3;  // behind all that is solid, and the sky
+  constexpr osg::StateAttribute::OverrideValue kWhatever = osg::StateAttribute::OVERRIDE | osg::StateAttribute::ON;
+  osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+  // ftransform: the same depths, to the bit, as of what has no shaders.
+  state->setAttributeAndModes(ProgramOf("void main() { gl_Position = ftransform(); }", "uniform float pulse;\nvoid main() { gl_FragColor = vec4(1.0, 0.95, 0.55, 0.65 * pulse); }"), kWhatever);
+  state->addUniform(pulse, kWhatever);
+  state->setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA), kWhatever);
+  state->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, false), kWhatever);
+  state->setAttributeAndModes(new osg::PolygonOffset(-1.0F, -1.0F), kWhatever);
+  state->setRenderBinDetails(kBin, "RenderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
+  return state;
+}
+
 }  // namespace
 
 CarNode::CarNode(Look& look, scene::AgentKind kind, const scene::CarShape& shape, scene::Colour paint)
@@ -111,6 +129,11 @@ void CarNode::Wear(Look& look, osg::Node& model) {
   frame_->removeChildren(0, frame_->getNumChildren());
   body_->addChild(shadow_);
   body_->addChild(&model);
+  worn_pulse_ = new osg::Group;
+  worn_pulse_->setStateSet(PulseState(pulse_));
+  worn_pulse_->addChild(&model);
+  worn_pulse_->setNodeMask(0U);
+  body_->addChild(worn_pulse_);
   shape_.tread_out_m = 0.0;
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     wheels_[i]->removeChildren(0, wheels_[i]->getNumChildren());
@@ -140,7 +163,10 @@ void CarNode::Shine(const std::array<float, scene::kLamps>& glows) {
   for (unsigned i = 0; i < glows.size(); ++i) glows_->setElement(i, glows[i]);
 }
 
-void CarNode::Pulse(double share) { pulse_->set(static_cast<float>(share)); }
+void CarNode::Pulse(double share) {
+  pulse_->set(static_cast<float>(share));
+  if (worn_pulse_) worn_pulse_->setNodeMask(share > 0.0 ? kThrowsNone : 0U);
+}
 
 PersonNode::PersonNode(Look& look, double height_m, scene::Colour clothes)
     : leg_m_(scene::LegLength_m(height_m)), meshes_(scene::BuildPerson(height_m, clothes)), body_(new osg::MatrixTransform), pulse_(new osg::Uniform("pulse", 0.0F)) {

@@ -42,6 +42,7 @@ class CarNode {
   std::array<osg::ref_ptr<osg::MatrixTransform>, 4> wheels_;
   osg::ref_ptr<osg::Group> frame_;
   osg::ref_ptr<osg::Node> shadow_;
+  osg::ref_ptr<osg::Group> worn_pulse_;  // null: it wears no model
   osg::ref_ptr<osg::Uniform> glows_, pulse_;
 };
 

@@ -29,7 +29,8 @@ weather::Weather FromWire(const msg::WeatherState& message) {
           cut(message.clouds(), 0.0, 1.0), cut(message.hour(), 0.0, 24.0)};
 }
 
-scene::AgentDetail FromWire(const msg::TrafficDetail& message) {
+// Of an agent that stood there, heading so, when it was said.
+scene::AgentDetail FromWire(const msg::TrafficDetail& message, const Eigen::Vector2d& at_W, double heading_rad) {
   scene::AgentDetail detail;
   detail.throttle = std::clamp(Double(message.throttle()), 0.0, 1.0);
   detail.brake = std::clamp(Double(message.brake()), 0.0, 1.0);
@@ -39,18 +40,24 @@ scene::AgentDetail FromWire(const msg::TrafficDetail& message) {
   detail.fuel_lph = 3600.0 * Double(message.fuel_rate_kgps()) / kPetrol_kgpl;
   detail.fuel_used_l = Double(message.fuel_used_kg()) / kPetrol_kgpl;
   detail.target_speed_mps = Double(message.target_speed_mps());
+  const Eigen::Vector2d target_W(Double(message.target_x_m()), Double(message.target_y_m()));
+  detail.target_B = Eigen::Rotation2Dd(-heading_rad) * (target_W - at_W);
+  detail.path_turn_rad = std::remainder(Double(message.path_heading_rad()) - heading_rad, 2.0 * std::numbers::pi);
   detail.look_ahead_W = {Double(message.look_ahead_x_m()), Double(message.look_ahead_y_m())};
   return detail;
 }
 
-// The traffic of a node and what it says of it are two of its streams.
-void AddDetails(const lockstep::Roster& roster, lockstep::NodeIndex node, const msg::TrafficDetails& message, std::vector<scene::AgentPose>& agents) {
+// The traffic of a node and what it says of it are two of its streams; the second one was said so long ago, and the car has gone straight on since.
+void AddDetails(const lockstep::Roster& roster, lockstep::NodeIndex node, const msg::TrafficDetails& message, double age_s, std::vector<scene::AgentPose>& agents) {
   std::map<std::uint64_t, const msg::TrafficDetail*> by_id;
   for (const msg::TrafficDetail& detail : message.agents()) by_id[detail.id() & kIdBits] = &detail;
   for (scene::AgentPose& agent : agents) {
     if (roster.source(static_cast<lockstep::SourceIndex>(agent.id >> 48)).node != node) continue;
     const auto found = by_id.find(agent.id >> 24 & kIdBits);
-    if (found != by_id.end()) agent.detail = FromWire(*found->second);
+    if (found == by_id.end()) continue;
+    const Eigen::Vector3d ahead_W = agent.q_WB * Eigen::Vector3d::UnitX();
+    const Eigen::Vector2d at_W = (agent.p_WB_W - age_s * agent.speed_mps * ahead_W).head<2>();
+    agent.detail = FromWire(*found->second, at_W, std::atan2(ahead_W.y(), ahead_W.x()));
   }
 }
 
@@ -179,7 +186,7 @@ base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep:
       AppendAgents(message.value(), source, moment.agents);
     }
   }
-  for (const auto& [node, said] : details) AddDetails(roster, node, said, moment.agents);
+  for (const auto& [node, said] : details) AddDetails(roster, node, said, static_cast<double>(moment.time_ns - said.header().time_ns()) * 1e-9, moment.agents);
   return moment;
 }
 

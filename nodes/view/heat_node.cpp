@@ -10,8 +10,9 @@ namespace rodeira::view {
 namespace {
 
 constexpr unsigned kUnit = 4;  // of textures; noise, faces and the sun's maps have those before it
-constexpr float kLeft_px = 18.0F, kWidth_px = 380.0F, kBarHeight_px = 14.0F, kText_px = 17.0F, kHeight_px = 72.0F, kGap_px = 10.0F;
-constexpr float kFromTop_px = 120.0F;  // below the lines of help and notes
+// In the panels' units.
+constexpr float kLeft = 18.0F, kWidth = 380.0F, kBarHeight = 14.0F, kText = 17.0F, kHeight = 72.0F, kGap = 10.0F;
+constexpr float kFromTop = 120.0F;  // below the lines of help and notes
 
 osg::Vec4 Of(scene::Colour colour, float share) {
   return {static_cast<float>(colour.red) / 255.0F, static_cast<float>(colour.green) / 255.0F, static_cast<float>(colour.blue) / 255.0F, share};
@@ -43,13 +44,13 @@ HeatNode::HeatNode(osg::Group& overlay, osg::StateSet& state) : squares_(MakeSqu
   for (std::size_t i = 0; i < kSteps; ++i) {
     bar_[i] = std::make_unique<Boxes>(overlay, Of(scene::HeatColour((static_cast<double>(i) + 0.5) / kSteps), 1.0F), 1);
   }
-  title_ = AddText(overlay, kText_px, osgText::TextBase::LEFT_BASE_LINE);
-  low_ = AddText(overlay, kText_px, osgText::TextBase::LEFT_BASE_LINE);
-  middle_ = AddText(overlay, kText_px, osgText::TextBase::CENTER_BASE_LINE);
-  high_ = AddText(overlay, kText_px, osgText::TextBase::RIGHT_BASE_LINE);
+  title_ = AddText(overlay, kText, osgText::TextBase::LEFT_BASE_LINE);
+  low_ = AddText(overlay, kText, osgText::TextBase::LEFT_BASE_LINE);
+  middle_ = AddText(overlay, kText, osgText::TextBase::CENTER_BASE_LINE);
+  high_ = AddText(overlay, kText, osgText::TextBase::RIGHT_BASE_LINE);
 }
 
-void HeatNode::Show(osg::StateSet& state, const std::shared_ptr<const HeatPicture>& heat, int height_px) {
+void HeatNode::Show(osg::StateSet& state, const std::shared_ptr<const HeatPicture>& heat, const PanelSize& size) {
   const bool shown = heat != nullptr && heat->raster.columns > 0;
   if (shown && heat != laid_) Lay(state, heat->raster);
   laid_ = heat;
@@ -60,7 +61,7 @@ void HeatNode::Show(osg::StateSet& state, const std::shared_ptr<const HeatPictur
     state.removeDefine("HEAT");
     state.removeTextureAttribute(kUnit, squares_.get());
   }
-  ShowLegend(heat.get(), static_cast<float>(height_px) - kFromTop_px);
+  ShowLegend(heat.get(), size.height - kFromTop);
 }
 
 void HeatNode::Lay(osg::StateSet& state, const scene::HeatRaster& raster) {
@@ -81,7 +82,7 @@ void HeatNode::SetEye(osg::StateSet& state, const osg::Matrixd& view) const {
   state.getOrCreateUniform("eye_to_heat", osg::Uniform::FLOAT_MAT4)->set(osg::Matrixd::inverse(view) * world_to_squares_);
 }
 
-void HeatNode::ShowLegend(const HeatPicture* heat, float high_px) {
+void HeatNode::ShowLegend(const HeatPicture* heat, float high) {
   for (osgText::Text* text : {title_.get(), low_.get(), middle_.get(), high_.get()}) text->setNodeMask(heat != nullptr ? ~0U : 0U);
   if (heat == nullptr) {
     ground_.Set({});
@@ -89,14 +90,14 @@ void HeatNode::ShowLegend(const HeatPicture* heat, float high_px) {
     return;
   }
   const HeatLegend legend = LegendOf(*heat);
-  const float low = high_px - kHeight_px, left = kLeft_px + kGap_px, width = kWidth_px - 2.0F * kGap_px, bar = low + 28.0F;
-  ground_.Set({{kLeft_px, low, kLeft_px + kWidth_px, high_px}});
+  const float low = high - kHeight, left = kLeft + kGap, width = kWidth - 2.0F * kGap, bar = low + 28.0F;
+  ground_.Set({{kLeft, low, kLeft + kWidth, high}});
   for (std::size_t i = 0; i < kSteps; ++i) {
     const float part = width / static_cast<float>(kSteps);
-    bar_[i]->Set({{left + part * static_cast<float>(i), bar, left + part * static_cast<float>(i + 1), bar + kBarHeight_px}});
+    bar_[i]->Set({{left + part * static_cast<float>(i), bar, left + part * static_cast<float>(i + 1), bar + kBarHeight}});
   }
   title_->setText(legend.title);
-  title_->setPosition({left, bar + kBarHeight_px + 9.0F, 0.0F});
+  title_->setPosition({left, bar + kBarHeight + 9.0F, 0.0F});
   low_->setText(legend.low);
   low_->setPosition({left, low + 8.0F, 0.0F});
   middle_->setText(legend.middle);

@@ -28,14 +28,14 @@ class HeatNode {
   HeatNode(osg::Group& overlay, osg::StateSet& state);
 
   // Null: nothing. What was shown before is not laid again.
-  void Show(osg::StateSet& state, const std::shared_ptr<const HeatPicture>& heat, int height_px);
+  void Show(osg::StateSet& state, const std::shared_ptr<const HeatPicture>& heat, const PanelSize& size);
   // For an eye that looks through this view: its state says where on the texture a place of its own frame is.
   void SetEye(osg::StateSet& state, const osg::Matrixd& view) const;
 
  private:
   static constexpr std::size_t kSteps = 16;  // of the legend's bar
   void Lay(osg::StateSet& state, const scene::HeatRaster& raster);
-  void ShowLegend(const HeatPicture* heat, float high_px);
+  void ShowLegend(const HeatPicture* heat, float high);
 
   osg::ref_ptr<osg::Texture2D> squares_;
   osg::Matrixd world_to_squares_;

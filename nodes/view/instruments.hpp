@@ -12,11 +12,14 @@ namespace rodeira::view {
 class Instruments {
  public:
   explicit Instruments(osg::Group& overlay);
-  // `low_px`: how much at the bottom is taken by something else.
-  void Show(const Picture& picture, int width_px, int height_px, float low_px);
+  // `low`: how much at the bottom is taken by something else, in the panels' units.
+  void Show(const Picture& picture, const PanelSize& size, float low);
 
  private:
-  Boxes panel_, about_box_;
+  void ShowLines(const std::string& lines, float high);
+  void ShowAbout(const std::string& about, float low);
+
+  Boxes panel_, about_box_, lines_box_;
   osg::ref_ptr<osgText::Text> speed_, unit_, gear_, time_, lines_, about_;
 };
 

@@ -10,6 +10,7 @@
 #include <osg/Texture2D>
 #include <osg/VertexAttribDivisor>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -25,6 +26,7 @@ namespace rodeira::view {
 namespace {
 
 constexpr int kNoiseSize = 256;
+constexpr float kFaceSlanted = 4.0F;  // a sign stands across the road: less often is enough
 // Drawn in this order; the road's marks after the ground they lie on, the sky where nothing else is.
 constexpr int kMarkBin = 1, kSkyBin = 2, kShadowBin = 3, kRainBin = 4;
 
@@ -112,6 +114,7 @@ osg::StateSet* Look::StateOfRepeated(scene::Material material) {
 
 osg::ref_ptr<osg::StateSet> Look::StateOfFace(osg::Texture2D& picture) {
   osg::ref_ptr<osg::StateSet> state = new osg::StateSet(*StateOf(scene::Material::kSign), osg::CopyOp::SHALLOW_COPY);
+  picture.setMaxAnisotropy(std::min(kFaceSlanted, quality_.slanted));
   state->setTextureAttribute(1, &picture);
   state->addUniform(new osg::Uniform("face", 1));
   return state;
@@ -132,6 +135,7 @@ osg::ref_ptr<osg::StateSet> Look::StateOfPicture(const std::string& file, bool r
     fmt::print(stderr, "rodeira: the ground is drawn without its picture: {}\n", picture.error().Text());
     return state = StateOf(scene::Material::kGround);
   }
+  picture.value()->setMaxAnisotropy(quality_.slanted);
   state = new osg::StateSet(*StateOf(scene::Material::kPicture), osg::CopyOp::SHALLOW_COPY);
   state->setTextureAttribute(1, picture.value());
   state->addUniform(new osg::Uniform("face", 1));

@@ -1,13 +1,30 @@
 #include "nodes/view/overlay.hpp"
 
 #include <osg/BlendFunc>
+#include <osg/observer_ptr>
+#include <osgText/Font>
 
+#include <algorithm>
 #include <string>
+
+#include "common/base/font_file.hpp"
 
 namespace rodeira::view {
 namespace {
 
 constexpr int kTextLayer = 10;
+constexpr float kPanels = 720.0F, kNarrowest = 4.0F / 3.0F, kLeastScale = 0.5F;
+
+// One for all texts that there are. It goes with the last of them, as its letters belong to an OpenGL context.
+osg::ref_ptr<osgText::Font> Typeface() {
+  static osg::observer_ptr<osgText::Font> shared;
+  osg::ref_ptr<osgText::Font> font;
+  if (shared.lock(font)) return font;
+  const std::filesystem::path file = base::FontFile();
+  if (!file.empty()) font = osgText::readRefFontFile(file.string());
+  shared = font;
+  return font;
+}
 
 // Letters get their places in the font's picture as they are needed; where a letter lies there shows in the last bit of its
 // pixels. So all get theirs beforehand, in one order, whatever is written first.
@@ -42,9 +59,16 @@ void FitOverlay(osg::Camera& overlay, int width_px, int height_px) {
   overlay.setProjectionMatrix(osg::Matrix::ortho2D(0.0, width_px, 0.0, height_px));
 }
 
+PanelSize PanelsOf(int width_px, int height_px) {
+  const auto width = static_cast<float>(width_px), height = static_cast<float>(height_px);
+  const float scale = std::max(kLeastScale, std::min(height, width / kNarrowest) / kPanels);
+  return {scale, width / scale, height / scale};
+}
+
 osg::ref_ptr<osgText::Text> AddText(osg::Group& overlay, float size_px, osgText::TextBase::AlignmentType alignment) {
   osg::ref_ptr<osgText::Text> text = new osgText::Text;
   text->setDataVariance(osg::Object::DYNAMIC);
+  if (const osg::ref_ptr<osgText::Font> font = Typeface()) text->setFont(font);
   text->setCharacterSize(size_px);
   GiveLettersTheirPlaces(*text);
   text->setAlignment(alignment);

@@ -9,10 +9,17 @@
 
 namespace rodeira::view {
 
-// What lies flat over a picture, in pixels from its lower left corner. The typeface is OpenSceneGraph's own: no file is needed.
+// What lies flat over a picture, in pixels from its lower left corner. The typeface is DejaVu Sans where it is installed, otherwise OpenSceneGraph's own.
 
 osg::ref_ptr<osg::Camera> MakeOverlay();
 void FitOverlay(osg::Camera& overlay, int width_px, int height_px);
+// Panels keep their share of a picture: they are laid out in units of which a picture has 720 from below to above, more where it is narrower than it is high by 4 : 3,
+// and at most twice as many as it has pixels, so that letters can be read.
+struct PanelSize {
+  float scale = 1.0F;  // pixels a unit
+  float width = 0.0F, height = 0.0F;  // of the picture, in units
+};
+PanelSize PanelsOf(int width_px, int height_px);
 // White, to be placed and filled later; over the boxes.
 osg::ref_ptr<osgText::Text> AddText(osg::Group& overlay, float size_px, osgText::TextBase::AlignmentType alignment);
 // Upright boxes of one colour.

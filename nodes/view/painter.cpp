@@ -3,6 +3,7 @@
 #include <osg/Camera>
 #include <osg/CullFace>
 #include <osg/LOD>
+#include <osg/MatrixTransform>
 #include <osg/Uniform>
 #include <osgDB/DatabasePager>
 #include <osgUtil/Statistics>
@@ -18,6 +19,7 @@
 #include <set>
 #include <thread>
 
+#include "common/scene/far_plane.hpp"
 #include "nodes/view/aim_camera.hpp"
 #include "nodes/view/air_uniforms.hpp"
 #include "nodes/view/built_world.hpp"
@@ -122,6 +124,32 @@ Eigen::Vector3d ShadowsAbout(const Picture& picture, const std::optional<scene::
   return body->p_WB_W + (ahead ? kShadowsAhead_m : 0.0) * (body->q_WB * Eigen::Vector3d::UnitX());
 }
 
+// Of a built database: its pagers stand about their tiles' middles.
+std::vector<scene::TileKey> TilesOf(const BuiltWorld& built) {
+  std::vector<scene::TileKey> tiles;
+  for (const osg::PagedLOD* tile : built.tiles) {
+    const osg::Vec3d& middle = tile->getCenter();
+    tiles.push_back({static_cast<std::int64_t>(std::floor(middle.x() / scene::kTile_m)), static_cast<std::int64_t>(std::floor(middle.y() / scene::kTile_m))});
+  }
+  return tiles;
+}
+
+void AddFarPlane(Look& look, const road::World& world, const std::vector<scene::TileKey>& tiles, osg::Group& group) {
+  const scene::Mesh plane = scene::BuildFarPlane(world, tiles);
+  if (plane.triangles.empty()) return;
+  const scene::Mesh* const only = &plane;
+  const osg::ref_ptr<osg::Node> node = look.Placed({&only, 1});
+  node->setNodeMask(kThrowsNone);
+  group.addChild(node);
+}
+
+// Looking a picture up several times along its slant takes the processor longer than all else in a frame together.
+QualityTraits TraitsOn(const Surface& surface) {
+  QualityTraits traits = TraitsOf(surface.quality());
+  if (surface.draws_by_processor()) traits.slanted = 1.0F;
+  return traits;
+}
+
 }  // namespace
 
 struct Painter::Parts {
@@ -133,10 +161,11 @@ struct Painter::Parts {
   LightsNode lights;
   VectorsNode vectors;
   osg::ref_ptr<osg::Camera> overlay = MakeOverlay();
-  Instruments instruments{*overlay};
-  TimelineBar timeline{*overlay};
+  osg::ref_ptr<osg::MatrixTransform> panels = new osg::MatrixTransform;
+  Instruments instruments{*panels};
+  TimelineBar timeline{*panels};
   osg::ref_ptr<osg::Group> root = new osg::Group;
-  HeatNode heat{*overlay, *root->getOrCreateStateSet()};
+  HeatNode heat{*panels, *root->getOrCreateStateSet()};
   osg::ref_ptr<osg::Group> scene = new osg::Group;  // the world and what moves in it: all that mirrors show too
   SunShadow shadow;
   Mirrors mirrors{*root, *scene, *overlay};
@@ -146,16 +175,21 @@ struct Painter::Parts {
 };
 
 Painter::Painter(Surface& surface, const road::World& world, bool repeats)
-    : surface_(surface), world_(world), parts_(std::make_unique<Parts>(world, TraitsOf(surface.quality()), repeats && TraitsOf(surface.quality()).instances && CanRepeat())) {}
+    : surface_(surface), world_(world), parts_(std::make_unique<Parts>(world, TraitsOn(surface), repeats && TraitsOf(surface.quality()).instances && CanRepeat())) {}
 
 Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing, bool repeats) : Painter(surface, world, repeats) {
   Look& look = parts_->look;
   osg::Group& group = *parts_->scene;
   std::vector<PlacedNode> land, trees;
-  for (const scene::GroundTile& tile : standing.ground) land.push_back({tile.ball.centre_W.head<2>(), GroundNode(look, tile)});
+  std::vector<scene::TileKey> tiles;
+  for (const scene::GroundTile& tile : standing.ground) {
+    land.push_back({tile.ball.centre_W.head<2>(), GroundNode(look, tile)});
+    tiles.push_back(tile.key);
+  }
   for (const scene::TerrainTile& tile : standing.terrain) land.push_back({tile.centre_W.head<2>(), TerrainNode(look, tile)});
   for (const std::vector<scene::Repeated>& square : standing.trees) trees.push_back(TreesNode(look, square));
   group.addChild(TileTree(land));
+  AddFarPlane(look, world, tiles, group);
   for (const scene::RoadTile& tile : standing.roads) AddRoadTile(look, tile, group);
   group.addChild(TileTree(trees));
   SetUp();
@@ -167,6 +201,7 @@ base::Result<std::unique_ptr<Painter>> Painter::Make(Surface& surface, const roa
   if (!ground) return ground.error();
   painter->parts_->built = ground.value();
   painter->parts_->scene->addChild(ground.value().root);
+  AddFarPlane(painter->parts_->look, world, TilesOf(ground.value()), *painter->parts_->scene);
   painter->SetUp();
   return painter;
 }
@@ -187,6 +222,7 @@ void Painter::SetUp() {
   root.addChild(&group);
   root.addChild(parts_->cabin.node());
   root.addChild(parts_->rain);
+  parts_->overlay->addChild(parts_->panels);
   root.addChild(parts_->overlay);
   osg::StateSet* state = root.getOrCreateStateSet();
   state->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
@@ -251,7 +287,9 @@ void Painter::DrawOnce(const Picture& picture, const PictureTarget& target, bool
   SetEye(state, air, is_car ? &picture.moment.cars[picture.followed] : nullptr, eye.getViewMatrix());
   parts_->shadow.Show(state, air, ShadowsAbout(picture, body, camera));
   parts_->shadow.SetEye(state, eye.getViewMatrix());
-  parts_->heat.Show(state, picture.heat, height);
+  const PanelSize panels = PanelsOf(width, height);
+  parts_->panels->setMatrix(osg::Matrixd::scale(static_cast<double>(panels.scale), static_cast<double>(panels.scale), 1.0));
+  parts_->heat.Show(state, picture.heat, panels);
   parts_->heat.SetEye(state, eye.getViewMatrix());
   SetRain(state, picture.moment.time_ns, aspect);
   parts_->rain->setNodeMask(air.rain > 0.0F ? ~0U : 0U);
@@ -261,8 +299,8 @@ void Painter::DrawOnce(const Picture& picture, const PictureTarget& target, bool
   parts_->vectors.Show(picture.moment, picture.chosen);
   FitOverlay(*parts_->overlay, width, height);
   parts_->mirrors.Show(picture, body, air, parts_->shadow, parts_->heat, width, height, !whole && TraitsOf(surface_.quality()).mirrors_in_turn);
-  parts_->instruments.Show(picture, width, height, picture.timeline ? TimelinePlace::kHeight_px : 0.0F);
-  parts_->timeline.Show(picture.timeline, width);
+  parts_->instruments.Show(picture, panels, picture.timeline ? TimelinePlace::kHeight : 0.0F);
+  parts_->timeline.Show(picture.timeline, panels);
   parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);
   if (parts_->built.root && !parts_->viewer.getDatabasePager()->getRequestsInProgress()) GiveBack(parts_->built, ToOsg(camera.eye_W), kFar_m, static_cast<double>(eye.getLODScale()));
 }

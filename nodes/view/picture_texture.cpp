@@ -23,7 +23,6 @@ base::Result<osg::ref_ptr<osg::Texture2D>> MakePictureTexture(const std::string&
   texture->setWrap(osg::Texture::WRAP_T, wrap);
   texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR);
   texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
-  texture->setMaxAnisotropy(8.0F);
   return texture;
 }
 

@@ -8,9 +8,9 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kNames = {"low", "medium", "high"};
 constexpr std::array<QualityTraits, 3> kTraits = {{
-    {0, 1.6F, false, 0, 0.0, 0.0F, 0, 0.0, false, true},
-    {4, 1.0F, true, 2048, 110.0, 0.0F, 1024, 3000.0, true, false},
-    {4, 1.0F, true, 4096, 200.0, 1.0F, 2048, 4000.0, true, false},
+    {0, 1.6F, false, 0, 0.0, 0.0F, 0, 0.0, false, 1.0F, true},
+    {4, 1.0F, true, 2048, 110.0, 0.0F, 1024, 3000.0, true, 8.0F, false},
+    {4, 1.0F, true, 4096, 200.0, 1.0F, 2048, 4000.0, true, 8.0F, false},
 }};
 
 }  // namespace

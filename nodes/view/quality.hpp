@@ -23,6 +23,7 @@ struct QualityTraits {
   int ground_shadow_px = 0;  // of a second map, of the ground alone: what hills and bridges shade beyond the first one
   double ground_shadow_m = 0.0;
   bool instances = false;    // trees, posts and what else is repeated are drawn as one model at many places
+  float slanted = 1.0F;      // times a picture is looked up where it is seen at a slant, at most; 1 wherever the processor draws
   bool mirrors_in_turn = false;  // of a window: one of them is drawn anew in each picture while time goes on
 };
 const QualityTraits& TraitsOf(Quality quality);

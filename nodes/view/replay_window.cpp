@@ -122,7 +122,7 @@ void ReplayWindow::Take(const SDL_Event& event, scene::Player& player, const std
       break;
     case SDL_MOUSEBUTTONDOWN:
       drags_ = event.button.button == SDL_BUTTON_LEFT;
-      drags_ = drags_ && TimelinePlace::Holds(screen_->surface().height_px() - 1 - event.button.y);
+      drags_ = drags_ && Bar().Holds(screen_->surface().height_px() - 1 - event.button.y);
       if (drags_) Drag(event.button.x, player);
       else (void)screen_->TakeMouse(event);
       break;
@@ -142,8 +142,10 @@ void ReplayWindow::Take(const SDL_Event& event, scene::Player& player, const std
   }
 }
 
+TimelinePlace ReplayWindow::Bar() const { return TimelinePlace(PanelsOf(screen_->surface().width_px(), screen_->surface().height_px())); }
+
 void ReplayWindow::Drag(int x_px, scene::Player& player) {
-  const double share = TimelinePlace(screen_->surface().width_px()).ShareAt(x_px);
+  const double share = Bar().ShareAt(x_px);
   player.Seek(static_cast<std::int64_t>(share * static_cast<double>(player.end_ns())));
 }
 

@@ -13,6 +13,8 @@ union SDL_Event;
 
 namespace rodeira::view {
 
+struct TimelinePlace;
+
 enum class MarkKind { kRemark, kEvent };  // of the operator, the clock or a fault; of a scenario
 
 // Something to be found again on the bar.
@@ -43,6 +45,7 @@ class ReplayWindow {
   explicit ReplayWindow(std::unique_ptr<Screen> screen) : screen_(std::move(screen)) {}
   bool ReadEvents(scene::Player& player, const std::vector<std::int64_t>& marks_ns);
   void Take(const SDL_Event& event, scene::Player& player, const std::vector<std::int64_t>& marks_ns);
+  TimelinePlace Bar() const;
   void Drag(int x_px, scene::Player& player);
 
   std::unique_ptr<Screen> screen_;

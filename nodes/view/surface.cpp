@@ -133,6 +133,8 @@ int Surface::height_px() const {
   return height;
 }
 
+bool Surface::draws_by_processor() const { return IsSoftware(renderer_); }
+
 void Surface::Swap() { SDL_GL_SwapWindow(window_); }
 
 scene::DisplayBeat Surface::beat() const {

@@ -41,6 +41,7 @@ class Surface {
   void Hide();
   // "llvmpipe (LLVM 15.0.6, 256 bits)" or the like.
   const std::string& renderer() const { return renderer_; }
+  bool draws_by_processor() const;
   Quality quality() const { return quality_; }
 
  private:

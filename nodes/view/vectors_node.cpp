@@ -1,6 +1,9 @@
 #include "nodes/view/vectors_node.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "common/scene/loft.hpp"
 #include "common/scene/solids.hpp"
@@ -8,10 +11,11 @@
 namespace rodeira::view {
 namespace {
 
-constexpr scene::Colour kTarget = scene::Colour::Of(0x20c040), kPath = scene::Colour::Of(0xf0c020), kAhead = scene::Colour::Of(0x20d0f0);
+constexpr scene::Colour kPoints = scene::Colour::Of(0x20c040), kPath = scene::Colour::Of(0xf0c020), kTarget = scene::Colour::Of(0xe020d0), kAhead = scene::Colour::Of(0x20d0f0);
 constexpr double kThick_m = 0.12, kTip_m = 0.7, kWide_m = 0.3;  // of an arrow
-constexpr double kPost_m = 1.6, kPathHigh_m = 0.5;
-constexpr double kAboveRoof_m = 0.4;
+constexpr double kPost_m = 1.6, kPathHigh_m = 0.5, kPath_m = 6.0;
+constexpr double kAboveRoof_m = 0.4, kTargetAboveRoof_m = 0.9;
+constexpr double kBall_m = 0.22, kLine_m = 0.06, kStick_m = 0.03;
 
 osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -21,25 +25,50 @@ scene::Mesh Tip(scene::Colour colour) {
   return scene::Loft({ring(0.0, w), ring(kTip_m, thin)}, scene::Material::kLamp, colour, 0.2);
 }
 
+// About the origin.
+scene::Mesh Ball(scene::Colour colour) {
+  constexpr int kRings = 8, kSides = 12;
+  std::vector<std::vector<Eigen::Vector3d>> rings;
+  for (int i = 0; i <= kRings; ++i) {
+    const double up = std::numbers::pi * (static_cast<double>(i) / kRings - 0.5), wide = std::max(1e-3, kBall_m * std::cos(up));
+    rings.emplace_back();
+    for (int k = 0; k < kSides; ++k) {
+      const double turn = 2.0 * std::numbers::pi * k / kSides;
+      rings.back().emplace_back(wide * std::cos(turn), wide * std::sin(turn), kBall_m * std::sin(up));
+    }
+  }
+  return scene::Loft(rings, scene::Material::kLamp, colour, 1.0);
+}
+
 }  // namespace
 
+osg::ref_ptr<osg::MatrixTransform> VectorsNode::Add(Look& look, const scene::Mesh& mesh) {
+  osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform;
+  placed->addChild(look.GeometryOf(mesh));
+  placed->setNodeMask(kThrowsNone);
+  group_->addChild(placed);
+  return placed;
+}
+
 VectorsNode::Arrow VectorsNode::MakeArrow(Look& look, scene::Colour colour) {
-  Arrow arrow{new osg::MatrixTransform, new osg::MatrixTransform};
   const double half = 0.5 * kThick_m;
-  arrow.shaft->addChild(look.GeometryOf(scene::Box({0.0, -half, -half}, {1.0, half, half}, scene::Material::kLamp, colour)));
-  arrow.tip->addChild(look.GeometryOf(Tip(colour)));
-  group_->addChild(arrow.shaft);
-  group_->addChild(arrow.tip);
-  return arrow;
+  return {Add(look, scene::Box({0.0, -half, -half}, {1.0, half, half}, scene::Material::kLamp, colour)), Add(look, Tip(colour))};
 }
 
 VectorsNode::VectorsNode(Look& look, const road::World& world)
-    : world_(world), group_(new osg::Group), target_(MakeArrow(look, kTarget)), path_(MakeArrow(look, kPath)), ahead_(new osg::MatrixTransform) {
+    : world_(world), group_(new osg::Group), points_(MakeArrow(look, kPoints)), path_(MakeArrow(look, kPath)),
+      line_(Add(look, scene::Box({0.0, -0.5 * kLine_m, -0.5 * kLine_m}, {1.0, 0.5 * kLine_m, 0.5 * kLine_m}, scene::Material::kLamp, kTarget))), target_(Add(look, Ball(kTarget))) {
   scene::Mesh post = scene::Pole(0.0, kPost_m, 0.12, 0.12, 8, kAhead);
   post.material = scene::Material::kLamp;
-  ahead_->addChild(look.GeometryOf(post));
-  group_->addChild(ahead_);
+  ahead_ = Add(look, post);
+  scene::Mesh stick = scene::Pole(-1.0, 0.0, kStick_m, kStick_m, 8, kTarget);
+  stick.material = scene::Material::kLamp;
+  stick_ = Add(look, stick);
   group_->setNodeMask(0U);
+}
+
+Eigen::Vector3d VectorsNode::OnGround(const Eigen::Vector2d& at_W, double near_z_m) const {
+  return {at_W.x(), at_W.y(), world_.At(at_W.x(), at_W.y(), near_z_m).z_m};
 }
 
 void VectorsNode::Lay(const Arrow& arrow, const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W) {
@@ -61,14 +90,26 @@ void VectorsNode::Show(const scene::Moment& moment, std::optional<std::size_t> c
   if (!there) return;
   const scene::AgentPose& agent = moment.agents[*chosen - cars];
   const scene::AgentDetail& detail = *agent.detail;
-  const Eigen::Vector3d front_W = agent.p_WB_W + agent.q_WB * Eigen::Vector3d(0.5 * agent.length_m, 0.0, kPathHigh_m);
-  const Eigen::Vector2d& at = detail.look_ahead_W;
-  const Eigen::Vector3d foot_W(at.x(), at.y(), world_.At(at.x(), at.y(), agent.p_WB_W.z()).z_m);
-  ahead_->setMatrix(osg::Matrixd::translate(ToOsg(foot_W)));
-  ahead_->setNodeMask(kThrowsNone);
-  Lay(path_, front_W, foot_W + Eigen::Vector3d(0.0, 0.0, kPathHigh_m));
-  const Eigen::Vector3d roof_W = agent.p_WB_W + agent.q_WB * Eigen::Vector3d(0.0, 0.0, agent.height_m + kAboveRoof_m);
-  Lay(target_, roof_W, roof_W + agent.q_WB * Eigen::Vector3d(std::max(detail.target_speed_mps, 0.0), 0.0, 0.0));
+  const Eigen::Vector3d& at_W = agent.p_WB_W;
+  const auto from_car = [&](double ahead_m, double left_m, double up_m) -> Eigen::Vector3d { return at_W + agent.q_WB * Eigen::Vector3d(ahead_m, left_m, up_m); };
+  ahead_->setMatrix(osg::Matrixd::translate(ToOsg(OnGround(detail.look_ahead_W, at_W.z()))));
+  const Eigen::Vector3d roof_W = from_car(0.0, 0.0, agent.height_m + kAboveRoof_m);
+  Lay(points_, roof_W, roof_W + agent.q_WB * Eigen::Vector3d(std::max(detail.target_speed_mps, 0.0), 0.0, 0.0));
+  const Eigen::Vector3d front_W = from_car(0.5 * agent.length_m, 0.0, kPathHigh_m);
+  const Eigen::Vector3d path_W = front_W + kPath_m * (agent.q_WB * Eigen::Vector3d(std::cos(detail.path_turn_rad), std::sin(detail.path_turn_rad), 0.0));
+  Lay(path_, front_W, OnGround(path_W.head<2>(), path_W.z()) + Eigen::Vector3d(0.0, 0.0, kPathHigh_m));
+  // On a stick, so that it is seen above whatever car it lies before or under.
+  const Eigen::Vector3d foot_W = OnGround(from_car(detail.target_B.x(), detail.target_B.y(), 0.0).head<2>(), at_W.z());
+  const double high_m = agent.height_m + kTargetAboveRoof_m;
+  const Eigen::Vector3d target_W = foot_W + Eigen::Vector3d(0.0, 0.0, high_m);
+  target_->setMatrix(osg::Matrixd::translate(ToOsg(target_W)));
+  stick_->setMatrix(osg::Matrixd::scale(1.0, 1.0, high_m) * osg::Matrixd::translate(ToOsg(target_W)));
+  const Eigen::Vector3d eye_W = from_car(0.0, 0.0, high_m), way_W = target_W - eye_W;
+  const double way_m = way_W.norm();
+  line_->setNodeMask(way_m > kBall_m ? kThrowsNone : 0U);
+  if (way_m > kBall_m) {
+    line_->setMatrix(osg::Matrixd::scale(way_m, 1.0, 1.0) * osg::Matrixd::rotate(osg::Vec3d(1.0, 0.0, 0.0), ToOsg(way_W / way_m)) * osg::Matrixd::translate(ToOsg(eye_W)));
+  }
 }
 
 }  // namespace rodeira::view

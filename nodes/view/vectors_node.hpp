@@ -12,8 +12,9 @@
 
 namespace rodeira::view {
 
-// What the driver of a chosen car of the traffic is about: the speed that it plans (green, as long as it would drive in a second), the
-// direction of its path (yellow, from its front), and the point that it steers for (a cyan post).
+// What the driver of a chosen car of the traffic goes by: where his car points (green, from above its roof, as long as it would drive in a second at the
+// speed that he plans), the point that he steers for (a magenta ball on a stick) and the line to it, where his path leads (yellow, from the car's front),
+// and the point up to which he looks (a cyan post).
 class VectorsNode {
  public:
   // The world must outlive it.
@@ -26,13 +27,15 @@ class VectorsNode {
   struct Arrow {
     osg::ref_ptr<osg::MatrixTransform> shaft, tip;
   };
+  osg::ref_ptr<osg::MatrixTransform> Add(Look& look, const scene::Mesh& mesh);
   Arrow MakeArrow(Look& look, scene::Colour colour);
+  Eigen::Vector3d OnGround(const Eigen::Vector2d& at_W, double near_z_m) const;
   static void Lay(const Arrow& arrow, const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W);
 
   const road::World& world_;
   osg::ref_ptr<osg::Group> group_;
-  Arrow target_, path_;
-  osg::ref_ptr<osg::MatrixTransform> ahead_;
+  Arrow points_, path_;
+  osg::ref_ptr<osg::MatrixTransform> line_, target_, stick_, ahead_;
 };
 
 }  // namespace rodeira::view

@@ -1,5 +1,5 @@
 // From a wheel that is turned to a changed pixel on the display: a virtual joystick, the input node, the vehicle, the view with its window, in real
-// time, in this process. latency_bench [TURNS] [INPUT_PERIOD_MS] [VIEW_PERIOD_MS] [WIDTH HEIGHT]
+// time, in this process. latency_bench [TURNS] [INPUT_PERIOD_MS] [VIEW_PERIOD_MS] [WIDTH HEIGHT] [WORLD]
 #include <SDL.h>
 #include <fmt/format.h>
 
@@ -35,15 +35,15 @@ struct Size {
   std::exit(1);
 }
 
-std::string LaunchText(const std::string& guid, const std::string& input_ms, const std::string& view_ms, const Size& size) {
+std::string LaunchText(const std::string& guid, const std::string& input_ms, const std::string& view_ms, const Size& size, const std::string& world) {
   return fmt::format(R"(rodeira: launch/1
-world: configs/worlds/plane.yaml
+world: {}
 nodes:
   road: {{kind: road}}
   driver: {{kind: input, period_s: {}e-3, config: {{source: joystick, wheel: configs/drivers/wheel.yaml, devices: {{wheel: "{}"}}}}}}
   ego: {{kind: vehicle, config: {{vehicle: configs/vehicles/default.yaml}}}}
   view: {{kind: view, period_s: {}e-3, config: {{window: always, camera: driver, width_px: {}, height_px: {}, mirrors: [], instruments: false, sound: false}}}}
-)", input_ms, guid, view_ms, size.width_px, size.height_px);
+)", world, input_ms, guid, view_ms, size.width_px, size.height_px);
 }
 
 // Milliseconds from each turn of the wheel to the first other pixel in the lower middle of the picture, where the steering wheel is.
@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
   const int turns = argc > 1 ? std::atoi(argv[1]) : 100;
   const Size size = argc > 5 ? Size{std::atoi(argv[4]), std::atoi(argv[5])} : Size();
   if (size.width_px < 64 || size.height_px < 64) Fail("width and height are wanted in pixels, at least 64");
+  const std::string world = argc > 6 ? argv[6] : "configs/worlds/plane.yaml";  // a path from the project's folder
   const bench::WatchedDisplay display(97, size.width_px, size.height_px);
   ::setenv("DISPLAY", display.name().c_str(), 1);
   auto joysticks = nodes::Joysticks::Start();
@@ -85,7 +86,7 @@ int main(int argc, char** argv) {
   if (wheel == nullptr) Fail(SDL_GetError());
   for (const int pedal : {2, 3}) SDL_JoystickSetVirtualAxis(wheel, pedal, 32767);
 
-  const auto launch = launch::Launch::Parse(LaunchText(guid, argc > 2 ? argv[2] : "10", argc > 3 ? argv[3] : "20", size), SourceDir() + "/latency.yaml");
+  const auto launch = launch::Launch::Parse(LaunchText(guid, argc > 2 ? argv[2] : "10", argc > 3 ? argv[3] : "20", size, world), SourceDir() + "/latency.yaml");
   if (!launch) Fail(launch.error().Text());
   auto nodes = front::LocalNodes::Make(launch.value());
   if (!nodes) Fail(nodes.error().Text());
@@ -101,6 +102,6 @@ int main(int argc, char** argv) {
   run.join();
   if (!outcome.ok) Fail(outcome.fault);
   std::sort(latencies_ms.begin(), latencies_ms.end());
-  fmt::print("wheel to pixel, {} x {}, {} turns: median {:.1f} ms, best {:.1f}, worst {:.1f}; late steps {} of {}, mean {:.2f} ms\n", size.width_px, size.height_px, latencies_ms.size(), latencies_ms[latencies_ms.size() / 2], latencies_ms.front(),
+  fmt::print("wheel to pixel, {}, {} x {}, {} turns: median {:.1f} ms, best {:.1f}, worst {:.1f}; late steps {} of {}, mean {:.2f} ms\n", world, size.width_px, size.height_px, latencies_ms.size(), latencies_ms[latencies_ms.size() / 2], latencies_ms.front(),
              latencies_ms.back(), outcome.lateness.late, outcome.lateness.steps, outcome.lateness.mean_ns() * 1e-6);
 }

@@ -135,6 +135,7 @@ template <class V>
 void Fields(V& v, msg::TrafficDetail& m) {
   v("id", m.id()), v("throttle", m.throttle()), v("brake", m.brake()), v("clutch", m.clutch()), v("engine_speed_radps", m.engine_speed_radps());
   v("fuel_rate_kgps", m.fuel_rate_kgps()), v("fuel_used_kg", m.fuel_used_kg()), v("target_speed_mps", m.target_speed_mps());
+  v("target_x_m", m.target_x_m()), v("target_y_m", m.target_y_m()), v("path_heading_rad", m.path_heading_rad());
   v("look_ahead_x_m", m.look_ahead_x_m()), v("look_ahead_y_m", m.look_ahead_y_m()), v("gear", m.gear());
 }
 template <class V>

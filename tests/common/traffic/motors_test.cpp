@@ -126,7 +126,12 @@ TEST(Motors, DrivesAloneToItsLimit) {
     if (model.poses()[0].speed_mps < 16.0 || model.poses()[0].p_WB_W.x() > 7900.0) continue;
     const AgentDetail detail = model.Details()[0];  // what is published of him is his own, not the other drivers'
     ASSERT_NEAR(detail.target_mps, 17.0, 1e-9);
-    ASSERT_NEAR(detail.look_ahead_W.x() - model.poses()[0].p_WB_W.x(), 2.0 * model.poses()[0].speed_mps, 1.0);
+    const Eigen::Vector3d& at_W = model.poses()[0].p_WB_W;
+    ASSERT_NEAR(detail.look_ahead_W.x() - at_W.x(), 2.0 * model.poses()[0].speed_mps, 1.0);
+    const double ahead_m = detail.target_W.x() - at_W.x();  // the point behind the nearest one of his trajectory, which has one every 0.3 m along the road
+    ASSERT_TRUE(ahead_m > 0.14 && ahead_m < 0.46) << ahead_m;
+    ASSERT_LT(std::fabs(detail.target_W.y() + 1.75), 0.15 * 3.5 + 1e-9);
+    ASSERT_NEAR(detail.path_heading_rad, 0.0, 1e-9);
     ++published;
   }
   EXPECT_GT(fastest, 16.5);

@@ -17,8 +17,8 @@ namespace rodeira {
 namespace {
 
 // Ten times a second of each car that the traffic state of that step has, empty between. The engine turns as the wheels and the
-// gears of MOTORS say; nobody brakes and pushes at once; the fuel used is the integral of the flow; who steers for a point
-// has it before him, as far as he looks.
+// gears of MOTORS say; nobody brakes and pushes at once; the fuel used is the integral of the flow; the point that he
+// steers for lies before him, 0.7 s ahead of his rear axle.
 TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
   const std::string text =
       "rodeira: launch/1\nworld: ../configs/worlds/lights.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
@@ -70,10 +70,14 @@ TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
         ++braked;
         EXPECT_LT(a.acceleration_mps2(), 0.0F);
       }
-      const double ahead_x = static_cast<double>(d.look_ahead_x_m()) - a.position_x_m(), ahead_y = static_cast<double>(d.look_ahead_y_m()) - a.position_y_m();
-      const double looks = std::clamp(0.9 * a.speed_mps(), 4.5, 30.0) - 0.5 * static_cast<double>(a.wheelbase_m());
-      EXPECT_NEAR(std::hypot(ahead_x, ahead_y), looks, 0.05 * looks + 0.3) << "on bends the chord is shorter";
-      EXPECT_GT(std::cos(static_cast<double>(a.heading_rad())) * ahead_x + std::sin(static_cast<double>(a.heading_rad())) * ahead_y, 0.0);
+      const double heading = static_cast<double>(a.heading_rad());
+      const double ahead_x = static_cast<double>(d.target_x_m()) - a.position_x_m(), ahead_y = static_cast<double>(d.target_y_m()) - a.position_y_m();
+      const double steers = std::max(3.0, 0.7 * a.speed_mps()) - 0.5 * static_cast<double>(a.wheelbase_m());
+      EXPECT_NEAR(std::hypot(ahead_x, ahead_y), steers, 0.05 * steers + 0.3) << "on bends the chord is shorter";
+      EXPECT_GT(std::cos(heading) * ahead_x + std::sin(heading) * ahead_y, 0.0);
+      EXPECT_GT(std::cos(static_cast<double>(d.path_heading_rad()) - heading), 0.9) << "the car follows it";
+      const double sees = std::min(200.0, a.speed_mps() * a.speed_mps() / 3.0 + 3.0 * a.speed_mps() + 60.0) + 0.5 * static_cast<double>(a.length_m());
+      EXPECT_LT(std::hypot(static_cast<double>(d.look_ahead_x_m()) - a.position_x_m(), static_cast<double>(d.look_ahead_y_m()) - a.position_y_m()), sees + 0.3);
       const auto used = static_cast<double>(d.fuel_used_kg()), rate = static_cast<double>(d.fuel_rate_kgps());
       const auto [at, fresh] = burnt.try_emplace(d.id(), Burnt{a.trip(), used, used, rate, 0.0});
       if (at->second.trip != a.trip()) at->second = {a.trip(), used, used, rate, 0.0};

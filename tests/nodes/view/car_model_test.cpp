@@ -132,6 +132,31 @@ TEST_F(CarModel, ItsLampsShineAsTheCarSays) {
   EXPECT_GT(shown({.dipped = true}).at("head"), dull.at("head") + 30.0);
 }
 
+// A chosen car pulses in whatever body: towards the pulse's light yellow, 65 of 100 at its most, and back; another one's does not.
+TEST_F(CarModel, PulsesWhereTheCarIsChosen) {
+  auto surface = Surface::Open(SurfaceKind::kOffscreen, 960, 540, "test");
+  ASSERT_TRUE(surface.ok()) << surface.error().Text();
+  auto painter = PainterOf(*surface.value(), *world_, {});
+  ASSERT_TRUE(painter.ok()) << painter.error().Text();
+  ASSERT_TRUE(painter.value()->WearCarModel(WriteModel(folder_)).ok());
+  const scene::Camera camera = scene::ChaseCamera(car(), *world_);
+  const auto shown = [&](std::int64_t time_ns, std::optional<std::size_t> chosen) {
+    picture_.moment.time_ns = time_ns;
+    picture_.chosen = chosen;
+    painter.value()->Draw(picture_);
+    return painter.value()->Read();
+  };
+  const Image plain = shown(400'000'000, std::nullopt), most = shown(400'000'000, 0), none = shown(800'000'000, 0);  // it takes 0.8 s
+  const Probe was = ProbeAt(plain, camera, At(-2.0, 0.0, 0.6)), is = ProbeAt(most, camera, At(-2.0, 0.0, 0.6));
+  EXPECT_TRUE(IsMagenta(was)) << was;
+  EXPECT_NEAR(is.red, 0.35 * was.red + 0.65 * 255.0, 3.0) << is;
+  EXPECT_NEAR(is.green, 0.35 * was.green + 0.65 * 0.95 * 255.0, 3.0) << is;
+  EXPECT_NEAR(is.blue, 0.35 * was.blue + 0.65 * 0.55 * 255.0, 3.0) << is;
+  EXPECT_EQ(none.rgb, plain.rgb);
+  const Probe ground = ProbeAt(most, camera, At(-2.0, 2.5, 0.0));
+  EXPECT_EQ(ground, ProbeAt(plain, camera, At(-2.0, 2.5, 0.0))) << "beside it nothing changes";
+}
+
 TEST_F(CarModel, WhichCannotBeReadIsASentenceAndTheProceduralCarStays) {
   const fs::path broken = folder_ / "broken.osgt";
   std::ofstream(broken) << "no model";

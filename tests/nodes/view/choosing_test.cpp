@@ -41,7 +41,7 @@ TEST(Screen, AClickChoosesAVehicle) {
   EXPECT_TRUE(click(*camera.Project(tail_W, 960, 540)));
   const Image chosen = shown();
   EXPECT_GT(ProbeAt(chosen, camera, tail_W).red, ProbeAt(before, camera, tail_W).red + 80.0) << ProbeAt(chosen, camera, tail_W);
-  EXPECT_LT(ProbeAt(chosen, 380, 540 - 60, 3).green, 0.75 * ProbeAt(before, 380, 540 - 60, 3).green) << "the panel's box";
+  EXPECT_LT(ProbeAt(chosen, 330, 540 - 40, 3).green, 0.75 * ProbeAt(before, 330, 540 - 40, 3).green) << "the panel's box";
   moment.time_ns = 800'000'000;
   EXPECT_TRUE(ProbeAt(shown(), camera, tail_W).IsBlue()) << "between two pulses";
   moment.time_ns = 400'000'000;
@@ -140,7 +140,8 @@ TEST(WindowHelp, SaysWhichButtonOfTheMouseIsTheWindows) {
   EXPECT_NE(WindowHelp(kNoButton).find("\nmouse wheel  "), std::string::npos);
 }
 
-// The driver of a chosen car of the traffic: the point that it steers for, the way there, the speed that it plans; gone with the choice.
+// What the driver of a chosen car of the traffic goes by: where it points and how fast it is to be, the point that it steers for and the line to it, where its path
+// leads, how far it looks; five things from five numbers, gone with the choice.
 TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
@@ -161,6 +162,8 @@ TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
   agent.q_WB = moment.cars[0].q_WB;
   agent.detail.emplace();
   agent.detail->look_ahead_W = from_car(26.0, 1.0, 0.0).head<2>();
+  agent.detail->target_B = {7.0, -2.0};
+  agent.detail->path_turn_rad = -0.3;
   agent.detail->target_speed_mps = 15.0;
   moment.agents.push_back(agent);
   const scene::Camera camera = scene::ChaseCamera(moment.cars[0], *world);
@@ -172,13 +175,30 @@ TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
   const auto post = ProbeAt(chosen, camera, from_car(26.0, 1.0, 1.1), 1), tip = ProbeAt(chosen, camera, from_car(28.7, 4.0, agent.height_m + 0.4), 0);
   EXPECT_TRUE(post.green > post.red + 60.0 && post.blue > post.red + 60.0) << "cyan: " << post;
   EXPECT_TRUE(tip.green > tip.red + 60.0 && tip.green > tip.blue + 60.0) << "green, a second of 15 m/s ahead: " << tip;
-  const Eigen::Vector3d on_path_W = from_car(16.0 + 0.8 * 10.0, 4.0 - 0.8 * 3.0, 0.5);
+  const Eigen::Vector3d on_path_W = from_car(16.0 + 3.0 * std::cos(0.3), 4.0 - 3.0 * std::sin(0.3), 0.5);
   const auto path = ProbeAt(chosen, camera, on_path_W, 0);
   EXPECT_TRUE(path.red > path.blue + 60.0 && path.green > path.blue + 60.0) << "yellow: " << path;
+  const double high_m = agent.height_m + 0.9;
+  for (const double share : {0.5, 1.0}) {
+    const auto target = ProbeAt(chosen, camera, from_car(14.0 + 7.0 * share, 4.0 - 2.0 * share, high_m), 0);
+    EXPECT_TRUE(target.red > target.green + 60.0 && target.blue > target.green + 60.0) << "magenta: " << target << " at " << share;
+  }
+  // Each goes by a number of its own.
+  const Eigen::Vector3d ball_W = from_car(21.0, 2.0, high_m), post_W = from_car(26.0, 1.0, 1.1);
+  moment.agents[0].detail->path_turn_rad = 0.3;
+  const Image turned = shown();
+  EXPECT_NE(ProbeAt(turned, camera, on_path_W, 0), path);
+  EXPECT_EQ(ProbeAt(turned, camera, ball_W, 0), ProbeAt(chosen, camera, ball_W, 0));
+  moment.agents[0].detail->target_B = {0.3, 0.0};  // MOTORS' driver's, above its car
+  const Image near = shown();
+  const auto above = ProbeAt(near, camera, from_car(14.3, 4.0, high_m), 0);
+  EXPECT_TRUE(above.red > above.green + 60.0 && above.blue > above.green + 60.0) << "magenta: " << above;
+  EXPECT_EQ(ProbeAt(near, camera, post_W, 1), post);
   moment.agents[0].detail.reset();
   const auto bare = ProbeAt(shown(), camera, from_car(26.0, 1.0, 1.1), 1);
   EXPECT_LT(bare.blue, bare.red + 60.0) << "nothing is said of it: " << bare;
   moment.agents[0].detail = agent.detail;
+  EXPECT_EQ(shown().rgb, chosen.rgb);
   EXPECT_TRUE(click({480.0, 20.0}));
   EXPECT_EQ(shown().rgb, before.rgb);
 }
@@ -220,7 +240,7 @@ TEST(Chosen, SaysOfTheTrafficWhatItPublishes) {
   Chosen chosen;
   chosen.Choose(moment, 0);
   EXPECT_EQ(chosen.Panel(moment), "traffic 7\n36.0 km/h\nwheels 0.0 deg") << "of recordings that say no more";
-  agent.detail = scene::AgentDetail{0.3, 0.0, 0.0, 2, 2100.0, 2.88, 1.5, 12.5, {0.0, 0.0}};
+  agent.detail = scene::AgentDetail{0.3, 0.0, 0.0, 2, 2100.0, 2.88, 1.5, 12.5, {0.0, 0.0}, 0.0, {0.0, 0.0}};
   chosen.Choose(moment, 0);
   EXPECT_EQ(chosen.Panel(moment), "traffic 7   36.0 km/h of 45\ngear 2   2100 1/min\nthrottle 30 %   brake 0 %\nclutch 0 %   wheels 0.0 deg\nnow 8.0 l/100 km\nmean -");
   for (int i = 1; i <= 100; ++i) {  // 1 km in 100 s; it burns 0.07 l

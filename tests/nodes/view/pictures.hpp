@@ -28,6 +28,8 @@ inline std::string WhyNoPictures() {
 struct Probe {
   double red = 0.0, green = 0.0, blue = 0.0;
 
+  bool operator==(const Probe&) const = default;
+
   bool IsSky() const { return blue > red + 8.0 && blue > 150.0; }
   bool IsAsphalt() const { return std::max({red, green, blue}) - std::min({red, green, blue}) < 22.0 && green > 45.0 && green < 160.0; }
   bool IsWhite() const { return std::min({red, green, blue}) > 165.0; }

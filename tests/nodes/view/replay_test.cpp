@@ -81,13 +81,26 @@ TEST(TimelineOf, SaysWhereOneIs) {
 }
 
 TEST(TimelinePlace, PixelsAndSharesAreEachOthersInverse) {
-  for (const int width : {64, 960, 7680}) {
-    const TimelinePlace place(width);
+  for (const auto& [width, height] : {std::pair(64, 64), std::pair(960, 540), std::pair(1280, 720), std::pair(7680, 4320)}) {
+    const PanelSize size = PanelsOf(width, height);
+    const TimelinePlace place(size);
     for (const double share : {0.0, 0.1, 0.5, 1.0})
-      EXPECT_NEAR(place.ShareAt(static_cast<double>(place.XOf(share))), share, 1e-5);
+      EXPECT_NEAR(place.ShareAt(static_cast<double>(size.scale * place.XOf(share))), share, 1e-5);
     EXPECT_EQ(place.ShareAt(-5.0), 0.0);
     EXPECT_EQ(place.ShareAt(width), 1.0);
   }
+}
+
+// Panels have the same share of a picture whatever its size, down to half their size at 1280 x 720, which is still read.
+TEST(PanelSize, GoesWithThePicturesHeight) {
+  const auto units = [](int width, int height) { return std::pair(PanelsOf(width, height).width, PanelsOf(width, height).height); };
+  EXPECT_EQ(units(1280, 720), std::pair(1280.0F, 720.0F));
+  EXPECT_EQ(units(1920, 1080), std::pair(1280.0F, 720.0F));
+  EXPECT_EQ(units(3840, 2160), std::pair(1280.0F, 720.0F));
+  EXPECT_EQ(units(640, 360), std::pair(1280.0F, 720.0F));
+  EXPECT_EQ(units(320, 180), std::pair(640.0F, 360.0F)) << "smaller letters could not be read";
+  EXPECT_EQ(units(960, 960), std::pair(960.0F, 960.0F)) << "its width counts";
+  EXPECT_EQ(PanelsOf(1920, 1080).scale, 1.5F);
 }
 
 TEST(TimelineBar, IsSeenOverThePicture) {
@@ -99,9 +112,9 @@ TEST(TimelineBar, IsSeenOverThePicture) {
   const Image without = draw();
   picture.timeline = Timeline{0.4, {0.25, 0.8}, "0:04.00 / 0:10.00", "a mark", "keys", {0.7}};
   const Image with = draw();
-  const TimelinePlace place(960);
-  const int track = 540 - 18;  // from above
-  const auto at = [&](double share) { return ProbeAt(with, static_cast<double>(place.XOf(share)), track, 0); };
+  const TimelinePlace place(PanelsOf(960, 540));
+  const double track = 540.0 - 0.75 * 18.0;  // from above
+  const auto at = [&](double share) { return ProbeAt(with, 0.75 * static_cast<double>(place.XOf(share)), track, 0); };
   EXPECT_TRUE(at(0.1).IsBlue()) << at(0.1);
   EXPECT_TRUE(at(0.25).IsYellow()) << at(0.25);
   EXPECT_TRUE(at(0.4).IsWhite()) << at(0.4);

@@ -8,6 +8,7 @@
 #include "nodes/view/heat_node.hpp"
 #include "nodes/view/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
+#include "tests/nodes/view/screen_hands.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::view {
@@ -30,10 +31,7 @@ class ScreenKeys : public ::testing::Test {
     ASSERT_TRUE(screen.ok()) << screen.error().Text();
     screen_ = std::move(screen).value();
   }
-  Image Shown() {
-    screen_->Show(moment_, 1.0);
-    return screen_->painter().Read();
-  }
+  Image Shown() { return view::Shown(*screen_, moment_); }
   bool Press(int symbol, bool driven = true) { return screen_->TakeKey(symbol, driven); }
   // How many pixels of the upper left corner, where lines of text stand, are not as they were.
   static int Written(const Image& before, const Image& after) {
@@ -124,7 +122,7 @@ TEST(HeatLegend, SaysWhatTheColoursMean) {
 // The bar goes from red through yellow to green; each statistic has its own legend, and behind the last there is none.
 TEST_F(ScreenKeys, EachStatisticHasItsLegend) {
   const Image bare = Shown();
-  const auto bar = [](const Image& image, int x) { return ProbeAt(image, x, 157, 0); };
+  const auto bar = [](const Image& image, int x) { return ProbeAt(image, 0.5 * x, 0.5 * 157, 0); };  // in half the size at which panels are laid out
   std::set<std::vector<std::uint8_t>> legends;
   for (std::size_t i = 0; i < scene::kHeatKinds; ++i) {
     ASSERT_TRUE(Press(SDLK_F8));
@@ -134,7 +132,7 @@ TEST_F(ScreenKeys, EachStatisticHasItsLegend) {
     EXPECT_TRUE(red.red > 200.0 && red.green < 40.0 && red.blue < 20.0) << red;
     EXPECT_TRUE(yellow.red > 200.0 && yellow.green > 200.0 && yellow.blue < 20.0) << yellow;
     EXPECT_TRUE(green.red < 40.0 && green.green > 200.0 && green.blue < 20.0) << green;
-    legends.insert(std::vector<std::uint8_t>(image.At(0, 120), image.At(0, 192)));
+    legends.insert(std::vector<std::uint8_t>(image.At(0, 60), image.At(0, 96)));
   }
   EXPECT_EQ(legends.size(), scene::kHeatKinds);
   ASSERT_TRUE(Press(SDLK_F8));
