@@ -107,11 +107,14 @@ base::Status ForEachOf(const replay::RecordedRun& run, std::string_view topic, c
   return {};
 }
 
-// "weather rain 8", "traffic.brake ahead 4"; of a text that somebody wrote only that.
+// "weather rain 8", "traffic.brake ahead 4", "traffic.change_lane 3 left"; of a text that somebody wrote only that.
 std::string TextOf(const msg::ScenarioEvent& event) {
   if (event.name() == scenario::kMark) return Shortened(event.argument());
   const std::string argument = event.argument().empty() ? "" : " " + event.argument();
-  return Shortened(fmt::format("{}{}{}", event.name(), argument, event.value() != 0.0 ? fmt::format(" {:g}", event.value()) : ""));
+  const scenario::EventKind* kind = scenario::FindEventKind(event.name());
+  std::string value = event.value() != 0.0 ? fmt::format(" {:g}", event.value()) : "";
+  if (kind != nullptr && kind->value == scenario::ValueKind::kSide) value = event.value() > 0.0 ? " left" : " right";
+  return Shortened(event.name() + argument + value);
 }
 
 }  // namespace

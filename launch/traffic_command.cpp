@@ -11,6 +11,7 @@
 
 #include "common/map/heights.hpp"
 #include "common/map/map_network.hpp"
+#include "common/traffic/drivetrain.hpp"
 #include "common/traffic/map_demand.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
@@ -77,12 +78,15 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
 
 void Describe(const TrafficOptions& options, const traffic::StudyResult& r, double wall_s) {
   fmt::print("vehicles         {} on the road, {} waiting to enter, {} trips ended\n", r.on_road, r.waiting, r.arrivals);
+  fmt::print("entered, left    {} came onto the road, {} left it; {} were there at the beginning\n", r.entered, r.left, r.began);
   fmt::print("driven           {:.3f} km at {:.2f} m/s in the mean\n", r.driven_km, r.mean_speed_mps());
+  const double litres = r.fuel_mg / traffic::kFuelDensity_mgpl;
+  fmt::print("fuel             {:.3f} l, {:.2f} l/100 km\n", litres, r.driven_km > 0.0 ? 100.0 * litres / r.driven_km : 0.0);
   fmt::print("standing         {:.1f} % of the time, at most {:.1f} s (car {}), with room ahead {:.1f} s (car {})\n",
              r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, r.longest_stand_s, r.longest_stand_id, r.longest_with_room_s, r.longest_with_room_id);
   fmt::print("hardest braking  {:.2f} m/s2 by the foot, {:.2f} m/s2 in all\n", r.hardest_mps2, r.hardest_any_mps2);
   fmt::print("collisions       {}\n", r.collisions);
-  fmt::print("beside its lane  {} times, looked at every 0.1 s\n", r.off_lane);
+  fmt::print("beside its lane  {} times, a wheel off the road {} times, looked at every 0.1 s\n", r.off_lane, r.wheels_off);
   fmt::print("wall time        {:.2f} s, {:.1f} times real time, {:.0f} vehicle steps a second\n", wall_s, options.duration_s / wall_s,
              r.vehicle_s / options.step_s / wall_s);
   for (const std::string& incident : r.incidents) fmt::print("incident         {}\n", incident);

@@ -115,6 +115,8 @@ void CheckPicture(const MapFile& map, Findings& findings) {
   } else if (picture->width_px > 16384 || picture->height_px > 16384) {
     findings.AddToMap(Severity::kWarning, fmt::format("the picture has {} by {} pixels; up to 16384 each way can be shown",
                                                       picture->width_px, picture->height_px));
+  } else if (!picture->ends) {
+    findings.AddToMap(Severity::kWarning, fmt::format("the {} bytes behind the line 'i' end before the {} picture does", map.picture.size(), picture->kind));
   }
 }
 

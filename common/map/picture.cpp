@@ -13,10 +13,10 @@ std::uint32_t Number(std::string_view bytes, std::size_t at, std::size_t size) {
   return value;
 }
 
-std::optional<PictureInfo> Sized(std::string_view kind, std::uint32_t width, std::uint32_t height) {
+std::optional<PictureInfo> Sized(std::string_view kind, std::uint32_t width, std::uint32_t height, bool ends) {
   constexpr std::uint32_t kMost = 0x7FFFFFFF;
   if (width == 0 || height == 0 || width > kMost || height > kMost) return std::nullopt;
-  return PictureInfo{kind, static_cast<int>(width), static_cast<int>(height)};
+  return PictureInfo{kind, static_cast<int>(width), static_cast<int>(height), ends};
 }
 
 // Segments one after the other up to the frame header SOF0 to SOF15; C4, C8 and CC among those codes are other segments.
@@ -30,7 +30,7 @@ std::optional<PictureInfo> ReadJpeg(std::string_view bytes) {
     }
     if (code >= 0xC0 && code <= 0xCF && code != 0xC4 && code != 0xC8 && code != 0xCC) {
       if (at + 9 > bytes.size()) return std::nullopt;
-      return Sized("JPEG", Number(bytes, at + 7, 2), Number(bytes, at + 5, 2));
+      return Sized("JPEG", Number(bytes, at + 7, 2), Number(bytes, at + 5, 2), bytes.find("\xff\xd9", at + 9) != std::string_view::npos);
     }
     if (code == 0xD9 || code == 0xDA) return std::nullopt;
     const std::uint32_t length = Number(bytes, at + 2, 2);
@@ -46,7 +46,7 @@ std::optional<PictureInfo> ReadPictureInfo(std::string_view bytes) {
   using namespace std::string_view_literals;
   if (bytes.starts_with("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR"sv)) {
     if (bytes.size() < 24) return std::nullopt;
-    return Sized("PNG", Number(bytes, 16, 4), Number(bytes, 20, 4));
+    return Sized("PNG", Number(bytes, 16, 4), Number(bytes, 20, 4), bytes.find("IEND\xae\x42\x60\x82"sv, 24) != std::string_view::npos);
   }
   if (bytes.starts_with("\xff\xd8\xff"sv)) return ReadJpeg(bytes);
   return std::nullopt;

@@ -21,6 +21,9 @@ constexpr std::array kKinds = std::to_array<EventKind>({
     {kTrafficBrake, "agent", ArgumentKind::kAgent, "deceleration_mps2", 0.1, 10.0},
     {kTrafficSpeed, "agent", ArgumentKind::kAgent, "speed_mps", 0.5, 100.0},
     {kTrafficRelease, "agent", ArgumentKind::kAgent, "", 0.0, 0.0},
+    {kTrafficOvertake, "agent", ArgumentKind::kAgent, "", 0.0, 0.0},
+    {kTrafficChangeLane, "agent", ArgumentKind::kAgent, "side", -1.0, 1.0, ValueKind::kSide},
+    {kTrafficAppear, "agent", ArgumentKind::kAgentOnLane, "speed_mps", 0.0, 100.0},
     {kTrafficPedestrian, "crossing", ArgumentKind::kCrossing, "", 0.0, 0.0},
     {kVehiclePlace, "place", ArgumentKind::kPlace, "heading_deg", -360.0, 360.0},
     {kWeatherChange, "becomes", ArgumentKind::kWeather, "over_s", 0.0, 3600.0},
@@ -79,6 +82,15 @@ base::Result<AgentChoice> ParseAgent(std::string_view text) {
   return choice;
 }
 
+base::Result<AgentChoice> ParseAgentOnLane(std::string_view text) {
+  auto choice = ParseAgent(text);
+  if (!choice) return choice.error();
+  const std::string_view lane = choice.value().at ? std::string_view(choice.value().at->road) : std::string_view();
+  const std::size_t colon = lane.rfind(':');
+  if (choice.value().kind == AgentChoice::Kind::kOne && colon != std::string_view::npos && colon > 0 && NumberIn(lane.substr(colon + 1))) return choice;
+  return base::WrongInput(fmt::format("'{}' is no agent on a lane; its number, ROAD:LANE and metres along the road were expected, as in '20 at main:-1 350'", text.substr(0, 60)));
+}
+
 std::string AgentText(std::string_view agent, const AgentChoice::At& at) { return fmt::format("{} at {} {}", agent, at.road, at.s_m); }
 
 base::Result<PlaceChoice> ParsePlace(std::string_view text) {
@@ -126,12 +138,17 @@ base::Status CheckEvent(const Event& event) {
   }
   if (kind->argument == ArgumentKind::kAgent) {
     if (const auto agent = ParseAgent(event.argument); !agent) return agent.error();
+  } else if (kind->argument == ArgumentKind::kAgentOnLane) {
+    if (const auto agent = ParseAgentOnLane(event.argument); !agent) return agent.error();
   } else if (kind->argument == ArgumentKind::kCrossing) {
     if (const auto crossing = ParseCrossing(event.argument); !crossing) return crossing.error();
   } else if (kind->argument == ArgumentKind::kPlace) {
     if (const auto place = ParsePlace(event.argument); !place) return place.error();
   } else if (kind->argument == ArgumentKind::kWeather) {
     if (const auto named = weather::FindWeather(event.argument); !named) return named.error();
+  }
+  if (kind->value == ValueKind::kSide && event.value != 1.0 && event.value != -1.0) {
+    return base::WrongInput(fmt::format("'{}' of '{}' is {}; 1 (left) or -1 (right) was expected", kind->value_key, event.name, event.value));
   }
   if (kind->value_key.empty() || (event.value >= kind->low && event.value <= kind->high)) return {};
   return base::WrongInput(fmt::format("'{}' of '{}' is {}; {} to {} was expected", kind->value_key, event.name, event.value, kind->low, kind->high));

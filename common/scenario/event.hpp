@@ -14,7 +14,10 @@ namespace rodeira::scenario {
 inline constexpr std::string_view kMark = "mark";                       // a text in the recording; nobody obeys
 inline constexpr std::string_view kTrafficBrake = "traffic.brake";      // at a deceleration down to rest, and stay
 inline constexpr std::string_view kTrafficSpeed = "traffic.speed";      // drive no faster than this
-inline constexpr std::string_view kTrafficRelease = "traffic.release";  // forget both
+inline constexpr std::string_view kTrafficRelease = "traffic.release";  // forget all that
+inline constexpr std::string_view kTrafficOvertake = "traffic.overtake";  // who is ahead, as soon as it is safe
+inline constexpr std::string_view kTrafficChangeLane = "traffic.change_lane";  // to the lane beside, as soon as it is safe
+inline constexpr std::string_view kTrafficAppear = "traffic.appear";    // a vehicle comes onto the middle of a lane
 inline constexpr std::string_view kTrafficPedestrian = "traffic.pedestrian";  // somebody on foot comes to a crossing
 inline constexpr std::string_view kVehiclePlace = "vehicle.place";      // a driver's car stands elsewhere: INI there
 inline constexpr std::string_view kWeatherChange = "weather";           // becomes one that has a name, within so many seconds
@@ -26,7 +29,8 @@ struct Event {
   double value = 0.0;
 };
 
-enum class ArgumentKind { kText, kAgent, kPlace, kWeather, kCrossing };
+enum class ArgumentKind { kText, kAgent, kAgentOnLane, kPlace, kWeather, kCrossing };
+enum class ValueKind { kNumber, kSide };  // a side: `left` is 1, `right` -1
 
 // What a kind of event is told, and under which keys a person writes it.
 struct EventKind {
@@ -35,6 +39,7 @@ struct EventKind {
   ArgumentKind argument = ArgumentKind::kText;
   std::string_view value_key;      // with its unit; empty: it has none
   double low = 0.0, high = 0.0;    // of the value
+  ValueKind value = ValueKind::kNumber;
 };
 std::span<const EventKind> EventKinds();
 // Null where there is no such kind.
@@ -54,6 +59,8 @@ struct AgentChoice {
   std::optional<At> at;  // kNext: always
 };
 base::Result<AgentChoice> ParseAgent(std::string_view text);
+// Of one agent where on which lane: "20 at main:-1 350"; the road of `at` is then ROAD:LANE.
+base::Result<AgentChoice> ParseAgentOnLane(std::string_view text);
 std::string AgentText(std::string_view agent, const AgentChoice::At& at);
 
 // Which car, and where: "ego 12.5 -3.25", metres; with a third number the height near which the ground is meant.

@@ -51,13 +51,19 @@ Event ReadEvent(const config::Map& map) {
   if (kind == nullptr) return event;
   const std::string argument_key(kind->argument_key);
   event.argument = map.Text(argument_key);
-  const bool told = map.Has(argument_key);
+  const bool told = map.Has(argument_key) && (kind->argument != ArgumentKind::kAgentOnLane || map.Has("at"));
   if (kind->argument == ArgumentKind::kAgent && map.Has("at")) {
     const config::Map at = map.Child("at");
     const std::string road = at.Text("road");
     event.argument = AgentText(event.argument, {road, at.Number("s_m", {0.0, kLongest_m})});
   }
-  if (!kind->value_key.empty()) event.value = map.Number(kind->value_key, {kind->low, kind->high});
+  if (kind->argument == ArgumentKind::kAgentOnLane) {
+    const config::Map at = map.Child("at");
+    const std::string lane = at.Text("lane");
+    event.argument = AgentText(event.argument, {lane, at.Number("s_m", {0.0, kLongest_m})});
+  }
+  if (kind->value == ValueKind::kSide) event.value = map.Choice(kind->value_key, {"left", "right"}) == "right" ? -1.0 : 1.0;
+  else if (!kind->value_key.empty()) event.value = map.Number(kind->value_key, {kind->low, kind->high});
   // A value out of its range is said already.
   const Event argument_only{event.name, event.argument, std::clamp(event.value, kind->low, kind->high)};
   if (const base::Status sound = CheckEvent(argument_only); told && !sound) map.Problem(argument_key, sound.error().message);

@@ -49,6 +49,8 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("gear", driving.gear);
   writer.Put("brake_mps2", brake_mps2);
   writer.Put("cap_mps", cap_mps);
+  writer.Put("told_side", told_side);
+  writer.Put("told_past", told_past);
   writer.Put("granted_m", granted_m);
   std::vector<double> grants_to, grants_light;
   std::vector<std::uint64_t> grants_told;
@@ -104,6 +106,9 @@ void Agent::Restore(base::StateReader& reader) {
   reader.Get("gear", driving.gear);
   reader.Get("brake_mps2", brake_mps2);
   reader.Get("cap_mps", cap_mps);
+  reader.Get("told_side", told_side);
+  told_side = std::clamp(told_side, -1, 1);
+  reader.Get("told_past", told_past);
   reader.Get("granted_m", granted_m);
   std::vector<double> grants_to, grants_light;
   std::vector<std::uint64_t> grants_told;

@@ -87,6 +87,8 @@ struct Agent {
   Driving driving;          // what its driver and its engine did in the last step
   double brake_mps2 = 0.0;  // commanded; 0: not
   double cap_mps = kNoCap_mps;
+  std::int32_t told_side = 0;  // told to go over to the lane on that side, +1 left, -1 right, and has not yet; 0: not
+  bool told_past = false;      // told to overtake who is ahead, and has not begun yet
   double granted_m = 0.0;   // odometer to which the conflict zones on its way are its own
   std::vector<ZoneGrant> grants;  // those that its rear has not left yet, as it meets them
   double stopped_m = -1.0;  // odometer of the STOP line at which it has come to rest

@@ -96,11 +96,18 @@ AgentTraits TraitsOf(const TrafficSettings& settings, const VehicleMix& mix, std
   return traits;
 }
 
+AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id) {
+  if (id < settings.vehicles || id - settings.vehicles >= settings.scripted.size()) return TraitsOf(settings, settings.mix, id);
+  VehicleMix one{{0.0, 0.0, 0.0, 0.0}};
+  one.shares[static_cast<std::size_t>(settings.scripted[id - settings.vehicles])] = 1.0;
+  return TraitsOf(settings, one, id);
+}
+
 lanes::LargestCar LargestOf(const TrafficSettings& settings) {
   lanes::LargestCar largest;
   const auto any = [&](std::size_t k) {
-    return settings.mix.shares[k] > 0.0 || std::any_of(settings.demand.flows.begin(), settings.demand.flows.end(),
-                                                       [&](const FlowSettings& flow) { return flow.mix && flow.mix->shares[k] > 0.0; });
+    return settings.mix.shares[k] > 0.0 || std::count(settings.scripted.begin(), settings.scripted.end(), static_cast<VehicleKind>(k)) > 0 ||
+           std::any_of(settings.demand.flows.begin(), settings.demand.flows.end(), [&](const FlowSettings& flow) { return flow.mix && flow.mix->shares[k] > 0.0; });
   };
   for (std::size_t k = 0; k < kKinds.size(); ++k) {
     if (!any(k)) continue;

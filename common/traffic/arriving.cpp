@@ -24,7 +24,7 @@ void TrafficModel::Arrive(std::int64_t until_ns) {
     while (flow.next_ns >= 0 && flow.next_ns < until_ns) {
       flow.next_ns = NextArrival_ns(settings_.demand.flows[f], settings_.seed, f, ++flow.arrived, flow.next_ns);
     }
-    for (; flow.given < flow.arrived && id < agents_.size(); ++id) {
+    for (; flow.given < flow.arrived && id < settings_.vehicles; ++id) {
       if (agents_[id].flow < 0) Begin(id, f, flow.given++);
     }
   }

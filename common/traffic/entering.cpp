@@ -13,6 +13,7 @@ constexpr std::uint64_t kDrawLane = 102;
 constexpr double kGentle_mps2 = 0.8;     // an entering car needs no harder braking than this
 constexpr double kEnteringShare = 0.95;  // of the speed it wants
 constexpr double kEnteringBrake = 0.9;   // share of its comfortable braking before the first line
+constexpr double kUntouched_m = 0.4;     // between who enters by MOTORS' rule and who is ahead, at least
 
 }  // namespace
 
@@ -40,19 +41,27 @@ void TrafficModel::Leave(std::uint32_t id) {
   if (full_) full_->Clear(id);
   agent.trip = trip;
   agent.driven_m = driven;
+  if (id >= settings_.vehicles) return;  // a scenario's
   ++ended_;
   if (has_flows()) return;  // the next vehicle of a flow is another one
   agent.entry = DrawEntry(id, trip);
   waiting_.push_back(id);
 }
 
-// At each entry the first who waits there.
+// At each entry the first who waits there. Who is on it, or, where that lies in the middle of the network, on the way there, is looked for once for all.
 void TrafficModel::Enter() {
   if (waiting_.empty()) return;
   for (auto& present : present_) present.clear();
+  expected_.assign(graph().tracks().size(), 0);
+  const bool among_others = std::any_of(waiting_.begin(), waiting_.end(), [&](std::uint32_t id) { return !graph()[agents_[id].entry].before.empty(); });
   const auto appear = [&](std::uint32_t id) {
     for (const Piece& piece : agents_[id].path) {
       if (map_->enters[piece.track]) present_[piece.track].push_back(id);
+    }
+    if (!among_others) return;
+    const double front = agents_[id].o_m + 0.5 * traits_[id].length_m, sight = SightOf(agents_[id]);
+    for (const Stretch& stretch : stretches_[id]) {
+      if (stretch.begin_m > front - 1.0 && stretch.begin_m - front < sight) expected_[stretch.track] = 1;
     }
   };
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
@@ -75,18 +84,12 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
   const AgentTraits& traits = traits_[id];
   const double half = 0.5 * traits.length_m;
   const lanes::Track& track = graph()[agent.entry];
+  const bool as_motors = settings_.enters == EnterRule::kFree;
+  const double free_m = std::max(settings_.free_m, traits.length_m + kUntouched_m);  // of the lane, by that rule
   for (const Block& block : blocks_[agent.entry]) {
-    if (block.span.rear_m < traits.length_m + traits.idm.standing_gap_m && block.span.front_m > 0.0) return false;
+    if (block.span.rear_m < (as_motors ? free_m : traits.length_m + traits.idm.standing_gap_m) && block.span.front_m > 0.0) return false;
   }
-  if (!track.before.empty()) {  // in the middle of the network: nobody may be on the way there
-    for (std::uint32_t other = 0; other < agents_.size(); ++other) {
-      if (!agents_[other].on_road) continue;
-      const double front = agents_[other].o_m + 0.5 * traits_[other].length_m;
-      for (const Stretch& stretch : stretches_[other]) {
-        if (stretch.track == agent.entry && stretch.begin_m > front - 1.0 && stretch.begin_m - front < SightOf(agents_[other])) return false;
-      }
-    }
-  }
+  if (!track.before.empty() && expected_[agent.entry] != 0) return false;  // in the middle of the network: nobody may be on the way there
   Agent entering = agent;
   entering.on_road = true;
   entering.o_m = half;
@@ -114,7 +117,8 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
   // Nobody may stand where it enters, not even with its rear; agents have moved since they were last seen.
   for (const std::uint32_t other : present_[agent.entry]) {
     for (const Piece& piece : agents_[other].path) {
-      if (piece.track == agent.entry && agents_[other].o_m - 0.5 * traits_[other].length_m - piece.zero_m < traits.length_m + 2.0 * traits.idm.standing_gap_m) return wait();
+      const double rear = agents_[other].o_m - 0.5 * traits_[other].length_m - piece.zero_m;
+      if (piece.track == agent.entry && rear < (as_motors ? free_m : traits.length_m + 2.0 * traits.idm.standing_gap_m)) return wait();
     }
   }
   const Ahead ahead = FindAhead(id);
@@ -124,7 +128,7 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
              driver::IdmAcceleration(traits.idm, v, limit, ahead.gap_m, ahead.speed_mps) > -kGentle_mps2;
     };
     if (!safe(speed)) speed = std::clamp(ahead.speed_mps, 0.0, speed);
-    if (!safe(speed)) return wait();
+    if (!as_motors && !safe(speed)) return wait();
   }
   agent.speed_mps = speed;
   if (full_ && !PlaceFull(id)) return wait();

@@ -18,6 +18,7 @@ constexpr double kMostPixels = 1e8;
 struct Pixel {
   LaneCell sum;
   double length_m = 0.0;
+  double free_m2ps = 0.0;  // the free speed of its cells, each as often as it is long
 };
 
 // Row by row from the north-west.
@@ -52,6 +53,7 @@ base::Result<Raster> Gather(const lanes::Graph& graph, const LaneStatistics& sta
       Pixel& pixel = raster.pixels[row * static_cast<std::size_t>(raster.columns) + column];
       const LaneCell& cell = statistics.CellsOf(track)[i];
       pixel.length_m += length;
+      pixel.free_m2ps += length * statistics.FreeSpeed_mps(track, i);
       pixel.sum.distance_m += cell.distance_m, pixel.sum.time_s += cell.time_s, pixel.sum.fuel_mg += cell.fuel_mg;
     }
   }
@@ -64,7 +66,7 @@ base::Status WriteHeatRaster(const lanes::Graph& graph, const LaneStatistics& st
   auto gathered = Gather(graph, statistics, pixel_m, file);
   if (!gathered) return gathered.error();
   const Raster& raster = gathered.value();
-  constexpr std::array<const char*, 4> kBands = {"flow_vehph", "density_vehpkm", "speed_mps", "fuel_mlpkm"};
+  constexpr std::array<const char*, 5> kBands = {"flow_vehph", "density_vehpkm", "speed_mps", "fuel_mlpkm", "free_mps"};
   GDALAllRegister();
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   if (driver == nullptr) return base::Failed("this GDAL cannot write GeoTIFF files", file);
@@ -78,9 +80,9 @@ base::Status WriteHeatRaster(const lanes::Graph& graph, const LaneStatistics& st
   std::vector<float> values(raster.pixels.size());
   for (std::size_t k = 0; k < kBands.size(); ++k) {
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const auto& [sum, length] = raster.pixels[i];
-      const std::array<double, 4> told = {3600.0 * sum.Flow_vehps(length, watched), 1000.0 * sum.Density_vehpm(length, watched), sum.Speed_mps(),
-                                          sum.distance_m > 0.0 ? 1e6 * sum.fuel_mg / kFuelDensity_mgpl / sum.distance_m : 0.0};
+      const auto& [sum, length, free_m2ps] = raster.pixels[i];
+      const std::array<double, 5> told = {3600.0 * sum.Flow_vehps(length, watched), 1000.0 * sum.Density_vehpm(length, watched), sum.Speed_mps(),
+                                          sum.distance_m > 0.0 ? 1e6 * sum.fuel_mg / kFuelDensity_mgpl / sum.distance_m : 0.0, free_m2ps / length};
       values[i] = length > 0.0 ? static_cast<float>(told[k]) : std::numeric_limits<float>::quiet_NaN();
     }
     GDALRasterBand& band = *set->GetRasterBand(static_cast<int>(k) + 1);

@@ -19,6 +19,9 @@ LaneStatistics::LaneStatistics(const TrafficModel& model, double cell_m) : seen_
     const auto count = static_cast<std::size_t>(std::max(1.0, std::round(track.length_m() / cell_m)));
     cells_.emplace_back(count);
     lengths_m_.push_back(track.length_m() / static_cast<double>(count));
+    free_mps_.emplace_back(count);
+    const auto index = static_cast<std::uint32_t>(free_mps_.size() - 1);
+    for (std::size_t cell = 0; cell < count; ++cell) free_mps_.back()[cell] = model.FreeSpeed_mps(index, (static_cast<double>(cell) + 0.5) * lengths_m_.back());
   }
   for (std::uint32_t id = 0; id < model.vehicles(); ++id) {
     const Agent& agent = model.agent(id);

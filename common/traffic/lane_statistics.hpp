@@ -36,6 +36,8 @@ class LaneStatistics {
   double watched_s() const { return watched_s_; }
   const std::vector<LaneCell>& CellsOf(std::uint32_t track) const { return cells_[track]; }
   double CellLength_m(std::uint32_t track) const { return lengths_m_[track]; }
+  // In the middle of a cell, whoever was there (TrafficModel::FreeSpeed_mps).
+  double FreeSpeed_mps(std::uint32_t track, std::size_t cell) const { return free_mps_[track][cell]; }
 
   // Of a track, over all looks: the longest and the mean queue, vehicles.
   std::int64_t LongestQueue(std::uint32_t track) const { return queues_[track].longest; }
@@ -65,6 +67,7 @@ class LaneStatistics {
 
   std::vector<std::vector<LaneCell>> cells_;  // by track
   std::vector<double> lengths_m_;             // of a cell, by track
+  std::vector<std::vector<double>> free_mps_;  // by track and cell
   std::vector<Queue> queues_;                 // by track
   std::int64_t looks_ = 0;
   std::vector<Seen> seen_;                    // by vehicle

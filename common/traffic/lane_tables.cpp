@@ -40,7 +40,7 @@ Frame FrameOf(const lanes::Graph& graph) {
 }  // namespace
 
 std::string LaneTable(const lanes::Graph& graph, const LaneStatistics& statistics) {
-  std::string table = "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm\n";
+  std::string table = "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm,free_mps\n";
   const double watched = statistics.watched_s();
   if (!(watched > 0.0)) return table;
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
@@ -50,9 +50,9 @@ std::string LaneTable(const lanes::Graph& graph, const LaneStatistics& statistic
       const LaneCell& cell = statistics.CellsOf(track)[i];
       const double d = (static_cast<double>(i) + 0.5) * length;
       const lanes::CurvePoint at = lane.curve.At(d);
-      fmt::format_to(std::back_inserter(table), "{},{},{:.2f},{:.2f},{:.2f},{:.4f},{:.3f},{:.3f},{:.3f},{:.2f}\n", graph.network().roads()[lane.lane.road].id(), lane.lane.lane,
+      fmt::format_to(std::back_inserter(table), "{},{},{:.2f},{:.2f},{:.2f},{:.4f},{:.3f},{:.3f},{:.3f},{:.2f},{:.3f}\n", graph.network().roads()[lane.lane.road].id(), lane.lane.lane,
                      lane.curve.StationAt(d), at.p_W.x(), at.p_W.y(), length, 3600.0 * cell.Flow_vehps(length, watched), 1000.0 * cell.Density_vehpm(length, watched),
-                     cell.Speed_mps(), cell.distance_m > 0.0 ? 1e6 * cell.fuel_mg / kFuelDensity_mgpl / cell.distance_m : 0.0);
+                     cell.Speed_mps(), cell.distance_m > 0.0 ? 1e6 * cell.fuel_mg / kFuelDensity_mgpl / cell.distance_m : 0.0, statistics.FreeSpeed_mps(track, i));
     }
   }
   return table;

@@ -79,7 +79,7 @@ double TrafficModel::FollowerDoes(const Behind& behind, bool any, double gap_m, 
 }
 
 // A change to one side with what it would bring; nothing where it cannot be, or is not safe.
-std::optional<Sideways> TrafficModel::Weigh(std::uint32_t id, int side) {
+std::optional<Sideways> TrafficModel::Weigh(std::uint32_t id, int side, bool told) {
   Agent& agent = agents_[id];
   const auto piece = PieceBeside(id, side);
   if (!piece) return std::nullopt;
@@ -105,7 +105,7 @@ std::optional<Sideways> TrafficModel::Weigh(std::uint32_t id, int side) {
   agent.path.pop_back();
   Sideways way{*piece, side, 0.0, std::exchange(stretches_[id], std::move(own))};
   const int fewer = FewerChanges(id, piece->track);
-  if (!plain || ends < own_ends - kSooner_m || (fewer < 0 && ends < kNoBarrier_m)) return std::nullopt;
+  if (!plain || (!told && (ends < own_ends - kSooner_m || (fewer < 0 && ends < kNoBarrier_m)))) return std::nullopt;
   const Behind old_follower = FindBehind(id, agent.path.back().track, agent.o_m - agent.path.back().zero_m, rear - agent.path.back().zero_m);
   const Behind follower = FindBehind(id, piece->track, agent.o_m - piece->zero_m, rear - piece->zero_m);
   if (ahead.any && ahead.gap_m < traits.idm.standing_gap_m) return std::nullopt;
@@ -127,10 +127,13 @@ std::optional<Sideways> TrafficModel::Weigh(std::uint32_t id, int side) {
 
 // Whether it is its turn to think of another lane, and it is somewhere and drives so that it may.
 bool TrafficModel::ThinksOfLanes(std::uint32_t id, std::int64_t step_ns) const {
-  const Agent& agent = agents_[id];
   const std::int64_t now = time_ns_ + (id * kApart_ns) % kEvery_ns;
-  if ((now + step_ns) / kEvery_ns == now / kEvery_ns || time_ns_ < agent.settled_ns || agent.speed_mps < kSlowest_mps) return false;
-  return graph()[agent.path.back().track].junction < 0 && agent.grants.empty() && !passages_[id].due;
+  return (now + step_ns) / kEvery_ns != now / kEvery_ns && time_ns_ >= agents_[id].settled_ns && MayLeaveLane(id);
+}
+
+bool TrafficModel::MayLeaveLane(std::uint32_t id) const {
+  const Agent& agent = agents_[id];
+  return agent.speed_mps >= kSlowest_mps && graph()[agent.path.back().track].junction < 0 && agent.grants.empty() && !passages_[id].due;
 }
 
 // One after the other by their numbers: who has begun is seen by the next.
@@ -144,8 +147,12 @@ void TrafficModel::ChangeLanes(std::int64_t step_ns) {
       agent.settled_ns = time_ns_ + kSettles_ns;
     }
     const lanes::Track& track = graph()[agent.path.back().track];
-    if ((!track.left && !track.right) || !settings_.changes_lanes || agent.brake_mps2 > 0.0) continue;
-    if (!ThinksOfLanes(id, step_ns)) continue;
+    if ((!track.left && !track.right) || agent.brake_mps2 > 0.0) continue;
+    if (const int side = ToldSide(id); side != 0) {
+      ChangeAsTold(id, side);
+      continue;
+    }
+    if (!settings_.changes_lanes || !ThinksOfLanes(id, step_ns)) continue;
     std::optional<Sideways> best;
     for (const int side : {1, -1}) {
       auto way = Weigh(id, side);

@@ -2,21 +2,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "common/network/network.hpp"
 #include "common/traffic/motors_driver.hpp"
 
 namespace rodeira::traffic {
+namespace {
 
-void EachCrossing(std::vector<MotorsLook>& looks, const std::function<void(const MotorsLook&, const MotorsLook&)>& tell) {
-  const auto low = [](const MotorsLook& look) { return std::min(look.from.x(), look.to.x()); };
-  std::sort(looks.begin(), looks.end(), [&](const MotorsLook& a, const MotorsLook& b) { return low(a) != low(b) ? low(a) < low(b) : a.id < b.id; });
-  for (std::size_t i = 0; i < looks.size(); ++i) {
-    const double high = std::max(looks[i].from.x(), looks[i].to.x());
-    for (std::size_t k = i + 1; k < looks.size() && low(looks[k]) <= high; ++k) {
-      if (std::fabs(looks[i].z_m - looks[k].z_m) > network::Network::kLevel_m || !SegmentsCross(looks[i].from, looks[i].to, looks[k].from, looks[k].to)) continue;
-      tell(looks[i], looks[k]);
-    }
+// Of the lower left corner of a look's box.
+struct Cell {
+  std::int64_t x = 0, y = 0;
+  std::uint32_t look = 0;
+};
+
+}  // namespace
+
+void EachCrossing(const std::vector<MotorsLook>& looks, const std::function<void(const MotorsLook&, const MotorsLook&)>& tell) {
+  double longest_m = 1.0;  // no box is wider or higher, so that those that meet have their corners in one cell, or in cells side by side
+  for (const MotorsLook& look : looks) longest_m = std::max({longest_m, std::fabs(look.to.x() - look.from.x()), std::fabs(look.to.y() - look.from.y())});
+  std::vector<Cell> cells;
+  for (std::uint32_t i = 0; i < looks.size(); ++i) {
+    const auto cell = [&](double a, double b) { return static_cast<std::int64_t>(std::floor(std::min(a, b) / longest_m)); };
+    cells.push_back({cell(looks[i].from.x(), looks[i].to.x()), cell(looks[i].from.y(), looks[i].to.y()), i});
+  }
+  const auto before = [](const Cell& a, const Cell& b) { return std::tie(a.x, a.y, a.look) < std::tie(b.x, b.y, b.look); };
+  std::sort(cells.begin(), cells.end(), before);
+  const auto compare = [&](const Cell& one, const Cell& other) {
+    const MotorsLook &a = looks[one.look], &b = looks[other.look];
+    if (std::fabs(a.z_m - b.z_m) <= network::Network::kLevel_m && SegmentsCross(a.from, a.to, b.from, b.to)) tell(a, b);
+  };
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Cell& own = cells[i];
+    for (std::size_t k = i + 1; k < cells.size() && cells[k].x == own.x && cells[k].y <= own.y + 1; ++k) compare(own, cells[k]);
+    const Cell first{own.x + 1, own.y - 1, 0};
+    for (auto k = std::lower_bound(cells.begin(), cells.end(), first, before); k != cells.end() && k->x == own.x + 1 && k->y <= own.y + 1; ++k) compare(own, *k);
   }
 }
 

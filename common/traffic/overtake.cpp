@@ -115,12 +115,11 @@ double TrafficModel::WantedBeside(std::uint32_t id, double wanted_mps2) const {
 
 // One after the other by their numbers: who has begun is seen by the next.
 void TrafficModel::Overtake(std::int64_t step_ns) {
-  if (!settings_.overtaking.allowed) return;
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     Agent& agent = agents_[id];
     if (!agent.on_road) continue;
     if (!agent.overtaking.active()) {
-      if (agent.brake_mps2 == 0.0 && ThinksOfLanes(id, step_ns)) ThinkOfOvertaking(id);
+      if (agent.brake_mps2 == 0.0 && (agent.told_past ? MayLeaveLane(id) : settings_.overtaking.allowed && ThinksOfLanes(id, step_ns))) ThinkOfOvertaking(id);
       continue;
     }
     if (agent.overtaking.back && agent.o_m - 0.5 * traits_[id].length_m > agent.overtaking.to_m) {

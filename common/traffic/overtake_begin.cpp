@@ -10,7 +10,9 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kHeldUp_mps2 = 0.3;       // so much less than on a free road
-constexpr double kGain_mps = 4.0;          // so much faster than who is passed at least
+constexpr double kGain_mps = 4.0;          // so much faster than who is passed at least …
+constexpr double kToldGain_mps = 1.0;      // … and who is told to
+constexpr double kToldNear_s = 4.0;        // he begins no farther behind who is ahead than this, and his standing gap
 constexpr double kBeside_m = 0.45;         // from side to side
 constexpr double kMostAside = 0.97;        // of the way to the other lane's middle that it may need
 constexpr double kSideways_mps2 = 0.9;     // as changes of lanes are
@@ -28,6 +30,8 @@ constexpr double kLook_m = 10.0;
 constexpr double kNarrowest_m = 2.6, kUneven_m = 0.25;  // of the other lane: its width, and its middle against a line along the own one
 constexpr double kSoon_m = 150.0;          // first guess of the way
 constexpr int kGuesses = 4;
+
+double GainFor(const Agent& agent) { return agent.told_past ? kToldGain_mps : kGain_mps; }
 
 double BackTime(double aside_m) { return std::max(std::sqrt(5.77 * std::fabs(aside_m) / kSideways_mps2), std::cbrt(60.0 * std::fabs(aside_m) / kSidewaysJerk_mps3)); }
 
@@ -52,7 +56,8 @@ bool TrafficModel::IsHeldUp(std::uint32_t id) const {
   }
   const std::uint32_t track = agents_[id].path.back().track;
   const double limit = Limit_mps(id, track, agents_[id].o_m - agents_[id].path.back().zero_m);
-  if (limit < ahead.speed_mps + kGain_mps) return false;
+  if (limit < ahead.speed_mps + GainFor(agents_[id])) return false;
+  if (agents_[id].told_past) return ahead.gap_m < traits_[id].idm.standing_gap_m + kToldNear_s * agents_[id].speed_mps;
   return Following(id, limit, true, ahead.gap_m, ahead.speed_mps) < Following(id, limit, false, 0.0, 0.0) - kHeldUp_mps2;
 }
 
@@ -163,7 +168,7 @@ std::optional<Piece> TrafficModel::WeighOvertaking(std::uint32_t id, Overtaking&
   double to = front + kSoon_m, top = 0.0;
   for (int guess = 0; guess < kGuesses; ++guess) {
     top = TopSpeed(id, front, to);
-    if (top < std::max(v, passed.speed_mps + kGain_mps)) return std::nullopt;
+    if (top < std::max(v, passed.speed_mps + GainFor(agents_[id]))) return std::nullopt;
     piece = PieceOut(id, top);
     if (!piece) return std::nullopt;
     way.side = piece->aside_m > 0.0 ? 1 : -1;
@@ -195,6 +200,7 @@ void TrafficModel::ThinkOfOvertaking(std::uint32_t id) {
   stretches_[id] = std::move(own);
   if (!piece) return;
   agent.overtaking = way;
+  agent.told_past = false;
   agent.path.push_back(*piece);
   FaceOncoming(id);
 }

@@ -15,7 +15,20 @@ void Obey(TrafficModel& model, std::uint32_t id, OrderKind kind, double value) {
     case OrderKind::kBrake: model.Brake(id, value); return;
     case OrderKind::kSpeed: model.CapSpeed(id, value); return;
     case OrderKind::kRelease: model.Release(id); return;
+    case OrderKind::kOvertake: model.TellToPass(id); return;
+    case OrderKind::kChangeLane: model.TellToChange(id, value > 0.0 ? 1 : -1); return;
   }
+}
+
+bool IsSound(OrderKind kind, double value) {
+  switch (kind) {
+    case OrderKind::kBrake:
+    case OrderKind::kSpeed: return value > 0.0;
+    case OrderKind::kRelease:
+    case OrderKind::kOvertake: return true;
+    case OrderKind::kChangeLane: return value == 1.0 || value == -1.0;
+  }
+  return false;
 }
 
 base::Result<PlaceOrder> PlaceOrders::At(const TrafficModel& model, std::string_view road, double s_m) {
@@ -95,9 +108,8 @@ void PlaceOrders::Restore(base::StateReader& reader, const TrafficModel& model) 
   seen_.clear();
   for (std::size_t i = 0; 4 * i + 3 < words.size() && 2 * i + 1 < numbers.size(); ++i) {
     const std::uint32_t* word = &words[4 * i];
-    const bool sound = word[0] <= static_cast<std::uint32_t>(OrderKind::kRelease) && word[1] < model.graph().network().roads().size() && word[2] <= static_cast<std::uint32_t>(PlaceOrder::Whom::kAll);
-    const bool obeyed = word[0] == static_cast<std::uint32_t>(OrderKind::kRelease) || numbers[2 * i] > 0.0;
-    if (!sound || !obeyed) continue;
+    const bool sound = word[0] <= static_cast<std::uint32_t>(OrderKind::kChangeLane) && word[1] < model.graph().network().roads().size() && word[2] <= static_cast<std::uint32_t>(PlaceOrder::Whom::kAll);
+    if (!sound || !IsSound(static_cast<OrderKind>(word[0]), numbers[2 * i])) continue;
     orders_.push_back({static_cast<OrderKind>(word[0]), numbers[2 * i], word[1], numbers[2 * i + 1], static_cast<PlaceOrder::Whom>(word[2]), word[3]});
   }
 }

@@ -36,10 +36,10 @@ void TrafficModel::PlaceAll(std::span<const driver::Footprint> others) {
   }
   std::size_t place = 0;
   double before = 0.0;  // length of the tracks before this one
-  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+  for (std::uint32_t id = 0; id < settings_.vehicles; ++id) {
     Agent& agent = agents_[id];
     const AgentTraits& traits = traits_[id];
-    const double spacing = total / static_cast<double>(agents_.size());
+    const double spacing = total / static_cast<double>(settings_.vehicles);
     const double jitter = base::RandomUniform({settings_.seed, id, kDrawJitter}, -0.5, 0.5) * kStartJitter;
     const double at = (static_cast<double>(id) + 0.5 + jitter) * spacing;
     while (place + 1 < tracks.size() && before + graph()[tracks[place]].length_m() < at) before += graph()[tracks[place++]].length_m();

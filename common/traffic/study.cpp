@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -17,22 +18,27 @@ constexpr std::size_t kIncidents = 20;
 constexpr double kStanding_mps = 0.05;
 constexpr double kHard_mps2 = 3.0;
 constexpr double kOnLane_m = 1e-3;
+constexpr double kWidest_m = 4.0, kHalfTyre_m = 0.1;
+constexpr double kSmooth_mps3 = 3.0 * (1.0 + 1e-6), kLateral_mps2 = 3.0, kYaw_radps2 = 200.0 * std::numbers::pi / 180.0;  // what is told of
 
 class Watcher {
  public:
   Watcher(const network::Network& network, const StudySettings& settings)
-      : network_(network), settings_(settings), stands_s_(settings.traffic.vehicles, 0.0), with_room_s_(settings.traffic.vehicles, 0.0) {}
+      : network_(network), settings_(settings), stands_s_(settings.traffic.vehicles + settings.traffic.scripted.size(), 0.0), with_room_s_(stands_s_), turning_(stands_s_.size()) {}
 
   StudyResult& result() { return result_; }
 
   // After every step: distances against speeds.
   void Compare(const TrafficModel& model, double time_s) {
     time_s_ = time_s;
-    std::size_t k = 0;
+    std::size_t k = 0, same = 0;
     for (const AgentPose& pose : model.poses()) {
+      result_.fuel_mg += result_.steps > 0 ? model.agent(pose.id).fuel_mgps * settings_.step_s : 0.0;
       while (k < before_.size() && before_[k].id < pose.id) ++k;
       result_.vehicle_s += settings_.step_s;
       if (k >= before_.size() || before_[k].id != pose.id || before_[k].trip != pose.trip) continue;
+      ++same;
+      if (settings_.feels) Feel(model, pose, before_[k]);
       const double moved = (pose.p_WB_W - before_[k].p_WB_W).head<2>().norm();
       const double told = 0.5 * (pose.speed_mps + before_[k].speed_mps) * settings_.step_s;
       result_.driven_km += 1e-3 * moved;
@@ -44,8 +50,33 @@ class Watcher {
       if (pose.acceleration_mps2 < -kHard_mps2 && before_[k].acceleration_mps2 >= -kHard_mps2) Tell("brakes at {:.2f} m/s2", pose, -pose.acceleration_mps2);
       result_.hardest_mps2 = std::max(result_.hardest_mps2, -pose.acceleration_mps2);
     }
+    if (result_.steps == 0) result_.began = static_cast<std::int64_t>(model.poses().size());
+    else result_.entered += static_cast<std::int64_t>(model.poses().size() - same), result_.left += static_cast<std::int64_t>(before_.size() - same);
     before_ = model.poses();
     ++result_.steps;
+  }
+
+  // From one step to the next; a heading is that of the middle between the axles.
+  void Feel(const TrafficModel& model, const AgentPose& pose, const AgentPose& before) {
+    Turning& turning = turning_[pose.id];
+    const bool goes_on = turning.trip == static_cast<std::int64_t>(pose.trip);
+    const auto heading = [](const AgentPose& at) {
+      const Eigen::Vector3d forward = at.q_WB * Eigen::Vector3d::UnitX();
+      return std::atan2(forward.y(), forward.x());
+    };
+    const double rate = std::remainder(heading(pose) - heading(before), 2.0 * std::numbers::pi) / settings_.step_s;
+    const double jerk = std::fabs(pose.acceleration_mps2 - before.acceleration_mps2) / settings_.step_s, lateral = std::fabs(pose.speed_mps * rate);
+    double& worst = model.Hurries(pose.id) ? result_.emergency_jerk_mps3 : result_.planned_jerk_mps3;
+    if (jerk > worst && jerk > kSmooth_mps3) Tell("jerks by {:.2f} m/s3", pose, jerk);
+    if (lateral > result_.lateral_mps2 && lateral > kLateral_mps2) Tell("is pressed sideways by {:.2f} m/s2", pose, lateral);
+    worst = std::max(worst, jerk);
+    result_.lateral_mps2 = std::max(result_.lateral_mps2, lateral);
+    if (goes_on) {
+      const double yaw = std::fabs(rate - turning.rate_radps) / settings_.step_s;
+      if (yaw > result_.yaw_radps2 && yaw > kYaw_radps2) Tell("yaws by {:.2f} rad/s2", pose, yaw);
+      result_.yaw_radps2 = std::max(result_.yaw_radps2, yaw);
+    }
+    turning = {pose.trip, rate};
   }
 
   void Look(const TrafficModel& model) {
@@ -57,6 +88,7 @@ class Watcher {
         ++result_.off_lane;
         Tell("off its lane ({} m)", pose, place ? place->distance_m : -1.0);
       }
+      LookAtWheels(model, pose);
       double& stands = stands_s_[pose.id];
       double& with_room = with_room_s_[pose.id];
       if (pose.speed_mps > kStanding_mps) {
@@ -72,6 +104,35 @@ class Watcher {
   }
 
  private:
+  struct Turning {
+    std::int64_t trip = -1;
+    double rate_radps = 0.0;
+  };
+
+  // On a drivable lane, or a shoulder or the like; where roads lie over one another, of any of them.
+  bool IsForVehicles(const TrafficModel& model, const Eigen::Vector3d& p_W) {
+    const auto place = network_.Locate(p_W.x(), p_W.y(), p_W.z(), &hint_);
+    const network::Lane* lane = place ? network_.Find(place->lane) : nullptr;
+    if (lane != nullptr && place->distance_m <= kOnLane_m && (network::IsDrivable(lane->type) || lane->type == network::LaneType::kShoulder)) return true;
+    for (const lanes::Graph::Beside& beside : model.graph().TracksAt(p_W.head<2>(), kWidest_m)) {
+      const lanes::Curve& curve = model.graph()[beside.track].curve;
+      if (std::fabs(beside.foot.offset_m) <= 0.5 * curve.WidthAt(beside.foot.d_m) + kOnLane_m && std::fabs(curve.At(beside.foot.d_m).p_W.z() - p_W.z()) < network::Network::kLevel_m) return true;
+    }
+    return false;
+  }
+
+  void LookAtWheels(const TrafficModel& model, const AgentPose& pose) {
+    const AgentTraits& traits = model.traits(pose.id);
+    for (const double along : {-0.5, 0.5}) {
+      for (const double aside : {-1.0, 1.0}) {
+        const Eigen::Vector3d wheel_W = pose.p_WB_W + pose.q_WB * Eigen::Vector3d(along * traits.wheelbase_m, aside * (0.5 * traits.width_m - kHalfTyre_m), 0.0);
+        if (IsForVehicles(model, wheel_W)) continue;
+        ++result_.wheels_off;
+        Tell("has a wheel off the road, at ({:.2f}, {:.2f})", pose, wheel_W.x(), wheel_W.y());
+      }
+    }
+  }
+
   template <class... Values>
   void Tell(const char* what, const AgentPose& pose, Values... values) {
     if (result_.incidents.size() >= kIncidents) return;
@@ -117,6 +178,7 @@ class Watcher {
   double time_s_ = 0.0;
   network::Hint hint_;
   std::vector<double> stands_s_, with_room_s_;  // by agent: its stand as yet, and how much of it with room ahead
+  std::vector<Turning> turning_;                // by agent
   std::vector<AgentPose> before_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> touching_;
 };

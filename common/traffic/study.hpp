@@ -16,6 +16,7 @@ struct StudySettings {
   double duration_s = 60.0;
   double step_s = 0.01;
   double watch_s = 0.1;  // how often contacts, lanes and speeds are looked at; a multiple of the step
+  bool feels = false;    // whether it is told what somebody in the car feels: jerk, lateral and yaw acceleration
   double cell_m = 0.0;   // length of the cells of lanes that are summed up in; 0: none
 };
 
@@ -31,10 +32,17 @@ struct StudyResult {
   std::uint32_t longest_with_room_id = 0;
   std::int64_t collisions = 0;       // times that two rectangles on one level came to overlap
   std::int64_t off_lane = 0;         // times that a middle was looked at beside every drivable lane
+  std::int64_t wheels_off = 0;       // times that a wheel was looked at beside everything that is there for vehicles, shoulders among it
   double worst_step_m = 0.0;         // |distance between two poses - mean speed · step|, in plan
   double hardest_mps2 = 0.0;         // deceleration with a foot on the brake
+  double planned_jerk_mps3 = 0.0;    // largest change of acceleration from one step to the next, but …
+  double emergency_jerk_mps3 = 0.0;  // … in an emergency
+  double lateral_mps2 = 0.0;         // largest speed times yaw rate, and change of the yaw rate
+  double yaw_radps2 = 0.0;
   double hardest_any_mps2 = 0.0;     // and by whatever: on a hill that the engine is too weak for, in overrun, while a gear changes
   std::int64_t arrivals = 0;         // trips that ended
+  std::int64_t began = 0, entered = 0, left = 0;  // on the road at first; came onto it, and left it, since: began + entered - left = on_road
+  double fuel_mg = 0.0;              // burnt on the road
   std::size_t on_road = 0, waiting = 0;
   std::vector<std::string> incidents;  // the first ones, as sentences
   std::optional<LaneStatistics> lanes;

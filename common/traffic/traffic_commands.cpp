@@ -1,5 +1,6 @@
 // What a scenario tells agents to do.
 #include <cmath>
+#include <utility>
 
 #include "common/base/assert.hpp"
 #include "common/traffic/traffic_model.hpp"
@@ -20,6 +21,38 @@ void TrafficModel::Release(std::uint32_t id) {
   RODEIRA_ASSERT(id < agents_.size());
   agents_[id].brake_mps2 = 0.0;
   agents_[id].cap_mps = Agent::kNoCap_mps;
+  agents_[id].told_side = 0;
+  agents_[id].told_past = false;
+}
+
+void TrafficModel::TellToPass(std::uint32_t id) {
+  RODEIRA_ASSERT(id < agents_.size());
+  agents_[id].told_past = true;
+}
+
+void TrafficModel::TellToChange(std::uint32_t id, int side) {
+  RODEIRA_ASSERT(id < agents_.size() && (side == 1 || side == -1));
+  agents_[id].told_side = side;
+}
+
+// To which side it is to go over now: of a road of several lanes, who is ahead is passed on the lane beside. 0: to none, or there is no lane.
+int TrafficModel::ToldSide(std::uint32_t id) const {
+  const Agent& agent = agents_[id];
+  const lanes::Track& track = graph()[agent.path.back().track];
+  const auto beside = [&](int side) { return side > 0 ? track.left.has_value() : track.right.has_value(); };
+  if (agent.told_side != 0) return beside(agent.told_side) ? agent.told_side : 0;
+  const int passes = track.left_hand ? -1 : 1;
+  return agent.told_past && ahead_[id].any && beside(passes) ? passes : 0;
+}
+
+// As soon as it is safe, whatever it brings.
+void TrafficModel::ChangeAsTold(std::uint32_t id, int side) {
+  if (!MayLeaveLane(id)) return;
+  auto way = Weigh(id, side, true);
+  if (!way) return;
+  if (agents_[id].told_side != 0) agents_[id].told_side = 0;
+  else agents_[id].told_past = false;
+  BeginChange(id, std::move(*way));
 }
 
 std::optional<std::uint32_t> TrafficModel::AheadOf(const driver::Footprint& other) const {

@@ -18,8 +18,8 @@ constexpr double kGentle_m = 3e-4;      // what a bend makes of the way of a ste
 }  // namespace
 
 TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<const TrafficMap> map)
-    : settings_(settings), map_(std::move(map)), agents_(settings.vehicles) {
-  for (std::uint32_t id = 0; id < settings_.vehicles; ++id) traits_.push_back(TraitsOf(settings_, id));
+    : settings_(settings), map_(std::move(map)), agents_(settings.vehicles + settings.scripted.size()) {
+  for (std::uint32_t id = 0; id < agents_.size(); ++id) traits_.push_back(TraitsOf(settings_, id));
   for (const AgentTraits& traits : traits_) longest_half_m_ = std::max(longest_half_m_, 0.5 * traits.length_m);
   if (!settings_.demand.flows.empty()) longest_half_m_ = 0.5 * LargestOf(settings_).length_m;
   if (settings_.threads > 1) crew_ = std::make_shared<base::Crew>(settings_.threads);
@@ -169,6 +169,7 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
   if (people_) people_->Step(dt_s, time_ns_ + step_ns);
   Arrive(time_ns_ + step_ns);
   Enter();
+  AppearAll();
   time_ns_ += step_ns;
   FindColours();
   FindPoses();

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -51,7 +52,16 @@ class TrafficModel {
   // enter obeys when it has entered.
   void Brake(std::uint32_t id, double deceleration_mps2);  // at exactly this rate down to rest, and stay; harder where it must
   void CapSpeed(std::uint32_t id, double speed_mps);       // never faster
-  void Release(std::uint32_t id);
+  // Once, as soon as the plan of overtaking allows it, without being held up first, or, on a road of several lanes, as soon as the lane beside is free.
+  void TellToPass(std::uint32_t id);
+  // Once, to the lane on its left (+1) or right (-1), as soon as marks, road and safety allow it, whatever it brings.
+  void TellToChange(std::uint32_t id, int side);
+  void Release(std::uint32_t id);  // forgets all that
+  // One of the settings' `scripted` comes onto a lane (ROAD:LANE), with its middle at a station of the road, no faster than asked and than lets it stop
+  // before what is ahead: in this step's end, or the first one in which there is room for it. Wrong input with a sentence where there can never be room; false
+  // where it is on the road already, or waits to be.
+  base::Result<bool> LetAppear(std::uint32_t id, const std::string& lane, double s_m, double speed_mps);
+  bool IsAppearing(std::uint32_t id) const;
   // An impulse on an agent's body, N s, at a point, both in W: from then on it drives no more, but slides on locked wheels and stays
   // where it comes to rest, an obstacle to all others. A push that would change its speed by less than 1 mm/s is nothing to it
   // as long as it drives; nothing happens to who is not there.
@@ -72,7 +82,7 @@ class TrafficModel {
   std::size_t vehicles() const { return agents_.size(); }
   std::size_t waiting() const { return waiting_.size(); }
   // Of each flow: how many have arrived, and how many of those have been given a vehicle (fewer only where all `vehicles` are in use).
-  // Given = waiting to enter + on the road + ended, always.
+  // Given = waiting to enter + on the road + ended, always (without those whom a scenario lets appear).
   struct FlowCount {
     std::uint32_t arrived = 0, given = 0;
     std::int64_t next_ns = -1;  // when the next one arrives; below 0: none does
@@ -102,6 +112,8 @@ class TrafficModel {
   std::vector<AgentDetail> Details();
   // By the network's controllers: what their lights show. Those without times are dark, and show red here.
   const std::vector<network::LightColour>& colours() const { return colours_; }
+  // What limit, bends, crests and descents of this track let somebody drive there whom nobody is in the way of.
+  double FreeSpeed_mps(std::uint32_t track, double d_m) const { return map_->plans[track].plan.At(d_m).speed_mps; }
   const lanes::Graph& graph() const { return map_->graph; }
   const lanes::Zones& zones() const { return map_->zones; }
 
@@ -139,7 +151,10 @@ class TrafficModel {
 
   // Changes to the lane beside.
   void ChangeLanes(std::int64_t step_ns);
-  std::optional<Sideways> Weigh(std::uint32_t id, int side);
+  std::optional<Sideways> Weigh(std::uint32_t id, int side, bool told = false);
+  bool MayLeaveLane(std::uint32_t id) const;
+  int ToldSide(std::uint32_t id) const;
+  void ChangeAsTold(std::uint32_t id, int side);
   std::optional<Piece> PieceBeside(std::uint32_t id, int side) const;
   bool IsPlain(std::uint32_t id, double from_m, double to_m) const;
   bool MayCross(std::uint32_t id, int side, double from_m, double to_m) const;
@@ -269,6 +284,16 @@ class TrafficModel {
   AgentTraits TraitsFor(std::uint32_t id) const;
   std::uint32_t DrawEntry(std::uint32_t id, std::uint32_t trip) const;
   double AtMostForLine(std::uint32_t id);
+  // A vehicle that waits for room in the middle of a lane.
+  struct Appearing {
+    std::uint32_t id = 0, track = 0;
+    double d_m = 0.0, speed_mps = 0.0;
+  };
+  base::Status CheckPlace(std::uint32_t id, std::uint32_t track, double d_m) const;
+  bool IsClearFor(const Appearing& next) const;
+  bool IsTakenUp(std::uint32_t id) const;
+  bool TryAppear(const Appearing& next);
+  void AppearAll();
   void Enter();
   bool TryEnter(std::uint32_t id);
   void FindColours();
@@ -288,6 +313,7 @@ class TrafficModel {
   std::vector<Yielding> yielding_;  // by agent; empty without people
   double longest_half_m_ = 0.0;  // of all agents
   std::vector<std::uint32_t> waiting_;  // to enter, first come first
+  std::vector<Appearing> appearing_;    // first told first
   std::uint64_t next_grant_ = 1;
   std::vector<FlowCount> flows_;
   std::uint64_t ended_ = 0, missed_ = 0;  // trips; lanes for routes
@@ -326,6 +352,7 @@ class TrafficModel {
   std::vector<std::uint32_t> heads_;                                // agents that wait at a line, ascending
   std::vector<std::uint32_t> order_;                                // of them who may ask to be let in, in the order in which they are looked at
   std::vector<std::vector<std::uint32_t>> present_;                 // by track: agents on it while others enter
+  std::vector<std::uint8_t> expected_;                              // by track: somebody is on the way to its beginning while others enter
 };
 
 }  // namespace rodeira::traffic

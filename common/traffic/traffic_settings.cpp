@@ -38,6 +38,9 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.smooth.planned_mps3 = comfort.Number("jerk_mps3", {0.5, 1e6}, t.smooth.planned_mps3);
   t.smooth.emergency_mps3 = comfort.Number("emergency_jerk_mps3", {0.5, 1e6}, std::max(t.smooth.emergency_mps3, t.smooth.planned_mps3));
   if (t.smooth.emergency_mps3 < t.smooth.planned_mps3) comfort.Problem("emergency_jerk_mps3", "'emergency_jerk_mps3' is below 'jerk_mps3'");
+  const config::Map enter = map.OptionalChild("entering");
+  t.enters = enter.Choice("rule", {"safe", "free"}, "safe") == "free" ? EnterRule::kFree : EnterRule::kSafe;
+  t.free_m = enter.Number("free_m", {0.5, 100.0}, t.free_m);
   const config::Map change = map.OptionalChild("lane_changes");
   t.changes_lanes = change.Flag("allowed", t.changes_lanes);
   t.lane_changes.politeness = change.Number("politeness", {0.0, 1.0}, t.lane_changes.politeness);
@@ -49,6 +52,7 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.overtaking.margin_s = change.Number("overtaking_margin_s", {1.0, 20.0}, t.overtaking.margin_s);
   if (map.Has("pedestrians")) t.pedestrians = ReadPedestrians(map.Child("pedestrians"));
   if (map.Has("mix")) t.mix = ReadMix(map.Child("mix"));
+  t.scripted = ReadKinds(map.OptionalItems("scripted"));
   return t;
 }
 

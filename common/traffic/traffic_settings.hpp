@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "common/base/result.hpp"
 #include "common/config/config.hpp"
@@ -21,6 +22,12 @@ namespace rodeira::traffic {
 enum class Physics {
   kPlanar,  // along their paths exactly, by the powertrain's steady state
   kFull,    // as the driver's car: four wheels with suspension and slipping tyres on the ground, the whole powertrain
+};
+
+// When somebody who waits enters the network.
+enum class EnterRule {
+  kSafe,  // as soon as he need not brake hard behind who is ahead
+  kFree,  // as MOTORS has it: unless somebody stands within some metres of the lane's beginning
 };
 
 // Who drives.
@@ -47,9 +54,12 @@ struct TrafficSettings {
   double tracking_s = 1.0;         // time in which a deviation from the planned speed is made good
   double side_margin_m = 0.3;      // what comes nearer to an agent's sides is in its way
   double sight_m = 200.0;
+  EnterRule enters = EnterRule::kSafe;
+  double free_m = 5.0;  // of kFree
   bool changes_lanes = true;
   driver::MobilSettings lane_changes;
   OvertakingSettings overtaking;
+  std::vector<VehicleKind> scripted;  // whom a scenario may let appear, beside `vehicles`: their numbers follow those of the others
   VehicleMix mix;         // of who does not belong to a flow with a mix of its own
   DemandSettings demand;  // with flows `vehicles` is how many there are at a time at most; the roads are empty at first
   std::optional<PedestrianSettings> pedestrians;  // none: crossings are nothing to anybody
@@ -81,7 +91,8 @@ inline constexpr std::uint32_t kBodies = 8;
 // Kind and measures of a body, all else as it is without draws.
 AgentTraits TraitsOfBody(std::uint32_t body);
 AgentTraits TraitsOf(const TrafficSettings& settings, const VehicleMix& mix, std::uint64_t key);
-inline AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id) { return TraitsOf(settings, settings.mix, id); }
+// By its number: of the mix, or of the kind that is said where a scenario lets it appear.
+AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id);
 
 // The longest, widest and longest between axles of all kinds that there may be any of.
 lanes::LargestCar LargestOf(const TrafficSettings& settings);

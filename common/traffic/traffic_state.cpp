@@ -15,6 +15,16 @@ void TrafficModel::Save(base::StateWriter& writer) const {
     writer.Put("yielded_s", yielding.waited_s);
   }
   writer.Put("waiting", waiting_);
+  std::vector<std::uint32_t> appearing;
+  std::vector<double> appearing_at;
+  for (const Appearing& next : appearing_) {
+    appearing.insert(appearing.end(), {next.id, next.track});
+    appearing_at.insert(appearing_at.end(), {next.d_m, next.speed_mps});
+  }
+  if (!settings_.scripted.empty()) {
+    writer.Put("appearing", appearing);
+    writer.Put("appearing_at", appearing_at);
+  }
   writer.Put("next_grant", next_grant_);
   writer.Put("time_ns", time_ns_);
   writer.Put("ended", ended_);
@@ -42,6 +52,18 @@ void TrafficModel::Restore(base::StateReader& reader) {
   }
   way_keys_.assign(agents_.size(), {});
   reader.Get("waiting", waiting_);
+  std::vector<std::uint32_t> appearing;
+  std::vector<double> appearing_at;
+  if (!settings_.scripted.empty()) {
+    reader.Get("appearing", appearing);
+    reader.Get("appearing_at", appearing_at);
+  }
+  appearing_.clear();
+  for (std::size_t i = 0; 2 * i + 1 < appearing.size() && 2 * i + 1 < appearing_at.size(); ++i) {
+    const Appearing next{appearing[2 * i], appearing[2 * i + 1], appearing_at[2 * i], appearing_at[2 * i + 1]};
+    if (next.id < settings_.vehicles || next.id >= agents_.size() || next.track >= graph().tracks().size()) continue;
+    if (next.d_m >= 0.0 && next.d_m <= graph()[next.track].length_m() && next.speed_mps >= 0.0) appearing_.push_back(next);
+  }
   reader.Get("next_grant", next_grant_);
   reader.Get("time_ns", time_ns_);
   reader.Get("ended", ended_);

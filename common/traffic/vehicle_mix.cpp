@@ -1,6 +1,12 @@
 #include "common/traffic/vehicle_mix.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
 #include <string_view>
+
+#include "common/base/suggest.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -8,6 +14,20 @@ namespace {
 constexpr std::array<std::string_view, 4> kKindNames{"car", "van", "lorry", "bus"};
 
 }  // namespace
+
+std::vector<VehicleKind> ReadKinds(const config::List& list) {
+  std::vector<VehicleKind> kinds;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string name = list.Text(i);
+    const auto* const found = std::find(kKindNames.begin(), kKindNames.end(), name);
+    if (found == kKindNames.end()) {
+      list.Problem(i, fmt::format("'{}' was found; car, van, lorry or bus was expected{}", name, base::DidYouMean(name, {kKindNames.begin(), kKindNames.end()})));
+      continue;
+    }
+    kinds.push_back(static_cast<VehicleKind>(found - kKindNames.begin()));
+  }
+  return kinds;
+}
 
 VehicleMix ReadMix(const config::Map& map) {
   VehicleMix mix;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "common/config/config.hpp"
 
@@ -14,6 +15,9 @@ enum class VehicleKind : std::uint32_t { kCar = 0, kVan = 1, kLorry = 2, kBus = 
 struct VehicleMix {
   std::array<double, 4> shares{0.8, 0.2, 0.0, 0.0};  // by VehicleKind
 };
+
+// A list of names of kinds.
+std::vector<VehicleKind> ReadKinds(const config::List& list);
 
 // Reads `car`, `van`, `lorry`, `bus`: weights of any size, 0 where left out.
 VehicleMix ReadMix(const config::Map& map);

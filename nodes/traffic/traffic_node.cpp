@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "common/scenario/event.hpp"
@@ -130,6 +133,7 @@ class TrafficNode final : public lockstep::Node {
     orders_.Before(model_);
     model_.Step(step.dt_s, others_);
     orders_.After(model_);
+    TellWhoWaits();
     constexpr std::int64_t kDetailsEvery_ns = 100'000'000;
     const std::int64_t period_ns = std::llround(step.dt_s * 1e9), end_ns = step.time_ns + period_ns;
     Publish(outbox, end_ns / kDetailsEvery_ns > step.time_ns / kDetailsEvery_ns);
@@ -170,13 +174,42 @@ class TrafficNode final : public lockstep::Node {
         if (auto status = Call(event.argument(), where); !status) return status;
         continue;
       }
-      traffic::OrderKind kind = traffic::OrderKind::kBrake;
-      if (event.name() == scenario::kTrafficSpeed) kind = traffic::OrderKind::kSpeed;
-      else if (event.name() == scenario::kTrafficRelease) kind = traffic::OrderKind::kRelease;
-      else if (event.name() != scenario::kTrafficBrake) return base::WrongInput("the traffic does not know this event", where);
-      if (auto status = Tell(event.argument(), kind, event.value(), where); !status) return status;
+      if (event.name() == scenario::kTrafficAppear) {
+        if (auto status = LetAppear(event.argument(), event.value(), where); !status) return status;
+        continue;
+      }
+      const auto kind = OrderOf(event.name());
+      if (!kind) return base::WrongInput("the traffic does not know this event", where);
+      if (!traffic::IsSound(*kind, event.value())) return base::WrongInput(fmt::format("its value is {}; one that the traffic can obey was expected", event.value()), where);
+      if (auto status = Tell(event.argument(), *kind, event.value(), where); !status) return status;
     }
     return {};
+  }
+  static std::optional<traffic::OrderKind> OrderOf(std::string_view name) {
+    using traffic::OrderKind;
+    if (name == scenario::kTrafficBrake) return OrderKind::kBrake;
+    if (name == scenario::kTrafficSpeed) return OrderKind::kSpeed;
+    if (name == scenario::kTrafficRelease) return OrderKind::kRelease;
+    if (name == scenario::kTrafficOvertake) return OrderKind::kOvertake;
+    if (name == scenario::kTrafficChangeLane) return OrderKind::kChangeLane;
+    return std::nullopt;
+  }
+  // That there is no room for it, or that it is there, is no mistake of the scenario's, but a person should know.
+  base::Status LetAppear(const std::string& argument, double speed_mps, const std::string& where) {
+    const auto choice = scenario::ParseAgentOnLane(argument);
+    if (!choice) return base::WrongInput(choice.error().message, where);
+    if (!(speed_mps >= 0.0)) return base::WrongInput(fmt::format("its speed is {}; at least 0 was expected", speed_mps), where);
+    const auto told = model_.LetAppear(choice.value().id, choice.value().at->road, choice.value().at->s_m, speed_mps);
+    if (!told) return base::WrongInput(told.error().message, where);
+    if (told.value()) told_to_appear_.emplace_back(choice.value().id, where);
+    else fmt::print(stderr, "rodeira: node '{}': {}: agent {} is on the road already, or waits to be; nothing happens\n", name_, where, choice.value().id);
+    return {};
+  }
+  void TellWhoWaits() {
+    for (const auto& [id, where] : told_to_appear_) {
+      if (model_.IsAppearing(id)) fmt::print(stderr, "rodeira: node '{}': {}: there is no room for agent {} yet; it appears as soon as there is\n", name_, where, id);
+    }
+    told_to_appear_.clear();
   }
   base::Status Call(const std::string& argument, const std::string& where) {
     const auto crossing = scenario::ParseCrossing(argument);
@@ -258,6 +291,7 @@ class TrafficNode final : public lockstep::Node {
   traffic::TrafficModel model_;
   traffic::PlaceOrders orders_;
   std::vector<driver::Footprint> others_;
+  std::vector<std::pair<std::uint32_t, std::string>> told_to_appear_;  // in this step, by which event
 };
 
 }  // namespace

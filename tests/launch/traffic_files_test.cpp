@@ -93,14 +93,34 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   EXPECT_EQ(times.size(), 181u);
   EXPECT_EQ(ids.size(), 10u);
   // A row a metre of lane: flow = density · speed, and all flows together are the way that was driven.
-  const Rows lanes = Table(In("out") + "/lanes.csv", "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm");
-  double flows_m = 0.0, lanes_m = 0.0;
+  const Rows lanes = Table(In("out") + "/lanes.csv", "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm,free_mps");
+  double flows_m = 0.0, lanes_m = 0.0, fuel_l = 0.0;
   for (const auto& row : lanes) {
     EXPECT_NEAR(Number(row, "length_m"), 1.0, 0.2);
     EXPECT_NEAR(Number(row, "flow_vehph"), 3.6 * Number(row, "density_vehpkm") * Number(row, "speed_mps"), 0.01 * Number(row, "flow_vehph") + 0.2);
     flows_m += Number(row, "flow_vehph") / 3600.0 * Number(row, "length_m") * options_.duration_s;
     lanes_m += Number(row, "length_m");
+    fuel_l += 1e-6 * Number(row, "fuel_mlpkm") * Number(row, "flow_vehph") / 3600.0 * Number(row, "length_m") * options_.duration_s;
+    EXPECT_GT(Number(row, "free_mps"), 2.0);
+    EXPECT_LE(Number(row, "speed_mps"), 1.001 * Number(row, "free_mps") + 0.5);  // nobody here drives faster than the plan
   }
+  // The closing table: who was there, came and left are those who are there; the fuel is that of the table, but for what an idling engine burns at rest.
+  const auto told = [&](const char* name) {
+    std::istringstream line(said.out.substr(said.out.find(std::string("\n") + name) + 18));
+    std::vector<double> numbers;
+    for (std::string word; line >> word && word.find("l/100") == std::string::npos && numbers.size() < 3;) {
+      if (std::isdigit(static_cast<unsigned char>(word[0])) != 0) numbers.push_back(std::stod(word));
+    }
+    return numbers;
+  };
+  const auto there = told("entered, left    "), fuel = told("fuel             ");
+  ASSERT_EQ(there.size(), 3u);
+  ASSERT_EQ(fuel.size(), 2u);
+  EXPECT_EQ(there[2] + there[0] - there[1], std::stod(said.out.substr(17)));
+  EXPECT_GT(there[1], 0.0);
+  EXPECT_GT(fuel[0], 0.05);
+  EXPECT_NEAR(fuel_l, fuel[0], 0.03 * fuel[0]);
+  EXPECT_NEAR(fuel[1], 100.0 * fuel[0] / (1e-3 * flows_m), 0.02 * fuel[1]);
   EXPECT_NEAR(flows_m, way_m, 0.05 * way_m);  // the table's rows miss what is driven from the last half second to a lane's end
   const Rows queues = Table(In("out") + "/queues.csv", "road,lane,length_m,queue_longest,queue_mean");
   double queues_m = 0.0;

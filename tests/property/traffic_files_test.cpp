@@ -39,6 +39,8 @@ following: {time_gap_s: 1.2, standing_gap_m: 2, acceleration_mps2: 1.4, braking_
 comfort: {lateral_mps2: 2, vertical_mps2: 2, braking_mps2: 1.5, steep_grade: 0.1, steep_factor: 0.8}
 lane_changes: {allowed: true, politeness: 0.2, threshold_mps2: 0.1, bias_mps2: 0.3, safe_mps2: 2, overtaking: true, overtaking_sight_m: 300, overtaking_margin_s: 2}
 mix: {car: 8, van: 1, lorry: 1, bus: 1}
+entering: {rule: free, free_m: 6}
+scripted: [car, lorry]
 )";
 
 constexpr const char* kFlows = R"(rodeira: traffic/1
@@ -150,14 +152,36 @@ TEST(TrafficFiles, ScenariosChangedByStructure) {
   ASSERT_TRUE(folder.ok());
   const auto good = base::ReadText(kRoot / "configs/scenarios/car_ahead_brakes.yaml"), rain = base::ReadText(kRoot / "configs/scenarios/rain_at_dusk.yaml");
   ASSERT_TRUE(good.ok() && rain.ok());
-  Fuzz("scenario, structure", {good.value(), rain.value()}, [&](const std::string& text) -> std::optional<base::Error> {
+  const std::string scripted =
+      "rodeira: scenario/1\nevents:\n  - {at_s: 1, name: traffic.appear, agent: 4, at: {lane: \"1:-1\", s_m: 40}, speed_mps: 12}\n"
+      "  - {at_s: 1, name: traffic.appear, agent: 5, at: {lane: \"2:1\", s_m: 50}, speed_mps: 0}\n  - {at_s: 2, name: traffic.overtake, agent: ahead}\n"
+      "  - {at_s: 3, name: traffic.change_lane, agent: 4, side: left}\n";
+  traffic::TrafficSettings settings;
+  settings.vehicles = 4;
+  settings.scripted = {traffic::VehicleKind::kCar, traffic::VehicleKind::kBus};
+  const traffic::TrafficModel start = traffic::TrafficModel::Make(settings, TwoRoads(), {}).value();
+  int appeared = 0;
+  Fuzz("scenario, structure", {good.value(), rain.value(), scripted}, [&](const std::string& text) -> std::optional<base::Error> {
     const fs::path file = folder.value().path() / "fuzz.yaml";
     std::ofstream(file, std::ios::binary | std::ios::trunc) << text;
     const auto scenario = scenario::LoadScenario(file, {1'000'000, 10, 10});
     if (!scenario) return scenario.error();
-    for (const auto& event : scenario.value().scheduled) EXPECT_NE(scenario::FindEventKind(event.event.name), nullptr) << event.event.name;
-    return std::nullopt;
+    std::optional<base::Error> refused;
+    traffic::TrafficModel model = start;
+    for (const auto& [step, event] : scenario.value().scheduled) {
+      EXPECT_NE(scenario::FindEventKind(event.name), nullptr) << event.name;
+      if (event.name != scenario::kTrafficAppear) continue;
+      const auto choice = scenario::ParseAgentOnLane(event.argument).value();
+      const auto told = model.LetAppear(choice.id, choice.at->road, choice.at->s_m, event.value);
+      if (!told) refused = told.error();
+      appeared += told && told.value() ? 1 : 0;
+    }
+    Drive(model);
+    return refused;
   }, MutateStructure);
+  if (Setting("RODEIRA_FUZZ_FILES", 2000) >= 1000) {
+    EXPECT_GT(appeared, 0);
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The integrity check: a map without anything wrong, and each thing that can be, alone.
 #include "common/map/check.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -128,7 +129,12 @@ TEST(Check, Joints) {
 
 TEST(Check, Picture) {
   EXPECT_THAT(Found(GoodMap() + kPng2x1), IsEmpty());
-  EXPECT_THAT(Found(GoodMap() + "\xff\xd8\xff\xe0\0\x04xy\xff\xc0\0\x0b\x08\0\x10\0\x20\x01"s), IsEmpty());
+  EXPECT_THAT(Found(GoodMap() + "\xff\xd8\xff\xe0\0\x04xy\xff\xc0\0\x0b\x08\0\x10\0\x20\x01\xff\xd9"s), IsEmpty());
+  EXPECT_THAT(Found(GoodMap() + "\xff\xd8\xff\xe0\0\x04xy\xff\xc0\0\x0b\x08\0\x10\0\x20\x01"s),
+              ElementsAre("W x.motors map: the 18 bytes behind the line 'i' end before the JPEG picture does"));
+  EXPECT_THAT(Found(GoodMap() + kPng2x1.substr(0, kPng2x1.size() - 1)),
+              ElementsAre(fmt::format("W x.motors map: the {} bytes behind the line 'i' end before the PNG picture does", kPng2x1.size() - 1)));
+  EXPECT_THAT(Found(GoodMap()), IsEmpty());  // a map need have no picture, and nothing in it says that it should
   EXPECT_THAT(Found(GoodMap() + "GIF89a"),
               ElementsAre("W x.motors map: the 6 bytes behind the line 'i' are no PNG or JPEG picture"));
   EXPECT_THAT(Found(GoodMap() + kPng2x1.substr(0, 20)),

@@ -28,7 +28,7 @@ inline const std::string kFigure18Lines =
     "l,6,7,False,1,8,False,1,1\n"
     "l,8,15,False,1,14,False,1,2\n";
 
-inline const std::string kPng2x1 = "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\x02\0\0\0\x01\x08\x02\0\0\0i i\n\n\0i\r\n"s;
+inline const std::string kPng2x1 = "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\x02\0\0\0\x01\x08\x02\0\0\0i i\n\n\0i\r\n\0\0\0\0IEND\xae\x42\x60\x82"s;
 
 inline std::string Figure18() {
   return kFigure18Lines + "c,1,4,False,0,0,0\nc,2,4,False,0,0,0\nc,4,8,False,0,0,0\nc,6,3,False,0,0,0\ns,10\ni\n" + kPng2x1;

@@ -69,6 +69,24 @@ TEST(Event, AnAgentMayBeMeantAtAPlace) {
   EXPECT_EQ(ParseAgent("first at main 3").error().Text(), "'first' is no agent; its number, all or ahead was expected");
 }
 
+TEST(Event, AVehicleAppearsOnALane) {
+  const auto read = ParseAgentOnLane("20 at long road:-2 350.5");
+  ASSERT_TRUE(read.ok()) << read.error().Text();
+  EXPECT_EQ(read.value().id, 20u);
+  EXPECT_EQ(read.value().at->road, "long road:-2");
+  EXPECT_EQ(read.value().at->s_m, 350.5);
+  for (const char* text : {"", "20", "all at main:-1 5", "next at main:-1 5", "20 at main 5", "20 at :-1 5", "20 at main:x 5", "20 at main: 5", "20 at main:-1", "x at main:-1 5"}) {
+    const auto refused = ParseAgentOnLane(text);
+    ASSERT_FALSE(refused.ok()) << text;
+    EXPECT_EQ(refused.error().exit_status(), 2);
+  }
+  EXPECT_TRUE(CheckEvent({"traffic.appear", "20 at main:-1 5", 0.0}));
+  EXPECT_FALSE(CheckEvent({"traffic.appear", "20 at main:-1 5", 101.0}));
+  EXPECT_TRUE(CheckEvent({"traffic.overtake", "next at main 5", 0.0}));
+  EXPECT_TRUE(CheckEvent({"traffic.change_lane", "3", -1.0}));
+  EXPECT_EQ(CheckEvent({"traffic.change_lane", "3", 0.5}).error().Text(), "'side' of 'traffic.change_lane' is 0.5; 1 (left) or -1 (right) was expected");
+}
+
 TEST(Event, WhatCannotBeObeyedIsSaid) {
   EXPECT_TRUE(CheckEvent({"vehicle.place", "ego 1 2", 90.0}));
   EXPECT_TRUE(CheckEvent({"weather", "fog", 5.0}));

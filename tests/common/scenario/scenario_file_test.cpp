@@ -57,6 +57,30 @@ TEST(ScenarioFile, AnAgentMayBeToldAtAPlace) {
   EXPECT_NE(Complaint("  - {at_s: 1, name: mark, text: x, at: {road: main, s_m: 3}}\n").find("at"), std::string::npos);
 }
 
+TEST(ScenarioFile, VehiclesAreToldToOvertakeToChangeLanesAndToAppear) {
+  const auto read = Read(
+      "  - {at_s: 1, name: traffic.overtake, agent: ahead}\n"
+      "  - {at_s: 1, name: traffic.change_lane, agent: 3, side: right}\n"
+      "  - {at_s: 1, name: traffic.change_lane, agent: next, at: {road: main, s_m: 30}, side: left}\n"
+      "  - {at_s: 1, name: traffic.appear, agent: 20, at: {lane: \"main:-1\", s_m: 350.5}, speed_mps: 12}\n");
+  ASSERT_TRUE(read.ok()) << read.error().Text();
+  const auto& events = read.value().scheduled;
+  EXPECT_EQ(events.at(0).event.argument, "ahead");
+  EXPECT_EQ(events.at(0).event.value, 0.0);
+  EXPECT_EQ(events.at(1).event.argument, "3");
+  EXPECT_EQ(events.at(1).event.value, -1.0);
+  EXPECT_EQ(events.at(2).event.argument, "next at main 30");
+  EXPECT_EQ(events.at(2).event.value, 1.0);
+  EXPECT_EQ(events.at(3).event.argument, "20 at main:-1 350.5");
+  EXPECT_EQ(events.at(3).event.value, 12.0);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.change_lane, agent: 3, side: lft}\n").find("did you mean 'left'?"), std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.change_lane, agent: 3}\n").find("side"), std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.appear, agent: 20, speed_mps: 3}\n").find("at' is missing"), std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.appear, agent: all, at: {lane: \"main:-1\", s_m: 3}, speed_mps: 3}\n").find("is no agent on a lane"), std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.appear, agent: 2, at: {lane: main, s_m: 3}, speed_mps: 3}\n").find("is no agent on a lane"), std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.appear, agent: 2, at: {lane: \"main:-1\", s_m: 3}, speed_mps: -1}\n").find("speed_mps' is -1"), std::string::npos);
+}
+
 // 0.1 has no exact binary form: every multiple must still be the step that it names.
 TEST(ScenarioFile, EveryMultipleOfThePeriodIsItsStep) {
   for (const std::int64_t tenths : {1, 3, 7, 1001, 99999, 123456}) {

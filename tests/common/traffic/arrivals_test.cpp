@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/traffic/arrivals.hpp"
+#include "tests/common/traffic/distance.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -26,18 +27,6 @@ std::vector<double> Gaps(const std::vector<double>& times) {
   for (std::size_t i = 1; i < times.size(); ++i) gaps.push_back(times[i] - times[i - 1]);
   std::sort(gaps.begin(), gaps.end());
   return gaps;
-}
-
-// Kolmogorov and Smirnov: the largest distance of two distributions stays below 1.63/sqrt(n) in 99 of 100 samples of the one.
-template <class Distribution>
-double Distance(const std::vector<double>& sorted, const Distribution& distribution) {
-  double most = 0.0;
-  const auto n = static_cast<double>(sorted.size());
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const double f = distribution(sorted[i]);
-    most = std::max({most, std::fabs(static_cast<double>(i) / n - f), std::fabs(static_cast<double>(i + 1) / n - f)});
-  }
-  return most * std::sqrt(n);
 }
 
 // Gaps are exponential with mean 3600/q; numbers in minutes have a variance that is their mean.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "common/traffic/study.hpp"
@@ -298,6 +299,63 @@ TEST(Demand, WhatIsWrongIsSaid) {
   EXPECT_NE(RefusedSettings("flows:\n  - {lane: a, vehicles_per_h: -3}\n").find("t.yaml:2"), std::string::npos);
   EXPECT_NE(RefusedSettings("flows:\n  - {lane: a, vehicles_per_h: 3, rout: b}\n").find("rout"), std::string::npos);
   EXPECT_NE(RefusedSettings("mix: {car: 0}\n").find("no kind of vehicle"), std::string::npos);
+}
+
+// A car a second wants to come onto a lane. By MOTORS' rule each is let in in the first step in which the first five metres, or its own length and 0.4 m, are free of
+// everybody's rear, told from the poses; otherwise later, when it need not brake.
+TEST(Demand, BySourcesRuleWhoWaitsEntersWhereFiveMetresAreFree) {
+  opendrive::RoadText road;
+  road.length = 800.0;
+  road.geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"800\"><line/></geometry>";
+  road.left = "";
+  road.right = "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" max=\"8\" unit=\"m/s\"/></lane>";
+  const auto network = opendrive::MustRead(opendrive::Document(road.Text()));
+  const std::string flows = "vehicles: 300\nmix: {car: 2, van: 1, lorry: 1}\nflows:\n  - {lane: \"1:-1\", vehicles_per_h: 3600, arrivals: even}\n";
+  std::map<std::string, int> entered;
+  std::map<std::string, double> closest_m;  // to who is ahead, when somebody enters
+  for (const auto& [rule, free_m] : {std::pair{"safe", 0.0}, {"free", 5.0}, {"free, free_m: 9", 9.0}}) {
+    TrafficModel model = TrafficModel::Make(Settings(flows + "entering: {rule: " + rule + "}\n"), network, {}).value();
+    std::set<std::uint32_t> before;
+    int refused = 0;
+    for (int i = 0; i < 4000; ++i) {
+      // Who waits longest: of all that have come the one with the least number.
+      std::optional<std::uint32_t> first;
+      for (std::uint32_t id = 0; id < model.vehicles(); ++id) {
+        const Agent& agent = model.agent(id);
+        if (agent.flow >= 0 && !agent.on_road && (!first || agent.arrival < model.agent(*first).arrival)) first = id;
+      }
+      model.Step(kStep_s, {});
+      std::set<std::uint32_t> now;
+      double nearest = 1e9;
+      std::optional<std::uint32_t> came;
+      for (const AgentPose& pose : model.poses()) {
+        now.insert(pose.id);
+        if (!before.contains(pose.id)) came = pose.id;
+        else nearest = std::min(nearest, pose.p_WB_W.x() - 0.5 * model.traits(pose.id).length_m);
+      }
+      before = now;
+      if (came) {
+        ++entered[rule];
+        const double gap_m = nearest - model.traits(*came).length_m;
+        closest_m[rule] = closest_m.contains(rule) ? std::min(closest_m[rule], gap_m) : gap_m;
+      }
+      if (free_m == 0.0) continue;
+      const auto needs = [&](std::uint32_t id) { return std::max(free_m, model.traits(id).length_m + 0.4); };
+      if (came) {
+        EXPECT_GE(nearest, needs(*came) - 1e-9) << i;
+      }
+      if (!came && first) {
+        EXPECT_LT(nearest, needs(*first)) << i;
+        ++refused;
+      }
+    }
+    if (free_m > 0.0) {
+      EXPECT_GT(refused, 200);
+    }
+  }
+  for (const auto& [rule, count] : entered) EXPECT_GT(count, 30) << rule;
+  EXPECT_LT(closest_m["free"], 1.0);
+  EXPECT_GE(closest_m["safe"], 4.0);  // two standing gaps
 }
 
 }  // namespace

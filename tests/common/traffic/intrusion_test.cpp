@@ -1,16 +1,20 @@
 // Somebody gets in an agent's way: where half a second of reaction and braking at mu g suffice, the agent does not hit him.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/base/random.hpp"
+#include "common/traffic/traffic_model.hpp"
+#include "tests/common/lanes/lane_networks.hpp"
 #include "tests/common/opendrive/sample.hpp"
 #include "tests/common/traffic/identical.hpp"
-#include "common/traffic/traffic_model.hpp"
+#include "tests/common/traffic/ring.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -119,6 +123,107 @@ TEST(Intrusion, NobodyIsHitWhoCouldBeAvoided) {
   RecordProperty("sufficed", std::to_string(sufficed));
   EXPECT_GT(sufficed, count / 2);
   EXPECT_GT(hopeless, count / 50);
+}
+
+// Every two agents that touch.
+std::string Touching(const TrafficModel& model) {
+  std::string told;
+  const auto& poses = model.poses();
+  for (std::size_t a = 0; a < poses.size(); ++a) {
+    for (std::size_t b = a + 1; b < poses.size(); ++b) {
+      if ((poses[a].p_WB_W - poses[b].p_WB_W).head<2>().norm() > 12.0) continue;
+      if (driver::Overlap(FootprintOf(poses[a], model.traits(poses[a].id)), FootprintOf(poses[b], model.traits(poses[b].id)))) told += fmt::format(" {} and {}", poses[a].id, poses[b].id);
+    }
+  }
+  return told;
+}
+
+// Twenty cars follow one another around a ring, and somebody is there all at once before one of them, in its lane, at rest or braking to it: who comes does not drive into him where half a
+// second and braking at 0.8 g suffice, and none of those behind drives into the one before.
+TEST(Intrusion, ThoseWhoFollowDoNotRunIntoOneAnother) {
+  constexpr double kLength_m = 700.0;
+  const auto network = Ring(kLength_m, 25.0);
+  TrafficModel start = TrafficModel::Make(Identical(20, 1.4), network, {}).value();
+  ASSERT_EQ(start.on_road(), 20u);
+  for (int i = 0; i < 3000; ++i) start.Step(kStep_s, {});
+  const double lane_m = start.graph()[0].length_m(), radius = lane_m / (2.0 * std::numbers::pi), centre_y = kLength_m / (2.0 * std::numbers::pi);
+  int sufficed = 0, hopeless = 0;
+  double hardest = 0.0;
+  for (std::uint64_t number = 0; number < 300; ++number) {
+    TrafficModel model = start;
+    const auto draw = [&](std::uint64_t key, double low, double high) { return base::RandomUniform({78, number, key}, low, high); };
+    for (int i = 0, wait = static_cast<int>(draw(1, 0.0, 400.0)); i < wait; ++i) model.Step(kStep_s, {});
+    const AgentPose agent = model.poses()[static_cast<std::size_t>(draw(2, 0.0, 20.0))];
+    const AgentTraits& traits = model.traits(agent.id);
+    const double gap = model.GapAhead(agent.id), room = gap - 4.4 - 1.0;
+    if (room < 2.0) continue;
+    const double free_m = draw(3, 1.0, room), brakes = draw(4, 2.0, 7.0), u0 = draw(5, 0.0, 1.0) < 0.5 ? 0.0 : draw(6, 0.2, 1.0) * agent.speed_mps;
+    const double angle0 = std::atan2(agent.p_WB_W.x(), centre_y - agent.p_WB_W.y()) + (0.5 * traits.length_m + free_m + 2.2) / radius;
+    const auto intruder = [&](double t) {
+      const double moving = std::min(t, u0 / brakes), angle = angle0 + (u0 * moving - 0.5 * brakes * moving * moving) / radius;
+      return driver::Footprint{9999, radius * std::sin(angle), centre_y - radius * std::cos(angle), angle, std::max(0.0, u0 - brakes * t), 4.4, 1.8};
+    };
+    double x = 0.0, v = agent.speed_mps;
+    bool suffices = true;
+    for (double t = 0.0; t < kFor_s && suffices; t += 0.005) {
+      const double moving = std::min(t, u0 / brakes), other = free_m + u0 * moving - 0.5 * brakes * moving * moving;
+      suffices = x < other || v <= 0.0;
+      const double before = v;
+      if (t > kReaction_s) v = std::max(0.0, v - 0.005 * kGrip_mps2);
+      x += 0.0025 * (before + v);
+    }
+    (suffices ? sufficed : hopeless) += 1;
+    if (!suffices) continue;
+    for (double t = 0.0; t < kFor_s; t += kStep_s) {
+      model.Step(kStep_s, std::vector<driver::Footprint>{intruder(t)});
+      ASSERT_EQ(Touching(model), "") << "intruder " << number << " at " << t;
+      for (const AgentPose& pose : model.poses()) {
+        hardest = std::max(hardest, -pose.acceleration_mps2);
+        ASSERT_FALSE(pose.speed_mps > 0.05 && driver::Overlap(FootprintOf(pose, model.traits(pose.id)), intruder(t + kStep_s))) << "intruder " << number << ", car " << pose.id << " at " << t;
+      }
+    }
+  }
+  EXPECT_GT(sufficed, 60);
+  EXPECT_GT(hopeless, 5);
+  EXPECT_GT(hardest, 4.0);
+}
+
+// Somebody stands all at once anywhere on a crossing, whichever way he points, for eight seconds, and is gone again: as long as everybody is so far from him that half a second and braking
+// at 0.8 g suffice on the straight way to him, nobody drives into him, nor anybody into anybody.
+TEST(Intrusion, OnACrossingNobodyIsDrivenInto) {
+  TrafficSettings settings;
+  settings.vehicles = 22;
+  TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("crossing"), {}).value();
+  int intrusions = 0;
+  std::uint64_t number = 0;
+  std::optional<driver::Footprint> there;
+  double until = 0.0, standing = 0.0;
+  for (int i = 0; i < 50 * 1200; ++i) {
+    const double t = i * kStep_s;
+    const auto draw = [&](std::uint64_t key, double low, double high) { return base::RandomUniform({79, number, key}, low, high); };
+    if (there && t > until) there.reset();
+    if (!there && t > until + 4.0) {
+      ++number;
+      const driver::Footprint other{9999, draw(1, -14.0, 14.0), draw(2, -14.0, 14.0), draw(3, -3.1, 3.1), 0.0, 4.4, 1.8};
+      const bool far = std::all_of(model.poses().begin(), model.poses().end(), [&](const AgentPose& pose) {
+        const double v = pose.speed_mps, way = std::hypot(pose.p_WB_W.x() - other.x_m, pose.p_WB_W.y() - other.y_m) - 0.5 * model.traits(pose.id).length_m - 2.4;
+        return way > kReaction_s * v + v * v / (2.0 * kGrip_mps2) + 0.3;
+      });
+      if (far) there = other, until = t + 8.0, ++intrusions;
+    }
+    std::vector<driver::Footprint> others;
+    if (there) others.push_back(*there);
+    model.Step(kStep_s, others);
+    ASSERT_EQ(Touching(model), "") << t;
+    for (const AgentPose& pose : model.poses()) {
+      standing += there && pose.speed_mps < 0.05 ? kStep_s : 0.0;
+      if (there) {
+        ASSERT_FALSE(pose.speed_mps > 0.05 && driver::Overlap(FootprintOf(pose, model.traits(pose.id)), *there)) << "intruder " << number << ", car " << pose.id << " at " << t;
+      }
+    }
+  }
+  EXPECT_GT(intrusions, 60);
+  EXPECT_GT(standing, 300.0);
 }
 
 }  // namespace

@@ -2,29 +2,31 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <set>
 #include <string>
 
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/lanes/mirrored.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 // More wish to drive from the motorway's lane and from the ramp than the lane beyond carries. After the queues have come, of ten
 // that pass nine come from the other lane than the one before, and never three from one.
-TEST(Merging, TwoQueuesZip) {
+void TwoQueuesZip(const std::shared_ptr<const network::Network>& network, const std::string& lane_name, const std::string& ramp_name) {
   constexpr double kStep_s = 0.05, kWarm_s = 120.0, kFor_s = 420.0, kBeyond_m = 300.0;
   TrafficSettings settings;
   settings.vehicles = 400;
   settings.changes_lanes = false;
   settings.demand.routes = {{"on", {"6"}, "here"}};
   FlowSettings lane, ramp;
-  lane.lane = "1:-1", ramp.lane = "13:-1";
+  lane.lane = lane_name, ramp.lane = ramp_name;
   lane.per_h = ramp.per_h = {1500.0};
   lane.route = ramp.route = "on";
   settings.demand.flows = {lane, ramp};
-  TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("ramp"), {}).value();
+  TrafficModel model = TrafficModel::Make(settings, network, {}).value();
   std::set<std::pair<std::int32_t, std::uint32_t>> seen;
   std::string passed;  // by flow
   double hardest_mps2 = 0.0;
@@ -44,8 +46,11 @@ TEST(Merging, TwoQueuesZip) {
   EXPECT_EQ(passed.find("lll"), std::string::npos) << passed;
   EXPECT_EQ(passed.find("rrr"), std::string::npos) << passed;
   EXPECT_LE(hardest_mps2, 3.0);
-  RecordProperty("passed_per_h", std::to_string(3600.0 * static_cast<double>(passed.size()) / (kFor_s - kWarm_s)));
+  testing::Test::RecordProperty("passed_per_h", std::to_string(3600.0 * static_cast<double>(passed.size()) / (kFor_s - kWarm_s)));
 }
+
+TEST(Merging, TwoQueuesZip) { TwoQueuesZip(lanes::MapNetwork("ramp"), "1:-1", "13:-1"); }
+TEST(Merging, TwoQueuesZipMirroredInLeftHandTraffic) { TwoQueuesZip(lanes::Drawn(lanes::MapText("ramp")).Mirror().Read(), "1:1", "13:1"); }
 
 }  // namespace
 }  // namespace rodeira::traffic

@@ -1,12 +1,19 @@
 // Identical cars on a ring: equilibrium and stability of the IDM in closed form (Treiber, Kesting, Traffic Flow Dynamics, 2013).
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <numbers>
+#include <optional>
 
+#include "common/base/files.hpp"
 #include "common/traffic/traffic_model.hpp"
+#include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 
@@ -118,6 +125,51 @@ TEST(Ring, SugiyamasRingJamsWhereTheTheorySaysSo) {
     else EXPECT_GT(spread.deviation_mps, 0.25 * spread.mean_mps) << acceleration;
     RecordProperty("growth_" + std::to_string(acceleration), std::to_string(growth));
   }
+}
+
+// The same ring through pedals, engine, clutch and gears (`physics: full`): the spread of the 22 speeds after so long, as a share of their mean.
+double SpreadThroughThePowertrain(double acceleration_mps2, double for_s) {
+  const auto network = Ring(230.0 - 2.0 * std::numbers::pi * 1.75);
+  TrafficSettings settings = Identical(22, acceleration_mps2);
+  settings.physics = Physics::kFull;
+  std::optional<TrafficModel> model;
+  for (; !model || (model->on_road() < 22 && settings.seed < 100); ++settings.seed) model.emplace(TrafficModel::Make(settings, network, {}).value());
+  EXPECT_EQ(model->on_road(), 22u);
+  double sum = 0.0;
+  const auto steps = static_cast<int>(std::lround(for_s / 0.01)), looks = steps / 5;  // the last fifth is looked at
+  for (int i = 0; i < steps; ++i) {
+    model->Step(0.01, {});
+    if (i < steps - looks) continue;
+    const Spread spread = SpreadOf(*model);
+    sum += spread.deviation_mps / std::max(0.1, spread.mean_mps) / looks;
+  }
+  return sum;
+}
+
+// Clear of the boundary that was measured (docs/traffic.md) on both sides.
+TEST(Ring, ThroughThePowertrainItJamsAndDoesNotJamClearOfTheMeasuredBoundary) {
+  EXPECT_GT(SpreadThroughThePowertrain(0.5, 400.0), 0.25);
+  EXPECT_LT(SpreadThroughThePowertrain(3.0, 400.0), 0.05);
+}
+
+// RODEIRA_RING: prints that table, beside what the linear theory says of accelerations that are applied exactly. Some minutes.
+TEST(Ring, TableOfTheBoundaryThroughThePowertrain) {
+  if (std::getenv("RODEIRA_RING") == nullptr) GTEST_SKIP() << "a table for docs/traffic.md, with RODEIRA_RING=1";
+  PlotCurve spread{"spread of the speeds over their mean, after 15 minutes", "#b03020", {}};
+  for (const double acceleration : {0.5, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0}) {
+    const TrafficSettings settings = Identical(22, acceleration);
+    TrafficSettings placed = settings;
+    TrafficModel model = TrafficModel::Make(placed, Ring(230.0 - 2.0 * std::numbers::pi * 1.75), {}).value();
+    while (model.on_road() < 22) ++placed.seed, model = TrafficModel::Make(placed, Ring(230.0 - 2.0 * std::numbers::pi * 1.75), {}).value();
+    const double growth = GrowthRate(settings.idm, EquilibriumOf(model, settings.idm), 22);
+    spread.points.emplace_back(acceleration, SpreadThroughThePowertrain(acceleration, 900.0));
+    fmt::print("| {} | {:+.4f} | {:.3f} |\n", acceleration, growth, spread.points.back().second);
+    std::fflush(stdout);
+  }
+  const char* folder = std::getenv("RODEIRA_PICTURES");
+  if (folder == nullptr) return;
+  const std::string svg = PlotSvg("Sugiyama's ring through the powertrain: 22 cars, 230 m", "acceleration of the drivers, m/s²", "spread of the speeds", 0.5, 0.25, {spread});
+  EXPECT_TRUE(base::WriteWhole(std::filesystem::path(folder) / "traffic_ring_boundary.svg", svg).ok());
 }
 
 }  // namespace

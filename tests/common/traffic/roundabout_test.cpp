@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "common/base/files.hpp"
 #include "common/traffic/traffic_model.hpp"
+#include "tests/common/traffic/curves.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
 #include "tests/tree.hpp"
 
@@ -81,13 +85,20 @@ double Handbook(double circulating_per_h) { return 1380.0 * std::exp(-0.00102 * 
 
 // Up to 800 circulating; what it is beyond is in docs/traffic.md. Who circulates goes first: a queue at the entry takes nothing from him.
 TEST(Roundabout, ItsEntryCarriesWhatTheHandbookSays) {
+  PlotCurve measured{"measured on roundabout.motors", "#b03020", {}}, handbook{"1380 exp(-0.00102 q)", "#1f5f8b", {}, true};
   for (const double wish : {0.0, 200.0, 400.0, 600.0, 800.0}) {
     const Passed alone = Measure(wish, 0.0), beside = Measure(wish, 2000.0);
     EXPECT_NEAR(beside.circulating_per_h, alone.circulating_per_h, 0.03 * alone.circulating_per_h + 4.0);
     EXPECT_NEAR(beside.entered_per_h, Handbook(beside.circulating_per_h), 0.15 * Handbook(beside.circulating_per_h)) << beside.circulating_per_h;
     EXPECT_LE(beside.hardest_mps2, 3.0);
+    measured.points.emplace_back(beside.circulating_per_h, beside.entered_per_h);
     RecordProperty("past_" + std::to_string(std::lround(beside.circulating_per_h)), std::to_string(std::lround(beside.entered_per_h)));
   }
+  const char* folder = std::getenv("RODEIRA_PICTURES");
+  if (folder == nullptr) return;
+  for (double q = 0.0; q <= 1000.0; q += 20.0) handbook.points.emplace_back(q, Handbook(q));
+  const std::string svg = PlotSvg("A roundabout's entry", "circulating, vehicles an hour", "entering, vehicles an hour", 200.0, 250.0, {measured, handbook});
+  EXPECT_TRUE(base::WriteWhole(std::filesystem::path(folder) / "traffic_entry.svg", svg).ok());
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ std::map<std::string, Row> Told() {
 
 // The keys that the reader asks for, as they stand in the program, but for those that have tables of their own in docs/formats.md.
 std::set<std::string> Asked() {
-  const std::map<std::string, std::string> prefixes{{"map", ""}, {"follow", "following."}, {"comfort", "comfort."}, {"change", "lane_changes."}};
+  const std::map<std::string, std::string> prefixes{{"map", ""}, {"follow", "following."}, {"comfort", "comfort."}, {"enter", "entering."}, {"change", "lane_changes."}};
   const std::string text = base::ReadText(SourceDir() + "/common/traffic/traffic_settings.cpp").value();
   const std::regex asked(R"re((\w+)\.(?:Number|Integer|Flag|Choice)\("([a-z_0-9]+)")re");
   std::set<std::string> keys;
@@ -67,6 +67,7 @@ const std::map<std::string, std::function<double(const TrafficSettings&)>> kNumb
     {"comfort.steep_factor", [](const TrafficSettings& t) { return t.speed.steep_factor; }},
     {"comfort.jerk_mps3", [](const TrafficSettings& t) { return t.smooth.planned_mps3; }},
     {"comfort.emergency_jerk_mps3", [](const TrafficSettings& t) { return t.smooth.emergency_mps3; }},
+    {"entering.free_m", [](const TrafficSettings& t) { return t.free_m; }},
     {"lane_changes.politeness", [](const TrafficSettings& t) { return t.lane_changes.politeness; }},
     {"lane_changes.threshold_mps2", [](const TrafficSettings& t) { return t.lane_changes.threshold_mps2; }},
     {"lane_changes.bias_mps2", [](const TrafficSettings& t) { return t.lane_changes.bias_mps2; }},
@@ -77,6 +78,7 @@ const std::map<std::string, std::function<double(const TrafficSettings&)>> kNumb
 const std::map<std::string, std::function<std::string(const TrafficSettings&)>> kWords{
     {"physics", [](const TrafficSettings& t) { return t.physics == Physics::kPlanar ? "planar" : "full"; }},
     {"driver", [](const TrafficSettings& t) { return t.driver == DriverKind::kStandard ? "standard" : "motors"; }},
+    {"entering.rule", [](const TrafficSettings& t) { return t.enters == EnterRule::kSafe ? "safe" : "free"; }},
     {"lane_changes.allowed", [](const TrafficSettings& t) { return t.changes_lanes ? "true" : "false"; }},
     {"lane_changes.overtaking", [](const TrafficSettings& t) { return t.overtaking.allowed ? "true" : "false"; }},
 };

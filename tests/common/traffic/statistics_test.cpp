@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <numeric>
 #include <pugixml.hpp>
 #include <sstream>
@@ -140,6 +141,18 @@ TEST(LaneStatistics, SteadyFlowIsThatOfTheEquilibrium) {
   EXPECT_EQ(statistics.left(), 0);
 }
 
+// What somebody could drive of whom nobody is in the way: √(a R) on a ring too narrow for its limit, the limit on a wide one.
+TEST(LaneStatistics, FreeSpeedIsThatOfBendAndLimit) {
+  TrafficSettings settings = Identical(3, 1.4);
+  for (const double round_m : {200.0, 2000.0}) {
+    const TrafficModel model = TrafficModel::Make(settings, Ring(round_m), {}).value();
+    const LaneStatistics statistics(model);
+    const double radius = model.graph()[0].length_m() / (2.0 * std::numbers::pi), bend = std::sqrt(settings.speed.lateral_mps2 * radius);
+    EXPECT_EQ(bend < kRingLimit_mps, round_m < 1000.0);
+    for (std::size_t cell = 0; cell < statistics.CellsOf(0).size(); ++cell) EXPECT_NEAR(statistics.FreeSpeed_mps(0, cell), std::min(bend, kRingLimit_mps), 1e-3) << round_m;
+  }
+}
+
 // A jam behind a car that stands: cells before it are slow and dense, and the queue is counted.
 TEST(LaneStatistics, AQueueIsCounted) {
   TrafficSettings settings = Identical(20, 1.4);
@@ -173,7 +186,7 @@ TEST_F(Written, TheTableHasARowACell) {
   std::istringstream table(LaneTable(model_.graph(), statistics_));
   std::string line;
   std::getline(table, line);
-  EXPECT_EQ(line, "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm");
+  EXPECT_EQ(line, "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm,free_mps");
   std::size_t rows = 0, cells = 0;
   while (std::getline(table, line)) ++rows;
   for (std::uint32_t track = 0; track < model_.graph().tracks().size(); ++track) cells += statistics_.CellsOf(track).size();
@@ -188,7 +201,8 @@ TEST_F(Written, TheRasterHoldsWhatWasSummed) {
     GDALAllRegister();
     const std::unique_ptr<GDALDataset> set(static_cast<GDALDataset*>(GDALOpen(file.c_str(), GA_ReadOnly)));
     ASSERT_NE(set, nullptr);
-    ASSERT_EQ(set->GetRasterCount(), 4);
+    ASSERT_EQ(set->GetRasterCount(), 5);
+    EXPECT_STREQ(set->GetRasterBand(5)->GetDescription(), "free_mps");
     EXPECT_STREQ(set->GetRasterBand(2)->GetDescription(), "density_vehpkm");
     std::array<double, 6> transform{};
     ASSERT_EQ(set->GetGeoTransform(transform.data()), CE_None);
@@ -199,12 +213,13 @@ TEST_F(Written, TheRasterHoldsWhatWasSummed) {
       EXPECT_EQ(set->GetRasterBand(band)->RasterIO(GF_Read, 0, 0, columns, rows, values.data(), columns, rows, GDT_Float64, 0, 0), CE_None);
       return values;
     };
-    const auto flow = read(1), density = read(2), speed = read(3);
+    const auto flow = read(1), density = read(2), speed = read(3), free = read(5);
     int told = 0;
     for (std::size_t i = 0; i < flow.size(); ++i) {
       if (std::isnan(density[i])) continue;
       ++told;
       EXPECT_NEAR(flow[i], 3.6 * density[i] * speed[i], 1e-3 + 1e-5 * flow[i]);  // vehicles an hour, a kilometre, m/s
+      EXPECT_TRUE(free[i] > 2.0 && free[i] < 15.0) << free[i];
     }
     EXPECT_GT(told, 50);
     EXPECT_LT(told, static_cast<int>(flow.size()));

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""What SUMO does where docs/traffic.md compares this project's traffic with it: four cars that meet, a closed town, a queue at a light, a turn.
+
+    tools/compare_sumo.py [four | town | queue | turn]...     all of them without a word; needs Debian's package `sumo`
+
+Each network is made by netconvert or netgenerate, each number is counted from SUMO's own output, in a folder that is taken away again.
+"""
+import math
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+
+ARMS = {"e": (200, 0), "n": (0, 200), "w": (-200, 0), "s": (0, -200)}
+
+
+def run(folder, *command):
+    done = subprocess.run([str(word) for word in command], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != 0:
+        sys.exit(f"compare_sumo.py: '{command[0]}' ended with status {done.returncode}:\n{done.stdout[-2000:]}")
+
+
+def write(folder, name, text):
+    (folder / name).write_text(text)
+
+
+def crossing(folder, kind):
+    """Four arms of 200 m and one lane each way around a node of a kind."""
+    nodes = "".join(f'<node id="{name}" x="{x}" y="{y}"/>' for name, (x, y) in ARMS.items())
+    edges = "".join(f'<edge id="{a}in" from="{a}" to="c" numLanes="1" speed="13.89"/><edge id="{a}out" from="c" to="{a}" numLanes="1" speed="13.89"/>' for a in ARMS)
+    write(folder, "x.nod.xml", f'<nodes><node id="c" x="0" y="0" type="{kind}"/>{nodes}</nodes>')
+    write(folder, "x.edg.xml", f"<edges>{edges}</edges>")
+    run(folder, "netconvert", "-n", "x.nod.xml", "-e", "x.edg.xml", "--no-turnarounds", "-o", "net.xml")
+
+
+def sumo(folder, step_s, end_s, *more):
+    run(folder, "sumo", "-n", "net.xml", "-r", "routes.xml", "--step-length", step_s, "--end", end_s, "--no-step-log", "--seed", 1, *more)
+
+
+def four(folder):
+    """Four cars straight on, with priority to the right: when the last one has arrived."""
+    crossing(folder, "right_before_left")
+    over = {"e": "w", "w": "e", "n": "s", "s": "n"}
+    write(folder, "routes.xml", "<routes>" + "".join(f'<trip id="{a}" depart="0" from="{a}in" to="{b}out"/>' for a, b in over.items()) + "</routes>")
+    for step_s in (1, 0.1, 0.01):
+        sumo(folder, step_s, 600, "--tripinfo-output", "trips.xml")
+        last = max(float(trip.get("duration")) for trip in xml.parse(folder / "trips.xml").getroot())
+        print(f"four cars that meet, steps of {step_s} s: the last trip takes {last:.1f} s")
+
+
+def town(folder):
+    """10 x 10 crossings 200 m apart, as many cars as 45 a kilometre of lane, who drive about for half an hour: how many SUMO takes off the road."""
+    run(folder, "netgenerate", "--grid", "--grid.number", 10, "--grid.length", 200, "-j", "right_before_left", "--no-turnarounds.except-deadend", "true", "-o", "net.xml")
+    root = xml.parse(folder / "net.xml").getroot()
+    edges = [edge.get("id") for edge in root.iter("edge") if edge.get("function") != "internal"]
+    onward = {edge: [] for edge in edges}
+    for connection in root.iter("connection"):
+        if connection.get("from") in onward and connection.get("to") in onward:
+            onward[connection.get("from")].append(connection.get("to"))
+    draws = random.Random(1)
+    count = round(45 * len(edges) * 0.2)
+    routes = []
+    for number in range(count):
+        way = [edges[number % len(edges)]]
+        while len(way) < 160:
+            way.append(draws.choice(onward[way[-1]]))
+        routes.append(f'<vehicle id="{number}" depart="0" departPos="random_free"><route edges="{" ".join(way)}"/></vehicle>')
+    write(folder, "routes.xml", "<routes>" + "\n".join(routes) + "</routes>")
+    sumo(folder, 1, 1800, "--statistic-output", "said.xml")
+    said = xml.parse(folder / "said.xml").getroot()
+    teleports = said.find("teleports")
+    print(f"closed town, {count} cars on {0.2 * len(edges):.0f} km: {teleports.get('total')} taken off the road ({teleports.get('yield')} at a crossing, {teleports.get('jam')} in a jam), "
+          f"{said.find('vehicles').get('inserted')} had found room")
+
+
+def queue(folder):
+    """A queue of forty at a light that turns green: vehicles an hour over the line, from the fifth to the 25th."""
+    write(folder, "x.nod.xml", '<nodes><node id="a" x="0" y="0"/><node id="b" x="1000" y="0" type="traffic_light"/><node id="c" x="2000" y="0"/></nodes>')
+    write(folder, "x.edg.xml", '<edges><edge id="in" from="a" to="b" numLanes="1" speed="13.89"/><edge id="out" from="b" to="c" numLanes="1" speed="13.89"/></edges>')
+    run(folder, "netconvert", "-n", "x.nod.xml", "-e", "x.edg.xml", "-o", "net.xml")
+    light = next(xml.parse(folder / "net.xml").getroot().iter("tlLogic"))
+    write(folder, "light.xml", f'<additional><tlLogic id="{light.get("id")}" type="static" programID="queue"><phase duration="300" state="r"/><phase duration="600" state="G"/></tlLogic>'
+          '<instantInductionLoop id="line" lane="in_0" pos="-1" file="passed.xml"/></additional>')
+    for model in ("Krauss", "IDM"):
+        for step_s in (1, 0.1):
+            write(folder, "routes.xml", f'<routes><vType id="car" carFollowModel="{model}"/><route id="way" edges="in out"/>'
+                  '<flow id="f" type="car" route="way" begin="0" end="200" number="40" departSpeed="max"/></routes>')
+            sumo(folder, step_s, 900, "-a", "light.xml")
+            times = [float(at.get("time")) for at in xml.parse(folder / "passed.xml").getroot().iter("instantOut") if at.get("state") == "leave"]
+            print(f"saturation flow, {model}, steps of {step_s} s: {3600 * 20 / (times[24] - times[4]):.0f} an hour")
+
+
+def turn(folder):
+    """One car turns left and one right at the crossing, seen every hundredth of a second: what a person in it would feel."""
+    crossing(folder, "right_before_left")
+    for name, out in (("left", "sout"), ("right", "nout")):
+        write(folder, "routes.xml", f'<routes><trip id="t" depart="0" from="ein" to="{out}"/></routes>')
+        sumo(folder, 0.01, 120, "--fcd-output", "cars.xml", "--precision", 6)
+        seen = [(float(v.get("angle")), float(v.get("speed"))) for v in xml.parse(folder / "cars.xml").getroot().iter("vehicle")]
+        rates = [math.radians((b[0] - a[0] + 180) % 360 - 180) / 0.01 for a, b in zip(seen, seen[1:])]
+        lateral = [rate * at[1] for rate, at in zip(rates, seen)]
+        along = [(b[1] - a[1]) / 0.01 for a, b in zip(seen, seen[1:])]
+        jerk = max(max(abs(b - a) / 0.01 for a, b in zip(of, of[1:])) for of in (lateral, along))
+        print(f"turning {name}: {max(abs(a) for a in lateral):.1f} m/s2 sideways, {math.degrees(max(abs(r) for r in rates)):.0f} deg/s, changes of acceleration of {jerk:.0f} m/s3")
+
+
+def main():
+    wishes = {"four": four, "town": town, "queue": queue, "turn": turn}
+    asked = sys.argv[1:] or list(wishes)
+    for wish in asked:
+        if wish not in wishes:
+            sys.exit(f"compare_sumo.py: '{wish}' was asked for; {', '.join(wishes)} were expected")
+    if not all(shutil.which(tool) for tool in ("sumo", "netconvert", "netgenerate")):
+        sys.exit("compare_sumo.py: SUMO is not installed (package sumo)")
+    os.environ.setdefault("SUMO_HOME", "/usr/share/sumo")  # where Debian puts its types
+    for wish in asked:
+        with tempfile.TemporaryDirectory() as folder:
+            wishes[wish](pathlib.Path(folder))
+
+
+if __name__ == "__main__":
+    main()
