@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "common/road/world.hpp"
@@ -18,7 +19,10 @@ struct WorldScene {
   std::vector<std::vector<Repeated>> trees;  // by the square in which they stand
 };
 
-// A pure function of the world and of which models can be read: the same meshes, bit by bit.
-WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance = {}, const ModelIsThere& is_there = {});
+// How far something has come, from 0 to 1: never less than before, 1 at last.
+using Progress = std::function<void(double share)>;
+
+// A pure function of the world and of which models can be read: the same meshes, bit by bit. `progress` is told on this thread.
+WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance = {}, const ModelIsThere& is_there = {}, const Progress& progress = {});
 
 }  // namespace rodeira::scene
