@@ -41,7 +41,7 @@ int SetUpInput(const InputOptions& options, const std::function<void(const std::
   if (!file) return Refuse(file.error());
   say(fmt::format("written: {}", file.value().string()));
   say(options.out ? fmt::format("drive with it: rodeira run launch/wheel.yaml --set nodes.driver.config.wheel={}", file.value().string())
-                  : "drive with it: rodeira run launch/wheel.yaml --set nodes.driver.config.wheel=~");
+                  : "drive with it: rodeira run launch/wheel.yaml");
   return 0;
 }
 

@@ -64,21 +64,25 @@ constexpr std::array kNamed = std::to_array<Named>({
 });
 
 constexpr std::array kWindow = std::to_array<WindowKey>({
-    {14, "k", "camera"},
-    {43, "tab", "choose and follow the next vehicle; with shift the one before"},
-    {9, "f", "full screen"},
-    {60, "f3", "statistics"},
-    {61, "f4", "mirrors"},
-    {62, "f5", "sound on or off"},
-    {63, "f6", "place the car: with the next click"},
-    {64, "f7", "another weather"},
-    {65, "f8", "statistics of the traffic over the ground"},
-    {66, "f9", "from above, and back"},
-    {69, "f12", "picture into a file"},
-    {11, "h", "this help"},
-    {41, "escape", "close the window (the run goes on)"},
-    {44, "space", "pause the run, and go on"},
-    {40, "return", "one step, and stand"},
+    {58, "f1", "menu; also a click in the upper right corner", false},
+    {14, "k", "camera", false},
+    {43, "tab", "choose and follow the next vehicle; with shift the one before", false},
+    {9, "f", "full screen", false},
+    {60, "f3", "statistics", true},
+    {61, "f4", "mirrors", true},
+    {62, "f5", "sound on or off", false},
+    {67, "f10", "quieter", true},
+    {68, "f11", "louder", false},
+    {63, "f6", "place the car: with the next click", true},
+    {59, "f2", "back to its start", false},
+    {64, "f7", "another weather", false},
+    {65, "f8", "statistics of the traffic over the ground", false},
+    {66, "f9", "from above, and back", false},
+    {69, "f12", "picture into a file", false},
+    {11, "h", "this help", false},
+    {41, "escape", "close the window (the run goes on)", false},
+    {44, "space", "pause the run, and go on", true},
+    {40, "return", "one step, and stand", false},
 });
 
 std::vector<std::pair<Key, std::string>> AllNames() {
@@ -115,6 +119,20 @@ std::vector<std::string> KeyNames() {
 }
 
 std::span<const WindowKey> WindowKeys() { return kWindow; }
+
+std::string WindowKeysText(const std::function<bool(const WindowKey&)>& wanted) {
+  std::string text, names, does;
+  for (const WindowKey& key : kWindow) {
+    if (wanted(key)) {
+      names += (names.empty() ? "" : " ") + std::string(key.name);
+      does += (does.empty() ? "" : "; ") + std::string(key.does);
+    }
+    if (key.goes_on || names.empty()) continue;
+    text += (text.empty() ? "" : "\n") + names + "  " + does;
+    names.clear(), does.clear();
+  }
+  return text;
+}
 
 const WindowKey* FindWindowKey(Key key) {
   const auto found = std::find_if(kWindow.begin(), kWindow.end(), [key](const WindowKey& window) { return window.key == key; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,8 +25,11 @@ struct WindowKey {
   Key key;
   std::string_view name;
   std::string_view does;
+  bool goes_on;  // in a help it shares a line with the next one
 };
 std::span<const WindowKey> WindowKeys();
+// As a help shows those that are wanted: "f10 f11  quieter; louder", a line or several.
+std::string WindowKeysText(const std::function<bool(const WindowKey&)>& wanted);
 // Null where the key may drive.
 const WindowKey* FindWindowKey(Key key);
 

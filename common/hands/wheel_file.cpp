@@ -92,6 +92,7 @@ void ReadForce(const config::Map& force, WheelSettings& settings) {
   f.friction_Nm = force.Number("friction_Nm", {0.0, 5.0}, f.friction_Nm);
   f.damping_Nmsprad = force.Number("damping_Nmsprad", {0.0, 1.0}, f.damping_Nmsprad);
   f.stop_Nmprad = force.Number("stop_Nmprad", {0.0, 100.0}, f.stop_Nmprad);
+  f.road_feel = force.Number("road_feel", {0.0, 5.0}, f.road_feel);
   f.fade_s = force.Number("fade_s", {0.1, 10.0}, f.fade_s);
 }
 

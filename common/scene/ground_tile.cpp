@@ -46,16 +46,21 @@ Line3 BorderOf(const road::Extents& e) {
 
 }  // namespace
 
-void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work) {
+void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work, const std::function<void(std::size_t)>& told) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  std::atomic<std::size_t> next{0};
-  const auto run = [&] {
-    for (std::size_t i = next++; i < count; i = next++) work(i);
+  std::atomic<std::size_t> next{0}, done{0};
+  const auto run = [&](const std::function<void(std::size_t)>& tell) {
+    for (std::size_t i = next++; i < count; i = next++) {
+      work(i);
+      const std::size_t so_far = ++done;
+      if (tell && so_far < count) tell(so_far);
+    }
   };
   std::vector<std::thread> others;
-  for (unsigned i = 1; i < threads && i < count; ++i) others.emplace_back(run);
-  run();
+  for (unsigned i = 1; i < threads && i < count; ++i) others.emplace_back([&run] { run({}); });
+  run(told);
   for (std::thread& other : others) other.join();
+  if (told) told(count);
 }
 
 GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere is_there) : world_(world), things_(world, std::move(is_there)), land_{PostLines(world), {}}, edges_(land_.posts) {

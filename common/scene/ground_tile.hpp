@@ -87,7 +87,8 @@ class GroundPlan {
   std::array<TilePaint, kGroundLevels - 1> paint_;  // the coarsest level has none
 };
 
-// Calls work(i) for each i < count on several threads (0: as many as the machine has), each exactly once.
-void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work);
+// Calls work(i) for each i < count on several threads (0: as many as the machine has), each exactly once. `told`, where there is one, is called on this
+// thread, behind each piece of work that it has done itself and at last, with how many are done.
+void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work, const std::function<void(std::size_t)>& told = {});
 
 }  // namespace rodeira::scene

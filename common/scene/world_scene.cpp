@@ -7,6 +7,7 @@ namespace rodeira::scene {
 namespace {
 
 constexpr std::uint64_t kTreeSeed = 1;
+constexpr double kPlanShare = 0.1;  // of a network's time: its lines, before there are tiles
 
 void LayOnLand(const road::World& world, std::vector<TerrainTile>& tiles) {
   if (world.ground_picture() == nullptr) return;
@@ -23,22 +24,32 @@ std::vector<TerrainTile> BareLand(const road::World& world) {
   return tiles;
 }
 
-WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance, const ModelIsThere& is_there) {
+WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance, const ModelIsThere& is_there, const Progress& progress) {
+  const auto tell = [&progress](double share) {
+    if (progress) progress(share);
+  };
   WorldScene scene;
   if (world.network() != nullptr && world.roads().empty()) {  // not a world file of version 1
     const GroundPlan plan(world, 0, is_there);
     scene.ground.resize(plan.tiles().size());
-    ForEachAtOnce(plan.tiles().size(), 0, [&](std::size_t i) { scene.ground[i] = plan.Build(plan.tiles()[i]); });
+    const double count = static_cast<double>(plan.tiles().size());
+    const auto told = [&](std::size_t done) { tell(kPlanShare + (1.0 - kPlanShare) * static_cast<double>(done) / count); };
+    tell(kPlanShare);
+    if (!plan.tiles().empty()) ForEachAtOnce(plan.tiles().size(), 0, [&](std::size_t i) { scene.ground[i] = plan.Build(plan.tiles()[i]); }, told);
+    tell(1.0);
     return scene;
   }
   const Lattice lattice(world);
   std::vector<Ribbon> ribbons;
   for (const road::Road& road : world.roads()) ribbons.push_back(LayRibbon(road, tolerance));
+  tell(0.1);
   scene.terrain = BuildTerrain(lattice, ribbons);
+  tell(0.5);
   for (std::size_t i = 0; i < ribbons.size(); ++i) {
     for (RoadTile& tile : BuildRoad(world, world.roads()[i], ribbons[i], lattice)) scene.roads.push_back(std::move(tile));
   }
   LayOnLand(world, scene.terrain);
+  tell(0.9);
   if (const terrain::LaidPicture* picture = world.ground_picture()) {
     for (RoadTile& tile : scene.roads) {
       for (Mesh& mesh : tile.ground) {
@@ -47,6 +58,7 @@ WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolera
     }
   }
   scene.trees = BuildTrees(PlantTrees(world, kTreeSeed));
+  tell(1.0);
   return scene;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "common/road/world.hpp"
@@ -21,7 +22,10 @@ struct WorldScene {
 // The land of a world without roads, with the picture that lies on it: a plane as far as it is drawn.
 std::vector<TerrainTile> BareLand(const road::World& world);
 
-// A pure function of the world and of which models can be read: the same meshes, bit by bit.
-WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance = {}, const ModelIsThere& is_there = {});
+// How far something has come, from 0 to 1: never less than before, 1 at last.
+using Progress = std::function<void(double share)>;
+
+// A pure function of the world and of which models can be read: the same meshes, bit by bit. `progress` is told on this thread.
+WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance = {}, const ModelIsThere& is_there = {}, const Progress& progress = {});
 
 }  // namespace rodeira::scene

@@ -4,6 +4,7 @@
 
 #include "common/base/result.hpp"
 #include "common/lockstep/inbox.hpp"
+#include "idl/messages.hpp"
 
 namespace rodeira::nodes {
 
@@ -12,7 +13,9 @@ struct CarSeen {
   double speed_mps = 0.0;  // forward
   std::int32_t gear = 1;   // that is in
   double steering_torque_Nm = 0.0;  // what the road gives back to its steering wheel, positive to the left
+  double front_load_difference_N = 0.0;  // left less right: what its front wheels stand on
 };
+CarSeen SeenOf(const msg::VehicleState& state);
 base::Result<CarSeen> SeeCar(const lockstep::Inbox& inbox);
 
 }  // namespace rodeira::nodes

@@ -41,22 +41,31 @@ std::unique_ptr<Source> OwnWheel(Search& search, const config::Map& config) {
   return nullptr;
 }
 
+// Null: it cannot be guessed at. `why` it has to be.
+std::unique_ptr<Source> Guess(const Search& search, const JoystickInfo& info, const char* why) {
+  const auto wheel = hands::PlainWheel({"wheel", info.guid, ""}, static_cast<std::size_t>(info.axes), static_cast<std::size_t>(info.buttons));
+  if (!wheel) return nullptr;
+  auto source = OpenWheel(*wheel, search.node);
+  if (!source) return nullptr;
+  search.Say(fmt::format("'{}' drives by a guess: {}{}", info.name, hands::AxesText(*wheel), why));
+  return std::move(source).value();
+}
+
+// A wheel that was plugged in and never set up is meant to drive all the same.
+std::unique_ptr<Source> NewWheel(const Search& search) {
+  for (const JoystickInfo& info : search.connected) {
+    std::error_code problem;
+    if (!info.is_wheel || std::filesystem::exists(hands::WheelFileOf(info.guid), problem)) continue;
+    if (auto source = Guess(search, info, "; it was not set up: `rodeira input setup` finds its axes, ends and buttons")) return source;
+  }
+  return nullptr;
+}
+
 std::unique_ptr<Source> AnyPad(const Search& search) {
   auto pad = GamePad::Start();
   if (!pad || !pad.value()->reading().connected) return nullptr;
   search.Say(fmt::format("no wheel that was set up is there; the game pad '{}' drives", pad.value()->name()));
   return MakePadSource(search.node, std::move(pad).value());
-}
-
-std::unique_ptr<Source> PlainDevice(const Search& search) {
-  if (!search.broken) return nullptr;
-  const JoystickInfo& info = *search.broken;
-  const auto wheel = hands::PlainWheel({"wheel", info.guid, ""}, static_cast<std::size_t>(info.axes), static_cast<std::size_t>(info.buttons));
-  if (!wheel) return nullptr;
-  auto source = OpenWheel(*wheel, search.node);
-  if (!source) return nullptr;
-  search.Say(fmt::format("'{}' drives by a guess: {}", info.name, hands::AxesText(*wheel)));
-  return std::move(source).value();
 }
 
 }  // namespace
@@ -75,10 +84,13 @@ base::Result<std::unique_ptr<Source>> MakeFoundSource(const config::Map& config,
   auto wheel = OwnWheel(search, config);
   if (auto status = context.launch().file().Finish(); !status) return status.error();  // GUIDs that it says
   if (wheel != nullptr) return wheel;
+  if (auto guessed = NewWheel(search)) return guessed;
   if (auto pad = AnyPad(search)) return pad;
-  if (auto plain = PlainDevice(search)) return plain;
+  if (search.broken) {
+    if (auto guessed = Guess(search, *search.broken, "")) return guessed;
+  }
   if (has_keys) {
-    search.Say("no wheel that was set up (`rodeira input setup`) and no game pad is there; the windows' keys drive");
+    search.Say(fmt::format("no wheel that was set up (`rodeira input setup`) and no game pad is there ({}); the windows' keys drive", ListJoysticks(search.connected)));
     return MakeKeyboardSource(config, context);
   }
   return base::WrongInput(fmt::format("no 'wheel' is named, and none of the devices was set up (`rodeira input setup`) in {}; {}", hands::WheelFolder().string(), ListJoysticks(search.connected)),

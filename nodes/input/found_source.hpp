@@ -9,8 +9,9 @@ namespace rodeira::nodes {
 
 // `source: joystick` that names no `wheel`: what is plugged in, the first of
 // - a wheel whose file `rodeira input setup` has written,
+// - a steering wheel that nobody has set up, by its plain mapping (common/hands/plain_wheel.hpp),
 // - a game pad,
-// - a device whose own file is broken, by its plain mapping (common/hands/plain_wheel.hpp),
+// - a device whose own file is broken, by its plain mapping too,
 // - the windows' keys, where `keyboard` names their file.
 // What is passed over on the way is said in a sentence. Wrong input where nothing is left.
 base::Result<std::unique_ptr<Source>> MakeFoundSource(const config::Map& config, launch::NodeContext& context);

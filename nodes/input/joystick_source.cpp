@@ -60,7 +60,7 @@ class JoystickSource final : public Source {
     felt_ = wheel;
     if (!driver_.rim_rad()) return;
     const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    force_.Tell({*driver_.rim_rad(), settings_.force_lock_rad, car.steering_torque_Nm}, now_s);
+    force_.Tell({*driver_.rim_rad(), settings_.force_lock_rad, car.steering_torque_Nm, car.front_load_difference_N}, now_s);
   }
 
   // To the person, once for each time.

@@ -57,7 +57,7 @@ std::vector<JoystickInfo> Joysticks::Connected() const {
   std::vector<JoystickInfo> all;
   for (int index = 0; index < SDL_NumJoysticks(); ++index) {
     SDL_Joystick* joystick = SDL_JoystickOpen(index);  // an open one is counted, not opened again
-    JoystickInfo info{OrNameless(SDL_JoystickNameForIndex(index)), GuidText(SDL_JoystickGetDeviceGUID(index)), 0, 0};
+    JoystickInfo info{OrNameless(SDL_JoystickNameForIndex(index)), GuidText(SDL_JoystickGetDeviceGUID(index)), 0, 0, SDL_JoystickGetDeviceType(index) == SDL_JOYSTICK_TYPE_WHEEL};
     if (joystick != nullptr) {
       info.axes = SDL_JoystickNumAxes(joystick);
       info.buttons = SDL_JoystickNumButtons(joystick);

@@ -17,6 +17,7 @@ struct JoystickInfo {
   std::string guid;
   int axes = 0;
   int buttons = 0;
+  bool is_wheel = false;  // SDL knows it as a steering wheel; many are not known to it
 };
 
 // "'G29' 030000…, 'Pedals' 0300…", or "no device is connected".

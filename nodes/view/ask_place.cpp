@@ -27,19 +27,38 @@ double HeadingOf(const scene::CarPose& car) {
   return std::atan2(forward.y(), forward.x());
 }
 
+// Whom a person's request is about.
+base::Result<const scene::CarPose*> CarOf(const scene::Moment& moment, std::size_t followed, const CarNames& names) {
+  if (moment.cars.empty()) return base::WrongInput("nobody drives here: there is no car to be placed");
+  const scene::CarPose& car = moment.cars[followed < moment.cars.size() ? followed : 0];
+  if (!names.contains(car.id)) return base::WrongInput("a recording cannot be changed: the car stays where it was");
+  return &car;
+}
+
 }  // namespace
 
 base::Result<scenario::Request> AskPlace(const road::World& world, const scene::Moment& moment, std::size_t followed, const scene::Ray& ray, const CarNames& names) {
-  if (moment.cars.empty()) return base::WrongInput("nobody drives here: there is no car to be placed");
-  const scene::CarPose& car = moment.cars[followed < moment.cars.size() ? followed : 0];
-  const auto name = names.find(car.id);
-  if (name == names.end()) return base::WrongInput("a recording cannot be changed: the car stays where it was");
+  const auto found = CarOf(moment, followed, names);
+  if (!found) return found.error();
+  const scene::CarPose& car = *found.value();
   const auto ground = world.MakeGround();
   const auto met = scene::GroundOn(*ground, ray);
   if (!met) return base::WrongInput(kOutside);
   const scene::CarPlace place = scene::PlaceAt(world, *met, HeadingOf(car));
   if (!HasGround(*ground, place, car)) return base::WrongInput(kOutside);
-  return scenario::PlaceRequest({name->second, place.x_m, place.y_m, place.z_m}, place.heading_rad * 180.0 / geometry::kPi);
+  return scenario::PlaceRequest({names.at(car.id), place.x_m, place.y_m, place.z_m}, place.heading_rad * 180.0 / geometry::kPi);
+}
+
+base::Result<scenario::Request> AskStart(const road::World& world, const scene::Moment& moment, std::size_t followed, const CarNames& names, const CarStarts& starts) {
+  const auto found = CarOf(moment, followed, names);
+  if (!found) return found.error();
+  const auto said = starts.find(found.value()->id);
+  const CarStart own = said != starts.end() ? said->second : CarStart{};
+  const road::StartPose& of_world = world.start();
+  const bool own_place = own.x_m && own.y_m;
+  const double heading_deg = own.heading_deg.value_or(own_place ? 0.0 : of_world.heading_rad * 180.0 / geometry::kPi);
+  // No height: as its own INI.
+  return scenario::PlaceRequest({names.at(found.value()->id), own_place ? *own.x_m : of_world.x_m, own_place ? *own.y_m : of_world.y_m, std::nullopt}, heading_deg);
 }
 
 }  // namespace rodeira::view

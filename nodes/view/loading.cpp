@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/launch/live_keys.hpp"
+
 namespace rodeira::view {
 namespace {
 
@@ -38,6 +40,10 @@ void DrawLoadingBar(int width_px, int height_px, double share) {
 void Loading::Show(double share, const std::string& what) {
   if (surface_.kind() != SurfaceKind::kWindow) return;
   SDL_PumpEvents();  // a window that never asks is called dead
+  const double now_s = launch::WallSeconds();
+  if (what == what_ && now_s - shown_wall_s_ < kAgain_s) return;
+  what_ = what;
+  shown_wall_s_ = now_s;
   SDL_SetWindowTitle(SDL_GL_GetCurrentWindow(), LoadingTitle(title_, share, what).c_str());
   DrawLoadingBar(surface_.width_px(), surface_.height_px(), share);
   surface_.Swap();

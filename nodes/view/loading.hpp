@@ -12,14 +12,17 @@ class Loading {
   // Of a window; anything else shows nothing.
   Loading(Surface& surface, std::string title) : surface_(surface), title_(std::move(title)) {}
 
-  // `share` of the way, 0 to 1; `what` comes next. Shown at once.
+  // `share` of the way, 0 to 1; `what` comes next. The system is told that the window lives; it is shown at once, but for the same words within kAgain_s.
   void Show(double share, const std::string& what);
   // The title alone again.
   static void End(const std::string& title);
 
  private:
+  static constexpr double kAgain_s = 0.03;
+
   Surface& surface_;
-  std::string title_;
+  std::string title_, what_;
+  double shown_wall_s_ = 0.0;
 };
 
 // "Rodeira: N222, 30 %: the ground is built".

@@ -344,7 +344,7 @@ Image Painter::Read() const {
   return image;
 }
 
-base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built, bool repeats) {
+base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built, bool repeats, const scene::Progress& progress) {
   if (!built.empty()) return Painter::Make(surface, world, built, repeats);
   std::set<std::string> told;
   const auto is_there = [&](const std::string& file) {
@@ -352,7 +352,7 @@ base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::W
     if (!read && told.insert(file).second) fmt::print(stderr, "rodeira: {}; what it is of is drawn without it\n", read.error().Text());
     return read.ok();
   };
-  const scene::WorldScene standing = scene::BuildWorldScene(world, {}, is_there);  // the painter has its own copy
+  const scene::WorldScene standing = scene::BuildWorldScene(world, {}, is_there, progress);  // the painter has its own copy
   return std::make_unique<Painter>(surface, world, standing, repeats);
 }
 

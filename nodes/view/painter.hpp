@@ -55,8 +55,8 @@ class Painter {
 };
 
 // A painter of the world with the ground of a built database, or, where `built` is empty, with ground that is built in memory: what has a
-// model that cannot be read is then drawn without it, which is said once on the standard error.
-base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built, bool repeats = true);
+// model that cannot be read is then drawn without it, which is said once on the standard error. `progress` is told of what is built.
+base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built, bool repeats = true, const scene::Progress& progress = {});
 
 // One picture of a world, without a window and without a run.
 // `built`: the folder of a database whose ground is shown; empty: the ground is built in memory.

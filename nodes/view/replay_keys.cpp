@@ -72,10 +72,11 @@ std::string ReplayHelp() {
       "+ -  faster, slower: 0.1 to 10 x\n"
       "r  the other way\n"
       "mouse on the bar  there\n";
-  for (const hands::WindowKey& key : hands::WindowKeys()) {
-    const bool own = key.name == "space" || key.name == "return" || key.name == "escape", asks = key.name == "f6" || key.name == "f7";  // of a run that goes on
-    if (!own && !asks) text += fmt::format("\n{}  {}", key.name, key.does);
-  }
+  const auto is_a_recordings = [](const hands::WindowKey& key) {
+    const bool own = key.name == "space" || key.name == "return" || key.name == "escape", asks = key.name == "f2" || key.name == "f6" || key.name == "f7";  // of a run that goes on
+    return !own && !asks;
+  };
+  text += "\n" + hands::WindowKeysText(is_a_recordings);
   return text + MouseHelp(kLeftButton) + "\nescape  end";
 }
 

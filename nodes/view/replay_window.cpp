@@ -95,6 +95,7 @@ base::Status ReplayWindow::Watch(scene::Player& player, const TakeMarks& take_ma
       if (problem.ok()) problem = moment.error();
     }
     screen_->Show(shown_, player.speed(), std::move(timeline));
+    changed = screen_->is_restless();
     const double rest_s = pace_.Next(now_s, screen_->surface().beat()) - launch::WallSeconds();
     if (rest_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(rest_s));
   }
@@ -105,6 +106,7 @@ base::Status ReplayWindow::Watch(scene::Player& player, const TakeMarks& take_ma
 bool ReplayWindow::ReadEvents(scene::Player& player, const std::vector<std::int64_t>& marks_ns) {
   bool any = false;
   for (SDL_Event event; SDL_PollEvent(&event) != 0; any = true) Take(event, player, marks_ns);
+  if (screen_->asked_to_close()) open_ = false;
   return any;
 }
 

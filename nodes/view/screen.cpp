@@ -24,6 +24,8 @@ constexpr int kClick_px = 4;          // moved farther it is no click
 constexpr double kZoom = 1.15;       // a notch of the mouse's wheel
 constexpr double kTurn_rad = 0.006;  // a pixel that it is drawn
 constexpr double kWeather_s = 8.0;   // until another weather is there
+constexpr double kGroundShare = 0.8;  // of the time until the first picture is there
+constexpr double kVolumeStep = 0.1;  // a press
 constexpr const char* kNobodyTakes = "nobody in this run takes requests: a node of kind scenario with 'requests: true' does";
 constexpr const char* kClockElsewhere = "the run is paused on the PC where its clock is";
 constexpr const char* kTooMany = "the run has not taken what was asked before";
@@ -52,11 +54,7 @@ std::string MouseHelp(int mouse_button) {
 }
 
 std::string WindowHelp(int mouse_button) {
-  std::string text;
-  for (const hands::WindowKey& key : hands::WindowKeys()) {
-    text += fmt::format("{}{}  {}", text.empty() ? "" : "\n", key.name, key.does);
-  }
-  return text + MouseHelp(mouse_button);
+  return hands::WindowKeysText([](const hands::WindowKey&) { return true; }) + MouseHelp(mouse_button);
 }
 
 base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
@@ -67,16 +65,19 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   if (settings.full_screen) surface.value()->ToggleFullScreen();
   std::unique_ptr<Screen> screen(new Screen(world));
   screen->cars_ = settings.cars;
+  screen->starts_ = settings.starts;
+  screen->paints_ = settings.paints;
   screen->surface_ = std::move(surface).value();
   Loading loading(*screen->surface_, title);
-  loading.Show(0.3, "the world is read, its ground is built");
-  auto painter = PainterOf(*screen->surface_, world, settings.built);
+  const auto ground = [&loading](double share) { loading.Show(kGroundShare * share, "the ground is built"); };
+  ground(0.0);
+  auto painter = PainterOf(*screen->surface_, world, settings.built, true, ground);
   if (!painter) return painter.error();
   screen->painter_ = std::move(painter).value();
   if (!settings.car_model.empty()) {
     if (auto status = screen->painter_->WearCarModel(settings.car_model); !status) fmt::print(stderr, "rodeira: {}; the car is drawn without it\n", status.error().Text());
   }
-  loading.Show(0.8, "the first picture is drawn");
+  loading.Show(kGroundShare, "the first picture is drawn");
   screen->painter_->DrawWhole(FirstPicture(world));
   (void)screen->painter_->Read();
   loading.Show(0.95, "the run's other parts are waited for");
@@ -92,6 +93,7 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
     if (speaker) screen->speaker_ = std::move(speaker).value();
     else fmt::print(stderr, "rodeira: no sound: {}\n", speaker.error().Text());
   }
+  screen->has_sound_ = settings.sound;
   screen->volume_ = settings.sound ? settings.volume : 0.0;
   if (!settings.frame_log.empty()) {
     auto log = FrameLog::Open(settings.frame_log);
@@ -146,6 +148,7 @@ bool Screen::TakeKey(int symbol, bool driven, int modifiers) {
       return true;
     case SDLK_TAB: FollowNext((modifiers & KMOD_SHIFT) != 0 ? -1 : 1); return true;
     case SDLK_h: help_ = !help_; return true;
+    case SDLK_F1: menu_.Toggle(); return true;
     case SDLK_F4: live_.mirrors = live_.mirrors == kNoMirrors ? mirrors_ : kNoMirrors; return true;
     case SDLK_F12: picture_wanted_ = true; return true;
     case SDLK_F5: muted_ = !muted_; return true;
@@ -153,7 +156,10 @@ bool Screen::TakeKey(int symbol, bool driven, int modifiers) {
       placing_ = !placing_;
       Note(placing_ ? "click where the car is to stand" : "the car stays where it is");
       return true;
-    case SDLK_F7: AskForWeather(); return true;
+    case SDLK_F2: AskForStart(); return true;
+    case SDLK_F7: AskForWeather((weather_ + 1) % weather::NamedWeathers().size()); return true;
+    case SDLK_F10: SetVolume(std::round(volume_ / kVolumeStep - 1.0) * kVolumeStep); return true;  // whole steps: there and back is the same
+    case SDLK_F11: SetVolume(std::round(volume_ / kVolumeStep + 1.0) * kVolumeStep); return true;
     case SDLK_F8: NextHeat(); return true;
     case SDLK_F9: FromAboveOrBack(); return true;
     case SDLK_F3: statistics_ = !statistics_; return true;
@@ -169,6 +175,7 @@ bool Screen::TakeKey(int symbol, bool driven, int modifiers) {
 }
 
 bool Screen::TakeMouse(const SDL_Event& event) {
+  if (menu_.Take(event)) return true;
   if (event.type == SDL_MOUSEWHEEL) {
     live_.aim.Zoom(std::pow(kZoom, -event.wheel.y));
     return true;
@@ -229,11 +236,26 @@ void Screen::AskForPlace(int x_px, int y_px) {
   else Note(kTooMany);
 }
 
-// The one behind that which was asked for last; within some seconds.
-void Screen::AskForWeather() {
+// The car that is followed where it began.
+void Screen::AskForStart() {
+  const auto request = AskStart(world_, live_.moment, live_.followed, cars_, starts_);
+  if (!request) return Note(request.error().message);
+  if (!ask_) return Note(kNobodyTakes);
+  Note(ask_(request.value()) ? fmt::format("{} back to its start", request.value().argument) : kTooMany);
+}
+
+void Screen::SetVolume(double volume) {
+  if (!has_sound_) return Note("this window was told to be silent");
+  volume_ = std::clamp(volume, 0.0, 1.0);
+  muted_ = false;
+  Note(fmt::format("volume {:.0f} %", 100.0 * volume_));
+}
+
+// Within some seconds.
+void Screen::AskForWeather(std::size_t which) {
   if (!ask_) return Note(kNobodyTakes);
   const auto all = weather::NamedWeathers();
-  weather_ = (weather_ + 1) % all.size();
+  weather_ = which;
   if (ask_(scenario::WeatherRequest(all[weather_].name, kWeather_s))) Note(fmt::format("weather: {}", all[weather_].name));
   else Note(kTooMany);
 }
@@ -307,9 +329,30 @@ void Screen::TakePicture() {
 
 double Screen::Loudness(double rate) const { return muted_ ? 0.0 : volume_ * std::min(std::fabs(rate), 1.0); }
 
+// Over the picture; what is chosen there counts from the next one on.
+void Screen::DrawMenu() {
+  MenuSight sight;
+  sight.camera = live_.camera;
+  sight.mirrors = live_.mirrors != kNoMirrors;
+  sight.sound = has_sound_ && !muted_;
+  sight.statistics = statistics_;
+  sight.help = help_;
+  sight.live = !live_.timeline;
+  sight.volume = volume_;
+  const MenuWish wish = menu_.Draw(sight, surface_->width_px(), surface_->height_px());
+  if (wish.key == SDLK_ESCAPE) asked_to_close_ = true;
+  else if (wish.key) (void)TakeKey(*wish.key, true);
+  if (wish.weather) AskForWeather(*wish.weather);
+  if (wish.volume) SetVolume(*wish.volume);
+  if (!wish.camera) return;
+  before_above_.reset();
+  live_.camera = *wish.camera;
+}
+
 void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> timeline) {
   const double begin_s = launch::WallSeconds();
   live_.moment = std::move(moment);
+  PaintCars(live_.moment, paints_);
   live_.timeline = std::move(timeline);
   Follow();
   GatherHeat();
@@ -328,6 +371,7 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
   if (headset_waits_) ShowInHeadset();
   if (shown_wall_s_ == 0.0) Loading::End(WindowTitle(world_));
   painter_->Draw(live_);
+  DrawMenu();
   surface_->Swap();
   const double end_s = launch::WallSeconds();
   if (log_) log_->Add(end_s, live_.moment, live_.followed, painter_->CameraOf(live_));

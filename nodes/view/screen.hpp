@@ -13,6 +13,7 @@
 #include "nodes/view/chosen.hpp"
 #include "nodes/view/frame_log.hpp"
 #include "nodes/view/headset.hpp"
+#include "nodes/view/menu.hpp"
 #include "nodes/view/painter.hpp"
 #include "nodes/view/speaker.hpp"
 #include "nodes/view/standing.hpp"
@@ -42,6 +43,10 @@ class Screen {
   // click of it chooses the vehicle that is seen at its place, or nobody. Behind the placing key, or with ctrl held, a click of the left
   // button places the car instead. False where the event is not the window's.
   bool TakeMouse(const SDL_Event& event);
+  // Whether the person has chosen to close the window.
+  bool asked_to_close() const { return asked_to_close_; }
+  // Whether another picture is due although neither time nor a hand moves.
+  bool is_restless() const { return menu_.is_restless(); }
   // Waits until the headset wants its next pictures; true where Show is then to draw them. False where there is none, or nobody wears it: the
   // window is drawn as without one.
   bool WaitForHeadset();
@@ -58,7 +63,10 @@ class Screen {
   void ShowInHeadset();
   void Note(std::string note);
   void AskForPlace(int x_px, int y_px);
-  void AskForWeather();
+  void AskForStart();
+  void AskForWeather(std::size_t which);
+  void DrawMenu();
+  void SetVolume(double volume);
   scene::Ray RayAt(int x_px, int y_px) const;
   void ChooseAt(int x_px, int y_px);
   void NextHeat();
@@ -70,6 +78,8 @@ class Screen {
   const road::World& world_;
   std::function<bool(const scenario::Request&)> ask_;
   CarNames cars_;
+  CarStarts starts_;
+  CarPaints paints_;
   bool placing_ = false;      // the next click says where
   bool swallows_up_ = false;  // of a button whose press was the window's
   std::size_t weather_ = 0;   // that was asked for last
@@ -85,9 +95,12 @@ class Screen {
   std::unique_ptr<Surface> surface_;
   std::unique_ptr<Painter> painter_;  // before its surface in dying
   std::unique_ptr<Headset> headset_;  // likewise; null: none
+  Menu menu_;                         // likewise
+  bool asked_to_close_ = false;
   bool headset_waits_ = false;        // for pictures
   std::unique_ptr<FrameLog> log_;     // null: nobody wants it
   std::unique_ptr<Speaker> speaker_;  // null: nothing is heard
+  bool has_sound_ = false;            // otherwise it was told to be silent
   double volume_ = 0.0;
   bool muted_ = false;
   std::string help_text_, title_;

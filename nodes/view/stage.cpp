@@ -184,6 +184,7 @@ bool Stage::ReadKeys(Hand& hand) {
     if (hand.screen->TakeMouse(event)) continue;
     if (!own && hand.keys != nullptr) hand.keys->Take(event);
   }
+  open = open && !hand.screen->asked_to_close();
   if (hand.wheel != nullptr && hand.wheel->Pressed()) (void)hand.screen->TakeKey(SDLK_k, true);
   if (hand.keys != nullptr) {
     if (!open) hand.keys->ReleaseAll();

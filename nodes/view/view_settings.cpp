@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 
@@ -29,6 +30,17 @@ void ReadFollowed(const lockstep::Roster& roster, const lockstep::NodeSpec& view
   const auto followed = FindFollowed(roster, CarSources(view), map.Text("follow"));
   if (followed) settings.followed = followed.value();
   else map.Problem("follow", followed.error().message);
+}
+
+void ReadPaints(const lockstep::Roster& roster, const lockstep::NodeSpec& view, const config::Map& map, ViewSettings& settings) {
+  const auto cars = CarSources(view);
+  for (const std::string& name : map.Keys()) {
+    const auto car = FindFollowed(roster, cars, name);
+    const auto paint = PaintOf(map.Text(name));
+    if (!car) map.Problem(name, car.error().message);
+    else if (!paint) map.Problem(name, paint.error().message);
+    else settings.paints[cars[car.value()]] = paint.value();
+  }
 }
 
 void ReadScreen(const launch::Launch& launch, const config::Map& map, ViewSettings& settings) {
@@ -117,6 +129,17 @@ void ReadMirrors(const config::Map& map, ViewSettings& settings) {
   }
 }
 
+// Where the launch file says that a vehicle begins; what is wrong there the vehicle says itself.
+CarStart ReadStart(const launch::LaunchNode& vehicle) {
+  const auto number = [&](const char* key) -> std::optional<double> {
+    const auto text = vehicle.config->Peek({"config", "start", key});
+    double value = 0.0;
+    if (!text || std::from_chars(text->data(), text->data() + text->size(), value).ec != std::errc{}) return std::nullopt;
+    return value;
+  };
+  return {number("x_m"), number("y_m"), number("heading_deg")};
+}
+
 // All but the frames.
 ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& view, const config::Map& map) {
   ViewSettings settings;
@@ -139,9 +162,14 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& 
   settings.cabin = map.Flag("cabin", !settings.screen);  // a laboratory has its own
   if (map.Has("mirrors")) ReadMirrors(map, settings);
   ReadFollowed(launch.roster(), view, map, settings);
+  ReadPaints(launch.roster(), view, map.OptionalChild("colours"), settings);
   ReadDriving(launch, settings);
   for (const launch::LaunchNode& node : launch.nodes()) settings.can_ask = settings.can_ask || node.takes_requests();
-  for (const lockstep::SourceIndex car : CarSources(view)) settings.cars[car] = launch.roster().node(launch.roster().source(car).node).name;
+  for (const lockstep::SourceIndex car : CarSources(view)) {
+    const lockstep::NodeIndex vehicle = launch.roster().source(car).node;
+    settings.cars[car] = launch.roster().node(vehicle).name;
+    settings.starts[car] = ReadStart(launch.node(vehicle));
+  }
   return settings;
 }
 
@@ -227,6 +255,7 @@ base::Status PrepareFolder(const std::filesystem::path& folder) {
 Picture PictureOf(const ViewSettings& settings, scene::Moment moment) {
   Picture picture;
   picture.moment = std::move(moment);
+  PaintCars(picture.moment, settings.paints);
   picture.camera = settings.camera;
   picture.screen = settings.screen;
   picture.followed = settings.followed;

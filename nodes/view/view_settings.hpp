@@ -12,6 +12,7 @@
 #include "common/scene/camera.hpp"
 #include "common/scene/mirror.hpp"
 #include "nodes/view/ask_place.hpp"
+#include "nodes/view/paint.hpp"
 #include "nodes/view/picture.hpp"
 #include "nodes/view/quality.hpp"
 #include "nodes/view/wheel_buttons.hpp"
@@ -51,6 +52,8 @@ struct ViewSettings {
   std::vector<WheelButtonUse> camera_buttons;  // of wheels that drive in this run
   bool can_ask = false;                      // a scenario of this run makes events of what windows ask for
   CarNames cars;                             // wired to the view
+  CarPaints paints;                          // of those among them that were given one
+  CarStarts starts;                          // of those among them whose vehicle node says one
 };
 
 // Reads the settings. Wrong input where a frame's time is not one at which every car wired to the view has a sample, where

@@ -1,64 +1,24 @@
 // A steering wheel is set up in the start window: SDL's virtual joystick, a window without a display, a mouse of pushed events.
 #include <gtest/gtest.h>
-#include <imgui_internal.h>
-
-#include <cstdlib>
 
 #include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
-#include "launch/start_window.hpp"
-#include "tests/common/window/hands.hpp"
+#include "nodes/input/joysticks.hpp"
+#include "tests/launch/start_hands.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
-#include "tests/tree.hpp"
 
 namespace rodeira::front {
 namespace {
 
-constexpr int kWidth = 820, kHeight = 640;
-
-class StartWheel : public testing::Test {
+class StartWheel : public StartHands {
  protected:
   void SetUp() override {
-    auto opened = window::Window::Open({window::Kind::kOffscreen, kWidth, kHeight, "test"});
-    if (!opened) GTEST_SKIP() << "no OpenGL here: " << opened.error().Text();
-    window_ = std::move(opened).value();
+    StartHands::SetUp();
+    if (IsSkipped()) return;
     auto started = nodes::Joysticks::Start();
     ASSERT_TRUE(started.ok()) << started.error().Text();
     joysticks_ = std::move(started).value();
-    auto made = base::TemporaryFolder::Make("start");
-    ASSERT_TRUE(made.ok());
-    folder_.emplace(std::move(made).value());
-    ::setenv("XDG_CONFIG_HOME", folder_->path().c_str(), 1);
-    std::filesystem::current_path(SourceDir());
-    start_.emplace(FindStartFiles(".", "/nowhere", folder_->path() / "rodeira"), "/bin/true");
   }
-  void TearDown() override { ::unsetenv("XDG_CONFIG_HOME"); }
 
-  window::Image Frame() {
-    window::Image seen;
-    do {
-      EXPECT_TRUE(window_->BeginFrame(0));
-      start_->Draw(kWidth, kHeight);
-      window_->EndFrame(&seen);
-    } while (window_->busy());
-    return seen;
-  }
-  // Goes over the window with the mouse until it is on the widget of this name, and clicks there. False where there is none.
-  bool Click(const char* label) {
-    Frame();
-    const ImGuiID wanted = ImGui::FindWindowByName("start")->GetID(label);
-    for (int y = 12; y < kHeight; y += 10) {
-      for (const int x : {60, 480}) {
-        window::hands::MoveTo(x, y);
-        Frame();
-        if (ImGui::GetCurrentContext()->HoveredId != wanted) continue;
-        window::hands::Click(x, y);
-        Frame();
-        return true;
-      }
-    }
-    return false;
-  }
   // Frames while `axis` goes evenly from one place to the other, or nothing moves.
   void Move(VirtualWheel& wheel, int axis, int from, int to) {
     for (int i = 1; i <= 30; ++i) {
@@ -69,16 +29,9 @@ class StartWheel : public testing::Test {
   void Rest() {
     for (int i = 0; i < 60; ++i) Frame();
   }
-  // What is seen now, for people, where they ask for it.
-  void Keep(const char* name) {
-    if (const char* pictures = std::getenv("RODEIRA_PICTURES")) (void)window::WritePng(std::filesystem::path(pictures) / name, Frame());
-  }
   int Asked() const { return start_->wheel().wizard() == nullptr ? 0 : start_->wheel().wizard()->number(); }
 
-  std::unique_ptr<window::Window> window_;
   std::unique_ptr<nodes::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
-  std::optional<base::TemporaryFolder> folder_;
-  std::optional<StartWindow> start_;
 };
 
 TEST_F(StartWheel, SixMovementsAndTheWheelIsTheOneToDriveWith) {

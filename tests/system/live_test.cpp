@@ -159,13 +159,21 @@ TEST_F(Live, NobodyTouchesAKeyAndTwoRunsAreEqual) {
 }
 
 TEST_F(Live, AMissingWheelIsOneSentenceAndStatusTwo) {
-  const Ended ended =
-      RunCommand({Bin("rodeira"), "run", LaunchFile("wheel.yaml"), "--headless", "--record", Path("never.mcap"), "--for", "1"});
+  const Ended ended = RunCommand({Bin("rodeira"), "run", LaunchFile("wheel.yaml"), "--set", "nodes.driver.config.wheel=../configs/drivers/wheel.yaml", "--headless",
+                                  "--record", Path("never.mcap"), "--for", "1"});
   EXPECT_EQ(ended.status, 2) << ended.out;
   EXPECT_NE(
       ended.out.find("configs/drivers/wheel.yaml:7: device 'wheel' with GUID 00000000000000000000000000000000 is not there; "),
       std::string::npos)
       << ended.out;
+}
+
+// The command as the documents say it, on a PC where nothing is plugged in.
+TEST_F(Live, TheWheelsLaunchFileDrivesByKeysWithoutAWheel) {
+  if (RunCommand({Bin("rodeira"), "joysticks"}).out.find("no device is connected") == std::string::npos) GTEST_SKIP() << "a device is plugged in, which would drive";
+  const Ended ended = RunCommand({Bin("rodeira"), "run", LaunchFile("wheel.yaml"), "--headless", "--record", Path("keys.mcap"), "--for", "1"});
+  EXPECT_EQ(ended.status, 0) << ended.out;
+  EXPECT_NE(ended.out.find("node 'driver': no wheel that was set up (`rodeira input setup`) and no game pad is there (no device is connected); the windows' keys drive"), std::string::npos) << ended.out;
 }
 
 TEST_F(Live, DrivingByKeysNeedsAWindow) {

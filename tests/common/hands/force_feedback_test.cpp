@@ -77,6 +77,38 @@ TEST(ForceFeedback, TheStopPushesBackOnEitherSideAtOnce) {
   }
 }
 
+// The high-pass of a step of the loads' difference: e^(-t / T) in the filter's own steps, T / (T + dt) each.
+TEST(ForceFeedback, ABumpUnderOneWheelIsFeltAndPassesWithTheWheelStraight) {
+  ForceSettings settings = Bare();
+  settings.fade_s = 0.1;
+  ForceFeedback law(settings);
+  double now_s = 5.0;
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(law.Step({0.0, 7.85, 0.0, -700.0}, now_s += 0.01), 0.0) << "load that shifts slowly is not the road: " << i;
+  double expected_Nm = ForceFeedback::kFeelArm_m * 300.0;
+  constexpr double kKept = ForceFeedback::kFeelSlow_s / (ForceFeedback::kFeelSlow_s + 0.01);
+  for (int i = 0; i < 50; ++i) {
+    expected_Nm *= kKept;
+    ASSERT_NEAR(law.Step({0.0, 7.85, 0.0, -400.0}, now_s += 0.01), expected_Nm / settings.device_Nm, 1e-12) << "more load on the left pulls to the left: " << i;
+  }
+  EXPECT_NEAR(ForceFeedback::kFeelArm_m * 300.0, 0.1875, 1e-12) << "Nm at the rim, of 300 N";
+}
+
+TEST(ForceFeedback, TheRoadsRoughnessIsLimitedAndNothingAfterAPause) {
+  ForceSettings settings = Bare();
+  settings.fade_s = 0.1;
+  ForceFeedback law(settings);
+  double now_s = 5.0;
+  for (int i = 0; i < 100; ++i) (void)law.Step({0.0, 7.85, 0.0, 0.0}, now_s += 0.01);
+  EXPECT_NEAR(law.Step({0.0, 7.85, 0.0, 1e6}, now_s += 0.01), ForceFeedback::kFeelMost_Nm / settings.device_Nm, 1e-12);
+  EXPECT_EQ(law.Step({0.0, 7.85, 0.0, std::numeric_limits<double>::quiet_NaN()}, now_s += 0.01), 0.0);
+  EXPECT_TRUE(std::isfinite(law.Step({0.0, 7.85, 0.0, -1e6}, now_s += 0.01))) << "and is not remembered";
+  now_s += 0.5;
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(law.Step({0.0, 7.85, 0.0, 900.0}, now_s += 0.01), 0.0) << "what is after a pause is what is usual";
+  settings.road_feel = 0.0;
+  ForceFeedback deaf(settings);
+  for (int i = 0; i < 200; ++i) ASSERT_EQ(deaf.Step({0.0, 7.85, 0.0, i % 2 == 0 ? 900.0 : -900.0}, now_s += 0.01), 0.0);
+}
+
 // A motor that goes on with what it was told until that ends, on a clock of the test's.
 class FakeMotor final : public ForceDevice {
  public:

@@ -98,6 +98,25 @@ TEST_F(FoundSource, AWholeFileThatAsksForWhatTheDeviceHasNotIsPassedOverToo) {
   EXPECT_THAT(told.said, HasSubstr("drives by a guess"));
 }
 
+TEST_F(FoundSource, AWheelThatNobodyHasSetUpDrivesAtOnce) {
+  VirtualWheel wheel;
+  wheel.Axis(2, 32767);
+  const auto hands = [&](lockstep::Step step) {
+    if (step == 100) wheel.Axis(2, -32768);
+    if (step == 200) wheel.Axis(0, -32768);
+  };
+  const Told told = Drive(std::string("{source: joystick, keyboard: ") + kKeys + "}", 300, hands);
+  ASSERT_EQ(told.refused, "");
+  EXPECT_THAT(told.said, HasSubstr("drives by a guess: steering on axis 0, throttle on 2, brake on 3; it was not set up: `rodeira input setup` finds its axes, ends and buttons\n"));
+  EXPECT_EQ(told.drive.controls.at(100).throttle(), 0.0);
+  EXPECT_GT(told.drive.controls.at(110).throttle(), 0.99);
+  EXPECT_NEAR(told.drive.controls.at(210).steering_wheel_rad(), 7.85, 1e-6);
+  // Who sits at a wheel meant the wheel, not the pad beside it.
+  VirtualPad pad;
+  wheel.Axis(2, 32767), wheel.Axis(0, 0);
+  EXPECT_THAT(Drive("{source: joystick}", 10, nullptr).said, HasSubstr("drives by a guess"));
+}
+
 TEST_F(FoundSource, WithoutAnyDeviceTheWindowsKeysDriveWhereTheyAreNamed) {
   const auto window_keys = [](const std::string& config) {
     const launch::Launch launch = LaunchOf(config);
@@ -109,7 +128,7 @@ TEST_F(FoundSource, WithoutAnyDeviceTheWindowsKeysDriveWhereTheyAreNamed) {
     EXPECT_EQ(drive.controls.at(1000).throttle(), 1.0);
     return testing::internal::GetCapturedStderr();
   };
-  EXPECT_THAT(window_keys(std::string("{source: joystick, keyboard: ") + kKeys + "}"), HasSubstr("no wheel that was set up (`rodeira input setup`) and no game pad is there; the windows' keys drive"));
+  EXPECT_THAT(window_keys(std::string("{source: joystick, keyboard: ") + kKeys + "}"), HasSubstr("no wheel that was set up (`rodeira input setup`) and no game pad is there (no device is connected); the windows' keys drive"));
   // A device of one axis, whose file is broken: there is nothing to guess.
   const int lever = SDL_JoystickAttachVirtual(SDL_JOYSTICK_TYPE_WHEEL, 1, 0, 0);
   ASSERT_GE(lever, 0);

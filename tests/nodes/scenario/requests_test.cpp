@@ -1,6 +1,7 @@
 // What a window asks for becomes events of the run: the car stands elsewhere, the weather changes, and a recording has it all.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -17,6 +18,7 @@
 #include "idl/topics.hpp"
 #include "launch/local_nodes.hpp"
 #include "launch/verify.hpp"
+#include "nodes/view/ask_place.hpp"
 #include "tests/n222.hpp"
 
 namespace rodeira {
@@ -131,6 +133,29 @@ TEST_F(Requests, TheCarStandsWhereItWasAskedToBeAndTheRecordingKnowsIt) {
   ExpectIdenticalFrom({0, 1200, 1511, 2000});
 }
 
+// What a window asks for whose person wants to begin again (nodes/view/ask_place): the pose of the run's first sample.
+TEST_F(Requests, TheCarGoesBackToWhereItBegan) {
+  const auto world = N222();
+  scene::Moment moment;
+  moment.cars.resize(1);
+  moment.cars[0].id = 5;
+  const auto request = view::AskStart(*world, moment, 0, {{5, "ego"}}, {});
+  ASSERT_TRUE(request.ok()) << request.error().Text();
+  const auto launch = LaunchOf("{requests: true}");
+  const Driven run = Drive(launch, 2600, [&](Step step, launch::LiveRequestsSender& window) {
+    if (step == 2500) window.Say({Wire(1, request.value())});
+  });
+  ASSERT_TRUE(run.events.contains(2510));
+  const auto &first = run.car.at(0), &before = run.car.at(2510), &after = run.car.at(2511);
+  const auto apart_m = [](const msg::VehicleState& a, const msg::VehicleState& b) {
+    return std::hypot(a.position_w_m().x() - b.position_w_m().x(), a.position_w_m().y() - b.position_w_m().y(), a.position_w_m().z() - b.position_w_m().z());
+  };
+  EXPECT_GT(apart_m(before, first), 1.0) << "it has driven";
+  EXPECT_LT(apart_m(after, first), 1e-3);
+  EXPECT_NEAR(std::remainder(HeadingOf(after) - HeadingOf(first), 6.283185307179586), 0.0, 1e-6);
+  ExpectIdenticalFrom({0, 2000});
+}
+
 TEST_F(Requests, WhereThereIsNoGroundTheCarStaysAndThatIsSaid) {
   const auto launch = LaunchOf("{requests: true}");
   testing::internal::CaptureStderr();
@@ -186,6 +211,24 @@ TEST_F(Requests, AScenarioFilePlacesACarToo) {
   ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
   EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
   EXPECT_TRUE(verdict.value().substituted.empty());
+}
+
+// As docs/view.md says: who takes requests, who is the same each time, and what is to be set for the others.
+TEST(LaunchFiles, ThoseThatAPersonWatchesTakeRequests) {
+  const auto takes = [](const std::string& name, const launch::Overrides& changes = {}) {
+    const auto launch = launch::Launch::Load(std::filesystem::path(SourceDir()) / "launch" / (name + ".yaml"), changes);
+    EXPECT_TRUE(launch.ok()) << launch.error().Text();
+    return launch.ok() && std::any_of(launch.value().nodes().begin(), launch.value().nodes().end(), [](const launch::LaunchNode& node) { return node.takes_requests(); });
+  };
+  for (const char* watched : {"keyboard", "wheel", "haste", "three_screens"}) EXPECT_TRUE(takes(watched)) << watched;
+  for (const char* same : {"demo", "first_drive", "lights", "two_pcs"}) {
+    EXPECT_FALSE(takes(same)) << same;
+    EXPECT_TRUE(takes(same, {{"nodes.story", "{kind: scenario, config: {requests: true}}"}})) << same;
+  }
+  for (const char* told : {"car_ahead", "rain"}) {
+    EXPECT_FALSE(takes(told)) << told;
+    EXPECT_TRUE(takes(told, {{"nodes.story.config.requests", "true"}})) << told;
+  }
 }
 
 TEST(LiveRequestsMemory, EachRequestIsTakenOnceWhateverIsLostOrSaidAgain) {

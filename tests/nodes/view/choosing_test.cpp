@@ -2,9 +2,13 @@
 #include <SDL.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
+#include "common/hands/key_names.hpp"
+#include "common/hands/keyboard_driver.hpp"
 #include "nodes/view/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/screen_hands.hpp"
@@ -132,6 +136,25 @@ TEST(Screen, ChoosingAndTurningHaveAButtonThatDoesNotDrive) {
     const auto not_turned = screen.value()->painter().Read().rgb;
     EXPECT_EQ(shown() == not_turned, own == kNoButton) << own;
   }
+}
+
+// With the keys of the project's keyboard file below it, a window of 720 pixels has room for 34 lines.
+TEST(WindowHelp, HasEveryKeyOnceAndRoomInAWindow) {
+  const std::string help = WindowHelp(kLeftButton);
+  for (const hands::WindowKey& key : hands::WindowKeys()) {
+    int lines = 0;
+    std::istringstream all(help);
+    for (std::string line; std::getline(all, line);) {
+      const auto gap = line.find("  ");
+      const bool named = (" " + line.substr(0, gap) + " ").find(" " + std::string(key.name) + " ") != std::string::npos;
+      if (named && line.find(key.does, gap) != std::string::npos) ++lines;
+    }
+    EXPECT_EQ(lines, 1) << key.name << " in:\n" << help;
+  }
+  const auto keyboard = hands::LoadKeyboard(SourceDir() + "/configs/drivers/keyboard.yaml");
+  ASSERT_TRUE(keyboard.ok());
+  const std::string whole = help + "\n\n" + hands::KeyboardHelp(keyboard.value());
+  EXPECT_LE(std::count(whole.begin(), whole.end(), '\n') + 1, 34) << whole;
 }
 
 TEST(WindowHelp, SaysWhichButtonOfTheMouseIsTheWindows) {

@@ -100,11 +100,27 @@ TEST_F(ScreenKeys, SoundIsAsLoudAsItWasToldAndSwitchedOffAndOn) {
   EXPECT_EQ(screen_->Loudness(1.0), 0.0);
   EXPECT_TRUE(Press(SDLK_F5));
   EXPECT_EQ(screen_->Loudness(1.0), 0.4);
+  EXPECT_TRUE(Press(SDLK_F11));
+  EXPECT_NEAR(screen_->Loudness(1.0), 0.5, 1e-12);
+  EXPECT_TRUE(Press(SDLK_F10));
+  EXPECT_TRUE(Press(SDLK_F10));
+  EXPECT_NEAR(screen_->Loudness(1.0), 0.3, 1e-12);
+  for (int i = 0; i < 12; ++i) EXPECT_TRUE(Press(SDLK_F10));
+  EXPECT_EQ(screen_->Loudness(1.0), 0.0);
+  for (int i = 0; i < 12; ++i) EXPECT_TRUE(Press(SDLK_F11));
+  EXPECT_EQ(screen_->Loudness(1.0), 1.0) << "no louder";
+  EXPECT_TRUE(Press(SDLK_F5));
+  EXPECT_TRUE(Press(SDLK_F10));
+  EXPECT_NEAR(screen_->Loudness(1.0), 0.9, 1e-12) << "who turns it down hears it";
+  const Image quiet = Shown();
+  EXPECT_TRUE(Press(SDLK_F10));
+  EXPECT_GT(Written(quiet, Shown()), 50) << "the window says how loud";
   settings_.sound = false;
   Open(false);
   EXPECT_EQ(screen_->Loudness(1.0), 0.0);
   EXPECT_TRUE(Press(SDLK_F5));
   EXPECT_TRUE(Press(SDLK_F5));
+  EXPECT_TRUE(Press(SDLK_F11));
   EXPECT_EQ(screen_->Loudness(1.0), 0.0) << "a window that was told to be silent";
 }
 

@@ -91,6 +91,73 @@ TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
   EXPECT_EQ(asked[2].argument, "overcast");
 }
 
+// A key asks for the followed car where it began: at the world's start, or where the launch file says.
+TEST(Screen, AKeyAsksForTheCarBackAtItsStart) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
+  ViewSettings settings;
+  settings.width_px = 320;
+  settings.height_px = 180;
+  settings.cars = {{0, "ego"}, {7, "guest"}, {8, "turned"}};
+  settings.starts = {{0, {}}, {7, {12.5, -3.0, 90.0}}, {8, {std::nullopt, std::nullopt, 180.0}}};
+  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  ASSERT_TRUE(screen.ok()) << screen.error().Text();
+  EXPECT_TRUE(screen.value()->TakeKey(SDLK_F2, true)) << "nobody takes it, which is said";
+  std::vector<scenario::Request> asked;
+  screen.value()->set_ask([&](const scenario::Request& request) {
+    asked.push_back(request);
+    return true;
+  });
+  EXPECT_TRUE(screen.value()->TakeKey(SDLK_F2, true));
+  EXPECT_TRUE(asked.empty()) << "nobody drives yet";
+  scene::Moment moment;
+  for (const std::uint64_t id : {0, 7, 8}) {
+    moment.cars.push_back(CarAt({40.0 + 10.0 * static_cast<double>(id), 5.0, 60.0}, 1.0));
+    moment.cars.back().id = id;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    screen.value()->Show(moment, 1.0);
+    EXPECT_TRUE(screen.value()->TakeKey(SDLK_F2, true));
+    EXPECT_TRUE(screen.value()->TakeKey(SDLK_TAB, true));
+  }
+  ASSERT_EQ(asked.size(), 3u);
+  const road::StartPose& start = world->start();
+  constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+  EXPECT_EQ(asked[0].name, "place");
+  EXPECT_EQ(asked[0].argument, "ego");
+  EXPECT_EQ(asked[0].x_m, start.x_m);
+  EXPECT_EQ(asked[0].y_m, start.y_m);
+  EXPECT_NEAR(asked[0].value, start.heading_rad * kDegrees, 1e-9);
+  EXPECT_EQ(std::tuple(asked[1].argument, asked[1].x_m, asked[1].y_m, asked[1].value), std::tuple(std::string("guest"), 12.5, -3.0, 90.0));
+  EXPECT_EQ(std::tuple(asked[2].argument, asked[2].x_m, asked[2].value), std::tuple(std::string("turned"), start.x_m, 180.0));
+}
+
+// The window shows a car in its paint: the same place of its body, blue and yellow.
+TEST(Screen, ACarIsSeenInItsPaint) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
+  const auto roof = [&](const char* paint) {
+    ViewSettings settings;
+    settings.width_px = 320;
+    settings.height_px = 180;
+    settings.camera = scene::CameraKind::kTop;
+    settings.paints = {{3, PaintOf(paint).value()}};
+    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+    EXPECT_TRUE(screen.ok()) << screen.error().Text();
+    SDL_Event nearer{};
+    nearer.type = SDL_MOUSEWHEEL;
+    nearer.wheel.y = 12;
+    EXPECT_TRUE(screen.value()->TakeMouse(nearer));
+    scene::Moment moment;
+    moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.0));
+    moment.cars[0].id = 3;
+    return ProbeAt(Shown(*screen.value(), moment), 160, 90);
+  };
+  const Probe blue = roof("blue"), yellow = roof("yellow");
+  EXPECT_GT(blue.blue, 1.5 * blue.red) << blue;
+  EXPECT_GT(yellow.red, 1.5 * yellow.blue) << yellow;
+}
+
 TEST(AskPlace, WhereTheWorldEndsItSaysThatTheCarStays) {
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
   scene::Moment moment;

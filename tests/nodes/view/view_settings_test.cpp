@@ -85,6 +85,47 @@ TEST(ViewSettings, KnowsByWhichKeysItsCarIsDriven) {
   }
 }
 
+TEST(ViewSettings, ACarHasThePaintThatItWasGiven) {
+  const auto launch = launch::Launch::Parse(LaunchText("{colours: {ego: \"#102030\"}}"), "fake.yaml");
+  ASSERT_TRUE(launch.ok());
+  const PlainContext context(launch.value(), launch.value().roster().Find("picture"));
+  const auto settings = ReadViewSettings(context);
+  ASSERT_TRUE(settings.ok()) << settings.error().Text();
+  ASSERT_EQ(settings.value().paints.size(), 1u);
+  scene::Moment moment;
+  moment.cars.resize(2);
+  moment.cars[0].id = settings.value().paints.begin()->first;
+  moment.cars[1].id = 99;
+  const scene::Colour other = moment.cars[1].colour;
+  const Picture picture = PictureOf(settings.value(), moment);
+  EXPECT_EQ(picture.moment.cars[0].colour, (scene::Colour{0x10, 0x20, 0x30}));
+  EXPECT_EQ(picture.moment.cars[1].colour, other) << "nobody gave it one";
+  EXPECT_EQ(PaintOf("white").value(), PaintOf("e8e8e4").value());
+  EXPECT_EQ(Complaint("{colours: {ego: blakc}}"), "fake.yaml:9: 'blakc' is no colour; a name or six hexadecimal digits were expected; did you mean 'black'?");
+  EXPECT_EQ(Complaint("{colours: {egg: red}}"), "fake.yaml:9: 'egg' is no vehicle that this view is wired to; did you mean 'ego'?");
+  EXPECT_NE(Complaint("{colours: {ego: 12345}}").find("'12345' is no colour"), std::string::npos);
+}
+
+TEST(ViewSettings, KnowsWhereItsCarBegins) {
+  const auto start = [](const std::string& config) {
+    std::string text = LaunchText("{}");
+    const std::string ego = "ego: {kind: vehicle";
+    EXPECT_NE(text.find(ego), std::string::npos) << text;
+    text.replace(text.find(ego), ego.size(), ego + ", config: " + config);
+    const auto launch = launch::Launch::Parse(text, "fake.yaml");
+    EXPECT_TRUE(launch.ok()) << launch.error().Text();
+    const PlainContext context(launch.value(), launch.value().roster().Find("picture"));
+    const auto read = ReadViewSettings(context);
+    EXPECT_TRUE(read.ok()) << read.error().Text();
+    EXPECT_EQ(read.value().starts.size(), 1u);
+    return read.value().starts.begin()->second;
+  };
+  const CarStart own = start("{start: {x_m: 1.5, y_m: -2e1, heading_deg: 30}}"), turned = start("{start: {heading_deg: -90}}"), none = start("{}");
+  EXPECT_EQ(std::tuple(own.x_m, own.y_m, own.heading_deg), std::tuple(std::optional(1.5), std::optional(-20.0), std::optional(30.0)));
+  EXPECT_EQ(std::tuple(turned.x_m, turned.y_m, turned.heading_deg), std::tuple(std::optional<double>(), std::optional<double>(), std::optional(-90.0)));
+  EXPECT_FALSE(none.x_m || none.y_m || none.heading_deg);
+}
+
 // The window takes the first button of the mouse that drives nothing.
 TEST(ViewSettings, TheWindowHasAButtonOfTheMouseThatDoesNotDrive) {
   auto folder = base::TemporaryFolder::Make("buttons");
