@@ -302,10 +302,17 @@ void main() {
   light += Beam();
 #endif
 #ifdef HAZE_BY_PIXEL
-  // Of a pixel that the ground's far edge covers in part the middle may lie above the horizon: its place is then told to be behind the eye.
-  float clear = Clear(at_eye.z < 0.0 ? length(at_eye) : 1e6);
+  float distance_m = length(at_eye);
+  float clear = Clear(distance_m);
 #endif
+#ifdef FINE
+  // A pixel's middle may lie beside the ground that covers a part of it: on the horizon, where the next pixel is farther on than this one is away, nothing
+  // that is said of it holds, and it is haze.
+  bool lost = distance_m > 500.0 && !(length(fwidth(at_eye)) < 1.2 * distance_m);
+  gl_FragColor = vec4(lost || !(at_eye.z < 0.0) ? FogColour() : Heated(mix(FogColour(), Look(), clear)), 1.0);
+#else
   gl_FragColor = vec4(Heated(mix(FogColour(), Look(), clear)), 1.0);
+#endif
 }
 )";
 }
