@@ -302,17 +302,9 @@ void main() {
   light += Beam();
 #endif
 #ifdef HAZE_BY_PIXEL
-  float distance_m = length(at_eye);
-  float clear = Clear(distance_m);
+  float clear = Clear(length(at_eye));
 #endif
-#ifdef FINE
-  // A pixel's middle may lie beside the ground that covers a part of it: on the horizon, where the next pixel is farther on than this one is away, nothing
-  // that is said of it holds, and it is haze.
-  bool lost = distance_m > 500.0 && !(length(fwidth(at_eye)) < 1.2 * distance_m);
-  gl_FragColor = vec4(lost || !(at_eye.z < 0.0) ? FogColour() : Heated(mix(FogColour(), Look(), clear)), 1.0);
-#else
   gl_FragColor = vec4(Heated(mix(FogColour(), Look(), clear)), 1.0);
-#endif
 }
 )";
 }
