@@ -302,8 +302,7 @@ void main() {
   light += Beam();
 #endif
 #ifdef HAZE_BY_PIXEL
-  // Of a pixel that the ground's far edge covers in part the middle may lie above the horizon: its place is then told to be behind the eye.
-  float clear = Clear(at_eye.z < 0.0 ? length(at_eye) : 1e6);
+  float clear = Clear(length(at_eye));
 #endif
   gl_FragColor = vec4(Heated(mix(FogColour(), Look(), clear)), 1.0);
 }
