@@ -15,6 +15,7 @@
 #include "common/road/surface_detail.hpp"
 #include "common/road/world_fit.hpp"
 #include "common/terrain/elevation_file.hpp"
+#include "common/weather/weather_plan.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -156,6 +157,7 @@ Keys ReadKeys(const Map& root) {
     if (terrain.Has("generate")) keys.hills = ReadHills(hills);
     if (terrain.Has("generate") == terrain.Has("file")) terrain.Problem("file", "'terrain' needs either 'file' or 'generate'");
   }
+  if (keys.second && root.Has("weather")) (void)weather::ReadStanding(root.Child("weather"));  // a scenario's node asks for it (WeatherOf)
   if (keys.network_file && !keys.second) root.Problem("network", "'network' needs 'rodeira: world/2'");
   if (keys.second) {
     if (root.Has("start")) keys.start = ReadStartWish(root.Child("start"), keys.spec.start);
@@ -235,6 +237,11 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   if (!reading.problems.empty()) return reading;
   keys.spec.network = design.network;
   keys.spec.junctions = std::move(design.junctions);
+  if (!design.standing.empty()) {
+    keys.spec.standing = std::make_shared<const network::Standing>(std::move(design.standing));
+    // What is drawn of roads and their things is drawn of things alone, too: they stand beside no road.
+    if (keys.spec.network == nullptr) keys.spec.network = design.network = std::make_shared<const network::Network>(network::NetworkSpec{keys.spec.name, projection, {}, {}, {}, {}});
+  }
   if (keys.hills && !PutTerrain(keys, design.network == nullptr ? std::vector<Eigen::Vector3d>() : AxisPoints(*design.network), reading)) return reading;
   if (design.start) keys.spec.start = PoseOn(*design.network, {design.start->road, 0, design.start->lane}, design.start->s_m);
   else PutStart(root, {}, keys.spec, keys.spec.start);

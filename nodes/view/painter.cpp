@@ -201,8 +201,7 @@ base::Result<std::unique_ptr<Painter>> Painter::Make(Surface& surface, const roa
   if (!ground) return ground.error();
   painter->parts_->built = ground.value();
   painter->parts_->scene->addChild(ground.value().root);
-  const bool has_roads = world.network() != nullptr && !world.network()->roads().empty();
-  if (has_roads) AddFarPlane(painter->parts_->look, world, TilesOf(ground.value()), *painter->parts_->scene);
+  if (world.network() != nullptr) AddFarPlane(painter->parts_->look, world, TilesOf(ground.value()), *painter->parts_->scene);
   painter->SetUp();
   return painter;
 }

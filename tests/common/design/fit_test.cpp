@@ -70,7 +70,7 @@ TEST(Folds, OfAnArcShorterThanAMetreAreNamed) {
   EXPECT_THAT(FirstProblem(with("arc: {length_m: 0.4, radius_m: 5.5}")), HasSubstr("made.yaml:4: the edge of road 'a' 5.75 m to the left folds at s = 40 m: the bend there has a radius of 5.5 m"));
   EXPECT_THAT(FirstProblem(with("arc: {length_m: 0.1, radius_m: -5.5}")), HasSubstr("5.75 m to the right folds at s = 40 m"));
   // A clothoid is sharpest at its end, between two of the metres that are looked at.
-  EXPECT_THAT(FirstProblem(with("clothoid: {length_m: 20.4, radius_end_m: 5.9}")), HasSubstr("5.75 m to the left folds at s = 61 m: the bend there has a radius of 5.9 m"));
+  EXPECT_THAT(FirstProblem(with("clothoid: {length_m: 20.4, radius_end_m: 6}")), HasSubstr("5.75 m to the left folds at s = 61 m: the bend there has a radius of 6 m"));
   EXPECT_EQ(FirstProblem(with("clothoid: {length_m: 20.4, radius_end_m: 6.1}")), "none");
 }
 
