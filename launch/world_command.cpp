@@ -137,7 +137,7 @@ int Build(const WorldOptions& options) {
   }
   if (const std::string why = road::WhyNoTiles(world); !why.empty()) fmt::print(stderr, "rodeira: warning: {}: {}\n", options.world_file, why);
   else if (const int status = BuildDatabase(options, world); status != 0) return status;
-  if (world.network() != nullptr) {
+  if (world.network() != nullptr && !world.network()->roads().empty()) {
     std::error_code problem;
     std::filesystem::create_directories(out, problem);
     const int status = world.open_drive() ? CopyOpenDrive(road::OpenDriveOf(options.world_file), copy, files) : Written(copy, road::WriteOpenDrive(world, copy));

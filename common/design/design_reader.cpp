@@ -9,6 +9,7 @@
 
 #include "common/base/suggest.hpp"
 #include "common/design/junction_builder.hpp"
+#include "common/design/standing_reader.hpp"
 #include "common/geometry/angle.hpp"
 
 namespace rodeira::design {
@@ -263,6 +264,7 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
       designs.push_back(ReadRoad(item, context, designs));
     }
     root.LeaveToOthers("junctions");
+    ReadStanding(root, terrain_is_at, design.standing);
   }
   const auto sound = [&] {
     design.problems = files.Problems();

@@ -12,6 +12,7 @@
 #include "common/design/road_fit.hpp"
 #include "common/network/laid.hpp"
 #include "common/network/network.hpp"
+#include "common/network/standing.hpp"
 
 namespace rodeira::design {
 
@@ -32,13 +33,14 @@ struct Design {
   std::shared_ptr<const network::Network> network;  // null: the file has no roads, or problems
   std::vector<network::Laid> laid;  // by the network's road; empty: nothing is laid on any of them
   std::vector<std::shared_ptr<const JunctionSurface>> junctions;
+  network::Standing standing;  // what stands at no road
   std::optional<StartPlace> start;
   std::vector<std::string> warnings;
   std::vector<base::Error> missing;   // pictures: wrong, but the world can be driven without them
   std::vector<base::Error> problems;  // of included files; those of the file itself are with it
 };
 
-// Reads 'include', 'rule', 'materials', 'templates', 'roads' and 'junctions' of a file and of all files that it includes.
+// Reads 'include', 'rule', 'materials', 'templates', 'roads', 'junctions' and 'objects' of a file and of all files that it includes.
 // `friction` by surface. The start, where it is on a road, must be on a lane outside of the junctions; `start_map` has it. Roads
 // must keep within the terrain, and clear of themselves (CheckFits).
 Design ReadDesign(const config::File& file, const std::array<double, 7>& friction, const std::string& name,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/base/suggest.hpp"
+#include "common/design/object_reader.hpp"
 #include "common/design/section_reader.hpp"
 #include "common/design/tables.hpp"
 #include "common/geometry/angle.hpp"
@@ -83,51 +84,11 @@ void ReadSign(const Map& item, const Context& context, double length_m, network:
   }
 }
 
-// What the program draws, with usual sizes.
-struct ObjectKind {
-  const char* name;
-  const char* type;  // OpenDRIVE's
-  double length_m, width_m, height_m;
-  bool continuous;  // along the road
-};
-constexpr std::array<ObjectKind, 8> kObjects = {{
-    {"tree", "tree", 0.0, 0.0, 8.0, false},
-    {"bush", "vegetation", 0.0, 0.0, 1.5, false},
-    {"house", "building", 12.0, 9.0, 7.0, false},
-    {"filling_station", "building", 24.0, 14.0, 6.0, false},
-    {"guard_rail", "barrier", 0.0, 0.3, 0.75, true},
-    {"wall", "barrier", 0.0, 0.3, 1.2, true},
-    {"post", "pole", 0.0, 0.12, 1.0, false},
-    {"lamp", "pole", 0.0, 0.2, 8.0, false},
-}};
-
 void ReadObject(const Map& item, double length_m, network::RoadSpec& spec) {
-  std::vector<std::string> names;
-  for (const ObjectKind& kind : kObjects) names.emplace_back(kind.name);
-  const std::string name = item.Choice("type", names);
-  const ObjectKind* kind = &kObjects[0];
-  for (const ObjectKind& known : kObjects) {
-    if (name == known.name) kind = &known;
-  }
-  network::Object object;
-  object.id = fmt::format("{}-object{}", spec.id, spec.objects.size());
-  object.type = kind->type;
-  object.subtype = name;
-  object.name = item.Text("name", name);
-  if (const auto model = item.OptionalPath("model")) {
-    std::error_code problem;
-    if (!std::filesystem::is_regular_file(*model, problem)) item.Problem("model", fmt::format("there is no model file '{}'", model->string()));
-    object.name = model->string();
-  }
-  object.length_m = item.Number("length_m", {0.0, 1000.0}, kind->length_m);
-  object.width_m = item.Number("width_m", {0.0, 1000.0}, kind->width_m);
-  object.height_m = item.Number("height_m", {0.0, 200.0}, kind->height_m);
-  if (name == "tree" || name == "bush") object.radius_m = item.Number("radius_m", {0.1, 50.0}, 0.3 * object.height_m);
-  object.z_offset_m = item.Number("z_m", {-50.0, 50.0}, 0.0);
+  auto [object, continuous] = ReadObjectItself(item, fmt::format("{}-object{}", spec.id, spec.objects.size()));
   object.hdg_rad = ReadRotation(item);
-  object.orientation = "none";
   Stand stand{};
-  if (kind->continuous) {
+  if (continuous) {
     stand.from_s_m = stand.s_m = item.Number("from_s_m", {0.0, length_m}, 0.0);
     stand.to_s_m = item.Number("to_s_m", {0.0, length_m}, length_m);
     if (!(stand.to_s_m > stand.from_s_m)) item.Problem("to_s_m", "'to_s_m' must lie behind 'from_s_m'");
@@ -136,11 +97,11 @@ void ReadObject(const Map& item, double length_m, network::RoadSpec& spec) {
     stand = ReadStand(item, length_m);
   }
   object.s_m = stand.s_m;
-  object.t_m = ReadAcross(item, spec, stand.s_m, kind->continuous ? -0.5 : 4.0, true);
+  object.t_m = ReadAcross(item, spec, stand.s_m, continuous ? -0.5 : 4.0, true);
   if (stand.repeated) {
     network::Repeat repeat;
     repeat.s_m = stand.from_s_m, repeat.length_m = stand.to_s_m - stand.from_s_m, repeat.distance_m = stand.every_m;
-    repeat.t_start_m = object.t_m, repeat.t_end_m = ReadAcross(item, spec, stand.to_s_m, kind->continuous ? -0.5 : 4.0, true);
+    repeat.t_start_m = object.t_m, repeat.t_end_m = ReadAcross(item, spec, stand.to_s_m, continuous ? -0.5 : 4.0, true);
     repeat.z_start_m = repeat.z_end_m = object.z_offset_m;
     repeat.height_start_m = repeat.height_end_m = object.height_m;
     repeat.width_start_m = repeat.width_end_m = object.width_m;

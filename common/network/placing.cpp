@@ -108,6 +108,18 @@ Furniture PlaceFurniture(const Network& network) {
   return furniture;
 }
 
+Placed PlaceStanding(const Standing& standing, const Standing::Thing& thing, const Eigen::Vector3d& foot_W) {
+  const Object& object = standing.objects[thing.object];
+  Placed placed;
+  placed.object = &object;
+  placed.z_offset_m = object.z_offset_m;
+  placed.foot_W = foot_W;
+  placed.heading_rad = thing.heading_rad;
+  placed.length_m = object.length_m, placed.width_m = object.width_m;
+  placed.height_m = object.height_m, placed.radius_m = object.radius_m;
+  return placed;
+}
+
 bool HoldsFor(int lane, bool along, std::string_view orientation, const std::vector<LaneValidity>& validity) {
   if (orientation == "+" && !along) return false;
   if (orientation == "-" && along) return false;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/network/network.hpp"
+#include "common/network/standing.hpp"
 
 // Where what stands at the roads stands.
 namespace rodeira::network {
@@ -12,7 +13,7 @@ namespace rodeira::network {
 // A signal or an object at its place; of a repeated object one of them.
 struct Placed {
   std::uint32_t road = 0;
-  const Signal* signal = nullptr;  // one of these two is not null; both live as long as the network
+  const Signal* signal = nullptr;  // one of these two is not null; both live as long as what they are from
   const Object* object = nullptr;
   double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0;
   Eigen::Vector3d foot_W = Eigen::Vector3d::Zero();  // on the road's surface at (s, t), without the offset
@@ -43,6 +44,9 @@ struct Furniture {
 // repeated every d metres over a length L stands at floor(L / d) + 1 stations as its repeats say, and not at its own; stations
 // beyond the road's end are left out, and what is said once for a road that ends before counts to its end.
 Furniture PlaceFurniture(const Network& network);
+
+// What stands at no road, on the ground that is given; of a road there are only zeros.
+Placed PlaceStanding(const Standing& standing, const Standing::Thing& thing, const Eigen::Vector3d& foot_W);
 
 // Whether something beside the road is for the traffic of a lane of it, by its orientation ("+", "-", "none") and lanes.
 // along: the lane's traffic goes with growing s.

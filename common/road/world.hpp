@@ -60,6 +60,8 @@ class World : public std::enable_shared_from_this<World> {
   double terrain_friction() const { return terrain_.friction; }
   // What lies on the terrain to be seen, and changes no answer; null: nothing.
   const terrain::LaidPicture* ground_picture() const { return ground_picture_ ? &*ground_picture_ : nullptr; }
+  // What stands on the ground at no road, on SUELO's highest surface there; null: nothing.
+  const network::Standing* standing() const { return standing_.get(); }
   // Of the numbers of the measured surfaces on the roads; 0: there are none.
   base::Digest measured_digest() const;
   double Friction(terrain::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
@@ -85,6 +87,7 @@ class World : public std::enable_shared_from_this<World> {
   std::vector<Road> roads_;
   BareTerrain terrain_;
   std::shared_ptr<const network::Network> network_;
+  std::shared_ptr<const network::Standing> standing_;
   std::shared_ptr<const SurfaceDetail> detail_;
   std::shared_ptr<const BuiltGround> built_;  // of a network in a terrain that is no road of version 1
   std::optional<terrain::LaidPicture> ground_picture_;

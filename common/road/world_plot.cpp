@@ -41,12 +41,20 @@ Extents Frame(const World& world) {
   Extents extents = world.extents();
   if (world.grid() != nullptr) return extents;
   extents = {world.start().x_m - 100.0, world.start().y_m - 100.0, world.start().x_m + 100.0, world.start().y_m + 100.0};
-  if (world.network() != nullptr) {
+  if (world.network() != nullptr && !world.network()->roads().empty()) {
     const auto [low, high] = world.network()->Bounds();
     extents.west_m = std::min(extents.west_m, low.x() - 50.0);
     extents.south_m = std::min(extents.south_m, low.y() - 50.0);
     extents.east_m = std::max(extents.east_m, high.x() + 50.0);
     extents.north_m = std::max(extents.north_m, high.y() + 50.0);
+  }
+  if (world.standing() != nullptr) {
+    const auto hold = [&](const Eigen::Vector2d& p) {
+      extents.west_m = std::min(extents.west_m, p.x() - 50.0), extents.east_m = std::max(extents.east_m, p.x() + 50.0);
+      extents.south_m = std::min(extents.south_m, p.y() - 50.0), extents.north_m = std::max(extents.north_m, p.y() + 50.0);
+    };
+    for (const auto& thing : world.standing()->things) hold(thing.at_W);
+    for (const auto& run : world.standing()->runs) std::for_each(run.points_W.begin(), run.points_W.end(), hold);
   }
   return extents;
 }
@@ -243,6 +251,29 @@ std::string Roads(const World& world, const View& view) {
   return under + over + Writer(world, view).Write();
 }
 
+// What stands at no road: trees and bushes as wide as they are, other things as they lie, walls and rails as lines.
+std::string Standing(const World& world, const View& view) {
+  if (world.standing() == nullptr) return "";
+  std::string svg;
+  for (const network::Standing::Thing& thing : world.standing()->things) {
+    const network::Object& object = world.standing()->objects[thing.object];
+    const double x = view.X(thing.at_W.x()), y = view.Y(thing.at_W.y());
+    if (object.radius_m > 0.0) {
+      svg += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"#4c7a3a\"/>\n", x, y, std::max(1.0, object.radius_m * view.scale));
+      continue;
+    }
+    const double length = std::max(2.0, object.length_m * view.scale), width = std::max(2.0, object.width_m * view.scale);
+    svg += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"#7a6a5a\" transform=\"translate({:.2f} {:.2f}) rotate({:.1f})\"/>\n", -0.5 * length, -0.5 * width,
+                       length, width, x, y, -thing.heading_rad * 180.0 / geometry::kPi);
+  }
+  for (const network::Standing::Run& run : world.standing()->runs) {
+    std::string path;
+    for (const Eigen::Vector2d& p : run.points_W) path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", view.X(p.x()), view.Y(p.y()));
+    svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#7a6a5a\" stroke-width=\"{:.1f}\"/>\n", path, std::max(1.0, world.standing()->objects[run.object].width_m * view.scale));
+  }
+  return svg;
+}
+
 }  // namespace
 
 std::string PlotWorld(const World& world) {
@@ -254,7 +285,7 @@ std::string PlotWorld(const World& world) {
   std::string svg = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n", width, height + 24.0);
   svg += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + Shades(view);
   svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#5a4630\" stroke-opacity=\"0.45\" stroke-width=\"0.6\"/>\n", Contours(view, step));
-  svg += Roads(world, view);
+  svg += Standing(world, view) + Roads(world, view);
   const double sx = view.X(world.start().x_m), sy = view.Y(world.start().y_m);
   svg += fmt::format("<path d=\"M0 0L-11 5L-11 -5Z\" fill=\"#c02020\" transform=\"translate({:.1f} {:.1f}) rotate({:.1f})\"/>\n", sx, sy,
                      -world.start().heading_rad * 180.0 / geometry::kPi);

@@ -235,6 +235,11 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   if (!reading.problems.empty()) return reading;
   keys.spec.network = design.network;
   keys.spec.junctions = std::move(design.junctions);
+  if (!design.standing.empty()) {
+    keys.spec.standing = std::make_shared<const network::Standing>(std::move(design.standing));
+    // What is drawn of roads and their things is drawn of things alone, too: they stand beside no road.
+    if (keys.spec.network == nullptr) keys.spec.network = design.network = std::make_shared<const network::Network>(network::NetworkSpec{keys.spec.name, projection, {}, {}, {}, {}});
+  }
   if (keys.hills && !PutTerrain(keys, design.network == nullptr ? std::vector<Eigen::Vector3d>() : AxisPoints(*design.network), reading)) return reading;
   if (design.start) keys.spec.start = PoseOn(*design.network, {design.start->road, 0, design.start->lane}, design.start->s_m);
   else PutStart(root, {}, keys.spec, keys.spec.start);

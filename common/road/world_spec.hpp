@@ -8,6 +8,7 @@
 #include "common/base/hash.hpp"
 #include "common/design/junction_surface.hpp"
 #include "common/network/network.hpp"
+#include "common/network/standing.hpp"
 #include "common/road/road.hpp"
 #include "common/road/surface_point.hpp"
 #include "common/terrain/elevation_grid.hpp"
@@ -45,6 +46,7 @@ struct WorldSpec {
   std::shared_ptr<const network::Network> network;  // null: made of `roads`, where there are any
   base::Digest network_hash = 0;                    // of an OpenDRIVE file's bytes
   std::vector<std::shared_ptr<const design::JunctionSurface>> junctions;  // of a network that is built into the terrain
+  std::shared_ptr<const network::Standing> standing;  // what stands at no road; null: nothing
   std::shared_ptr<const SurfaceDetail> detail;      // what stands on the network's roads; null: nothing
   terrain::Surface terrain_surface = terrain::Surface::kGrass;
   std::optional<terrain::LaidPicture> ground_picture;  // only to be seen

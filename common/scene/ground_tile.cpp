@@ -38,6 +38,16 @@ void AddRectangle(const road::Extents& extents, std::set<TileKey>& tiles) {
   }
 }
 
+// Where things stand at no road, and where the car starts: on a plane, which has no edge, the ground about them is seen.
+Line3 PlacesOf(const road::World& world) {
+  Line3 places{{world.start().x_m, world.start().y_m, 0.0}};
+  for (const auto& thing : world.standing()->things) places.emplace_back(thing.at_W.x(), thing.at_W.y(), 0.0);
+  for (const auto& run : world.standing()->runs) {
+    for (const Eigen::Vector2d& p : run.points_W) places.emplace_back(p.x(), p.y(), 0.0);
+  }
+  return places;
+}
+
 // Here SUELO ends: what is drawn beyond is a face of its own.
 Line3 BorderOf(const road::Extents& e) {
   return {{e.west_m, e.south_m, 0.0}, {e.east_m, e.south_m, 0.0}, {e.east_m, e.north_m, 0.0}, {e.west_m, e.north_m, 0.0}, {e.west_m, e.south_m, 0.0}};
@@ -83,6 +93,7 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
     }
   }
   for (const auto& [key, things] : things_.tiles()) tiles.insert(key);
+  if (world.plane() && world.standing() != nullptr) AddReach(PlacesOf(world), tiles);
   if (world.grid() != nullptr) {
     AddRectangle(world.extents(), tiles);
     const Line3 border = BorderOf(world.extents());

@@ -41,6 +41,7 @@ Things::Things(const road::World& world, ModelIsThere is_there) : is_there_(std:
   const network::Furniture furniture = network::PlaceFurniture(*world.network());
   for (const network::Placed& placed : furniture.things) AddThing(world, placed);
   for (const network::PlacedRun& run : furniture.runs) AddRun(world, run);
+  if (world.standing() != nullptr) AddStanding(world, *world.standing());
 }
 
 void Things::Keep(Thing thing) {
@@ -48,14 +49,21 @@ void Things::Keep(Thing thing) {
   tiles_[key].things.push_back(std::move(thing));
 }
 
-void Things::AddThing(const road::World& world, const network::Placed& placed) {
-  const network::Road& road = world.network()->roads()[placed.road];
+void Things::KeepRail(const RailPiece& piece) { tiles_[TileAt(0.5 * (piece.foot_W[0] + piece.foot_W[1]).head<2>())].rails.push_back(piece); }
+
+Thing Things::ThingAt(const network::Placed& placed, const Vector3d& foot_W) {
   Thing thing;
-  thing.stand = Stand::At({placed.foot_W.x(), placed.foot_W.y(), GroundAt(world, placed.foot_W)}, placed.heading_rad);
+  thing.stand = Stand::At(foot_W, placed.heading_rad);
   thing.above_m = placed.z_offset_m;
   thing.length_m = placed.length_m, thing.width_m = placed.width_m, thing.height_m = placed.height_m, thing.radius_m = placed.radius_m;
+  return thing;
+}
+
+void Things::AddThing(const road::World& world, const network::Placed& placed) {
+  const network::Road& road = world.network()->roads()[placed.road];
+  Thing thing = ThingAt(placed, {placed.foot_W.x(), placed.foot_W.y(), GroundAt(world, placed.foot_W)});
   if (placed.signal != nullptr) AddSignal(road, placed, std::move(thing));
-  else AddObject(road, placed, std::move(thing));
+  else AddObject(&road, placed, std::move(thing));
 }
 
 void Things::AddRun(const road::World& world, const network::PlacedRun& run) {
@@ -84,7 +92,7 @@ void Things::AddRun(const road::World& world, const network::PlacedRun& run) {
     const double height = mix(run.height_start_m, run.height_end_m), width = mix(run.width_start_m, run.width_end_m);
     piece.height_m[1] = height > kFlatThing_m ? height : rail ? 0.75 : 1.0;
     piece.width_m[1] = width > 0.0 ? width : 0.3;
-    if (i > 0) tiles_[TileAt(0.5 * (piece.foot_W[0] + piece.foot_W[1]).head<2>())].rails.push_back(piece);
+    if (i > 0) KeepRail(piece);
   }
 }
 

@@ -49,7 +49,7 @@ struct RailPiece {
 // Whether the file of a model can be read; without one: each can.
 using ModelIsThere = std::function<bool(const std::string& file)>;
 
-// What stands at a network's roads, by the tiles in which it stands. Pure functions of the world.
+// What stands at a network's roads, and at none, by the tiles in which it stands. Pure functions of the world.
 // Feet are on SUELO's ground, on the level nearest to the road's own surface at (s, t), which counts itself where SUELO
 // knows no ground: what stands is seen to stand on what is drawn. Objects without any height (markings, parking places) and
 // signals that are only paint are left out.
@@ -68,11 +68,14 @@ class Things {
   base::Digest DigestOf(const TileKey& tile) const;
 
  private:
+  static Thing ThingAt(const network::Placed& placed, const Eigen::Vector3d& foot_W);  // its kind is still open
   void AddThing(const road::World& world, const network::Placed& placed);
   void AddSignal(const network::Road& road, const network::Placed& placed, Thing thing);
-  void AddObject(const network::Road& road, const network::Placed& placed, Thing thing);
+  void AddObject(const network::Road* road, const network::Placed& placed, Thing thing);  // null: at no road
   void AddRun(const road::World& world, const network::PlacedRun& run);
+  void AddStanding(const road::World& world, const network::Standing& standing);
   void Keep(Thing thing);
+  void KeepRail(const RailPiece& piece);
 
   ModelIsThere is_there_;
   std::map<TileKey, Tile> tiles_;

@@ -90,7 +90,7 @@ void Things::AddSignal(const network::Road& road, const network::Placed& placed,
   Keep(std::move(thing));
 }
 
-void Things::AddObject(const network::Road& road, const network::Placed& placed, Thing thing) {
+void Things::AddObject(const network::Road* road, const network::Placed& placed, Thing thing) {
   const network::Object& object = *placed.object;
   thing.kind = KindOf(object);
   thing.colour = ColourOf(object.type);
@@ -107,7 +107,7 @@ void Things::AddObject(const network::Road& road, const network::Placed& placed,
     double highest = 0.0;
     for (const network::Corner& corner : outline.corners) {
       Vector3d foot = thing.stand.ToWorld({corner.first_m, corner.second_m, placed.z_offset_m + corner.dz_m});
-      if (!corner.local) foot = road.Surface(corner.first_m, corner.second_m).p_W + corner.dz_m * Vector3d::UnitZ();
+      if (!corner.local && road != nullptr) foot = road->Surface(corner.first_m, corner.second_m).p_W + corner.dz_m * Vector3d::UnitZ();
       part.feet_W.push_back(foot);
       part.heights_m.push_back(corner.height_m);
       highest = std::max(highest, corner.height_m);

@@ -46,15 +46,43 @@ ObstacleMap::ObstacleMap(const road::World& world, double reach_m) : reach_m_(re
     if (placed.object != nullptr) AddThing(world, placed);
   }
   for (const network::PlacedRun& run : furniture.runs) AddRun(world, run);
+  if (world.standing() != nullptr) AddStanding(world, *world.standing());
 }
 
 void ObstacleMap::AddThing(const road::World& world, const network::Placed& placed) {
+  AddBody(placed, OnGround(world, placed.foot_W) + placed.z_offset_m * Vector3d::UnitZ(), &world.network()->roads()[placed.road]);
+}
+
+// On SUELO's highest ground.
+void ObstacleMap::AddStanding(const road::World& world, const network::Standing& standing) {
+  const auto on_ground = [&](const Eigen::Vector2d& p_W, const network::Object& object) {
+    const road::SurfacePoint ground = world.At(p_W.x(), p_W.y());
+    return Vector3d(p_W.x(), p_W.y(), (ground.inside ? ground.z_m : 0.0) + object.z_offset_m);
+  };
+  for (const network::Standing::Thing& thing : standing.things) {
+    const Vector3d foot = on_ground(thing.at_W, standing.objects[thing.object]);
+    AddBody(network::PlaceStanding(standing, thing, foot), foot, nullptr);
+  }
+  for (const network::Standing::Run& run : standing.runs) {
+    const network::Object& object = standing.objects[run.object];
+    Vector3d last = on_ground(run.points_W[0], object);
+    for (std::size_t i = 1; i < run.points_W.size(); ++i) {
+      const Eigen::Vector2d way = run.points_W[i] - run.points_W[i - 1];
+      const double pieces = std::max(1.0, std::ceil(way.norm() / kPiece_m - 1e-9));
+      for (double k = 1.0; k <= pieces; k += 1.0) {
+        const Vector3d foot = on_ground(run.points_W[i - 1] + k / pieces * way, object);
+        AddWall(object.id, last, foot, object.width_m > 0.0 ? object.width_m : 0.3, object.height_m);
+        last = foot;
+      }
+    }
+  }
+}
+
+void ObstacleMap::AddBody(const network::Placed& placed, const Vector3d& foot, const network::Road* road) {
   const network::Object& object = *placed.object;
   if (GivesWay(object)) return;
-  const Vector3d foot = OnGround(world, placed.foot_W) + placed.z_offset_m * Vector3d::UnitZ();
   const bool stands = placed.z_offset_m < kHangs_m;
   if (IsTree(object)) return AddBox(object.id, foot, placed.heading_rad, {kTrunk_m, kTrunk_m, kTall_m}, stands);
-  const network::Road& road = world.network()->roads()[placed.road];
   const Eigen::Rotation2Dd turned(placed.heading_rad);
   for (const network::Outline& outline : object.outlines) {
     std::vector<Vector3d> feet;
@@ -62,8 +90,8 @@ void ObstacleMap::AddThing(const road::World& world, const network::Placed& plac
     for (const network::Corner& corner : outline.corners) {
       height = std::max(height, corner.height_m);
       const Eigen::Vector2d local = turned * Eigen::Vector2d(corner.first_m, corner.second_m);
-      feet.push_back(corner.local ? Vector3d(foot + Vector3d(local.x(), local.y(), corner.dz_m))
-                                  : Vector3d(road.Surface(corner.first_m, corner.second_m).p_W + corner.dz_m * Vector3d::UnitZ()));
+      feet.push_back(corner.local || road == nullptr ? Vector3d(foot + Vector3d(local.x(), local.y(), corner.dz_m))
+                                                     : Vector3d(road->Surface(corner.first_m, corner.second_m).p_W + corner.dz_m * Vector3d::UnitZ()));
     }
     if (height < kLow_m || !stands) continue;
     for (std::size_t i = 0; i + 1 < feet.size(); ++i) AddWall(object.id, feet[i], feet[i + 1], kEdge_m, height);

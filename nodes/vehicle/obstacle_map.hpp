@@ -36,6 +36,9 @@ class ObstacleMap {
 
   void AddThing(const road::World& world, const network::Placed& placed);
   void AddRun(const road::World& world, const network::PlacedRun& run);
+  void AddStanding(const road::World& world, const network::Standing& standing);
+  // A thing whose foot is known; what stands at no road has no outline.
+  void AddBody(const network::Placed& placed, const Eigen::Vector3d& foot_W, const network::Road* road);
   // A wall of this width between two feet.
   void AddWall(const std::string& name, const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, double width_m, double height_m);
   void AddBox(const std::string& name, const Eigen::Vector3d& foot_W, double heading_rad, const Eigen::Vector3d& size_m, bool stands);

@@ -175,6 +175,25 @@ TEST(WorldBuild, AWorldFileOfVersion2IsWrittenAsItIsSeenToo) {
   EXPECT_THAT(Build(file, out).out, HasSubstr(" 0 built, "));
 }
 
+// Things alone, at no road: what is seen of them is written, and there is no OpenDRIVE file, which would need a road.
+TEST(WorldBuild, AWorldOfThingsWithoutARoad) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "w.yaml", out = folder.path() / "out";
+  std::string hills = kHills;
+  hills.replace(hills.find("world/1"), 7, "world/2");
+  ASSERT_TRUE(base::WriteWhole(file, hills + "objects: [{type: tree, x_m: 100, y_m: 120}, {type: wall, along: [[200, 200], [300, 200]]}]\n").ok());
+  const Said said = Build(file, out);
+  EXPECT_EQ(said.status, 0) << said.errors;
+  EXPECT_EQ(said.errors, "");
+  EXPECT_TRUE(fs::exists(out / "world.osgb"));
+  EXPECT_TRUE(fs::exists(out / "w.bt"));
+  EXPECT_FALSE(fs::exists(out / "world.xodr"));
+  EXPECT_EQ(Asked("check", out).errors, "");
+  const auto again = road::World::Load(out / "w.yaml");
+  ASSERT_TRUE(again.ok()) << again.error().Text();
+  EXPECT_EQ(again.value()->content_hash(), road::World::Load(file).value()->content_hash());
+}
+
 std::vector<std::string> Listed(const fs::path& out) {
   std::vector<std::string> names;
   std::istringstream lines(base::ReadText(out / "logical.txt").value());

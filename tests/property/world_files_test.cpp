@@ -63,6 +63,19 @@ roads:
     section: {template: lane}
 junctions:
   - {id: corner, roads: [{road: main, s_m: 80}, {road: street, end: start}], radius_m: 6, fit_m: 40}
+objects:
+  - {type: house, x_m: 20, y_m: 60, heading_deg: 30, model: bumps.crg}
+  - {type: tree, along: [[-100, 60], [0, 80], [60, 70]], every_m: 9, rotation_deg: 4}
+)";
+
+constexpr const char* kBare = R"(rodeira: world/2
+name: bare
+terrain:
+  generate: {seed: 9, columns: 12, rows: 10, spacing_m: 40, west_m: -220, south_m: -180, relief: [{wavelength_m: 200, amplitude_m: 5}]}
+objects:
+  - {type: lamp, x_m: 20, y_m: 60, z_m: 0.5, height_m: 6}
+  - {type: wall, along: [[-100, 60], [0, 80], [60, 70]], height_m: 2}
+  - {type: bush, along: [[0, 0], [9, 9]], every_m: 3, radius_m: 1}
 )";
 
 constexpr const char* kPlane = R"(rodeira: world/2
@@ -118,6 +131,13 @@ void AskWorld(const road::World& world) {
       }
     }
   }
+  if (const network::Standing* standing = world.standing()) {
+    for (const auto& thing : standing->things) {
+      EXPECT_TRUE(thing.at_W.allFinite() && std::isfinite(thing.heading_rad) && thing.object < standing->objects.size());
+      ask(thing.at_W.x(), thing.at_W.y());
+    }
+    for (const auto& run : standing->runs) EXPECT_GE(run.points_W.size(), 2u);
+  }
   const auto ground = world.MakeGround();
   std::vector<terrain::GroundPoint> points(queries.size());
   ground->Query(queries, points);
@@ -145,9 +165,9 @@ std::optional<base::Error> ReadWorld(const std::string& text) {
   return std::nullopt;
 }
 
-TEST(WorldFiles, ChangedByBytes) { Fuzz("world of version 2", {kHills, kPlane, kIncluding}, ReadWorld); }
+TEST(WorldFiles, ChangedByBytes) { Fuzz("world of version 2", {kHills, kPlane, kIncluding, kBare}, ReadWorld); }
 
-TEST(WorldFiles, ChangedByStructure) { Fuzz("world of version 2, structure", {kHills, kPlane, kIncluding}, ReadWorld, MutateStructure); }
+TEST(WorldFiles, ChangedByStructure) { Fuzz("world of version 2, structure", {kHills, kPlane, kIncluding, kBare}, ReadWorld, MutateStructure); }
 
 }  // namespace
 }  // namespace rodeira::property

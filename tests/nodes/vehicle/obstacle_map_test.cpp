@@ -68,6 +68,33 @@ TEST(ObstacleMap, WhatIsInReachIsNear) {
   }
 }
 
+// On a plane that climbs by a tenth to the east, without any road: a house turned by 90 degrees, a tree, a wall of 12 m and a bush, which gives way.
+TEST(ObstacleMap, WhatStandsAtNoRoadStopsACarToo) {
+  const auto world = road::World::Parse("rodeira: world/2\nname: w\nground: {kind: plane, z_m: 3, slope_x: 0.1}\nobjects:\n  - {type: house, x_m: 50, y_m: 20, heading_deg: 90, length_m: 10, width_m: 6, height_m: 5}\n"
+                                        "  - {type: tree, x_m: -30, y_m: 0}\n  - {type: wall, along: [[0, -8], [0, 4]], width_m: 0.4}\n  - {type: bush, x_m: 5, y_m: 5}\n", "w.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  const ObstacleMap map(*world.value(), kReach_m);
+  ASSERT_EQ(map.all().size(), 4u);  // the wall is two pieces
+  const vehicle::Obstacle& house = map.all()[0];
+  EXPECT_EQ(map.NameOf(0), "object0");
+  EXPECT_NEAR((house.centre_W.head<2>() - Eigen::Vector2d(50.0, 20.0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(house.centre_W.z() - house.half_m.z(), 8.0 - 1.0, 1e-9);
+  EXPECT_NEAR(house.centre_W.z() + house.half_m.z(), 8.0 + 5.0, 1e-9);
+  EXPECT_NEAR((house.q_WO * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-9);
+  EXPECT_TRUE(house.half_m.x() == 5.0 && house.half_m.y() == 3.0);
+  EXPECT_NEAR(map.all()[1].centre_W.z() - map.all()[1].half_m.z(), 3.0 - 3.0 - 1.0, 1e-9);
+  double wall_m = 0.0;
+  for (std::size_t i = 2; i < 4; ++i) {
+    const vehicle::Obstacle& wall = map.all()[i];
+    EXPECT_NEAR(wall.centre_W.x(), 0.0, 1e-9);
+    EXPECT_NEAR(wall.half_m.y(), 0.2, 1e-12);
+    wall_m += 2.0 * wall.half_m.x();
+  }
+  EXPECT_NEAR(wall_m, 12.0, 1e-9);
+  EXPECT_FALSE(map.Near({0.0, 6.0, 3.0}).empty());
+  EXPECT_TRUE(map.Near({500.0, 500.0, 3.0}).empty());
+}
+
 TEST(ObstacleMap, WhereNothingStandsNothingIsNear) {
   const ObstacleMap map = MapOf("configs/worlds/plane.yaml");
   EXPECT_TRUE(map.all().empty());
