@@ -15,6 +15,7 @@
 #include "common/road/surface_detail.hpp"
 #include "common/road/world_fit.hpp"
 #include "common/terrain/elevation_file.hpp"
+#include "common/weather/weather_plan.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -156,6 +157,7 @@ Keys ReadKeys(const Map& root) {
     if (terrain.Has("generate")) keys.hills = ReadHills(hills);
     if (terrain.Has("generate") == terrain.Has("file")) terrain.Problem("file", "'terrain' needs either 'file' or 'generate'");
   }
+  if (keys.second && root.Has("weather")) (void)weather::ReadStanding(root.Child("weather"));  // a scenario's node asks for it (WeatherOf)
   if (keys.network_file && !keys.second) root.Problem("network", "'network' needs 'rodeira: world/2'");
   if (keys.second) {
     if (root.Has("start")) keys.start = ReadStartWish(root.Child("start"), keys.spec.start);

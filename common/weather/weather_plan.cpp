@@ -66,22 +66,27 @@ void WeatherPlan::Add(const Change& change) {
   changes_.insert(later, change);
 }
 
+Change ReadStanding(const config::Map& map) {
+  const auto optional = [&](std::string_view key, config::Range range) {
+    const double value = map.Number(key, range, std::numeric_limits<double>::quiet_NaN());
+    return std::isnan(value) ? std::nullopt : std::optional(value);
+  };
+  Change change;
+  change.wetness = optional("wetness", {0.0, 1.0});
+  change.rain_mmph = optional("rain_mmph", {0.0, 200.0});
+  change.visibility_m = optional("visibility_m", {10.0, kClear_m});
+  change.clouds = optional("clouds", {0.0, 1.0});
+  change.hour = optional("hour", {0.0, std::nextafter(kDay_h, 0.0)});
+  return change;
+}
+
 WeatherPlan ReadWeather(const config::List& items) {
   std::vector<Change> changes;
   for (std::size_t i = 0; i < items.size(); ++i) {
     const config::Map map = items.At(i);
-    const auto optional = [&](std::string_view key, config::Range range) {
-      const double value = map.Number(key, range, std::numeric_limits<double>::quiet_NaN());
-      return std::isnan(value) ? std::nullopt : std::optional(value);
-    };
-    Change change;
+    Change change = ReadStanding(map);
     change.at_s = map.Number("at_s", {0.0, kLongest_s}, 0.0);
     change.over_s = map.Number("over_s", {0.0, kLongest_s}, 0.0);
-    change.wetness = optional("wetness", {0.0, 1.0});
-    change.rain_mmph = optional("rain_mmph", {0.0, 200.0});
-    change.visibility_m = optional("visibility_m", {10.0, kClear_m});
-    change.clouds = optional("clouds", {0.0, 1.0});
-    change.hour = optional("hour", {0.0, std::nextafter(kDay_h, 0.0)});
     if (!changes.empty() && change.at_s < changes.back().at_s) {
       map.Problem("at_s", fmt::format("'at_s' is {} and follows {}; times that do not descend were expected", change.at_s, changes.back().at_s));
     }

@@ -26,10 +26,15 @@ class WeatherPlan {
   Weather At(double time_s) const;
   // One more, behind those of its time and before later ones.
   void Add(const Change& change);
+  // One more before all others, which must not begin before it.
+  void Begin(const Change& change) { changes_.insert(changes_.begin(), change); }
 
  private:
   std::vector<Change> changes_;
 };
+
+// What a mapping says of a weather without times (docs/formats.md), at once at the beginning. Problems stay in the file's collection.
+Change ReadStanding(const config::Map& map);
 
 // A list of changes (docs/formats.md). Problems stay in the file's collection.
 WeatherPlan ReadWeather(const config::List& changes);

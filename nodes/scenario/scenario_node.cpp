@@ -11,6 +11,7 @@
 #include "common/base/suggest.hpp"
 #include "common/road/road_chains.hpp"
 #include "common/road/world.hpp"
+#include "common/road/world_weather.hpp"
 #include "common/scenario/request.hpp"
 #include "common/scenario/scenario_file.hpp"
 #include "common/weather/named_weather.hpp"
@@ -309,6 +310,11 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeScenarioNode(launch::NodeConte
   auto scenario = file.empty() ? scenario::Scenario() : scenario::LoadScenario(file, timing);
   if (!scenario) return scenario.error();
   if (auto status = CheckObeyed(context, scenario.value(), file); !status) return status.error();
+  if (!context.launch().world().empty()) {
+    const auto own = road::WeatherOf(context.launch().world());
+    if (!own) return own.error();
+    if (own.value()) scenario.value().weather.Begin(*own.value());  // what the scenario names stands above it
+  }
   std::shared_ptr<const road::World> world;
   std::vector<Gate> gates;
   if (!scenario.value().conditional.empty()) {

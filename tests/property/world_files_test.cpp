@@ -63,6 +63,7 @@ roads:
     section: {template: lane}
 junctions:
   - {id: corner, roads: [{road: main, s_m: 80}, {road: street, end: start}], radius_m: 6, fit_m: 40}
+weather: {hour: 18, clouds: 0.5, wetness: 0.2, visibility_m: 3000}
 objects:
   - {type: house, x_m: 20, y_m: 60, heading_deg: 30, model: bumps.crg}
   - {type: tree, along: [[-100, 60], [0, 80], [60, 70]], every_m: 9, rotation_deg: 4}
