@@ -65,7 +65,8 @@ TEST(Ground, SeamsLookAsTheGroundBesideThem) {
   const GroundPlan plan(*N222());
   int seams = 0;
   for (std::size_t t = 0; t < plan.tiles().size(); t += 25) {
-    for (const Mesh& mesh : plan.Build(plan.tiles()[t]).levels[0].ground) {
+    const GroundTile tile = plan.Build(plan.tiles()[t]);
+    for (const Mesh& mesh : tile.levels[0].ground) {
       for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
         if (!IsUpright(mesh, i)) continue;
         const auto c = CornersOf(mesh, i);
@@ -75,8 +76,11 @@ TEST(Ground, SeamsLookAsTheGroundBesideThem) {
         }
         const bool as_ground = mesh.normals[mesh.triangles[3 * i]].z() > 0.5F;
         seams += as_ground ? 1 : 0;
-        if (as_ground) EXPECT_LT(step_m, 0.005) << c[0].transpose();
-        else EXPECT_GT(step_m, 1e-4) << c[0].transpose();
+        if (as_ground) {
+          EXPECT_LT(step_m, 0.005) << c[0].transpose();
+        } else {
+          EXPECT_GT(step_m, 1e-4) << c[0].transpose();
+        }
       }
     }
   }

@@ -65,7 +65,9 @@ TEST(Progress, EachPieceOfWorkIsCountedOnce) {
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     EXPECT_EQ(told.back(), 100u);
     EXPECT_EQ(std::count(told.begin(), told.end(), 100u), 1);
-    if (threads == 1) EXPECT_EQ(told.size(), 100u);
+    if (threads == 1) {
+      EXPECT_EQ(told.size(), 100u);
+    }
   }
 }
 
