@@ -23,7 +23,7 @@ namespace {
 using lockstep::Step;
 namespace topics = idl::topics;
 
-struct Run {
+struct Driven {
   bool ok = false;
   std::string fault;
   std::map<Step, std::map<std::uint32_t, msg::TrafficAgent>> traffic;
@@ -33,12 +33,12 @@ struct Run {
 class ScriptedTraffic : public testing::Test {
  protected:
   // On the level straight: the driver's car, the traffic, a scenario of these events.
-  Run Drive(const std::string& traffic, const std::string& events, Step last) {
+  Driven Drive(const std::string& traffic, const std::string& events, Step last) {
     EXPECT_TRUE(base::WriteWhole(folder_.path() / "story.yaml", "rodeira: scenario/1\nevents:\n" + events).ok());
     const std::string text = "rodeira: launch/1\nworld: level.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
         "  driver: {kind: input, config: {source: script, script: standing.csv}}\n  ego: {kind: vehicle, config: {vehicle: ../../configs/vehicles/default.yaml}}\n"
         "  others: {kind: traffic, config: " + traffic + "}\n  story: {kind: scenario, config: {scenario: \"" + (folder_.path() / "story.yaml").string() + "\"}}\n";
-    Run run;
+    Driven run;
     auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "tests/data/scripted_test.yaml");
     EXPECT_TRUE(launch.ok()) << launch.error().Text();
     if (!launch) return run;
@@ -64,7 +64,7 @@ class ScriptedTraffic : public testing::Test {
 
 // Two appear at their steps, one behind the other; the second is told to overtake and does, back on its lane before the first.
 TEST_F(ScriptedTraffic, AppearsAndOvertakesAsTheScenarioSays) {
-  const Run run = Drive("{vehicles: 0, scripted: [lorry, car], lane_changes: {overtaking: false}}",
+  const Driven run = Drive("{vehicles: 0, scripted: [lorry, car], lane_changes: {overtaking: false}}",
                         "  - {at_s: 0.02, name: vehicle.place, place: \"ego 500 300\", heading_deg: 0}\n"
                         "  - {at_s: 1, name: traffic.appear, agent: 0, at: {lane: \"main:-1\", s_m: 150}, speed_mps: 10}\n"
                         "  - {at_s: 1, name: traffic.appear, agent: 1, at: {lane: \"main:-1\", s_m: 110}, speed_mps: 10}\n"
@@ -125,7 +125,7 @@ TEST_F(ScriptedTraffic, TheExampleDoesWhatItSays) {
 // What cannot be obeyed ends the run with a sentence that names the event and its step.
 TEST_F(ScriptedTraffic, WhatCannotBeObeyedIsNamed) {
   const auto fault = [&](const std::string& event) {
-    const Run run = Drive("{vehicles: 3, scripted: [car]}", "  - {at_s: 0.5, " + event + "}\n", 1000);
+    const Driven run = Drive("{vehicles: 3, scripted: [car]}", "  - {at_s: 0.5, " + event + "}\n", 1000);
     EXPECT_FALSE(run.ok);
     return run.fault;
   };
@@ -140,8 +140,8 @@ TEST_F(ScriptedTraffic, AnswersToTheDriversCarWithinOnePeriod) {
   constexpr Step kPeriod = 10;
   const std::string away = "  - {at_s: 0.02, name: vehicle.place, place: \"ego 500 300\", heading_deg: 0}\n"
                            "  - {at_s: 0.5, name: traffic.appear, agent: 0, at: {lane: \"main:-1\", s_m: 150}, speed_mps: 17}\n";
-  const Run without = Drive("{vehicles: 0, scripted: [car]}", away, 6000);
-  const Run with = Drive("{vehicles: 0, scripted: [car]}", away + "  - {at_s: 4, name: vehicle.place, place: \"ego 255 -1.6\", heading_deg: 0}\n", 6000);
+  const Driven without = Drive("{vehicles: 0, scripted: [car]}", away, 6000);
+  const Driven with = Drive("{vehicles: 0, scripted: [car]}", away + "  - {at_s: 4, name: vehicle.place, place: \"ego 255 -1.6\", heading_deg: 0}\n", 6000);
   ASSERT_TRUE(without.ok && with.ok) << without.fault << with.fault;
   Step placed = 0;
   for (const auto& [step, car] : with.car) {
