@@ -20,7 +20,6 @@ constexpr int kSlopeRounds = 12;  // where cuts and fills are followed
 constexpr double kMiddle = 0.7;  // of what the sides may be off: within a triangle both come together
 // Cuts and fills, level by level: less than they may be off, for it is asked at few places.
 constexpr std::array<BendRange, kGroundLevels> kSlopes = {{{0.0023, 0.01}, {0.015, 0.02}, {0.075, 0.1}, {0.375, 0.5}}};
-constexpr double kFlat_m = 10.0;  // no longer side of a triangle whose corners may say that it is flat
 constexpr double kTerrainsRoom_m = 0.002;  // where the terrain's own triangles are kept no post is left out but as near to another point
 constexpr double kWithin_m = 1e-3;
 // In the middle of thinner triangles nothing is put: on roads, and on land.
@@ -48,8 +47,7 @@ class Planner {
       fixed_.push_back({a, b});
     }
     for (const auto& [a, b] : fixed_) plan_.left_out += !t.Fix(a, b);
-    whole_ = land_.posts.HoldsAll(plan_.key);
-    kept_ = OwnLines() && whole_;
+    kept_ = OwnLines() && land_.posts.HoldsAll(plan_.key);
     const bool slopes = land_.slopes.InTile(plan_.key), bare = kept_ && segments.empty() && !slopes;
     follows_slopes_ = world_.grid() != nullptr && (level_ == 0 || slopes);
     plan_.face_of = t.Faces();
@@ -187,8 +185,7 @@ class Planner {
       if (tried_[i] == triangles[i].corner) continue;
       tried_[i] = triangles[i].corner;
       const bool land = plan_.faces[plan_.face_of[i]].land;
-      // Where it is SUELO's own there is nothing to do, and where it is followed more closely it is looked at then.
-      if (land && (SlopesTouch(triangles[i]) ? whole_ && follows_slopes_ : kept_)) continue;
+      if (land && kept_ && !SlopesTouch(triangles[i])) continue;  // it is SUELO's own
       const bool thin = ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < (land ? kThinnestLand_m : kThinnestRoad_m)[level_];
       std::optional<Corners> corners;  // asked where they are needed
       const auto know = [&]() -> const Corners& { return corners ? *corners : corners.emplace(CornersOf(triangles[i], plan_.face_of[i], thin)); };
@@ -252,8 +249,8 @@ class Planner {
       const std::size_t before = fresh.size() + on_kept_.size();
       const Corners corners = CornersOf(triangles[i], plan_.face_of[i], false);
       FollowSides(triangles[i], plan_.face_of[i], corners, fresh);
-      // What bends within a triangle and crosses none of its sides; not where it is small and its corners say that it is flat.
-      if (fresh.size() + on_kept_.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < slope.margin_m || IsFlat(corners)) continue;
+      // What bends within a triangle and crosses none of its sides.
+      if (fresh.size() + on_kept_.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < slope.margin_m) continue;
       const road::SurfacePoint middle = world_.At(corners.middle_W.x(), corners.middle_W.y());
       if (middle.inside && IsOff(middle.z_m, corners, slope.tolerance_m)) fresh.push_back(Middle(triangles[i]));
     }
@@ -282,20 +279,6 @@ class Planner {
     return land_.slopes.Touch(plan_.key, low, high);
   }
 
-  // Whether the tangents at both ends of a side lie along it.
-  bool HasStraightEnds(const Corners& c, std::size_t k) const {
-    const std::size_t n = (k + 1) % 3;
-    const Eigen::Vector2d way = c.at[n] - c.at[k];
-    const double rise_m = c.z[n] - c.z[k], most_m = kSlopes[level_].tolerance_m;
-    return std::fabs(c.slope[k].dot(way) - rise_m) <= most_m && std::fabs(c.slope[n].dot(way) - rise_m) <= most_m;
-  }
-  bool IsFlat(const Corners& c) const {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if ((c.at[(k + 1) % 3] - c.at[k]).squaredNorm() > kFlat_m * kFlat_m || !HasStraightEnds(c, k)) return false;
-    }
-    return true;
-  }
-
   void FollowSides(const Triangulation::Triangle& t, std::uint32_t face, const Corners& c, std::vector<GridPoint>& fresh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t n = (k + 1) % 3;
@@ -308,7 +291,10 @@ class Planner {
         const Eigen::Vector2d within = kWithin_m * (c.middle_W - 0.5 * (p_W + q_W)).normalized();
         p_W += within, q_W += within;
       }
-      const auto part = BendBetween(world_, p_W, c.z[k], q_W, c.z[n], kSlopes[level_], HasStraightEnds(c, k));
+      const Eigen::Vector2d way = c.at[n] - c.at[k];
+      const double rise_m = c.z[n] - c.z[k];
+      const bool straight_ends = std::fabs(c.slope[k].dot(way) - rise_m) <= kSlopes[level_].tolerance_m && std::fabs(c.slope[n].dot(way) - rise_m) <= kSlopes[level_].tolerance_m;
+      const auto part = BendBetween(world_, p_W, c.z[k], q_W, c.z[n], kSlopes[level_], straight_ends);
       const GridPoint p = plan_.triangles.points()[t.corner[k]], q = plan_.triangles.points()[t.corner[n]];
       if (!part) continue;
       const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + *part * (to - from))); };
@@ -342,7 +328,6 @@ class Planner {
   const road::World& world_;
   const Land& land_;
   std::size_t level_;
-  bool whole_ = false;           // the terrain is everywhere in the tile
   bool kept_ = false;            // beyond slopes the land is the terrain's own triangles
   bool follows_slopes_ = false;
   TilePlan plan_;

@@ -18,7 +18,6 @@ using partition::Triangulation;
 
 constexpr double kApron_m = 0.9;    // of a bridge's side, and as deep its underside lies
 constexpr double kKerb_m = 0.35;    // lower steps are stone, higher ones earth
-constexpr double kSeam_m = 0.005;   // lower ones are none: two formulas say a height there, and what closes the ground between them looks as the ground does
 constexpr std::size_t kNobody = 99;
 
 class Weaver {
@@ -150,27 +149,17 @@ class Weaver {
       Colour colour = SurfaceColour(terrain::Surface::kSoil);
       if (partner == kNobody || (high < kKerb_m && !skin.grown)) colour = SurfaceColour(terrain::Surface::kConcrete);
       if (partner != kNobody && high < kKerb_m && plan_.faces[other].skins[partner].colour == skin.colour) colour = skin.colour;
-      Eigen::Vector3d normal_W = Across(side);
-      if (partner != kNobody && high < kSeam_m) {
-        normal_W = heights_.At(side[0], face)[level].normal_W;
-        const Eigen::Vector3d at_W = Place(side[0], z(0));
-        colour = skin.grown ? GroundColour(skin.surface, at_W.x(), at_W.y(), normal_W) : skin.colour;
-      }
-      Wall(side, {heights_.Way(side[0], z(0), foot[0]), heights_.Way(side[1], z(1), foot[1])}, normal_W, colour);
+      Wall(side, {heights_.Way(side[0], z(0), foot[0]), heights_.Way(side[1], z(1), foot[1])}, colour);
     }
   }
 
-  // Level, and away from the face whose side it is.
-  Eigen::Vector3d Across(const std::array<std::uint32_t, 2>& side) const {
-    const Eigen::Vector3d along = Place(side[1], 0.0) - Place(side[0], 0.0);
-    return Eigen::Vector3d(along.y(), -along.x(), 0.0).normalized();
-  }
-
   // Between two points, each with its way down.
-  void Wall(const std::array<std::uint32_t, 2>& side, const std::array<std::vector<double>, 2>& ways_m, const Eigen::Vector3d& normal_W, Colour colour) {
+  void Wall(const std::array<std::uint32_t, 2>& side, const std::array<std::vector<double>, 2>& ways_m, Colour colour) {
+    const Eigen::Vector3d along = Place(side[1], 0.0) - Place(side[0], 0.0);
+    const Eigen::Vector3d normal = Eigen::Vector3d(along.y(), -along.x(), 0.0).normalized();
     std::array<std::vector<std::uint32_t>, 2> down;
     for (std::size_t k = 0; k < 2; ++k) {
-      for (const double z_m : ways_m[k]) down[k].push_back(wall_.Add(Place(side[k], z_m), normal_W, colour));
+      for (const double z_m : ways_m[k]) down[k].push_back(wall_.Add(Place(side[k], z_m), normal, colour));
     }
     for (std::size_t i = 0; i + 1 < down[1].size(); ++i) wall_.AddTriangle(down[0].front(), down[1][i + 1], down[1][i]);
     for (std::size_t i = 0; i + 1 < down[0].size(); ++i) wall_.AddTriangle(down[0][i], down[0][i + 1], down[1].back());

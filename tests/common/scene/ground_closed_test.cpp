@@ -14,7 +14,6 @@
 #include "common/base/random.hpp"
 #include "tests/common/scene/ground_tiles.hpp"
 #include "tests/common/scene/ground_worlds.hpp"
-#include "tests/n222.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::scene {
@@ -57,34 +56,6 @@ TEST(Ground, IsClosed) {
       EXPECT_EQ(open, 0) << "tile " << tile.key.column << " " << tile.key.row;
     }
   }
-}
-
-// Where two formulas say the same height but for some of its last digits, as beside a verge, what closes the ground between them is not seen: it
-// is lit and coloured as the ground is. As walls of earth such seams were a line of dark dots along every verge.
-TEST(Ground, SeamsLookAsTheGroundBesideThem) {
-  const GroundPlan plan(*N222());
-  int seams = 0;
-  for (std::size_t t = 0; t < plan.tiles().size(); t += 25) {
-    const GroundTile tile = plan.Build(plan.tiles()[t]);
-    for (const Mesh& mesh : tile.levels[0].ground) {
-      for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-        if (!IsUpright(mesh, i)) continue;
-        const auto c = CornersOf(mesh, i);
-        double step_m = 0.0;  // between a corner and the one over it
-        for (std::size_t k = 0; k < 3; ++k) {
-          if (c[k].head<2>() == c[(k + 1) % 3].head<2>()) step_m = std::max(step_m, std::fabs(c[k].z() - c[(k + 1) % 3].z()));
-        }
-        const bool as_ground = mesh.normals[mesh.triangles[3 * i]].z() > 0.5F;
-        seams += as_ground ? 1 : 0;
-        if (as_ground) {
-          EXPECT_LT(step_m, 0.005) << c[0].transpose();
-        } else {
-          EXPECT_GT(step_m, 1e-4) << c[0].transpose();
-        }
-      }
-    }
-  }
-  EXPECT_GT(seams, 100);
 }
 
 // From the road below a deck is seen: all of it, 0.9 m under its lanes and verges.

@@ -18,21 +18,12 @@ inline std::vector<GroundTile> BuildAll(const road::World& world, unsigned threa
   return tiles;
 }
 
+// Whether it is no ground: a wall, or the underside of a deck.
+inline bool IsWall(const Mesh& mesh, std::size_t triangle) { return mesh.normals[mesh.triangles[3 * triangle]].z() < 1e-6F; }
+
 inline std::array<Eigen::Vector3d, 3> CornersOf(const Mesh& mesh, std::size_t triangle) {
   return {mesh.PositionW(mesh.triangles[3 * triangle]), mesh.PositionW(mesh.triangles[3 * triangle + 1]), mesh.PositionW(mesh.triangles[3 * triangle + 2])};
 }
-
-// Whether two of its corners stand one over the other: it is upright.
-inline bool IsUpright(const Mesh& mesh, std::size_t triangle) {
-  const auto corners = CornersOf(mesh, triangle);
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (corners[k].head<2>() == corners[(k + 1) % 3].head<2>()) return true;
-  }
-  return false;
-}
-
-// Whether it is no ground: a wall, or the underside of a deck.
-inline bool IsWall(const Mesh& mesh, std::size_t triangle) { return mesh.normals[mesh.triangles[3 * triangle]].z() < 1e-6F || IsUpright(mesh, triangle); }
 
 // Real files whose ground is looked at as a whole, RODEIRA_GROUND_FILES (2) of them.
 inline std::vector<std::string> RealGrounds() {

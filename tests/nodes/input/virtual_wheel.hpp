@@ -24,4 +24,20 @@ class VirtualWheel : public VirtualDevice {
   std::string guid_;
 };
 
+// One that SDL knows as no wheel, and as nothing else.
+class PlainStick : public VirtualDevice {
+ public:
+  PlainStick() {
+    const int index = SDL_JoystickAttachVirtual(SDL_JOYSTICK_TYPE_UNKNOWN, 4, 8, 0);
+    Open(index);
+    char text[33] = {};
+    SDL_JoystickGetGUIDString(SDL_JoystickGetDeviceGUID(index), text, sizeof(text));
+    guid_ = text;
+  }
+  const std::string& guid() const { return guid_; }
+
+ private:
+  std::string guid_;
+};
+
 }  // namespace rodeira
