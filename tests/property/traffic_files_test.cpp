@@ -173,7 +173,7 @@ TEST(TrafficFiles, ScenariosChangedByStructure) {
       if (event.name != scenario::kTrafficAppear) continue;
       const auto choice = scenario::ParseAgentOnLane(event.argument).value();
       const auto told = model.LetAppear(choice.id, choice.at->road, choice.at->s_m, event.value);
-      if (!told) refused = told.error();
+      if (!told) refused = base::WrongInput(told.error().message, event.name);  // the traffic node says which event, too
       appeared += told && told.value() ? 1 : 0;
     }
     Drive(model);
