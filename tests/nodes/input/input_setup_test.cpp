@@ -90,7 +90,7 @@ TEST_F(InputSetup, WhoGivesUpOrHasNoWheelIsToldAndNothingIsWritten) {
 
 // A device that is no wheel to SDL is not guessed at.
 TEST_F(InputSetup, WithoutAFileARunNamesTheSetup) {
-  const PlainStick stick;
+  const VirtualWheel stick(SDL_JOYSTICK_TYPE_UNKNOWN);
   const launch::Launch launch = launch::Launch::Parse(LiveLaunch("{source: joystick}"), std::filesystem::path(SourceDir()) / "launch/live.yaml").value();
   const auto nodes = front::LocalNodes::Make(launch);
   ASSERT_FALSE(nodes.ok());

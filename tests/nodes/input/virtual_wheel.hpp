@@ -9,10 +9,11 @@ namespace rodeira {
 // A wheel with four axes and eight buttons.
 class VirtualWheel : public VirtualDevice {
  public:
-  VirtualWheel() { Attach(); }
+  // What SDL takes it for.
+  explicit VirtualWheel(SDL_JoystickType type = SDL_JOYSTICK_TYPE_WHEEL) : type_(type) { Attach(); }
 
   void Attach() {
-    const int index = SDL_JoystickAttachVirtual(SDL_JOYSTICK_TYPE_WHEEL, 4, 8, 0);
+    const int index = SDL_JoystickAttachVirtual(type_, 4, 8, 0);
     ASSERT_NO_FATAL_FAILURE(Open(index));
     char text[33] = {};
     SDL_JoystickGetGUIDString(SDL_JoystickGetDeviceGUID(index), text, sizeof(text));
@@ -21,22 +22,7 @@ class VirtualWheel : public VirtualDevice {
   const std::string& guid() const { return guid_; }
 
  private:
-  std::string guid_;
-};
-
-// One that SDL knows as no wheel, and as nothing else.
-class PlainStick : public VirtualDevice {
- public:
-  PlainStick() {
-    const int index = SDL_JoystickAttachVirtual(SDL_JOYSTICK_TYPE_UNKNOWN, 4, 8, 0);
-    Open(index);
-    char text[33] = {};
-    SDL_JoystickGetGUIDString(SDL_JoystickGetDeviceGUID(index), text, sizeof(text));
-    guid_ = text;
-  }
-  const std::string& guid() const { return guid_; }
-
- private:
+  SDL_JoystickType type_;
   std::string guid_;
 };
 
