@@ -19,6 +19,10 @@ using partition::Triangulation;
 constexpr double kApron_m = 0.9;    // of a bridge's side, and as deep its underside lies
 constexpr double kKerb_m = 0.35;    // lower steps are stone, higher ones earth
 constexpr std::size_t kNobody = 99;
+// A picture's samples may lie outside the triangle whose light they take: thinner than a pixel, it would be lit as the ground at the far end of a change that
+// goes on and on. Where normals change by more than this a metre a triangle has one normal: its own, or where it is too thin to have a good one, the mean.
+constexpr double kBend_1pm = 0.6;
+constexpr double kThin_m = 0.05;  // ten times what heights may be off
 
 class Weaver {
  public:
@@ -57,16 +61,17 @@ class Weaver {
     return {p.x(), p.y(), z_m};
   }
 
-  std::uint32_t Vertex(Mesh& mesh, std::uint32_t point, std::uint32_t face, std::size_t level) {
+  // The point's on that face whose normal is so near to the given one, or a new one with it.
+  std::uint32_t Vertex(Mesh& mesh, std::uint32_t point, std::uint32_t face, std::size_t level, const Eigen::Vector3d& normal_W, double near) {
     for (std::uint32_t i = first_[point]; i != Triangulation::kNone; i = vertices_[i].next) {
-      if (vertices_[i].face == face && vertices_[i].level == level) return vertices_[i].vertex;
+      const Known& known = vertices_[i];
+      if (known.face == face && known.level == level && (known.normal_W - normal_W).squaredNorm() <= near * near) return known.vertex;
     }
-    const CornerHeight& height = heights_.At(point, face)[level];
     const Skin& skin = plan_.faces[face].skins[level];
-    const Eigen::Vector3d p_W = Place(point, height.z_m);
-    const Colour colour = skin.grown ? GroundColour(skin.surface, p_W.x(), p_W.y(), height.normal_W) : skin.colour;
+    const Eigen::Vector3d p_W = Place(point, heights_.At(point, face)[level].z_m);
+    const Colour colour = skin.grown ? GroundColour(skin.surface, p_W.x(), p_W.y(), normal_W) : skin.colour;
     if (skin.along) mesh.on_face.push_back(OnPicture(*world_.network(), *skin.along, *skin.picture, p_W.head<2>()).cast<float>());
-    vertices_.push_back({face, static_cast<std::uint32_t>(level), mesh.Add(p_W, height.normal_W, colour), first_[point]});
+    vertices_.push_back({face, static_cast<std::uint32_t>(level), mesh.Add(p_W, normal_W, colour), first_[point], normal_W});
     first_[point] = static_cast<std::uint32_t>(vertices_.size() - 1);
     return vertices_.back().vertex;
   }
@@ -90,12 +95,26 @@ class Weaver {
     const std::uint32_t face = plan_.face_of[triangle];
     Mesh& mesh = MeshOf(plan_.faces[face].skins[level]);
     GroundTriangle ground;
+    std::array<Eigen::Vector3d, 3> normals_W;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const CornerHeight& height = heights_.At(corner[k], face)[level];
+      ground.p_W[k] = Place(corner[k], height.z_m);
+      normals_W[k] = height.normal_W;
+    }
+    const Eigen::Vector3d twice_area_W = (ground.p_W[1] - ground.p_W[0]).cross(ground.p_W[2] - ground.p_W[0]);
+    ground.normal_W = twice_area_W.normalized();
+    double longest_m = 0.0, widest = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      longest_m = std::max(longest_m, (ground.p_W[(k + 1) % 3] - ground.p_W[k]).norm());
+      widest = std::max(widest, (normals_W[(k + 1) % 3] - normals_W[k]).norm());
+    }
+    const double thickness_m = twice_area_W.norm() / longest_m;
+    const bool bent = widest > kBend_1pm * thickness_m;
+    const Eigen::Vector3d one_W = thickness_m > kThin_m ? ground.normal_W : Eigen::Vector3d((normals_W[0] + normals_W[1] + normals_W[2]).normalized());
     std::array<std::uint32_t, 3> index{};
     for (std::size_t k = 0; k < 3; ++k) {
-      index[k] = Vertex(mesh, corner[k], face, level);
-      ground.p_W[k] = Place(corner[k], heights_.At(corner[k], face)[level].z_m);
+      index[k] = bent ? Vertex(mesh, corner[k], face, level, one_W, 0.5 * kBend_1pm * thickness_m) : Vertex(mesh, corner[k], face, level, normals_W[k], 0.0);
     }
-    ground.normal_W = (ground.p_W[1] - ground.p_W[0]).cross(ground.p_W[2] - ground.p_W[0]).normalized();
     mesh.AddTriangle(index[0], index[1], index[2]);
     woven_.triangles.push_back(ground);
   }
@@ -181,6 +200,7 @@ class Weaver {
     std::uint32_t level;
     std::uint32_t vertex;
     std::uint32_t next;  // of the same point
+    Eigen::Vector3d normal_W;
   };
   std::vector<Known> vertices_;       // what is there already
   std::vector<std::uint32_t> first_;  // by point
