@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 // What stands at a road: signals, objects, tunnels and bridges, as OpenDRIVE describes them.
@@ -12,6 +13,17 @@ namespace rodeira::network {
 struct LaneValidity {
   int from_lane = 0;
   int to_lane = 0;
+};
+
+// Where a signal is seen, if that is not where it counts: at another place of this or of another road, or anywhere.
+struct SeenAtRoad {
+  std::string road;
+  double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0;
+  double h_offset_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
+};
+struct SeenInWorld {
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
+  double heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;  // the heading of the traffic that reads it, as offsets of headings are
 };
 
 struct Signal {
@@ -25,6 +37,7 @@ struct Signal {
   double h_offset_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
   std::vector<LaneValidity> validity;
   std::vector<std::string> depends_on;  // ids of signals
+  std::variant<std::monostate, SeenAtRoad, SeenInWorld> seen;
 };
 
 // A signal that stands at another road and is for this one.
@@ -41,6 +54,7 @@ struct Corner {
   double second_m = 0.0;  // t, or v
   double dz_m = 0.0;      // over the road, or z in the object
   double height_m = 0.0;
+  std::string id;  // in its outline; may be empty
 };
 
 struct Outline {
@@ -55,6 +69,18 @@ struct Repeat {
   double z_start_m = 0.0, z_end_m = 0.0;
   double height_start_m = 0.0, height_end_m = 0.0;
   double width_start_m = 0.0, width_end_m = 0.0;
+  double length_start_m = 0.0, length_end_m = 0.0;
+  double radius_start_m = 0.0, radius_end_m = 0.0;
+};
+
+// A line of paint along a side of an object, or from corner to corner of its outline.
+struct ObjectMark {
+  std::string side;                  // "left", "right", "front" (where its x axis points) or "rear"; nothing where corners are named
+  std::vector<std::string> corners;  // their ids, in order
+  std::string colour = "white";
+  double width_m = 0.0;
+  double stroke_m = 0.0, gap_m = 0.0;                     // without gaps: one stroke
+  double start_offset_m = 0.0, stop_offset_m = 0.0;  // from the line's beginning and end, which stay without paint
 };
 
 struct Object {
@@ -67,6 +93,7 @@ struct Object {
   std::vector<Repeat> repeats;
   std::vector<Outline> outlines;
   std::vector<LaneValidity> validity;
+  std::vector<ObjectMark> marks;
 };
 
 struct ObjectReference {

@@ -18,13 +18,27 @@ void Stand(const Road& road, double turn_rad, Placed& placed) {
   placed.heading_rad = road.axis().Evaluate(placed.s_m).heading_rad + turn_rad;
 }
 
-Placed PlaceSignal(const Road& road, const Signal& signal) {
+Placed PlaceSignal(const Network& network, std::uint32_t index, const Signal& signal) {
   Placed placed;
   placed.signal = &signal;
+  placed.road = index;
+  const Road& road = network.roads()[index];
   placed.s_m = signal.s_m, placed.t_m = signal.t_m, placed.z_offset_m = signal.z_offset_m;
   placed.width_m = signal.width_m, placed.height_m = signal.height_m;
   placed.both_sides = signal.orientation != "+" && signal.orientation != "-";
-  Stand(road, signal.h_offset_rad + (signal.orientation == "-" ? 0.0 : geometry::kPi), placed);
+  const double facing_rad = signal.orientation == "-" ? 0.0 : geometry::kPi;
+  Stand(road, signal.h_offset_rad + facing_rad, placed);
+  if (const auto* seen = std::get_if<SeenAtRoad>(&signal.seen)) {
+    const auto other = network.FindRoad(seen->road);
+    if (!other) return placed;
+    placed.road = *other;
+    placed.s_m = seen->s_m, placed.t_m = seen->t_m, placed.z_offset_m = seen->z_offset_m;
+    Stand(network.roads()[*other], seen->h_offset_rad + facing_rad, placed);
+  } else if (const auto* in_world = std::get_if<SeenInWorld>(&signal.seen)) {
+    placed.foot_W.head<2>() = Eigen::Vector2d(in_world->x_m, in_world->y_m);
+    placed.z_W_m = in_world->z_m;
+    placed.heading_rad = in_world->heading_rad + geometry::kPi;
+  }
   return placed;
 }
 
@@ -38,19 +52,24 @@ Placed PlaceObject(const Road& road, const Object& object) {
   return placed;
 }
 
-// A size that a repeat leaves open is the object's own.
-void TakeSizes(const Repeat& repeat, const Object& object, double& height_start, double& height_end, double& width_start, double& width_end) {
-  const bool has_height = repeat.height_start_m != 0.0 || repeat.height_end_m != 0.0;
-  const bool has_width = repeat.width_start_m != 0.0 || repeat.width_end_m != 0.0;
-  height_start = has_height ? repeat.height_start_m : object.height_m;
-  height_end = has_height ? repeat.height_end_m : object.height_m;
-  width_start = has_width ? repeat.width_start_m : object.width_m;
-  width_end = has_width ? repeat.width_end_m : object.width_m;
-}
+// A size along a repeat; one that it leaves open is the object's own.
+struct Taper {
+  double start_m, end_m;
+
+  Taper(double start, double end, double own) : start_m(start != 0.0 || end != 0.0 ? start : own), end_m(start != 0.0 || end != 0.0 ? end : own) {}
+  double At(double share) const { return Between(start_m, end_m, share); }
+};
+
+struct Sizes {
+  Taper height, width, length, radius;
+
+  Sizes(const Repeat& repeat, const Object& object)
+      : height(repeat.height_start_m, repeat.height_end_m, object.height_m), width(repeat.width_start_m, repeat.width_end_m, object.width_m),
+        length(repeat.length_start_m, repeat.length_end_m, object.length_m), radius(repeat.radius_start_m, repeat.radius_end_m, object.radius_m) {}
+};
 
 void PlaceRow(const Road& road, const Object& object, const Repeat& repeat, std::uint32_t index, std::vector<Placed>& things) {
-  double height_start, height_end, width_start, width_end;
-  TakeSizes(repeat, object, height_start, height_end, width_start, width_end);
+  const Sizes sizes(repeat, object);
   const double last = std::min(std::floor(repeat.length_m / repeat.distance_m + 1e-9), kMostOfARepeat);
   for (double i = 0.0; i <= last; i += 1.0) {
     const double s = repeat.s_m + i * repeat.distance_m;
@@ -61,8 +80,8 @@ void PlaceRow(const Road& road, const Object& object, const Repeat& repeat, std:
     placed.s_m = s;
     placed.t_m = Between(repeat.t_start_m, repeat.t_end_m, share);
     placed.z_offset_m = Between(repeat.z_start_m, repeat.z_end_m, share);
-    placed.height_m = Between(height_start, height_end, share);
-    placed.width_m = Between(width_start, width_end, share);
+    placed.height_m = sizes.height.At(share), placed.width_m = sizes.width.At(share);
+    placed.length_m = sizes.length.At(share), placed.radius_m = sizes.radius.At(share);
     Stand(road, object.hdg_rad, placed);
     things.push_back(placed);
   }
@@ -75,13 +94,15 @@ void PlaceRun(const Road& road, const Object& object, const Repeat& repeat, std:
   run.from_s_m = std::max(0.0, repeat.s_m);
   run.to_s_m = std::min(repeat.s_m + repeat.length_m, road.length_m());
   if (!(run.to_s_m > run.from_s_m)) return;
-  double height_start, height_end, width_start, width_end;
-  TakeSizes(repeat, object, height_start, height_end, width_start, width_end);
+  const Sizes sizes(repeat, object);
   const auto at = [&](double s, double start, double end) { return Between(start, end, (s - repeat.s_m) / repeat.length_m); };
+  const auto share = [&](double s) { return (s - repeat.s_m) / repeat.length_m; };
   run.t_start_m = at(run.from_s_m, repeat.t_start_m, repeat.t_end_m), run.t_end_m = at(run.to_s_m, repeat.t_start_m, repeat.t_end_m);
   run.z_start_m = at(run.from_s_m, repeat.z_start_m, repeat.z_end_m), run.z_end_m = at(run.to_s_m, repeat.z_start_m, repeat.z_end_m);
-  run.height_start_m = at(run.from_s_m, height_start, height_end), run.height_end_m = at(run.to_s_m, height_start, height_end);
-  run.width_start_m = at(run.from_s_m, width_start, width_end), run.width_end_m = at(run.to_s_m, width_start, width_end);
+  // What is round is as wide as it is thick.
+  const auto width_at = [&](double s) { return sizes.width.At(share(s)) > 0.0 ? sizes.width.At(share(s)) : 2.0 * sizes.radius.At(share(s)); };
+  run.height_start_m = sizes.height.At(share(run.from_s_m)), run.height_end_m = sizes.height.At(share(run.to_s_m));
+  run.width_start_m = width_at(run.from_s_m), run.width_end_m = width_at(run.to_s_m);
   runs.push_back(run);
 }
 
@@ -91,10 +112,7 @@ Furniture PlaceFurniture(const Network& network) {
   Furniture furniture;
   for (std::uint32_t index = 0; index < network.roads().size(); ++index) {
     const Road& road = network.roads()[index];
-    for (const Signal& signal : road.spec().signals) {
-      furniture.things.push_back(PlaceSignal(road, signal));
-      furniture.things.back().road = index;
-    }
+    for (const Signal& signal : road.spec().signals) furniture.things.push_back(PlaceSignal(network, index, signal));
     for (const Object& object : road.spec().objects) {
       for (const Repeat& repeat : object.repeats) {
         if (repeat.distance_m > 0.0) PlaceRow(road, object, repeat, index, furniture.things);

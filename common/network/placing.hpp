@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Placed {
   double heading_rad = 0.0;
   bool both_sides = false;  // of a signal: it has a second face, which looks the other way
   double length_m = 0.0, width_m = 0.0, height_m = 0.0, radius_m = 0.0;
+  std::optional<double> z_W_m;  // of a signal that is seen at a place in the world: its height, whatever the ground is; its foot's z is then the road's where it counts
 };
 
 // An object that goes on along a road: all but s are linear in s.
@@ -42,7 +44,8 @@ struct Furniture {
 
 // Everything that stands at a network's roads, by road, then signals and objects as they were written. An object that is
 // repeated every d metres over a length L stands at floor(L / d) + 1 stations as its repeats say, and not at its own; stations
-// beyond the road's end are left out, and what is said once for a road that ends before counts to its end.
+// beyond the road's end are left out, and what is said once for a road that ends before counts to its end. A signal
+// that is seen elsewhere than where it counts stands there, with that road; where there is no such road, at its own place.
 Furniture PlaceFurniture(const Network& network);
 
 // What stands at no road, on the ground that is given; of a road there are only zeros.

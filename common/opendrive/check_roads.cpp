@@ -131,6 +131,19 @@ struct Checker {
     }
   }
 
+  // A sign that is seen at another road than the one where it counts.
+  void SeenAt() const {
+    const std::vector<std::string> names = RoadNames();
+    for (std::size_t i = 0; i < network.roads().size(); ++i) {
+      for (const network::Signal& signal : network.roads()[i].spec().signals) {
+        const auto* seen = std::get_if<network::SeenAtRoad>(&signal.seen);
+        if (seen == nullptr || network.FindRoad(seen->road)) continue;
+        findings.warnings.push_back(At(i, "road.signal.position", fmt::format("the signal '{}' stands at the road '{}', which is not in the file{}: it is drawn where it counts", signal.id, seen->road,
+                                                                              base::DidYouMean(seen->road, names)), signal.s_m));
+      }
+    }
+  }
+
   void Junctions() const {
     const std::vector<std::string> names = RoadNames();
     for (const network::Junction& junction : network.junctions()) {
@@ -158,6 +171,7 @@ void CheckRoadLinks(const Network& network, std::span<const RoadLines> lines, co
   checker.Ambiguous();
   checker.Links();
   checker.Junctions();
+  checker.SeenAt();
 }
 
 }  // namespace rodeira::opendrive

@@ -14,10 +14,10 @@ struct Unread {
   std::string_view parent, name;
   bool attribute;
 };
-constexpr std::array<Unread, 25> kUnread = {{
-    {"object", "borders", false}, {"object", "markings", false}, {"object", "material", false}, {"object", "parkingSpace", false}, {"object", "skeleton", false}, {"object", "surface", false},
-    {"repeat", "lengthStart", true}, {"repeat", "radiusStart", true}, {"repeat", "detachFromReferenceLine", true}, {"outline", "fillType", true},
-    {"signal", "positionRoad", false}, {"signal", "positionInertial", false}, {"signal", "reference", false}, {"signal", "staticBoard", false}, {"signal", "vmsBoard", false}, {"signal", "semantics", false},
+constexpr std::array<Unread, 20> kUnread = {{
+    {"object", "borders", false}, {"object", "material", false}, {"object", "parkingSpace", false}, {"object", "skeleton", false}, {"object", "surface", false},
+    {"repeat", "detachFromReferenceLine", true}, {"outline", "fillType", true},
+    {"signal", "reference", false}, {"signal", "staticBoard", false}, {"signal", "vmsBoard", false}, {"signal", "semantics", false},
     {"junction", "crossPath", false}, {"junction", "roadSection", false}, {"junction", "mainRoad", true},
     {"road", "railroad", false},
     {"OpenDRIVE", "junctionGroup", false}, {"OpenDRIVE", "station", false},

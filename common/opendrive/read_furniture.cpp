@@ -30,6 +30,15 @@ void CheckSign(const Node& node, const network::Signal& signal) {
   source.warnings.push_back({"road.signal.type", fmt::format("the sign '{}' {}: it is drawn as a grey plate", signal.id, what), node.line(), source.where.road, source.where.lane, source.where.s_m});
 }
 
+void ReadSeen(const Node& node, network::Signal& signal) {
+  for (const Node& at : node.Children("positionRoad")) {
+    signal.seen = network::SeenAtRoad{at.Text("roadId"), at.Number("s"), at.Number("t"), at.Number("zOffset", 0.0), at.Number("hOffset", 0.0), at.Number("pitch", 0.0), at.Number("roll", 0.0)};
+  }
+  for (const Node& at : node.Children("positionInertial")) {
+    signal.seen = network::SeenInWorld{at.Number("x"), at.Number("y"), at.Number("z"), at.Number("hdg", 0.0), at.Number("pitch", 0.0), at.Number("roll", 0.0)};
+  }
+}
+
 network::Signal ReadSignal(const Node& node) {
   network::Signal signal;
   signal.id = node.Text("id");
@@ -52,6 +61,7 @@ network::Signal ReadSignal(const Node& node) {
   signal.roll_rad = node.Number("roll", 0.0);
   signal.validity = ReadValidity(node);
   for (const Node& dependency : node.Children("dependency")) signal.depends_on.push_back(dependency.Text("id"));
+  ReadSeen(node, signal);
   CheckSign(node, signal);
   return signal;
 }
@@ -69,6 +79,10 @@ network::Repeat ReadRepeat(const Node& node) {
   repeat.height_end_m = node.Number("heightEnd", 0.0);
   repeat.width_start_m = node.Number("widthStart", 0.0);
   repeat.width_end_m = node.Number("widthEnd", 0.0);
+  repeat.length_start_m = node.Number("lengthStart", 0.0);
+  repeat.length_end_m = node.Number("lengthEnd", 0.0);
+  repeat.radius_start_m = node.Number("radiusStart", 0.0);
+  repeat.radius_end_m = node.Number("radiusEnd", 0.0);
   return repeat;
 }
 
@@ -77,13 +91,43 @@ network::Outline ReadOutline(const Node& node) {
   outline.closed = node.Flag("closed", true);
   for (const Node& corner : node.Children("cornerRoad")) {
     outline.corners.push_back(
-        {false, corner.Number("s"), corner.Number("t"), corner.Number("dz", 0.0), corner.Number("height", 0.0)});
+        {false, corner.Number("s"), corner.Number("t"), corner.Number("dz", 0.0), corner.Number("height", 0.0), corner.Text("id", "")});
   }
   for (const Node& corner : node.Children("cornerLocal")) {
     outline.corners.push_back(
-        {true, corner.Number("u"), corner.Number("v"), corner.Number("z", 0.0), corner.Number("height", 0.0)});
+        {true, corner.Number("u"), corner.Number("v"), corner.Number("z", 0.0), corner.Number("height", 0.0), corner.Text("id", "")});
   }
   return outline;
+}
+
+// A mark on a side or at a corner that the object has not is no error: it is said, and not painted.
+void ReadMarks(const Node& node, network::Object& object) {
+  static const std::vector<std::string> kSides = {"left", "right", "front", "rear"};
+  Source& source = node.source();
+  const auto warn = [&](const Node& mark, const std::string& what) {
+    source.warnings.push_back({"road.object.marking", fmt::format("a mark of the object '{}' {}: it is not painted", object.id, what), mark.line(), source.where.road, source.where.lane, source.where.s_m});
+  };
+  for (const Node& markings : node.Children("markings")) {
+    for (const Node& each : markings.Children("marking")) {
+      network::ObjectMark mark;
+      mark.side = each.Text("side", "");
+      for (const Node& corner : each.Children("cornerReference")) mark.corners.push_back(corner.Text("id"));
+      mark.colour = each.Text("color", "white");
+      mark.width_m = each.Number("width", 0.1);
+      mark.stroke_m = each.Number("lineLength", 0.0);
+      mark.gap_m = each.Number("spaceLength", 0.0);
+      mark.start_offset_m = each.Number("startOffset", 0.0);
+      mark.stop_offset_m = each.Number("stopOffset", 0.0);
+      const auto has_corner = [&](const std::string& id) {
+        return !object.outlines.empty() && std::any_of(object.outlines.front().corners.begin(), object.outlines.front().corners.end(), [&](const network::Corner& corner) { return corner.id == id; });
+      };
+      const auto lost = std::find_if_not(mark.corners.begin(), mark.corners.end(), has_corner);
+      if (lost != mark.corners.end()) warn(each, fmt::format("names the corner '{}', which its outline has not", *lost));
+      else if (mark.corners.size() == 1) warn(each, "names one corner where it goes from corner to corner");
+      else if (mark.corners.empty() && std::find(kSides.begin(), kSides.end(), mark.side) == kSides.end()) warn(each, fmt::format("lies on the side '{}'{}", mark.side, base::DidYouMean(mark.side, kSides)));
+      else object.marks.push_back(std::move(mark));
+    }
+  }
 }
 
 // The standard's types of objects, up to 1.8.
@@ -128,6 +172,7 @@ network::Object ReadObject(const Node& node) {
     for (const Node& outline : outlines.Children("outline")) object.outlines.push_back(ReadOutline(outline));
   }
   object.validity = ReadValidity(node);
+  ReadMarks(node, object);
   CheckType(node, object);
   return object;
 }

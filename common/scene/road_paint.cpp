@@ -1,10 +1,11 @@
 #include "common/scene/road_paint.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "common/geometry/angle.hpp"
+#include "common/scene/object_marks.hpp"
+#include "common/scene/spot.hpp"
 #include "common/scene/stencils.hpp"
 
 namespace rodeira::scene {
@@ -15,26 +16,6 @@ using Eigen::Vector3d;
 
 constexpr double kFlatSign_m = 0.05;
 constexpr double kCrossing_m = 4.0;
-
-// A place on a road from which shapes are laid out: x ahead, y to the left of it, in the plane of the road's surface there.
-struct Spot {
-  Vector3d p_W;
-  Vector3d normal_W;
-  Vector2d ahead_W;
-
-  static Spot At(const network::Road& road, double s_m, double t_m, double heading_rad) {
-    const network::SurfaceSample sample = road.Surface(s_m, t_m);
-    return {sample.p_W, sample.ds_W.cross(sample.dt_W).normalized(), {std::cos(heading_rad), std::sin(heading_rad)}};
-  }
-  Vector3d ToWorld(const Vector2d& p) const {
-    const Vector2d off = p.x() * ahead_W + p.y() * Vector2d(-ahead_W.y(), ahead_W.x());
-    return {p_W.x() + off.x(), p_W.y() + off.y(), p_W.z() - normal_W.head<2>().dot(off) / normal_W.z()};
-  }
-  Vector2d ToLocal(const Vector2d& q_W) const {
-    const Vector2d off = q_W - p_W.head<2>();
-    return {off.dot(ahead_W), off.dot(Vector2d(-ahead_W.y(), ahead_W.x()))};
-  }
-};
 
 void Lay(const std::vector<Polygon2>& shape, const Spot& spot, TilePaint& paint) {
   const Colour white = PaintColour("white");
@@ -65,12 +46,13 @@ std::vector<std::pair<double, double>> Driven(const network::Road& road, double 
   return spans;
 }
 
-void PaintCrossing(const network::Road& road, const network::Signal& signal, TilePaint& paint) {
+void PaintCrossing(const network::Road& road, const network::Placed& placed, TilePaint& paint) {
+  const network::Signal& signal = *placed.signal;
   const double length = std::min(signal.value.value_or(kCrossing_m) > 0.0 ? signal.value.value_or(kCrossing_m) : kCrossing_m, road.length_m());
-  const double s = std::clamp(signal.s_m, 0.5 * length, road.length_m() - 0.5 * length);
+  const double s = std::clamp(placed.s_m, 0.5 * length, road.length_m() - 0.5 * length);
   double right = 1e9, left = -1e9;
   for (const auto& [low, high] : Driven(road, s, 0)) right = std::min(right, low), left = std::max(left, high);
-  if (signal.width_m > 0.0) right = std::max(right, signal.t_m - 0.5 * signal.width_m), left = std::min(left, signal.t_m + 0.5 * signal.width_m);
+  if (signal.width_m > 0.0) right = std::max(right, placed.t_m - 0.5 * signal.width_m), left = std::min(left, placed.t_m + 0.5 * signal.width_m);
   if (!(left > right)) return;
   const double middle = 0.5 * (left + right), half = 0.5 * (left - right);
   Lay(ZebraShape(Rectangle(length, -half, half)), Spot::At(road, s, middle, road.axis().Evaluate(s).heading_rad), paint);
@@ -82,8 +64,8 @@ void PaintLineAcross(const network::Road& road, const network::Placed& placed, T
   const network::Signal& signal = *placed.signal;
   const bool against = signal.orientation == "-";
   const bool on_left = against != road.spec().left_hand;  // of the axis: where its traffic drives
-  const auto lanes = Driven(road, signal.s_m, on_left ? 1 : -1);
-  double width = signal.width_m, from = signal.t_m, to = signal.t_m;
+  const auto lanes = Driven(road, placed.s_m, on_left ? 1 : -1);
+  double width = signal.width_m, from = placed.t_m, to = placed.t_m;
   if (!(width > 0.0)) {
     for (const auto& [low, high] : lanes) from = std::min(from, low), to = std::max(to, high);
   } else {
@@ -92,15 +74,15 @@ void PaintLineAcross(const network::Road& road, const network::Placed& placed, T
       for (const auto& [right, left] : lanes) sum += std::max(0.0, std::min(high, left) - std::max(low, right));
       return sum;
     };
-    const double aside = against ? signal.t_m : signal.t_m - width;  // to the right of who reads it
-    const bool about = covered(signal.t_m - 0.5 * width, signal.t_m + 0.5 * width) >= covered(aside, aside + width);
-    from = about ? signal.t_m - 0.5 * width : aside;
+    const double aside = against ? placed.t_m : placed.t_m - width;  // to the right of who reads it
+    const bool about = covered(placed.t_m - 0.5 * width, placed.t_m + 0.5 * width) >= covered(aside, aside + width);
+    from = about ? placed.t_m - 0.5 * width : aside;
     to = from + width;
   }
   if (!(to > from)) return;
   const double middle = 0.5 * (from + to);
   const auto shape = signal.type == "294" ? StopLineShape(from - middle, to - middle) : GiveWayShape(from - middle, to - middle);
-  Lay(shape, Spot::At(road, signal.s_m, middle, road.axis().Evaluate(signal.s_m).heading_rad), paint);
+  Lay(shape, Spot::At(road, placed.s_m, middle, road.axis().Evaluate(placed.s_m).heading_rad), paint);
 }
 
 void PaintArrow(const network::Road& road, const network::Placed& placed, const ArrowWays& ways, double heading_rad, double length_m, TilePaint& paint) {
@@ -120,8 +102,8 @@ bool IsCrossing(const network::Signal& signal) { return signal.type == "293" || 
 
 void PaintSignal(const network::Road& road, const network::Placed& placed, TilePaint& paint) {
   const network::Signal& signal = *placed.signal;
-  if (!IsPaint(signal) || signal.s_m < 0.0 || signal.s_m > road.length_m()) return;
-  if (IsCrossing(signal)) return PaintCrossing(road, signal, paint);
+  if (!IsPaint(signal) || placed.s_m < 0.0 || placed.s_m > road.length_m()) return;
+  if (IsCrossing(signal)) return PaintCrossing(road, placed, paint);
   if (IsLineAcross(signal)) return PaintLineAcross(road, placed, paint);
   const ArrowWays ways = ArrowOf(signal);
   PaintArrow(road, placed, ways, placed.heading_rad + geometry::kPi, 0.0, paint);
@@ -147,6 +129,7 @@ Polygon2 OutlineOf(const network::Road& road, const network::Placed& placed, con
 void PaintObject(const network::Road& road, const network::Placed& placed, TilePaint& paint) {
   const network::Object& object = *placed.object;
   if (placed.s_m < 0.0 || placed.s_m > road.length_m()) return;
+  PaintMarks(road, placed, paint);
   const double along = road.axis().Evaluate(placed.s_m).heading_rad;
   if (object.type == "crosswalk" && object.subtype != "virtual") {
     const Spot spot = Spot::At(road, placed.s_m, placed.t_m, along);

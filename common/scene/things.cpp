@@ -62,6 +62,7 @@ Thing Things::ThingAt(const network::Placed& placed, const Vector3d& foot_W) {
 void Things::AddThing(const road::World& world, const network::Placed& placed) {
   const network::Road& road = world.network()->roads()[placed.road];
   Thing thing = ThingAt(placed, {placed.foot_W.x(), placed.foot_W.y(), GroundAt(world, placed.foot_W)});
+  if (placed.z_W_m) thing.above_m = *placed.z_W_m - thing.stand.foot_W.z();
   if (placed.signal != nullptr) AddSignal(road, placed, std::move(thing));
   else AddObject(&road, placed, std::move(thing));
 }

@@ -50,6 +50,24 @@ TEST(Placing, ARowHasItsCountItsSpacingAndItsTaper) {
   }
 }
 
+TEST(Placing, LengthsAndRadiiTaperAsTheirRepeatSays) {
+  RoadText road = Circle();
+  road.more = R"(<objects><object id="o" type="building" s="1" t="1" length="3" width="2" height="3"><repeat s="10" length="40" distance="20" tStart="6" tEnd="6" lengthStart="4" lengthEnd="8"/></object>
+    <object id="p" type="tree" s="1" t="1" radius="2" height="3"><repeat s="10" length="40" distance="20" tStart="6" tEnd="6" radiusStart="1" radiusEnd="3"/></object>
+    <object id="q" type="pole" s="1" t="1" radius="0.2" height="3"><repeat s="10" length="40" distance="0" tStart="6" tEnd="6" radiusStart="0.1" radiusEnd="0.3"/></object></objects>)";
+  const auto network = MustRead(Document(road.Text()));
+  const Furniture furniture = PlaceFurniture(*network);
+  ASSERT_EQ(furniture.things.size(), 6u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(furniture.things[i].length_m, 4.0 + 2.0 * static_cast<double>(i), 1e-12);
+    EXPECT_EQ(furniture.things[i].width_m, 2.0);
+    EXPECT_NEAR(furniture.things[3 + i].radius_m, 1.0 + static_cast<double>(i), 1e-12);
+  }
+  ASSERT_EQ(furniture.runs.size(), 1u);
+  EXPECT_NEAR(furniture.runs[0].width_start_m, 0.2, 1e-12);
+  EXPECT_NEAR(furniture.runs[0].width_end_m, 0.6, 1e-12);
+}
+
 TEST(Placing, AWholeNumberOfSpacesCountsItsEndAndARoadsEndCutsARow) {
   RoadText road;
   road.more = R"(<objects><object id="a" type="pole" s="0" t="5" height="1"><repeat s="0" length="0.9" distance="0.3" tStart="5" tEnd="5"/></object>
@@ -97,6 +115,35 @@ TEST(Placing, FacesLookAgainstTheTrafficThatTheyAreFor) {
   EXPECT_NEAR(along.x() * looks(1).y() - along.y() * looks(1).x(), std::sin(0.1), 1e-12);
   EXPECT_NEAR((furniture.things[0].foot_W - OnCircle(30.0, -5.0)).norm(), 0.0, 1e-10);
   EXPECT_EQ(furniture.things[0].z_offset_m, 2.0);
+}
+
+// A sign counts at its own place, wherever it is seen.
+TEST(Placing, ASignIsSeenWhereItSays) {
+  RoadText road = Circle(), other;
+  other.id = "2";
+  other.geometry = R"(<geometry s="0" x="500" y="0" hdg="1.5707963267948966" length="100"><line/></geometry>)";
+  road.more = R"(<signals><signal id="a" s="30" t="-5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"><positionRoad roadId="2" s="40" t="-6" zOffset="1" hOffset="0.1"/></signal>
+    <signal id="b" s="30" t="5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"><positionInertial x="31" y="32" z="12.5" hdg="0.7"/></signal>
+    <signal id="c" s="30" t="5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"><positionRoad roadId="9" s="40" t="-6"/></signal></signals>)";
+  const auto network = MustRead(Document(road.Text() + other.Text()));
+  const Furniture furniture = PlaceFurniture(*network);
+  ASSERT_EQ(furniture.things.size(), 3u);
+  const Placed &at_road = furniture.things[0], &in_world = furniture.things[1], &lost = furniture.things[2];
+  EXPECT_EQ(at_road.road, 1u);
+  EXPECT_NEAR((at_road.foot_W.head<2>() - Eigen::Vector2d(506.0, 40.0)).norm(), 0.0, 1e-9);
+  EXPECT_EQ(at_road.z_offset_m, 1.0);
+  EXPECT_NEAR(std::cos(at_road.heading_rad - (-0.5 * geometry::kPi + 0.1)), 1.0, 1e-12);
+  EXPECT_EQ(in_world.road, 0u);
+  EXPECT_EQ(in_world.foot_W.x(), 31.0);
+  EXPECT_EQ(in_world.foot_W.y(), 32.0);
+  EXPECT_EQ(in_world.z_W_m, 12.5);
+  EXPECT_NEAR(std::cos(in_world.heading_rad - (0.7 + geometry::kPi)), 1.0, 1e-12);
+  EXPECT_NEAR((lost.foot_W - OnCircle(30.0, 5.0)).norm(), 0.0, 1e-10);
+  for (const LaneKey& key : {LaneKey{0, 0, -1}}) {
+    const auto counts = SignalsFor(*network, key);
+    ASSERT_EQ(counts.size(), 3u);
+    for (const SignalOnLane& signal : counts) EXPECT_EQ(signal.s_m, 30.0);
+  }
 }
 
 TEST(Placing, ByRoadThenSignalsThenObjectsAsWritten) {

@@ -252,20 +252,46 @@ TEST(OpenDrive, ASignThatIsNotKnownIsTold) {
   EXPECT_GT(import.warnings[0].line, 0u);
 }
 
+TEST(OpenDrive, MarksOfObjectsAndPlacesOfSignsThatCannotBeAreTold) {
+  RoadText road;
+  road.more = R"(<objects><object id="7" type="parkingSpace" s="10" t="8" length="5" width="2.5"><outline><cornerLocal id="a" u="0" v="0"/><cornerLocal id="b" u="5" v="0"/></outline>
+      <markings><marking side="left" color="yellow" width="0.12" lineLength="1" spaceLength="0.5" startOffset="0.2" stopOffset="0.3"/><marking side="lef" width="0.1"/>
+      <marking width="0.1"><cornerReference id="a"/><cornerReference id="b"/></marking><marking width="0.1"><cornerReference id="a"/><cornerReference id="c"/></marking>
+      <marking width="0.1"><cornerReference id="a"/></marking></markings></object></objects>
+      <signals><signal id="1" s="5" t="-4" type="206" subtype="-1" country="DE"><positionRoad roadId="2" s="1" t="2"/></signal></signals>)";
+  const Import import = MustImport(Document(road.Text()));
+  std::vector<std::string> said;
+  for (const Finding& warning : import.warnings) said.push_back(warning.Text());
+  EXPECT_THAT(said, testing::UnorderedElementsAre(
+                        HasSubstr("road.object.marking: road 1, s 10: a mark of the object '7' lies on the side 'lef'; did you mean 'left'?: it is not painted"),
+                        HasSubstr("a mark of the object '7' names the corner 'c', which its outline has not: it is not painted"),
+                        HasSubstr("a mark of the object '7' names one corner where it goes from corner to corner: it is not painted"),
+                        HasSubstr("road.signal.position: road 1, s 5: the signal '1' stands at the road '2', which is not in the file; known are 1: it is drawn where it counts")));
+  const auto& marks = import.network->roads()[0].spec().objects[0].marks;
+  ASSERT_EQ(marks.size(), 2u);
+  EXPECT_EQ(marks[0].side, "left");
+  EXPECT_EQ(marks[0].colour, "yellow");
+  EXPECT_EQ(marks[0].stroke_m, 1.0);
+  EXPECT_EQ(marks[0].gap_m, 0.5);
+  EXPECT_EQ(marks[0].start_offset_m, 0.2);
+  EXPECT_EQ(marks[0].stop_offset_m, 0.3);
+  EXPECT_EQ(marks[1].corners, (std::vector<std::string>{"a", "b"}));
+}
+
 // What is passed over is said once a kind, at the first, with how often.
 TEST(OpenDrive, WhatIsNotReadIsTold) {
   RoadText road;
-  road.more = "<objects><object id=\"7\" type=\"parkingSpace\" s=\"10\" t=\"8\"><repeat s=\"1\" length=\"9\" distance=\"3\" lengthStart=\"2\" lengthEnd=\"3\"/>\n<parkingSpace access=\"all\"/><markings><marking side=\"left\"/></markings></object>\n"
+  road.more = "<objects><object id=\"7\" type=\"parkingSpace\" s=\"10\" t=\"8\"><repeat s=\"1\" length=\"9\" distance=\"3\" detachFromReferenceLine=\"true\"/>\n<parkingSpace access=\"all\"/><borders/></object>\n"
               "<object id=\"8\" type=\"parkingSpace\" s=\"20\" t=\"8\"><parkingSpace access=\"all\"/></object></objects>\n"
-              "<signals><signal id=\"1\" s=\"5\" t=\"-4\" type=\"206\" subtype=\"-1\"><positionInertial x=\"1\" y=\"2\" z=\"3\" hdg=\"0\"/></signal></signals>";
+              "<signals><signal id=\"1\" s=\"5\" t=\"-4\" type=\"206\" subtype=\"-1\"><reference elementId=\"7\" elementType=\"object\"/></signal></signals>";
   const std::string text = Document(road.Text() + "<junctionGroup id=\"1\" type=\"roundabout\"/>\n");
   const auto line_of = [&](const std::string& what) { return static_cast<std::size_t>(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(what)), '\n')); };
   const Import import = MustImport(text);
   std::vector<std::pair<std::string, std::size_t>> said;
   for (const Finding& warning : import.warnings) said.emplace_back(warning.Text(), warning.line);
   EXPECT_THAT(said, testing::UnorderedElementsAre(
-                        std::pair(std::string("not_read: the attribute 'lengthStart' of <repeat> is not read"), line_of("<repeat")), std::pair(std::string("not_read: <parkingSpace> of <object> is not read (2 times)"), line_of("<parkingSpace")),
-                        std::pair(std::string("not_read: <markings> of <object> is not read"), line_of("<markings")), std::pair(std::string("not_read: <positionInertial> of <signal> is not read"), line_of("<positionInertial")),
+                        std::pair(std::string("not_read: the attribute 'detachFromReferenceLine' of <repeat> is not read"), line_of("<repeat")), std::pair(std::string("not_read: <parkingSpace> of <object> is not read (2 times)"), line_of("<parkingSpace")),
+                        std::pair(std::string("not_read: <borders> of <object> is not read"), line_of("<borders")), std::pair(std::string("not_read: <reference> of <signal> is not read"), line_of("<reference")),
                         std::pair(std::string("not_read: <junctionGroup> of <OpenDRIVE> is not read"), line_of("<junctionGroup"))));
 }
 

@@ -150,6 +150,22 @@ TEST(RoadPaint, ACrossingThatIsASignalStaysOnItsRoadsLanes) {
   ExpectBox(painted, 10.0, 20.0 - 3.25, 14.0, 20.0 + 3.25);
 }
 
+TEST(RoadPaint, AParkingPlaceHasItsLines) {
+  // 5 m to the north and 2.5 m across, its middle on the left lane: its left side lies to the west; a line round its rear from corner to corner, 2.5 + 5 m, of which
+  // 0.5 m at the beginning and 1 m at the end stay bare, in strokes of 1 m and gaps of 0.5 m.
+  const auto world = WorldWith(R"(<objects><object id="p" type="parkingSpace" s="50" t="0" length="5" width="2.5" height="0" hdg="1.5707963267948966">
+      <outline><cornerLocal id="0" u="-2.5" v="1.25" height="0"/><cornerLocal id="1" u="-2.5" v="-1.25" height="0"/><cornerLocal id="2" u="2.5" v="-1.25" height="0"/></outline>
+      <markings><marking side="left" width="0.2"/><marking width="0.1" lineLength="1" spaceLength="0.5" startOffset="0.5" stopOffset="1"><cornerReference id="0"/><cornerReference id="1"/>
+      <cornerReference id="2"/></marking></markings></object></objects>)");
+  ASSERT_NE(world, nullptr);
+  const Painted painted = PaintOf(*world);
+  // Strokes begin at 0.5, 2, 3.5, 5 and end a metre later, the last line ends at 6.5: 4 strokes of 1 m.
+  EXPECT_NEAR(painted.area_m2, 5.0 * 0.2 + 4.0 * 1.0 * 0.1, 2e-3);
+  // West: half the left line's width beyond it. East: half the other's. From the left line's ends, but south half the width of what lies along the rear.
+  ExpectBox(painted, 60.0 - 1.25 - 0.1, 20.0 - 2.5 - 0.05, 60.0 + 1.25 + 0.05, 20.0 + 2.5);
+  EXPECT_TRUE(Things(*world).tiles().empty());
+}
+
 TEST(Stencils, AGiveWayLineHasWholeStrokesEvenlyOnBothSides) {
   static_assert(kGiveWayLine_m >= 0.2 && kGiveWayLine_m <= 0.6 && kStopLine_m >= 0.2 && kStopLine_m <= 0.6);
   for (const double width : {0.3, 2.5, 2.1, 3.5, 7.0}) {

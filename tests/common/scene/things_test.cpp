@@ -78,6 +78,22 @@ TEST(Things, APlateStandsAtItsPlaceAndReadsFromLeftToRightForItsTraffic) {
   EXPECT_EQ(faces, 1);
 }
 
+TEST(Things, ASignSeenInTheWorldHangsAtItsHeight) {
+  const auto world = OpenDriveWorld(
+      "<road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><line/></geometry></planView>"
+      "<elevationProfile><elevation s=\"0\" a=\"7\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>"
+      "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes>"
+      "<signals><signal id=\"a\" s=\"30\" t=\"-5\" zOffset=\"2\" orientation=\"+\" dynamic=\"no\" type=\"206\" subtype=\"-1\" country=\"DE\"><positionInertial x=\"40\" y=\"-1\" z=\"12.5\" hdg=\"0\"/></signal></signals></road>\n");
+  ASSERT_NE(world, nullptr);
+  const Things things(*world);
+  ASSERT_EQ(things.tiles().size(), 1u);
+  const Thing& sign = things.tiles().begin()->second.things.at(0);
+  EXPECT_NEAR(sign.stand.foot_W.z(), 7.0, 1e-9);
+  EXPECT_NEAR(sign.above_m, 5.5, 1e-9);
+  EXPECT_NEAR(sign.stand.foot_W.x(), 40.0, 1e-12);
+  EXPECT_NEAR(sign.stand.x_W.x(), -1.0, 1e-12);  // it looks at who drives to the east
+}
+
 TEST(Things, BothSidesOneWayOfLightsAndWhatHangsHasNoPost) {
   const auto world = WorldWith(R"(<signals>
     <signal id="both" s="50" t="5" zOffset="2" orientation="none" dynamic="no" type="267" subtype="-1" country="DE"/>
