@@ -39,7 +39,7 @@ struct ViewSettings {
   bool sound = true;                         // of a window
   double volume = 0.6;                       // 0 … 1
   bool cabin = true;                         // dashboard and steering wheel, likewise
-  std::array<bool, scene::kMirrors> mirrors = {true, true, true};  // of the driver's camera
+  std::array<bool, scene::kMirrors> mirrors = {true, true, true};  // of the driver's camera; without a word those of its screen
   std::size_t followed = 0;                  // which of the cars wired to the view, in the roster's order
   std::vector<lockstep::Step> frame_steps;   // ascending, each once
   std::filesystem::path folder;              // of the frames
