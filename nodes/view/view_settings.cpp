@@ -175,6 +175,7 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& 
     const lockstep::NodeIndex vehicle = launch.roster().source(car).node;
     settings.cars[car] = launch.roster().node(vehicle).name;
     settings.starts[car] = ReadStart(launch.node(vehicle));
+    if (auto autopilot = AutopilotOf(launch, vehicle)) settings.autopilots[car] = std::move(*autopilot);
   }
   return settings;
 }
