@@ -250,6 +250,8 @@ TEST_F(Choosing, TheAutopilotsVectorsOfADrivenCarStandInTheSceneToo) {
   EXPECT_TRUE(target.red > target.green + 60.0 && target.blue > target.green + 60.0) << "magenta: " << target;
   const DriverAim aim = *DriverAims(settings_.autopilots, *world_).Of(moment.cars[0]);
   EXPECT_LT((aim.look_ahead_W - at(20.0 + moment.cars[0].front_m + 150.0, 0.0).head<2>()).norm(), 2.0) << "distances are the lane's, not the axis'";
+  EXPECT_NEAR(aim.target_B.x(), 13.5 - 0.5 * moment.cars[0].wheelbase_m, 0.2);
+  EXPECT_NEAR(aim.target_B.y(), 0.0, 0.2);
   EXPECT_NEAR(aim.path_turn_rad, 0.0, 0.02);
   EXPECT_GT(aim.speed_mps, 5.0);
   EXPECT_LT(aim.speed_mps, 70.0 / 3.6) << "N222's limit";
@@ -276,6 +278,7 @@ TEST(DriverAims, AreOfTheInputThatDrivesTheCar) {
   EXPECT_TRUE(std::filesystem::exists(demo->driver));
   EXPECT_FALSE(demo->lane.has_value());
   EXPECT_EQ(lane->lane, 1);
+  EXPECT_FALSE(of("three_screens.yaml", {{"nodes.driver.config.source", "script"}})) << "whatever else stands there";
   EXPECT_FALSE(of("keyboard.yaml")) << "a person";
 }
 
