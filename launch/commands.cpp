@@ -347,6 +347,10 @@ int Main(int argc, char** argv) {
   ViewOptions view_options;
   const CLI::App* view = AddView(app, view_options);
   if (argc == 1 && CanStartByWindow()) return StartByWindow();
+  if (argc == 1) {
+    std::cerr << "rodeira: without a command a window opens to choose one, but there is no display; set DISPLAY, or name a command (`rodeira --help` lists them)\n";
+    return 2;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {

@@ -82,10 +82,13 @@ std::vector<fs::path> FilesFor(const fs::path& root, const fs::path& own, const 
 
 }  // namespace
 
+void StartFiles::FindRecordings() { recordings = NewestIn(data); }
+
 StartFiles FindStartFiles(const fs::path& root, const fs::path& data, const fs::path& config) {
   StartFiles files;
   files.root = root;
-  files.recordings = NewestIn(data);
+  files.data = data;
+  files.FindRecordings();
   files.wheels = FilesIn(config / "wheels", {".yaml"});
   if (root.empty()) return files;
   files.worlds = FilesFor(root, root / "configs/worlds", "world", {".yaml", ".xodr"});

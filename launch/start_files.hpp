@@ -14,6 +14,10 @@ struct StartFiles {
   std::vector<std::filesystem::path> wheels;       // set up by `rodeira input setup`, by name
   std::vector<std::filesystem::path> recordings;   // the newest first, at most kRecent
   static constexpr std::size_t kRecent = 12;
+  std::filesystem::path data;                      // the user's folder in which recordings are
+
+  // Looks for recordings again: runs have ended meanwhile.
+  void FindRecordings();
 };
 
 // Looks in `root` and in the user's folders. Worlds and vehicles are files of configs/worlds and configs/vehicles, of the folders in these

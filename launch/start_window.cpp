@@ -73,7 +73,7 @@ void StartedRun::Poll() {
 void StartedRun::Stop() const { child_.Signal(SIGINT); }
 
 std::string StartedRun::State() const {
-  if (!child_.ended()) return fmt::format("goes on for {:.0f} s; its own window comes when everything is loaded", std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count());
+  if (!child_.ended()) return fmt::format("goes on for {:.0f} s; its own window shows how far it is loaded", std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count());
   if (child_.exit_status() == 0) return "has ended";
   return "it " + child_.Fate();
 }
@@ -98,7 +98,10 @@ void StartWindow::DrawChoices() {
   ImGui::BeginDisabled(run_ && !run_->ended());
   if (ImGui::RadioButton("drive", choice_.way == StartWay::kDrive)) choice_.way = StartWay::kDrive;
   ImGui::SameLine();
-  if (ImGui::RadioButton("watch a recording", choice_.way == StartWay::kWatch)) choice_.way = StartWay::kWatch;
+  if (ImGui::RadioButton("watch a recording", choice_.way == StartWay::kWatch)) {
+    choice_.way = StartWay::kWatch;
+    LookForRecordings();
+  }
   ImGui::Spacing();
   if (choice_.way == StartWay::kDrive) DrawDrive();
   else DrawWatch();
@@ -149,6 +152,13 @@ void StartWindow::DrawWheel() {
   if (!wheel_.said().empty()) ImGui::TextWrapped("%s", wheel_.said().c_str());
 }
 
+// Who has chosen none, or the newest, has the newest.
+void StartWindow::LookForRecordings() {
+  const bool newest = choice_.recording.empty() || (!files_.recordings.empty() && choice_.recording == files_.recordings.front());
+  files_.FindRecordings();
+  if (newest && !files_.recordings.empty()) choice_.recording = files_.recordings.front();
+}
+
 void StartWindow::DrawWatch() {
   ImGui::TextUnformatted(files_.recordings.empty() ? "there are no recordings yet" : "recent runs");
   for (const auto& file : files_.recordings) {
@@ -179,7 +189,9 @@ void StartWindow::DrawCommand() {
 void StartWindow::DrawRun() {
   if (!problem_.empty()) ImGui::TextWrapped("%s", problem_.c_str());
   if (!run_) return;
+  const bool went_on = !run_->ended();
   run_->Poll();
+  if (went_on && run_->ended()) LookForRecordings();
   ImGui::Separator();
   ImGui::TextWrapped("the run %s", run_->State().c_str());
   if (!run_->ended() && ImGui::Button("stop it")) run_->Stop();

@@ -57,6 +57,7 @@ class StartWindow {
   void DrawWheel();
   void TakeWheel(const std::filesystem::path& file);
   void DrawWatch();
+  void LookForRecordings();
   void DrawCommand();
   void DrawRun();
 

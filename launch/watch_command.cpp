@@ -46,10 +46,12 @@ base::Status Watch(const WatchOptions& options) {
         "a window is wanted, but no display answers; set DISPLAY, or let --frames FOLDER --at S write pictures without one",
         "--view");
   }
-  const auto world = view::WorldOf(run.value().launch());
-  if (!world) return run.value().Named(world.error());
   MarksReader marks(options.file);
-  auto window = view::ReplayWindow::Open(seen.value().settings, *world.value());
+  auto window = view::ReplayWindow::Open(seen.value().settings, [&]() -> base::Result<view::ReadWorld> {
+    auto world = view::WorldOf(run.value().launch());
+    if (!world) return run.value().Named(world.error());
+    return view::ReadWorld{std::move(world).value(), {}};
+  });
   if (!window) return window.error();
   const std::int64_t base_step_ns = run.value().roster().base_step_ns();
   scene::Player player(run.value().last_step() * base_step_ns, seen.value().period * base_step_ns);

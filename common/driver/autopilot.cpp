@@ -19,19 +19,21 @@ Autopilot::Autopilot(const AutopilotSettings& settings, const road::Road& road, 
 Autopilot::Autopilot(const AutopilotSettings& settings, std::unique_ptr<const Way> way)
     : settings_(settings), path_(std::move(way)), plan_(*path_, settings.speed) {}
 
+SpeedPlan::Allowed Autopilot::AllowedTo(const Way::Place& place, double speed_mps, double heading_rad) const {
+  SpeedPlan::Allowed allowed = plan_.At(place.d_m + settings_.anticipation_s * std::max(0.0, speed_mps));
+  const double limit = settings_.speed_factor * path_->SpeedLimit_mps(place.d_m);
+  if (allowed.speed_mps > limit) allowed = {limit, 0.0};
+  const double turned = std::fabs(geometry::WrapAngle(heading_rad - path_->At(place.d_m).heading_rad));
+  if (std::fabs(place.offset_m) > settings_.far_off_m || turned > 0.5 * geometry::kPi) allowed = {std::min(allowed.speed_mps, settings_.slowly_mps), 0.0};
+  return allowed;
+}
+
 double Autopilot::WantedAcceleration(const DriverView& view, const Way::Place& place) {
   const double speed = view.own.speed_mps();
-  const SpeedPlan::Allowed allowed = plan_.At(place.d_m + settings_.anticipation_s * std::max(0.0, speed));
   const double limit = settings_.speed_factor * path_->SpeedLimit_mps(place.d_m);
-  const bool limited = allowed.speed_mps > limit;
-  allowed_mps_ = limited ? limit : allowed.speed_mps;
-  double slope = limited ? 0.0 : allowed.slope_1ps;
-  const double turned = std::fabs(geometry::WrapAngle(view.own.heading_rad() - path_->At(place.d_m).heading_rad));
-  if (std::fabs(place.offset_m) > settings_.far_off_m || turned > 0.5 * geometry::kPi) {
-    allowed_mps_ = std::min(allowed_mps_, settings_.slowly_mps);
-    slope = 0.0;
-  }
-  double wanted = std::min(settings_.idm.acceleration_mps2, slope * speed + (allowed_mps_ - speed) / settings_.tracking_s);
+  const SpeedPlan::Allowed allowed = AllowedTo(place, speed, view.own.heading_rad());
+  allowed_mps_ = allowed.speed_mps;
+  double wanted = std::min(settings_.idm.acceleration_mps2, allowed.slope_1ps * speed + (allowed_mps_ - speed) / settings_.tracking_s);
 
   const double front = place.d_m + view.dimensions.front_m;
   const double middle = 0.5 * (view.dimensions.front_m - view.dimensions.rear_m);
@@ -42,19 +44,32 @@ double Autopilot::WantedAcceleration(const DriverView& view, const Way::Place& p
   return std::max(wanted, -settings_.idm.hardest_mps2);
 }
 
+// Beyond the road's end the lane is taken to go straight on.
+Eigen::Vector2d Autopilot::TargetFrom(const Way::Place& place, double half_base_m, double speed_mps) const {
+  const double target_m = place.d_m - half_base_m + PreviewDistance(settings_.steering, speed_mps);
+  Eigen::Vector2d target = path_->Position(std::min(target_m, path_->length_m()), 0.0).head<2>();
+  if (target_m > path_->length_m()) {
+    const double end = path_->At(path_->length_m()).heading_rad;
+    target += (target_m - path_->length_m()) * Eigen::Vector2d(std::cos(end), std::sin(end));
+  }
+  return target;
+}
+
+std::optional<Aim> Autopilot::AimOf(const CarMotion& car) const {
+  const auto place = path_->Locate(car.p_WB_W.x(), car.p_WB_W.y(), car.p_WB_W.z());
+  if (!place) return std::nullopt;
+  const double sees_m = std::min(place->d_m + car.front_m + settings_.range_m, path_->length_m());
+  return Aim{AllowedTo(*place, car.speed_mps, car.heading_rad).speed_mps, TargetFrom(*place, 0.5 * car.wheelbase_m, car.speed_mps), path_->At(place->d_m).heading_rad,
+             path_->Position(sees_m, 0.0).head<2>()};
+}
+
 double Autopilot::SteeringWheel(const DriverView& view, const Way::Place& place, double dt_s) {
   const double speed = view.own.speed_mps();
   const double half_base = 0.5 * view.dimensions.wheelbase_m;
   const double heading = view.own.heading_rad();
   const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
   const Eigen::Vector2d rear_axle = view.own.p_WB_W.head<2>() - half_base * ahead;
-  const double target_m = place.d_m - half_base + PreviewDistance(settings_.steering, speed);
-  // Beyond the road's end the lane is taken to go straight on.
-  Eigen::Vector2d target = path_->Position(std::min(target_m, path_->length_m()), 0.0).head<2>();
-  if (target_m > path_->length_m()) {
-    const double end = path_->At(path_->length_m()).heading_rad;
-    target += (target_m - path_->length_m()) * Eigen::Vector2d(std::cos(end), std::sin(end));
-  }
+  const Eigen::Vector2d target = TargetFrom(place, half_base, speed);
   const double wheels = PursuitAngle(settings_.steering, rear_axle, heading, target, view.dimensions.wheelbase_m, speed);
   const double limit = view.dimensions.steering_wheel_limit_rad;
   const double wanted = std::clamp(wheels * view.dimensions.steering_ratio, -limit, limit);

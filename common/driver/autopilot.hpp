@@ -48,6 +48,21 @@ struct DriverView {
   std::span<const LightAhead> lights = {};  // on its way, ascending; behind it too
 };
 
+// A car as it goes now.
+struct CarMotion {
+  Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
+  double heading_rad = 0.0, speed_mps = 0.0;
+  double wheelbase_m = 0.0, front_m = 0.0;  // of the front bumper from B's origin
+};
+
+// What a driver goes by at a moment, for displays.
+struct Aim {
+  double speed_mps = 0.0;  // that limit, bends, crests and the way's end allow; what is ahead of him is not in it
+  Eigen::Vector2d target_W = Eigen::Vector2d::Zero();  // the point of his way that he steers for
+  double way_heading_rad = 0.0;                        // of his way beside the car
+  Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // up to where on his way he looks for what slows him
+};
+
 // Drives a lane by steering wheel, pedals and selector alone: at the speed that limit, bends, crests and slopes allow,
 // behind a leader by the IDM, to a stop before what blocks the lane, at lights, and before the road's end.
 class Autopilot {
@@ -62,6 +77,9 @@ class Autopilot {
   // Goes on from where others have left steering wheel and pedals.
   void TakeOver(const vehicle::Controls& last);
 
+  // What Step would steer and drive by there; keeps nothing. Nothing beside the way's ends.
+  std::optional<Aim> AimOf(const CarMotion& car) const;
+
   const Way& path() const { return *path_; }
   // For displays: the speed that is allowed here, and what is followed.
   double allowed_mps() const { return allowed_mps_; }
@@ -72,6 +90,8 @@ class Autopilot {
 
  private:
   double WantedAcceleration(const DriverView& view, const Way::Place& place);
+  SpeedPlan::Allowed AllowedTo(const Way::Place& place, double speed_mps, double heading_rad) const;
+  Eigen::Vector2d TargetFrom(const Way::Place& place, double half_base_m, double speed_mps) const;
   double SteeringWheel(const DriverView& view, const Way::Place& place, double dt_s);
 
   AutopilotSettings settings_;

@@ -36,6 +36,7 @@ class Lab {
 
   // Wrong input, with the nearest name, where there is no such host.
   base::Result<LabHost> Host(const std::string& name) const;
+  const std::vector<LabScreen>& screens() const { return screens_; }  // in the file's order; there may be none
   // Wrong input, with the nearest name, where there is no such screen.
   base::Result<LabScreen> Screen(const std::string& name) const;
   // The host that a node belongs to: the one that the launch file names, otherwise the clock's.

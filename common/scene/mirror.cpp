@@ -1,5 +1,6 @@
 #include "common/scene/mirror.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/geometry/angle.hpp"
@@ -11,6 +12,7 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = geometry::kPi / 180.0;
 constexpr double kOutward_rad = 8.0 * kDegree;
+constexpr double kOuterLook_rad = 45.0 * kDegree, kInsideLook_rad = -5.0 * kDegree;  // of the driver, positive to the left
 constexpr double kInsideView_rad = 38.0 * kDegree, kOuterView_rad = 26.0 * kDegree;
 
 double SideOf(Mirror mirror) { return mirror == Mirror::kLeft ? 1.0 : mirror == Mirror::kRight ? -1.0 : 0.0; }
@@ -24,6 +26,20 @@ std::optional<Mirror> MirrorOf(std::string_view name) {
     if (NameOf(mirror) == name) return mirror;
   }
   return std::nullopt;
+}
+
+std::array<bool, kMirrors> MirrorsOn(std::span<const ScreenPlane> screens, std::size_t which) {
+  std::array<bool, kMirrors> on{};
+  for (const Mirror mirror : kAllMirrors) {
+    const double look_rad = mirror == Mirror::kInside ? kInsideLook_rad : SideOf(mirror) * kOuterLook_rad;
+    const auto away_rad = [look_rad](const ScreenPlane& screen) {
+      const double middle_rad = screen.angle_rad - std::atan2(screen.aside_m, screen.distance_m);
+      return std::fabs(std::remainder(middle_rad - look_rad, 2.0 * geometry::kPi));
+    };
+    const auto nearest = std::ranges::min_element(screens, {}, away_rad);
+    on[static_cast<std::size_t>(mirror)] = nearest - screens.begin() == static_cast<std::ptrdiff_t>(which);
+  }
+  return on;
 }
 
 double ShapeOf(Mirror mirror) { return mirror == Mirror::kInside ? 3.6 : 1.5; }

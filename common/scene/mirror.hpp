@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "common/scene/camera.hpp"
@@ -15,6 +16,10 @@ inline constexpr std::array<Mirror, kMirrors> kAllMirrors = {Mirror::kLeft, Mirr
 // "left", "inside", "right".
 std::string_view NameOf(Mirror mirror);
 std::optional<Mirror> MirrorOf(std::string_view name);
+
+// Which mirrors belong on one of the screens about a driver: each on the screen whose middle is nearest, by its level angle, to where it is looked for, 45
+// degrees to the left and to the right, the inside one 5 degrees to the right; of screens equally near on the first one. `which`: of `screens`.
+std::array<bool, kMirrors> MirrorsOn(std::span<const ScreenPlane> screens, std::size_t which);
 
 // What a driver sees in a mirror, before it is reversed left to right: from the mirror's place backward, the outer ones 8 degrees
 // outward. Its `window` says how much: level 38 degrees in the inside mirror, 26 in the outer ones.

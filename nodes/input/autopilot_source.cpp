@@ -1,14 +1,12 @@
 #include "nodes/input/autopilot_source.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "common/driver/autopilot.hpp"
 #include "common/driver/lights_ahead.hpp"
-#include "common/driver/route_path.hpp"
+#include "common/driver/way_from_start.hpp"
 #include "common/road/world.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -46,17 +44,11 @@ driver::Footprint FootprintOf(const msg::TrafficAgent& agent) {
   return footprint;
 }
 
-// What it follows, and the lights on it.
-struct WayAndLights {
-  std::unique_ptr<const driver::Way> way;
-  std::vector<driver::LightLine> lines;
-};
-
 class AutopilotSource final : public Source {
  public:
   // The way belongs to the world, which is kept alive.
   AutopilotSource(std::shared_ptr<const road::World> world, const driver::AutopilotSettings& settings,
-                  const vehicle::VehicleDimensions& dimensions, WayAndLights way)
+                  const vehicle::VehicleDimensions& dimensions, driver::WayAndLights way)
       : world_(std::move(world)), dimensions_(dimensions), lines_(std::move(way.lines)), autopilot_(settings, std::move(way.way)) {}
 
   vehicle::Controls First() override { return {}; }
@@ -105,34 +97,6 @@ class AutopilotSource final : public Source {
   std::vector<driver::LightAhead> lights_;
 };
 
-constexpr double kRoute_m = 20'000.0;
-
-// The lane that the car starts in, or another one of that road. In a network: straight on from there.
-base::Result<WayAndLights> WayOf(const road::World& world, std::optional<int> lane_wish,
-                                                       const std::string& place) {
-  const road::StartPose& start = world.start();
-  if (world.network() != nullptr && world.roads().empty()) {
-    const network::Network& network = *world.network();
-    const auto at = network.Locate(start.x_m, start.y_m);
-    if (!at || at->distance_m > 0.0 || at->lane.lane == 0)
-      return base::WrongInput("this world has no lane to start on; the autopilot needs one", place);
-    if (lane_wish && *lane_wish != at->lane.lane) {
-      return base::WrongInput(fmt::format("the car starts in lane {} of road '{}'; no other one can be wished for", at->lane.lane,
-                                          network.roads()[at->lane.road].id()),
-                              place);
-    }
-    auto route = std::make_unique<driver::RoutePath>(network, driver::StraightOn(network, at->lane, kRoute_m));
-    std::vector<driver::LightLine> lines = driver::LightLines(network, *route);
-    return WayAndLights{std::move(route), std::move(lines)};
-  }
-  if (start.road < 0) return base::WrongInput("this world has no road to start on; the autopilot needs one", place);
-  const road::Road& road = world.roads()[static_cast<std::size_t>(start.road)];
-  const int lane = lane_wish.value_or(start.lane);
-  if (road.section().FindLane(lane) == nullptr)
-    return base::WrongInput(fmt::format("road '{}' has no lane {}", road.id(), lane), place);
-  return WayAndLights{std::make_unique<driver::LanePath>(road, lane), {}};
-}
-
 }  // namespace
 
 base::Result<std::unique_ptr<Source>> MakeAutopilotSource(const config::Map& config, launch::NodeContext& context) {
@@ -152,8 +116,8 @@ base::Result<std::unique_ptr<Source>> MakeAutopilotSource(const config::Map& con
   if (!model) return model.error();
   auto world = road::World::Load(context.launch().world());
   if (!world) return world.error();
-  auto way = has_lane ? WayOf(*world.value(), lane_wish, config.Place("lane"))
-                      : WayOf(*world.value(), std::nullopt, context.launch().world().string());
+  auto way = has_lane ? driver::WayFromStart(*world.value(), lane_wish, config.Place("lane"))
+                      : driver::WayFromStart(*world.value(), std::nullopt, context.launch().world().string());
   if (!way) return way.error();
   context.set_world_hash(world.value()->content_hash());
   return std::unique_ptr<Source>(std::make_unique<AutopilotSource>(std::move(world).value(), settings.value(),

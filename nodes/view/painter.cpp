@@ -296,7 +296,7 @@ void Painter::DrawOnce(const Picture& picture, const PictureTarget& target, bool
   parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt, picture.chosen, air.headlights > 0.0F);
   parts_->cabin.Show(is_car && picture.cabin && picture.camera == scene::CameraKind::kDriver ? &picture.moment.cars[picture.followed] : nullptr);
   parts_->lights.Show(picture.moment.lights);
-  parts_->vectors.Show(picture.moment, picture.chosen);
+  parts_->vectors.Show(picture);
   FitOverlay(*parts_->overlay, width, height);
   parts_->mirrors.Show(picture, body, air, parts_->shadow, parts_->heat, width, height, !whole && TraitsOf(surface_.quality()).mirrors_in_turn);
   parts_->instruments.Show(picture, panels, picture.timeline ? TimelinePlace::kHeight : 0.0F);

@@ -32,6 +32,14 @@ struct HeatPicture {
   scene::HeatRaster raster;
 };
 
+// What the driver of a chosen vehicle goes by.
+struct DriverAim {
+  double speed_mps = 0.0;                              // that he plans
+  Eigen::Vector2d target_B = Eigen::Vector2d::Zero();  // the point that he steers for, ahead and to the left of the car
+  double path_turn_rad = 0.0;                          // where his path leads beside the car, from its heading, positive to the left
+  Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // up to where he looks for what slows him
+};
+
 // What one picture shows.
 struct Picture {
   scene::Moment moment;
@@ -41,6 +49,7 @@ struct Picture {
   std::optional<scene::HeadsetEye> eye;      // that the driver's camera is instead
   std::size_t followed = 0;         // whom the camera goes with: the moment's cars, then its traffic
   std::optional<std::size_t> chosen;  // whom a person looks at, counted likewise: it pulses
+  std::optional<DriverAim> driver_aim;  // of the chosen one's driver, where it is a driven car; what the traffic's drivers go by is in the moment
   std::string panel;                // lines about it
   bool show_instruments = true;     // speed, gear, time
   bool cabin = false;               // dashboard and steering wheel before the driver's camera

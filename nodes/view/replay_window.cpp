@@ -49,13 +49,18 @@ Timeline TimelineOf(const scene::Player& player, const std::vector<ReplayMark>& 
   return timeline;
 }
 
-base::Result<std::unique_ptr<ReplayWindow>> ReplayWindow::Open(const ViewSettings& settings, const road::World& world,
-                                                               SurfaceKind kind) {
+base::Result<std::unique_ptr<ReplayWindow>> ReplayWindow::Open(const ViewSettings& settings, const WorldReader& reader, SurfaceKind kind) {
+  auto surface = OpenSurface(kind, settings, true);
+  if (!surface) return surface.error();
+  auto read = ReadBefore(surface.value().get(), reader);
+  if (!read) return read.error();
   ViewSettings watched = settings;
+  watched.built = std::move(read.value().built);
   watched.mouse_button = kLeftButton;  // nobody drives any more
-  auto screen = Screen::Open(kind, watched, world, true, ReplayHelp());
+  std::shared_ptr<const road::World> world = std::move(read.value().world);
+  auto screen = Screen::Open(std::move(surface).value(), watched, *world, ReplayHelp());
   if (!screen) return screen.error();
-  return std::unique_ptr<ReplayWindow>(new ReplayWindow(std::move(screen).value()));
+  return std::unique_ptr<ReplayWindow>(new ReplayWindow(std::move(world), std::move(screen).value()));
 }
 
 base::Status ReplayWindow::Watch(scene::Player& player, const TakeMarks& take_marks, const MomentAt& moment_at, const std::function<bool()>& stop) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/scene/player.hpp"
+#include "nodes/view/reading.hpp"
 #include "nodes/view/screen.hpp"
 
 union SDL_Event;
@@ -31,9 +32,8 @@ class ReplayWindow {
   using MomentAt = std::function<base::Result<scene::Moment>(std::int64_t time_ns)>;
   using TakeMarks = std::function<std::optional<base::Result<std::vector<ReplayMark>>>()>;
 
-  // The world must outlive it. Wrong input where a display or OpenGL is missing. `kind`: off-screen for tests.
-  static base::Result<std::unique_ptr<ReplayWindow>> Open(const ViewSettings& settings, const road::World& world,
-                                                          SurfaceKind kind = SurfaceKind::kWindow);
+  // It is there before its world is read; what is wrong there is the answer. Wrong input where a display or OpenGL is missing. `kind`: off-screen for tests.
+  static base::Result<std::unique_ptr<ReplayWindow>> Open(const ViewSettings& settings, const WorldReader& reader, SurfaceKind kind = SurfaceKind::kWindow);
 
   // Until the person closes the window, or `stop` (asked between two pictures) says so. Where `moment_at` has an error the
   // player stands still, the picture stays and the bar says why; one can go elsewhere. The first such error is the answer.
@@ -42,13 +42,14 @@ class ReplayWindow {
   base::Status Watch(scene::Player& player, const TakeMarks& take_marks, const MomentAt& moment_at, const std::function<bool()>& stop);
 
  private:
-  explicit ReplayWindow(std::unique_ptr<Screen> screen) : screen_(std::move(screen)) {}
+  ReplayWindow(std::shared_ptr<const road::World> world, std::unique_ptr<Screen> screen) : world_(std::move(world)), screen_(std::move(screen)) {}
   bool ReadEvents(scene::Player& player, const std::vector<std::int64_t>& marks_ns);
   void Take(const SDL_Event& event, scene::Player& player, const std::vector<std::int64_t>& marks_ns);
   TimelinePlace Bar() const;
   void Drag(int x_px, scene::Player& player);
 
-  std::unique_ptr<Screen> screen_;
+  std::shared_ptr<const road::World> world_;
+  std::unique_ptr<Screen> screen_;  // on it
   scene::Moment shown_;
   scene::PicturePace pace_;
   bool open_ = true;

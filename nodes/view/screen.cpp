@@ -15,6 +15,7 @@
 #include "nodes/view/heard.hpp"
 #include "nodes/view/loading.hpp"
 #include "nodes/view/png.hpp"
+#include "nodes/view/reading.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -59,16 +60,19 @@ std::string WindowHelp(int mouse_button) {
 
 base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
                                                    bool resizable, std::string help) {
-  const std::string title = WindowTitle(world);
-  auto surface = Surface::Open(kind, settings.width_px, settings.height_px, title, resizable, settings.display, settings.quality);
+  auto surface = OpenSurface(kind, settings, resizable);
   if (!surface) return surface.error();
-  if (settings.full_screen) surface.value()->ToggleFullScreen();
-  std::unique_ptr<Screen> screen(new Screen(world));
+  return Open(std::move(surface).value(), settings, world, std::move(help));
+}
+
+base::Result<std::unique_ptr<Screen>> Screen::Open(std::unique_ptr<Surface> surface, const ViewSettings& settings, const road::World& world, std::string help) {
+  std::unique_ptr<Screen> screen(new Screen(world, settings));
   screen->cars_ = settings.cars;
   screen->starts_ = settings.starts;
   screen->paints_ = settings.paints;
-  screen->surface_ = std::move(surface).value();
-  Loading loading(*screen->surface_, title);
+  screen->surface_ = std::move(surface);
+  const bool is_window = screen->surface_->kind() == SurfaceKind::kWindow;
+  Loading loading(*screen->surface_, WindowTitle(world));
   const auto ground = [&loading](double share) { loading.Show(kGroundShare * share, "the ground is built"); };
   ground(0.0);
   auto painter = PainterOf(*screen->surface_, world, settings.built, true, ground);
@@ -88,7 +92,7 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewS
   screen->home_ = settings.followed;
   screen->mouse_button_ = settings.mouse_button;
   if (settings.headset) screen->OpenHeadset(settings);
-  if (kind == SurfaceKind::kWindow && settings.sound) {
+  if (is_window && settings.sound) {
     auto speaker = Speaker::Open();
     if (speaker) screen->speaker_ = std::move(speaker).value();
     else fmt::print(stderr, "rodeira: no sound: {}\n", speaker.error().Text());
@@ -358,6 +362,8 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
   GatherHeat();
   live_.chosen = chosen_.In(live_.moment);
   live_.panel = chosen_.Panel(live_.moment);
+  live_.driver_aim = live_.chosen && *live_.chosen < live_.moment.cars.size() ? aims_.Of(live_.moment.cars[*live_.chosen]) : std::nullopt;
+  if (live_.driver_aim) live_.panel += fmt::format("\nplans {:.0f} km/h", 3.6 * live_.driver_aim->speed_mps);
   live_.text = help_ ? help_text_ : "";
   if (statistics_) {
     live_.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", help_ ? "\n\n" : "", 1.0 / interval_s_,

@@ -11,6 +11,7 @@
 #include "common/scenario/request.hpp"
 #include "nodes/view/ask_place.hpp"
 #include "nodes/view/chosen.hpp"
+#include "nodes/view/driver_aims.hpp"
 #include "nodes/view/frame_log.hpp"
 #include "nodes/view/headset.hpp"
 #include "nodes/view/menu.hpp"
@@ -31,6 +32,8 @@ class Screen {
   // `help`: what h shows. The world must outlive it. Wrong input as Surface::Open.
   static base::Result<std::unique_ptr<Screen>> Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
                                                     bool resizable, std::string help);
+  // The same on a surface that is open.
+  static base::Result<std::unique_ptr<Screen>> Open(std::unique_ptr<Surface> surface, const ViewSettings& settings, const road::World& world, std::string help);
 
   // To whom the person's requests go (false: it takes no more). Without one a key that asks says that nobody does.
   void set_ask(std::function<bool(const scenario::Request&)> ask) { ask_ = std::move(ask); }
@@ -58,7 +61,7 @@ class Screen {
   void Show(scene::Moment moment, double rate, std::optional<Timeline> timeline = std::nullopt);
 
  private:
-  explicit Screen(const road::World& world) : world_(world), heat_(world) {}
+  Screen(const road::World& world, const ViewSettings& settings) : world_(world), aims_(settings.autopilots, world), heat_(world) {}
   void OpenHeadset(const ViewSettings& settings);
   void ShowInHeadset();
   void Note(std::string note);
@@ -80,6 +83,7 @@ class Screen {
   CarNames cars_;
   CarStarts starts_;
   CarPaints paints_;
+  DriverAims aims_;
   bool placing_ = false;      // the next click says where
   bool swallows_up_ = false;  // of a button whose press was the window's
   std::size_t weather_ = 0;   // that was asked for last

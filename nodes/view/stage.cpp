@@ -20,16 +20,18 @@ struct Stage::Hand {
   scene::PicturePace pace;
 };
 
-Stage::Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world, std::unique_ptr<launch::LiveKeysSender> keys,
-             std::unique_ptr<launch::LiveRequestsSender> requests)
-    : settings_(settings), world_(std::move(world)), keys_(std::move(keys)), requests_(std::move(requests)) {
+Stage::Stage(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys, std::unique_ptr<launch::LiveRequestsSender> requests)
+    : settings_(settings), reader_(std::move(reader)), keys_(std::move(keys)), requests_(std::move(requests)) {
   thread_ = std::thread([this] { Run(); });
 }
 
-base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, std::shared_ptr<const road::World> world,
-                                                 std::unique_ptr<launch::LiveKeysSender> keys,
+base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, std::shared_ptr<const road::World> world) {
+  return Open(settings, [shown = ReadWorld{std::move(world), settings.built}] { return shown; });
+}
+
+base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys,
                                                  std::unique_ptr<launch::LiveRequestsSender> requests) {
-  std::unique_ptr<Stage> stage(new Stage(settings, std::move(world), std::move(keys), std::move(requests)));
+  std::unique_ptr<Stage> stage(new Stage(settings, std::move(reader), std::move(keys), std::move(requests)));
   {
     std::unique_lock lock(stage->mutex_);
     stage->changed_.wait(lock, [&] { return stage->ready_; });
@@ -95,26 +97,36 @@ void Stage::Run() {
   if (go_on) Loop(hand);
 }
 
-base::Status Stage::SetUp(Hand& hand) {
-  const std::string own = WindowHelp(settings_.mouse_button), help = settings_.driving_help.empty() ? own : own + "\n\n" + settings_.driving_help;
+// Null where there is nothing to draw here.
+base::Status Stage::OpenSurfaceFor(std::unique_ptr<Surface>& surface) const {
+  const bool only_window = settings_.frame_steps.empty() && !settings_.headset;
   const auto open = [&](SurfaceKind kind) -> base::Status {
-    auto screen = Screen::Open(kind, settings_, *world_, settings_.frame_steps.empty(), help);
-    if (!screen) return screen.error();
-    hand.screen = std::move(screen).value();
+    auto opened = OpenSurface(kind, settings_, settings_.frame_steps.empty());
+    if (!opened) return opened.error();
+    surface = std::move(opened).value();
     return {};
   };
-  if (settings_.window == WindowWish::kAlways) {
-    if (auto status = open(SurfaceKind::kWindow); !status) return status;
-  } else if (settings_.window == WindowWish::kAuto && HasDisplay()) {
-    (void)open(SurfaceKind::kWindow);  // a display without OpenGL is as good as none
-  }
-  if (hand.screen == nullptr) {
-    if (settings_.frame_steps.empty() && !settings_.headset) return {};
-    if (auto status = open(SurfaceKind::kOffscreen); !status) return status;
-    if (settings_.frame_steps.empty() && !hand.screen->has_headset()) {
-      hand.screen.reset();
-      return {};
-    }
+  if (settings_.window == WindowWish::kAlways) return open(SurfaceKind::kWindow);
+  if (settings_.window == WindowWish::kAuto && HasDisplay() && open(SurfaceKind::kWindow)) return {};  // a display without OpenGL is as good as none
+  return only_window ? base::Status() : open(SurfaceKind::kOffscreen);
+}
+
+base::Status Stage::SetUp(Hand& hand) {
+  std::unique_ptr<Surface> surface;
+  if (auto status = OpenSurfaceFor(surface); !status) return status;
+  auto shown = ReadBefore(surface.get(), reader_);
+  if (!shown) return shown.error();
+  if (surface == nullptr) return {};
+  world_ = std::move(shown.value().world);
+  ViewSettings settings = settings_;
+  settings.built = std::move(shown.value().built);
+  const std::string own = WindowHelp(settings_.mouse_button), help = settings_.driving_help.empty() ? own : own + "\n\n" + settings_.driving_help;
+  auto screen = Screen::Open(std::move(surface), settings, *world_, help);
+  if (!screen) return screen.error();
+  hand.screen = std::move(screen).value();
+  if (hand.screen->surface().kind() == SurfaceKind::kOffscreen && settings_.frame_steps.empty() && !hand.screen->has_headset()) {
+    hand.screen.reset();
+    return {};
   }
   if (keys_ != nullptr) hand.keys = std::make_unique<KeyForwarder>(std::move(keys_));
   if (hand.screen->surface().kind() == SurfaceKind::kWindow) hand.wheel = WheelButtons::Open(settings_.camera_buttons);

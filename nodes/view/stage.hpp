@@ -14,6 +14,7 @@
 #include "common/scene/display_clock.hpp"
 #include "common/scene/moment.hpp"
 #include "nodes/view/picture.hpp"
+#include "nodes/view/reading.hpp"
 #include "nodes/view/view_settings.hpp"
 
 namespace rodeira::view {
@@ -22,13 +23,15 @@ namespace rodeira::view {
 // is drawn depends on them alone, not on when.
 class Stage {
  public:
-  // Starts the thread and waits until everything is loaded and drawn once. Null where the settings want no picture here:
+  // Starts the thread and waits until everything is loaded and drawn once; a window is there before its world is read. Null where the settings want no picture here:
   // no frames, and no window or no display for one. Wrong input where a display or OpenGL is missing.
   // `keys` is told what is held in the window; null where nobody drives by it. `requests`: what is asked for there; null where nobody
-  // takes any.
-  static base::Result<std::unique_ptr<Stage>> Open(const ViewSettings& settings, std::shared_ptr<const road::World> world,
-                                                   std::unique_ptr<launch::LiveKeysSender> keys = nullptr,
+  // takes any. `reader`: what is wrong there is the answer; called on a thread of its own, it has ended when this returns, and is not called where a window
+  // that must be cannot be.
+  static base::Result<std::unique_ptr<Stage>> Open(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys = nullptr,
                                                    std::unique_ptr<launch::LiveRequestsSender> requests = nullptr);
+  // Of a world that is read already.
+  static base::Result<std::unique_ptr<Stage>> Open(const ViewSettings& settings, std::shared_ptr<const road::World> world);
   ~Stage();
 
   // Whether there is a window, now.
@@ -50,17 +53,18 @@ class Stage {
     Picture picture;
     std::filesystem::path file;
   };
-  Stage(const ViewSettings& settings, std::shared_ptr<const road::World> world, std::unique_ptr<launch::LiveKeysSender> keys,
-        std::unique_ptr<launch::LiveRequestsSender> requests);
+  Stage(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys, std::unique_ptr<launch::LiveRequestsSender> requests);
   void Run();
   base::Status SetUp(Hand& hand);
+  base::Status OpenSurfaceFor(std::unique_ptr<Surface>& surface) const;
   void Loop(Hand& hand);
   void ServeOrder(Hand& hand, std::unique_lock<std::mutex>& lock);
   void ShowWindow(Hand& hand, std::unique_lock<std::mutex>& lock);
   bool ReadKeys(Hand& hand);
 
   const ViewSettings settings_;
-  const std::shared_ptr<const road::World> world_;
+  const WorldReader reader_;
+  std::shared_ptr<const road::World> world_;              // the thread's, once it is read
   std::unique_ptr<launch::LiveKeysSender> keys_;          // until the thread takes it
   std::unique_ptr<launch::LiveRequestsSender> requests_;  // likewise
 

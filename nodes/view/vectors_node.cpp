@@ -83,24 +83,30 @@ void VectorsNode::Lay(const Arrow& arrow, const Eigen::Vector3d& from_W, const E
   arrow.tip->setMatrix(turn * osg::Matrixd::translate(ToOsg(to_W) - along * kTip_m));
 }
 
-void VectorsNode::Show(const scene::Moment& moment, std::optional<std::size_t> chosen) {
-  const std::size_t cars = moment.cars.size();
-  const bool there = chosen && *chosen >= cars && *chosen - cars < moment.agents.size() && moment.agents[*chosen - cars].detail;
-  group_->setNodeMask(there ? ~0U : 0U);
-  if (!there) return;
-  const scene::AgentPose& agent = moment.agents[*chosen - cars];
-  const scene::AgentDetail& detail = *agent.detail;
-  const Eigen::Vector3d& at_W = agent.p_WB_W;
-  const auto from_car = [&](double ahead_m, double left_m, double up_m) -> Eigen::Vector3d { return at_W + agent.q_WB * Eigen::Vector3d(ahead_m, left_m, up_m); };
-  ahead_->setMatrix(osg::Matrixd::translate(ToOsg(OnGround(detail.look_ahead_W, at_W.z()))));
-  const Eigen::Vector3d roof_W = from_car(0.0, 0.0, agent.height_m + kAboveRoof_m);
-  Lay(points_, roof_W, roof_W + agent.q_WB * Eigen::Vector3d(std::max(detail.target_speed_mps, 0.0), 0.0, 0.0));
-  const Eigen::Vector3d front_W = from_car(0.5 * agent.length_m, 0.0, kPathHigh_m);
-  const Eigen::Vector3d path_W = front_W + kPath_m * (agent.q_WB * Eigen::Vector3d(std::cos(detail.path_turn_rad), std::sin(detail.path_turn_rad), 0.0));
+void VectorsNode::Show(const Picture& picture) {
+  const std::size_t cars = picture.moment.cars.size();
+  std::optional<DriverAim> aim;
+  if (picture.chosen && *picture.chosen < cars) aim = picture.driver_aim;
+  if (picture.chosen && *picture.chosen >= cars && *picture.chosen - cars < picture.moment.agents.size()) {
+    const auto& detail = picture.moment.agents[*picture.chosen - cars].detail;
+    if (detail) aim = DriverAim{detail->target_speed_mps, detail->target_B, detail->path_turn_rad, detail->look_ahead_W};
+  }
+  group_->setNodeMask(aim ? ~0U : 0U);
+  if (aim) Place(*scene::BodyAt(picture.moment, *picture.chosen), *aim);
+}
+
+void VectorsNode::Place(const scene::Body& body, const DriverAim& aim) {
+  const Eigen::Vector3d& at_W = body.p_WB_W;
+  const auto from_car = [&](double ahead_m, double left_m, double up_m) -> Eigen::Vector3d { return at_W + body.q_WB * Eigen::Vector3d(ahead_m, left_m, up_m); };
+  ahead_->setMatrix(osg::Matrixd::translate(ToOsg(OnGround(aim.look_ahead_W, at_W.z()))));
+  const Eigen::Vector3d roof_W = from_car(0.0, 0.0, body.height_m + kAboveRoof_m);
+  Lay(points_, roof_W, roof_W + body.q_WB * Eigen::Vector3d(std::max(aim.speed_mps, 0.0), 0.0, 0.0));
+  const Eigen::Vector3d front_W = from_car(body.front_m, 0.0, kPathHigh_m);
+  const Eigen::Vector3d path_W = front_W + kPath_m * (body.q_WB * Eigen::Vector3d(std::cos(aim.path_turn_rad), std::sin(aim.path_turn_rad), 0.0));
   Lay(path_, front_W, OnGround(path_W.head<2>(), path_W.z()) + Eigen::Vector3d(0.0, 0.0, kPathHigh_m));
   // On a stick, so that it is seen above whatever car it lies before or under.
-  const Eigen::Vector3d foot_W = OnGround(from_car(detail.target_B.x(), detail.target_B.y(), 0.0).head<2>(), at_W.z());
-  const double high_m = agent.height_m + kTargetAboveRoof_m;
+  const Eigen::Vector3d foot_W = OnGround(from_car(aim.target_B.x(), aim.target_B.y(), 0.0).head<2>(), at_W.z());
+  const double high_m = body.height_m + kTargetAboveRoof_m;
   const Eigen::Vector3d target_W = foot_W + Eigen::Vector3d(0.0, 0.0, high_m);
   target_->setMatrix(osg::Matrixd::translate(ToOsg(target_W)));
   stick_->setMatrix(osg::Matrixd::scale(1.0, 1.0, high_m) * osg::Matrixd::translate(ToOsg(target_W)));

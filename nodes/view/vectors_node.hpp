@@ -4,15 +4,14 @@
 #include <osg/MatrixTransform>
 #include <osg/ref_ptr>
 
-#include <optional>
-
 #include "common/road/world.hpp"
-#include "common/scene/moment.hpp"
+#include "common/scene/camera.hpp"
 #include "nodes/view/look.hpp"
+#include "nodes/view/picture.hpp"
 
 namespace rodeira::view {
 
-// What the driver of a chosen car of the traffic goes by: where his car points (green, from above its roof, as long as it would drive in a second at the
+// What the driver of a chosen car goes by: where his car points (green, from above its roof, as long as it would drive in a second at the
 // speed that he plans), the point that he steers for (a magenta ball on a stick) and the line to it, where his path leads (yellow, from the car's front),
 // and the point up to which he looks (a cyan post).
 class VectorsNode {
@@ -20,13 +19,14 @@ class VectorsNode {
   // The world must outlive it.
   VectorsNode(Look& look, const road::World& world);
   osg::Node* node() { return group_; }
-  // Nothing where nobody of the traffic is chosen (numbered as in Picture::chosen), or where nothing is said of it.
-  void Show(const scene::Moment& moment, std::optional<std::size_t> chosen);
+  // Nothing where nobody is chosen, or where nothing is said of it.
+  void Show(const Picture& picture);
 
  private:
   struct Arrow {
     osg::ref_ptr<osg::MatrixTransform> shaft, tip;
   };
+  void Place(const scene::Body& body, const DriverAim& aim);
   osg::ref_ptr<osg::MatrixTransform> Add(Look& look, const scene::Mesh& mesh);
   Arrow MakeArrow(Look& look, scene::Colour colour);
   Eigen::Vector3d OnGround(const Eigen::Vector2d& at_W, double near_z_m) const;

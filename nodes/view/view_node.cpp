@@ -139,13 +139,15 @@ class ViewNode final : public lockstep::Node {
 base::Result<std::unique_ptr<lockstep::Node>> MakeViewNode(launch::NodeContext& context) {
   auto settings = view::ReadViewSettings(context);
   if (!settings) return settings.error();
-  auto world = view::WorldOf(context.launch());
-  if (!world) return world.error();
-  if (!context.launch().world().empty()) context.set_world_hash(world.value()->content_hash());
-  view::FoundBuilt built = view::FindBuilt(context.launch().world(), *world.value());
-  if (!built.remark.empty()) fmt::print(stderr, "rodeira: node '{}': {}\n", context.spec().name, built.remark);
-  settings.value().built = std::move(built.folder);
-  auto stage = view::Stage::Open(settings.value(), world.value(), settings.value().drives ? context.KeysSender() : nullptr,
+  const auto read = [&context]() -> base::Result<view::ReadWorld> {
+    auto world = view::WorldOf(context.launch());
+    if (!world) return world.error();
+    if (!context.launch().world().empty()) context.set_world_hash(world.value()->content_hash());
+    view::FoundBuilt built = view::FindBuilt(context.launch().world(), *world.value());
+    if (!built.remark.empty()) fmt::print(stderr, "rodeira: node '{}': {}\n", context.spec().name, built.remark);
+    return view::ReadWorld{std::move(world).value(), std::move(built.folder)};
+  };
+  auto stage = view::Stage::Open(settings.value(), read, settings.value().drives ? context.KeysSender() : nullptr,
                                  settings.value().can_ask ? context.RequestsSender() : nullptr);
   if (!stage) return stage.error();
   return std::unique_ptr<lockstep::Node>(

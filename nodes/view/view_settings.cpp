@@ -51,8 +51,14 @@ void ReadScreen(const launch::Launch& launch, const config::Map& map, ViewSettin
   if (!lab) return map.Problem("screen", lab.error().Text());
   const auto screen = lab.value().Screen(name);
   if (!screen) return map.Problem("screen", screen.error().Text());
-  const launch::LabScreen& s = screen.value();
-  settings.screen = scene::ScreenPlane{s.width_m, s.height_m, s.distance_m, s.angle_rad, s.eye_height_m, s.aside_m};
+  std::vector<scene::ScreenPlane> planes;
+  std::size_t which = 0;
+  for (const launch::LabScreen& s : lab.value().screens()) {
+    if (s.name == name) which = planes.size();
+    planes.push_back({s.width_m, s.height_m, s.distance_m, s.angle_rad, s.eye_height_m, s.aside_m});
+  }
+  settings.screen = planes[which];
+  settings.mirrors = scene::MirrorsOn(planes, which);
 }
 
 // A film instead of single pictures.
@@ -169,6 +175,7 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& 
     const lockstep::NodeIndex vehicle = launch.roster().source(car).node;
     settings.cars[car] = launch.roster().node(vehicle).name;
     settings.starts[car] = ReadStart(launch.node(vehicle));
+    if (auto autopilot = AutopilotOf(launch, vehicle)) settings.autopilots[car] = std::move(*autopilot);
   }
   return settings;
 }

@@ -12,6 +12,7 @@
 #include "common/scene/camera.hpp"
 #include "common/scene/mirror.hpp"
 #include "nodes/view/ask_place.hpp"
+#include "nodes/view/driver_aims.hpp"
 #include "nodes/view/paint.hpp"
 #include "nodes/view/picture.hpp"
 #include "nodes/view/quality.hpp"
@@ -39,7 +40,7 @@ struct ViewSettings {
   bool sound = true;                         // of a window
   double volume = 0.6;                       // 0 … 1
   bool cabin = true;                         // dashboard and steering wheel, likewise
-  std::array<bool, scene::kMirrors> mirrors = {true, true, true};  // of the driver's camera
+  std::array<bool, scene::kMirrors> mirrors = {true, true, true};  // of the driver's camera; without a word those of its screen
   std::size_t followed = 0;                  // which of the cars wired to the view, in the roster's order
   std::vector<lockstep::Step> frame_steps;   // ascending, each once
   std::filesystem::path folder;              // of the frames
@@ -53,6 +54,7 @@ struct ViewSettings {
   bool can_ask = false;                      // a scenario of this run makes events of what windows ask for
   CarNames cars;                             // wired to the view
   CarPaints paints;                          // of those among them that were given one
+  CarAutopilots autopilots;                  // of those among them that one drives
   CarStarts starts;                          // of those among them whose vehicle node says one
 };
 

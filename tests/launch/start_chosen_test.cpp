@@ -105,6 +105,25 @@ TEST_F(StartChosen, ARecentRunIsWatchedReadAndStopped) {
   ASSERT_TRUE(Click("newer.mcap")) << "and one may choose again";
 }
 
+// What was just driven is what one watches next.
+TEST_F(StartChosen, ARunThatHasEndedIsAmongTheRecentOnes) {
+  Recording("older.mcap", 20);
+  Recording("oldest.mcap", 30);
+  const fs::path program = folder_->path() / "drive";
+  ASSERT_TRUE(base::WriteWhole(program, "#!/bin/sh\necho x > '" + (folder_->path() / "driven.mcap").string() + "'\n").ok());
+  fs::permissions(program, fs::perms::owner_all);
+  Open(program.string());
+  ASSERT_TRUE(Click("start"));
+  ASSERT_TRUE(Until([&] { return start_->run()->ended(); }));
+  ASSERT_TRUE(Click("watch a recording"));
+  EXPECT_EQ(start_->choice().recording, folder_->path() / "driven.mcap") << "the newest is chosen where nothing else was";
+  ASSERT_TRUE(Click("oldest.mcap"));
+  Recording("another.mcap", 0);
+  ASSERT_TRUE(Click("watch a recording"));
+  EXPECT_EQ(start_->choice().recording, folder_->path() / "oldest.mcap");
+  EXPECT_TRUE(Click("another.mcap")) << "of a run that was begun in a terminal";
+}
+
 TEST_F(StartChosen, ARecordingAnywhereIsWatchedByItsPath) {
   ASSERT_TRUE(Click("watch a recording"));
   EXPECT_FALSE(Click("start")) << "there are none yet";

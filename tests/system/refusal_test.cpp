@@ -112,6 +112,12 @@ TEST_F(Refusal, AWindowWithoutADisplay) {
   EXPECT_THAT(said, HasSubstr("a window is wanted, but there is no display; set DISPLAY, or 'window: never'"));
 }
 
+TEST(Refused, TheStartWindowWithoutADisplay) {
+  const Ended ended = RunCommand({"/usr/bin/env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", Bin("rodeira")});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_EQ(ended.out, "rodeira: without a command a window opens to choose one, but there is no display; set DISPLAY, or name a command (`rodeira --help` lists them)\n");
+}
+
 TEST_F(Refusal, InOneProcessToo) {
   EXPECT_THAT(Of({"--in-process", "--set", "nodes.view.config.window=always"}), HasSubstr("a window is wanted, but there is no display"));
   EXPECT_THAT(Of({"--in-process", "--set", "world=/no/world.yaml"}), HasSubstr("/no/world.yaml: there is no such file"));

@@ -88,6 +88,30 @@ Record DriveToTheEnd(Drive& drive, double limit_mps, double most_s) {
   return record;
 }
 
+// What displays say is what it does: the steering wheel goes to where pure pursuit of that point has it, the speed is the planned one.
+TEST(AutopilotAim, IsWhatItSteersAndDrivesBy) {
+  Drive drive(N222OfVersion1(), -1, 150.0, 12.0);
+  for (int i = 0; i < 4000; ++i) drive.Step();
+  const auto& s = drive.car->state();
+  const auto& size = drive.car->dimensions();
+  const CarMotion motion{s.p_WB_W, s.heading_rad(), s.speed_mps(), size.wheelbase_m, size.front_m};
+  const Aim aim = drive.autopilot.AimOf(motion).value();
+  vehicle::Controls controls;
+  for (int i = 0; i < 200; ++i) controls = drive.autopilot.Step({s, size, {}}, 0.02);  // hands have the time that they need
+  const Eigen::Vector2d ahead(std::cos(s.heading_rad()), std::sin(s.heading_rad()));
+  const double wheels = PursuitAngle(SteeringSettings{}, s.p_WB_W.head<2>() - 0.5 * size.wheelbase_m * ahead, s.heading_rad(), aim.target_W, size.wheelbase_m, s.speed_mps());
+  EXPECT_NEAR(controls.steering_wheel_rad, wheels * size.steering_ratio, 1e-6);
+  EXPECT_GT(std::fabs(controls.steering_wheel_rad), 1e-3) << "a road that bends";
+  EXPECT_EQ(aim.speed_mps, drive.autopilot.allowed_mps());
+  const Way& way = drive.autopilot.path();
+  const double d_m = drive.Place().d_m;
+  EXPECT_NEAR(aim.way_heading_rad, way.At(d_m).heading_rad, 1e-9);
+  EXPECT_NEAR((aim.look_ahead_W - way.Position(d_m + size.front_m + AutopilotSettings{}.range_m, 0.0).head<2>()).norm(), 0.0, 1e-6);
+  CarMotion beside = motion;
+  beside.p_WB_W = way.Position(0.0, 0.0) - Eigen::Vector3d(50.0 * std::cos(way.At(0.0).heading_rad), 50.0 * std::sin(way.At(0.0).heading_rad), 0.0);
+  EXPECT_FALSE(drive.autopilot.AimOf(beside)) << "before the way's beginning";
+}
+
 TEST(Autopilot, KeepsItsLaneOnAWindingRoadBothWays) {
   for (const int lane : {-1, 1}) {
     Drive drive(WindingWorld(20.0), lane, 10.0, 0.0);

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace rodeira::scene {
 namespace {
 
@@ -50,6 +54,29 @@ TEST(Mirror, HasAPlaceOfItsOwnInPicturesOfAnyShape) {
       }
     }
   }
+}
+
+// Which mirrors are on each of so many screens, 0.7 m before the eye and as wide: "left inside right", a dash where one is not.
+std::string On(const std::vector<std::pair<double, double>>& angles_deg_and_asides_m) {
+  std::vector<ScreenPlane> screens;
+  for (const auto& [angle_deg, aside_m] : angles_deg_and_asides_m) screens.push_back({0.7, 0.4, 0.7, angle_deg * 3.14159265358979 / 180.0, 0.2, aside_m});
+  std::string all;
+  for (std::size_t i = 0; i < screens.size(); ++i) {
+    const auto on = MirrorsOn(screens, i);
+    all += (i == 0 ? "" : " ") + std::string{on[0] ? 'l' : '-', on[1] ? 'i' : '-', on[2] ? 'r' : '-'};
+  }
+  return all;
+}
+
+TEST(Mirror, IsOnTheScreenWhereItIsLookedFor) {
+  EXPECT_EQ(On({{53.66, 0.0}, {0.0, 0.0}, {-53.66, 0.0}}), "l-- -i- --r");
+  EXPECT_EQ(On({{-53.66, 0.0}, {53.66, 0.0}, {0.0, 0.0}}), "--r l-- -i-") << "in whatever order they are named";
+  EXPECT_EQ(On({{0.0, 0.0}}), "lir");
+  EXPECT_EQ(On({{180.0, 0.0}, {0.0, 0.0}}), "--- lir") << "a screen behind the driver";
+  EXPECT_EQ(On({{-180.0, 0.0}, {170.0, 0.0}, {-10.0, 0.0}}), "--- --- lir");
+  EXPECT_EQ(On({{30.0, 0.0}, {-30.0, 0.0}}), "l-- -ir");
+  EXPECT_EQ(On({{0.0, 0.0}, {0.0, -0.7}}), "-ir l--") << "one plane, the second screen's middle 45 degrees to the left";
+  EXPECT_EQ(On({{100.0, 0.0}, {50.0, 0.0}, {0.0, 0.0}, {-50.0, 0.0}, {-100.0, 0.0}}), "--- l-- -i- --r ---");
 }
 
 TEST(Mirror, IsKnownByItsName) {

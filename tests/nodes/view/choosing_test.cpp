@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <sstream>
 
 #include "common/hands/key_names.hpp"
 #include "common/hands/keyboard_driver.hpp"
+#include "common/launch/launch.hpp"
+#include "common/scene/camera.hpp"
+#include "nodes/view/driver_aims.hpp"
 #include "nodes/view/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/screen_hands.hpp"
@@ -17,16 +21,31 @@
 namespace rodeira::view {
 namespace {
 
+// A window's screen on a plane, or in another world.
+class Choosing : public testing::Test {
+ protected:
+  void SetUp() override { RODEIRA_NEEDS_PICTURES(); }
+  void Open(int width_px, int height_px, const std::string& world = "plane.yaml") {
+    world_ = road::World::Load(SourceDir() + "/configs/worlds/" + world).value();
+    settings_.width_px = width_px;
+    settings_.height_px = height_px;
+    screen_.reset();  // at most one at a time
+    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings_, *world_, false, "help");
+    ASSERT_TRUE(screen.ok()) << screen.error().Text();
+    screen_ = std::move(screen).value();
+  }
+  Image Shown(const scene::Moment& moment) { return view::Shown(*screen_, moment); }
+  bool Click(const Eigen::Vector2d& at, int button = SDL_BUTTON_LEFT) { return view::Click(*screen_, at, button); }
+
+  ViewSettings settings_;
+  std::shared_ptr<const road::World> world_;
+  std::unique_ptr<Screen> screen_;
+};
+
 // A click on a car of the traffic, seen from behind: it pulses with simulated time, its panel stands there; a click beside it ends that.
-TEST(Screen, AClickChoosesAVehicle) {
-  RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
-  ViewSettings settings;
-  settings.width_px = 960;
-  settings.height_px = 540;
-  settings.instruments = false;
-  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
-  ASSERT_TRUE(screen.ok()) << screen.error().Text();
+TEST_F(Choosing, AClickChoosesAVehicle) {
+  settings_.instruments = false;
+  ASSERT_NO_FATAL_FAILURE(Open(960, 540));
   scene::Moment moment;
   moment.time_ns = 400'000'000;  // half of the pulse's 0.8 s: at its most
   moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
@@ -36,20 +55,19 @@ TEST(Screen, AClickChoosesAVehicle) {
   agent.p_WB_W = moment.cars[0].p_WB_W + moment.cars[0].q_WB * Eigen::Vector3d(14.0, 4.0, 0.0);
   agent.q_WB = moment.cars[0].q_WB;
   moment.agents.push_back(agent);
-  const scene::Camera camera = scene::ChaseCamera(moment.cars[0], *world);
+  const scene::Camera camera = scene::ChaseCamera(moment.cars[0], *world_);
   const Eigen::Vector3d tail_W = agent.p_WB_W + agent.q_WB * Eigen::Vector3d(-1.95, 0.0, 0.80);
-  const auto shown = [&] { return Shown(*screen.value(), moment); };
-  const auto click = [&](const Eigen::Vector2d& at) { return Click(*screen.value(), at); };
+  const auto shown = [&] { return Shown(moment); };
   const Image before = shown();
   EXPECT_TRUE(ProbeAt(before, camera, tail_W).IsBlue()) << ProbeAt(before, camera, tail_W);
-  EXPECT_TRUE(click(*camera.Project(tail_W, 960, 540)));
+  EXPECT_TRUE(Click(*camera.Project(tail_W, 960, 540)));
   const Image chosen = shown();
   EXPECT_GT(ProbeAt(chosen, camera, tail_W).red, ProbeAt(before, camera, tail_W).red + 80.0) << ProbeAt(chosen, camera, tail_W);
   EXPECT_LT(ProbeAt(chosen, 330, 540 - 40, 3).green, 0.75 * ProbeAt(before, 330, 540 - 40, 3).green) << "the panel's box";
   moment.time_ns = 800'000'000;
   EXPECT_TRUE(ProbeAt(shown(), camera, tail_W).IsBlue()) << "between two pulses";
   moment.time_ns = 400'000'000;
-  EXPECT_TRUE(click({480.0, 20.0}));
+  EXPECT_TRUE(Click({480.0, 20.0}));
   EXPECT_EQ(shown().rgb, before.rgb);
 }
 
@@ -70,32 +88,26 @@ scene::Moment CarAndTwoOthers() {
 }
 
 // The key goes from vehicle to vehicle: the camera goes with each, it pulses, and its panel stands there; back at the window's own car nobody is chosen.
-TEST(Screen, TabChoosesOneVehicleAfterTheOtherAndComesHome) {
-  RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
-  ViewSettings settings;
-  settings.width_px = 640;
-  settings.height_px = 360;
-  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
-  ASSERT_TRUE(screen.ok()) << screen.error().Text();
+TEST_F(Choosing, TabChoosesOneVehicleAfterTheOtherAndComesHome) {
+  ASSERT_NO_FATAL_FAILURE(Open(640, 360));
   scene::Moment moment = CarAndTwoOthers();
   moment.time_ns = 400'000'000;  // the pulse's middle
   const auto expected = [&](std::size_t followed, std::optional<std::size_t> chosen) {
-    Picture picture = PictureOf(settings, moment);
+    Picture picture = PictureOf(settings_, moment);
     picture.followed = followed;
     picture.chosen = chosen;
     Chosen panel;
     panel.Choose(moment, chosen);
     picture.panel = panel.Panel(moment);
     EXPECT_EQ(picture.panel.empty(), !chosen);
-    screen.value()->painter().Draw(picture);
-    return screen.value()->painter().Read();
+    screen_->painter().Draw(picture);
+    return screen_->painter().Read();
   };
   const auto press = [&](int shift) {
-    EXPECT_TRUE(screen.value()->TakeKey(SDLK_TAB, true, shift));
-    return Shown(*screen.value(), moment).rgb;
+    EXPECT_TRUE(screen_->TakeKey(SDLK_TAB, true, shift));
+    return Shown(moment).rgb;
   };
-  const auto home = Shown(*screen.value(), moment).rgb;
+  const auto home = Shown(moment).rgb;
   EXPECT_EQ(home, expected(0, std::nullopt).rgb);
   EXPECT_EQ(press(KMOD_NONE), expected(1, 1).rgb);
   EXPECT_EQ(press(KMOD_NONE), expected(2, 2).rgb);
@@ -105,35 +117,29 @@ TEST(Screen, TabChoosesOneVehicleAfterTheOtherAndComesHome) {
 }
 
 // Where the left button drives the right one chooses, and turns the camera about the car; whatever button the window has, the others are not its own.
-TEST(Screen, ChoosingAndTurningHaveAButtonThatDoesNotDrive) {
-  RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
+TEST_F(Choosing, ChoosingAndTurningHaveAButtonThatDoesNotDrive) {
   for (const int own : {kLeftButton, kRightButton, kMiddleButton, kNoButton}) {
-    ViewSettings settings;
-    settings.width_px = 640;
-    settings.height_px = 360;
-    settings.mouse_button = own;
-    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
-    ASSERT_TRUE(screen.ok()) << screen.error().Text();
+    settings_.mouse_button = own;
+    ASSERT_NO_FATAL_FAILURE(Open(640, 360));
     const scene::Moment moment = CarAndTwoOthers();
-    const auto shown = [&] { return Shown(*screen.value(), moment).rgb; };
+    const auto shown = [&] { return Shown(moment).rgb; };
     const auto before = shown();
-    const Eigen::Vector2d at = *scene::ChaseCamera(moment.cars[0], *world).Project(moment.agents[0].p_WB_W + Eigen::Vector3d(0.0, 0.0, 0.8), 640, 360);
+    const Eigen::Vector2d at = *scene::ChaseCamera(moment.cars[0], *world_).Project(moment.agents[0].p_WB_W + Eigen::Vector3d(0.0, 0.0, 0.8), 640, 360);
     for (const int button : {kLeftButton, kRightButton, kMiddleButton}) {
-      EXPECT_EQ(Click(*screen.value(), at, button), button == own);
+      EXPECT_EQ(Click(at, button), button == own);
       EXPECT_EQ(shown() != before, button == own) << button << " of " << own;
-      (void)Click(*screen.value(), {320.0, 8.0}, button);  // on nobody
+      (void)Click({320.0, 8.0}, button);  // on nobody
       SDL_Event drawn{};
       drawn.type = SDL_MOUSEMOTION;
       drawn.motion.state = static_cast<Uint32>(SDL_BUTTON(button));
       drawn.motion.xrel = 50;
-      EXPECT_EQ(screen.value()->TakeMouse(drawn), button == own);
+      EXPECT_EQ(screen_->TakeMouse(drawn), button == own);
     }
-    for (int i = 0; i < 3; ++i) (void)screen.value()->TakeKey(SDLK_k, true);  // chase, driver, bonnet, orbit
-    Picture picture = PictureOf(settings, moment);
+    for (int i = 0; i < 3; ++i) (void)screen_->TakeKey(SDLK_k, true);  // chase, driver, bonnet, orbit
+    Picture picture = PictureOf(settings_, moment);
     picture.camera = scene::CameraKind::kOrbit;
-    screen.value()->painter().Draw(picture);
-    const auto not_turned = screen.value()->painter().Read().rgb;
+    screen_->painter().Draw(picture);
+    const auto not_turned = screen_->painter().Read().rgb;
     EXPECT_EQ(shown() == not_turned, own == kNoButton) << own;
   }
 }
@@ -165,15 +171,9 @@ TEST(WindowHelp, SaysWhichButtonOfTheMouseIsTheWindows) {
 
 // What the driver of a chosen car of the traffic goes by: where it points and how fast it is to be, the point that it steers for and the line to it, where its path
 // leads, how far it looks; five things from five numbers, gone with the choice.
-TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
-  RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
-  ViewSettings settings;
-  settings.width_px = 960;
-  settings.height_px = 540;
-  settings.instruments = false;
-  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
-  ASSERT_TRUE(screen.ok()) << screen.error().Text();
+TEST_F(Choosing, TheVectorsOfAChosenDriverStandInTheScene) {
+  settings_.instruments = false;
+  ASSERT_NO_FATAL_FAILURE(Open(960, 540));
   scene::Moment moment;
   moment.time_ns = 800'000'000;  // between two pulses
   moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
@@ -189,11 +189,10 @@ TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
   agent.detail->path_turn_rad = -0.3;
   agent.detail->target_speed_mps = 15.0;
   moment.agents.push_back(agent);
-  const scene::Camera camera = scene::ChaseCamera(moment.cars[0], *world);
-  const auto shown = [&] { return Shown(*screen.value(), moment); };
-  const auto click = [&](const Eigen::Vector2d& at) { return Click(*screen.value(), at); };
+  const scene::Camera camera = scene::ChaseCamera(moment.cars[0], *world_);
+  const auto shown = [&] { return Shown(moment); };
   const Image before = shown();
-  EXPECT_TRUE(click(*camera.Project(from_car(12.05, 4.0, 0.8), 960, 540)));
+  EXPECT_TRUE(Click(*camera.Project(from_car(12.05, 4.0, 0.8), 960, 540)));
   const Image chosen = shown();
   const auto post = ProbeAt(chosen, camera, from_car(26.0, 1.0, 1.1), 1), tip = ProbeAt(chosen, camera, from_car(28.7, 4.0, agent.height_m + 0.4), 0);
   EXPECT_TRUE(post.green > post.red + 60.0 && post.blue > post.red + 60.0) << "cyan: " << post;
@@ -222,8 +221,65 @@ TEST(Screen, TheVectorsOfAChosenDriverStandInTheScene) {
   EXPECT_LT(bare.blue, bare.red + 60.0) << "nothing is said of it: " << bare;
   moment.agents[0].detail = agent.detail;
   EXPECT_EQ(shown().rgb, chosen.rgb);
-  EXPECT_TRUE(click({480.0, 20.0}));
+  EXPECT_TRUE(Click({480.0, 20.0}));
   EXPECT_EQ(shown().rgb, before.rgb);
+}
+
+// The driver of a driven car goes by the same things where it is the autopilot: on a straight road in the middle of its lane the point that it steers for lies
+// 0.9 s of its way ahead of the rear axle, its path leads straight on, it looks 150 m ahead of the bumper. Published is none of it.
+TEST_F(Choosing, TheAutopilotsVectorsOfADrivenCarStandInTheSceneToo) {
+  const auto launch = launch::Launch::Load(SourceDir() + "/launch/demo.yaml");
+  ASSERT_TRUE(launch.ok()) << launch.error().Text();
+  const auto autopilot = AutopilotOf(launch.value(), launch.value().roster().Find("ego"));
+  ASSERT_TRUE(autopilot.has_value());
+  settings_.instruments = false;
+  settings_.autopilots[0] = *autopilot;
+  ASSERT_NO_FATAL_FAILURE(Open(960, 540, "n222.yaml"));
+  const network::Road& road = world_->network()->roads()[0];
+  const auto at = [&](double s_m, double high_m) -> Eigen::Vector3d { return road.Surface(s_m, -1.45).p_W + Eigen::Vector3d(0.0, 0.0, high_m); };
+  scene::Moment moment;
+  moment.time_ns = 800'000'000;  // between two pulses
+  moment.cars.push_back(CarAt(at(20.0, 0.0), road.axis().Evaluate(20.0).heading_rad));
+  moment.cars[0].speed_mps = 15.0;
+  const scene::Camera camera = scene::ChaseCamera(moment.cars[0], *world_);
+  const Image before = Shown(moment);
+  ASSERT_TRUE(Click(*camera.Project(at(20.0, 0.9), 960, 540)));
+  const Image chosen = Shown(moment);
+  const double rear_m = 20.0 - 0.5 * moment.cars[0].wheelbase_m, high_m = moment.cars[0].height_m + 0.9;
+  const auto target = ProbeAt(chosen, camera, at(rear_m + 13.5, high_m), 0);
+  EXPECT_TRUE(target.red > target.green + 60.0 && target.blue > target.green + 60.0) << "magenta: " << target;
+  const DriverAim aim = *DriverAims(settings_.autopilots, *world_).Of(moment.cars[0]);
+  EXPECT_LT((aim.look_ahead_W - at(20.0 + moment.cars[0].front_m + 150.0, 0.0).head<2>()).norm(), 2.0) << "distances are the lane's, not the axis'";
+  EXPECT_NEAR(aim.target_B.x(), 13.5 - 0.5 * moment.cars[0].wheelbase_m, 0.2);
+  EXPECT_NEAR(aim.target_B.y(), 0.0, 0.2);
+  EXPECT_NEAR(aim.path_turn_rad, 0.0, 0.02);
+  EXPECT_GT(aim.speed_mps, 5.0);
+  EXPECT_LT(aim.speed_mps, 70.0 / 3.6) << "N222's limit";
+  EXPECT_TRUE(Click({480.0, 20.0}));
+  EXPECT_EQ(Shown(moment).rgb, before.rgb);
+  // Nobody knows what a person goes by.
+  moment.cars[0].id = 5;
+  (void)Shown(moment);
+  ASSERT_TRUE(Click(*camera.Project(at(20.0, 0.9), 960, 540)));
+  const auto none = ProbeAt(Shown(moment), camera, at(rear_m + 13.5, high_m), 0);
+  EXPECT_EQ(none, ProbeAt(before, camera, at(rear_m + 13.5, high_m), 0));
+}
+
+// Whose file and lane are the autopilot's: those of the input that is wired to the car, where it is one.
+TEST(DriverAims, AreOfTheInputThatDrivesTheCar) {
+  const auto of = [](const std::string& launch_file, const launch::Overrides& overrides = {}) {
+    const auto launch = launch::Launch::Load(SourceDir() + "/launch/" + launch_file, overrides);
+    EXPECT_TRUE(launch.ok()) << launch.error().Text();
+    return AutopilotOf(launch.value(), launch.value().roster().Find("ego"));
+  };
+  const auto demo = of("three_screens.yaml"), lane = of("three_screens.yaml", {{"nodes.driver.config.lane", "1"}});
+  ASSERT_TRUE(demo && lane);
+  EXPECT_EQ(demo->driver.filename(), "default.yaml");
+  EXPECT_TRUE(std::filesystem::exists(demo->driver));
+  EXPECT_FALSE(demo->lane.has_value());
+  EXPECT_EQ(lane->lane, 1);
+  EXPECT_FALSE(of("three_screens.yaml", {{"nodes.driver.config.source", "script"}})) << "whatever else stands there";
+  EXPECT_FALSE(of("keyboard.yaml")) << "a person";
 }
 
 TEST(Chosen, SaysWhatTheCarDoesAndSinceWhen) {

@@ -3,7 +3,9 @@
 
 #include <GL/gl.h>
 
+#include "common/launch/launch.hpp"
 #include "nodes/view/eye_buffer.hpp"
+#include "nodes/view/view_settings.hpp"
 #include "tests/nodes/view/driver_still.hpp"
 
 namespace rodeira::view {
@@ -81,6 +83,28 @@ TEST_F(MirrorStill, OnlyTheChosenOnesAndOnlyForTheDriver) {
   const Image chase = Drawn();
   picture_.mirrors = {false, false, false};
   EXPECT_EQ(chase.rgb, Drawn().rgb);
+}
+
+// On three screens about a seat each mirror is where its driver looks for it, and shows the car that is behind on that side; nothing is said of it in the launch file.
+TEST_F(MirrorStill, EachOfThreeScreensHasItsOwn) {
+  const auto launch = launch::Launch::Load(SourceDir() + "/launch/three_screens.yaml");
+  ASSERT_TRUE(launch.ok()) << launch.error().Text();
+  for (const auto& [name, own] : {std::pair("left", scene::Mirror::kLeft), std::pair("centre", scene::Mirror::kInside), std::pair("right", scene::Mirror::kRight)}) {
+    const auto settings = ReadWindowSettings(launch.value(), launch.value().roster().Find(name));
+    ASSERT_TRUE(settings.ok()) << settings.error().Text();
+    picture_.screen = PictureOf(settings.value(), {}).screen;
+    picture_.mirrors = {false, false, false};
+    const Image none = Drawn();
+    picture_.mirrors = PictureOf(settings.value(), {}).mirrors;
+    const Image seen = Drawn();
+    for (const scene::Mirror mirror : scene::kAllMirrors) EXPECT_EQ(Differ(seen, none, mirror), mirror == own) << name << ": " << scene::NameOf(mirror);
+    const auto bonnet = [&](double left_m) {
+      const Eigen::Vector2d at = Seen(Car(), own, Behind(12.5, left_m, 0.85), true);
+      return ProbeAt(seen, at.x(), at.y());
+    };
+    EXPECT_TRUE(own == scene::Mirror::kRight || bonnet(3.5).IsRed()) << name << ": " << bonnet(3.5);
+    EXPECT_TRUE(own == scene::Mirror::kLeft || bonnet(-3.5).IsBlue()) << name << ": " << bonnet(-3.5);
+  }
 }
 
 // The same picture again, after others, has the same pixels: mirrors keep nothing.

@@ -134,7 +134,7 @@ TEST(ReplayWindow, AnswersWhileItStands) {
   ViewSettings settings;
   settings.width_px = 640;
   settings.height_px = 360;
-  auto window = ReplayWindow::Open(settings, *world.value(), SurfaceKind::kOffscreen);
+  auto window = ReplayWindow::Open(settings, [&] { return ReadWorld{world.value(), {}}; }, SurfaceKind::kOffscreen);
   ASSERT_TRUE(window.ok()) << window.error().Text();
   const auto key = [](SDL_Keycode symbol) {
     SDL_Event event{};
@@ -206,7 +206,7 @@ TEST(ReplayWindow, AnswersWhileItStands) {
 TEST(ReplayWindow, MarksThatCannotBeReadEndNothing) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml");
-  auto window = ReplayWindow::Open({}, *world.value(), SurfaceKind::kOffscreen);
+  auto window = ReplayWindow::Open({}, [&] { return ReadWorld{world.value(), {}}; }, SurfaceKind::kOffscreen);
   ASSERT_TRUE(window.ok()) << window.error().Text();
   scene::Player player(10 * kS, 20 * kMs);
   int shown = 0, asked = 0;
@@ -230,7 +230,7 @@ TEST(ReplayWindow, MarksThatCannotBeReadEndNothing) {
 TEST(ReplayWindow, StandsStillWhereTheFileIsDamaged) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml");
-  auto window = ReplayWindow::Open({}, *world.value(), SurfaceKind::kOffscreen);
+  auto window = ReplayWindow::Open({}, [&] { return ReadWorld{world.value(), {}}; }, SurfaceKind::kOffscreen);
   ASSERT_TRUE(window.ok()) << window.error().Text();
   scene::Player player(10 * kS, 20 * kMs);
   player.Seek(5 * kS);
