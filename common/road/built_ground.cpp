@@ -104,11 +104,13 @@ void BuiltGround::LayOnJunction(std::span<const network::Surfacing> surfaces, Su
 SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W, std::span<const network::Surfacing> surfaces) const {
   const design::JunctionHeight height = junction.At(p_W);
   terrain::Surface surface = junction.IsPaved(p_W) ? terrain::Surface::kAsphalt : terrain::Surface::kGrass;
-  // What is painted belongs to the ways through it.
-  const auto place = network_->Locate(p_W.x(), p_W.y(), height.z_m);
-  if (place && place->distance_m == 0.0 && in_junction_[place->lane.road] && paint_.At(place->lane.road, place->s_m, place->t_m)) {
-    surface = terrain::Surface::kRoadMark;
+  // What is painted belongs to the ways through it: to the one that a question of the network would find there.
+  const network::Surfacing* way = nullptr;
+  for (const network::Surfacing& surfacing : surfaces) {
+    if (std::fabs(surfacing.place.z_m - height.z_m) > network::Network::kLevel_m) continue;
+    if (way == nullptr || surfacing.claim.Before(way->claim)) way = &surfacing;
   }
+  if (way != nullptr && in_junction_[way->place.lane.road] && paint_.At(way->place.lane.road, way->place.s_m, way->place.t_m)) surface = terrain::Surface::kRoadMark;
   SurfacePoint point{height.z_m, height.slope_x, height.slope_y, friction_[static_cast<std::size_t>(surface)], surface, true};
   if (!detail_.empty()) LayOnJunction(surfaces, point);
   return point;
@@ -144,7 +146,7 @@ SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
   thread_local std::vector<Layer> layers;
   layers.clear();
   for (auto junction = first; junction != junctions_.end(); ++junction) {
-    if (in_junction(*junction)) layers.push_back({(*junction)->At(p).z_m, nullptr, junction->get()});
+    if (junction == first || in_junction(*junction)) layers.push_back({(*junction)->At(p).z_m, nullptr, junction->get()});
   }
   bool covered = !layers.empty();  // by what stands on the ground
   for (const network::Surfacing& surfacing : surfaces) {

@@ -10,6 +10,7 @@
 #include "common/road/earthworks.hpp"
 #include "common/road/lane_grounds.hpp"
 #include "common/road/paint.hpp"
+#include "common/road/squares.hpp"
 #include "common/road/surface_detail.hpp"
 #include "common/road/surface_point.hpp"
 

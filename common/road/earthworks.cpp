@@ -16,9 +16,9 @@ constexpr double kSample_m = 1e-3;
 constexpr int kSamples = 16;  // of a panel's edges
 
 // What is added to a bound at a distance, and its slope by the distance.
-std::pair<double, double> Steepening(double distance_m, double reach_m) {
+inline std::pair<double, double> Steepening(double distance_m, double reach_m) {
+  if (distance_m <= kSteeper * reach_m) return {0.0, 0.0};
   const double x = (distance_m / reach_m - kSteeper) / (1.0 - kSteeper);
-  if (x <= 0.0) return {0.0, 0.0};
   const double left = std::max(1.0 - x, 1e-9);
   return {reach_m * x * x / left, x * (2.0 - x) / (left * left) / (1.0 - kSteeper)};
 }
@@ -56,33 +56,20 @@ double WidestOf(const network::Road& road) {
   return widest;
 }
 
-// Boxes that hold every place a road's slopes may reach, one a panel.
-void AddReach(const network::Road& road, double reach_m, std::vector<Squares::Box>& boxes) {
-  const double widest = WidestOf(road);
-  for (const geometry::AxisPanel& panel : road.axis().panels()) {
-    const Eigen::Vector2d begin = road.axis().At(panel, -panel.half_m).p_W, end = road.axis().At(panel, panel.half_m).p_W;
-    // A leaning section moves its edges along the road by less than it is wide.
-    const Eigen::Vector2d beyond = Eigen::Vector2d::Constant(reach_m + 2.0 * widest + road.axis().Bulge(panel) + 1.0);
-    boxes.push_back({begin.cwiseMin(end) - beyond, begin.cwiseMax(end) + beyond});
-  }
-}
-
 }  // namespace
 
 Earthworks::Earthworks(std::shared_ptr<const network::Network> network, std::vector<std::shared_ptr<const design::JunctionSurface>> junctions)
     : network_(std::move(network)), junctions_(std::move(junctions)) {
-  for (const network::Road& road : network_->roads()) {
-    if (road.spec().earthwork) reach_m_ = std::max(reach_m_, road.spec().earthwork->reach_m);
+  for (std::uint32_t road = 0; road < network_->roads().size(); ++road) {
+    if (network_->roads()[road].spec().earthwork) AddReaches(road);
   }
-  std::vector<Squares::Box> boxes;
-  for (const network::Road& road : network_->roads()) {
-    if (road.spec().earthwork) AddReach(road, reach_m_, boxes);
-  }
+  std::vector<SquareLists::Strip> strips;
+  for (const Reach& reach : reaches_) strips.push_back({reach.from_W, reach.to_W, reach.beside_m + network_->roads()[reach.road].spec().earthwork->reach_m});
   for (const auto& junction : junctions_) {
-    const Eigen::Vector2d beyond = Eigen::Vector2d::Constant(network::Earthwork().reach_m);
-    boxes.push_back({junction->low_W() - beyond, junction->high_W() + beyond});
+    const Eigen::Vector2d middle_W = 0.5 * (junction->low_W() + junction->high_W());
+    strips.push_back({middle_W, middle_W, (junction->high_W() - middle_W).norm() + network::Earthwork().reach_m});
   }
-  squares_ = Squares(boxes);
+  near_ = SquareLists(strips);
   for (const auto& junction : junctions_) {
     std::vector<Heights>& heights = edge_heights_.emplace_back();
     Heights& all = junction_heights_.emplace_back(Heights{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
@@ -96,18 +83,36 @@ Earthworks::Earthworks(std::shared_ptr<const network::Network> network, std::vec
       all = {std::min(all.low_m, low - kSample_m), std::max(all.high_m, high + kSample_m)};
     }
   }
-  for (const network::Road& road : network_->roads()) {
-    reaches_.emplace_back();
-    if (road.spec().earthwork) reaches_.back() = ReachesOf(road);
-  }
 }
 
-std::vector<Earthworks::Reach> Earthworks::ReachesOf(const network::Road& road) {
-  const double widest = WidestOf(road);
-  std::vector<Reach> reaches;
-  for (const geometry::AxisPanel& panel : road.axis().panels()) {
+// How far a panel's edges lie from the way between its ends at most.
+double Earthworks::BesideOf(const network::Road& road, const geometry::AxisPanel& panel) {
+  // A leaning section moves its edges along the road by less than it is wide.
+  if (road.rolled()) return road.axis().Bulge(panel) + 2.0 * WidestOf(road) + 1.0;
+  double widest = 0.0;
+  const std::vector<network::LaneSection>& sections = road.spec().sections;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const double from = i == 0 ? panel.begin_s_m() : std::max(panel.begin_s_m(), sections[i].s_m);
+    const double to = i + 1 == sections.size() ? panel.end_s_m() : std::min(panel.end_s_m(), sections[i].end_s_m);
+    if (from > to) continue;
+    double right, left;
+    sections[i].Bounds(road.spec().lane_offset, from, to, right, left);
+    widest = std::max({widest, std::fabs(right), std::fabs(left)});
+  }
+  return road.axis().Bulge(panel) + widest + kSample_m;
+}
+
+void Earthworks::AddReaches(std::uint32_t road_index) {
+  const network::Road& road = network_->roads()[road_index];
+  const std::vector<geometry::AxisPanel>& panels = road.axis().panels();
+  for (std::uint32_t i = 0; i < panels.size(); ++i) {
+    const geometry::AxisPanel& panel = panels[i];
+    if (i > 0 && panel.begin_s_m() > road.length_m()) break;
     const double begin = std::max(panel.begin_s_m(), 0.0), end = std::min(panel.end_s_m(), road.length_m());
-    Reach reach{road.axis().At(panel, -panel.half_m).p_W, road.axis().At(panel, panel.half_m).p_W, road.axis().Bulge(panel) + 2.0 * widest + 1.0, {}};
+    Reach reach;
+    reach.road = road_index, reach.panel = i;
+    reach.from_W = road.axis().At(panel, -panel.half_m).p_W, reach.to_W = road.axis().At(panel, panel.half_m).p_W;
+    reach.beside_m = BesideOf(road, panel);
     double low = std::numeric_limits<double>::infinity(), high = -low, most = 0.0;  // the greatest step between two samples
     std::array<double, 2> last{};
     for (int k = 0; k <= kSamples; ++k) {
@@ -122,9 +127,8 @@ std::vector<Earthworks::Reach> Earthworks::ReachesOf(const network::Road& road) 
       last = z;
     }
     reach.heights = {low - most - kSample_m, high + most + kSample_m};
-    reaches.push_back(reach);
+    reaches_.push_back(reach);
   }
-  return reaches;
 }
 
 bool Earthworks::MayTighten(const network::Earthwork& earthwork, const Heights& heights, double distance_m, const Bounds& bounds) {
@@ -154,8 +158,9 @@ void Earthworks::FromRoad(const network::Road& road, std::uint32_t panel_index, 
   const geometry::AxisFoot foot = road.axis().Foot(panel, p_W);
   const double low = std::max(panel.begin_s_m(), 0.0), high = std::min(panel.end_s_m(), road.length_m());
   Standing(road, low, high, [&](double from, double to) {
-    double s = std::clamp(panel.middle_s_m + foot.u_m, from, to);
-    const bool beside = s == panel.middle_s_m + foot.u_m && foot.beyond_m == 0.0;
+    const double found = panel.middle_s_m + foot.u_m;
+    double s = std::clamp(found, from, to);
+    const bool beside = s == found && foot.beyond_m == 0.0;
     const network::LaneSection& section = road.SectionAt(s);
     double outside;
     const geometry::CubicPoint centre = road.CentreAt(s);
@@ -165,15 +170,36 @@ void Earthworks::FromRoad(const network::Road& road, std::uint32_t panel_index, 
       (void)road.DistanceToEdge(p_W, from, to, t, s);
       span = section.At(t, road.CentreAt(s), s, outside);
     }
-    const network::SurfaceSample sample = road.Surface(s, t, section, span);
+    const geometry::PlanPoint axis = s == found ? foot.at : road.axis().At(panel, s - panel.middle_s_m);
+    const network::SurfaceSample sample = road.Surface(axis, s, t, section, span);
     Edge edge{sample.p_W.head<2>(), sample.p_W.z(), Eigen::Vector2d::Zero()};
     if (beside) {  // the height goes along with the road's
-      const geometry::PlanPoint axis = road.axis().Evaluate(s);
       const double pace = sample.ds_W.head<2>().norm() - axis.curvature_1pm * geometry::Cross(axis.tangent_W, p_W - edge.p_W);
       if (pace > 0.05) edge.along = sample.ds_W.z() / pace * axis.tangent_W;
     }
     Offer(*road.spec().earthwork, edge, p_W, bounds);
   });
+}
+
+// The nearest panel first; then only those that can hold the ground more tightly.
+void Earthworks::FromRoads(std::span<const std::uint32_t> near, const Eigen::Vector2d& p_W, Bounds& bounds) const {
+  if (near.empty()) return;
+  thread_local std::vector<double> distances;
+  distances.clear();
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    distances.push_back(reaches_[near[i]].DistanceFrom(p_W));
+    if (distances[i] < distances[nearest]) nearest = i;
+  }
+  const auto ask = [&](std::size_t i) {
+    const Reach& reach = reaches_[near[i]];
+    const network::Road& road = network_->roads()[reach.road];
+    if (MayTighten(*road.spec().earthwork, reach.heights, distances[i], bounds)) FromRoad(road, reach.panel, p_W, bounds);
+  };
+  ask(nearest);
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (i != nearest) ask(i);
+  }
 }
 
 void Earthworks::FromJunction(std::size_t index, const Eigen::Vector2d& p_W, Bounds& bounds) const {
@@ -214,19 +240,12 @@ void Earthworks::FromJunction(std::size_t index, const Eigen::Vector2d& p_W, Bou
 }
 
 void Earthworks::Shape(const Eigen::Vector2d& p_W, SurfacePoint& ground) const {
-  if (!squares_.MayHold(p_W)) return;
+  const std::span<const std::uint32_t> near = near_.At(p_W);
+  if (near.empty()) return;
+  const auto junction = std::lower_bound(near.begin(), near.end(), reaches_.size());
   Bounds bounds;
-  network_->Near(p_W, reach_m_, [&](std::uint32_t index, std::uint32_t panel) {
-    const network::Road& road = network_->roads()[index];
-    if (!road.spec().earthwork) return;
-    const Reach& reach = reaches_[index][panel];
-    const Eigen::Vector2d way = reach.to_W - reach.from_W, to = p_W - reach.from_W;
-    const double length2 = way.squaredNorm();
-    const double part = length2 > 0.0 ? std::clamp(to.dot(way) / length2, 0.0, 1.0) : 0.0;
-    const double distance_m = std::max(0.0, (to - part * way).norm() - reach.beside_m);
-    if (MayTighten(*road.spec().earthwork, reach.heights, distance_m, bounds)) FromRoad(road, panel, p_W, bounds);
-  });
-  for (std::size_t i = 0; i < junctions_.size(); ++i) FromJunction(i, p_W, bounds);
+  FromRoads({near.begin(), junction}, p_W, bounds);
+  for (auto at = junction; at != near.end(); ++at) FromJunction(*at - reaches_.size(), p_W, bounds);
   const auto take = [&](double z, const Eigen::Vector2d& slope) {
     ground.z_m = z;
     ground.slope_x = slope.x();

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "common/design/junction_surface.hpp"
 #include "common/network/network.hpp"
-#include "common/road/squares.hpp"
+#include "common/road/square_lists.hpp"
 #include "common/road/surface_point.hpp"
 
 namespace rodeira::road {
@@ -39,24 +42,29 @@ class Earthworks {
     double low_m, high_m;
   };
   struct Reach {  // of a panel's edges: all of them lie within beside_m of the way from one end to the other
+    std::uint32_t road = 0, panel = 0;
     Eigen::Vector2d from_W, to_W;
-    double beside_m;
-    Heights heights;
+    double beside_m = 0.0;
+    Heights heights{};
+
+    // At least so far from the edges a place is.
+    double DistanceFrom(const Eigen::Vector2d& p_W) const { return std::max(0.0, SquareLists::Strip{from_W, to_W, 0.0}.FromWay(p_W) - beside_m); }
   };
-  static std::vector<Reach> ReachesOf(const network::Road& road);
+  void AddReaches(std::uint32_t road);
+  static double BesideOf(const network::Road& road, const geometry::AxisPanel& panel);
   // Whether an edge with these heights, at least so far away, may hold the ground more tightly than the bounds do already.
   static bool MayTighten(const network::Earthwork& earthwork, const Heights& heights, double distance_m, const Bounds& bounds);
   void FromRoad(const network::Road& road, std::uint32_t panel, const Eigen::Vector2d& p_W, Bounds& bounds) const;
+  void FromRoads(std::span<const std::uint32_t> near, const Eigen::Vector2d& p_W, Bounds& bounds) const;
   void FromJunction(std::size_t junction, const Eigen::Vector2d& p_W, Bounds& bounds) const;
   static void Offer(const network::Earthwork& earthwork, const Edge& edge, const Eigen::Vector2d& p_W, Bounds& bounds);
 
   std::shared_ptr<const network::Network> network_;
   std::vector<std::shared_ptr<const design::JunctionSurface>> junctions_;
-  std::vector<std::vector<Reach>> reaches_;         // by road and panel; of roads with slopes
+  std::vector<Reach> reaches_;                      // of all panels of roads with slopes
   std::vector<std::vector<Heights>> edge_heights_;  // by junction and free edge
   std::vector<Heights> junction_heights_;           // of all of its edges
-  double reach_m_ = 0.0;
-  Squares squares_;  // that slopes may reach
+  SquareLists near_;                                // reaches_ whose slopes may be there, and behind them junctions
 };
 
 }  // namespace rodeira::road

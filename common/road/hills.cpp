@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 #include "common/base/assert.hpp"
+#include "common/base/crew.hpp"
 #include "common/base/random.hpp"
 
 namespace rodeira::road {
@@ -108,11 +110,10 @@ terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const Eigen::V
   RODEIRA_ASSERT(spec.full_m > spec.flat_m && spec.flat_m > 0.0 && spec.spacing_m > 0.0);
   std::vector<Noise> layers;
   for (std::size_t layer = 0; layer < spec.relief.size(); ++layer) layers.emplace_back(spec, layer);
-  std::vector<float> heights;
-  heights.reserve(static_cast<std::size_t>(spec.columns) * static_cast<std::size_t>(spec.rows));
-  Bases bases{};
-  for (int column = 0; column < spec.columns; ++column) {
+  std::vector<float> heights(static_cast<std::size_t>(spec.columns) * static_cast<std::size_t>(spec.rows));
+  const auto fill = [&](int column) {
     const double east = column * spec.spacing_m;
+    Bases bases{};
     for (int row = 0; row < spec.rows; ++row) {
       const auto k = static_cast<std::size_t>(row) % kTogether;
       if (k == 0 && !axis.empty()) {
@@ -131,9 +132,13 @@ terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const Eigen::V
           z += grown * spec.relief[layer].amplitude_m * layers[layer].At(east, row * spec.spacing_m);
         }
       }
-      heights.push_back(static_cast<float>(z));
+      heights[static_cast<std::size_t>(column) * static_cast<std::size_t>(spec.rows) + static_cast<std::size_t>(row)] = static_cast<float>(z);
     }
-  }
+  };
+  base::Crew crew(std::max(1u, std::thread::hardware_concurrency()));  // each post by itself: the same bits by any number of threads
+  crew.Share(static_cast<std::size_t>(spec.columns), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t column = begin; column < end; ++column) fill(static_cast<int>(column));
+  });
   const terrain::ElevationGrid::Frame frame{spec.columns, spec.rows, spec.west_m, spec.south_m,
                                             spec.west_m + (spec.columns - 1) * spec.spacing_m,
                                             spec.south_m + (spec.rows - 1) * spec.spacing_m};
