@@ -22,6 +22,12 @@ double AllowedSquared(const Way& path, const SpeedPlanSettings& settings, double
   return squared;
 }
 
+SpeedPlan::Allowed Between(const SpeedPlan::Node& a, const SpeedPlan::Node& b, double d_m) {
+  const double rise = (b.squared_m2ps2 - a.squared_m2ps2) / (b.d_m - a.d_m);  // d(v²)/dd = 2 v dv/dd
+  const double squared = a.squared_m2ps2 + (std::max(0.0, d_m) - a.d_m) * rise;
+  return {std::sqrt(std::max(0.0, squared)), 0.5 * rise / std::sqrt(std::max(squared, kLeastSquared_m2ps2))};
+}
+
 }  // namespace
 
 SpeedPlan::SpeedPlan(const Way& path, const SpeedPlanSettings& settings) {
@@ -41,21 +47,27 @@ SpeedPlan::SpeedPlan(const Way& path, const SpeedPlanSettings& settings) {
     nodes_.push_back({static_cast<double>(i) * step, squared[i]});
     if (i < count) rise = squared[i + 1] - squared[i];
   }
-  first_ = nodes_.front(), last_ = nodes_.back();
+  ends_ = {nodes_.front(), nodes_.back()};
   is_even_ = nodes_.size() == 2;
 }
 
-SpeedPlan::Allowed SpeedPlan::At(double d_m) const {
-  if (d_m >= last_.d_m) return {std::sqrt(last_.squared_m2ps2), 0.0};
-  if (is_even_) return Between(first_, last_, d_m);
-  const auto after = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, d_m, [](double d, const Node& node) { return d < node.d_m; });
-  return Between(*(after - 1), *after, d_m);
+SpeedPlan::Allowed SpeedPlan::Even::At(double d_m) const {
+  if (d_m >= last.d_m) return {std::sqrt(last.squared_m2ps2), 0.0};
+  return Between(first, last, d_m);
 }
 
-SpeedPlan::Allowed SpeedPlan::Between(const Node& a, const Node& b, double d_m) const {
-  const double rise = (b.squared_m2ps2 - a.squared_m2ps2) / (b.d_m - a.d_m);  // d(v²)/dd = 2 v dv/dd
-  const double squared = a.squared_m2ps2 + (std::max(0.0, d_m) - a.d_m) * rise;
-  return {std::sqrt(std::max(0.0, squared)), 0.5 * rise / std::sqrt(std::max(squared, kLeastSquared_m2ps2))};
+SpeedPlan::Part SpeedPlan::Around(double d_m) const {
+  constexpr double kFar_m = 1e300;
+  if (is_even_) return {ends_, -kFar_m, kFar_m};
+  if (d_m >= ends_.last.d_m) return {{ends_.last, ends_.last}, ends_.last.d_m, kFar_m};
+  const auto after = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, d_m, [](double d, const Node& node) { return d < node.d_m; });
+  return {{*(after - 1), *after}, after - 1 == nodes_.begin() ? -kFar_m : (after - 1)->d_m, after->d_m};
+}
+
+SpeedPlan::Allowed SpeedPlan::At(double d_m) const {
+  if (is_even_ || d_m >= ends_.last.d_m) return ends_.At(d_m);
+  const auto after = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, d_m, [](double d, const Node& node) { return d < node.d_m; });
+  return Between(*(after - 1), *after, d_m);
 }
 
 }  // namespace rodeira::driver

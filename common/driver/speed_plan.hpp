@@ -28,16 +28,27 @@ class SpeedPlan {
   };
   Allowed At(double d_m) const;
 
- private:
   // v² there; linear between: constant acceleration. Only where it bends: near memory holds a street then.
   struct Node {
     double d_m = 0.0, squared_m2ps2 = 0.0;
   };
-  Allowed Between(const Node& a, const Node& b, double d_m) const;
+  // Two nodes: most of a town's streets have no others.
+  struct Even {
+    Node first, last;
 
+    Allowed At(double d_m) const;  // to the bit what the plan says
+  };
+  // The part of it about a place, and from where to where that says what the plan says.
+  struct Part {
+    Even nodes;
+    double from_m = 0.0, to_m = 0.0;
+  };
+  Part Around(double d_m) const;
+
+ private:
   std::vector<Node> nodes_;
   bool is_even_ = false;
-  Node first_, last_;  // of them; where there are no others they are all that is asked
+  Even ends_;  // where there are no others they are all that is asked
 };
 
 }  // namespace rodeira::driver

@@ -150,18 +150,11 @@ void Curve::FindBends() {
   const auto is_along = [&](const Eigen::Vector3d& along_W) { return ((b.p_W - a.p_W) / h - along_W).cwiseAbs().maxCoeff() < kStraight; };
   if (bends_.size() > 2 || !is_along(a.along_W) || !is_along(b.along_W)) return;
   if (std::fabs(a.curvature_1pm) > kStraight || std::fabs(b.curvature_1pm) > kStraight) return;
-  straight_ = {a.p_W, a.along_W, a.bank, (b.bank - a.bank) / h};
+  straight_ = {a.p_W, a.along_W, a.bank, (b.bank - a.bank) / h, length_m_};
 }
 
 CurvePoint Curve::At(double d_m) const {
-  if (straight_) {
-    CurvePoint point;
-    point.p_W = straight_->p_W + d_m * straight_->along_W;
-    point.ahead_W = straight_->along_W.head<2>();
-    point.grade = straight_->along_W.z();
-    point.bank = straight_->bank + std::clamp(d_m, 0.0, length_m_) * straight_->bank_1pm;
-    return point;
-  }
+  if (straight_) return straight_->At(d_m);
   if (d_m < 0.0 || d_m > length_m()) {
     CurvePoint point;
     const Node& end = d_m < 0.0 ? bends_.front() : bends_.back();

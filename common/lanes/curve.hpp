@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -43,7 +44,23 @@ class Curve {
   const std::vector<Node>& nodes() const { return nodes_; }
   // Beyond the ends straight on.
   CurvePoint At(double d_m) const;
-  bool is_straight() const { return straight_.has_value(); }
+  // A straight line from the first node to the last, with all that At needs of it: most of a town's ways are that.
+  struct Straight {
+    Eigen::Vector3d p_W, along_W;
+    double bank = 0.0, bank_1pm = 0.0, length_m = 0.0;
+
+    CurvePoint At(double d_m) const;  // to the bit what the curve says
+  };
+  const std::optional<Straight>& straight() const { return straight_; }
+  // Brings near what At will read of a bend about there, while something else is done.
+  void Fetch(double d_m) const {
+    constexpr std::size_t kLine_bytes = 64;
+    __builtin_prefetch(bends_d_m_.data());
+    const double share = std::clamp(d_m / length_m_, 0.0, 1.0);
+    const auto guess = static_cast<std::size_t>(share * static_cast<double>(bends_.size() - 1));
+    const auto *first = reinterpret_cast<const char*>(&bends_[guess == 0 ? 0 : guess - 1]), *end = reinterpret_cast<const char*>(bends_.data() + std::min(guess + 3, bends_.size()));
+    for (const char* at = first; at < end; at += kLine_bytes) __builtin_prefetch(at);
+  }
   double WidthAt(double d_m) const;
   double StationAt(double d_m) const;  // s of the road, held within the section
   double AtStation(double s_m) const;  // its inverse: d, held at the ends
@@ -60,17 +77,20 @@ class Curve {
   bool Tells(std::size_t from, std::size_t to) const;  // the cubic from node to node tells those between
   void FindBends();
 
-  // A straight line from the first node to the last, with all that At needs of it beside the length: most of a town's ways are that.
-  struct Straight {
-    Eigen::Vector3d p_W, along_W;
-    double bank = 0.0, bank_1pm = 0.0;
-  };
-
   std::vector<Node> nodes_;  // at least two
   std::vector<Node> bends_;  // of them those that At needs: few where the line is straight, so that they stay in near memory
   std::vector<double> bends_d_m_;
   double length_m_ = 0.0;    // as the last node says: asked for far more often than that node
   std::optional<Straight> straight_;
 };
+
+inline CurvePoint Curve::Straight::At(double d_m) const {
+  CurvePoint point;
+  point.p_W = p_W + d_m * along_W;
+  point.ahead_W = along_W.head<2>();
+  point.grade = along_W.z();
+  point.bank = bank + std::clamp(d_m, 0.0, length_m) * bank_1pm;
+  return point;
+}
 
 }  // namespace rodeira::lanes

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "common/base/assert.hpp"
 
@@ -140,13 +141,20 @@ void Agent::Restore(base::StateReader& reader) {
   on_road = on_road && !is_struck && !path.empty();
 }
 
-// Quintic from (offset, slope) at u = 0 to rest beside the middle at u = 1.
-PathFrame FrameAt(const lanes::Graph& graph, const std::vector<Piece>& path, double odometer_m) {
+const Piece& PieceAt(const Path& path, double odometer_m) {
   RODEIRA_ASSERT(!path.empty());
   std::size_t i = path.size() - 1;
   while (i > 0 && path[i].begin_m > odometer_m) --i;
-  const Piece& piece = path[i];
-  const lanes::CurvePoint at = graph[piece.track].curve.At(odometer_m - piece.zero_m);
+  return path[i];
+}
+
+PathFrame FrameAt(const lanes::Graph& graph, const Path& path, double odometer_m) {
+  const Piece& piece = PieceAt(path, odometer_m);
+  return FrameOn(piece, graph[piece.track].curve.At(odometer_m - piece.zero_m), odometer_m);
+}
+
+// Quintic from (offset, slope) at u = 0 to rest beside the middle at u = 1.
+PathFrame FrameOn(const Piece& piece, const lanes::CurvePoint& at, double odometer_m) {
   PathFrame frame;
   frame.p_W = at.p_W;
   frame.ahead_W = at.ahead_W;
@@ -172,7 +180,7 @@ PathFrame FrameAt(const lanes::Graph& graph, const std::vector<Piece>& path, dou
   return frame;
 }
 
-Piece Onward(const lanes::Graph& graph, const std::vector<Piece>& path, const lanes::Link& link, double speed_mps) {
+Piece Onward(const lanes::Graph& graph, const Path& path, const lanes::Link& link, double speed_mps) {
   const Piece& last = path.back();
   Piece piece;
   piece.track = link.to;

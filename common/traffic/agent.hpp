@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
-#include <vector>
 
 #include "common/base/state.hpp"
 #include "common/driver/footprint.hpp"
@@ -47,6 +47,9 @@ struct Piece {
   double aside_m = 0.0;       // to the left
 };
 
+// Most are on one piece or two, which lie in the agent itself.
+using Path = boost::container::small_vector<Piece, 2>;
+
 // A change to the lane beside, in the odometer.
 struct LaneChange {
   int side = 0;         // +1: to the left, -1: to the right, 0: none
@@ -62,43 +65,43 @@ struct ZoneGrant {
   double light_m = -1.0;     // odometer of the line of a light before them; below 0: none
 };
 
-// What changes about one agent.
-struct Agent {
+// What changes about one agent. First, in one line of memory, what others ask of it.
+struct alignas(64) Agent {
   static constexpr double kNoCap_mps = 1e3;
 
   bool on_road = false;     // drives
   bool is_struck = false;   // has been hit, and drives no more
-  Struck struck;
-  double struck_z_m = 0.0;  // its height, where no lane is below it
+  bool seeks = false;       // drives slower to find a gap beside, for its route
+  bool told_past = false;   // told to overtake who is ahead, and has not begun yet
+  std::int32_t told_side = 0;  // told to go over to the lane on that side, +1 left, -1 right, and has not yet; 0: not
+  double o_m = 0.0;         // odometer of its middle on this trip
+  double speed_mps = 0.0;
+  double acceleration_mps2 = 0.0;
+  double wish_mps2 = 0.0;   // the acceleration from which its driver goes on
+  double granted_m = 0.0;   // odometer to which the conflict zones on its way are its own
+  double waited_s = 0.0;    // at rest for others to go first
+  double brake_mps2 = 0.0;  // commanded; 0: not
+  Path path;  // from the piece under its rear bumper to that under its front bumper
+  boost::container::small_vector<ZoneGrant, 1> grants;  // those that its rear has not left yet, as it meets them
   std::uint32_t entry = 0;  // the track where it waits to enter
   std::uint32_t trip = 0;
   std::int32_t flow = -1;     // to which it belongs; below 0: none
   std::uint32_t arrival = 0;  // its number in the flow
   std::uint32_t links = 0;  // passed on this trip: keys of the draws at branches
   std::uint32_t leg = 0;    // how many roads of its route it has reached, at its front
-  double o_m = 0.0;         // odometer of its middle on this trip
-  double speed_mps = 0.0;
-  double acceleration_mps2 = 0.0;
-  double wish_mps2 = 0.0;   // the acceleration from which its driver goes on
   double driven_m = 0.0;
   double fuel_mg = 0.0;     // burnt on this trip
   double fuel_mgps = 0.0;   // in the last step
   double grade = 0.0;       // that it stands on, rise over plan distance; found with its pose
   Driving driving;          // what its driver and its engine did in the last step
-  double brake_mps2 = 0.0;  // commanded; 0: not
   double cap_mps = kNoCap_mps;
-  std::int32_t told_side = 0;  // told to go over to the lane on that side, +1 left, -1 right, and has not yet; 0: not
-  bool told_past = false;      // told to overtake who is ahead, and has not begun yet
-  double granted_m = 0.0;   // odometer to which the conflict zones on its way are its own
-  std::vector<ZoneGrant> grants;  // those that its rear has not left yet, as it meets them
   double stopped_m = -1.0;  // odometer of the STOP line at which it has come to rest
-  double waited_s = 0.0;    // at rest for others to go first
-  LaneChange change;
-  Overtaking overtaking;
   std::int64_t settled_ns = 0;  // until then it keeps to its lane
   std::int64_t eased_for = -1;  // who has come in before it and is still followed nearer than it likes; below 0: nobody
-  bool seeks = false;           // drives slower to find a gap beside, for its route
-  std::vector<Piece> path;  // from the piece under its rear bumper to that under its front bumper
+  LaneChange change;
+  Overtaking overtaking;
+  Struck struck;
+  double struck_z_m = 0.0;  // its height, where no lane is below it
 
   // That of a zone with this end; nothing for zones that it came into without any.
   ZoneGrant GrantOf(double out_m) const;
@@ -117,9 +120,12 @@ struct PathFrame {
   double offset_m = 0.0;  // from the track's middle, and its slope
   double slope = 0.0;
 };
-PathFrame FrameAt(const lanes::Graph& graph, const std::vector<Piece>& path, double odometer_m);
+PathFrame FrameAt(const lanes::Graph& graph, const Path& path, double odometer_m);
+// The piece on which an odometer lies, and the path there by the point of that piece's track.
+const Piece& PieceAt(const Path& path, double odometer_m);
+PathFrame FrameOn(const Piece& piece, const lanes::CurvePoint& at, double odometer_m);
 
 // The piece that begins at the end of the path's last one and goes on by a link, joining the new middle comfortably.
-Piece Onward(const lanes::Graph& graph, const std::vector<Piece>& path, const lanes::Link& link, double speed_mps);
+Piece Onward(const lanes::Graph& graph, const Path& path, const lanes::Link& link, double speed_mps);
 
 }  // namespace rodeira::traffic

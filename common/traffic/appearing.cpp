@@ -130,7 +130,8 @@ bool TrafficModel::TryAppear(const Appearing& next) {
   if (follower.any && FollowerDoes(follower, true, follower.gap_m, speed) < -kHardest_mps2) return wait();
   if (full_ && !PlaceFull(next.id)) return wait();
   ahead_[next.id] = ahead;
-  Appear(next.track, {next.id, next.d_m - half, next.d_m + half, -1});
+  Part(next.track);
+  occupants_.Insert(next.track, {next.id, -1, next.d_m - half, next.d_m + half});
   return true;
 }
 

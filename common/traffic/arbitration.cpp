@@ -15,16 +15,16 @@ constexpr double kGap_s = 1.0;         // after the own clearing before who goes
 constexpr double kBehind_s = 0.5;      // after the own arrival who holds a zone may be out of it at the latest
 constexpr double kZips_mps = 7.0, kSoon_s = 4.0;  // who comes so slowly, and so soon, to where lanes merge takes his turn
 constexpr double kAtRest_mps = 0.05;
+constexpr std::size_t kAhead = 6;      // agents: so far ahead memory is fetched
 constexpr double kAtLine_m = 1.5;      // a full stop counts within this before the line
 
 // The side of who was let in last of those who hold a zone, by both sides; -1: nobody does.
-template <class Sides>
-int LastLetIn(const Sides& sides, std::size_t agents) {
+int LastLetIn(const ZoneBook& book, std::size_t zone, std::size_t agents) {
   int last = -1;
   std::uint64_t number = 0;
   for (const int side : {0, 1}) {
-    for (const auto& holder : sides[static_cast<std::size_t>(side)]) {
-      if (holder.id < agents && holder.grant.number > number) number = holder.grant.number, last = side;
+    for (const Holder& holder : book.HoldersOf(zone, static_cast<std::size_t>(side))) {
+      if (holder.id < agents && holder.number > number) number = holder.number, last = side;
     }
   }
   return last;
@@ -55,20 +55,20 @@ bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
   const Agent& agent = agents_[id];
   const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
   double arrives = -1.0;
-  for (const Holder& holder : now_[zone].holders[theirs]) {
+  for (const Holder& holder : book_.HoldersOf(zone, theirs)) {
     if (holder.id == id) continue;
     if (holder.id < agents_.size()) {
       const Agent& other = agents_[holder.id];
       const double way_out = holder.out_m - other.o_m + 0.5 * traits_[holder.id].length_m;
       const double clears = TravelTime(way_out, other.speed_mps, AllowedAt(holder.id, holder.out_m), traits_[holder.id].start_mps2, {other.wish_mps2, settings_.smooth.planned_mps3});
       if (arrives < 0.0) arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
-      if (holder.grant.sure && (clears < arrives + kBehind_s || MayFollow(id, crossing, holder)) && RoomBehind(id, crossing, holder)) continue;
+      if (holder.sure && (clears < arrives + kBehind_s || MayFollow(id, crossing, holder)) && RoomBehind(id, crossing, holder)) continue;
       passages_[id].delay_s = clears - arrives;
     }
     passages_[id].waits_for = holder.id == agents_.size() ? -1 : static_cast<std::int64_t>(holder.id);
     return true;
   }
-  return (now_[zone].awaited[mine] && !Urgent(id)) || now_[zone].room_for_s[mine] > agent.waited_s;
+  return (book_.IsAwaited(zone, mine) && !Urgent(id)) || book_.RoomWanted_s(zone, mine) > agent.waited_s;
 }
 
 // Whether somebody who goes first is about to come to the zone before this one is out of it. Where lanes zip, it is the other side's turn as long as
@@ -77,9 +77,9 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
   const auto index = static_cast<std::size_t>(crossing.zone);
   const int theirs = 1 - crossing.side;
   const lanes::Zone& zone = zones()[static_cast<std::uint32_t>(index)];
-  const auto& comers = now_[index].comers[static_cast<std::size_t>(theirs)];
+  const auto comers = book_.ComersTo(index, static_cast<std::size_t>(theirs));
   if (comers.empty()) return false;
-  const int last = map_->zips[index] ? LastLetIn(now_[index].holders, agents_.size()) : -1;
+  const int last = map_->zips[index] ? LastLetIn(book_, index, agents_.size()) : -1;
   if (zone.first == crossing.side && last != crossing.side) return false;
   const Agent& agent = agents_[id];
   const double way_out = crossing.out_m - agent.o_m + 0.5 * traits_[id].length_m;
@@ -118,10 +118,9 @@ bool TrafficModel::Grant(std::uint32_t id, bool yields) {
   agents_[id].grants.push_back(grant);
   for (const Crossing& crossing : passage.crossings) {
     if (crossing.zone < 0) continue;
-    Touch(static_cast<std::uint32_t>(crossing.zone));
-    now_[static_cast<std::size_t>(crossing.zone)].holders[static_cast<std::size_t>(crossing.side)].push_back({id, grant, crossing.out_m});
+    book_.Hold(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side), {id, grant.sure, grant.number, crossing.out_m});
   }
-  passage.any = false;
+  passage.any = false, passage.key = {};
   return true;
 }
 
@@ -129,7 +128,7 @@ bool TrafficModel::Grant(std::uint32_t id, bool yields) {
 void TrafficModel::ComeToLine(std::uint32_t id, double dt_s) {
   Agent& agent = agents_[id];
   const double half = 0.5 * traits_[id].length_m;
-  std::erase_if(agent.grants, [&](const ZoneGrant& grant) { return grant.to_m <= agent.o_m - half; });
+  if (!agent.grants.empty()) agent.grants.erase(std::remove_if(agent.grants.begin(), agent.grants.end(), [&](const ZoneGrant& grant) { return grant.to_m <= agent.o_m - half; }), agent.grants.end());
   ObeyLights(id);
   FindPassage(id);
   Passage& passage = passages_[id];
@@ -143,35 +142,33 @@ void TrafficModel::ComeToLine(std::uint32_t id, double dt_s) {
   else if (agent.speed_mps < kAtRest_mps && !passage.red && !passage.barred) agent.waited_s += dt_s;
 }
 
-void TrafficModel::ForgetZones() {
-  for (const std::uint32_t zone : touched_) {
-    ZoneNow& now = now_[zone];
-    for (const std::size_t side : {0, 1}) now.holders[side].clear(), now.comers[side].clear();
-    now.awaited = {}, now.room_for_s = {}, now.touched = false;
-  }
-  touched_.clear();
-}
-
 void TrafficModel::Arbitrate(double dt_s) {
-  ForgetZones();
-  EachDriving([&](std::uint32_t id) { ComeToLine(id, dt_s); });
+  const std::int64_t step_ns = std::llround(dt_s * 1e9);
+  book_.Clear();
+  EachDriving([&](std::uint32_t id) {
+    if (!people_) ahead_[id] = FindAhead(id);
+    ComeToLine(id, dt_s);
+  });
   std::fill(reaches_.begin(), reaches_.end(), -1.0);
-  heads_.clear(), order_.clear();
+  heads_.clear(), order_.clear(), coming_.clear();
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     Passage& passage = passages_[id];
     if (!agents_[id].on_road) {
-      passage.any = false;
+      passage.any = false, passage.key = {};
       continue;
     }
+    FetchZones(id + kAhead);
     HoldZones(id);
     if (!passage.any) continue;
-    FindRoom(id);
+    coming_.push_back(id);
+    if (!passage.due) continue;
+    TellComing(id);
     if (passage.red || passage.barred) passage.waits_for = -1;
-    else if (passage.due && passage.head && !passage.must_stop) order_.push_back(id);
+    else if (passage.head && !passage.must_stop) order_.push_back(id);
     if (passage.head) heads_.push_back(id);
   }
   AskForZones();
-  for (const std::uint32_t id : heads_) ComeToZones(id);
+  for (const std::uint32_t id : coming_) ComeToZones(id);
   OthersAtZones();
   // Who has lost patience, by how long; then by when they come to the line, as told by their own motion; then by number.
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -191,18 +188,22 @@ void TrafficModel::Arbitrate(double dt_s) {
     const bool comes_free = !passage.able && passage.lacks_m < traits_[id].length_m + settings_.idm.standing_gap_m;
     for (const Crossing& crossing : passage.crossings) {
       if (crossing.zone < 0 || !(passage.able || (comes_free && TakesRoom(crossing)))) continue;
-      Touch(static_cast<std::uint32_t>(crossing.zone));
-      ZoneNow& now = now_[static_cast<std::size_t>(crossing.zone)];
-      const auto theirs = static_cast<std::size_t>(1 - crossing.side);
-      if (passage.able) now.awaited[theirs] = true;
-      else now.room_for_s[theirs] = std::max(now.room_for_s[theirs], agents_[id].waited_s);
+      const auto zone = static_cast<std::size_t>(crossing.zone), theirs = static_cast<std::size_t>(1 - crossing.side);
+      if (passage.able) book_.Await(zone, theirs);
+      else book_.WantRoom(zone, theirs, agents_[id].waited_s);
     }
   }
   for (const std::uint32_t id : order_) {  // … and now who had to yield to such as cannot come yet
     if (passages_[id].any && passages_[id].able) Grant(id, true);
   }
   ResolveDeadlocks();
-  EachDriving([&](std::uint32_t id) { YieldInZones(id); });
+  EachDriving([&](std::uint32_t id) {
+    FetchZones(id + kAhead);
+    YieldInZones(id);
+    const Agent& agent = agents_[id];
+    beside_[id] = agent.change.side != 0 || HasBeside(id, agent.path.back().track);
+    passes_[id] = agent.overtaking.active() || agent.told_past || (settings_.overtaking.allowed && IsItsTurn(id, step_ns));
+  });
 }
 
 // Where the chain of who waits for whom closes, those of it go who are not in one another's way, who has waited longest first (of equals

@@ -14,11 +14,17 @@ constexpr double kLaterThan_s = 30.0;  // of no interest now
 
 }  // namespace
 
-// Only zones that something was said of are cleared for the next step.
-void TrafficModel::Touch(std::uint32_t zone) {
-  if (now_[zone].touched) return;
-  now_[zone].touched = true;
-  touched_.push_back(zone);
+// Zones lie in far memory where there are thousands of agents: those of who soon asks for his own are brought near meanwhile.
+void TrafficModel::FetchZones(std::size_t id) const {
+  if (id >= agents_.size() || agents_[id].granted_m < agents_[id].o_m) return;
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.begin_m > agents_[id].granted_m) break;
+    if (!stretch.crosses) continue;
+    const auto sides = zones().ConflictsOf(stretch.track);
+    constexpr std::size_t kLine_bytes = 64;
+    const auto* first = reinterpret_cast<const char*>(sides.data());
+    for (std::size_t at = 0; at < sides.size_bytes(); at += kLine_bytes) __builtin_prefetch(first + at);
+  }
 }
 
 // Its own are the zones that are granted to it and those that it stands in.
@@ -32,8 +38,8 @@ void TrafficModel::HoldZones(std::uint32_t id) {
     for (const lanes::ZoneSide& part : zones().ConflictsOf(stretch.track)) {
       const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
       if (in >= to || out <= rear) continue;
-      Touch(part.zone);
-      now_[part.zone].holders[static_cast<std::size_t>(part.side)].push_back({id, agent.GrantOf(out), out});
+      const ZoneGrant grant = agent.GrantOf(out);
+      book_.Hold(part.zone, static_cast<std::size_t>(part.side), {id, grant.sure, grant.number, out});
     }
   }
 }
@@ -55,12 +61,15 @@ void TrafficModel::AskForZones() {
 // A head that waits to be granted its zones comes to them; where nobody asks it is not told.
 void TrafficModel::ComeToZones(std::uint32_t id) {
   const Passage& passage = passages_[id];
-  if (!passage.able || passage.arrives_s > kLaterThan_s) return;
   if (agents_[id].brake_mps2 > 0.0 || passage.red || passage.barred) return;
+  const auto is_asked = [&](const Crossing& crossing) {
+    return crossing.zone >= 0 && is_asked_[static_cast<std::size_t>(2 * crossing.zone + crossing.side)] != 0;
+  };
+  if (std::none_of(passage.crossings.begin(), passage.crossings.end(), is_asked)) return;
+  if (!passage.due) TellComing(id);
+  if (!passage.head || !passage.able || passage.arrives_s > kLaterThan_s) return;
   for (const Crossing& crossing : passage.crossings) {
-    if (crossing.zone < 0 || is_asked_[static_cast<std::size_t>(2 * crossing.zone + crossing.side)] == 0) continue;
-    Touch(static_cast<std::uint32_t>(crossing.zone));
-    now_[static_cast<std::size_t>(crossing.zone)].comers[static_cast<std::size_t>(crossing.side)].push_back({id, crossing.in_m, crossing.out_m});
+    if (is_asked(crossing)) book_.Come(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side), {id, crossing.in_m, crossing.out_m});
   }
 }
 
@@ -99,8 +108,7 @@ void TrafficModel::OthersAtZones() {
         const auto mine = static_cast<std::size_t>(part.side);
         if (zone.kind == lanes::ZoneKind::kDiverge || std::min(std::fabs(block.span.left_m), std::fabs(block.span.right_m)) > 1.2) continue;
         if (block.span.front_m <= zone.in_m[mine] || block.span.rear_m >= zone.out_m[mine]) continue;
-        Touch(part.zone);
-        now_[part.zone].holders[mine].push_back({nobody, {}, 0.0});
+        book_.Hold(part.zone, mine, {nobody});
       }
       if (block.span.speed_mps < 0.5 || block.span.left_m < -1.0 || block.span.right_m > 1.0) continue;
       // Where it goes is not known: it comes to all zones within six seconds, on every way; but not past a light that is not green, if it can stop there.
@@ -114,9 +122,7 @@ void TrafficModel::OthersAtZones() {
           const auto mine = static_cast<std::size_t>(part.side);
           const double way = at.ahead_m + zone.in_m[mine], length = block.span.front_m - block.span.rear_m;
           if (zone.kind == lanes::ZoneKind::kDiverge || way < 0.0 || way > 6.0 * block.span.speed_mps || zone.in_m[mine] > stops_m) continue;
-          Touch(part.zone);
-          now_[part.zone].comers[mine].push_back(
-              {nobody, 0.0, 0.0, way / block.span.speed_mps, (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
+          book_.Come(part.zone, mine, {nobody, 0.0, 0.0, way / block.span.speed_mps, (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
         }
         const double end = at.ahead_m + graph()[at.track].length_m();
         if (end > 6.0 * block.span.speed_mps || stops_m < kNoBarrier_m) continue;

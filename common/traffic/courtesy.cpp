@@ -24,7 +24,7 @@ double TrafficModel::WantedCourteous(std::uint32_t id, double limit_mps) const {
   for (const auto& beside : {track.left, track.right}) {
     if (!beside) continue;
     const double there = graph().Across(here.track, d, *beside);
-    for (const Occupant& other : Beyond(*beside, there)) {
+    for (const Occupant& other : occupants_.Beyond(*beside, there)) {
       if (other.id == id || other.middle_m() <= there) continue;
       const double gap = other.rear_m - there - 0.5 * traits.length_m;
       if (agents_[other.id].seeks && gap < ahead_[id].gap_m && FewerChanges(other.id, here.track) > 0) {

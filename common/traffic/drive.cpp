@@ -29,7 +29,10 @@ driver::SpeedPlan::Allowed TrafficModel::Allowed(std::uint32_t id) const {
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.end_m < agent.o_m) continue;
     if (stretch.begin_m <= agent.o_m) {
-      allowed = map_->plans[stretch.track].plan.At(agent.o_m - stretch.zero_m);
+      const Below& below = below_[id];
+      const double d = agent.o_m - stretch.zero_m;
+      const bool here = below.track == stretch.track && d >= below.plan.from_m && d < below.plan.to_m;
+      allowed = here ? below.plan.nodes.At(d) : map_->plans[stretch.track].plan.At(d);
       continue;
     }
     const double there = stretch.planned_mps;

@@ -26,6 +26,7 @@ std::uint32_t TrafficModel::DrawEntry(std::uint32_t id, std::uint32_t trip) cons
 // The speed from which it can stop before the first zones that are not its own.
 double TrafficModel::AtMostForLine(std::uint32_t id) {
   FindPassage(id);
+  passages_[id].key = {};
   if (!std::exchange(passages_[id].any, false)) return Agent::kNoCap_mps;
   const double way = passages_[id].line_m - agents_[id].o_m - 0.5 * traits_[id].length_m;
   const double b = kEnteringBrake * traits_[id].idm.braking_mps2, j = settings_.smooth.planned_mps3, grows = b / (2.0 * j);
@@ -51,12 +52,12 @@ void TrafficModel::Leave(std::uint32_t id) {
 // At each entry the first who waits there. Who is on it, or, where that lies in the middle of the network, on the way there, is looked for once for all.
 void TrafficModel::Enter() {
   if (waiting_.empty()) return;
-  for (auto& present : present_) present.clear();
+  present_.Clear();
   expected_.assign(graph().tracks().size(), 0);
   const bool among_others = std::any_of(waiting_.begin(), waiting_.end(), [&](std::uint32_t id) { return !graph()[agents_[id].entry].before.empty(); });
   const auto appear = [&](std::uint32_t id) {
     for (const Piece& piece : agents_[id].path) {
-      if (map_->enters[piece.track]) present_[piece.track].push_back(id);
+      if (map_->enters[piece.track]) present_.Add(piece.track, id);
     }
     if (!among_others) return;
     const double front = agents_[id].o_m + 0.5 * traits_[id].length_m, sight = SightOf(agents_[id]);
@@ -65,7 +66,7 @@ void TrafficModel::Enter() {
     }
   };
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    if (agents_[id].on_road) appear(id);
+    if ((among_others || at_entry_[id] != 0) && agents_[id].on_road) appear(id);
   }
   std::vector<bool> tried(graph().tracks().size(), false);
   std::vector<std::uint32_t> left;
@@ -108,14 +109,14 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
     const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;
     if (zone.kind == lanes::ZoneKind::kDiverge) continue;
     if (zone.in_m[mine] > traits.length_m + 2.0 && zone.in_m[mine] > agent.granted_m + traits.length_m + 2.0) break;
-    if (!now_[part.zone].holders[theirs].empty()) return wait();
+    if (!book_.HoldersOf(part.zone, theirs).empty()) return wait();
     agent.granted_m = std::max(agent.granted_m, zone.out_m[mine]);
   }
   speed = std::min(speed, AtMostForLine(id));
   if (people_) speed = std::min(speed, AtMostForPeople(id));
   if (speed < 0.0) return wait();
   // Nobody may stand where it enters, not even with its rear; agents have moved since they were last seen.
-  for (const std::uint32_t other : present_[agent.entry]) {
+  for (const std::uint32_t other : present_.Of(agent.entry)) {
     for (const Piece& piece : agents_[other].path) {
       const double rear = agents_[other].o_m - 0.5 * traits_[other].length_m - piece.zero_m;
       if (piece.track == agent.entry && rear < (as_motors ? free_m : traits.length_m + 2.0 * traits.idm.standing_gap_m)) return wait();

@@ -156,16 +156,9 @@ void TrafficModel::BeginChange(std::uint32_t id, Sideways&& way) {
   if (const Route* route = RouteOf(agent)) agent.leg = route->LegOn(agent.leg, way.piece.track);
   stretches_[id] = std::move(way.stretches);
   const double front = way.piece.begin_m - way.piece.zero_m;
-  Appear(way.piece.track, {id, front - traits_[id].length_m, front, -1});
+  Part(way.piece.track);
+  occupants_.Insert(way.piece.track, {id, -1, front - traits_[id].length_m, front});
   ahead_[id] = FindAhead(id);
-}
-
-// Among those on a track.
-void TrafficModel::Appear(std::uint32_t track, const Occupant& occupant) {
-  auto& all = occupants_[track];
-  all.insert(std::upper_bound(all.begin(), all.end(), occupant, [](const Occupant& a, const Occupant& b) {
-    return a.middle_m() != b.middle_m() ? a.middle_m() < b.middle_m() : a.id < b.id;
-  }), occupant);
 }
 
 // The lane that it is leaving, beside a stretch of its way, as long as something of it at this odometer reaches into it.
@@ -193,7 +186,7 @@ void TrafficModel::AppearOnLaneLeft(std::uint32_t id) {
     const auto old = LaneLeft(id, stretch, rear);
     if (!old) return;
     const double middle = graph().Across(stretch.track, agent.o_m - stretch.zero_m, *old);
-    occupants_[*old].push_back({id, middle - half, middle + half, -1});
+    occupants_.Add(*old, {id, -1, middle - half, middle + half});
     return;
   }
 }

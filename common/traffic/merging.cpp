@@ -64,8 +64,8 @@ void TrafficModel::YieldInZones(std::uint32_t id) {
       const bool merges = part.kind == lanes::ZoneKind::kMerge;
       if (in >= agent.granted_m || (merges ? out : in) < front) continue;
       const std::uint64_t number = agent.GrantOf(out).number;
-      for (const Holder& holder : now_[part.zone].holders[static_cast<std::size_t>(1 - part.side)]) {
-        if (holder.id >= agents_.size() || holder.id == id || holder.grant.number >= number) continue;
+      for (const Holder& holder : book_.HoldersOf(part.zone, static_cast<std::size_t>(1 - part.side))) {
+        if (holder.id >= agents_.size() || holder.id == id || holder.number >= number) continue;
         const double gap = merges ? MergingGap(id, out, holder) : -1.0;
         double then = in >= front ? StopAt(id, in - kLine_m) : kFree_mps2;
         if (gap > 0.0) {

@@ -45,8 +45,8 @@ Behind TrafficModel::FindBehind(std::uint32_t id, std::uint32_t track, double mi
   for (std::size_t i = 0; i < open.size() && i < 32; ++i) {
     const At at = open[i];
     here = false;
-    const auto& all = occupants_[at.track];
-    for (std::size_t k = all.size() - Beyond(at.track, at.middle_m).size(); k-- > 0;) {
+    const auto all = occupants_.On(at.track);
+    for (std::size_t k = all.size() - occupants_.Beyond(at.track, at.middle_m).size(); k-- > 0;) {
       if (all[k].id == id) continue;
       consider(all[k].id, at.track, all[k].front_m, at.rear_m - all[k].front_m, agents_[all[k].id].speed_mps);
       break;
@@ -88,14 +88,15 @@ std::optional<Sideways> TrafficModel::Weigh(std::uint32_t id, int side, bool tol
   if (passages_[id].any && passages_[id].line_m < to + half) return std::nullopt;
   if (!IsPlain(id, rear, to) || !MayCross(id, side, piece->begin_m, to - half)) return std::nullopt;
   const double beside_m = agent.o_m - piece->zero_m;
-  for (const Occupant& other : Beyond(piece->track, beside_m)) {
+  for (const Occupant& other : occupants_.Beyond(piece->track, beside_m)) {
     if (other.middle_m() > beside_m + kBeside_m) break;
     if (other.id != id) return std::nullopt;
   }
   const Ahead own_ahead = ahead_[id];
   const double own_ends = LaneEnds(id);
   // The way on the other lane, looked along as the own one is.
-  std::vector<Stretch> own = std::move(stretches_[id]);
+  Stretches own = std::move(stretches_[id]);
+  stretches_[id].clear();
   agent.path.push_back(*piece);
   FindStretches(id, SightOf(agent));
   const double v = agent.speed_mps, stops = piece->begin_m + std::min(SightOf(agent), kReaction_s * v + v * v / (2.0 * kGentle_mps2));
@@ -126,9 +127,13 @@ std::optional<Sideways> TrafficModel::Weigh(std::uint32_t id, int side, bool tol
 }
 
 // Whether it is its turn to think of another lane, and it is somewhere and drives so that it may.
-bool TrafficModel::ThinksOfLanes(std::uint32_t id, std::int64_t step_ns) const {
+bool TrafficModel::IsItsTurn(std::uint32_t id, std::int64_t step_ns) const {
   const std::int64_t now = time_ns_ + (id * kApart_ns) % kEvery_ns;
-  return (now + step_ns) / kEvery_ns != now / kEvery_ns && time_ns_ >= agents_[id].settled_ns && MayLeaveLane(id);
+  return (now + step_ns) / kEvery_ns != now / kEvery_ns;
+}
+
+bool TrafficModel::ThinksOfLanes(std::uint32_t id, std::int64_t step_ns) const {
+  return IsItsTurn(id, step_ns) && time_ns_ >= agents_[id].settled_ns && MayLeaveLane(id);
 }
 
 bool TrafficModel::MayLeaveLane(std::uint32_t id) const {
@@ -139,6 +144,7 @@ bool TrafficModel::MayLeaveLane(std::uint32_t id) const {
 // One after the other by their numbers: who has begun is seen by the next.
 void TrafficModel::ChangeLanes(std::int64_t step_ns) {
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+    if (beside_[id] == 0) continue;
     Agent& agent = agents_[id];
     if (!agent.on_road || agent.overtaking.active()) continue;
     if (agent.change.side != 0) {
@@ -146,8 +152,7 @@ void TrafficModel::ChangeLanes(std::int64_t step_ns) {
       agent.change = {};
       agent.settled_ns = time_ns_ + kSettles_ns;
     }
-    const lanes::Track& track = graph()[agent.path.back().track];
-    if ((!track.left && !track.right) || agent.brake_mps2 > 0.0) continue;
+    if (agent.brake_mps2 > 0.0 || !HasBeside(id, agent.path.back().track)) continue;
     if (const int side = ToldSide(id); side != 0) {
       ChangeAsTold(id, side);
       continue;

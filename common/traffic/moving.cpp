@@ -27,7 +27,7 @@ void TrafficModel::StartFull(std::shared_ptr<terrain::Ground> ground) {
 // With its axles' middles over the path, rolling along it.
 base::Status TrafficModel::PlaceFull(std::uint32_t id) {
   Agent& agent = agents_[id];
-  const Eigen::Vector3d front = FrameAt(graph(), agent.path, agent.o_m + HalfBase(id)).p_W, rear = FrameAt(graph(), agent.path, agent.o_m - HalfBase(id)).p_W;
+  const Eigen::Vector3d front = FrameOf(id, agent.o_m + HalfBase(id)).p_W, rear = FrameOf(id, agent.o_m - HalfBase(id)).p_W;
   const Eigen::Vector3d middle = 0.5 * (front + rear), along = front - rear;
   vehicle::InitialCondition initial;
   initial.x_m = middle.x(), initial.y_m = middle.y(), initial.z_hint_m = middle.z();
@@ -62,11 +62,11 @@ void TrafficModel::DriveFull(std::uint32_t id, double wanted_mps2, double dt_s) 
   agent.wish_mps2 = agent.speed_mps > 0.0 ? wanted_mps2 : std::max(0.0, wanted_mps2);
   const double half = 0.5 * traits_[id].length_m;
   double rear_m = agent.o_m - HalfBase(id);
-  PathFrame rear = FrameAt(graph(), agent.path, rear_m);
+  PathFrame rear = FrameOf(id, rear_m);
   rear_m += rear.ahead_W.dot(full_->RearAxle_W(id) - rear.p_W.head<2>()) / rear.stretch;
-  rear = FrameAt(graph(), agent.path, rear_m);
+  rear = FrameOf(id, rear_m);
   const double soon_m = std::min(std::max(kAnswerLeast_m, kAnswer_s * agent.speed_mps), agent.o_m + half - rear_m);
-  const PathFrame soon = FrameAt(graph(), agent.path, rear_m + soon_m);
+  const PathFrame soon = FrameOf(id, rear_m + soon_m);
   const double turns = std::atan2(rear.ahead_W.x() * soon.ahead_W.y() - rear.ahead_W.y() * soon.ahead_W.x(), rear.ahead_W.dot(soon.ahead_W));
   full_->Drive(id, wanted_mps2, {rear.p_W.head<2>(), rear.ahead_W, turns / soon_m}, dt_s);
 }
@@ -85,7 +85,7 @@ void TrafficModel::FollowFull(std::uint32_t id, double dt_s) {
   const Eigen::Vector2d at = full_->cars().p_WB_W(id).head<2>();
   agent.o_m += 0.5 * (before + agent.speed_mps) * dt_s;
   for (int turn = 0; turn < 2; ++turn) {
-    const PathFrame frame = FrameAt(graph(), agent.path, agent.o_m);
+    const PathFrame frame = FrameOf(id, agent.o_m);
     agent.o_m += frame.ahead_W.dot(at - frame.p_W.head<2>()) / frame.stretch;
   }
 }

@@ -58,7 +58,7 @@ Oncoming TrafficModel::FindOncoming(std::uint32_t id) const {
     const auto track = static_cast<std::uint32_t>(opposite);
     const auto here = [&](double d_m) { return stretch.zero_m + graph().Across(track, d_m, stretch.track); };
     for (double d = 0.0; d <= graph()[track].length_m(); d += kEvery_m) found.speed_mps = std::max(found.speed_mps, fastest * graph().SpeedLimit_mps(track, d));
-    for (const Occupant& other : occupants_[track]) comes(here(other.front_m), here(other.rear_m), agents_[other.id].speed_mps);
+    for (const Occupant& other : occupants_.On(track)) comes(here(other.front_m), here(other.rear_m), agents_[other.id].speed_mps);
     for (const Facing& other : facing_[track]) {
       if (other.id != id && here(other.rear_m) > rear - kOvertakers_m) found.own_way = true;
     }

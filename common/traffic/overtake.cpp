@@ -31,7 +31,7 @@ std::optional<Ahead> TrafficModel::FindPassed(std::uint32_t id) const {
   const Overtaking& way = agents_[id].overtaking;
   const double front = agents_[id].o_m + 0.5 * traits_[id].length_m;
   for (const Stretch& stretch : stretches_[id]) {
-    for (const Occupant& other : occupants_[stretch.track]) {
+    for (const Occupant& other : occupants_.On(stretch.track)) {
       if (other.id == way.passed) return Ahead{stretch.zero_m + other.rear_m - front, agents_[other.id].speed_mps, other.id, true, -1, other.front_m - other.rear_m};
     }
     for (const Block& block : blocks_[stretch.track]) {
@@ -116,6 +116,7 @@ double TrafficModel::WantedBeside(std::uint32_t id, double wanted_mps2) const {
 // One after the other by their numbers: who has begun is seen by the next.
 void TrafficModel::Overtake(std::int64_t step_ns) {
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
+    if (passes_[id] == 0) continue;
     Agent& agent = agents_[id];
     if (!agent.on_road) continue;
     if (!agent.overtaking.active()) {

@@ -193,13 +193,15 @@ std::optional<Piece> TrafficModel::WeighOvertaking(std::uint32_t id, Overtaking&
 void TrafficModel::ThinkOfOvertaking(std::uint32_t id) {
   Agent& agent = agents_[id];
   if (map_->opposites[agent.path.back().track] < 0 || agent.change.side != 0 || is_overtaken_[id] != 0 || !IsHeldUp(id)) return;
-  std::vector<Stretch> own = std::move(stretches_[id]);
+  Stretches own = std::move(stretches_[id]);
+  stretches_[id].clear();
   FindStretches(id, settings_.overtaking.sight_m);
   Overtaking way;
   const auto piece = WeighOvertaking(id, way);
   stretches_[id] = std::move(own);
   if (!piece) return;
   agent.overtaking = way;
+  any_overtaking_ = true;
   agent.told_past = false;
   agent.path.push_back(*piece);
   FaceOncoming(id);

@@ -1,6 +1,7 @@
 // The next conflict zones on an agent's way.
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "common/traffic/traffic_model.hpp"
 #include "common/traffic/travel_time.hpp"
@@ -13,6 +14,7 @@ constexpr double kStand_m = 2.5;        // more than its length a car needs to s
 constexpr double kReaction_s = 1.0;
 constexpr double kEarly_m = 4.0;
 constexpr double kStopped_m = 2.0;      // at most so far before a STOP line
+constexpr double kLoose_m = 0.5;        // more than its standing gap that a queueing car leaves
 constexpr double kOverLine_m = 0.3;     // a front so far beyond a light's line has passed it
 
 }  // namespace
@@ -41,7 +43,25 @@ double TrafficModel::KnowAllowedAt(std::uint32_t id, double odometer_m, std::siz
   return 0.0;
 }
 
+// What else a passage has is found anew.
+bool TrafficModel::KeepPassage(std::uint32_t id) {
+  Passage& passage = passages_[id];
+  if (passage.key.way != ways_[id] || passage.key.granted_m != agents_[id].granted_m || FrontOf(id) > passage.key.until_m) return false;
+  passage.due = passage.head = passage.able = passage.must_stop = passage.lit = passage.red = passage.barred = false;
+  passage.lacks_m = passage.arrives_s = passage.delay_s = passage.later_s = 0.0;
+  passage.waits_for = -1;
+  return true;
+}
+
 void TrafficModel::FindPassage(std::uint32_t id) {
+  if (!KeepPassage(id)) FindCrossings(id);
+  Passage& passage = passages_[id];
+  if (!passage.any) return;
+  const double to_line = passage.line_m - FrontOf(id), v = agents_[id].speed_mps;
+  passage.due = to_line < v * v / (2.0 * traits_[id].idm.braking_mps2) + kReaction_s * v + kEarly_m;
+}
+
+void TrafficModel::FindCrossings(std::uint32_t id) {
   const Agent& agent = agents_[id];
   const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
   Passage& passage = passages_[id];
@@ -49,18 +69,21 @@ void TrafficModel::FindPassage(std::uint32_t id) {
   crossings.clear();
   passage = Passage();
   const double stand = traits_[id].length_m + kStand_m;
+  passage.key = {ways_[id], agent.granted_m, kNoBarrier_m};
   const auto take = [&](const Crossing& crossing) {
     if (!passage.any) passage.line_m = crossing.zone < 0 && !passage.lit ? crossing.in_m : std::max(front, crossing.in_m - kLine_m);
     passage.any = true;
     passage.end_m = std::max(passage.end_m, crossing.out_m);
     crossings.push_back(crossing);
+    passage.key.until_m = std::min(passage.key.until_m, crossing.in_m - kLine_m);
   };
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.end_m < rear || stretch.end_m < agent.granted_m || stretch.changes) continue;
     if (passage.any && stretch.begin_m > passage.end_m + stand) break;
     if (!stretch.crosses && !stretch.has_lines) continue;
+    if (stretch.has_lines) passage.key.way = 0;  // what its lines say changes
     const auto sides = zones().ConflictsOf(stretch.track);
-    const auto& lines = map_->plans[stretch.track].lines;
+    const std::span<const StopLine> lines = stretch.has_lines ? std::span<const StopLine>(map_->plans[stretch.track].lines) : std::span<const StopLine>();
     std::size_t next = 0;
     const auto take_lines = [&](double before_m) {
       for (; next < lines.size() && stretch.zero_m + lines[next].d_m <= before_m; ++next) {
@@ -84,19 +107,22 @@ void TrafficModel::FindPassage(std::uint32_t id) {
       if (out <= rear || out <= agent.granted_m || in < front - 0.5 * kLine_m) continue;
       take_lines(in + kLine_m);
       if (passage.any && in > passage.end_m + stand) break;
-      take({part.zone, part.side, in, out});
+      take({static_cast<std::int32_t>(part.zone), part.side, in, out});
     }
     if (!passage.any || passage.end_m + stand > stretch.end_m) take_lines(stretch.end_m + kLine_m);
   }
   passage.crossings = std::move(crossings);
   if (!passage.any) return;
-  const double to_line = passage.line_m - front;
-  const double v = agent.speed_mps;
-  passage.due = to_line < v * v / (2.0 * traits_[id].idm.braking_mps2) + kReaction_s * v + kEarly_m;
-  const double most = KnowAllowedAt(id, passage.crossings.front().in_m, 0);
-  const double way_in = passage.crossings.front().in_m - front, way_out = passage.end_m - rear;
-  passage.arrives_s = TravelTime(way_in, v, most, traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
-  passage.clears_s = TravelTime(way_out, v, std::max(most, KnowAllowedAt(id, passage.end_m, 1)), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
+  passage.room_m = passage.end_m + traits_[id].length_m + settings_.idm.standing_gap_m + kLoose_m;
+}
+
+// What others, and it, must know of who may come to its zones soon: when, and whether there is room behind them.
+void TrafficModel::TellComing(std::uint32_t id) {
+  Passage& passage = passages_[id];
+  const double in = passage.crossings.front().in_m, most = KnowAllowedAt(id, in, 0);
+  (void)KnowAllowedAt(id, passage.end_m, 1);
+  passage.arrives_s = TravelTime(in - FrontOf(id), agents_[id].speed_mps, most, traits_[id].start_mps2, {agents_[id].wish_mps2, settings_.smooth.planned_mps3});
+  FindRoom(id);
 }
 
 }  // namespace rodeira::traffic

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,16 +10,22 @@ namespace rodeira::traffic {
 // Conflict zones as an agent comes to them in a step, and who has or wants them.
 
 struct Crossing {
-  std::int64_t zone = -1;  // none: only a STOP line
-  int side = 0;
+  std::int32_t zone = -1;  // none: only a STOP line
+  std::int32_t side = 0;
   double in_m = 0.0, out_m = 0.0;  // odometer
+};
+
+// Of what the zones of a passage were found from: as long as that is the same, and its front is before the first of them, they are as well.
+struct PassageKey {
+  std::uint32_t way = 0;  // number of the way as it was seen (TrafficModel::ways_); 0: of none
+  double granted_m = 0.0, until_m = 0.0;  // odometers: to which zones were its own; of its front
 };
 
 // The next stretch of conflict zones on an agent's way that are not yet its own, up to where it may stand again.
 struct Passage {
   bool any = false;
   bool due = false;        // it must know now whether it may go on
-  bool head = false;       // nobody stands between it and the line who waits himself
+  bool head = false;       // nobody stands between it and the line who waits himself (this, and the next: of whom must know, and of whom others ask about)
   bool able = false;       // there is room for it behind the zones
   bool must_stop = false;  // a STOP sign
   bool lit = false;        // there is a light in it
@@ -28,9 +33,10 @@ struct Passage {
   bool barred = false;     // it waits before the line for people on foot
   double line_m = 0.0;     // odometer at which its front stops
   double end_m = 0.0;
+  PassageKey key;
   double room_m = 0.0;  // odometer up to which who is ahead must have left
   double lacks_m = 0.0;  // of that, at most, when all ahead have come as far as they surely do
-  double arrives_s = 0.0, clears_s = 0.0;
+  double arrives_s = 0.0;  // of whom others ask about
   double delay_s = 0.0;  // until who keeps it out is out of the way
   double later_s = 0.0;  // so much later than it could it comes, as others are told
   std::int64_t waits_for = -1;
@@ -41,29 +47,6 @@ struct Passage {
 struct PlannedAt {
   std::uint32_t track = 0;
   double d_m = -1e18, planned_mps = 0.0;
-};
-
-// Somebody who holds a side of a zone. Ids from agents_.size() on are others.
-struct Holder {
-  std::uint32_t id = 0;
-  ZoneGrant grant;
-  double out_m = 0.0;  // odometer at the zone's end
-};
-
-// Somebody who comes to a side of a zone. When, is found out where it is asked for: few are.
-struct Comer {
-  std::uint32_t id = 0;
-  double in_m = 0.0, out_m = 0.0;          // odometer; of agents
-  double arrives_s = 0.0, clears_s = 0.0;  // of others
-};
-
-// A zone in a step: all of it by side, in two lines of memory, of which most ask for the first alone, since who comes to a junction asks for many of them.
-struct alignas(64) ZoneNow {
-  bool touched = false;           // anything is said of it
-  std::array<bool, 2> awaited{};  // an urgent agent waits for this side to end
-  std::array<std::vector<Holder>, 2> holders;
-  std::array<std::vector<Comer>, 2> comers;
-  std::array<double, 2> room_for_s{};  // so long somebody has waited for room behind it that this side could take
 };
 
 }  // namespace rodeira::traffic

@@ -73,6 +73,7 @@ void TrafficModel::PlaceAll(std::span<const driver::Footprint> others) {
   }
   for (Agent& agent : agents_) agent.speed_mps = agent.on_road ? kFast_mps : 0.0;  // that they look far
   See(others);
+  LookAhead();
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     Agent& agent = agents_[id];
     if (!agent.on_road) continue;

@@ -34,7 +34,7 @@ void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tel
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.begin_m > to_m) break;
     if (stretch.end_m < agent.o_m) continue;
-    auto near = Beyond(stretch.track, agent.o_m - stretch.zero_m);
+    auto near = occupants_.Beyond(stretch.track, agent.o_m - stretch.zero_m);
     std::size_t count = 0;
     while (count < near.size() && stretch.zero_m + near[count].middle_m() - longest_half_m_ <= to_m) ++count;
     near = near.first(count);
@@ -45,9 +45,9 @@ void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tel
       std::sort(sorted.begin(), sorted.end(), by_id);
       for (const Occupant& other : sorted) told(other, stretch.zero_m, kNever_m);
     }
-    for (const lanes::Parting& part : zones().PartingsOf(stretch.track)) {
+    for (const lanes::Parting& part : PartingsOf(stretch.track)) {
       if (stretch.zero_m + part.out_m < agent.o_m) continue;
-      for (const Occupant& other : occupants_[part.other]) {
+      for (const Occupant& other : occupants_.On(part.other)) {
         if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m) told(other, stretch.zero_m, part.other_out_m);
       }
     }
@@ -72,7 +72,7 @@ double TrafficModel::ReachOf(std::uint32_t id, int depth) {
   const double front = agent.o_m + 0.5 * traits_[id].length_m;
   double to = front + SightOf(agent);
   if (passage.any) to = std::min(to, passage.line_m);
-  to = std::min(to, std::max(front, bars_[id]));
+  to = std::min({to, std::max(front, bars_[id]), SureTo(id)});
   const double apart = traits_[id].idm.standing_gap_m + kLoose_m;
   EachAhead(id, to + apart, depth, [&](std::int64_t, double, double comes_m) { to = std::min(to, comes_m - apart); });
   return reaches_[id] = std::max(0.0, to - front);
@@ -83,7 +83,7 @@ double TrafficModel::ReachOf(std::uint32_t id, int depth) {
 void TrafficModel::FindRoom(std::uint32_t id) {
   Passage& passage = passages_[id];
   passage.head = passage.able = true;
-  const double to = passage.room_m = passage.end_m + traits_[id].length_m + settings_.idm.standing_gap_m + kLoose_m;
+  const double to = passage.room_m;
   double nearest = kNever_m;
   EachAhead(id, to, 0, [&](std::int64_t other, double rear_m, double comes_m) {
     if (comes_m < to) {

@@ -29,8 +29,33 @@ bool TrafficModel::KeepStretches(std::uint32_t id, double far_m) {
   const WayKey key{agent.trip, agent.links, agent.leg, agent.path.back().track, agent.path.size(), agent.path.front().begin_m, agent.path.back().zero_m};
   if (key != std::exchange(way_keys_[id], key) || stretches.size() < key.pieces) return false;
   if (stretches.back().end_m < far_m && stretches.back().goes_on) return false;
-  while (stretches.size() > key.pieces && stretches[stretches.size() - 2].end_m >= far_m) stretches.pop_back();
+  for (; stretches.size() > key.pieces && stretches[stretches.size() - 2].end_m >= far_m; ++ways_[id]) stretches.pop_back();
   return true;
+}
+
+void TrafficModel::LookBelow(std::uint32_t id) {
+  Below& below = below_[id];
+  const Piece& piece = PieceAt(agents_[id].path, agents_[id].o_m);
+  const std::uint32_t track = piece.track;
+  const double d = agents_[id].o_m - piece.zero_m;
+  if (below.track == track) {
+    if (d < below.plan.from_m || d >= below.plan.to_m) below.plan = map_->plans[track].plan.Around(d);
+    return;
+  }
+  const lanes::Track& on = graph()[track];
+  below = {track, static_cast<std::int32_t>(on.lane.road), on.lane.lane, !on.next.empty(), on.left || on.right, on.length_m(), on.curve.straight(), map_->plans[track].plan.Around(d)};
+}
+
+PathFrame TrafficModel::FrameOf(std::uint32_t id, double odometer_m) const {
+  const Piece& piece = PieceAt(agents_[id].path, odometer_m);
+  const double d = odometer_m - piece.zero_m;
+  const Below& below = below_[id];
+  return FrameOn(piece, below.track == piece.track && below.straight ? below.straight->At(d) : graph()[piece.track].curve.At(d), odometer_m);
+}
+
+bool TrafficModel::HasBeside(std::uint32_t id, std::uint32_t track) const {
+  if (below_[id].track == track) return below_[id].has_beside;
+  return graph()[track].left || graph()[track].right;
 }
 
 Stretch TrafficModel::StretchOn(std::uint32_t track, double zero_m, double begin_m, double end_m, bool changes) const {
@@ -45,6 +70,7 @@ void TrafficModel::FindStretches(std::uint32_t id, double range_m) {
   auto& stretches = stretches_[id];
   const double far = agent.o_m + 0.5 * traits_[id].length_m + range_m;
   if (KeepStretches(id, far)) return;
+  ++ways_[id];
   stretches.clear();
   for (std::size_t i = 0; i < agent.path.size(); ++i) {
     const Piece& piece = agent.path[i];
@@ -88,45 +114,59 @@ void TrafficModel::SeeOthers(std::span<const driver::Footprint> others) {
   }
 }
 
+// On the tracks below it, and on those beside that it takes up.
+void TrafficModel::BeSeen(std::uint32_t id) {
+  const Agent& agent = agents_[id];
+  const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
+  std::int32_t from = -1;
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.begin_m >= front) break;
+    if (stretch.end_m > rear) occupants_.Add(stretch.track, {id, from, rear - stretch.zero_m, front - stretch.zero_m});
+    from = static_cast<std::int32_t>(stretch.track);
+  }
+  if (agent.change.side != 0) AppearOnLaneLeft(id);
+  if (!agent.overtaking.active()) return;
+  any_overtaking_ = true;
+  FaceOncoming(id);
+}
+
 void TrafficModel::See(std::span<const driver::Footprint> others) {
   SeeOthers(others);
-  for (auto& occupants : occupants_) occupants.clear();
+  for (const std::uint32_t track : occupants_.taken()) {
+    for (const lanes::Parting& part : zones().PartingsOf(track)) parts_[part.other] = 0;
+  }
+  occupants_.Clear();
   if (any_facing_) {
     for (auto& facing : facing_) facing.clear();
   }
-  any_facing_ = false;
+  any_facing_ = any_overtaking_ = false;
   is_overtaken_.assign(agents_.size(), 0);
   EachDriving([&](std::uint32_t id) {  // and as far as zones are its own, however slowly it drives now, or it looks who overtakes
+    LookBelow(id);
     const Agent& agent = agents_[id];
     const double own = agent.granted_m - agent.o_m - 0.5 * traits_[id].length_m;
     FindStretches(id, std::max({SightOf(agent), own, agent.overtaking.active() ? settings_.overtaking.sight_m : 0.0, people_ ? StoppingWay(id) : 0.0}));
+    if (!crew_) BeSeen(id);
   });
-  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    const Agent& agent = agents_[id];
-    if (!agent.on_road) continue;
-    const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
-    std::int64_t from = -1;
-    for (const Stretch& stretch : stretches_[id]) {
-      if (stretch.begin_m >= front) break;
-      if (stretch.end_m > rear) occupants_[stretch.track].push_back({id, rear - stretch.zero_m, front - stretch.zero_m, from});
-      from = stretch.track;
-    }
-    if (agent.change.side != 0) AppearOnLaneLeft(id);
-    if (agent.overtaking.active()) FaceOncoming(id);
+  for (std::uint32_t id = 0; crew_ && id < agents_.size(); ++id) {
+    if (agents_[id].on_road) BeSeen(id);
   }
-  for (auto& occupants : occupants_) {
-    std::sort(occupants.begin(), occupants.end(), [](const Occupant& a, const Occupant& b) {
-      return a.middle_m() != b.middle_m() ? a.middle_m() < b.middle_m() : a.id < b.id;
-    });
-  }
-  EachDriving([&](std::uint32_t id) { ahead_[id] = FindAhead(id); });
+  occupants_.Sort();
+  for (const std::uint32_t track : occupants_.taken()) Part(track);
 }
 
-// Those on a track whose middles lie beyond d, and perhaps a few more.
-std::span<const Occupant> TrafficModel::Beyond(std::uint32_t track, double d_m) const {
-  const auto& all = occupants_[track];
-  const auto from = std::lower_bound(all.begin(), all.end(), d_m - 1e-6, [](const Occupant& occupant, double d) { return occupant.middle_m() < d; });
-  return {from, all.end()};
+// Somebody is on this track: who drives on those that part from it must look. Of the others nobody need read what parts from them.
+void TrafficModel::Part(std::uint32_t track) {
+  for (const lanes::Parting& part : zones().PartingsOf(track)) parts_[part.other] = 1;
+}
+
+// Those on which somebody may be.
+std::span<const lanes::Parting> TrafficModel::PartingsOf(std::uint32_t track) const {
+  return parts_[track] != 0 ? zones().PartingsOf(track) : std::span<const lanes::Parting>();
+}
+
+void TrafficModel::LookAhead() {
+  EachDriving([&](std::uint32_t id) { ahead_[id] = FindAhead(id); });
 }
 
 // The nearest of: agents on the tracks of the way, and on the lane that it is leaving; what else stands in the way. Or, of agents on tracks
@@ -142,7 +182,7 @@ Ahead TrafficModel::FindAhead(std::uint32_t id) const {
     const double gap = zero_m + other.rear_m - front;
     if (nearest.any && gap >= nearest.gap_m) return;
     if (agent.overtaking.active() && IsPassed(agent.overtaking, front, other.id, -1, gap)) return;
-    if (agents_[other.id].overtaking.passed == id && !agents_[other.id].overtaking.back) return;  // it is beside
+    if (any_overtaking_ && agents_[other.id].overtaking.passed == id && !agents_[other.id].overtaking.back) return;  // it is beside
     const double side = 0.5 * traits_[other.id].width_m;
     nearest = {gap, agents_[other.id].speed_mps, other.id, true, -1, traits_[other.id].length_m, side, -side};
   };
@@ -161,15 +201,15 @@ Ahead TrafficModel::FindAhead(std::uint32_t id) const {
     const std::int64_t from = std::exchange(before, stretch.track);
     if (stretch.end_m < agent.o_m || (stretch.changes && agent.change.side == 0)) continue;
     if (ahead.any && stretch.begin_m > front + ahead.gap_m + 10.0) break;
-    for (Occupant other : Beyond(stretch.track, agent.o_m - stretch.zero_m)) {
+    for (Occupant other : occupants_.Beyond(stretch.track, agent.o_m - stretch.zero_m)) {
       if (ahead.any && stretch.zero_m + other.middle_m() - longest_half_m_ - front >= ahead.gap_m) break;
       // Who comes in from beside has his rear in the zone where the ways merge, which its own line keeps it out of.
       if (from >= 0 && other.from >= 0 && other.from != from) other.rear_m = std::max(other.rear_m, stretch.begin_m - stretch.zero_m);
       consider(other, stretch.zero_m, ahead);
     }
-    for (const lanes::Parting& part : zones().PartingsOf(stretch.track)) {
+    for (const lanes::Parting& part : PartingsOf(stretch.track)) {
       if (agent.o_m - half > stretch.zero_m + part.out_m) continue;
-      for (const Occupant& other : occupants_[part.other]) {
+      for (const Occupant& other : occupants_.On(part.other)) {
         if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m) consider(other, stretch.zero_m, parting);
       }
     }
@@ -177,7 +217,7 @@ Ahead TrafficModel::FindAhead(std::uint32_t id) const {
     if (agent.change.side == 0) continue;
     if (const auto old = LaneLeft(id, stretch, front)) {
       const double at = std::max(agent.o_m, stretch.begin_m), zero = at - graph().Across(stretch.track, at - stretch.zero_m, *old);
-      for (const Occupant& other : Beyond(*old, agent.o_m - zero)) consider(other, zero, ahead);
+      for (const Occupant& other : occupants_.Beyond(*old, agent.o_m - zero)) consider(other, zero, ahead);
       for (const Block& block : BlocksOn(*old)) consider_block(block, zero);
     }
   }

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <optional>
 
+#include "common/driver/speed_plan.hpp"
 #include "common/driver/way.hpp"
+#include "common/lanes/curve.hpp"
 #include "common/traffic/agent.hpp"
 
 namespace rodeira::traffic {
@@ -24,6 +27,20 @@ struct Stretch {
   double planned_mps = 0.0;  // that the track's plan allows where it begins here
 };
 
+// From the track under its rear bumper to as far as it looks: most look over no more than three, which lie in its own place in memory.
+using Stretches = boost::container::small_vector<Stretch, 3>;
+
+// Of the track below an agent's middle what is asked in each step, beside the agent in near memory: nothing that the map does not say.
+struct Below {
+  std::uint32_t track = 0xFFFFFFFF;
+  std::int32_t road = 0, lane = 0;
+  bool goes_on = false;     // leads to other tracks
+  bool has_beside = false;  // there is another lane of its direction beside it
+  double length_m = 0.0;
+  std::optional<lanes::Curve::Straight> straight;
+  driver::SpeedPlan::Part plan;  // about that place
+};
+
 // Of what the stretches of a way were found from: as long as it is the same they are as well, but for how far they go.
 struct WayKey {
   std::uint32_t trip = 0, links = 0, leg = 0, track = 0;
@@ -36,15 +53,6 @@ struct WayKey {
 // Keys of the next choice of a way: links passed, and legs of the route.
 struct Choice {
   std::uint32_t link = 0, leg = 0;
-};
-
-// Somebody on a track, in its own d, which may lie beyond its ends.
-struct Occupant {
-  std::uint32_t id = 0;
-  double rear_m = 0.0, front_m = 0.0;
-  std::int64_t from = -1;  // the track by which it came, as long as a part of it may be there
-
-  double middle_m() const { return 0.5 * (rear_m + front_m); }
 };
 
 // A vehicle that is no agent, on a track.
@@ -85,7 +93,7 @@ struct Sideways {
   Piece piece;
   int side = 0;
   double surplus_mps2 = 0.0;  // by which it is worth while
-  std::vector<Stretch> stretches;
+  Stretches stretches;
 };
 
 // The lane of oncoming traffic, as who overtakes sees it, in its odometer.

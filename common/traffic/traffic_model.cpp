@@ -13,18 +13,21 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr std::uint64_t kDrawLink = 103;
+constexpr std::size_t kAhead = 6;       // agents: so far ahead memory is fetched
 constexpr double kGentle_m = 3e-4;      // what a bend makes of the way of a step, and no more
 
 }  // namespace
 
 TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<const TrafficMap> map)
-    : settings_(settings), map_(std::move(map)), agents_(settings.vehicles + settings.scripted.size()) {
+    : settings_(settings), map_(std::move(map)), agents_(settings.vehicles + settings.scripted.size()), occupants_(graph().tracks().size()), book_(zones().zones().size()), present_(graph().tracks().size()) {
   for (std::uint32_t id = 0; id < agents_.size(); ++id) traits_.push_back(TraitsOf(settings_, id));
   for (const AgentTraits& traits : traits_) longest_half_m_ = std::max(longest_half_m_, 0.5 * traits.length_m);
   if (!settings_.demand.flows.empty()) longest_half_m_ = 0.5 * LargestOf(settings_).length_m;
   if (settings_.threads > 1) crew_ = std::make_shared<base::Crew>(settings_.threads);
   stretches_.resize(agents_.size());
   way_keys_.resize(agents_.size());
+  below_.resize(agents_.size());
+  ways_.assign(agents_.size(), 1);
   ahead_.resize(agents_.size());
   passages_.resize(agents_.size());
   known_.resize(agents_.size());
@@ -37,18 +40,21 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   is_moved_.resize(agents_.size());
   leaves_.resize(agents_.size());
   bars_.assign(agents_.size(), kNoBarrier_m);
-  occupants_.resize(graph().tracks().size());
-  present_.resize(graph().tracks().size());
+  at_entry_.resize(agents_.size());
   blocks_.resize(graph().tracks().size());
   facing_.resize(graph().tracks().size());
   is_overtaken_.resize(agents_.size());
-  now_.resize(zones().zones().size());
+  beside_.resize(agents_.size());
+  passes_.resize(agents_.size());
+  parts_.resize(graph().tracks().size());
   is_asked_.resize(2 * zones().zones().size());
   base::PreferHugePages(agents_);
+  base::PreferHugePages(traits_);
   base::PreferHugePages(stretches_);
+  base::PreferHugePages(way_keys_);
+  base::PreferHugePages(below_);
+  base::PreferHugePages(ahead_);
   base::PreferHugePages(passages_);
-  base::PreferHugePages(occupants_);
-  base::PreferHugePages(now_);
   base::PreferHugePages(moved_);
 }
 
@@ -149,21 +155,26 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
   }
   const std::int64_t step_ns = std::llround(dt_s * 1e9);
   See(bodies_);
+  if (people_ || !motors_.empty()) LookAhead();  // else with what comes next, while an agent is in near memory
   Decide(dt_s);  // reads the old state …
   if (full_) full_->Step(dt_s, crew_.get());
+  std::fill(is_moved_.begin(), is_moved_.end(), 0);
+  std::fill(ends_.begin(), ends_.end(), 0);
+  std::fill(missed_now_.begin(), missed_now_.end(), 0);
   EachDriving([&](std::uint32_t id) {  // … writes the new one
+    FetchBend(id);
     if (full_) FollowFull(id, dt_s);
     else MovePlanar(id, wanted_[id], dt_s);
     missed_now_[id] = Follow(id);
     ends_[id] = AtTheEnd(id);
+    is_moved_[id] = !ends_[id];
     if (!ends_[id]) moved_[id] = PoseOf(id);
+    const auto& path = agents_[id].path;
+    at_entry_[id] = std::any_of(path.begin(), path.end(), [&](const Piece& piece) { return map_->enters[piece.track]; });
   });
-  std::fill(is_moved_.begin(), is_moved_.end(), 0);
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    if (!agents_[id].on_road) continue;
     missed_ += missed_now_[id];
     if (ends_[id]) Leave(id);
-    else is_moved_[id] = 1;
   }
   SlideStruck(dt_s);
   if (people_) people_->Step(dt_s, time_ns_ + step_ns);
@@ -175,11 +186,24 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
   FindPoses();
 }
 
+// The line of who soon moves in a bend lies in far memory where there are thousands of agents: first the track, then what that names.
+void TrafficModel::FetchBend(std::size_t id) const {
+  const auto bends = [&](std::size_t of) { return of < agents_.size() && agents_[of].on_road && !below_[of].straight; };
+  constexpr std::size_t kLine_bytes = 64;
+  if (const std::size_t later = id + 2 * kAhead; bends(later)) {
+    const auto* curve = reinterpret_cast<const char*>(&graph()[below_[later].track].curve);
+    for (std::size_t at = 0; at < sizeof(lanes::Curve); at += kLine_bytes) __builtin_prefetch(curve + at);
+  }
+  if (const std::size_t soon = id + kAhead; bends(soon)) {
+    const Agent& agent = agents_[soon];
+    graph()[below_[soon].track].curve.Fetch(agent.o_m - PieceAt(agent.path, agent.o_m).zero_m);
+  }
+}
+
 // How far the point midway between the axles moves a metre of the odometer: the axles' middles keep to the path.
 double TrafficModel::Advance(std::uint32_t id, double odometer_m) const {
-  const Agent& agent = agents_[id];
   const double half_base = HalfBase(id);
-  const PathFrame front = FrameAt(graph(), agent.path, odometer_m + half_base), rear = FrameAt(graph(), agent.path, odometer_m - half_base);
+  const PathFrame front = FrameOf(id, odometer_m + half_base), rear = FrameOf(id, odometer_m - half_base);
   return std::max(0.2, 0.5 * (front.stretch * front.ahead_W + rear.stretch * rear.ahead_W).norm());
 }
 
@@ -188,12 +212,12 @@ double TrafficModel::Moved(std::uint32_t id, double travel_m) const {
   const Agent& agent = agents_[id];
   const Piece& piece = agent.path.front();
   const bool on_line = agent.path.size() == 1 && piece.offset_m == 0.0 && piece.slope == 0.0 && piece.aside_m == 0.0;
-  if (on_line && graph()[piece.track].curve.is_straight()) return agent.o_m + travel_m;
+  if (on_line && (below_[id].track == piece.track ? below_[id].straight : graph()[piece.track].curve.straight())) return agent.o_m + travel_m;
   const double rate = Advance(id, agent.o_m + 0.5 * travel_m);
   double odometer = agent.o_m + travel_m / rate;
   if (std::fabs(rate - 1.0) * travel_m < kGentle_m && agent.change.side == 0 && !agent.overtaking.active()) return odometer;
   const auto middle = [&](double o) -> Eigen::Vector2d {
-    return 0.5 * (FrameAt(graph(), agent.path, o + HalfBase(id)).p_W + FrameAt(graph(), agent.path, o - HalfBase(id)).p_W).head<2>();
+    return 0.5 * (FrameOf(id, o + HalfBase(id)).p_W + FrameOf(id, o - HalfBase(id)).p_W).head<2>();
   };
   const Eigen::Vector2d from = middle(agent.o_m);
   for (int turn = 0; turn < 4; ++turn) {
@@ -211,8 +235,7 @@ std::uint32_t TrafficModel::Follow(std::uint32_t id) {
   const double half = 0.5 * traits_[id].length_m;
   while (true) {
     const Piece& last = agent.path.back();
-    const lanes::Track& track = graph()[last.track];
-    if (agent.o_m + half <= last.zero_m + track.length_m() || track.next.empty()) break;
+    if (agent.o_m + half <= last.zero_m + LengthOf(id, last.track) || !GoesOn(id, last.track)) break;
     const Route* route = RouteOf(agent);
     if (route != nullptr && route->MustChange(agent.leg, last.track)) ++missed;
     Choice choice{agent.links, agent.leg};
@@ -228,8 +251,7 @@ std::uint32_t TrafficModel::Follow(std::uint32_t id) {
 bool TrafficModel::AtTheEnd(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   const Piece& last = agent.path.back();
-  const lanes::Track& track = graph()[last.track];
-  return track.next.empty() && agent.o_m + 0.5 * traits_[id].length_m >= last.zero_m + track.length_m();
+  return !GoesOn(id, last.track) && agent.o_m + 0.5 * traits_[id].length_m >= last.zero_m + LengthOf(id, last.track);
 }
 
 }  // namespace rodeira::traffic

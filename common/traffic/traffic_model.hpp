@@ -21,12 +21,14 @@
 #include "common/traffic/demand.hpp"
 #include "common/traffic/full_cars.hpp"
 #include "common/traffic/motors_driver.hpp"
+#include "common/traffic/occupancy.hpp"
 #include "common/traffic/passage.hpp"
 #include "common/traffic/pedestrians.hpp"
 #include "common/traffic/sight.hpp"
 #include "common/traffic/traffic_map.hpp"
 #include "common/traffic/traffic_settings.hpp"
 #include "common/traffic/yielding.hpp"
+#include "common/traffic/zone_book.hpp"
 
 namespace rodeira::traffic {
 
@@ -133,16 +135,21 @@ class TrafficModel {
   template <class Tell>
   void EachDriving(const Tell& tell);
 
-  // Brings what is asked of agents that come soon, and of the tracks below them, from far memory while others are told.
-  void Fetch(std::size_t id, std::size_t end) const;
-
   // Sight: who is where.
   void See(std::span<const driver::Footprint> others);
+  void BeSeen(std::uint32_t id);
+  void Part(std::uint32_t track);
+  std::span<const lanes::Parting> PartingsOf(std::uint32_t track) const;
+  void LookAhead();
   void FindStretches(std::uint32_t id, double range_m);
   Stretch StretchOn(std::uint32_t track, double zero_m, double begin_m, double end_m, bool changes) const;
   bool KeepStretches(std::uint32_t id, double far_m);
+  void LookBelow(std::uint32_t id);
+  PathFrame FrameOf(std::uint32_t id, double odometer_m) const;  // of its path
+  double LengthOf(std::uint32_t id, std::uint32_t track) const { return below_[id].track == track ? below_[id].length_m : graph()[track].length_m(); }
+  bool GoesOn(std::uint32_t id, std::uint32_t track) const { return below_[id].track == track ? below_[id].goes_on : !graph()[track].next.empty(); }
+  bool HasBeside(std::uint32_t id, std::uint32_t track) const;
   void SeeOthers(std::span<const driver::Footprint> others);
-  std::span<const Occupant> Beyond(std::uint32_t track, double d_m) const;
   std::span<const Block> BlocksOn(std::uint32_t track) const { return any_block_ ? std::span<const Block>(blocks_[track]) : std::span<const Block>(); }
   Ahead FindAhead(std::uint32_t id) const;
   const lanes::Link& NextLink(std::uint32_t id, std::uint32_t track, Choice& choice) const;
@@ -166,8 +173,8 @@ class TrafficModel {
   double Following(std::uint32_t id, double limit_mps, bool any, double gap_m, double leader_mps) const;
   double Limit_mps(std::uint32_t id, std::uint32_t track, double d_m) const;
   void BeginChange(std::uint32_t id, Sideways&& way);
+  bool IsItsTurn(std::uint32_t id, std::int64_t step_ns) const;
   bool ThinksOfLanes(std::uint32_t id, std::int64_t step_ns) const;
-  void Appear(std::uint32_t track, const Occupant& occupant);
   void AppearOnLaneLeft(std::uint32_t id);
   std::optional<std::uint32_t> LaneLeft(std::uint32_t id, const Stretch& stretch, double odometer_m) const;
 
@@ -196,14 +203,16 @@ class TrafficModel {
   // Right of way.
   void Arbitrate(double dt_s);
   void ComeToLine(std::uint32_t id, double dt_s);
-  void ForgetZones();
   void FindPassage(std::uint32_t id);
-  void Touch(std::uint32_t zone);
+  bool KeepPassage(std::uint32_t id);
+  void FindCrossings(std::uint32_t id);
+  void FetchZones(std::size_t id) const;
   void HoldZones(std::uint32_t id);
   template <class Tell>
   void EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell);
   double ReachOf(std::uint32_t id, int depth);
   void FindRoom(std::uint32_t id);
+  void TellComing(std::uint32_t id);
   void AskForZones();
   void ComeToZones(std::uint32_t id);
   double ArrivesAt(const Comer& comer) const;
@@ -226,6 +235,7 @@ class TrafficModel {
   double RedAhead(std::uint32_t track, double from_m, double speed_mps) const;
   bool AllGreen(std::uint32_t id, double from_m, double to_m) const;
   void ObeyLights(std::uint32_t id);
+  double SureTo(std::uint32_t id) const;
   bool Urgent(std::uint32_t id) const;
   double AllowedAt(std::uint32_t id, double odometer_m) const;
   double KnowAllowedAt(std::uint32_t id, double odometer_m, std::size_t place);
@@ -266,6 +276,7 @@ class TrafficModel {
   void MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s);
   void DriveFull(std::uint32_t id, double wanted_mps2, double dt_s);
   void FollowFull(std::uint32_t id, double dt_s);
+  void FetchBend(std::size_t id) const;
   double Advance(std::uint32_t id, double odometer_m) const;
   double Moved(std::uint32_t id, double travel_m) const;
   double FrontOf(std::uint32_t id) const { return agents_[id].o_m + 0.5 * traits_[id].length_m; }  // odometer
@@ -323,13 +334,18 @@ class TrafficModel {
 
   // Found anew each step.
   std::vector<network::LightColour> colours_;          // by controller
-  std::vector<std::vector<Stretch>> stretches_;        // by agent
+  std::vector<Stretches> stretches_;                   // by agent
   std::vector<WayKey> way_keys_;                       // by agent
-  std::vector<std::vector<Occupant>> occupants_;       // by track, ascending by their middles
+  std::vector<std::uint32_t> ways_;                    // by agent: of the way in stretches_, another one whenever that changes
+  std::vector<Below> below_;                           // by agent; the map alone says it, so that it is never wrong
+  Occupancy occupants_;                                // of agents
+  std::vector<std::uint8_t> parts_;                    // by track: somebody is on one that parts from it
   std::vector<std::vector<Block>> blocks_;             // by track
   std::vector<std::vector<Facing>> facing_;            // by track
   bool any_block_ = false, any_facing_ = false;        // on whatever track
+  bool any_overtaking_ = false;                        // is somebody
   std::vector<std::uint8_t> is_overtaken_;             // by agent
+  std::vector<std::uint8_t> beside_, passes_;          // by agent: it may think of another lane, of overtaking
   std::vector<Ahead> ahead_;                           // by agent
   std::vector<Passage> passages_;                      // by agent
   std::vector<std::array<PlannedAt, 2>> known_;        // by agent: at the beginning and the end of its passage; the map alone says it, so that it is never wrong
@@ -345,13 +361,14 @@ class TrafficModel {
   std::vector<Eigen::Vector2d> segments_;              // by agent: where MOTORS' driver looks to
   std::vector<AtCrossing> at_crossings_;               // by crossing for people on foot
   std::vector<ToCrossing> to_crossings_;
-  std::vector<ZoneNow> now_;                                        // by zone
-  std::vector<std::uint32_t> touched_;                              // zones of which anything is said
+  ZoneBook book_;                                                   // who has or wants each zone
   std::vector<std::uint8_t> is_asked_;                              // by 2 zone + side: somebody asks who comes there
   std::vector<std::uint32_t> asked_sides_;                          // … of which he does
-  std::vector<std::uint32_t> heads_;                                // agents that wait at a line, ascending
+  std::vector<std::uint32_t> coming_;                               // agents with zones before them, ascending
+  std::vector<std::uint32_t> heads_;                                // of them who must know now, and nobody before them at their line does, ascending
   std::vector<std::uint32_t> order_;                                // of them who may ask to be let in, in the order in which they are looked at
-  std::vector<std::vector<std::uint32_t>> present_;                 // by track: agents on it while others enter
+  Lists<std::uint32_t> present_;                                    // by track: agents on it while others enter
+  std::vector<std::uint8_t> at_entry_;                              // by agent: is on a track where somebody may begin his way
   std::vector<std::uint8_t> expected_;                              // by track: somebody is on the way to its beginning while others enter
 };
 

@@ -22,10 +22,10 @@ driver::Footprint FootprintOf(const AgentPose& pose, const AgentTraits& traits) 
 AgentPose TrafficModel::PoseOf(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   const AgentTraits& traits = traits_[id];
-  const PathFrame at = FrameAt(graph(), agent.path, agent.o_m);
+  const PathFrame at = FrameOf(id, agent.o_m);
   const double half_base = HalfBase(id);
-  const Eigen::Vector3d front = FrameAt(graph(), agent.path, agent.o_m + half_base).p_W;
-  const Eigen::Vector3d rear = FrameAt(graph(), agent.path, agent.o_m - half_base).p_W;
+  const Eigen::Vector3d front = FrameOf(id, agent.o_m + half_base).p_W;
+  const Eigen::Vector3d rear = FrameOf(id, agent.o_m - half_base).p_W;
   const Eigen::Vector3d across(-at.ahead_W.y(), at.ahead_W.x(), at.bank);
   AgentPose pose;
   pose.id = id;
@@ -42,9 +42,13 @@ AgentPose TrafficModel::PoseOf(std::uint32_t id) const {
   pose.wheel_spin_rad = geometry::WrapAngle(agent.driven_m / traits.wheel_radius_m);
   pose.braking = agent.acceleration_mps2 < kBrakeLights_mps2 || (agent.speed_mps < kStopping_mps && agent.acceleration_mps2 <= 0.0 && agent.driving.brake > 0.0);
   if (full_) full_->Tell(id, pose);
-  std::size_t i = agent.path.size() - 1;
-  while (i > 0 && agent.path[i].begin_m > agent.o_m) --i;
-  const lanes::Track& track = graph()[agent.path[i].track];
+  const std::uint32_t on = PieceAt(agent.path, agent.o_m).track;
+  const Below& below = below_[id];
+  if (below.track == on) {
+    pose.road = below.road, pose.lane = below.lane;
+    return pose;
+  }
+  const lanes::Track& track = graph()[on];
   pose.road = static_cast<std::int32_t>(track.lane.road);
   pose.lane = track.lane.lane;
   return pose;

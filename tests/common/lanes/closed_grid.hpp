@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <memory>
@@ -20,12 +21,15 @@ class ClosedGrid {
   // Lanes of the streets, from node to node: two of each street.
   static double Lanes_km(int count) { return 1e-3 * 4.0 * count * (count - 1) * kStreet_m; }
 
-  static std::shared_ptr<const network::Network> Make(int count) {
+  // lit: every crossing has a light, 20 s of green each way.
+  static std::shared_ptr<const network::Network> Make(int count, bool lit = false) {
     ClosedGrid grid;
     grid.Lay(count);
+    const auto heights = map::ParseHeights("rodeira: motors/1\n" + (lit ? "lights:\n" + grid.lights_ : ""), "grid.motors.yaml");
+    RODEIRA_ASSERT(heights.ok());
     const auto file = map::ParseMap(grid.text_ + grid.lanes_ + grid.connections_ + "s,10\ni\n", "grid.motors");
     RODEIRA_ASSERT(file.ok());
-    const auto lanes = map::MakeLaneMap(file.value(), {}, "grid");
+    const auto lanes = map::MakeLaneMap(file.value(), lit ? heights.value() : map::Heights(), "grid");
     RODEIRA_ASSERT(lanes.ok());
     const auto network = map::ToNetwork(lanes.value(), "grid");
     RODEIRA_ASSERT(network.ok());
@@ -82,6 +86,9 @@ class ClosedGrid {
     }
     for (int x = 0; x < count; ++x) {
       for (int y = 0; y < count; ++y) {
+        std::vector<int> along, across;
+        for (const Arm& arm : at(x, y)) (std::fabs(std::sin(arm.angle)) < 0.5 ? along : across).push_back(arm.arrives);
+        lights_ += fmt::format("  - {{phases: [{{green: [{}], for_s: 20}}, {{green: [{}], for_s: 20}}]}}\n", fmt::join(along, ", "), fmt::join(across, ", "));
         for (const Arm& from : at(x, y)) {
           for (const Arm& to : at(x, y)) {
             if (from.leaves == to.leaves) continue;
@@ -93,7 +100,7 @@ class ClosedGrid {
     }
   }
 
-  std::string text_, lanes_, connections_;
+  std::string text_, lanes_, connections_, lights_;
   int curves_ = 0, count_ = 0;
 };
 

@@ -37,7 +37,8 @@ TEST(Box, IsNotBlockedByAQueue) {
     std::uint32_t vehicles;
   };
   for (const Case& c : {Case{"crossing", lanes::MapNetwork("crossing"), 70}, Case{"town", lanes::MapNetwork("town"), 150},
-                        Case{"closed town", lanes::ClosedGrid::Make(3), static_cast<std::uint32_t>(45.0 * lanes::ClosedGrid::Lanes_km(3))}}) {
+                        Case{"closed town", lanes::ClosedGrid::Make(3), static_cast<std::uint32_t>(45.0 * lanes::ClosedGrid::Lanes_km(3))},
+                        Case{"closed town with lights", lanes::ClosedGrid::Make(3, true), static_cast<std::uint32_t>(45.0 * lanes::ClosedGrid::Lanes_km(3))}}) {
     TrafficSettings settings;
     settings.vehicles = c.vehicles;
     settings.seed = 9;

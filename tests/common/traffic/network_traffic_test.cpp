@@ -249,6 +249,29 @@ TEST(NetworkTraffic, RestoredAmongCrossingTrafficItGoesOnWithTheSameBits) {
   }
 }
 
+// What is remembered of the step before (ways, zones ahead, tracks below) is what would be found anew: a model that forgets it all in each step, since it is restored from
+// what it has just saved, drives to the bit as one that does not.
+TEST(NetworkTraffic, WhatIsRememberedChangesNoBit) {
+  for (const std::string& name : lanes::MapNames()) {
+    TrafficSettings settings;
+    settings.vehicles = 60;
+    const auto network = lanes::MapNetwork(name);
+    TrafficModel remembers = TrafficModel::Make(settings, network, {}).value(), forgets = TrafficModel::Make(settings, network, {}).value();
+    for (int i = 0; i < 1500; ++i) {
+      remembers.Step(0.05, {});
+      forgets.Step(0.05, {});
+      base::StateWriter writer;
+      forgets.Save(writer);
+      base::StateReader reader(writer.bytes());
+      forgets.Restore(reader);
+      ASSERT_TRUE(reader.Finish().ok());
+      if (i % 10 == 0) {
+        ASSERT_EQ(DigestOf(remembers), DigestOf(forgets)) << name << " after " << 0.05 * i << " s";
+      }
+    }
+  }
+}
+
 // STOP: whoever passes the line has come to rest within two metres of it.
 TEST(NetworkTraffic, StopsFullyAtStopSigns) {
   const auto network = lanes::MapNetwork("crossing");
