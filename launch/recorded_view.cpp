@@ -133,6 +133,9 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
   } else {
     seen.period = std::max<Step>(1, std::llround(kViewPeriod_s * 1e9 / static_cast<double>(roster.base_step_ns())));
     for (lockstep::SourceIndex source = 0; source < roster.sources().size(); ++source) AddSource(roster, source, seen);
+    for (const lockstep::SourceIndex car : seen.cars) {
+      if (auto autopilot = view::AutopilotOf(run.launch(), roster.source(car).node)) seen.settings.autopilots[car] = std::move(*autopilot);
+    }
   }
   if (seen.sources.empty())
     return base::WrongInput("the recording has neither a car nor traffic: there is nothing to see", run.path().string());

@@ -221,6 +221,14 @@ TEST_F(WatchTest, ARunWithoutAViewIsSeenWhole) {
   EXPECT_EQ(seen.value().sources.size(), 4u);
   EXPECT_EQ(seen.value().period, 20);
   EXPECT_EQ(seen.value().settings.width_px, 1280);
+  EXPECT_TRUE(seen.value().settings.autopilots.empty());
+  const std::string driven = std::string(launch).replace(launch.find("{kind: input}"), 13, "{kind: input, config: {source: autopilot, driver: driver.yaml}}");
+  const auto by_autopilot = replay::RecordedRun::Open(Made(driven));
+  ASSERT_TRUE(by_autopilot.ok()) << by_autopilot.error().Text();
+  const auto seen_driven = LookAt(by_autopilot.value(), {});
+  ASSERT_TRUE(seen_driven.ok()) << seen_driven.error().Text();
+  ASSERT_EQ(seen_driven.value().settings.autopilots.size(), 1u);
+  EXPECT_EQ(seen_driven.value().settings.autopilots.begin()->second.driver.filename(), "driver.yaml");
 }
 
 TEST_F(WatchTest, OfRemarksOnlyWhatSomebodyMarkedIsOnTheBar) {
