@@ -48,6 +48,7 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("clutch", driving.clutch);
   writer.Put("engine_radps", driving.engine_radps);
   writer.Put("gear", driving.gear);
+  writer.Put("gear_s", driving.gear_s);
   writer.Put("brake_mps2", brake_mps2);
   writer.Put("cap_mps", cap_mps);
   writer.Put("told_side", told_side);
@@ -105,6 +106,7 @@ void Agent::Restore(base::StateReader& reader) {
   reader.Get("clutch", driving.clutch);
   reader.Get("engine_radps", driving.engine_radps);
   reader.Get("gear", driving.gear);
+  reader.Get("gear_s", driving.gear_s);
   reader.Get("brake_mps2", brake_mps2);
   reader.Get("cap_mps", cap_mps);
   reader.Get("told_side", told_side);

@@ -38,34 +38,90 @@ double FullBrake_N(const vehicle::BicycleSettings& car) {
   return torque_Nm / car.wheel.rolling_radius_m;
 }
 
-Driving DrivingFor(const vehicle::BicycleSettings& car, double speed_mps, double acceleration_mps2, double grade) {
-  const vehicle::PowertrainSettings& p = car.powertrain;
-  const double v = speed_mps, idle = p.engine.idle_radps, radius = car.wheel.rolling_radius_m;
-  if (v <= 0.0 && acceleration_mps2 <= 0.0) return {0.0, std::min(1.0, kHolding + car.body.mass_kg * kGravity_mps2 * std::fabs(grade) / FullBrake_N(car)), 1.0, idle, 1};
-  const double force = car.body.mass_kg * acceleration_mps2 + Resistance_N(car, v, grade);
-  const double at_wheels_Nm = force * radius;
-  const auto turns = [&](int gear) { return v / radius * vehicle::TotalRatio(p.gearbox, gear); };
-  const auto reaches = [&](int gear) {
-    const double ratio = vehicle::TotalRatio(p.gearbox, gear);
-    return at_wheels_Nm <= 0.0 || AtWheels(p.gearbox, ratio, vehicle::FullLoadTorque(p.engine, std::max(idle, v / radius * ratio))) >= at_wheels_Nm;
-  };
+namespace {
+
+// What it takes to drive so.
+struct Demand {
+  const vehicle::BicycleSettings& car;
+  double speed_mps, force_N, at_wheels_Nm;
+
+  Demand(const vehicle::BicycleSettings& of, double v, double acceleration_mps2, double grade)
+      : car(of), speed_mps(v), force_N(of.body.mass_kg * acceleration_mps2 + Resistance_N(of, v, grade)), at_wheels_Nm(force_N * of.wheel.rolling_radius_m) {}
+
+  double Turns_radps(int gear) const { return speed_mps / car.wheel.rolling_radius_m * vehicle::TotalRatio(car.powertrain.gearbox, gear); }
+  // Whether the engine can do `margin` times it in this gear.
+  bool Reaches(int gear, double margin = 1.0) const {
+    const vehicle::PowertrainSettings& p = car.powertrain;
+    const double ratio = vehicle::TotalRatio(p.gearbox, gear), wheels = speed_mps / car.wheel.rolling_radius_m;
+    return at_wheels_Nm <= 0.0 || AtWheels(p.gearbox, ratio, vehicle::FullLoadTorque(p.engine, std::max(p.engine.idle_radps, wheels * ratio))) >= margin * at_wheels_Nm;
+  }
+};
+
+// The highest gear in which the engine neither labours nor is too weak.
+int BestGear(const Demand& demand) {
+  const vehicle::PowertrainSettings& p = demand.car.powertrain;
   int gear = static_cast<int>(p.gearbox.forward.size());
-  while (gear > 1 && (turns(gear) < p.automatic.down_light_radps || (!reaches(gear) && turns(gear - 1) < p.engine.resume_radps))) --gear;
+  while (gear > 1 && (demand.Turns_radps(gear) < p.automatic.down_light_radps || (!demand.Reaches(gear) && demand.Turns_radps(gear - 1) < p.engine.resume_radps))) --gear;
+  return gear;
+}
+
+int NextGear(const Demand& demand, const Driving& before) {
+  const vehicle::PowertrainSettings& p = demand.car.powertrain;
+  const int best = BestGear(demand), gear = before.gear;
+  if (before.engine_radps <= 0.0 || best == gear) return best;
+  if (best < gear) {
+    int next = best;  // none that it would be too fast for soon
+    while (demand.Turns_radps(gear) >= p.automatic.down_light_radps && next < gear && demand.Turns_radps(next) * p.automatic.margin > p.engine.resume_radps) ++next;
+    return next;
+  }
+  if (demand.Turns_radps(gear) > p.engine.resume_radps) return best;
+  if (before.gear_s < p.automatic.pause_s || demand.force_N <= 0.0) return gear;
+  for (int next = best; next > gear; --next) {
+    if (demand.Turns_radps(next) >= p.automatic.margin * p.automatic.down_light_radps && demand.Reaches(next, p.automatic.margin)) return next;
+  }
+  return gear;
+}
+
+Driving Standing(const vehicle::BicycleSettings& car, double grade) {
+  return {0.0, std::min(1.0, kHolding + car.body.mass_kg * kGravity_mps2 * std::fabs(grade) / FullBrake_N(car)), 1.0, car.powertrain.engine.idle_radps, 1};
+}
+
+// The pedals for it in a gear.
+Driving DrivingIn(int gear, const Demand& demand) {
+  const vehicle::PowertrainSettings& p = demand.car.powertrain;
+  const double idle = p.engine.idle_radps, turns = demand.Turns_radps(gear);
   Driving driving;
   driving.gear = gear;
-  driving.engine_radps = std::max(idle, turns(gear));
-  driving.clutch = std::clamp(1.0 - turns(gear) / idle, 0.0, 1.0);
+  driving.engine_radps = std::max(idle, turns);
+  driving.clutch = std::clamp(1.0 - turns / idle, 0.0, 1.0);
   const Torques torques(p.engine, driving.engine_radps);
   const double ratio = vehicle::TotalRatio(p.gearbox, gear);
-  if (force < 0.0 && driving.clutch > 0.0) {
+  if (demand.force_N < 0.0 && driving.clutch > 0.0) {
     driving.clutch = 1.0;  // nothing is left for the engine to do
   } else {
-    const double wanted = vehicle::ShaftTorque(p.gearbox, at_wheels_Nm, 1.0) / ratio;
+    const double wanted = vehicle::ShaftTorque(p.gearbox, demand.at_wheels_Nm, 1.0) / ratio;
     driving.throttle = std::clamp((wanted + torques.drag_Nm) / (torques.full_Nm + torques.drag_Nm), 0.0, 1.0);
   }
   if (driving.throttle > 0.0) return driving;
-  const double overrun_N = -AtWheels(p.gearbox, ratio, -torques.drag_Nm) / radius * (1.0 - driving.clutch);
-  driving.brake = std::clamp((-force - overrun_N) / FullBrake_N(car), 0.0, 1.0);
+  const double overrun_N = -AtWheels(p.gearbox, ratio, -torques.drag_Nm) / demand.car.wheel.rolling_radius_m * (1.0 - driving.clutch);
+  driving.brake = std::clamp((-demand.force_N - overrun_N) / FullBrake_N(demand.car), 0.0, 1.0);
+  return driving;
+}
+
+}  // namespace
+
+Driving DrivingFor(const vehicle::BicycleSettings& car, double speed_mps, double acceleration_mps2, double grade) {
+  if (speed_mps <= 0.0 && acceleration_mps2 <= 0.0) return Standing(car, grade);
+  const Demand demand(car, speed_mps, acceleration_mps2, grade);
+  return DrivingIn(BestGear(demand), demand);
+}
+
+Driving DriveOn(const vehicle::BicycleSettings& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double dt_s) {
+  if (speed_mps <= 0.0 && acceleration_mps2 <= 0.0) return Standing(car, grade);
+  const Demand demand(car, speed_mps, acceleration_mps2, grade);
+  const int gear = NextGear(demand, before);
+  Driving driving = DrivingIn(gear, demand);
+  driving.gear_s = gear == before.gear ? before.gear_s + dt_s : 0.0;
   return driving;
 }
 

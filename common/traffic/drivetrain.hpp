@@ -11,6 +11,7 @@ struct Driving {
   double clutch = 0.0;    // 0 engaged … 1 disengaged
   double engine_radps = 0.0;
   int gear = 1;           // 1 … n
+  double gear_s = 0.0;    // since it was engaged
 };
 
 // The planar car: the powertrain of common/vehicle in its steady state, through which pedals move a body along its path.
@@ -19,6 +20,10 @@ struct Driving {
 // in which the engine neither labours nor is too weak; below idle speed the clutch slips in the first gear. What the closed throttle does not slow down
 // by, the brake does; who stands has his foot on it.
 Driving DrivingFor(const vehicle::BicycleSettings& car, double speed_mps, double acceleration_mps2, double grade);
+// The same of a car that has driven so for dt_s, with the vehicle's automatic gearbox's numbers (AutomaticSettings): at once into a lower gear where the engine labours or is too
+// weak; into a higher one pause_s after the last change, where its engine speed and pull are `margin` times what they must be, so that it is not left again, and not while the foot is off the throttle.
+// Sooner only where the engine would run too fast.
+Driving DriveOn(const vehicle::BicycleSettings& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double dt_s);
 // What these pedals give, by the torque curve and the drag of the engine, the gears and their losses, the brakes of four wheels, the drag of the air.
 // A car at rest is held by its brake.
 double AccelerationOf(const vehicle::BicycleSettings& car, const Driving& driving, double speed_mps, double grade);

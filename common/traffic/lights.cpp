@@ -52,17 +52,6 @@ bool TrafficModel::AllGreen(std::uint32_t id, double from_m, double to_m) const 
   return true;
 }
 
-// How far it surely comes with what has been granted to it: to the first light before which it could still stop, should that turn red.
-double TrafficModel::SureTo(std::uint32_t id) const {
-  const Agent& agent = agents_[id];
-  const double front = FrontOf(id);
-  for (const ZoneGrant& grant : agent.grants) {
-    if (grant.light_m < front) continue;
-    if (StopsIn(agent.speed_mps, agent.wish_mps2, settings_.smooth.planned_mps3) <= grant.light_m - front) return grant.light_m;
-  }
-  return kNoBarrier_m;
-}
-
 // Who has been granted a way past a light that is green no more, and can stop before it, gives it back. It stands where it would
 // have waited: nobody who holds a zone of that way counts on it.
 void TrafficModel::ObeyLights(std::uint32_t id) {

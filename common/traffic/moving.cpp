@@ -41,7 +41,7 @@ void TrafficModel::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s)
   Agent& agent = agents_[id];
   const vehicle::BicycleSettings& car = CarOfBody(traits_[id].body);
   const double before = agent.speed_mps;
-  agent.driving = DrivingFor(car, before, wanted_mps2, agent.grade);
+  agent.driving = DriveOn(car, agent.driving, before, wanted_mps2, agent.grade, dt_s);
   const double acceleration = AccelerationOf(car, agent.driving, before, agent.grade);
   double travel = (before + 0.5 * acceleration * dt_s) * dt_s;
   double after = before + acceleration * dt_s;

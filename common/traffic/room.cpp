@@ -72,7 +72,7 @@ double TrafficModel::ReachOf(std::uint32_t id, int depth) {
   const double front = agent.o_m + 0.5 * traits_[id].length_m;
   double to = front + SightOf(agent);
   if (passage.any) to = std::min(to, passage.line_m);
-  to = std::min({to, std::max(front, bars_[id]), SureTo(id)});
+  to = std::min(to, std::max(front, bars_[id]));
   const double apart = traits_[id].idm.standing_gap_m + kLoose_m;
   EachAhead(id, to + apart, depth, [&](std::int64_t, double, double comes_m) { to = std::min(to, comes_m - apart); });
   return reaches_[id] = std::max(0.0, to - front);

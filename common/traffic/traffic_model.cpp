@@ -188,15 +188,15 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
 
 // The line of who soon moves in a bend lies in far memory where there are thousands of agents: first the track, then what that names.
 void TrafficModel::FetchBend(std::size_t id) const {
-  const auto bends = [&](std::size_t of) { return of < agents_.size() && agents_[of].on_road && !below_[of].straight; };
+  const auto bends = [&](std::size_t of) { return of < below_.size() && below_[of].track < graph().tracks().size() && !below_[of].straight; };
   constexpr std::size_t kLine_bytes = 64;
   if (const std::size_t later = id + 2 * kAhead; bends(later)) {
     const auto* curve = reinterpret_cast<const char*>(&graph()[below_[later].track].curve);
     for (std::size_t at = 0; at < sizeof(lanes::Curve); at += kLine_bytes) __builtin_prefetch(curve + at);
   }
   if (const std::size_t soon = id + kAhead; bends(soon)) {
-    const Agent& agent = agents_[soon];
-    graph()[below_[soon].track].curve.Fetch(agent.o_m - PieceAt(agent.path, agent.o_m).zero_m);
+    const Below& below = below_[soon];  // all that may be read of it: another thread may move it now
+    graph()[below.track].curve.Fetch(0.5 * (std::max(0.0, below.plan.from_m) + std::min(below.length_m, below.plan.to_m)));
   }
 }
 

@@ -235,7 +235,6 @@ class TrafficModel {
   double RedAhead(std::uint32_t track, double from_m, double speed_mps) const;
   bool AllGreen(std::uint32_t id, double from_m, double to_m) const;
   void ObeyLights(std::uint32_t id);
-  double SureTo(std::uint32_t id) const;
   bool Urgent(std::uint32_t id) const;
   double AllowedAt(std::uint32_t id, double odometer_m) const;
   double KnowAllowedAt(std::uint32_t id, double odometer_m, std::size_t place);

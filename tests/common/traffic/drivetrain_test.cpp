@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/drivetrain.hpp"
@@ -82,6 +83,75 @@ TEST(Drivetrain, ShiftsDownWhereTheEngineIsTooWeak) {
   EXPECT_EQ(standing.throttle, 0.0);
   EXPECT_GT(standing.brake, 0.05);
   EXPECT_EQ(standing.clutch, 1.0);
+}
+
+// Changes of gear of a car that drives on by 10 ms: when, and by how many gears.
+struct Changes {
+  std::vector<double> at_s;
+  std::vector<int> by;
+
+  void Add(double t_s, int gears) {
+    if (gears != 0) at_s.push_back(t_s), by.push_back(gears);
+  }
+  // How often a change up has been undone within a second.
+  int Hunts() const {
+    int hunts = 0;
+    for (std::size_t i = 1; i < by.size(); ++i) hunts += by[i - 1] > 0 && by[i] < 0 && at_s[i] - at_s[i - 1] < 1.0;
+    return hunts;
+  }
+};
+
+// No change up is undone within a second while the demand stays: neither where the engine is at its limit uphill, nor where a foot that trembles by
+// 0.02 m/s² and a speed that swings by two parts in a hundred come and go over the bounds of a gear, in no body on no grade.
+TEST(Drivetrain, DoesNotHuntBetweenGears) {
+  constexpr double kStep_s = 0.01;
+  int up = 0, down = 0;
+  for (std::uint32_t body = 0; body < kBodies; ++body) {
+    const vehicle::BicycleSettings& car = CarOfBody(body);
+    for (const double grade : {-0.04, 0.0, 0.03, 0.06, 0.1}) {
+      for (double wanted = 0.2; wanted < 2.0; wanted += 0.3) {  // as far as it comes
+        Driving driving;
+        Changes changes;
+        double v = 0.1;
+        for (int i = 0; i < 6000 && v < 40.0; ++i) {
+          const Driving next = DriveOn(car, driving, v, wanted, grade, kStep_s);
+          if (i > 0) changes.Add(i * kStep_s, next.gear - driving.gear);
+          driving = next;
+          v = std::max(0.1, v + AccelerationOf(car, driving, v, grade) * kStep_s);
+        }
+        EXPECT_EQ(changes.Hunts(), 0) << "body " << body << ", grade " << grade << ", " << wanted << " m/s2";
+        for (const int by : changes.by) ++(by > 0 ? up : down);
+      }
+      for (double mean = 3.0; mean < 25.0; mean += 0.25) {  // about a speed
+        Driving driving;
+        Changes changes;
+        for (int i = 0; i < 2000; ++i) {
+          const double phase = 2.0 * std::numbers::pi * i * kStep_s;
+          const Driving next = DriveOn(car, driving, mean * (1.0 + 0.02 * std::sin(1.9 * phase)), 0.3 + 0.02 * std::sin(1.3 * phase), grade, kStep_s);
+          if (i > 0) changes.Add(i * kStep_s, next.gear - driving.gear);
+          driving = next;
+        }
+        EXPECT_EQ(changes.Hunts(), 0) << "body " << body << ", grade " << grade << " about " << mean << " m/s";
+      }
+    }
+  }
+  EXPECT_GT(up, 100);
+  EXPECT_GT(down, 0);
+}
+
+// A foot that is lifted for a moment changes no gear; one that stays on the throttle comes to the highest gear after the pause.
+TEST(Drivetrain, ALiftedFootChangesNoGear) {
+  const vehicle::BicycleSettings car = Car();
+  Driving driving = DrivingFor(car, 12.0, 1.2, 0.0);
+  const int pulls = driving.gear;
+  ASSERT_LT(pulls, DrivingFor(car, 12.0, -1.5, 0.0).gear);
+  for (int i = 0; i < 300; ++i) driving = DriveOn(car, driving, 12.0, -1.5, 0.0, 0.01);
+  EXPECT_EQ(driving.gear, pulls);
+  EXPECT_EQ(driving.throttle, 0.0);
+  for (int i = 0; i < 300; ++i) driving = DriveOn(car, driving, 12.0, 0.0, 0.0, 0.01);
+  EXPECT_EQ(driving.gear, DrivingFor(car, 12.0, 0.0, 0.0).gear);
+  driving = DriveOn(car, driving, 12.0, 1.2, 0.0, 0.01);  // and down at once, where the engine is too weak
+  EXPECT_EQ(driving.gear, pulls);
 }
 
 // Willans' line through the engine: burnt power = (net + drag) / efficiency, with the drag alone while idling, and nothing in overrun.
