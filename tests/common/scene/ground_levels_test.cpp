@@ -159,6 +159,34 @@ TEST(GroundLevels, LinesOfASmallRadiusLieWhereTheyAreAskedTo) {
   }
 }
 
+// Every 4 m along all roads, on both sides and up to 150 m from the outermost lane, where a tile is drawn as the terrain alone: how many such places there are.
+int BesideRoadsOnBareTiles(const road::World& world, const GroundPlan& plan, const std::string& name) {
+  std::set<TileKey> bare;
+  for (const TileKey& key : plan.tiles()) {
+    if (plan.FinestAlike(key, 1) != 1) bare.insert(key);
+  }
+  int places = 0;
+  for (const network::Road& road : world.network()->roads()) {
+    for (double s = 0.0; s <= road.length_m(); s += 4.0) {
+      const auto section = road.SectionIndex(s);
+      const network::LaneSection& lanes = road.SectionAt(s);
+      for (const double side : {1.0, -1.0}) {
+        const int outermost = side > 0.0 ? static_cast<int>(lanes.left.size()) : -static_cast<int>(lanes.right.size());
+        const auto span = road.SpanAt(section, outermost, s);
+        const double edge_m = outermost == 0 || !span ? 0.0 : span->outer_t_m;
+        for (const double aside_m : {0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 15.0, 30.0, 45.0, 60.0, 70.0, 80.0, 100.0, 150.0}) {
+          const Eigen::Vector2d p = road.Surface(s, edge_m + side * aside_m).p_W.head<2>();
+          const TileKey key{static_cast<std::int64_t>(std::floor(p.x() / kTile_m)), static_cast<std::int64_t>(std::floor(p.y() / kTile_m))};
+          if (!bare.contains(key)) continue;
+          ++places;
+          EXPECT_EQ(world.At(p.x(), p.y()).z_m, world.TerrainAt(p.x(), p.y()).z_m) << name << ", " << aside_m << " m beside road " << road.id() << " at " << s << " m";
+        }
+      }
+    }
+  }
+  return places;
+}
+
 // Tiles that are drawn as the terrain alone: there SUELO is the terrain, to the bit, whatever roads are near; and they are drawn within 1 mm of it, at all
 // levels that are alike, which have the same triangles.
 TEST(GroundLevels, BareTilesHoldTheTerrainAlone) {
@@ -180,6 +208,7 @@ TEST(GroundLevels, BareTilesHoldTheTerrainAlone) {
       if (bare % 40 == 1) tiles.push_back(plan.Build(key));
     }
     EXPECT_GT(bare, plan.tiles().size() / 4) << name;
+    EXPECT_GT(BesideRoadsOnBareTiles(world, plan, name), 20) << name;  // slopes are narrow: points anywhere hardly meet one
     for (const GroundTile& tile : tiles) {
       ASSERT_EQ(tile.levels[0].ground.size(), 1u);
       for (int level = 1; level < kGroundLevels && plan.FinestAlike(tile.key, level) == 0; ++level) {
