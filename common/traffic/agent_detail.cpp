@@ -84,7 +84,7 @@ std::vector<AgentDetail> TrafficModel::Details() {
       }
       const vehicle::BicycleSettings& car = CarOfBody(traits_[id].body);
       // In the plane what goes with the motion as it is now, which the next step goes on from.
-      detail.driving = full_ ? full_->DrivingOf(id) : DrivingFor(car, agent.speed_mps, agent.acceleration_mps2, agent.grade);
+      detail.driving = full_ ? full_->DrivingOf(id) : DriveOn(car, agent.driving, agent.speed_mps, agent.acceleration_mps2, agent.grade, 0.0);
       detail.fuel_mgps = full_ ? agent.fuel_mgps : FuelFlow_mgps(car, detail.driving);
       detail.fuel_used_mg = agent.fuel_mg;
     } else {  // struck: its engine stands, its wheels are locked
