@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "common/base/assert.hpp"
+#include "common/base/huge_pages.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 constexpr double kQueuing_mps = 5.0 / 3.6;
+constexpr std::uint32_t kAhead = 16;  // vehicles whose memory is on its way while one is told: their cells lie anywhere
 
 }  // namespace
 
@@ -17,15 +19,16 @@ LaneStatistics::LaneStatistics(const TrafficModel& model, double cell_m) : seen_
   queues_.resize(model.graph().tracks().size());
   for (const lanes::Track& track : model.graph().tracks()) {
     const auto count = static_cast<std::size_t>(std::max(1.0, std::round(track.length_m() / cell_m)));
-    cells_.emplace_back(count);
-    lengths_m_.push_back(track.length_m() / static_cast<double>(count));
-    free_mps_.emplace_back(count);
-    const auto index = static_cast<std::uint32_t>(free_mps_.size() - 1);
-    for (std::size_t cell = 0; cell < count; ++cell) free_mps_.back()[cell] = model.FreeSpeed_mps(index, (static_cast<double>(cell) + 0.5) * lengths_m_.back());
+    const auto index = static_cast<std::uint32_t>(tracks_.size());
+    tracks_.push_back({free_mps_.size(), count, track.length_m() / static_cast<double>(count)});
+    for (std::size_t cell = 0; cell < count; ++cell) free_mps_.push_back(model.FreeSpeed_mps(index, (static_cast<double>(cell) + 0.5) * tracks_.back().cell_m));
   }
+  cells_.resize(free_mps_.size());
+  base::PreferHugePages(cells_);
+  base::PreferHugePages(seen_);
   for (std::uint32_t id = 0; id < model.vehicles(); ++id) {
     const Agent& agent = model.agent(id);
-    seen_[id] = {agent.on_road, agent.trip, agent.o_m, -1.0};
+    seen_[id] = {agent.on_road, agent.trip, agent.o_m, -1.0, 0};
     if (agent.on_road) ++began_;
   }
   there_ = began_;
@@ -41,23 +44,25 @@ void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double f
     const bool last = i + 1 == path.size();
     if (!last && path[i + 1].begin_m <= at && path[i + 1].begin_m < to_m) continue;
     const double end = last ? to_m : std::min(to_m, path[i + 1].begin_m);
-    auto& cells = cells_[path[i].track];
-    const double length = lengths_m_[path[i].track];
+    const auto& [first, count, length] = tracks_[path[i].track];
+    LaneCell* const cells = cells_.data() + first;
     const auto cell_at = [&](double o_m) {
       const double cell = std::floor((o_m - path[i].zero_m) / length);
-      return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(cells.size() - 1)));
+      return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(count - 1)));
     };
     if (way <= 0.0) {
       LaneCell& cell = cells[cell_at(at)];
+      seen_[id].cell = static_cast<std::size_t>(&cell - cells_.data());
       cell.time_s += sum.time_s, cell.fuel_mg += sum.fuel_mg;
       return;
     }
     for (std::size_t cell = cell_at(at); at < end; ++cell) {
-      const double to = cell + 1 >= cells.size() ? end : std::min(end, path[i].zero_m + static_cast<double>(cell + 1) * length);
+      const double to = cell + 1 >= count ? end : std::min(end, path[i].zero_m + static_cast<double>(cell + 1) * length);
       const double share = std::max(0.0, to - at) / way;
       cells[cell].distance_m += share * sum.distance_m;
       cells[cell].time_s += share * sum.time_s;
       cells[cell].fuel_mg += share * sum.fuel_mg;
+      seen_[id].cell = first + cell;
       at = std::max(at, to);
     }
     if (at >= to_m) return;
@@ -77,9 +82,19 @@ void LaneStatistics::LookAtQueues(const TrafficModel& model) {
   ++looks_;
 }
 
+void LaneStatistics::FetchFor(const TrafficModel& model, std::uint32_t id) const {
+  const Agent& agent = model.agent(id);
+  __builtin_prefetch(&agent);
+  __builtin_prefetch(&agent.path);
+  __builtin_prefetch(&agent.trip);
+  __builtin_prefetch(&agent.fuel_mgps);
+  __builtin_prefetch(&cells_[seen_[id].cell], 1);
+}
+
 void LaneStatistics::Add(const TrafficModel& model, double dt_s) {
   watched_s_ += dt_s;
   for (std::uint32_t id = 0; id < seen_.size(); ++id) {
+    if (id + kAhead < seen_.size()) FetchFor(model, id + kAhead);
     const Agent& agent = model.agent(id);
     Seen& seen = seen_[id];
     const bool same = seen.on_road && agent.on_road && seen.trip == agent.trip;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/traffic/traffic_model.hpp"
@@ -34,10 +35,10 @@ class LaneStatistics {
   void LookAtQueues(const TrafficModel& model);
 
   double watched_s() const { return watched_s_; }
-  const std::vector<LaneCell>& CellsOf(std::uint32_t track) const { return cells_[track]; }
-  double CellLength_m(std::uint32_t track) const { return lengths_m_[track]; }
+  std::span<const LaneCell> CellsOf(std::uint32_t track) const { return {cells_.data() + tracks_[track].first, tracks_[track].count}; }
+  double CellLength_m(std::uint32_t track) const { return tracks_[track].cell_m; }
   // In the middle of a cell, whoever was there (TrafficModel::FreeSpeed_mps).
-  double FreeSpeed_mps(std::uint32_t track, std::size_t cell) const { return free_mps_[track][cell]; }
+  double FreeSpeed_mps(std::uint32_t track, std::size_t cell) const { return free_mps_[tracks_[track].first + cell]; }
 
   // Of a track, over all looks: the longest and the mean queue, vehicles.
   std::int64_t LongestQueue(std::uint32_t track) const { return queues_[track].longest; }
@@ -59,15 +60,22 @@ class LaneStatistics {
     std::uint32_t trip = 0;
     double o_m = 0.0;
     double entered_s = -1.0;  // below 0: was there from the beginning
+    std::size_t cell = 0;     // of all cells, the one that it was seen in last
   };
   struct Queue {
     std::int64_t now = 0, sum = 0, longest = 0;
   };
+  // A track's among all cells.
+  struct Cells {
+    std::size_t first = 0, count = 0;
+    double cell_m = 0.0;
+  };
   void Share(const TrafficModel& model, std::uint32_t id, double from_m, double to_m, const LaneCell& sum);
+  void FetchFor(const TrafficModel& model, std::uint32_t id) const;
 
-  std::vector<std::vector<LaneCell>> cells_;  // by track
-  std::vector<double> lengths_m_;             // of a cell, by track
-  std::vector<std::vector<double>> free_mps_;  // by track and cell
+  std::vector<Cells> tracks_;
+  std::vector<LaneCell> cells_;   // track by track
+  std::vector<double> free_mps_;  // by cell
   std::vector<Queue> queues_;                 // by track
   std::int64_t looks_ = 0;
   std::vector<Seen> seen_;                    // by vehicle
