@@ -118,11 +118,13 @@ void ReadMarks(const Node& node, network::Object& object) {
       mark.gap_m = each.Number("spaceLength", 0.0);
       mark.start_offset_m = each.Number("startOffset", 0.0);
       mark.stop_offset_m = each.Number("stopOffset", 0.0);
+      const bool sized = mark.width_m > 0.0 && mark.stroke_m >= 0.0 && mark.gap_m >= 0.0 && mark.start_offset_m >= 0.0 && mark.stop_offset_m >= 0.0;
       const auto has_corner = [&](const std::string& id) {
         return !object.outlines.empty() && std::any_of(object.outlines.front().corners.begin(), object.outlines.front().corners.end(), [&](const network::Corner& corner) { return corner.id == id; });
       };
       const auto lost = std::find_if_not(mark.corners.begin(), mark.corners.end(), has_corner);
       if (lost != mark.corners.end()) warn(each, fmt::format("names the corner '{}', which its outline has not", *lost));
+      else if (!sized) warn(each, "has a width that is not above 0, or a stroke, gap or offset below 0");
       else if (mark.corners.size() == 1) warn(each, "names one corner where it goes from corner to corner");
       else if (mark.corners.empty() && std::find(kSides.begin(), kSides.end(), mark.side) == kSides.end()) warn(each, fmt::format("lies on the side '{}'{}", mark.side, base::DidYouMean(mark.side, kSides)));
       else object.marks.push_back(std::move(mark));

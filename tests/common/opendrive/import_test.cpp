@@ -257,7 +257,7 @@ TEST(OpenDrive, MarksOfObjectsAndPlacesOfSignsThatCannotBeAreTold) {
   road.more = R"(<objects><object id="7" type="parkingSpace" s="10" t="8" length="5" width="2.5"><outline><cornerLocal id="a" u="0" v="0"/><cornerLocal id="b" u="5" v="0"/></outline>
       <markings><marking side="left" color="yellow" width="0.12" lineLength="1" spaceLength="0.5" startOffset="0.2" stopOffset="0.3"/><marking side="lef" width="0.1"/>
       <marking width="0.1"><cornerReference id="a"/><cornerReference id="b"/></marking><marking width="0.1"><cornerReference id="a"/><cornerReference id="c"/></marking>
-      <marking width="0.1"><cornerReference id="a"/></marking></markings></object></objects>
+      <marking width="0.1"><cornerReference id="a"/></marking><marking side="rear" width="0.1" stopOffset="-1e12"/></markings></object></objects>
       <signals><signal id="1" s="5" t="-4" type="206" subtype="-1" country="DE"><positionRoad roadId="2" s="1" t="2"/></signal></signals>)";
   const Import import = MustImport(Document(road.Text()));
   std::vector<std::string> said;
@@ -265,6 +265,7 @@ TEST(OpenDrive, MarksOfObjectsAndPlacesOfSignsThatCannotBeAreTold) {
   EXPECT_THAT(said, testing::UnorderedElementsAre(
                         HasSubstr("road.object.marking: road 1, s 10: a mark of the object '7' lies on the side 'lef'; did you mean 'left'?: it is not painted"),
                         HasSubstr("a mark of the object '7' names the corner 'c', which its outline has not: it is not painted"),
+                        HasSubstr("a mark of the object '7' has a width that is not above 0, or a stroke, gap or offset below 0: it is not painted"),
                         HasSubstr("a mark of the object '7' names one corner where it goes from corner to corner: it is not painted"),
                         HasSubstr("road.signal.position: road 1, s 5: the signal '1' stands at the road '2', which is not in the file; known are 1: it is drawn where it counts")));
   const auto& marks = import.network->roads()[0].spec().objects[0].marks;
