@@ -1,12 +1,9 @@
 #include "launch/commands.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <cstdlib>
 #include <iostream>
 
 #include "common/base/mathematics.hpp"
-#include "common/base/suggest.hpp"
 #include "launch/ctl_command.hpp"
 #include "launch/doctor.hpp"
 #include "launch/edit_command.hpp"
@@ -16,6 +13,7 @@
 #include "launch/joysticks_command.hpp"
 #include "launch/map_command.hpp"
 #include "launch/mechanism_command.hpp"
+#include "launch/option_errors.hpp"
 #include "launch/polyline_command.hpp"
 #include "launch/repair_command.hpp"
 #include "launch/replay_command.hpp"
@@ -32,14 +30,7 @@ namespace {
 
 constexpr const char* kVersion = "rodeira 0.1.0";
 
-// A duration in seconds, over 0.
-const CLI::Validator Positive(
-    [](std::string& text) {
-      char* end = nullptr;
-      const double value = std::strtod(text.c_str(), &end);
-      return end != text.c_str() && *end == '\0' && value > 0.0 && std::isfinite(value) ? std::string() : "'" + text + "' was found; a positive number of seconds was expected";
-    },
-    "SECONDS");
+const CLI::Validator Positive = Above0("a positive number of seconds");
 
 // KEY=VALUE, or an empty key where it is none.
 std::pair<std::string, std::string> KeyValue(const std::string& text) {
@@ -68,7 +59,7 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   run->add_option("--pace", options.pace, "max, real or a factor of real time; otherwise the launch file's, or max");
   CLI::Option* record = run->add_option("--record", options.record, "recording (MCAP); otherwise a dated file in the folder of recordings");
   run->add_flag("--no-record", options.no_record, "no recording")->excludes(record);
-  run->add_option("--seed", options.seed, "seed of everything that is drawn");
+  run->add_option("--seed", options.seed, "seed of everything that is drawn")->check(WholeNumber());
   run->add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file; KEY=~ takes it out");
   run->add_option("--meta", options.meta, "KEY=VALUE: written into the recording (participant=P07)");
   run->add_flag("--in-process", options.in_process, "the same nodes in one process");
@@ -139,9 +130,9 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
   run->add_option("--vehicles", options.vehicles, "how many there are; where there are flows, at most at a time")->check(CLI::Range(0, 100000));
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
   run->add_option("--step", options.step_s, "seconds a step, to 0.1")->check(CLI::Range(0.001, 0.1));
-  run->add_option("--seed", options.seed, "seed of everything that is drawn");
-  run->add_option("--driver", options.driver, "who drives: standard, or motors, as MOTORS' own driver does (with full physics)")->check(CLI::IsMember({"standard", "motors"}));
-  run->add_option("--physics", options.physics, "how cars move: planar, along their paths, or full, as the driver's car does")->check(CLI::IsMember({"planar", "full"}));
+  run->add_option("--seed", options.seed, "seed of everything that is drawn")->check(WholeNumber());
+  run->add_option("--driver", options.driver, "who drives: standard, or motors, as MOTORS' own driver does (with full physics)")->check(OneOf({"standard", "motors"}));
+  run->add_option("--physics", options.physics, "how cars move: planar, along their paths, or full, as the driver's car does")->check(OneOf({"planar", "full"}));
   run->add_option("--settings", options.settings, "how they drive: a file of 'rodeira: traffic/1', with the keys of a launch file's traffic");
   run->add_option("--csv", options.csv, "folder for trajectories.csv, lanes.csv, queues.csv, trips.csv");
   run->add_option("--heat", options.heat, "mean speed by the metre as a picture (.svg); flow, density, speed and fuel as a GeoTIFF (.tif)");
@@ -161,7 +152,7 @@ void AddPolyline(CLI::App& app, PolylineOptions& options) {
     if (std::string(name) == "join") files->expected(2, CLI::detail::expected_max_vector_size);
     else files->expected(1);
     command->add_option("-o,--out", options.out, "CSV file to write")->required();
-    command->add_option("--step", options.step_m, "metres between the points of a road's axis")->check(CLI::PositiveNumber)->capture_default_str();
+    command->add_option("--step", options.step_m, "metres between the points of a road's axis")->check(Above0("a number above 0"))->capture_default_str();
     command->callback([&options, name] { options.command = name; });
     return command;
   };
@@ -175,8 +166,8 @@ void AddPolyline(CLI::App& app, PolylineOptions& options) {
   rotate->add_option("--deg", options.angle_deg, "degrees, from east to north")->required();
   rotate->add_option("--about", options.about_m, "X Y of the axis; the first point otherwise")->expected(2);
   CLI::App* scale = add("scale", "stretch or shrink", "IN.csv");
-  scale->add_option("--by", options.factor, "factor, greater than 0")->required()->check(CLI::PositiveNumber);
-  scale->add_option("--z-by", options.z_factor, "another factor for the heights")->check(CLI::PositiveNumber);
+  scale->add_option("--by", options.factor, "factor, greater than 0")->required()->check(Above0("a number above 0"));
+  scale->add_option("--z-by", options.z_factor, "another factor for the heights")->check(Above0("a number above 0"));
   scale->add_option("--about", options.about_m, "X Y [Z] that stays; the first point otherwise")->expected(2, 3);
   CLI::App* offset = add("offset", "the line beside it", "IN.csv");
   offset->add_option("--left", options.left_m, "metres to the left; negative: to the right")->required();
@@ -195,7 +186,7 @@ void AddSurface(CLI::App& app, SurfaceOptions& options) {
 
 void AddDoctor(CLI::App& app, DoctorOptions& options) {
   CLI::App* doctor = app.add_subcommand("doctor", "is this PC ready: packages, GL, DDS, ports, shared memory");
-  doctor->add_option("--transport", options.transport, "of the DDS loop-back")->check(CLI::IsMember({"shared_memory", "udp"}))->capture_default_str();
+  doctor->add_option("--transport", options.transport, "of the DDS loop-back")->check(OneOf({"shared_memory", "udp"}))->capture_default_str();
   doctor->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232))->capture_default_str();
   doctor->add_flag("--quiet", options.quiet, "only what is not well");
   doctor->add_flag("--clean", options.clean, "first remove what dead processes of yours left in /dev/shm");
@@ -354,7 +345,9 @@ int Main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : 2;
+    if (problem.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(problem);  // --help, --version
+    std::cerr << "rodeira: " << OptionSentence(app, problem) << "\n'rodeira --help' and 'rodeira COMMAND --help' say more\n";
+    return 2;
   }
   if (view->parsed()) return View(view_options);
   if (!world.command.empty()) return World(world);

@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "common/base/files.hpp"
+#include "common/lanes/lights.hpp"
 #include "common/map/lane_map.hpp"
+#include "common/map/map_network.hpp"
 #include "common/map/map_plot.hpp"
 #include "common/map/map_report.hpp"
 #include "common/map/world_files.hpp"
@@ -19,12 +24,28 @@ int Complain(const base::Error& error) {
   return error.exit_status();
 }
 
+// What only a network of the map shows: a shape that no road can have, lights that are green together where ways cross.
+std::optional<map::Finding> CheckDriven(const map::MapFile& file, const map::Heights& companion, const std::string& path) {
+  const auto wrong = [](map::Element element, std::size_t line, const base::Error& error) { return map::Finding{map::Severity::kError, element, 0, 0, line, error.message}; };
+  const auto made = map::MakeLaneMap(file, companion, path);
+  if (!made) return wrong(map::Element::kMap, 0, made.error());
+  const auto network = map::ToNetwork(made.value(), path);
+  if (!network) return wrong(map::Element::kMap, 0, network.error());
+  const lanes::Graph graph(*network.value());
+  const auto status = lanes::CheckLights(graph, lanes::Zones(graph));
+  if (status) return std::nullopt;
+  const bool known = !companion.lights.empty() && !companion.lights.front().phases.empty();
+  return wrong(map::Element::kLights, known ? map::LineOf(companion.lights.front().phases.front().place) : 0, status.error());
+}
+
 int Check(const std::string& path) {
   const auto file = map::LoadMap(path);
   if (!file) return Complain(file.error());
   const auto heights = map::LoadHeightsOf(path);
   if (!heights) return Complain(heights.error());
-  const auto findings = map::CheckMap(file.value(), heights.value());
+  auto findings = map::CheckMap(file.value(), heights.value());
+  const bool whole = std::none_of(findings.begin(), findings.end(), [](const map::Finding& finding) { return finding.severity == map::Severity::kError; });
+  if (auto driven = whole ? CheckDriven(file.value(), heights.value(), path) : std::nullopt) findings.push_back(std::move(*driven));
   int status = 0;
   for (const map::Finding& finding : findings) {
     const bool is_error = finding.severity == map::Severity::kError;

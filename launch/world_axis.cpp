@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/base/suggest.hpp"
+#include "common/road/road_chains.hpp"
 #include "common/road/world.hpp"
 
 namespace rodeira::front {
@@ -38,12 +39,21 @@ base::Result<geometry::Polyline> AxisOf(const AxisName& name, double step_m) {
     if (road.id() == name.road) return Sampled(road.length_m(), step_m, [&](double s) { return road.Evaluate(s).p_W; });
   }
   if (const network::Network* network = world.value()->network()) {
+    const auto on = [](const network::Road& road, double s) {
+      const Eigen::Vector2d at = road.axis().Evaluate(s).p_W;
+      return Eigen::Vector3d(at.x(), at.y(), road.spec().elevation.Evaluate(s).value);
+    };
     for (const network::Road& road : network->roads()) {
       ids.push_back(road.id());
-      if (road.id() != name.road) continue;
-      return Sampled(road.length_m(), step_m, [&](double s) {
-        const Eigen::Vector2d at = road.axis().Evaluate(s).p_W;
-        return Eigen::Vector3d(at.x(), at.y(), road.spec().elevation.Evaluate(s).value);
+      if (road.id() == name.road) return Sampled(road.length_m(), step_m, [&](double s) { return on(road, s); });
+    }
+    // A road that junctions cut, by the name that its author gave it: its parts and the ways through these junctions.
+    for (const road::RoadChain& chain : road::ChainsOf(*network)) {
+      ids.push_back(chain.name);
+      if (chain.name != name.road) continue;
+      return Sampled(chain.length_m, step_m, [&](double s) {
+        const auto [part, along_m] = chain.At(*network, s);
+        return on(*part, along_m);
       });
     }
   }

@@ -12,29 +12,16 @@
 #include <system_error>
 #include <vector>
 
-#include "common/base/suggest.hpp"
+#include "common/base/nearest_file.hpp"
 
 namespace rodeira::base {
 namespace {
-
-// "; did you mean 'demo.yaml'?" where a file of that kind with nearly that name lies in the folder.
-std::string NearestBeside(const std::filesystem::path& path) {
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  std::vector<std::string> names;
-  std::error_code problem;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, problem)) {
-    if (entry.path().extension() == path.extension() && entry.is_regular_file(problem)) names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  const std::string nearest = NearestName(path.filename().string(), names);
-  return nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
-}
 
 template <class Buffer>
 Result<Buffer> ReadInto(const std::filesystem::path& path, std::size_t limit_bytes) {
   std::error_code problem;
   const auto status = std::filesystem::status(path, problem);
-  if (!std::filesystem::exists(status)) return WrongInput("there is no such file" + NearestBeside(path), path.string());
+  if (!std::filesystem::exists(status)) return WrongInput(NoSuchFile(path), path.string());
   if (std::filesystem::is_directory(status)) return WrongInput("this is a folder, a file was expected", path.string());
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   if (!in) return WrongInput(fmt::format("the file cannot be opened: {}", std::strerror(errno)), path.string());

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "common/base/nearest_file.hpp"
 #include "common/base/suggest.hpp"
 #include "common/design/object_reader.hpp"
 #include "common/design/section_reader.hpp"
@@ -139,6 +140,7 @@ void ReadSurfaces(const Map& road, double length_m, network::RoadSpec& spec) {
       network::CrgSurface crg;
       const std::filesystem::path file = item.Path("crg");
       if (!file.empty()) crg.file = std::filesystem::absolute(file).string();  // not to be looked for from the world's folder once more
+      if (const std::string missing = base::NoSuchFile(file); !file.empty() && !missing.empty()) item.Problem("crg", fmt::format("'{}': {}", file.filename().string(), missing));
       crg.orientation = item.Choice("orientation", {"same", "opposite"}, "same");
       crg.mode = "attached";
       crg.purpose = "elevation";

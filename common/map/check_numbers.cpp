@@ -89,7 +89,7 @@ void CheckSigns(const MapFile& map, const Heights& heights, Findings& findings) 
   for (const LaneFlow& flow : heights.flows) {
     const auto lane = lanes.Find(flow.lane);
     if (!lane) findings.Add(Severity::kError, flow, "the map has no such lane");
-    else if (map.lanes[*lane].value.mode != LaneMode::kStart) findings.Add(Severity::kWarning, flow, "it is no start lane: nobody begins there");
+    else if (map.lanes[*lane].value.mode != LaneMode::kStart) findings.Add(Severity::kError, flow, "it is no start lane: nobody begins there");
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double kShortest_m = 0.01;  // of a curve
 constexpr double kNarrowest_m = 1.5;  // of a lane: the narrowest car
 constexpr double kWidest_m = 12.0;
-constexpr double kWidestGap_m = 0.1;  // between the middles of lanes that are connected
+constexpr double kWidestGap_m = 0.05;  // between the borders of lanes that are connected: a network closes no more (opendrive::Tolerance)
 constexpr double kSharpestKink_rad = 0.1;
 constexpr double kHighestStep_m = 0.02;
 constexpr double kSteepest = 0.2;
@@ -95,12 +95,13 @@ bool CheckLane(const Line<Lane>& line, const LaneShape& shape, Findings& finding
 
 void CheckJoint(const Line<Connection>& line, const LaneShape& from, const LaneShape& to, Findings& findings) {
   const LanePoint end = from.AtParameter(1.0), begin = to.AtParameter(0.0);
-  const double gap = (begin.p_W - end.p_W).norm();
+  const auto apart = [](const Border& before, const Border& after) { return (after.plan.p_W[0] - before.plan.p_W[3]).norm(); };
+  const double gap = std::max(apart(from.left(), to.left()), apart(from.right(), to.right()));
   const double kink = std::acos(std::clamp(end.tangent_W.dot(begin.tangent_W), -1.0, 1.0));
   const double step = begin.z_m - end.z_m;
   if (gap > kWidestGap_m)
-    findings.Add(Severity::kWarning, line,
-                 fmt::format("{:.2f} m lie between the end of the one and the beginning of the other", gap));
+    findings.Add(Severity::kError, line,
+                 fmt::format("{:.2f} m lie between the borders of the one where it ends and those of the other where it begins; at most {:.2f} m are closed", gap, kWidestGap_m));
   if (kink > kSharpestKink_rad)
     findings.Add(Severity::kWarning, line, fmt::format("the direction jumps by {:.1f} degrees", kink * kDegree));
   if (std::abs(step) > kHighestStep_m) findings.Add(Severity::kWarning, line, fmt::format("the height jumps by {:.3f} m", step));
@@ -110,13 +111,13 @@ void CheckPicture(const MapFile& map, Findings& findings) {
   if (map.picture.empty()) return;
   const auto picture = ReadPictureInfo(map.picture);
   if (!picture) {
-    findings.AddToMap(Severity::kWarning,
+    findings.AddToMap(Severity::kError,
                       fmt::format("the {} bytes behind the line 'i' are no PNG or JPEG picture", map.picture.size()));
   } else if (picture->width_px > 16384 || picture->height_px > 16384) {
-    findings.AddToMap(Severity::kWarning, fmt::format("the picture has {} by {} pixels; up to 16384 each way can be shown",
+    findings.AddToMap(Severity::kError, fmt::format("the picture has {} by {} pixels; up to 16384 each way can be shown",
                                                       picture->width_px, picture->height_px));
   } else if (!picture->ends) {
-    findings.AddToMap(Severity::kWarning, fmt::format("the {} bytes behind the line 'i' end before the {} picture does", map.picture.size(), picture->kind));
+    findings.AddToMap(Severity::kError, fmt::format("the {} bytes behind the line 'i' end before the {} picture does", map.picture.size(), picture->kind));
   }
 }
 

@@ -101,8 +101,8 @@ struct Checker {
     const double gap = std::max((inner - other_inner).norm(), (outer - other_outer).norm());
     Finding finding = At(
         key, end, "lane_smoothness.contact_point_no_horizontal_gaps",
-        fmt::format("a gap of {:.4g} m between the lane's edges and those of lane {} of road {}; at most {:.3g} m was expected",
-                    gap, other.lane.lane, other_road.id(), tolerance.strict ? kListed_m : tolerance.gap_m));
+        fmt::format("a gap of {:.4g} m between the lane's edges and those of lane {} of road {}; {}", gap, other.lane.lane,
+                    other_road.id(), GapWords(gap, tolerance.strict ? kListed_m : tolerance.gap_m, kListed_m, "m")));
     if (gap > (tolerance.strict ? kListed_m : tolerance.gap_m)) findings.errors.push_back(finding);
     else if (gap > kListed_m) findings.warnings.push_back(finding);
   }

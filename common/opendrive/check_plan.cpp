@@ -22,8 +22,14 @@ void Judge(const Finding& finding, double found, double allowed, Findings& findi
 
 }  // namespace
 
+std::string GapWords(double found, double most, double asam, std::string_view unit) {
+  if (found > most) return fmt::format("at most {:.3g} {} was expected", most, unit);
+  return fmt::format("it is closed, as up to {:.3g} {} are (by ASAM at most {:.3g})", most, unit, asam);
+}
+
 void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& findings) {
   const auto& elements = road.elements;
+  const Tolerance strict = Tolerance::Strict();
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const PlanElement& element = elements[i];
     Finding finding{"", "", road.lines.elements[i], road.spec.id, std::nullopt, element.s_m};
@@ -50,7 +56,7 @@ void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& fi
     const geometry::PlanPoint end = geometry::PlanAxis::End(before);
     const double gap = (end.p_W - element.start_W).norm();
     finding.rule = "road.geometry.contact_point";
-    finding.message = fmt::format("a gap of {:.4g} m to the element before; at most {:.3g} m was expected", gap, tolerance.gap_m);
+    finding.message = fmt::format("a gap of {:.4g} m to the element before; {}", gap, GapWords(gap, tolerance.gap_m, strict.gap_m, "m"));
     Judge(finding, gap, tolerance.gap_m, findings);
     const double heading = element.kind == PlanElement::Kind::kCubic
                                ? element.heading_rad + std::atan2(element.v[1], element.u[1])
@@ -58,7 +64,7 @@ void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& fi
     const double kink = std::fabs(geometry::WrapAngle(heading - end.heading_rad));
     finding.rule = "road.geometry.contact_heading";
     finding.message =
-        fmt::format("a kink of {:.4g} rad from the element before; at most {:.3g} rad was expected", kink, tolerance.kink_rad);
+        fmt::format("a kink of {:.4g} rad from the element before; {}", kink, GapWords(kink, tolerance.kink_rad, strict.kink_rad, "rad"));
     Judge(finding, kink, tolerance.kink_rad, findings);
   }
   if (elements.empty()) return;

@@ -60,8 +60,8 @@ struct Checker {
     const Eigen::Vector3d here = road.Surface(s, 0.0).p_W, there = other.Surface(StationOf(other, contact), 0.0).p_W;
     const double gap = (here - there).head<2>().norm();
     Finding finding = At(index, "road.geometry.contact_point",
-                         fmt::format("a gap of {:.4g} m to the {} of road {}; at most {:.3g} m was expected", gap, Name(contact),
-                                     other.id(), tolerance.gap_m),
+                         fmt::format("a gap of {:.4g} m to the {} of road {}; {}", gap, Name(contact), other.id(),
+                                     GapWords(gap, tolerance.gap_m, Tolerance::Strict().gap_m, "m")),
                          s);
     // In and out of a junction the lanes meet, the reference lines need not.
     const bool in_junction = !road.spec().junction.empty() || !other.spec().junction.empty();

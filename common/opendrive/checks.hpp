@@ -1,6 +1,8 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/network/network.hpp"
@@ -14,8 +16,13 @@ struct Findings {
   std::vector<Finding> errors, warnings;
 };
 
+// The end of a sentence about a gap: that it is too large, or that it is closed, and what ASAM's own checker allows.
+std::string GapWords(double found, double most, double asam, std::string_view unit);
+
 // Elements of one road: stations, gaps and kinks between them, the lengths of cubics, the road's length.
 void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& findings);
+// One warning for a file whose reference lines have jumps of curvature: at the largest of them.
+void TellCurvatureJumps(std::span<const RoadReading> roads, Findings& findings);
 // Junctions with a boundary and heights of their own: the ground of each, laid under its connecting roads too.
 void LayJunctionGrounds(std::span<const JunctionReading> junctions, const Tolerance& tolerance, network::NetworkSpec& spec, Findings& findings);
 // Roads and junctions: that what is linked exists, is meant by both sides, meets, and is not ambiguous.

@@ -66,14 +66,17 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   for (const Node& junction : root.Children("junction")) junctions.push_back(ReadJunction(junction));
   for (const Node& controller : root.Children("controller")) spec.controllers.push_back(ReadController(controller));
   TellUnread(root);
+  TellUnknown(root);
   if (readings.empty()) root.Wrong("core.roads", "there is no <road> in the file");
   import.errors = source.errors;
+  import.surfaces = std::move(source.surfaces);
   import.warnings.insert(import.warnings.end(), source.warnings.begin(), source.warnings.end());
   Finish(import);
   if (!import.errors.empty()) return import;
 
   Findings findings;
   for (const RoadReading& road : readings) CheckPlan(road, tolerance, findings);
+  TellCurvatureJumps(readings, findings);
   std::vector<RoadLines> lines;
   for (RoadReading& road : readings) {
     auto axis = geometry::PlanAxis::Make(std::move(road.elements));

@@ -29,6 +29,7 @@ struct Import {
   std::string version;  // "1.7"
   std::shared_ptr<const network::Network> network;  // null where there are errors
   std::vector<Finding> errors, warnings;            // by line
+  std::vector<NamedFile> surfaces;                  // measured surfaces, as they stand in the file
   base::Digest content_hash = 0;                    // of the file's bytes
 };
 

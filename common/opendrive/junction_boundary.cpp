@@ -108,7 +108,7 @@ class Drawer {
   void Meet(const Drawn& one, const Drawn& next) {
     const double gap = (one.points_W.back() - next.points_W.front()).norm();
     if (gap <= kRounding_m) return;
-    std::string message = fmt::format("a gap of {:.4g} m in its boundary before the segment on road {}; at most {:.3g} m was expected", gap, next.road->id(), tolerance_.gap_m);
+    std::string message = fmt::format("a gap of {:.4g} m in its boundary before the segment on road {}; {}", gap, next.road->id(), GapWords(gap, tolerance_.gap_m, Tolerance::Strict().gap_m, "m"));
     if (gap > tolerance_.gap_m) {
       Wrong(next.segment->line, "junctions.boundary.segments_close_boundry", std::move(message));
       return;

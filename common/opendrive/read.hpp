@@ -63,6 +63,9 @@ network::Controller ReadController(const Node& controller);
 void TakeTurns(network::NetworkSpec& spec);
 // A warning for each kind of element or attribute that says something about the world and is passed over; at the first of them.
 void TellUnread(const Node& root);
+// A warning for each element, attribute and word that OpenDRIVE does not know, with the nearest that it does; an error for an
+// element that stands twice where it may stand once.
+void TellUnknown(const Node& root);
 // In m/s from the attributes 'max' or 'speed' and 'unit'; infinite: no limit; nothing: not said.
 std::optional<double> ReadSpeed(const Node& speed, const char* attribute);
 

@@ -14,6 +14,7 @@ namespace {
 constexpr std::string_view kMade = "rodeira:iso_8608";    // s, end of s, offset of s (m), density (m3), seed
 constexpr std::string_view kGoesOn = "rodeira:goes_on";  // how far before s = 0 and behind the road's end it goes on (m)
 constexpr double kFarthest_m = 1e6, kRoughest_m3 = 1.0;
+constexpr double kNear_m = 0.01;  // numbers in files are rounded
 
 template <class Value>
 bool Take(std::string_view& text, Value& value) {
@@ -52,10 +53,17 @@ void ReadGoesOn(const Node& data, network::CrgSurface& crg) {
   crg.s_end_m += behind_m;
 }
 
+// That the stretch lies on the road. A line of its own (genuine) has its own length.
+void CheckStretch(const Node& node, const network::CrgSurface& crg, double length_m) {
+  if (crg.mode == "genuine" || (crg.s_start_m >= -kNear_m && crg.s_end_m > crg.s_start_m && crg.s_end_m <= length_m + kNear_m)) return;
+  node.Wrong("road.surface.crg.s", fmt::format("the measured surface '{}' lies from s = {} to {}; two places on the road, which is {} m long, were expected", crg.file, crg.s_start_m, crg.s_end_m, length_m));
+}
+
 }  // namespace
 
 void ReadSurface(const Node& road, network::RoadSpec& spec) {
   const Node surface = road.Child("surface");
+  const double length_m = road.Number("length");
   for (const Node& node : surface.Children("CRG")) {
     network::CrgSurface crg;
     crg.file = node.Text("file");
@@ -69,6 +77,8 @@ void ReadSurface(const Node& road, network::RoadSpec& spec) {
     crg.z_offset_m = node.Number("zOffset", 0.0);
     crg.z_scale = node.Number("zScale", 1.0);
     crg.h_offset_rad = node.Number("hOffset", 0.0);
+    CheckStretch(node, crg, length_m);
+    node.source().surfaces.push_back({spec.id, crg.file, node.line()});
     for (const Node& data : node.Children("userData")) {
       if (data.Text("code", "") == kGoesOn) ReadGoesOn(data, crg);
     }

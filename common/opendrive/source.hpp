@@ -64,6 +64,7 @@ class Source {
   };
   Where where;
   std::vector<Finding> errors, warnings;
+  std::vector<NamedFile> surfaces;
 
   void Wrong(std::string_view rule, std::string message, std::size_t line);
 

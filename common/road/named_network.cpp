@@ -36,7 +36,7 @@ WorldReading ReadNamedNetwork(const config::File& file, const std::filesystem::p
   if (!reading.problems.empty()) return reading;
   auto spec = ReadNetworkWorld(network_file);
   if (!spec) {
-    reading.problems.push_back(spec.error());
+    reading.problems.push_back(base::WrongInput(spec.error().Text(), file.root().Child("network").Place("file")));
     return reading;
   }
   const Map start = file.root().OptionalChild("start");

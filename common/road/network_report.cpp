@@ -22,6 +22,12 @@ NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict) {
   for (const opendrive::Finding& warning : import.value().warnings)
     check.warnings.push_back(opendrive::ToError(warning, file).Text());
   check.table = opendrive::Describe(import.value());
+  if (import.value().network == nullptr) return check;
+  // What else a world of the file needs: surfaces that it names, laid on its roads.
+  if (const auto detail = LoadSurfaces(import.value(), file); !detail) {
+    check.errors.push_back(detail.error());
+    check.table.clear();
+  }
   return check;
 }
 

@@ -1,12 +1,12 @@
 #include "common/road/network_world.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "common/config/config.hpp"
 #include "common/geometry/angle.hpp"
-#include "common/opendrive/import.hpp"
-#include "common/road/surface_detail.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -70,6 +70,17 @@ std::filesystem::path OpenDriveOf(const std::filesystem::path& world_file) {
   return file.value().root().Child("network").Path("file");
 }
 
+base::Result<SurfaceDetail> LoadSurfaces(const opendrive::Import& import, const std::filesystem::path& file) {
+  const auto place_of = [&](const network::Road& road, std::size_t surface) {
+    std::size_t at = 0;
+    for (const opendrive::NamedFile& named : import.surfaces) {
+      if (named.road == road.id() && at++ == surface) return fmt::format("{}:{}", file.string(), named.line);
+    }
+    return file.string();
+  };
+  return SurfaceDetail::Load(*import.network, file.parent_path(), {}, place_of);
+}
+
 base::Result<WorldSpec> ReadNetworkWorld(const std::filesystem::path& file) {
   auto import = opendrive::Load(file);
   if (!import) return import.error();
@@ -79,7 +90,7 @@ base::Result<WorldSpec> ReadNetworkWorld(const std::filesystem::path& file) {
   spec.network = import.value().network;
   spec.network_hash = import.value().content_hash;
   spec.start = StartOn(*spec.network);
-  auto detail = SurfaceDetail::Load(*spec.network, file.parent_path());
+  auto detail = LoadSurfaces(import.value(), file);
   if (!detail) return detail.error();
   if (!detail.value().empty()) spec.detail = std::make_shared<const SurfaceDetail>(std::move(detail).value());
   return spec;

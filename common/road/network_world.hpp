@@ -7,6 +7,8 @@
 
 #include "common/base/result.hpp"
 #include "common/network/network.hpp"
+#include "common/opendrive/import.hpp"
+#include "common/road/surface_detail.hpp"
 #include "common/road/world_spec.hpp"
 
 // Worlds that are OpenDRIVE files.
@@ -19,6 +21,9 @@ std::filesystem::path OpenDriveOf(const std::filesystem::path& world_file);
 
 // In the middle of a lane, facing its traffic.
 StartPose PoseOn(const network::Network& network, const network::LaneKey& key, double s_m);
+
+// The measured and made surfaces of the file's roads. Wrong input, with the file's line, where one cannot be read or laid.
+base::Result<SurfaceDetail> LoadSurfaces(const opendrive::Import& import, const std::filesystem::path& file);
 
 // A world of the file's roads. The car starts on the drivable lane that is longest in one lane section outside of
 // junctions, of those that lead on if there are any, 10 m behind its beginning

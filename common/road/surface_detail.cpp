@@ -111,24 +111,26 @@ base::Result<SurfaceDetail::Stretch> SurfaceDetail::Place(const network::Road& r
   return stretch;
 }
 
-base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network, const std::filesystem::path& folder, std::span<const network::Laid> laid) {
+base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network, const std::filesystem::path& folder, std::span<const network::Laid> laid, const PlaceOf& place_of) {
   SurfaceDetail detail;
   std::map<std::string, std::shared_ptr<const surface::CrgSurface>> files;
   base::ByteWriter numbers;
   for (std::uint32_t i = 0; i < network.roads().size(); ++i) {
     const network::RoadSpec& spec = network.roads()[i].spec();
     std::vector<Stretch> stretches;
-    for (const network::CrgSurface& crg : spec.crg) {
+    for (std::size_t k = 0; k < spec.crg.size(); ++k) {
+      const network::CrgSurface& crg = spec.crg[k];
+      const auto placed = [&](const base::Error& error) { return base::WrongInput(error.Text(), place_of ? place_of(network.roads()[i], k) : std::string()); };
       const std::filesystem::path named = crg.file;
       const std::string path = (named.is_absolute() ? named : folder / named).string();
       auto& file = files[path];
       if (file == nullptr) {
         auto loaded = surface::LoadCrg(path);
-        if (!loaded) return loaded.error();
+        if (!loaded) return placed(base::WrongInput(loaded.error().Text(), fmt::format("road {}, s {:g}", network.roads()[i].id(), crg.s_start_m)));
         file = loaded.value().surface;
       }
       auto stretch = Place(network.roads()[i], crg, file);
-      if (!stretch) return stretch.error();
+      if (!stretch) return placed(stretch.error());
       PutAll(*file, numbers);
       stretches.push_back(std::move(stretch).value());
     }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,8 +26,10 @@ class SurfaceDetail {
  public:
   SurfaceDetail() = default;
   // Wrong input where a measured surface cannot be read, or is laid in a way that OpenDRIVE does not know. Relative names are those of
-  // files beside `folder`. laid: by road, or nothing.
-  static base::Result<SurfaceDetail> Load(const network::Network& network, const std::filesystem::path& folder, std::span<const network::Laid> laid = {});
+  // files beside `folder`. laid: by road, or nothing. place_of: where a measured surface is asked for ("file:line"), for the errors;
+  // nothing, or an empty text: not known.
+  using PlaceOf = std::function<std::string(const network::Road& road, std::size_t surface)>;
+  static base::Result<SurfaceDetail> Load(const network::Network& network, const std::filesystem::path& folder, std::span<const network::Laid> laid = {}, const PlaceOf& place_of = {});
 
   bool empty() const { return roads_.empty() && laid_.empty(); }
   // Whether anything is there between two stations of a road.

@@ -122,6 +122,7 @@ struct Keys {
   WorldSpec spec;
   std::optional<HillsSpec> hills;
   std::optional<std::filesystem::path> elevation_file, network_file;
+  std::string elevation_place;  // "file:line" where it is named
   terrain::Registration registration = terrain::Registration::kUsual;
   bool second = false;  // version 2: the roads are read by common/design
   design::StartWish start;
@@ -149,6 +150,7 @@ Keys ReadKeys(const Map& root) {
     keys.spec.terrain_surface = ReadSurface(terrain, "surface", terrain::Surface::kGrass);
     keys.spec.ground_picture = ReadGroundPicture(terrain, keys.missing);
     keys.elevation_file = terrain.OptionalPath("file");
+    keys.elevation_place = terrain.Place("file");
     if (terrain.Has("registration")) {
       keys.registration = terrain.Choice("registration", {"posts", "cells"}) == "cells" ? terrain::Registration::kCells : terrain::Registration::kPosts;
       if (!keys.elevation_file) terrain.Problem("registration", "'registration' says where the heights of a 'file' stand; there is none");
@@ -203,7 +205,7 @@ bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
   if (keys.elevation_file) {
     auto grid = terrain::LoadElevation(*keys.elevation_file, keys.registration);
     if (!grid) {
-      reading.problems.push_back(grid.error());
+      reading.problems.push_back(base::WrongInput(grid.error().Text(), keys.elevation_place));
       return false;
     }
     keys.spec.grid = std::move(grid).value();
@@ -248,7 +250,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   if (design.network != nullptr) {
     auto detail = SurfaceDetail::Load(*design.network, file.path().parent_path(), design.laid);
     if (!detail) {
-      reading.problems.push_back(detail.error());
+      reading.problems.push_back(base::WrongInput(detail.error().Text(), file.path().string()));
       return reading;
     }
     keys.spec.detail = std::make_shared<const SurfaceDetail>(std::move(detail).value());

@@ -52,6 +52,9 @@ class TextNumbers {
           table.values.push_back(kMissing);
           continue;
         }
+        if (last_ && now_.size() < at + width_) {
+          return Wrong(fmt::format("the file is cut short within a number: it ends after '{}'; {} characters were expected", word, width_));
+        }
         if (word.starts_with('+')) word.remove_prefix(1);
         double value = 0.0;
         const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -74,6 +77,7 @@ class TextNumbers {
   bool NextLine() {
     if (at_ >= text_.size()) return false;
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    last_ = end == text_.size();
     now_ = text_.substr(at_, end - at_);
     while (now_.ends_with('\r') || now_.ends_with(' ')) now_.remove_suffix(1);
     at_ = end + 1;
@@ -86,6 +90,7 @@ class TextNumbers {
   std::size_t width_;
   int line_;  // the one after now_
   std::string_view now_;
+  bool last_ = false;  // now_ ends with the file itself: nothing shows that it was written to its end
   std::size_t at_ = 0;
 };
 

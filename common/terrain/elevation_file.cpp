@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/base/nearest_file.hpp"
 #include "common/terrain/bt.hpp"
 #include "common/terrain/elevation_heights.hpp"
 #include "common/terrain/elevation_projection.hpp"
@@ -51,7 +52,7 @@ base::Result<FileStart> ReadStart(const fs::path& path) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
     return base::WrongInput(
-        fs::exists(path, problem) ? "this is no plain file; an elevation file was expected" : "there is no such elevation file",
+        fs::exists(path, problem) ? std::string("this is no plain file; an elevation file was expected") : "there is no such elevation file" + base::NearestFile(path),
         path.string());
   }
   auto head = read(path.string(), 2);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "common/base/suggest.hpp"
+#include "common/base/nearest_file.hpp"
 #include "common/terrain/gdal_quiet.hpp"
 
 namespace rodeira::terrain {
@@ -16,24 +16,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDrivers[] = {"JPEG", "PNG", "BMP", "GTiff", nullptr};
 
-// "; did you mean 'x'?" of the files in the same folder, or nothing.
-std::string NearestFile(const fs::path& path) {
-  std::vector<std::string> names;
-  std::error_code problem;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  for (fs::directory_iterator i(folder, problem), end; !problem && i != end; i.increment(problem)) {
-    std::error_code other;
-    if (i->is_regular_file(other)) names.push_back(i->path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  const std::string nearest = base::NearestName(path.filename().string(), names);
-  return nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
-}
-
 base::Result<GDALDatasetUniquePtr> Open(const fs::path& path) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
-    return base::WrongInput(fmt::format("there is no texture file '{}'{}", path.string(), NearestFile(path)));
+    return base::WrongInput(fmt::format("there is no texture file '{}'{}", path.string(), base::NearestFile(path)));
   }
   GDALDatasetUniquePtr dataset(GDALDataset::Open(fs::absolute(path).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers));
   if (!dataset) return base::WrongInput(fmt::format("'{}' is no picture that can be read (JPEG, PNG, BMP, TIFF); {}", path.string(), QuietGdal::Words()));

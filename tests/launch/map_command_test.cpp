@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "common/base/files.hpp"
+#include "common/map/lane_map.hpp"
 #include "common/road/world.hpp"
 #include "common/road/world_report.hpp"
 #include "tests/common/map/sample_map.hpp"
@@ -48,6 +49,35 @@ TEST(MapCommand, NamesWhatIsWrong) {
   EXPECT_EQ(said.status, 2);
   EXPECT_EQ(said.errors, "rodeira: " + file + ":12: connection 1 to 7: lane 7 does not exist\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.svg"));
+}
+
+// What the check lets pass can be driven: a bend that no road has, and lights that are green together, are found by it too.
+TEST(MapCommand, FindsWhatCannotBeDriven) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "a.motors", beside = folder.path() / "a.motors.yaml";
+  const std::string lights = SourceDir() + "/configs/maps/lights.motors";
+  std::filesystem::copy(lights, file);
+  std::filesystem::copy(lights + ".yaml", beside);
+  const std::string good = base::ReadText(beside).value();
+  ASSERT_EQ(Asked({"check", file, ""}).status, 0);
+  // Start lanes of all four arms green at once.
+  std::string lanes;
+  const auto map = map::LoadLaneMap(file).value();
+  for (const std::size_t lane : map.start_lanes) lanes += (lanes.empty() ? "" : ", ") + std::to_string(map.lanes[lane].id);
+  ASSERT_TRUE(base::WriteWhole(beside, good.substr(0, good.find("lights:")) + "lights:\n  - phases: [{green: [" + lanes + "], for_s: 20}, {green: [], for_s: 10}]\n").ok());
+  const Said said = Asked({"check", file, ""});
+  EXPECT_EQ(said.status, 2);
+  EXPECT_THAT(said.errors, testing::ContainsRegex("a[.]motors[.]yaml:[0-9]+: lights: the lights .* and .* are green or amber together"));
+  EXPECT_THAT(said.out, HasSubstr("found        1 errors"));
+  // A lane that turns on the spot: nobody finds its errors at the place of another file.
+  std::string sharp = map::kGoodLines;
+  sharp.replace(sharp.find("p,5,30,1,1.5,34,1,1.5,38.5,1,6,38.5,1,10"), 40, "p,5,30,1,1.5,30.1,1,1.5,29,1,1.5,29,1,2");
+  sharp.replace(sharp.find("36,1,-1.5,41.5,1,4,41.5,1,10"), 28, "32,1,-1.5,33,1,0,33,1,2");
+  std::filesystem::remove(beside);
+  ASSERT_TRUE(base::WriteWhole(file, sharp + "s,10\ni\n").ok());
+  const Said bend = Asked({"check", file, ""});
+  EXPECT_EQ(bend.status, 2) << bend.errors;
+  EXPECT_THAT(bend.errors, HasSubstr("sharply"));
 }
 
 TEST(MapCommand, Converts) {

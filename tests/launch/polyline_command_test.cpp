@@ -45,6 +45,17 @@ TEST(WorldAxis, LiesOnTheRoad) {
   }
 }
 
+// HASTE's main road is cut by six junctions: whole again it is as long as its author drew it, and nowhere farther from one point to the
+// next than a step.
+TEST(WorldAxis, OfARoadThatJunctionsCutIsWhole) {
+  const auto line = AxisOf({kWorlds + "haste.yaml", "main"}, 5.0);
+  ASSERT_TRUE(line.ok()) << line.error().Text();
+  EXPECT_NEAR(geometry::StationsOf(line.value()).back(), 30443.044, 5.0) << "chords are shorter, and it goes up and down";
+  const auto& points_W = line.value().points_W;
+  for (std::size_t i = 1; i < points_W.size(); ++i) ASSERT_LE((points_W[i] - points_W[i - 1]).head<2>().norm(), 5.0 + 1e-6) << i;
+  EXPECT_NE(AxisOf({kWorlds + "haste.yaml", "mian"}, 5.0).error().Text().find("there is no road 'mian'; did you mean 'main'?"), std::string::npos);
+}
+
 TEST(Polylines, MoveAnAxisAndRefuseARoadThatIsNotThere) {
   auto folder = base::TemporaryFolder::Make("axis");
   ASSERT_TRUE(folder.ok());

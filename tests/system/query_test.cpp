@@ -138,6 +138,17 @@ TEST_F(Ground, TheWheelsStandOnTheCrossfallOfTheRoad) {
   EXPECT_EQ(states.front().inside_world(), 1u);
 }
 
+// How many cars of a closing table asked the server at least once a step of a second.
+std::size_t AskersIn(const std::string& table) {
+  std::size_t askers = 0;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("car")) continue;
+    if (std::stoull(line.substr(line.find_last_of(' ') + 1)) >= 1000) ++askers;
+  }
+  return askers;
+}
+
 // Four cars, each a process that asks the one road server for the ground under its wheels at every step, get what each finds in one process for
 // itself: no question is answered with another asker's points.
 TEST_F(Ground, SeveralClientsOfTheRoadServerAreAnsweredAtOnce) {
@@ -146,7 +157,7 @@ TEST_F(Ground, SeveralClientsOfTheRoadServerAreAnsweredAtOnce) {
   const std::vector<Eigen::Vector2d> starts = {{-1989, -543}, {-1895, -512}, {-1850, -560}, {-1700, -300}};  // on the road, and in the hills beside it
   for (std::size_t i = 0; i < starts.size(); ++i) {
     launch += fmt::format("  driver{0}: {{kind: input, inputs: {{vehicle_state: [car{0}]}}, config: {{source: script, script: {1}}}}}\n", i, standing);
-    launch += fmt::format("  car{0}: {{kind: vehicle, inputs: {{controls: [driver{0}]}}, config: {{vehicle: {1}, start: {{x_m: {2}, y_m: {3}, heading_deg: 20}}}}}}\n", i, car, starts[i].x(), starts[i].y());
+    launch += fmt::format("  car{0}: {{kind: vehicle, inputs: {{controls: [driver{0}]}}, config: {{vehicle: {1}, ground: remote, start: {{x_m: {2}, y_m: {3}, heading_deg: 20}}}}}}\n", i, car, starts[i].x(), starts[i].y());
   }
   launch += "  recorder: {kind: recorder}\n";
   const auto file = folder_.Write("four.yaml", launch);
@@ -155,6 +166,7 @@ TEST_F(Ground, SeveralClientsOfTheRoadServerAreAnsweredAtOnce) {
     more.insert(more.begin(), {Bin("rodeira"), "run", file.string(), "--for", "1", "--record", recording});
     const Ended ended = RunCommand(more);
     EXPECT_EQ(ended.status, 0) << ended.out;
+    if (name == "apart.mcap") EXPECT_EQ(AskersIn(ended.out), starts.size()) << ended.out;
     return SamplesOf(recording);
   };
   const auto apart = samples("apart.mcap", {}), together = samples("together.mcap", {"--in-process"});

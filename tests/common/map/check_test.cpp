@@ -81,7 +81,7 @@ TEST(Check, Ways) {
   EXPECT_THAT(
       Found(And("c,2,1,False\n")),
       ElementsAre("W x.motors:8 lane 2: a connection goes on, but vehicles end here",
-                  "W x.motors:12 connection 2 to 1: 60.00 m lie between the end of the one and the beginning of the other"));
+                  "E x.motors:12 connection 2 to 1: 60.00 m lie between the borders of the one where it ends and those of the other where it begins; at most 0.05 m are closed"));
   EXPECT_THAT(Found(And("c,1,1,False\n")),
               ElementsAre("E x.motors:12 connection 1 to 1: it leads back into the lane that it comes from"));
   // A second start lane whose vehicles circle for ever with another lane, which no start lane but it leads to.
@@ -122,7 +122,7 @@ TEST(Check, Joints) {
   shifted.replace(shifted.find("40,1,1.5,30,1,1.5"), 17, "40,1,1.5,30,1,2.5");
   EXPECT_THAT(
       Found(shifted),
-      ElementsAre("W x.motors:10 connection 1 to 2: 0.50 m lie between the end of the one and the beginning of the other"));
+      ElementsAre("E x.motors:10 connection 1 to 2: 1.00 m lie between the borders of the one where it ends and those of the other where it begins; at most 0.05 m are closed"));
   EXPECT_THAT(Found(With("34,1,1.5,38.5,1,6", "34,1,3.5,38.5,1,6")),
               testing::Contains(testing::HasSubstr("W x.motors:11 connection 1 to 3: the direction jumps by 11.3 degrees")));
 }
@@ -131,18 +131,18 @@ TEST(Check, Picture) {
   EXPECT_THAT(Found(GoodMap() + kPng2x1), IsEmpty());
   EXPECT_THAT(Found(GoodMap() + "\xff\xd8\xff\xe0\0\x04xy\xff\xc0\0\x0b\x08\0\x10\0\x20\x01\xff\xd9"s), IsEmpty());
   EXPECT_THAT(Found(GoodMap() + "\xff\xd8\xff\xe0\0\x04xy\xff\xc0\0\x0b\x08\0\x10\0\x20\x01"s),
-              ElementsAre("W x.motors map: the 18 bytes behind the line 'i' end before the JPEG picture does"));
+              ElementsAre("E x.motors map: the 18 bytes behind the line 'i' end before the JPEG picture does"));
   EXPECT_THAT(Found(GoodMap() + kPng2x1.substr(0, kPng2x1.size() - 1)),
-              ElementsAre(fmt::format("W x.motors map: the {} bytes behind the line 'i' end before the PNG picture does", kPng2x1.size() - 1)));
+              ElementsAre(fmt::format("E x.motors map: the {} bytes behind the line 'i' end before the PNG picture does", kPng2x1.size() - 1)));
   EXPECT_THAT(Found(GoodMap()), IsEmpty());  // a map need have no picture, and nothing in it says that it should
   EXPECT_THAT(Found(GoodMap() + "GIF89a"),
-              ElementsAre("W x.motors map: the 6 bytes behind the line 'i' are no PNG or JPEG picture"));
+              ElementsAre("E x.motors map: the 6 bytes behind the line 'i' are no PNG or JPEG picture"));
   EXPECT_THAT(Found(GoodMap() + kPng2x1.substr(0, 20)),
-              ElementsAre("W x.motors map: the 20 bytes behind the line 'i' are no PNG or JPEG picture"));
+              ElementsAre("E x.motors map: the 20 bytes behind the line 'i' are no PNG or JPEG picture"));
   std::string huge = GoodMap() + kPng2x1;
   huge[GoodMap().size() + 16] = 0x7f;
   EXPECT_THAT(Found(huge),
-              ElementsAre("W x.motors map: the picture has 2130706434 by 1 pixels; up to 16384 each way can be shown"));
+              ElementsAre("E x.motors map: the picture has 2130706434 by 1 pixels; up to 16384 each way can be shown"));
 }
 
 TEST(Check, Heights) {
@@ -163,6 +163,11 @@ TEST(Check, Heights) {
     ASSERT_FALSE(heights.ok()) << text;
     EXPECT_THAT(heights.error().Text(), testing::HasSubstr(part));
   }
+}
+
+TEST(Check, FlowsBeginOnStartLanesAlone) {
+  EXPECT_THAT(Found(GoodMap(), "rodeira: motors/1\nflows_vehph:\n  1: 300\n"), IsEmpty());
+  EXPECT_THAT(Found(GoodMap(), "rodeira: motors/1\nflows_vehph:\n  2: 300\n"), ElementsAre("E x.motors.yaml:3 flow of lane 2: it is no start lane: nobody begins there"));
 }
 
 TEST(LaneMap, EveryNumberIsResolved) {

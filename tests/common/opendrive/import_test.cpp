@@ -63,7 +63,7 @@ TEST(OpenDrive, SmallGapsAreWarningsAndStrictlyErrors) {
   road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50.0015" y="0" hdg="0.0005" length="50"><line/></geometry>)";
   const auto import = MustImport(Document(road.Text()));
   ASSERT_EQ(import.warnings.size(), 2u);
-  EXPECT_EQ(import.warnings[0].Text(), "road.geometry.contact_point: road 1, s 50: a gap of 0.0015 m to the element before; at most 0.05 m was expected");
+  EXPECT_EQ(import.warnings[0].Text(), "road.geometry.contact_point: road 1, s 50: a gap of 0.0015 m to the element before; it is closed, as up to 0.05 m are (by ASAM at most 1e-06)");
   EXPECT_THAT(Errors(Document(road.Text()), Tolerance::Strict()), testing::ElementsAre(HasSubstr("road.geometry.contact_point: road 1, s 50"),
                                                                                       HasSubstr("road.geometry.contact_heading: road 1, s 50")));
   road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50.051" y="0" hdg="0" length="50"><line/></geometry>)";

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/base/files.hpp"
+#include "common/network/line_kinds.hpp"
 #include "common/road/world.hpp"
 #include "common/road/world_report.hpp"
 #include "tests/tree.hpp"
@@ -22,7 +23,7 @@ std::set<std::string> AskedKeys() {
   std::set<std::string> keys;
   const std::regex asked(R"re((?:Number|Integer|Flag|Text|Choice|Path|OptionalPath|Child|OptionalChild|Items|OptionalItems|MaterialOf|Has)\((?:item, )?"([a-z_0-9]+)")re");
   const std::regex tables(R"re(Read(?:Table|Knots)\([^"]*"([a-z_]+)", "([a-z_]+)"(?:, "([a-z_]+)")?)re");
-  std::vector<fs::path> files = {kRoot / "common/road/world_reader.cpp", kRoot / "common/road/picture_reader.cpp"};
+  std::vector<fs::path> files = {kRoot / "common/road/world_reader.cpp", kRoot / "common/road/picture_reader.cpp", kRoot / "common/lights/light_plan.cpp"};
   for (const auto& entry : fs::directory_iterator(kRoot / "common/design")) {
     if (entry.path().extension() == ".cpp") files.push_back(entry.path());
   }
@@ -52,6 +53,17 @@ TEST(ExampleWorld, SaysEveryKeyAndTheDocumentTellsOfIt) {
     EXPECT_TRUE(std::regex_search(example, said) || elsewhere.contains(key)) << "the example does not say " << key;
     EXPECT_NE(document.find(key), std::string::npos) << "docs/formats.md does not tell of " << key;
   }
+}
+
+// Each type of object and each kind of line that a reader takes stands in it once.
+TEST(ExampleWorld, HasEveryTypeOfObjectAndKindOfLine) {
+  const std::string example = base::ReadText(kRoot / "configs/worlds/example/world.yaml").value();
+  const std::string reader = base::ReadText(kRoot / "common/design/object_reader.cpp").value();
+  const std::regex row(R"re(\{"([a-z_]+)", "[a-z]+", [0-9.]+, )re");
+  int types = 0;
+  for (std::sregex_iterator i(reader.begin(), reader.end(), row), end; i != end; ++i, ++types) EXPECT_NE(example.find("type: " + (*i)[1].str() + ","), std::string::npos) << (*i)[1];
+  EXPECT_GE(types, 8);
+  for (const network::LineKind& kind : network::kLineKinds) EXPECT_NE(example.find("kind: " + std::string(kind.name) + ","), std::string::npos) << kind.name;
 }
 
 TEST(ExampleWorld, IsAWorld) {

@@ -171,12 +171,16 @@ TEST(WorldFile, ElevationFilesAreFoundBesideItAndRefusedWhenBroken) {
   std::filesystem::create_directories(folder);
   const auto world = [&] { return World::Load(folder / "w.yaml"); };
   ASSERT_TRUE(base::WriteWhole(folder / "w.yaml", std::string_view("rodeira: world/1\nname: w\nterrain: {file: hills.bt}\n")).ok());
-  EXPECT_THAT(world().error().Text(), HasSubstr("hills.bt: there is no such elevation file"));
+  EXPECT_THAT(world().error().Text(), HasSubstr("/w.yaml:3: " + (folder / "hills.bt").string() + ": there is no such elevation file"));
+  ASSERT_TRUE(base::WriteWhole(folder / "hulls.bt", std::string_view("x")).ok());
+  EXPECT_THAT(world().error().Text(), HasSubstr("there is no such elevation file; did you mean 'hulls.bt'?"));
+  ASSERT_TRUE(base::WriteWhole(folder / "n.yaml", std::string_view("rodeira: world/2\nname: w\nnetwork:\n  file: town.xodr\n")).ok());
+  EXPECT_THAT(World::Load(folder / "n.yaml").error().Text(), HasSubstr("/n.yaml:4: " + (folder / "town.xodr").string() + ": there is no such file"));
   const terrain::ElevationGrid grid({2, 2, 0.0, 0.0, 10.0, 10.0}, {1.0F, 2.0F, 3.0F, 4.0F});
   auto bytes = terrain::BtBytes(grid);
   bytes.pop_back();
   ASSERT_TRUE(base::WriteWhole(folder / "hills.bt", std::span<const std::byte>(bytes)).ok());
-  EXPECT_THAT(world().error().Text(), HasSubstr("hills.bt: the file is cut short: 271 bytes, and 2 x 2 heights of 4 bytes need 272"));
+  EXPECT_THAT(world().error().Text(), HasSubstr("/w.yaml:3: " + (folder / "hills.bt").string() + ": the file is cut short: 271 bytes, and 2 x 2 heights of 4 bytes need 272"));
   EXPECT_EQ(world().error().exit_status(), 2);
   ASSERT_TRUE(terrain::WriteBt(folder / "hills.bt", grid).ok());
   const auto loaded = world();

@@ -13,6 +13,7 @@
 #include <regex>
 
 #include "common/base/files.hpp"
+#include "common/geometry/angle.hpp"
 #include "common/road/plot_labels.hpp"
 #include "common/road/world_plot.hpp"
 #include "common/road/world_profile.hpp"
@@ -208,6 +209,20 @@ TEST_F(WorldReport, TheProfileShowsGradesRadiiAndSlopes) {
   }
   const auto plane = World::Parse("rodeira: world/1\nname: p\nground: {kind: plane}\nstart: {x_m: 0, y_m: 0}\n", "p.yaml");
   EXPECT_TRUE(PlotProfiles(*plane.value()).empty());
+}
+
+// A bank that turns from 3 to -5 degrees over a road of its own: slopes across are its tangents, left and right of the axis alike.
+TEST_F(WorldReport, TheProfileShowsSuperelevation) {
+  const fs::path file = folder_ / "bank.xodr";
+  ASSERT_TRUE(base::WriteWhole(file, fmt::format("<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"bank\" length=\"100\" junction=\"-1\"><planView>"
+      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><line/></geometry></planView><lateralProfile><superelevation s=\"0\" a=\"{}\" b=\"{}\" c=\"0\" d=\"0\"/></lateralProfile>"
+      "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></left><center><lane id=\"0\"/></center>"
+      "<right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>\n</OpenDRIVE>\n",
+      3.0 / 180.0 * geometry::kPi, -8.0 / 180.0 * geometry::kPi / 100.0)).ok());
+  const std::string svg = PlotProfiles(*World::Load(file).value());
+  const std::string across = svg.substr(svg.find("slope across in %"));
+  EXPECT_THAT(across, HasSubstr(fmt::format(">{:.4g}</text>", 100.0 * std::tan(3.0 / 180.0 * geometry::kPi))));
+  EXPECT_THAT(across, HasSubstr(fmt::format(">{:.4g}</text>", 100.0 * std::tan(-5.0 / 180.0 * geometry::kPi))));
 }
 
 // The rectangles in which a picture's words stand, as wide and high as DejaVu Sans has digits.

@@ -52,6 +52,25 @@ double Volume(const Mesh& mesh) {
   return volume;
 }
 
+// A filling station has a roof on posts that a lorry passes under, fits its box, and stands where it was put.
+TEST(Things, AFillingStationStandsInItsBox) {
+  const auto world = WorldWith(R"(<objects><object id="f" type="building" subtype="filling_station" s="50" t="20" zOffset="0" length="24" width="14" height="6"/></objects>)");
+  ASSERT_NE(world, nullptr);
+  const Things things(*world);
+  Vector3d low = Vector3d::Constant(1e9), high = -low;
+  bool roof = false;
+  for (const Mesh& mesh : DrawAll(things, 0)) {
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const Vector3d p = mesh.PositionW(i);
+      low = low.cwiseMin(p), high = high.cwiseMax(p);
+      roof = roof || (p.z() > 5.0 + 4.0 && mesh.normals[i].z() < -0.9F);  // seen from below
+    }
+  }
+  EXPECT_NEAR((low - Vector3d(48.0, 33.0, 5.0)).head<2>().norm(), 0.0, 1.0);
+  EXPECT_NEAR((high - Vector3d(72.0, 47.0, 11.0)).norm(), 0.0, 1.0);
+  EXPECT_TRUE(roof);
+}
+
 TEST(Things, APlateStandsAtItsPlaceAndReadsFromLeftToRightForItsTraffic) {
   const auto world = WorldWith(R"(<signals><signal id="a" s="50" t="-5" zOffset="2" orientation="+" dynamic="no" type="274" subtype="-1" country="DE" value="70" unit="km/h" width="0.6" height="0.6"/></signals>)");
   ASSERT_NE(world, nullptr);

@@ -166,6 +166,24 @@ TEST(CrgFile, WhatIsWrongIsSaidWithItsLine) {
   EXPECT_THAT(Refusal(made.Text()), HasSubstr("'border_mode_u' is 2.5; a whole number from 0 to 4 was expected"));
 }
 
+// A file that ends within its last number says another height: it is refused, wherever it was cut.
+TEST(CrgFile, TextThatIsCutWithinItsLastNumberIsRefused) {
+  MadeCrg made;
+  made.format = "LRFI";
+  made.says_end = false;
+  made.z = [](double u, double v) { return 0.123456 + 0.001 * u + 0.01 * v; };
+  std::string whole = made.Text();
+  ASSERT_TRUE(whole.ends_with('\n'));
+  whole.pop_back();
+  const auto read = [](const std::string& text) { return ParseCrg(std::as_bytes(std::span(text)), "made.crg"); };
+  ASSERT_TRUE(read(whole).ok()) << "the last line's end may be missing";
+  for (std::size_t cut = 1; cut <= 8; ++cut) {
+    const auto file = read(whole.substr(0, whole.size() - cut));
+    ASSERT_FALSE(file.ok()) << cut;
+    EXPECT_THAT(file.error().Text(), HasSubstr("the file is cut short within a number: it ends after '")) << cut;
+  }
+}
+
 TEST(CrgFile, BinaryNumbersThatAreCutShortOrInfiniteAreRefused) {
   MadeCrg made;
   made.format = "KRBI";

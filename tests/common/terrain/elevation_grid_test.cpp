@@ -27,6 +27,24 @@ TEST(ElevationGrid, SplitsACellFromSouthEastToNorthWest) {
   EXPECT_NEAR((grid.At(9.0, 9.0).normal_W() - Eigen::Vector3d(-0.8, -0.8, 1.0).normalized()).norm(), 0.0, 1e-12);
 }
 
+// z = 3 + x/4 - y/2 + x^2/64 + xy/32 - y^2/128 over cells of 8 m by 4 m: what the two triangles of a cell leave of it is known. With u and v
+// from the cell's south-western post, of x^2 it is 64 u (u - 1), of y^2 16 v (v - 1), and of xy 32 u v below the diagonal, 32 (1 - u) (1 - v) above it.
+TEST(ElevationGrid, OfAPolynomialLeavesWhatItsTrianglesMust) {
+  const auto z = [](double x, double y) { return 3.0 + x / 4.0 - y / 2.0 + x * x / 64.0 + x * y / 32.0 - y * y / 128.0; };
+  const int columns = 17, rows = 9;
+  std::vector<float> heights(static_cast<std::size_t>(columns * rows));
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) heights[static_cast<std::size_t>(column * rows + row)] = static_cast<float>(z(8.0 * column, 4.0 * row));  // exact in 24 bits
+  }
+  const ElevationGrid grid({columns, rows, 0.0, 0.0, 8.0 * (columns - 1), 4.0 * (rows - 1)}, std::move(heights));
+  for (std::uint64_t i = 0; i < 20'000; ++i) {
+    const double x = base::RandomUniform({i, 1}, 0.0, 128.0), y = base::RandomUniform({i, 2}, 0.0, 32.0);
+    const double u = x / 8.0 - std::floor(x / 8.0), v = y / 4.0 - std::floor(y / 4.0);
+    const double both = u + v <= 1.0 ? u * v : (1.0 - u) * (1.0 - v);
+    ASSERT_NEAR(grid.At(x, y).z_m, z(x, y) - 64.0 * u * (u - 1.0) / 64.0 - 32.0 * both / 32.0 + 16.0 * v * (v - 1.0) / 128.0, 1e-11) << x << " " << y;
+  }
+}
+
 TEST(ElevationGrid, StandsOnItsPostsAndAllFourEdgesBelongToIt) {
   const ElevationGrid grid = Rough(7, 5, 1);
   for (int column = 0; column < 7; ++column) {

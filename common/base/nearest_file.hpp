@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace rodeira::base {
+
+// "; did you mean 'demo.yaml'?" for the end of a sentence, where a file of the same kind (by its extension) with nearly
+// that name lies in the same folder; otherwise nothing.
+std::string NearestFile(const std::filesystem::path& path);
+
+// "there is no such file; did you mean ...?" where there is none, otherwise nothing.
+std::string NoSuchFile(const std::filesystem::path& path);
+
+}  // namespace rodeira::base

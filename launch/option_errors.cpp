@@ -1,0 +1,91 @@
+#include "launch/option_errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+#include "common/base/suggest.hpp"
+
+namespace rodeira::front {
+namespace {
+
+// The command that was being read, and how a person calls it.
+struct Reading {
+  const CLI::App* command;
+  std::string name;
+};
+Reading Deepest(const CLI::App& app) {
+  Reading reading{&app, app.get_name()};
+  for (auto inner = app.get_subcommands(); !inner.empty(); inner = reading.command->get_subcommands()) {
+    reading = {inner.back(), reading.name + " " + inner.back()->get_name()};
+  }
+  return reading;
+}
+
+std::vector<std::string> CommandsOf(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; })) names.push_back(inner->get_name());
+  return names;
+}
+
+std::vector<std::string> OptionsOf(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_group().empty()) continue;  // hidden
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+}  // namespace
+
+CLI::Validator OneOf(std::vector<std::string> words) {
+  const std::string described = fmt::format("{}", fmt::join(words, "|"));
+  return CLI::Validator(
+      [words = std::move(words)](std::string& text) {
+        return std::find(words.begin(), words.end(), text) != words.end() ? std::string() : fmt::format("'{}' was found{}", text, base::DidYouMean(text, words));
+      },
+      described);
+}
+
+CLI::Validator Above0(std::string what) {
+  return CLI::Validator(
+      [what = std::move(what)](std::string& text) {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        return end != text.c_str() && *end == '\0' && value > 0.0 && std::isfinite(value) ? std::string() : fmt::format("'{}' was found; {} was expected", text, what);
+      },
+      "NUMBER");
+}
+
+CLI::Validator WholeNumber() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::uint64_t value = 0;
+        const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+        return problem == std::errc() && end == text.data() + text.size() ? std::string() : fmt::format("'{}' was found; a whole number from 0 on was expected", text);
+      },
+      "NUMBER");
+}
+
+std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem) {
+  const Reading reading = Deepest(app);
+  const std::vector<std::string> extras = reading.command->remaining(true);
+  const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& word) { return word.size() > 1 && word.front() == '-'; });
+  if (option != extras.end()) {
+    const std::string name = option->substr(0, option->find('='));
+    return fmt::format("'{}' is no option of '{}'{}", name, reading.name, base::DidYouMean(name, OptionsOf(*reading.command)));
+  }
+  const std::vector<std::string> commands = CommandsOf(*reading.command);
+  if (!commands.empty() && !extras.empty()) return fmt::format("'{}' is no command of '{}'{}", extras.front(), reading.name, base::DidYouMean(extras.front(), commands));
+  if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&problem) != nullptr) return fmt::format("'{}' needs a command; known are {}", reading.name, fmt::join(commands, ", "));
+  if (!extras.empty()) return fmt::format("'{}' was not expected by '{}'", extras.front(), reading.name);
+  return problem.what();
+}
+
+}  // namespace rodeira::front

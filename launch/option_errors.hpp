@@ -1,0 +1,21 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+// What a person is told of a command line that is not right.
+namespace rodeira::front {
+
+// One of the words, or the sentence that names the nearest.
+CLI::Validator OneOf(std::vector<std::string> words);
+// A finite number above 0; `what` says of which kind ("a positive number of seconds").
+CLI::Validator Above0(std::string what);
+// A whole number from 0 to 2^64 - 1, as a seed is.
+CLI::Validator WholeNumber();
+
+// One line without its end: the word that no command or option is called, of which command, and the nearest that there is;
+// otherwise the parser's own words.
+std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem);
+
+}  // namespace rodeira::front

@@ -1,0 +1,57 @@
+// What a person is told who mistypes a command, an option or a value.
+#include "launch/option_errors.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/system/command.hpp"
+
+namespace rodeira::front {
+namespace {
+
+using system_test::Bin;
+using testing::HasSubstr;
+
+// Status 2 and the sentence.
+std::string Refused(std::vector<std::string> words) {
+  words.insert(words.begin(), Bin("rodeira"));
+  const system_test::Ended ended = system_test::RunCommand(words);
+  EXPECT_EQ(ended.status, 2) << ended.out;
+  return ended.out;
+}
+
+TEST(OptionErrors, NameTheCommandThatWasMeant) {
+  EXPECT_THAT(Refused({"wrold", "check", "a.yaml"}), HasSubstr("rodeira: 'wrold' is no command of 'rodeira'; did you mean 'world'?\n"));
+  EXPECT_THAT(Refused({"world", "chekc", "a.yaml"}), HasSubstr("rodeira: 'chekc' is no command of 'rodeira world'; did you mean 'check'?\n"));
+  EXPECT_THAT(Refused({"map"}), HasSubstr("rodeira: 'rodeira map' needs a command; known are check, convert\n"));
+}
+
+TEST(OptionErrors, NameTheOptionThatWasMeant) {
+  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--vehicels", "4"}), HasSubstr("rodeira: '--vehicels' is no option of 'rodeira traffic run'; did you mean '--vehicles'?\n"));
+  EXPECT_THAT(Refused({"run", "a.yaml", "--recrod=x"}), HasSubstr("rodeira: '--recrod' is no option of 'rodeira run'; did you mean '--record'?\n"));
+  EXPECT_THAT(Refused({"info", "a.mcap", "b.mcap"}), HasSubstr("rodeira: 'b.mcap' was not expected by 'rodeira info'\n"));
+}
+
+TEST(OptionErrors, SayWhatAValueShouldBe) {
+  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--driver", "moters"}), HasSubstr("rodeira: --driver: 'moters' was found; did you mean 'motors'?\n"));
+  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--seed", "-1"}), HasSubstr("rodeira: --seed: '-1' was found; a whole number from 0 on was expected\n"));
+  EXPECT_THAT(Refused({"polyline", "scale", "a.csv", "-o", "b.csv", "--by", "0"}), HasSubstr("rodeira: --by: '0' was found; a number above 0 was expected\n"));
+  EXPECT_THAT(Refused({"run", "a.yaml", "--for", "nan"}), HasSubstr("'nan' was found; a positive number of seconds was expected\n"));
+}
+
+TEST(OptionErrors, HelpAndVersionAreNoErrors) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"}, {"--version"}, {"world", "--help"}}) {
+    std::vector<std::string> command{Bin("rodeira")};
+    command.insert(command.end(), words.begin(), words.end());
+    const system_test::Ended ended = system_test::RunCommand(command);
+    EXPECT_EQ(ended.status, 0);
+    EXPECT_FALSE(ended.out.empty());
+    EXPECT_EQ(ended.out.find("rodeira: "), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::front
