@@ -74,7 +74,7 @@ std::vector<AgentDetail> TrafficModel::Details() {
       detail.target_W = FrameAt(graph(), path, at).p_W.head<2>();
       const Eigen::Vector2d along = FrameAt(graph(), agent.path, rear_m).ahead_W;
       detail.path_heading_rad = std::atan2(along.y(), along.x());
-      detail.target_mps = std::min(Allowed(id).speed_mps * traits_[id].speed_factor, Cap_mps(id));
+      detail.target_mps = std::min(Allowed(id, agents_[id].o_m).speed_mps * traits_[id].speed_factor, Cap_mps(id));
       if (const MotorsDriver* own = motors(id); own != nullptr && own->lanes > 0 && own->trip == agent.trip) {
         const Eigen::Vector2d current = MotorsPoint(*own, own->checkpoint);
         detail.target_W = MotorsPoint(*own, own->checkpoint + 1);

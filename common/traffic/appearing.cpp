@@ -119,7 +119,7 @@ bool TrafficModel::TryAppear(const Appearing& next) {
   agent.path = {{next.track, 0.0, 0.0, 0.0, 0.0, 1.0}};
   if (!IsClearFor(next) || IsTakenUp(next.id)) return wait();
   FindStretches(next.id, settings_.sight_m);
-  double speed = std::min({next.speed_mps, Allowed(next.id).speed_mps, Cap_mps(next.id), AtMostForLine(next.id)});
+  double speed = std::min({next.speed_mps, Allowed(next.id, agents_[next.id].o_m).speed_mps, Cap_mps(next.id), AtMostForLine(next.id)});
   if (people_) speed = std::min(speed, AtMostForPeople(next.id));
   if (speed < 0.0) return wait();
   agent.speed_mps = speed;

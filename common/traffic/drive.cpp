@@ -22,25 +22,43 @@ double Needed_mps2(double v, double way_m, double jerk_mps3) {
 
 }  // namespace
 
-// The plan of the track, and what the beginnings of those ahead leave, braked for as the plans are.
-driver::SpeedPlan::Allowed TrafficModel::Allowed(std::uint32_t id) const {
-  const Agent& agent = agents_[id];
+// The plan of the track at a place of its way, and what the beginnings of those beyond leave, braked for as the plans are.
+driver::SpeedPlan::Allowed TrafficModel::Allowed(std::uint32_t id, double odometer_m) const {
   driver::SpeedPlan::Allowed allowed{1e3, 0.0};
   for (const Stretch& stretch : stretches_[id]) {
-    if (stretch.end_m < agent.o_m) continue;
-    if (stretch.begin_m <= agent.o_m) {
+    if (stretch.end_m < odometer_m) continue;
+    if (stretch.begin_m <= odometer_m) {
       const Below& below = below_[id];
-      const double d = agent.o_m - stretch.zero_m;
+      const double d = odometer_m - stretch.zero_m;
       const bool here = below.track == stretch.track && d >= below.plan.from_m && d < below.plan.to_m;
       allowed = here ? below.plan.nodes.At(d) : map_->plans[stretch.track].plan.At(d);
       continue;
     }
     const double there = stretch.planned_mps;
     const double b = settings_.speed.braking_mps2;
-    const double now = std::sqrt(there * there + 2.0 * b * (stretch.begin_m - agent.o_m));
+    const double now = std::sqrt(there * there + 2.0 * b * (stretch.begin_m - odometer_m));
     if (now < allowed.speed_mps) allowed = {now, -b / std::max(now, kLeast_mps)};
   }
   return allowed;
+}
+
+// The acceleration that keeps to the plan, and comes back to it. Where the plan soon asks for less than the driver does now, he begins with that half of the time earlier that
+// coming to it smoothly takes: as much below the plan before that place as behind it, he is never faster than it.
+double TrafficModel::WantedByPlan(std::uint32_t id, const driver::SpeedPlan::Allowed& here) const {
+  const Agent& agent = agents_[id];
+  const double v = agent.speed_mps, share = traits_[id].speed_factor, twice_jerk = 2.0 * settings_.smooth.planned_mps3;
+  const double wanted = here.slope_1ps * share * v + (here.speed_mps * share - v) / settings_.tracking_s;
+  double way = 0.0, there = 0.0, slows = -settings_.speed.braking_mps2;
+  for (int turn = 0; turn < 2; ++turn) {  // as far as the hardest braking of a plan asks, then as far as this one
+    if (agent.wish_mps2 <= slows) return wanted;
+    way = v * (agent.wish_mps2 - slows) / twice_jerk;
+    const driver::SpeedPlan::Allowed soon = Allowed(id, agent.o_m + way);
+    there = soon.speed_mps * share;
+    slows = soon.slope_1ps * share * std::min(v, there);
+  }
+  if (agent.wish_mps2 <= slows) return wanted;
+  const double line = std::sqrt(std::max(0.0, there * there - 2.0 * slows * way));  // that of then, as it would be here
+  return std::min(wanted, slows + (line - v) / settings_.tracking_s);
 }
 
 // The acceleration with which its front comes to rest there without a jerk, braking by a share of what is comfortable from where it must.
@@ -74,14 +92,13 @@ double TrafficModel::Wanted(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   const AgentTraits& traits = traits_[id];
   const double v = agent.speed_mps;
-  const driver::SpeedPlan::Allowed allowed = Allowed(id);
+  const driver::SpeedPlan::Allowed allowed = Allowed(id, agent.o_m);
   const double planned = allowed.speed_mps * traits.speed_factor;
   const double limit = Desired_mps(id);
   const driver::IdmSettings idm = IdmOf(id);
   const double free = idm.acceleration_mps2 > traits.idm.acceleration_mps2 ? std::min(idm.acceleration_mps2, (limit - v) / settings_.tracking_s)
                                                                            : driver::IdmFreeAcceleration(idm, v, limit);
-  double wanted = std::min(free,
-                           allowed.slope_1ps * traits.speed_factor * v + (planned - v) / settings_.tracking_s);
+  double wanted = std::min(free, WantedByPlan(id, allowed));
   if (planned > Cap_mps(id)) wanted = std::min(wanted, (Cap_mps(id) - v) / settings_.tracking_s);
   if (agent.seeks) wanted = std::min(wanted, std::max(-kSeeking_mps2, (kSeekingShare * planned - v) / settings_.tracking_s));
   const Ahead& ahead = ahead_[id];

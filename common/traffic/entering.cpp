@@ -102,7 +102,7 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
   };
   FindStretches(id, settings_.sight_m);
   const double limit = map_->plans[agent.entry].limit_mps * traits.speed_factor;
-  double speed = kEnteringShare * std::min(Allowed(id).speed_mps * traits.speed_factor, traits.top_mps);
+  double speed = kEnteringShare * std::min(Allowed(id, agents_[id].o_m).speed_mps * traits.speed_factor, traits.top_mps);
   // Conflict zones right at the beginning must be free, and are its own from now on.
   for (const lanes::ZoneSide& part : zones().Of(agent.entry)) {
     const lanes::Zone& zone = zones()[part.zone];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/base/assert.hpp"
 #include "common/base/huge_pages.hpp"
@@ -10,6 +11,7 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kQueuing_mps = 5.0 / 3.6;
+constexpr double kSoon_m = 0.3;       // before the end of its cell somebody may leave it in the next step
 constexpr std::uint32_t kAhead = 16;  // vehicles whose memory is on its way while one is told: their cells lie anywhere
 
 }  // namespace
@@ -23,22 +25,38 @@ LaneStatistics::LaneStatistics(const TrafficModel& model, double cell_m) : seen_
     tracks_.push_back({free_mps_.size(), count, track.length_m() / static_cast<double>(count)});
     for (std::size_t cell = 0; cell < count; ++cell) free_mps_.push_back(model.FreeSpeed_mps(index, (static_cast<double>(cell) + 0.5) * tracks_.back().cell_m));
   }
+  RODEIRA_ASSERT(free_mps_.size() < std::numeric_limits<std::uint32_t>::max());
   cells_.resize(free_mps_.size());
   base::PreferHugePages(cells_);
   base::PreferHugePages(seen_);
   for (std::uint32_t id = 0; id < model.vehicles(); ++id) {
     const Agent& agent = model.agent(id);
-    seen_[id] = {agent.on_road, agent.trip, agent.o_m, -1.0, 0};
+    seen_[id].on_road = agent.on_road, seen_[id].trip = agent.trip, seen_[id].o_m = agent.o_m;
     if (agent.on_road) ++began_;
   }
   there_ = began_;
 }
 
+// The cell is told what somebody has done in it.
+void LaneStatistics::Pour(Seen& seen) const {
+  if (seen.sum.time_s <= 0.0) return;
+  LaneCell& cell = cells_[seen.cell];
+  cell.distance_m += seen.sum.distance_m, cell.time_s += seen.sum.time_s, cell.fuel_mg += seen.sum.fuel_mg;
+  seen.sum = {};
+}
+
+void LaneStatistics::PourAll() const {
+  for (Seen& seen : seen_) Pour(seen);
+  pending_ = false;
+}
+
 // The way from one odometer to another, piece by piece and cell by cell. What lies before the path that is still known counts to
-// its first piece.
+// its first piece. Pieces that come later begin at its front bumper or beyond, so that as far as there the last cell is its own.
 void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double from_m, double to_m, const LaneCell& sum) {
   const auto& path = model.agent(id).path;
-  const double way = to_m - from_m;
+  const double way = to_m - from_m, sure_m = to_m + 0.5 * model.traits(id).length_m;
+  Seen& seen = seen_[id];
+  seen.until_m = kNowhere_m;
   double at = from_m;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool last = i + 1 == path.size();
@@ -52,7 +70,6 @@ void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double f
     };
     if (way <= 0.0) {
       LaneCell& cell = cells[cell_at(at)];
-      seen_[id].cell = static_cast<std::size_t>(&cell - cells_.data());
       cell.time_s += sum.time_s, cell.fuel_mg += sum.fuel_mg;
       return;
     }
@@ -62,7 +79,8 @@ void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double f
       cells[cell].distance_m += share * sum.distance_m;
       cells[cell].time_s += share * sum.time_s;
       cells[cell].fuel_mg += share * sum.fuel_mg;
-      seen_[id].cell = first + cell;
+      seen.cell = static_cast<std::uint32_t>(first + cell);
+      seen.until_m = std::min({last ? sure_m : path[i + 1].begin_m, cell + 1 >= count ? sure_m : path[i].zero_m + static_cast<double>(cell + 1) * length, sure_m});
       at = std::max(at, to);
     }
     if (at >= to_m) return;
@@ -85,14 +103,15 @@ void LaneStatistics::LookAtQueues(const TrafficModel& model) {
 void LaneStatistics::FetchFor(const TrafficModel& model, std::uint32_t id) const {
   const Agent& agent = model.agent(id);
   __builtin_prefetch(&agent);
-  __builtin_prefetch(&agent.path);
-  __builtin_prefetch(&agent.trip);
   __builtin_prefetch(&agent.fuel_mgps);
+  if (seen_[id].o_m + kSoon_m < seen_[id].until_m) return;
+  __builtin_prefetch(&agent.path);
   __builtin_prefetch(&cells_[seen_[id].cell], 1);
 }
 
 void LaneStatistics::Add(const TrafficModel& model, double dt_s) {
   watched_s_ += dt_s;
+  pending_ = true;
   for (std::uint32_t id = 0; id < seen_.size(); ++id) {
     if (id + kAhead < seen_.size()) FetchFor(model, id + kAhead);
     const Agent& agent = model.agent(id);
@@ -100,13 +119,22 @@ void LaneStatistics::Add(const TrafficModel& model, double dt_s) {
     const bool same = seen.on_road && agent.on_road && seen.trip == agent.trip;
     if (seen.on_road && !same) {
       ++left_, --there_;
+      Pour(seen);
       if (seen.entered_s >= 0.0) travel_times_s_.push_back(watched_s_ - seen.entered_s);
     }
     if (agent.on_road && !same) ++entered_, ++there_, seen.entered_s = watched_s_;
     if (same) {
       const double way = agent.o_m - seen.o_m;
       fuel_mg_[id] += agent.fuel_mgps * dt_s;
-      Share(model, id, seen.o_m, agent.o_m, {way, dt_s, agent.fuel_mgps * dt_s});
+      const LaneCell step{way, dt_s, agent.fuel_mgps * dt_s};
+      if (way >= 0.0 && agent.o_m < seen.until_m) {
+        seen.sum.distance_m += step.distance_m, seen.sum.time_s += step.time_s, seen.sum.fuel_mg += step.fuel_mg;
+      } else {
+        Pour(seen);
+        Share(model, id, seen.o_m, agent.o_m, step);
+      }
+    } else {
+      seen.until_m = kNowhere_m;
     }
     seen.on_road = agent.on_road;
     seen.trip = agent.trip;

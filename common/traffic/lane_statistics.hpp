@@ -22,7 +22,8 @@ struct LaneCell {
 };
 
 // Sums for every metre (or so) of every lane, by watching a model after each step. The way of a step is shared out exactly among
-// the cells that it crosses, its time and fuel in the same shares.
+// the cells that it crosses, its time and fuel in the same shares. What a vehicle does within a cell is summed up beside the vehicle and
+// told to the cell when it leaves it, or somebody asks: cells lie in far memory, and most steps lead to no other one.
 class LaneStatistics {
  public:
   // As many cells a track as make them nearly cell_m (over 0) long. The model is as it begins.
@@ -35,7 +36,11 @@ class LaneStatistics {
   void LookAtQueues(const TrafficModel& model);
 
   double watched_s() const { return watched_s_; }
-  std::span<const LaneCell> CellsOf(std::uint32_t track) const { return {cells_.data() + tracks_[track].first, tracks_[track].count}; }
+  // As of now; what was given before holds no more once Add has been called.
+  std::span<const LaneCell> CellsOf(std::uint32_t track) const {
+    if (pending_) PourAll();
+    return {cells_.data() + tracks_[track].first, tracks_[track].count};
+  }
   double CellLength_m(std::uint32_t track) const { return tracks_[track].cell_m; }
   // In the middle of a cell, whoever was there (TrafficModel::FreeSpeed_mps).
   double FreeSpeed_mps(std::uint32_t track, std::size_t cell) const { return free_mps_[tracks_[track].first + cell]; }
@@ -55,12 +60,15 @@ class LaneStatistics {
   const std::vector<double>& fuel_mg() const { return fuel_mg_; }
 
  private:
-  struct Seen {
-    bool on_road = false;
-    std::uint32_t trip = 0;
+  // A vehicle as it was seen last, in one line of memory.
+  struct alignas(64) Seen {
     double o_m = 0.0;
-    double entered_s = -1.0;  // below 0: was there from the beginning
-    std::size_t cell = 0;     // of all cells, the one that it was seen in last
+    double until_m = kNowhere_m;  // odometer up to which it is in its cell, whatever it does …
+    LaneCell sum;                 // … and what it has done there since the cell was told
+    double entered_s = -1.0;      // below 0: was there from the beginning
+    std::uint32_t trip = 0;
+    std::uint32_t cell = 0;       // of all cells, the one that it was seen in last
+    bool on_road = false;
   };
   struct Queue {
     std::int64_t now = 0, sum = 0, longest = 0;
@@ -70,15 +78,20 @@ class LaneStatistics {
     std::size_t first = 0, count = 0;
     double cell_m = 0.0;
   };
+  static constexpr double kNowhere_m = -1e18;
+
   void Share(const TrafficModel& model, std::uint32_t id, double from_m, double to_m, const LaneCell& sum);
+  void Pour(Seen& seen) const;
+  void PourAll() const;
   void FetchFor(const TrafficModel& model, std::uint32_t id) const;
 
   std::vector<Cells> tracks_;
-  std::vector<LaneCell> cells_;   // track by track
+  mutable std::vector<LaneCell> cells_;   // track by track
+  mutable std::vector<Seen> seen_;        // by vehicle
+  mutable bool pending_ = false;          // somebody's sum may not have been told to its cell
   std::vector<double> free_mps_;  // by cell
   std::vector<Queue> queues_;                 // by track
   std::int64_t looks_ = 0;
-  std::vector<Seen> seen_;                    // by vehicle
   std::vector<double> fuel_mg_;
   std::vector<double> travel_times_s_;
   double watched_s_ = 0.0;

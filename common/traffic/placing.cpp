@@ -78,7 +78,7 @@ void TrafficModel::PlaceAll(std::span<const driver::Footprint> others) {
     Agent& agent = agents_[id];
     if (!agent.on_road) continue;
     const driver::IdmSettings& idm = traits_[id].idm;
-    double speed = std::min(Allowed(id).speed_mps * traits_[id].speed_factor, traits_[id].top_mps);
+    double speed = std::min(Allowed(id, agents_[id].o_m).speed_mps * traits_[id].speed_factor, traits_[id].top_mps);
     if (ahead_[id].any) {
       const double gap = std::max(0.0, ahead_[id].gap_m - idm.standing_gap_m);
       speed = std::min({speed, gap / (ahead_[id].id < 0 ? 2.0 * idm.time_gap_s : idm.time_gap_s), std::sqrt(2.0 * idm.braking_mps2 * gap)});

@@ -266,7 +266,8 @@ class TrafficModel {
   double Wanted(std::uint32_t id) const;
   double LimitOn(std::uint32_t track, double d_m) const;
   double Desired_mps(std::uint32_t id) const;
-  driver::SpeedPlan::Allowed Allowed(std::uint32_t id) const;
+  driver::SpeedPlan::Allowed Allowed(std::uint32_t id, double odometer_m) const;
+  double WantedByPlan(std::uint32_t id, const driver::SpeedPlan::Allowed& here) const;
   double Cap_mps(std::uint32_t id) const { return std::min(agents_[id].cap_mps, traits_[id].top_mps); }
   double StopAt(std::uint32_t id, double odometer_m, double share = 1.0) const;
   double Smoothed(std::uint32_t id, double wanted_mps2, double dt_s);

@@ -50,7 +50,11 @@ void TrafficModel::Restore(base::StateReader& reader) {
     reader.Get("yields", yielding.crossing);
     reader.Get("yielded_s", yielding.waited_s);
   }
-  way_keys_.assign(agents_.size(), {});
+  way_keys_.assign(agents_.size(), {});  // what is remembered of steps before is of another past
+  stretches_.assign(agents_.size(), {});
+  passages_.assign(agents_.size(), {});
+  known_.assign(agents_.size(), {});
+  below_.assign(agents_.size(), {});
   reader.Get("waiting", waiting_);
   std::vector<std::uint32_t> appearing;
   std::vector<double> appearing_at;

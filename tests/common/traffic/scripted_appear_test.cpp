@@ -141,23 +141,27 @@ TEST(Scripted, WhereItCanNeverAppearIsRefused) {
   EXPECT_NE(refused(3, "nowhere:-1", 20.0).find("'nowhere:-1' was found; a drivable lane as ROAD:LANE, or a road, was expected"), std::string::npos);
   EXPECT_NE(refused(3, lane, 1e5).find("the station 100000 m is not on the lane '" + lane + "', which lies from 0.00 to"), std::string::npos);
   EXPECT_NE(refused(3, lane, 1.0).find("would stand across the lane's end; a place on plain lane was expected"), std::string::npos);
+  // By hand: clear of zones and lines by a metre, whole on the lane, and not within a junction.
   std::set<std::string> why;
-  for (std::uint32_t track = 0; track < model.graph().tracks().size(); ++track) {
-    const lanes::Track& at = model.graph()[track];
-    const std::string name = model.graph().network().roads()[at.lane.road].id() + ":" + std::to_string(at.lane.lane);
-    for (double d = 5.0; d < at.length_m(); d += 5.0) {
-      TrafficModel fresh = model;
-      const auto told = fresh.LetAppear(3, name, at.curve.StationAt(d), 5.0);
-      // By hand: clear of zones and lines by a metre, and whole on the lane.
-      bool plain = at.junction < 0 && d > 0.5 * model.traits(3).length_m && d < at.length_m() - 0.5 * model.traits(3).length_m;
-      for (const lanes::ZoneSide& part : model.zones().Of(track)) {
-        if (part.in_m < d + 0.5 * model.traits(3).length_m + 1.0 && part.out_m > d - 0.5 * model.traits(3).length_m - 1.0) plain = false;
+  for (const char* map : {"crossing", "town", "overpass"}) {
+    TrafficModel whole = TrafficModel::Make(settings, lanes::MapNetwork(map), {}).value();
+    const double half = 0.5 * whole.traits(3).length_m;
+    for (std::uint32_t track = 0; track < whole.graph().tracks().size(); ++track) {
+      const lanes::Track& at = whole.graph()[track];
+      const std::string name = whole.graph().network().roads()[at.lane.road].id() + ":" + std::to_string(at.lane.lane);
+      for (double d = 5.0; d < at.length_m(); d += 5.0) {
+        TrafficModel fresh = whole;
+        const auto told = fresh.LetAppear(3, name, at.curve.StationAt(d), 5.0);
+        bool plain = at.junction < 0 && d > half && d < at.length_m() - half;
+        for (const lanes::ZoneSide& part : whole.zones().Of(track)) {
+          if (part.in_m < d + half + 1.0 && part.out_m > d - half - 1.0) plain = false;
+        }
+        for (const lanes::SignPlace& sign : lanes::SignsOf(whole.graph(), track)) {
+          if (std::fabs(sign.d_m - d) < half + 1.0 && sign.sign == lanes::Sign::kStop) plain = false;
+        }
+        EXPECT_EQ(told.ok(), plain) << map << " " << name << " " << d << (told.ok() ? "" : told.error().Text());
+        if (!told) why.insert(told.error().Text().substr(told.error().Text().find("would stand")));
       }
-      for (const lanes::SignPlace& sign : lanes::SignsOf(model.graph(), track)) {
-        if (std::fabs(sign.d_m - d) < 0.5 * model.traits(3).length_m + 1.0 && sign.sign == lanes::Sign::kStop) plain = false;
-      }
-      EXPECT_EQ(told.ok(), plain) << name << " " << d << (told.ok() ? "" : told.error().Text());
-      if (!told) why.insert(told.error().Text().substr(told.error().Text().find("would stand")));
     }
   }
   EXPECT_GE(why.size(), 2u);
@@ -179,6 +183,35 @@ TEST(Scripted, WhoDoesNotAppearChangesNothing) {
     ASSERT_EQ(a.poses().size(), b.poses().size());
     for (std::size_t k = 0; k < a.poses().size(); ++k) ASSERT_EQ(a.poses()[k].p_WB_W, b.poses()[k].p_WB_W) << i;
   }
+}
+
+// Behind zones into which somebody has been let nobody appears before he has come to where he wants to stand, though there were room for both.
+TEST(Scripted, NobodyTakesThePlaceOfWhoHasBeenLetIn) {
+  TrafficSettings settings = OnlyScripted({kCar});
+  settings.vehicles = 10;
+  TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("crossing"), {}).value();
+  int tried = 0, waited = 0;
+  for (int i = 0; i < 50 * 120; ++i) {
+    Step(model);
+    for (std::uint32_t id = 0; id < 10; ++id) {
+      const Agent& agent = model.agent(id);
+      if (!agent.on_road || agent.grants.empty()) continue;
+      const lanes::Track& turn = model.graph()[agent.path.back().track];
+      if (turn.next.size() != 1) continue;
+      const lanes::Track& out = model.graph()[turn.next[0].to];
+      const double ends = agent.path.back().zero_m + turn.length_m();
+      TrafficModel fresh = model;
+      const std::string lane = fresh.graph().network().roads()[out.lane.road].id() + ":" + std::to_string(out.lane.lane);
+      double d = 5.0;
+      while (d < 30.0 && !fresh.LetAppear(10, lane, out.curve.StationAt(d), 8.0)) d += 1.0;
+      if (!fresh.IsAppearing(10) || agent.granted_m + 20.0 < ends + d) continue;
+      Step(fresh);
+      ++tried;
+      waited += fresh.IsAppearing(10) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(tried, 100);
+  EXPECT_EQ(waited, tried);
 }
 
 // Vehicles appear in a town that is full of others: nobody touches anybody.

@@ -57,6 +57,28 @@ TEST(Scripted, WhoIsToldOvertakesAsSoonAsItIsSafe) {
   }
 }
 
+// Before somebody who overtakes nobody appears on the lane of oncoming traffic, as long as he does.
+TEST(Scripted, NobodyAppearsBeforeWhoOvertakes) {
+  TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar, kCar}), TwoWayRing(Mark("broken")), {}).value();
+  Put(model, 0, "1:-1", 400.0, 12.0);
+  Put(model, 1, "1:-1", 375.0, 12.0);
+  model.CapSpeed(0, 12.0);
+  Step(model, 25);
+  model.TellToPass(1);
+  Step(model, 50);
+  ASSERT_TRUE(model.agent(1).overtaking.active());
+  Put(model, 2, "1:1", PoseOf(model, 1) == nullptr ? 0.0 : model.agent(1).o_m + 120.0, 5.0);
+  int waits = 0;
+  const auto beside = [&] { return model.agent(1).overtaking.active() && !model.agent(1).overtaking.back; };
+  for (; beside() && waits < 1500; ++waits) {
+    Step(model);
+    ASSERT_TRUE(model.IsAppearing(2) || !beside()) << waits;
+  }
+  EXPECT_GT(waits, 100);
+  Step(model, 50 * 10);
+  EXPECT_EQ(model.on_road(), 3u);
+}
+
 TEST(Scripted, ToOvertakeIsForgottenByARelease) {
   TrafficModel model = Following(false, 300.0);
   model.TellToPass(1);

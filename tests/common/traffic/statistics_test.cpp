@@ -120,6 +120,56 @@ TEST(LaneStatistics, SumsAreWhatWasDriven) {
   for (const double seconds : statistics.travel_times_s()) EXPECT_GT(seconds, 3.0);
 }
 
+// Each cell's time is, within a step a visit, that of the steps at whose ends somebody's middle was in it, on lanes that are changed, in a ring and at merges; and who
+// looks in the middle of it all finds as much there, and changes nothing.
+TEST(LaneStatistics, EachCellHasItsOwn) {
+  constexpr double kStep_s = 0.02;
+  for (const char* name : {"ramp", "roundabout", "crossing"}) {
+    for (const double cell_m : {1.0, 7.0}) {
+      TrafficSettings settings;
+      settings.vehicles = 40;
+      TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork(name), {}).value();
+      LaneStatistics statistics(model, cell_m), asked(model, cell_m);
+      std::vector<std::vector<double>> time_s, visits;
+      for (std::uint32_t track = 0; track < model.graph().tracks().size(); ++track) {
+        time_s.emplace_back(statistics.CellsOf(track).size(), 0.0);
+        visits.emplace_back(statistics.CellsOf(track).size(), 0.0);
+      }
+      struct Place { std::int64_t trip = -1; std::uint32_t track = 0; std::size_t cell = 0; };
+      std::vector<Place> before(settings.vehicles);
+      for (int i = 0; i <= 4000; ++i) {
+        if (i > 0) model.Step(kStep_s, {}), statistics.Add(model, kStep_s), asked.Add(model, kStep_s);
+        for (const AgentPose& pose : model.poses()) {
+          const Agent& agent = model.agent(pose.id);
+          const Piece& piece = PieceAt(agent.path, agent.o_m);
+          const double cell = std::floor((agent.o_m - piece.zero_m) / statistics.CellLength_m(piece.track));
+          const Place now{pose.trip, piece.track, static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(time_s[piece.track].size() - 1)))};
+          Place& last = before[pose.id];
+          if (last.trip == now.trip) time_s[now.track][now.cell] += kStep_s;
+          if (last.trip != now.trip || last.track != now.track || last.cell != now.cell) ++visits[now.track][now.cell];
+          last = now;
+        }
+        if (i % 400 != 200) continue;
+        for (std::uint32_t track = 0; track < time_s.size(); ++track) {
+          const auto cells = asked.CellsOf(track);
+          for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+            ASSERT_NEAR(cells[cell].time_s, time_s[track][cell], kStep_s * (visits[track][cell] + 1.0)) << name << " " << track << " " << cell << " after " << i * kStep_s << " s";
+          }
+        }
+      }
+      for (std::uint32_t track = 0; track < time_s.size(); ++track) {
+        const auto cells = statistics.CellsOf(track), same = asked.CellsOf(track);
+        for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+          ASSERT_NEAR(cells[cell].time_s, time_s[track][cell], kStep_s * (visits[track][cell] + 1.0)) << name << " " << track << " " << cell;
+          ASSERT_NEAR(cells[cell].time_s, same[cell].time_s, 1e-9 * (1.0 + same[cell].time_s));
+          ASSERT_NEAR(cells[cell].distance_m, same[cell].distance_m, 1e-9 * (1.0 + same[cell].distance_m));
+          ASSERT_NEAR(cells[cell].fuel_mg, same[cell].fuel_mg, 1e-9 * (1.0 + same[cell].fuel_mg));
+        }
+      }
+    }
+  }
+}
+
 // Thirty cars in equilibrium on a ring: everywhere the density N / L, the speed of the IDM, and their product the flow.
 TEST(LaneStatistics, SteadyFlowIsThatOfTheEquilibrium) {
   const TrafficSettings settings = Identical(30, 2.0);
