@@ -173,38 +173,60 @@ int GroundPlan::FinestAlike(const TileKey& key, int level) const {
   return finest;
 }
 
+struct GroundPlan::Begun {
+  TileKey key;
+  std::span<const partition::GridSegment> finest;
+  TileChains lines;
+  bool bare;
+  std::vector<partition::GridPoint> edge;
+  WovenTile woven;
+  int woven_level;  // -1: none yet
+};
+
+GroundPlan::Begun GroundPlan::Begin(const TileKey& key) const {
+  const auto found = segments_.find(key);
+  const auto finest = found == segments_.end() ? std::span<const partition::GridSegment>() : std::span(found->second);
+  Begun begun{key, finest, TileChains(finest, key, world_), IsBare(key), edges_.Of(key), {}, -1};
+  if (!begun.bare) RefineEdges(world_, key, begun.edge);  // the terrain's triangles have their points there
+  return begun;
+}
+
+GroundLevel GroundPlan::LevelOf(Begun& begun, int level) const {
+  const TileKey& key = begun.key;
+  const auto at = static_cast<std::size_t>(level);
+  int as = level;
+  while (begun.bare && as > 0 && land_.EveryPost(as) == 1) --as;  // as the level before
+  if (begun.woven_level != as) {
+    const auto simplified = as == 0 || begun.finest.empty() ? std::vector<partition::GridSegment>() : begun.lines.Simplified(kRoadTolerances[static_cast<std::size_t>(as)]);
+    begun.woven = WeaveTile(world_, PlanTile(world_, land_, key, as == 0 ? begun.finest : std::span(simplified), begun.edge, as));
+    begun.woven_level = as;
+  }
+  GroundLevel made;
+  made.ground = begun.woven.meshes;
+  if (at < paint_.size()) {
+    if (const auto paint = paint_[at].find(key); paint != paint_[at].end()) made.marks = LayPaint(paint->second, key, begun.woven.triangles);
+  }
+  if (const auto things = things_.tiles().find(key); things != things_.tiles().end()) {
+    DrawnThings drawn = DrawThings(things->second, key, level);
+    made.things = std::move(drawn.meshes);
+    made.repeated = std::move(drawn.repeated);
+    made.models = ModelsOf(things->second, level);
+  }
+  return made;
+}
+
 GroundTile GroundPlan::Build(const TileKey& key) const {
   GroundTile tile;
   tile.key = key;
-  static const std::vector<partition::GridSegment> kNone;
-  const auto found = segments_.find(key);
-  const auto& finest = found == segments_.end() ? kNone : found->second;
-  const bool bare = IsBare(key);
-  std::vector<partition::GridPoint> edge = edges_.Of(key);
-  if (!bare) RefineEdges(world_, key, edge);  // the terrain's triangles have their points there
-  const TileChains lines(finest, key, world_);
-  WovenTile woven;
-  for (int level = 0; level < kGroundLevels; ++level) {
-    const auto at = static_cast<std::size_t>(level);
-    if (bare && level > 0 && land_.EveryPost(level) == 1) {  // as the level before
-      tile.levels[at].ground = tile.levels[at - 1].ground;
-    } else {
-      const auto segments = level == 0 || finest.empty() ? finest : lines.Simplified(kRoadTolerances[at]);
-      woven = WeaveTile(world_, PlanTile(world_, land_, key, segments, edge, level));
-      tile.levels[at].ground = std::move(woven.meshes);
-    }
-    if (at < paint_.size()) {
-      if (const auto paint = paint_[at].find(key); paint != paint_[at].end()) tile.levels[at].marks = LayPaint(paint->second, key, woven.triangles);
-    }
-    if (const auto things = things_.tiles().find(key); things != things_.tiles().end()) {
-      DrawnThings drawn = DrawThings(things->second, key, level);
-      tile.levels[at].things = std::move(drawn.meshes);
-      tile.levels[at].repeated = std::move(drawn.repeated);
-      tile.levels[at].models = ModelsOf(things->second, level);
-    }
-  }
+  Begun begun = Begin(key);
+  for (int level = 0; level < kGroundLevels; ++level) tile.levels[static_cast<std::size_t>(level)] = LevelOf(begun, level);
   tile.ball = BallOf(key);
   return tile;
+}
+
+GroundLevel GroundPlan::BuildLevel(const TileKey& key, int level) const {
+  Begun begun = Begin(key);
+  return LevelOf(begun, level);
 }
 
 }  // namespace rodeira::scene

@@ -52,6 +52,8 @@ class GroundPlan {
 
   std::span<const TileKey> tiles() const { return tiles_; }
   GroundTile Build(const TileKey& tile) const;
+  // One of its levels: the bits that it has in the whole tile.
+  GroundLevel BuildLevel(const TileKey& tile, int level) const;
   // The finest level that is drawn as this one is, to the bit: bare land on which nothing stands has fewer levels.
   int FinestAlike(const TileKey& tile, int level) const;
   TileBall BallOf(const TileKey& tile) const;
@@ -72,6 +74,9 @@ class GroundPlan {
     base::Digest digest = 0;
   };
   static std::vector<TracePiece> PiecesOf(std::span<const Eigen::Vector2d> points_W);
+  struct Begun;  // what a tile's levels have in common, and the level that was woven last
+  Begun Begin(const TileKey& tile) const;
+  GroundLevel LevelOf(Begun& begun, int level) const;
   // Whether nothing but the terrain itself is in the tile.
   bool IsBare(const TileKey& tile) const { return !segments_.contains(tile) && land_.IsBare(tile); }
 

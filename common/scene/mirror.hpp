@@ -32,6 +32,9 @@ struct MirrorPlace {
 // For a picture so many times as wide as it is high: the mirror keeps its shape. The inside one hangs at the upper edge, the outer ones stand
 // at the left and right edges.
 MirrorPlace PlaceOf(Mirror mirror, double aspect);
+// The same on a screen of a laboratory: an outer one is, with its middle, where the driver sees it on the car, moved into the screen by what it would stand out
+// of it. The inside one, and one that is behind the screen's plane, as PlaceOf.
+MirrorPlace PlaceOn(const ScreenPlane& screen, const Body& car, Mirror mirror, double aspect);
 // Width by height of a mirror.
 double ShapeOf(Mirror mirror);
 

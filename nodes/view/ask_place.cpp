@@ -49,16 +49,20 @@ base::Result<scenario::Request> AskPlace(const road::World& world, const scene::
   return scenario::PlaceRequest({names.at(car.id), place.x_m, place.y_m, place.z_m}, place.heading_rad * 180.0 / geometry::kPi);
 }
 
+StartPlace PlaceOfStart(const road::World& world, const CarStart& own) {
+  const road::StartPose& of_world = world.start();
+  const bool own_place = own.x_m && own.y_m;
+  const double heading_deg = own.heading_deg.value_or(own_place ? 0.0 : of_world.heading_rad * 180.0 / geometry::kPi);
+  return {own_place ? *own.x_m : of_world.x_m, own_place ? *own.y_m : of_world.y_m, heading_deg};
+}
+
 base::Result<scenario::Request> AskStart(const road::World& world, const scene::Moment& moment, std::size_t followed, const CarNames& names, const CarStarts& starts) {
   const auto found = CarOf(moment, followed, names);
   if (!found) return found.error();
   const auto said = starts.find(found.value()->id);
-  const CarStart own = said != starts.end() ? said->second : CarStart{};
-  const road::StartPose& of_world = world.start();
-  const bool own_place = own.x_m && own.y_m;
-  const double heading_deg = own.heading_deg.value_or(own_place ? 0.0 : of_world.heading_rad * 180.0 / geometry::kPi);
+  const StartPlace start = PlaceOfStart(world, said != starts.end() ? said->second : CarStart{});
   // No height: as its own INI.
-  return scenario::PlaceRequest({names.at(found.value()->id), own_place ? *own.x_m : of_world.x_m, own_place ? *own.y_m : of_world.y_m, std::nullopt}, heading_deg);
+  return scenario::PlaceRequest({names.at(found.value()->id), start.x_m, start.y_m, std::nullopt}, start.heading_deg);
 }
 
 }  // namespace rodeira::view

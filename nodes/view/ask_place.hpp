@@ -21,6 +21,11 @@ struct CarStart {
   std::optional<double> heading_deg;
 };
 using CarStarts = std::map<std::uint64_t, CarStart>;
+// The same in a world: what is not said is the world's.
+struct StartPlace {
+  double x_m = 0.0, y_m = 0.0, heading_deg = 0.0;
+};
+StartPlace PlaceOfStart(const road::World& world, const CarStart& own);
 
 // What a person asks for who points at the ground: the followed car (of the traffic: the first driven one) there, along the lane if there
 // is one, otherwise as it stands. Wrong input where there is no car, no ground there, or not under all of the car.

@@ -5,7 +5,6 @@
 #include <osgDB/ReadFile>
 
 #include <charconv>
-#include <limits>
 #include <string_view>
 #include <typeinfo>
 #include <utility>
@@ -121,12 +120,11 @@ class FindTiles : public osg::NodeVisitor {
 
 }  // namespace
 
-base::Result<BuiltWorld> ReadBuilt(const std::filesystem::path& folder, Look& look) {
-  // The states are made here, not by the pager's threads.
-  for (int number = 0; number < scene::kMaterials; ++number) (void)look.StateOfRepeated(static_cast<scene::Material>(number));
+base::Result<PagedWorld> ReadBuilt(const std::filesystem::path& folder, Look& look) {
+  look.MakeStates();
   const std::string file = (folder / "world.osgb").string();
   const osg::ref_ptr<osg::Node> read = osgDB::readRefNodeFile(file);
-  BuiltWorld built;
+  PagedWorld built;
   built.root = read.valid() ? read->asGroup() : nullptr;
   if (!built.root.valid()) return base::Failed("OpenSceneGraph cannot read this file", file);
   const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
@@ -139,26 +137,6 @@ base::Result<BuiltWorld> ReadBuilt(const std::filesystem::path& folder, Look& lo
     tile->setDatabaseOptions(options);
   }
   return built;
-}
-
-void GiveBack(const BuiltWorld& built, const osg::Vec3d& eye_W, double far_m, double detail_scale) {
-  constexpr double kBeyond = 1.25;
-  for (osg::PagedLOD* const at : built.tiles) {
-    osg::PagedLOD& tile = *at;
-    const double distance_m = (tile.getCenter() - eye_W).length();
-    while (tile.getNumChildren() > 0) {  // the finest is the last one, and has the shortest range
-      const unsigned last = tile.getNumChildren() - 1;
-      const double needed_m = last == 0 ? far_m + static_cast<double>(tile.getRadius()) : static_cast<double>(tile.getMaxRange(last)) / detail_scale;
-      osg::NodeList given;
-      if (distance_m <= kBeyond * needed_m || !tile.removeExpiredChildren(std::numeric_limits<double>::max(), std::numeric_limits<unsigned>::max(), given)) break;
-    }
-  }
-}
-
-std::size_t HeldLevels(const BuiltWorld& built) {
-  std::size_t held = 0;
-  for (const osg::PagedLOD* tile : built.tiles) held += tile->getNumChildren();
-  return held;
 }
 
 }  // namespace rodeira::view

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
-#include <osg/PagedLOD>
 #include <osg/PolygonOffset>
 #include <osg/TexEnv>
 #include <osgDB/Registry>
@@ -24,9 +23,9 @@
 #include "nodes/view/database_tiles.hpp"
 #include "nodes/view/face_texture.hpp"
 #include "nodes/view/model_file.hpp"
+#include "nodes/view/paged_world.hpp"
 #include "nodes/view/picture_texture.hpp"
 #include "nodes/view/plain_geometry.hpp"
-#include "nodes/view/tile_tree.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -162,24 +161,6 @@ base::Result<Pictures> WritePictures(const road::World& world, const fs::path& f
   return pictures;
 }
 
-osg::ref_ptr<osg::Node> RootNode(const std::vector<TileFiles>& tiles) {
-  std::vector<PlacedNode> parts;
-  for (const TileFiles& tile : tiles) {
-    osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
-    lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-    lod->setCenter(osg::Vec3d(tile.ball.centre_W.x(), tile.ball.centre_W.y(), tile.ball.centre_W.z()));
-    lod->setRadius(static_cast<float>(tile.ball.radius_m));
-    // The coarsest first: files are read in this order, and what is there already is shown until the next one is.
-    unsigned child = 0;
-    for (auto level = tile.levels.rbegin(); level != tile.levels.rend(); ++level, ++child) {
-      lod->setFileName(child, level->file);
-      lod->setRange(child, level->from_m, level->to_m);
-    }
-    parts.push_back({tile.ball.centre_W.head<2>(), lod});
-  }
-  return TileTree(parts);
-}
-
 // Makes a tile and writes its files.
 base::Result<Manifest> WriteTile(const DatabaseTiles& tiles, std::size_t tile, const TileFiles& names, base::Digest source, const Pictures& pictures, const fs::path& folder) {
   const std::vector<scene::GroundLevel> levels = tiles.Make(tile);
@@ -237,7 +218,7 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
   });
   if (!status) return status.error();
 
-  const auto root = Serialise(*RootNode(placed));
+  const auto root = Serialise(*PagedTree(placed).root);
   if (!root) return root.error();
   if (auto written = base::WriteWhole(options.folder / "world.osgb", root.value()); !written) return written.error();
   std::string manifest = fmt::format("# The world {} as it is seen: hash of each file, hash of what it was made from, file\n# content_hash: {}\n# seen: {}\n{} {} world.osgb\n",

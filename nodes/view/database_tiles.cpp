@@ -16,18 +16,17 @@ std::string TileName(std::int64_t column, std::int64_t row, int level) { return 
 // Of a network: squares of 256 m.
 class NetworkTiles final : public DatabaseTiles {
  public:
-  NetworkTiles(const road::World& world, unsigned threads) : plan_(world, threads) {}
+  NetworkTiles(const road::World& world, unsigned threads, scene::ModelIsThere is_there) : plan_(world, threads, std::move(is_there)) {}
 
   std::size_t count() const override { return plan_.tiles().size(); }
   TileFiles FilesOf(std::size_t tile) const override {
     const scene::TileKey& key = plan_.tiles()[tile];
     TileFiles files{plan_.BallOf(key), {}};
-    float from_m = 0.0F;
-    for (int level = 0; level < scene::kGroundLevels; ++level) {
-      const float to_m = scene::kGroundSeen_m[static_cast<std::size_t>(level)];
-      if (plan_.FinestAlike(key, level) == level) files.levels.push_back({TileName(key.column, key.row, level), from_m, to_m});
-      else files.levels.back().to_m = to_m;
-      from_m = to_m;
+    const std::vector<int> levels = LevelsOf(key);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const int coarsest = i + 1 < levels.size() ? levels[i + 1] - 1 : scene::kGroundLevels - 1;  // that is drawn as this one
+      const float from_m = levels[i] == 0 ? 0.0F : scene::kGroundSeen_m[static_cast<std::size_t>(levels[i] - 1)];
+      files.levels.push_back({TileName(key.column, key.row, levels[i]), from_m, scene::kGroundSeen_m[static_cast<std::size_t>(coarsest)]});
     }
     return files;
   }
@@ -36,13 +35,24 @@ class NetworkTiles final : public DatabaseTiles {
     const scene::TileKey& key = plan_.tiles()[tile];
     scene::GroundTile made = plan_.Build(key);
     std::vector<scene::GroundLevel> levels;
+    for (const int level : LevelsOf(key)) levels.push_back(std::move(made.levels[static_cast<std::size_t>(level)]));
+    return levels;
+  }
+  scene::GroundLevel MakeLevel(std::size_t tile, std::size_t file) const override {
+    const scene::TileKey& key = plan_.tiles()[tile];
+    return plan_.BuildLevel(key, LevelsOf(key)[file]);
+  }
+
+ private:
+  // Those that are drawn as no finer one is.
+  std::vector<int> LevelsOf(const scene::TileKey& key) const {
+    std::vector<int> levels;
     for (int level = 0; level < scene::kGroundLevels; ++level) {
-      if (plan_.FinestAlike(key, level) == level) levels.push_back(std::move(made.levels[static_cast<std::size_t>(level)]));
+      if (plan_.FinestAlike(key, level) == level) levels.push_back(level);
     }
     return levels;
   }
 
- private:
   scene::GroundPlan plan_;
 };
 
@@ -67,8 +77,13 @@ class TerrainTiles final : public DatabaseTiles {
   base::Digest SourceOf(std::size_t tile) const override { return base::Combine(source_, base::Hash(TileName(tiles_[tile].column, tiles_[tile].row, 0))); }
   std::vector<scene::GroundLevel> Make(std::size_t tile) const override {
     std::vector<scene::GroundLevel> levels;
-    for (const scene::Mesh& mesh : tiles_[tile].levels) levels.emplace_back().ground.push_back(mesh);
+    for (std::size_t file = 0; file < tiles_[tile].levels.size(); ++file) levels.push_back(MakeLevel(tile, file));
     return levels;
+  }
+  scene::GroundLevel MakeLevel(std::size_t tile, std::size_t file) const override {
+    scene::GroundLevel level;
+    level.ground.push_back(tiles_[tile].levels[file]);
+    return level;
   }
 
  private:
@@ -78,10 +93,10 @@ class TerrainTiles final : public DatabaseTiles {
 
 }  // namespace
 
-std::unique_ptr<DatabaseTiles> TilesOf(const road::World& world, unsigned threads) {
+std::unique_ptr<DatabaseTiles> TilesOf(const road::World& world, unsigned threads, scene::ModelIsThere is_there) {
   RODEIRA_ASSERT(world.roads().empty());
   if (world.network() == nullptr) return std::make_unique<TerrainTiles>(world);
-  return std::make_unique<NetworkTiles>(world, threads);
+  return std::make_unique<NetworkTiles>(world, threads, std::move(is_there));
 }
 
 }  // namespace rodeira::view

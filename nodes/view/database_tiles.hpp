@@ -34,10 +34,12 @@ class DatabaseTiles {
   virtual base::Digest SourceOf(std::size_t tile) const = 0;
   // Makes a tile: its levels in the order of its files.
   virtual std::vector<scene::GroundLevel> Make(std::size_t tile) const = 0;
+  // One of them alone: of so manieth file.
+  virtual scene::GroundLevel MakeLevel(std::size_t tile, std::size_t file) const = 0;
 };
 
 // Those of a network, or of a terrain or a plane without any road; the world must outlive them. threads: 0 for as many as the machine has.
-// Not for roads of version 1, which are drawn in another way.
-std::unique_ptr<DatabaseTiles> TilesOf(const road::World& world, unsigned threads);
+// Not for roads of version 1, which are drawn in another way. `is_there`: which models from files stand there; without it all.
+std::unique_ptr<DatabaseTiles> TilesOf(const road::World& world, unsigned threads, scene::ModelIsThere is_there = {});
 
 }  // namespace rodeira::view

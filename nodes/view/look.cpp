@@ -97,6 +97,10 @@ osg::ref_ptr<osg::StateSet> Look::MakeState(scene::Material material) {
   return state;
 }
 
+void Look::MakeStates() {
+  for (int number = 0; number < scene::kMaterials; ++number) (void)StateOfRepeated(static_cast<scene::Material>(number));
+}
+
 osg::StateSet* Look::StateOf(scene::Material material) {
   auto& state = states_[static_cast<std::size_t>(material)];
   if (!state) state = MakeState(material);
@@ -120,7 +124,8 @@ osg::ref_ptr<osg::StateSet> Look::StateOfFace(osg::Texture2D& picture) {
   return state;
 }
 
-osg::StateSet* Look::KnownFace(const std::string& face) {
+osg::ref_ptr<osg::StateSet> Look::KnownFace(const std::string& face) {
+  const std::lock_guard lock(mutex_);
   auto& state = faces_[face];
   if (!state) state = StateOfFace(*MakeFaceTexture(face));
   return state;
@@ -153,7 +158,8 @@ osg::ref_ptr<osg::Geometry> Look::BareGeometryOf(const scene::Mesh& mesh) {
 osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
   osg::ref_ptr<osg::Geometry> geometry = BareGeometryOf(mesh);
   if (mesh.material == scene::Material::kPicture) geometry->setStateSet(StateOfPicture(mesh.face, mesh.repeats));
-  else geometry->setStateSet(mesh.material == scene::Material::kSign ? KnownFace(mesh.face) : StateOf(mesh.material));
+  else if (mesh.material == scene::Material::kSign) geometry->setStateSet(KnownFace(mesh.face));
+  else geometry->setStateSet(StateOf(mesh.material));
   return geometry;
 }
 

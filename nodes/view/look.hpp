@@ -36,6 +36,8 @@ class Look {
   Look(const QualityTraits& quality, bool repeats);
 
   bool repeats() const { return repeats_; }
+  // Makes what is otherwise made as it is needed. From then on several threads may ask for states, geometries and what is placed.
+  void MakeStates();
   // How a material is drawn; one shared state for each.
   osg::StateSet* StateOf(scene::Material material);
   // The same for a model that is drawn at many places.
@@ -63,15 +65,15 @@ class Look {
   osg::ref_ptr<osg::Geometry> BareGeometryOf(const scene::Mesh& mesh);
   static osg::ref_ptr<osg::MatrixTransform> PlaceAt(const Eigen::Vector3d& origin_W);
   osg::ref_ptr<osg::StateSet> MakeState(scene::Material material);
-  osg::StateSet* KnownFace(const std::string& face);
+  osg::ref_ptr<osg::StateSet> KnownFace(const std::string& face);
 
   const QualityTraits quality_;
   const bool repeats_;
   osg::ref_ptr<osg::Texture2D> noise_;  // repeats: fine in its red part, coarse in its green one
   osg::ref_ptr<osg::Program> shadow_;
   std::array<osg::ref_ptr<osg::StateSet>, scene::kMaterials> states_, repeated_states_;
+  std::mutex mutex_;  // of the next two
   std::map<std::string, osg::ref_ptr<osg::StateSet>> faces_;  // of signs
-  std::mutex mutex_;  // of the next
   std::map<std::pair<std::string, bool>, osg::ref_ptr<osg::StateSet>> pictures_;
 };
 

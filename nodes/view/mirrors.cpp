@@ -21,8 +21,9 @@ constexpr double kNext_m = 10.0;
 constexpr float kFrame_px = 3.0F;
 constexpr int kFrameLayer = 1, kGlassLayer = 2;
 
-Boxes::Box PixelsOf(scene::Mirror mirror, int width_px, int height_px) {
-  const scene::MirrorPlace place = scene::PlaceOf(mirror, static_cast<double>(width_px) / height_px);
+Boxes::Box PixelsOf(scene::Mirror mirror, const std::optional<scene::ScreenPlane>& screen, const scene::Body& body, int width_px, int height_px) {
+  const double aspect = static_cast<double>(width_px) / height_px;
+  const scene::MirrorPlace place = screen ? scene::PlaceOn(*screen, body, mirror, aspect) : scene::PlaceOf(mirror, aspect);
   const auto px = [](double share, int size_px) { return static_cast<float>(std::round(share * size_px)); };
   return {px(place.left, width_px), px(place.low, height_px), px(place.right, width_px), px(place.high, height_px)};
 }
@@ -73,8 +74,8 @@ Mirrors::Glass Mirrors::MakeGlass(osg::Group& root, osg::Group& scene, osg::Grou
 }
 
 // The picture in the glass has as many pixels as it is shown with.
-void Mirrors::Fit(Glass& glass, scene::Mirror mirror, int width_px, int height_px) {
-  const Boxes::Box box = PixelsOf(mirror, width_px, height_px);
+void Mirrors::Fit(Glass& glass, const Boxes::Box& box) {
+  glass.box = box;
   const int wide = static_cast<int>(box.right - box.left), high = static_cast<int>(box.high - box.low);
   glass.texture->setTextureSize(wide, high);
   glass.texture->dirtyTextureObject();
@@ -105,11 +106,12 @@ void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& bod
     for (Glass& glass : glasses_) glass.camera->setNodeMask(0U), glass.pane->setNodeMask(0U);
     return frames_.Set({});
   }
-  if (width_px != width_px_ || height_px != height_px_) {
-    width_px_ = width_px;
-    height_px_ = height_px;
+  for (const scene::Mirror mirror : scene::kAllMirrors) {
+    Glass& glass = glasses_[static_cast<std::size_t>(mirror)];
+    const Boxes::Box box = PixelsOf(mirror, picture.screen, *body, width_px, height_px);
+    if (glass.box == box) continue;
+    Fit(glass, box);
     before_.reset();
-    for (const scene::Mirror mirror : scene::kAllMirrors) Fit(glasses_[static_cast<std::size_t>(mirror)], mirror, width_px, height_px);
   }
   const bool one = GoesOn(picture, body->p_WB_W) && in_turn;
   if (one) {
@@ -130,7 +132,7 @@ void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& bod
     SetEye(*glass.camera->getOrCreateStateSet(), air, lit, glass.camera->getViewMatrix());
     shadow.SetEye(*glass.camera->getOrCreateStateSet(), glass.camera->getViewMatrix());
     heat.SetEye(*glass.camera->getOrCreateStateSet(), glass.camera->getViewMatrix());
-    const Boxes::Box box = PixelsOf(mirror, width_px, height_px);
+    const Boxes::Box& box = glass.box;
     frames.push_back({box.left - kFrame_px, box.low - kFrame_px, box.right + kFrame_px, box.high + kFrame_px});
   }
   frames_.Set(frames);

@@ -32,15 +32,15 @@ class Mirrors {
     osg::ref_ptr<osg::Camera> camera;
     osg::ref_ptr<osg::Texture2D> texture;
     osg::ref_ptr<osg::Geometry> pane;
+    Boxes::Box box;  // for which it was fitted, of the picture's pixels
   };
   static Glass MakeGlass(osg::Group& root, osg::Group& scene, osg::Group& overlay);
   bool GoesOn(const Picture& picture, const Eigen::Vector3d& eye_W);
-  void Fit(Glass& glass, scene::Mirror mirror, int width_px, int height_px);
+  void Fit(Glass& glass, const Boxes::Box& box);
 
   Boxes frames_;
   std::array<Glass, scene::kMirrors> glasses_;
-  int width_px_ = 0, height_px_ = 0;  // of the picture for which they were fitted
-  struct Shown {                      // the picture before
+  struct Shown {  // the picture before
     std::int64_t time_ns = 0;
     std::size_t followed = 0;
     std::array<bool, scene::kMirrors> mirrors{};

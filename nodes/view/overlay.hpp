@@ -27,6 +27,8 @@ class Boxes {
  public:
   struct Box {
     float left = 0.0F, low = 0.0F, right = 0.0F, high = 0.0F;
+
+    bool operator==(const Box&) const = default;
   };
   // Those of a higher layer lie over those of a lower one.
   Boxes(osg::Group& overlay, const osg::Vec4& colour, int layer = 0);

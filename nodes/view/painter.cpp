@@ -2,7 +2,6 @@
 
 #include <osg/Camera>
 #include <osg/CullFace>
-#include <osg/LOD>
 #include <osg/MatrixTransform>
 #include <osg/Uniform>
 #include <osgDB/DatabasePager>
@@ -25,13 +24,16 @@
 #include "nodes/view/built_world.hpp"
 #include "nodes/view/cabin_node.hpp"
 #include "nodes/view/car_node.hpp"
+#include "nodes/view/ground_nodes.hpp"
 #include "nodes/view/heat_node.hpp"
 #include "nodes/view/instruments.hpp"
 #include "nodes/view/lights_node.hpp"
 #include "nodes/view/look.hpp"
+#include "nodes/view/made_world.hpp"
 #include "nodes/view/mirrors.hpp"
 #include "nodes/view/model_file.hpp"
 #include "nodes/view/overlay.hpp"
+#include "nodes/view/paged_world.hpp"
 #include "nodes/view/plain_geometry.hpp"
 #include "nodes/view/sun_shadow.hpp"
 #include "nodes/view/tile_tree.hpp"
@@ -43,79 +45,8 @@ namespace {
 
 constexpr double kFar_m = 15'000.0;
 constexpr double kShadowsAhead_m = 35.0;
-constexpr float kMarksSeen_m = 650.0F;
-constexpr float kTreesSeen_m = 1'100.0F;
-constexpr double kHighestTree_m = 12.0;
 
 osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-osg::ref_ptr<osg::Node> TerrainNode(Look& look, const scene::TerrainTile& tile) {
-  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
-  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-  lod->setCenter(ToOsg(tile.centre_W));
-  lod->setRadius(tile.radius_m);
-  float from = 0.0F;
-  for (std::size_t level = 0; level < tile.levels.size(); ++level) {
-    const scene::Mesh* mesh = &tile.levels[level];
-    const float to = scene::TerrainSeen_m(tile, level);
-    lod->addChild(look.Placed({&mesh, 1}), from, to);
-    from = to;
-  }
-  return lod;
-}
-
-osg::ref_ptr<osg::Node> GroundNode(Look& look, const scene::GroundTile& tile) {
-  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
-  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-  lod->setCenter(ToOsg(tile.ball.centre_W));
-  lod->setRadius(tile.ball.radius_m);
-  float from = 0.0F;
-  for (std::size_t level = 0; level < tile.levels.size(); ++level) {
-    std::vector<const scene::Mesh*> meshes;
-    for (const scene::Mesh& mesh : tile.levels[level].ground) meshes.push_back(&mesh);
-    osg::ref_ptr<osg::Group> group = new osg::Group;
-    if (!meshes.empty()) group->addChild(look.Placed(meshes));
-    const scene::Mesh* marks = &tile.levels[level].marks;
-    if (!marks->triangles.empty()) group->addChild(look.Placed({&marks, 1}));
-    std::vector<const scene::Mesh*> things;
-    for (const scene::Mesh& mesh : tile.levels[level].things) things.push_back(&mesh);
-    if (!things.empty()) group->addChild(look.Placed(things));
-    if (!tile.levels[level].repeated.empty()) group->addChild(look.Placed(tile.levels[level].repeated));
-    if (!tile.levels[level].models.empty()) {
-      const osg::ref_ptr<osg::Group> models = PlaceModels(tile.levels[level].models);
-      models->setNodeMask(kOnlyNear);
-      group->addChild(models);
-    }
-    lod->addChild(group, from, scene::kGroundSeen_m[level]);
-    from = scene::kGroundSeen_m[level];
-  }
-  return lod;
-}
-
-void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group) {
-  std::vector<const scene::Mesh*> ground;
-  for (const scene::Mesh& mesh : tile.ground) ground.push_back(&mesh);
-  if (!ground.empty()) group.addChild(look.Placed(ground));
-  if (tile.marks.triangles.empty()) return;
-  const scene::Mesh* marks = &tile.marks;
-  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
-  lod->addChild(look.Placed({&marks, 1}), 0.0F, kMarksSeen_m);
-  group.addChild(lod);
-}
-
-// Trees of a square, seen from so far as it is from the middle of their feet: however they are drawn.
-PlacedNode TreesNode(Look& look, const std::vector<scene::Repeated>& trees) {
-  Eigen::AlignedBox3d feet_W;
-  for (const scene::Repeated& kind : trees) {
-    for (const scene::StandingPlace& place : kind.places) feet_W.extend(place.stand.foot_W);
-  }
-  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
-  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-  lod->setCenter(ToOsg(feet_W.center()));
-  lod->setRadius(0.5 * feet_W.diagonal().norm() + kHighestTree_m);
-  lod->addChild(look.Placed(trees), 0.0F, kTreesSeen_m);
-  return {feet_W.center().head<2>(), lod};
-}
 
 // About which place shadows are seen best: before the eye where it looks along the road, else about the car.
 Eigen::Vector3d ShadowsAbout(const Picture& picture, const std::optional<scene::Body>& body, const scene::Camera& camera) {
@@ -124,10 +55,10 @@ Eigen::Vector3d ShadowsAbout(const Picture& picture, const std::optional<scene::
   return body->p_WB_W + (ahead ? kShadowsAhead_m : 0.0) * (body->q_WB * Eigen::Vector3d::UnitX());
 }
 
-// Of a built database: its pagers stand about their tiles' middles.
-std::vector<scene::TileKey> TilesOf(const BuiltWorld& built) {
+// Pagers stand about their tiles' middles.
+std::vector<scene::TileKey> KeysOf(const PagedWorld& paged) {
   std::vector<scene::TileKey> tiles;
-  for (const osg::PagedLOD* tile : built.tiles) {
+  for (const osg::PagedLOD* tile : paged.tiles) {
     const osg::Vec3d& middle = tile->getCenter();
     tiles.push_back({static_cast<std::int64_t>(std::floor(middle.x() / scene::kTile_m)), static_cast<std::int64_t>(std::floor(middle.y() / scene::kTile_m))});
   }
@@ -170,7 +101,7 @@ struct Painter::Parts {
   SunShadow shadow;
   Mirrors mirrors{*root, *scene, *overlay};
   osg::ref_ptr<osg::Node> rain = look.MakeRain();
-  BuiltWorld built;  // the tiles of a database; without a root: the ground is in memory
+  PagedWorld paged;  // without a root: all of the ground is there from the beginning
   osgViewer::Viewer viewer;
 };
 
@@ -183,10 +114,10 @@ Painter::Painter(Surface& surface, const road::World& world, const scene::WorldS
   std::vector<PlacedNode> land, trees;
   std::vector<scene::TileKey> tiles;
   for (const scene::GroundTile& tile : standing.ground) {
-    land.push_back({tile.ball.centre_W.head<2>(), GroundNode(look, tile)});
+    land.push_back(GroundNode(look, tile));
     tiles.push_back(tile.key);
   }
-  for (const scene::TerrainTile& tile : standing.terrain) land.push_back({tile.centre_W.head<2>(), TerrainNode(look, tile)});
+  for (const scene::TerrainTile& tile : standing.terrain) land.push_back(TerrainNode(look, tile));
   for (const std::vector<scene::Repeated>& square : standing.trees) trees.push_back(TreesNode(look, square));
   group.addChild(TileTree(land));
   AddFarPlane(look, world, tiles, group);
@@ -199,11 +130,22 @@ base::Result<std::unique_ptr<Painter>> Painter::Make(Surface& surface, const roa
   std::unique_ptr<Painter> painter(new Painter(surface, world, repeats));
   auto ground = ReadBuilt(built, painter->parts_->look);
   if (!ground) return ground.error();
-  painter->parts_->built = ground.value();
-  painter->parts_->scene->addChild(ground.value().root);
-  if (world.network() != nullptr) AddFarPlane(painter->parts_->look, world, TilesOf(ground.value()), *painter->parts_->scene);
-  painter->SetUp();
+  painter->Lay(std::move(ground).value());
   return painter;
+}
+
+std::unique_ptr<Painter> Painter::Make(Surface& surface, const road::World& world, scene::ModelIsThere is_there, bool repeats) {
+  std::unique_ptr<Painter> painter(new Painter(surface, world, repeats));
+  painter->Lay(MakeAsSeen(world, painter->parts_->look, std::move(is_there)));
+  painter->parts_->viewer.getDatabasePager()->setUpThreads(std::max(1u, std::thread::hardware_concurrency()), 0);
+  return painter;
+}
+
+void Painter::Lay(PagedWorld paged) {
+  parts_->paged = std::move(paged);
+  parts_->scene->addChild(parts_->paged.root);
+  if (world_.network() != nullptr) AddFarPlane(parts_->look, world_, KeysOf(parts_->paged), *parts_->scene);
+  SetUp();
 }
 
 // What moves, sky and texts, and the viewer.
@@ -238,10 +180,11 @@ void Painter::SetUp() {
   osg::Camera& camera = *viewer.getCamera();
   camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
   camera.setClearColor({0.8F, 0.86F, 0.91F, 1.0F});
+  camera.setCullingMode(camera.getCullingMode() | osg::CullSettings::FAR_PLANE_CULLING);  // what cannot be seen is not read either
   camera.setLODScale(TraitsOf(surface.quality()).detail_scale);
   viewer.setSceneData(&root);
   // What was read stays until the eye has left it (GiveBack), also behind its back: turning round shows no gaps.
-  if (parts_->built.root) viewer.getDatabasePager()->setTargetMaximumNumberOfPageLOD(static_cast<unsigned>(parts_->built.tiles.size()));
+  if (parts_->paged.root) viewer.getDatabasePager()->setTargetMaximumNumberOfPageLOD(static_cast<unsigned>(parts_->paged.tiles.size()));
   viewer.realize();
 }
 
@@ -263,7 +206,11 @@ base::Status Painter::WearCarModel(const std::filesystem::path& file) {
   return {};
 }
 
-void Painter::Draw(const Picture& picture) { DrawOnce(picture, {0, surface_.width_px(), surface_.height_px()}, false); }
+void Painter::Draw(const Picture& picture) {
+  osgViewer::Viewer& viewer = parts_->viewer;
+  if (parts_->paged.root) AskAhead(parts_->paged, *viewer.getDatabasePager(), *viewer.getFrameStamp(), ToOsg(CameraOf(picture).eye_W), kFar_m);
+  DrawOnce(picture, {0, surface_.width_px(), surface_.height_px()}, false);
+}
 
 void Painter::DrawInto(const Picture& picture, const PictureTarget& target) { DrawOnce(picture, target, true); }
 
@@ -302,20 +249,26 @@ void Painter::DrawOnce(const Picture& picture, const PictureTarget& target, bool
   parts_->instruments.Show(picture, panels, picture.timeline ? TimelinePlace::kHeight : 0.0F);
   parts_->timeline.Show(picture.timeline, panels);
   parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);
-  if (parts_->built.root && !parts_->viewer.getDatabasePager()->getRequestsInProgress()) GiveBack(parts_->built, ToOsg(camera.eye_W), kFar_m, static_cast<double>(eye.getLODScale()));
+  if (parts_->paged.root && !parts_->viewer.getDatabasePager()->getRequestsInProgress()) GiveBack(parts_->paged, ToOsg(camera.eye_W), kFar_m, static_cast<double>(eye.getLODScale()));
 }
 
-void Painter::DrawWhole(const Picture& picture) {
+void Painter::DrawWhole(const Picture& picture, const scene::Progress& progress) {
   DrawInto(picture, {0, surface_.width_px(), surface_.height_px()});
-  if (!parts_->built.root) return;
+  osgDB::DatabasePager* const pager = parts_->viewer.getDatabasePager();
+  double share = 0.0;
   // Each level of a tile is asked for when the one before it is there.
-  while (parts_->viewer.getDatabasePager()->getRequestsInProgress()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  while (parts_->paged.root && pager->getRequestsInProgress()) {
+    while (IsReading(*pager)) {
+      const double there = static_cast<double>(HeldLevels() + pager->getDataToMergeListSize());
+      share = std::max(share, there / (there + 1.0 + static_cast<double>(pager->getFileRequestListSize())));
+      if (progress) progress(share);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     DrawInto(picture, {0, surface_.width_px(), surface_.height_px()});
   }
 }
 
-std::size_t Painter::HeldLevels() const { return view::HeldLevels(parts_->built); }
+std::size_t Painter::HeldLevels() const { return view::HeldLevels(parts_->paged); }
 
 PictureCost Painter::CostOfLast() const {
   auto& renderer = dynamic_cast<osgViewer::Renderer&>(*parts_->viewer.getCamera()->getRenderer());
@@ -351,6 +304,7 @@ base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::W
     if (!read && told.insert(file).second) fmt::print(stderr, "rodeira: {}; what it is of is drawn without it\n", read.error().Text());
     return read.ok();
   };
+  if (world.network() != nullptr && world.roads().empty()) return Painter::Make(surface, world, is_there, repeats);
   const scene::WorldScene standing = scene::BuildWorldScene(world, {}, is_there, progress);  // the painter has its own copy
   return std::make_unique<Painter>(surface, world, standing, repeats);
 }

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
+#include <utility>
 
 #include "common/base/user_folders.hpp"
+#include "common/geometry/angle.hpp"
 #include "common/hands/key_names.hpp"
 #include "common/launch/live_keys.hpp"
 #include "common/scene/pick.hpp"
@@ -31,15 +34,18 @@ constexpr const char* kNobodyTakes = "nobody in this run takes requests: a node 
 constexpr const char* kClockElsewhere = "the run is paused on the PC where its clock is";
 constexpr const char* kTooMany = "the run has not taken what was asked before";
 
-// A car where the world's start is: what the first picture is drawn with, so that everything is loaded before it counts.
-Picture FirstPicture(const road::World& world) {
-  Picture picture;
+// The followed car where it begins, as the window shows it then: what the first picture is drawn with, so that everything is loaded before it counts.
+Picture FirstPicture(const road::World& world, const ViewSettings& settings) {
   scene::CarPose car;
-  const road::StartPose& start = world.start();
+  const bool said = settings.followed < settings.starts.size();
+  const StartPlace start = PlaceOfStart(world, said ? std::next(settings.starts.begin(), static_cast<std::ptrdiff_t>(settings.followed))->second : CarStart{});
   car.p_WB_W = {start.x_m, start.y_m, world.At(start.x_m, start.y_m).z_m};
-  car.q_WB = scene::Attitude(start.heading_rad, 0.0, 0.0);
+  car.q_WB = scene::Attitude(start.heading_deg * geometry::kPi / 180.0, 0.0, 0.0);
   for (std::size_t i = 0; i < 4; ++i) car.wheels[i].hub_B = {i < 2 ? 1.2 : -1.2, i % 2 == 0 ? 0.7 : -0.7, 0.29};
-  picture.moment.cars.push_back(car);
+  scene::Moment moment;
+  moment.cars.push_back(car);
+  Picture picture = PictureOf(settings, std::move(moment));
+  picture.followed = 0;
   return picture;
 }
 
@@ -73,7 +79,11 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(std::unique_ptr<Surface> surf
   screen->surface_ = std::move(surface);
   const bool is_window = screen->surface_->kind() == SurfaceKind::kWindow;
   Loading loading(*screen->surface_, WindowTitle(world));
-  const auto ground = [&loading](double share) { loading.Show(kGroundShare * share, "the ground is built"); };
+  double built = 0.0;
+  const auto ground = [&loading, &built](double share) {
+    built = std::max(built, share);
+    loading.Show(kGroundShare * built, "the ground is built");
+  };
   ground(0.0);
   auto painter = PainterOf(*screen->surface_, world, settings.built, true, ground);
   if (!painter) return painter.error();
@@ -81,8 +91,8 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(std::unique_ptr<Surface> surf
   if (!settings.car_model.empty()) {
     if (auto status = screen->painter_->WearCarModel(settings.car_model); !status) fmt::print(stderr, "rodeira: {}; the car is drawn without it\n", status.error().Text());
   }
-  loading.Show(kGroundShare, "the first picture is drawn");
-  screen->painter_->DrawWhole(FirstPicture(world));
+  if (built >= 1.0) loading.Show(kGroundShare, "the first picture is drawn");
+  screen->painter_->DrawWhole(FirstPicture(world, settings), ground);
   (void)screen->painter_->Read();
   loading.Show(0.95, "the run's other parts are waited for");
   screen->help_text_ = std::move(help);

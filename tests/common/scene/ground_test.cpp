@@ -207,21 +207,49 @@ TEST(Ground, LosesNothingFarAway) {
   }
 }
 
+bool Same(const Mesh& a, const Mesh& b) {
+  return a.positions == b.positions && a.normals == b.normals && a.colours == b.colours && a.triangles == b.triangles && a.origin_W == b.origin_W;
+}
+void ExpectSame(const GroundLevel& a, const GroundLevel& b) {
+  ASSERT_EQ(a.ground.size(), b.ground.size());
+  ASSERT_EQ(a.things.size(), b.things.size());
+  ASSERT_EQ(a.repeated.size(), b.repeated.size());
+  for (std::size_t m = 0; m < a.ground.size(); ++m) EXPECT_TRUE(Same(a.ground[m], b.ground[m]));
+  for (std::size_t m = 0; m < a.things.size(); ++m) EXPECT_TRUE(Same(a.things[m], b.things[m]));
+  for (std::size_t m = 0; m < a.repeated.size(); ++m) EXPECT_TRUE(Same(a.repeated[m].model, b.repeated[m].model) && a.repeated[m].places.size() == b.repeated[m].places.size());
+  EXPECT_TRUE(Same(a.marks, b.marks));
+}
+
 TEST(Ground, TheSameBitsForAnyNumberOfThreads) {
   const auto world = OpenDriveWorld(BendUnderBridge());
   ASSERT_NE(world, nullptr);
   const auto one = BuildAll(*world, 1), five = BuildAll(*world, 5);
   ASSERT_EQ(one.size(), five.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
-    for (std::size_t level = 0; level < kGroundLevels; ++level) {
-      ASSERT_EQ(one[i].levels[level].ground.size(), five[i].levels[level].ground.size());
-      const auto same = [](const Mesh& a, const Mesh& b) {
-        return a.positions == b.positions && a.normals == b.normals && a.colours == b.colours && a.triangles == b.triangles && a.origin_W == b.origin_W;
-      };
-      for (std::size_t m = 0; m < one[i].levels[level].ground.size(); ++m) EXPECT_TRUE(same(one[i].levels[level].ground[m], five[i].levels[level].ground[m]));
-      EXPECT_TRUE(same(one[i].levels[level].marks, five[i].levels[level].marks));
+    for (std::size_t level = 0; level < kGroundLevels; ++level) ExpectSame(one[i].levels[level], five[i].levels[level]);
+  }
+}
+
+// On a crossing, about a bridge, and on bare land, whose levels are alike where it has every post.
+TEST(Ground, ALevelAloneIsThatOfTheWholeTile) {
+  const auto land = road::World::Parse(
+      "rodeira: world/2\nname: land\nterrain:\n  generate: {seed: 4, columns: 49, rows: 61, spacing_m: 20, west_m: -300, south_m: -300, full_m: 60, flat_m: 10, relief: [{wavelength_m: 150, amplitude_m: 20}]}\n"
+      "roads:\n  - id: a\n    start: {x_m: -280, y_m: -200, heading_deg: 0}\n    axis: [line: {length_m: 120}]\n    z_m: 0\n    section: {template: rural, slopes: {reach_m: 40}}\n", "land.yaml");
+  ASSERT_TRUE(land.ok()) << land.error().Text();
+  const auto lights = road::World::Load(SourceDir() + "/configs/worlds/lights.yaml");
+  ASSERT_TRUE(lights.ok()) << lights.error().Text();
+  std::size_t alike = 0;
+  for (const auto& world : {OpenDriveWorld(BendUnderBridge()), land.value(), lights.value()}) {
+    const GroundPlan plan(*world);
+    for (const TileKey& key : plan.tiles()) {
+      const GroundTile whole = plan.Build(key);
+      for (int level = kGroundLevels - 1; level >= 0; --level) {  // in another order than the tile has
+        ExpectSame(plan.BuildLevel(key, level), whole.levels[static_cast<std::size_t>(level)]);
+        alike += plan.FinestAlike(key, level) != level;
+      }
     }
   }
+  EXPECT_GT(alike, 0u);
 }
 
 // Lines of one road's lanes, as strokes of its own stations: how far a place lies beside the nearest one.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,6 +79,44 @@ TEST(Mirror, IsOnTheScreenWhereItIsLookedFor) {
   EXPECT_EQ(On({{30.0, 0.0}, {-30.0, 0.0}}), "l-- -ir");
   EXPECT_EQ(On({{0.0, 0.0}, {0.0, -0.7}}), "-ir l--") << "one plane, the second screen's middle 45 degrees to the left";
   EXPECT_EQ(On({{100.0, 0.0}, {50.0, 0.0}, {0.0, 0.0}, {-50.0, 0.0}, {-100.0, 0.0}}), "--- l-- -i- --r ---");
+}
+
+// By hand: the default car's mirrors seen from its driver's eye, by the angle to the left and below the horizon, on a flat screen.
+TEST(Mirror, StandsOnAScreenWhereItIsOnTheCar) {
+  const CarPose pose = Car();
+  const Body car(pose);
+  const Eigen::Vector3d eye_B = DriversEye_B(car);
+  constexpr double kAspect = 16.0 / 9.0, kWide_m = 0.708, kHigh_m = 0.398, kAway_m = 0.7, kEye_m = 0.22;
+  for (const double side : {1.0, -1.0}) {
+    const Mirror mirror = side > 0.0 ? Mirror::kLeft : Mirror::kRight;
+    const double forward_m = car.front_m - 0.33 * car.length_m - eye_B.x(), aside_m = side * (0.5 * car.width_m + 0.12) - eye_B.y(), up_m = 0.69 * car.height_m - eye_B.z();
+    const double look_rad = std::atan2(aside_m, forward_m), screen_rad = side * 53.66 * 3.14159265358979 / 180.0;
+    const MirrorPlace place = PlaceOn({kWide_m, kHigh_m, kAway_m, screen_rad, kEye_m, 0.0}, car, mirror, kAspect);
+    const double right_m = 0.5 * kWide_m - kAway_m * std::tan(look_rad - screen_rad);
+    const double low_m = kEye_m + kAway_m * up_m / (std::hypot(forward_m, aside_m) * std::cos(look_rad - screen_rad));
+    EXPECT_NEAR(0.5 * (place.left + place.right), right_m / kWide_m, 1e-9) << NameOf(mirror);
+    EXPECT_NEAR(0.5 * (place.low + place.high), std::max(low_m / kHigh_m, 0.5 * (place.high - place.low) + 0.012 * kAspect), 1e-9) << NameOf(mirror);
+    EXPECT_NEAR((place.right - place.left) * kAspect / (place.high - place.low), ShapeOf(mirror), 1e-9);
+  }
+}
+
+TEST(Mirror, IsWholeOnItsScreen) {
+  const CarPose pose = Car();
+  const Body car(pose);
+  for (double screen_deg = -180.0; screen_deg <= 180.0; screen_deg += 7.5) {
+    for (const double eye_m : {-0.5, 0.2, 1.0}) {
+      for (const Mirror mirror : kAllMirrors) {
+        const MirrorPlace place = PlaceOn({0.708, 0.398, 0.7, screen_deg * 3.14159265358979 / 180.0, eye_m, 0.0}, car, mirror, 16.0 / 9.0), usual = PlaceOf(mirror, 16.0 / 9.0);
+        EXPECT_GE(std::min(place.left, place.low), 0.0) << screen_deg;
+        EXPECT_LE(std::max(place.right, place.high), 1.0) << screen_deg;
+        EXPECT_NEAR(place.right - place.left, usual.right - usual.left, 1e-12);
+        EXPECT_NEAR(place.high - place.low, usual.high - usual.low, 1e-12);
+        if (mirror == Mirror::kInside) {
+          EXPECT_EQ(place.left, usual.left);
+        }
+      }
+    }
+  }
 }
 
 TEST(Mirror, IsKnownByItsName) {

@@ -8,7 +8,9 @@
 
 #include <fstream>
 #include <map>
+#include <memory>
 #include <set>
+#include <utility>
 
 #include "nodes/view/screen.hpp"
 #include "nodes/view/surface.hpp"
@@ -73,43 +75,53 @@ class CarModel : public ::testing::Test {
   Picture picture_;
 };
 
+// The car before a surface of its own; at most one of those lives in a process.
+class CarModelDrawn : public CarModel {
+ protected:
+  void SetUp() override {
+    CarModel::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    auto surface = Surface::Open(SurfaceKind::kOffscreen, 960, 540, "test");
+    ASSERT_TRUE(surface.ok()) << surface.error().Text();
+    surface_ = std::move(surface).value();
+    auto painter = PainterOf(*surface_, *world_, {});
+    ASSERT_TRUE(painter.ok()) << painter.error().Text();
+    painter_ = std::move(painter).value();
+  }
+  void Wear() { ASSERT_TRUE(painter_->WearCarModel(WriteModel(folder_)).ok()); }
+  Image Drawn() {
+    painter_->Draw(picture_);
+    return painter_->Read();
+  }
+
+  std::unique_ptr<Surface> surface_;
+  std::unique_ptr<Painter> painter_;  // before its surface in dying
+};
+
 bool IsMagenta(const Probe& p) { return p.red > 150.0 && p.blue > 150.0 && p.green < 60.0; }
 bool IsCyan(const Probe& p) { return p.red < 60.0 && p.blue > 150.0 && p.green > 150.0; }
 
-TEST_F(CarModel, StandsInPlaceOfTheProceduralCarAndItsWheelsTurn) {
-  auto surface = Surface::Open(SurfaceKind::kOffscreen, 960, 540, "test");
-  ASSERT_TRUE(surface.ok()) << surface.error().Text();
-  auto painter = PainterOf(*surface.value(), *world_, {});
-  ASSERT_TRUE(painter.ok()) << painter.error().Text();
-  const auto shown = [&] {
-    painter.value()->Draw(picture_);
-    return painter.value()->Read();
-  };
+TEST_F(CarModelDrawn, StandsInPlaceOfTheProceduralCarAndItsWheelsTurn) {
   const scene::Camera camera = scene::ChaseCamera(car(), *world_);
   const Eigen::Vector3d tail_W = At(-2.0, 0.0, 0.6), upright_W = At(-1.23, 0.71, 1.15);
-  const Image before = shown();
+  const Image before = Drawn();
   EXPECT_FALSE(IsMagenta(ProbeAt(before, camera, tail_W))) << ProbeAt(before, camera, tail_W);
-  ASSERT_TRUE(painter.value()->WearCarModel(WriteModel(folder_)).ok());
-  const Image worn = shown();
+  Wear();
+  const Image worn = Drawn();
   EXPECT_TRUE(IsMagenta(ProbeAt(worn, camera, tail_W))) << ProbeAt(worn, camera, tail_W);
   EXPECT_TRUE(IsCyan(ProbeAt(worn, camera, upright_W))) << ProbeAt(worn, camera, upright_W);
   picture_.moment.cars[0].wheels[2].spin_rad = 3.141592653589793;  // the rear left one, half a turn
-  EXPECT_FALSE(IsCyan(ProbeAt(shown(), camera, upright_W))) << "it points down now";
+  EXPECT_FALSE(IsCyan(ProbeAt(Drawn(), camera, upright_W))) << "it points down now";
 }
 
 // Each lamp shines where the car says so, and no other one does; by day, unlit, it is dull.
-TEST_F(CarModel, ItsLampsShineAsTheCarSays) {
-  auto surface = Surface::Open(SurfaceKind::kOffscreen, 960, 540, "test");
-  ASSERT_TRUE(surface.ok()) << surface.error().Text();
-  auto painter = PainterOf(*surface.value(), *world_, {});
-  ASSERT_TRUE(painter.ok()) << painter.error().Text();
-  ASSERT_TRUE(painter.value()->WearCarModel(WriteModel(folder_)).ok());
+TEST_F(CarModelDrawn, ItsLampsShineAsTheCarSays) {
+  Wear();
   const scene::Camera camera = scene::ChaseCamera(car(), *world_);
   using Brightness = std::map<std::string, double>;
   const auto shown = [&](const scene::CarLights& lights) {
     picture_.moment.cars[0].lights = lights;
-    painter.value()->Draw(picture_);
-    const Image image = painter.value()->Read();
+    const Image image = Drawn();
     const auto at = [&](double ahead, double left, double up) {
       const Probe p = ProbeAt(image, camera, At(ahead, left, up));
       return p.red + p.green + p.blue;
@@ -133,18 +145,13 @@ TEST_F(CarModel, ItsLampsShineAsTheCarSays) {
 }
 
 // A chosen car pulses in whatever body: towards the pulse's light yellow, 65 of 100 at its most, and back; another one's does not.
-TEST_F(CarModel, PulsesWhereTheCarIsChosen) {
-  auto surface = Surface::Open(SurfaceKind::kOffscreen, 960, 540, "test");
-  ASSERT_TRUE(surface.ok()) << surface.error().Text();
-  auto painter = PainterOf(*surface.value(), *world_, {});
-  ASSERT_TRUE(painter.ok()) << painter.error().Text();
-  ASSERT_TRUE(painter.value()->WearCarModel(WriteModel(folder_)).ok());
+TEST_F(CarModelDrawn, PulsesWhereTheCarIsChosen) {
+  Wear();
   const scene::Camera camera = scene::ChaseCamera(car(), *world_);
   const auto shown = [&](std::int64_t time_ns, std::optional<std::size_t> chosen) {
     picture_.moment.time_ns = time_ns;
     picture_.chosen = chosen;
-    painter.value()->Draw(picture_);
-    return painter.value()->Read();
+    return Drawn();
   };
   const Image plain = shown(400'000'000, std::nullopt), most = shown(400'000'000, 0), none = shown(800'000'000, 0);  // it takes 0.8 s
   const Probe was = ProbeAt(plain, camera, At(-2.0, 0.0, 0.6)), is = ProbeAt(most, camera, At(-2.0, 0.0, 0.6));

@@ -110,14 +110,19 @@ TEST_F(Database, TheViewShowsWhatItWouldShowFromMemory) {
   }
 }
 
-// The eye goes away, by more than any fine level is seen from, and comes back: what it has left is no longer held, and what is shown is the same.
-TEST_F(Database, WhatTheEyeHasLeftIsGivenBack) {
+// The eye goes away, by more than any fine level is seen from, and comes back: what it has left is no longer held, and what is shown is the same. So with a
+// built database, and with ground that is made.
+class Left : public Database, public testing::WithParamInterface<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(BuiltOrMade, Left, testing::Bool());
+
+TEST_P(Left, WhatTheEyeHasLeftIsGivenBack) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = scene::OpenDriveWorld(BendWithThings());
   ASSERT_NE(world, nullptr);
   const std::size_t tiles = Write(*world, "world").tiles;
   const auto surface = Surface::Open(SurfaceKind::kOffscreen, 320, 180, "test");
-  const auto painter = PainterOf(*surface.value(), *world, folder_ / "world");
+  const auto painter = PainterOf(*surface.value(), *world, GetParam() ? folder_ / "world" : fs::path());
   ASSERT_TRUE(painter.ok());
   const network::Road& road = world->network()->roads()[0];
   Picture picture;

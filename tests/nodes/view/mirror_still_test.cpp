@@ -32,17 +32,22 @@ class MirrorStill : public DriverStill {
     agent.q_WB = Car().q_WB;
     picture_.moment.agents.push_back(agent);
   }
+  // On the picture's screen, where it has one.
+  scene::MirrorPlace Place(scene::Mirror mirror) const {
+    constexpr double kAspect = static_cast<double>(kWidth) / kHeight;
+    return picture_.screen ? scene::PlaceOn(*picture_.screen, scene::Body(picture_.moment.cars[0]), mirror, kAspect) : scene::PlaceOf(mirror, kAspect);
+  }
   // Where a place behind the car is seen in a mirror, in pixels of the picture; `reversed` as mirrors do.
-  static Eigen::Vector2d Seen(const scene::CarPose& car, scene::Mirror mirror, const Eigen::Vector3d& p_W, bool reversed) {
-    const scene::MirrorPlace place = scene::PlaceOf(mirror, static_cast<double>(kWidth) / kHeight);
+  Eigen::Vector2d Seen(const scene::CarPose& car, scene::Mirror mirror, const Eigen::Vector3d& p_W, bool reversed) const {
+    const scene::MirrorPlace place = Place(mirror);
     const double wide = (place.right - place.left) * kWidth, high = (place.high - place.low) * kHeight;
     const auto at = scene::MirrorCamera(car, mirror).Project(p_W, 10'000, 10'000);
     const double x = at->x() / 10'000.0, y = at->y() / 10'000.0;
     return {place.left * kWidth + (reversed ? 1.0 - x : x) * wide, (1.0 - place.high) * kHeight + y * high};
   }
   // Whether two pictures show something else in a mirror.
-  static bool Differ(const Image& a, const Image& b, scene::Mirror mirror, int more_than = 1000) {
-    const scene::MirrorPlace place = scene::PlaceOf(mirror, static_cast<double>(kWidth) / kHeight);
+  bool Differ(const Image& a, const Image& b, scene::Mirror mirror, int more_than = 1000) const {
+    const scene::MirrorPlace place = Place(mirror);
     int pixels = 0;
     for (int y = static_cast<int>((1.0 - place.high) * kHeight) + 4; y < static_cast<int>((1.0 - place.low) * kHeight) - 4; ++y) {
       for (int x = static_cast<int>(place.left * kWidth) + 4; x < static_cast<int>(place.right * kWidth) - 4; ++x) pixels += std::memcmp(a.At(x, y), b.At(x, y), 3) != 0;

@@ -1,0 +1,124 @@
+// Ground that is made where the eye comes near: what is seen of it is what would be seen of a world that was built before.
+#include <chrono>
+#include <thread>
+
+#include "common/scene/world_scene.hpp"
+#include "tests/nodes/view/database_fixture.hpp"
+#include "tests/nodes/view/pictures.hpp"
+
+namespace rodeira::view {
+namespace {
+
+using namespace std::chrono_literals;
+
+class MadeWorld : public testing::Test {
+ protected:
+  void SetUp() override {
+    RODEIRA_NEEDS_PICTURES();
+    world_ = scene::OpenDriveWorld(BendWithThings());
+    ASSERT_NE(world_, nullptr);
+  }
+  std::unique_ptr<Surface> Open(Quality quality) const { return Surface::Open(SurfaceKind::kOffscreen, 480, 270, "test", false, 0, quality).value(); }
+  Picture On(double s_m, scene::CameraKind camera) const {
+    const network::Road& road = world_->network()->roads()[0];
+    Picture picture;
+    picture.camera = camera;
+    picture.show_instruments = false;
+    picture.moment.cars.push_back(CarAt(road.Surface(s_m, -1.75).p_W, road.axis().Evaluate(s_m).heading_rad));
+    return picture;
+  }
+  std::vector<Picture> Tour() const {
+    std::vector<Picture> tour;
+    for (const double s_m : {25.0, 300.0, 70.0}) {
+      for (const auto camera : {scene::CameraKind::kChase, scene::CameraKind::kDriver, scene::CameraKind::kTop}) tour.push_back(On(s_m, camera));
+    }
+    return tour;
+  }
+
+  std::shared_ptr<const road::World> world_;
+};
+
+// The oracle builds everything before the first picture, and has no pager.
+TEST_F(MadeWorld, IsSeenAsTheWholeScene) {
+  for (const Quality quality : {Quality::kLow, Quality::kMedium}) {
+    std::vector<Image> whole;
+    {
+      const auto surface = Open(quality);
+      Painter painter(*surface, *world_, scene::BuildWorldScene(*world_));
+      for (const Picture& picture : Tour()) painter.DrawWhole(picture), whole.push_back(painter.Read());
+      EXPECT_EQ(painter.HeldLevels(), 0u);
+    }
+    const auto surface = Open(quality);
+    const auto painter = PainterOf(*surface, *world_, {});
+    ASSERT_TRUE(painter.ok());
+    const std::vector<Picture> tour = Tour();
+    for (std::size_t i = 0; i < tour.size(); ++i) {
+      painter.value()->DrawWhole(tour[i]);
+      EXPECT_EQ(painter.value()->Read().rgb, whole[i].rgb) << "picture " << i;
+    }
+    EXPECT_GT(painter.value()->HeldLevels(), 0u);
+    EXPECT_NE(whole[0].rgb, whole[3].rgb);
+  }
+}
+
+// A film's picture is the same whatever was asked for before, and however far that has come.
+TEST_F(MadeWorld, WhenATileCameIsNotSeen) {
+  const Picture last = On(70.0, scene::CameraKind::kChase);
+  const auto film = [&](const std::vector<Picture>& before) {
+    const auto surface = Open(Quality::kMedium);
+    const auto painter = PainterOf(*surface, *world_, {});
+    EXPECT_TRUE(painter.ok());
+    for (const Picture& picture : before) painter.value()->Draw(picture);  // as a window: what is asked for comes later
+    painter.value()->DrawWhole(last);
+    return painter.value()->Read();
+  };
+  const Image alone = film({});
+  EXPECT_EQ(film({On(300.0, scene::CameraKind::kTop), On(25.0, scene::CameraKind::kDriver)}).rgb, alone.rgb);
+  EXPECT_EQ(film(Tour()).rgb, alone.rgb);
+}
+
+// Who stands and looks at nothing but the sky still has ground about him when he turns round.
+TEST_F(MadeWorld, WhatNobodyLooksAtComesTooCoarsely) {
+  const auto surface = Open(Quality::kLow);
+  const auto painter = PainterOf(*surface, *world_, {});
+  ASSERT_TRUE(painter.ok());
+  Picture picture = On(70.0, scene::CameraKind::kDriver);
+  picture.mirrors.fill(false);
+  picture.moment.cars[0].q_WB = scene::Attitude(0.0, -1.5707, 0.0);
+  painter.value()->DrawWhole(picture);
+  const std::size_t looked_at = painter.value()->HeldLevels();
+  const std::size_t tiles = scene::GroundPlan(*world_).tiles().size();
+  EXPECT_LT(looked_at, tiles);
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  while (painter.value()->HeldLevels() < tiles && std::chrono::steady_clock::now() < end) painter.value()->Draw(picture);
+  EXPECT_GE(painter.value()->HeldLevels(), tiles);
+}
+
+// Far beyond what is drawn nothing is made, and nothing is made again and again: a straight road of 36 km, looked along.
+TEST(MadeFarWorld, HoldsWhatIsSeenAndNoMore) {
+  RODEIRA_NEEDS_PICTURES();
+  const auto world = road::World::Parse("rodeira: world/2\nname: long\nground: {kind: plane, z_m: 0}\nroads:\n  - id: main\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n"
+                                        "    axis: [{line: {length_m: 36000}}]\n    z_m: 0\n    section: {template: rural}\n", "long.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  const auto surface = Surface::Open(SurfaceKind::kOffscreen, 160, 90, "test", false, 0, Quality::kLow);
+  const auto painter = PainterOf(*surface.value(), *world.value(), {});
+  ASSERT_TRUE(painter.ok());
+  Picture picture;
+  picture.moment.cars.push_back(CarAt({100.0, -1.75, 0.0}, 0.0));
+  const std::size_t tiles = scene::GroundPlan(*world.value()).tiles().size();
+  // A picture after the other until twenty want nothing that is not there.
+  int quiet = 0;
+  const auto end = std::chrono::steady_clock::now() + 30s;
+  while (quiet < 20 && std::chrono::steady_clock::now() < end) {
+    ++quiet;
+    painter.value()->DrawWhole(picture, [&](double) { quiet = 0; });
+    painter.value()->Draw(picture);
+  }
+  EXPECT_EQ(quiet, 20);
+  const std::size_t held = painter.value()->HeldLevels();
+  EXPECT_GT(held, tiles / 3);
+  EXPECT_LT(held, tiles * 3 / 5) << "of 36 km some 15 are seen";
+}
+
+}  // namespace
+}  // namespace rodeira::view
