@@ -33,6 +33,11 @@ bool IsExempt(const network::RoadSpec& road, double s_m) {
   });
 }
 
+bool IsOnBridge(const network::RoadSpec& road, double s_m) {
+  return std::any_of(road.structures.begin(), road.structures.end(),
+                     [s_m](const network::Structure& structure) { return structure.bridge && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m; });
+}
+
 BuiltGround::BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions, const FrictionTable& friction, SurfaceDetail detail,
                          BareTerrain terrain)
     : network_(std::move(network)),

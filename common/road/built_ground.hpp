@@ -52,5 +52,7 @@ class BuiltGround {
 
 // Whether a road is carried by a bridge or runs in a tunnel at s.
 bool IsExempt(const network::RoadSpec& road, double s_m);
+// Whether a bridge carries it there.
+bool IsOnBridge(const network::RoadSpec& road, double s_m);
 
 }  // namespace rodeira::road

@@ -159,13 +159,14 @@ void Earthworks::FromRoad(const network::Road& road, std::uint32_t panel_index, 
   const double low = std::max(panel.begin_s_m(), 0.0), high = std::min(panel.end_s_m(), road.length_m());
   Standing(road, low, high, [&](double from, double to) {
     const double found = panel.middle_s_m + foot.u_m;
-    double s = std::clamp(found, from, to);
+    double s = std::clamp(found, from, to), t_found = foot.t_m;
     const bool beside = s == found && foot.beyond_m == 0.0;
+    if (road.rolled()) (void)road.Settle(p_W, from, to, s, t_found);  // t runs along a slope there: its edges are nearer to the axis than they are wide
     const network::LaneSection& section = road.SectionAt(s);
     double outside;
     const geometry::CubicPoint centre = road.CentreAt(s);
-    network::LaneSpan span = section.At(foot.t_m, centre, s, outside);
-    const double t = foot.t_m + (foot.t_m > centre.value ? -outside : outside);
+    network::LaneSpan span = section.At(t_found, centre, s, outside);
+    const double t = t_found + (t_found > centre.value ? -outside : outside);
     if (road.rolled() && outside > 0.0) {  // the section leans: the nearest point of its edge lies elsewhere
       (void)road.DistanceToEdge(p_W, from, to, t, s);
       span = section.At(t, road.CentreAt(s), s, outside);

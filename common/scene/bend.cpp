@@ -8,27 +8,25 @@ namespace {
 
 constexpr double kInside_m = 0.02;  // tangents are asked so far from the ends, which may lie on an edge themselves
 constexpr double kShort_m = 1.0;    // shorter ways are asked in their middle alone
-constexpr double kStraight_m = 10.0;  // and so are those whose ends say that they are straight
 constexpr double kSameSlope = 1e-6;
 
 }  // namespace
 
-std::optional<double> BendBetween(const road::World& world, const Eigen::Vector2d& a_W, double a_z_m, const Eigen::Vector2d& b_W, double b_z_m,
+std::optional<double> BendBetween(const GroundAt& ground, const Eigen::Vector2d& a_W, double a_z_m, const Eigen::Vector2d& b_W, double b_z_m,
                                   const BendRange& range, bool straight_ends) {
   const double length_m = (b_W - a_W).norm();
   if (length_m < 4.0 * range.margin_m) return std::nullopt;
-  const auto at = [&](double part) {
-    const Eigen::Vector2d p_W = a_W + part * (b_W - a_W);
-    return world.At(p_W.x(), p_W.y());
-  };
+  const auto at = [&](double part) { return ground(a_W + part * (b_W - a_W)); };
   const auto off = [&](double part) {
-    const road::SurfacePoint ground = at(part);
-    return ground.inside ? std::fabs(ground.z_m - (a_z_m + part * (b_z_m - a_z_m))) : 0.0;
+    const road::SurfacePoint there = at(part);
+    return there.inside ? std::fabs(there.z_m - (a_z_m + part * (b_z_m - a_z_m))) : 0.0;
   };
   double worst_m = off(0.5), worst_part = 0.5;
-  if (worst_m <= range.tolerance_m && length_m > (straight_ends ? kStraight_m : kShort_m)) {  // an S is straight in its middle
-    for (const double part : {0.25, 0.75}) {
-      if (const double m = off(part); m > worst_m) worst_m = m, worst_part = part;
+  if (worst_m <= range.tolerance_m && length_m > kShort_m) {  // an S is straight in its middle
+    const int parts = std::max(straight_ends ? 2 : 4, 2 * static_cast<int>(std::ceil(0.5 * length_m / range.step_m)));
+    for (int k = 1; k < parts; ++k) {
+      const double part = static_cast<double>(k) / parts;
+      if (const double m = 2 * k == parts ? 0.0 : off(part); m > worst_m) worst_m = m, worst_part = part;
     }
   }
   if (worst_m <= range.tolerance_m) return std::nullopt;

@@ -6,33 +6,27 @@
 #include <set>
 
 #include "common/scene/bend.hpp"
+#include "common/scene/levels_at.hpp"
+#include "common/scene/tile_plan.hpp"
 
 namespace rodeira::scene {
 namespace {
 
 using partition::GridPoint;
 
-constexpr BendRange kEdge = {0.003, 0.02};
+constexpr BendRange kEdge = {0.003, 0.02, 2.0};
 
 }  // namespace
 
-void RefineEdges(const road::World& world, const TileKey& tile, std::vector<GridPoint>& edge) {
+void RefineEdges(const road::World& world, const TileKey& tile, std::vector<GridPoint>& edge, bool decks) {
   if (world.grid() == nullptr) return;
   const auto size = static_cast<std::int32_t>(kTileSteps);
   std::set<GridPoint> points(edge.begin(), edge.end());
+  std::vector<road::SurfacePoint> levels;
   const auto along = [&](const auto& point_at) {  // an edge
-    const auto height = [&](std::int32_t k) {
-      const Eigen::Vector2d p_W = ToWorld(tile, point_at(k));
-      return world.At(p_W.x(), p_W.y()).z_m;
-    };
-    const std::function<void(std::int32_t, std::int32_t, double, double)> divide = [&](std::int32_t a, std::int32_t b, double at_a, double at_b) {
-      const auto part = BendBetween(world, ToWorld(tile, point_at(a)), at_a, ToWorld(tile, point_at(b)), at_b, kEdge);
-      if (!part) return;
-      const auto bend = static_cast<std::int32_t>(a + std::lround(*part * (b - a)));
-      const double at_bend = height(bend);
-      points.insert(point_at(bend));
-      divide(a, bend, at_a, at_bend);
-      divide(bend, b, at_bend, at_b);
+    const auto levels_at = [&](const Eigen::Vector2d& p_W, std::size_t most) -> const std::vector<road::SurfacePoint>& {
+      LevelsAt(world, p_W, most, levels);
+      return levels;
     };
     std::vector<std::int32_t> places;
     for (const GridPoint& p : edge) {
@@ -40,9 +34,39 @@ void RefineEdges(const road::World& world, const TileKey& tile, std::vector<Grid
         if (point_at(k) == p) places.push_back(k);
       }
     }
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
-    for (std::size_t i = 0; i + 1 < places.size(); ++i) divide(places[i], places[i + 1], height(places[i]), height(places[i + 1]));
+    // Each of the ground's levels between two places, also of those that are only below a deck: between the places where lines cross the edge, it is one level.
+    const auto refine = [&](std::size_t level) {
+      const GroundAt ground = [&, level](const Eigen::Vector2d& p_W) {
+        if (level == 0) return world.At(p_W.x(), p_W.y());
+        const auto& all = levels_at(p_W, level + 1);
+        return all.empty() ? road::SurfacePoint{} : all[std::min(level, all.size() - 1)];
+      };
+      std::vector<std::int32_t> more;
+      const std::function<void(std::int32_t, std::int32_t, double, double)> divide = [&](std::int32_t a, std::int32_t b, double at_a, double at_b) {
+        const auto part = BendBetween(ground, ToWorld(tile, point_at(a)), at_a, ToWorld(tile, point_at(b)), at_b, kEdge);
+        if (!part) return;
+        const auto bend = static_cast<std::int32_t>(a + std::lround(*part * (b - a)));
+        const double at_bend = ground(ToWorld(tile, point_at(bend))).z_m;
+        more.push_back(bend);
+        divide(a, bend, at_a, at_bend);
+        divide(bend, b, at_bend, at_b);
+      };
+      std::sort(places.begin(), places.end());
+      places.erase(std::unique(places.begin(), places.end()), places.end());
+      bool any = false;
+      for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+        const GridPoint a = point_at(places[i]), b = point_at(places[i + 1]);
+        const Eigen::Vector2d a_W = ToWorld(tile, a), b_W = ToWorld(tile, b);
+        if (level > 0 && levels_at(0.5 * (a_W + b_W), level + 1).size() <= level) continue;
+        any = true;
+        divide(places[i], places[i + 1], ground(a_W).z_m, ground(b_W).z_m);
+      }
+      places.insert(places.end(), more.begin(), more.end());
+      return any;
+    };
+    for (std::size_t level = 0; level < (decks ? kMostLevels : 1) && refine(level); ++level) {
+    }
+    for (const std::int32_t k : places) points.insert(point_at(k));
   };
   along([](std::int32_t k) { return GridPoint{0, k}; });
   along([](std::int32_t k) { return GridPoint{k, 0}; });

@@ -32,6 +32,22 @@ void AddReach(const Line3& line, std::set<TileKey>& tiles) {
   }
 }
 
+// Tiles that a bridge may touch.
+void AddDecks(const network::Road& road, std::set<TileKey>& tiles) {
+  constexpr double kApart_m = 16.0, kWidest_m = 48.0;
+  for (const network::Structure& structure : road.spec().structures) {
+    if (!structure.bridge) continue;
+    const double from_s_m = std::max(structure.s_m, 0.0), to_s_m = std::min(structure.s_m + structure.length_m, road.length_m());
+    for (double s_m = from_s_m; s_m < to_s_m + kApart_m; s_m += kApart_m) {
+      const Eigen::Vector2d p_W = road.Surface(std::min(s_m, to_s_m), 0.0).p_W.head<2>(), reach = Eigen::Vector2d::Constant(kWidest_m);
+      const WorldStep low = ToSteps(p_W - reach), high = ToSteps(p_W + reach);
+      for (std::int64_t column = TileOf(low.x); column <= TileOf(high.x); ++column) {
+        for (std::int64_t row = TileOf(low.y); row <= TileOf(high.y); ++row) tiles.insert({column, row});
+      }
+    }
+  }
+}
+
 void AddRectangle(const road::Extents& extents, std::set<TileKey>& tiles) {
   const WorldStep low = ToSteps({extents.west_m, extents.south_m}), high = ToSteps({extents.east_m, extents.north_m});
   for (std::int64_t column = TileOf(low.x); column <= TileOf(high.x); ++column) {
@@ -73,7 +89,7 @@ void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void
   if (told) told(count);
 }
 
-GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere is_there) : world_(world), things_(world, std::move(is_there)), land_{PostLines(world), {}}, edges_(land_.posts) {
+GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere is_there) : world_(world), things_(world, std::move(is_there)), land_{PostLines(world), {}, {}}, edges_(land_.posts) {
   const auto roads = world.network()->roads();
   std::vector<std::vector<Line3>> lines(roads.size());
   std::vector<std::array<TilePaint, kGroundLevels - 1>> paint(roads.size());
@@ -131,6 +147,7 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
     if (world.grid() != nullptr) {  // cells that the road itself cuts, too
       land_.slopes.Add(lines[i], std::max(reach_m + 1.0, 1.5 * std::max(world.grid()->spacing_x_m(), world.grid()->spacing_y_m())));
     }
+    if (world.grid() != nullptr) AddDecks(roads[i], land_.decks);
     traces_.push_back(std::move(trace));
   }
   terrain_digest_ = TerrainDigest(world);
@@ -187,7 +204,7 @@ GroundPlan::Begun GroundPlan::Begin(const TileKey& key) const {
   const auto found = segments_.find(key);
   const auto finest = found == segments_.end() ? std::span<const partition::GridSegment>() : std::span(found->second);
   Begun begun{key, finest, TileChains(finest, key, world_), IsBare(key), edges_.Of(key), {}, -1};
-  if (!begun.bare) RefineEdges(world_, key, begun.edge);  // the terrain's triangles have their points there
+  if (!begun.bare) RefineEdges(world_, key, begun.edge, !land_.decks.empty());  // the terrain's triangles have their points there
   return begun;
 }
 

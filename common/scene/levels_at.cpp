@@ -13,7 +13,10 @@ namespace {
 // the bridge itself.
 constexpr double kDeeper_m[] = {2.6, 4.6, 8.0};
 constexpr double kWithin_m = 0.02;  // so far from a corner a face is asked
+constexpr double kFarthest_m = 0.5; // or, where it must be, so far
 constexpr double kSteepest = 4.0;   // slopes beyond this are a step's, not the ground's
+constexpr double kOnDeck_m = 0.3;   // so much may be laid on a deck
+constexpr double kSameLevel_m = 1e-6;
 
 // Whether SUELO knows nothing below its highest answer, so that no hint finds more: on terrain of its own, where no road is, or where
 // the one that stands on the ground is what it answers from.
@@ -26,6 +29,17 @@ bool IsAlone(const road::World& world, const Eigen::Vector2d& p_W, double z_m) {
   const network::RoadSpec& road = world.network()->roads()[place.lane.road].spec();
   const bool answers = place.lane.lane != 0 && std::fabs(surfaces[0].sample.p_W.z() - z_m) < kLevelApart_m;
   return surfaces.size() == 1 && answers && road.junction.empty() && !road::IsExempt(road, place.s_m);
+}
+
+// Whether a height is a deck's: there the land below comes up to it where the bridge begins, and is a level of its own however near it is.
+bool IsDeck(const road::World& world, const Eigen::Vector2d& p_W, double z_m) {
+  if (world.network() == nullptr || world.open_drive()) return false;
+  thread_local std::vector<network::Surfacing> surfaces;
+  world.network()->Surfaces(p_W.x(), p_W.y(), surfaces);
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const network::Surfacing& surfacing) {
+    const network::Place& place = surfacing.place;
+    return place.lane.lane != 0 && std::fabs(surfacing.sample.p_W.z() - z_m) < kOnDeck_m && road::IsOnBridge(world.network()->roads()[place.lane.road].spec(), place.s_m);
+  });
 }
 
 }  // namespace
@@ -46,6 +60,12 @@ void LevelsAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t 
   while (levels.size() < most) {
     const double z = levels.back().z_m;
     bool deeper = false;
+    if (IsDeck(world, p_W, z)) {
+      const road::SurfacePoint below = world.At(p_W.x(), p_W.y(), z - terrain::kHintAbove_m - kSameLevel_m);
+      if (!below.inside || !(below.z_m < z - kSameLevel_m)) break;
+      levels.push_back(below);
+      continue;
+    }
     for (const double down : kDeeper_m) {
       const road::SurfacePoint below = world.At(p_W.x(), p_W.y(), z - down);
       if (!below.inside || !(below.z_m < z - kLevelApart_m)) continue;
@@ -58,11 +78,16 @@ void LevelsAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t 
 }
 
 void LevelsWithin(const road::World& world, const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t most,
-                  std::vector<road::SurfacePoint>& levels) {
+                  std::vector<road::SurfacePoint>& levels, std::size_t least) {
   const Eigen::Vector2d way = towards_W - p_W;
   const double length = way.norm();
-  const Eigen::Vector2d off = length > 0.0 ? Eigen::Vector2d(std::min(kWithin_m, 0.3 * length) / length * way) : Eigen::Vector2d::Zero();
+  double off_m = std::min(kWithin_m, 0.3 * length);
+  Eigen::Vector2d off = length > 0.0 ? Eigen::Vector2d(off_m / length * way) : Eigen::Vector2d::Zero();
   LevelsAt(world, p_W + off, most, levels);
+  while (off_m > 0.0 && !levels.empty() && levels.size() < std::min(least, most) && 2.0 * off_m <= std::min(length, kFarthest_m)) {
+    off_m *= 2.0, off *= 2.0;
+    LevelsAt(world, p_W + off, most, levels);
+  }
   for (road::SurfacePoint& level : levels) {
     const Eigen::Vector2d slope(level.slope_x, level.slope_y);
     if (slope.norm() <= kSteepest) level.z_m -= slope.dot(off);

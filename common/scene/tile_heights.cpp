@@ -104,7 +104,7 @@ void TileHeights::FindAims() {
 // Beside the end of a road in the air a corner's question may be answered from the deck: where another face at the point has more levels, a face's
 // own are those nearest to its triangle there.
 void TileHeights::AskOfFace(const Eigen::Vector2d& p_W, const Corner& corner, std::size_t most) {
-  if (corner.count == most) return Ask(p_W, corner.towards_W, corner.count, heights_);
+  if (corner.count == most) return Ask(p_W, corner.towards_W, corner.count, heights_, corner.count);
   thread_local std::vector<CornerHeight> all;
   all.clear();
   Ask(p_W, corner.towards_W, most, all);
@@ -126,10 +126,10 @@ std::size_t TileHeights::MostLevels(std::uint32_t point) {
   return most;
 }
 
-// Adds `count` heights.
-void TileHeights::Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count, std::vector<CornerHeight>& heights) const {
+// Adds `count` heights; where there are fewer than `least` levels the next place within is asked.
+void TileHeights::Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count, std::vector<CornerHeight>& heights, std::size_t least) const {
   thread_local std::vector<road::SurfacePoint> levels;
-  LevelsWithin(world_, p_W, towards_W, count, levels);
+  LevelsWithin(world_, p_W, towards_W, count, levels, least);
   for (std::size_t i = 0; i < count; ++i) {
     if (levels.empty()) {
       heights.push_back({});

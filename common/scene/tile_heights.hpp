@@ -55,7 +55,7 @@ class TileHeights {
   void FindAims();
   void AskOfFace(const Eigen::Vector2d& p_W, const Corner& corner, std::size_t most);
   std::size_t MostLevels(std::uint32_t point);  // of the faces there
-  void Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count, std::vector<CornerHeight>& heights) const;
+  void Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count, std::vector<CornerHeight>& heights, std::size_t least = 1) const;
   std::span<CornerHeight> HeightsOf(const Corner& corner) { return std::span(heights_).subspan(corner.first, corner.count); }
   void AskInside(std::uint32_t point);
   void AskOnEdge(std::uint32_t point);

@@ -16,12 +16,15 @@ using partition::Triangulation;
 constexpr double kLongSide = 8.0;  // times as long as the thinnest triangle is thick: such a side of a thin one is looked at
 constexpr std::uint32_t kNone = Triangulation::kNone;
 constexpr int kRounds = 12;  // of points put in where the ground is not met
-constexpr int kSlopeRounds = 12;  // where cuts and fills are followed
+constexpr int kSlopeRounds = 100;  // where cuts and fills are followed: a toe that winds through many triangles is met from one to the next (at most 83 in the project's worlds)
 constexpr double kMiddle = 0.7;  // of what the sides may be off: within a triangle both come together
 // Cuts and fills, level by level: less than they may be off, for it is asked at few places.
-constexpr std::array<BendRange, kGroundLevels> kSlopes = {{{0.0023, 0.01}, {0.015, 0.02}, {0.075, 0.1}, {0.375, 0.5}}};
+constexpr std::array<BendRange, kGroundLevels> kSlopes = {{{0.0023, 0.01, 2.0}, {0.015, 0.02, 2.0}, {0.075, 0.1, 2.0}, {0.375, 0.5, 2.0}}};
+constexpr double kBelowStep_m = 0.2;  // below decks, where strips are narrower
 constexpr double kTerrainsRoom_m = 0.002;  // where the terrain's own triangles are kept no post is left out but as near to another point
 constexpr double kWithin_m = 1e-3;
+constexpr double kBesideLine_m = 0.01;  // beside a deck's edge, whose drawn line is a chord
+constexpr std::size_t kMostOnLine = 500;
 // In the middle of thinner triangles nothing is put: on roads, and on land.
 constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.15, 0.5, 1.5, 4.0}, kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
 
@@ -42,9 +45,13 @@ class Planner {
   TilePlan Plan(std::span<const partition::GridSegment> segments, std::span<const GridPoint> edge) {
     Triangulation& t = plan_.triangles;
     for (const GridPoint& p : edge) t.Insert(p);
+    const bool decks = land_.decks.contains(plan_.key);
     for (const partition::GridSegment& segment : segments) {
-      const std::uint32_t a = t.Insert(segment.a), b = t.Insert(segment.b);
-      fixed_.push_back({a, b});
+      const std::vector<GridPoint> line = decks ? BelowDecks(segment) : std::vector<GridPoint>{segment.a, segment.b};
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const std::uint32_t a = t.Insert(line[i]), b = t.Insert(line[i + 1]);
+        fixed_.push_back({a, b});
+      }
     }
     for (const auto& [a, b] : fixed_) plan_.left_out += !t.Fix(a, b);
     kept_ = OwnLines() && land_.posts.HoldsAll(plan_.key);
@@ -59,6 +66,9 @@ class Planner {
     }
     for (int round = 0; follows_slopes_ && round < kSlopeRounds; ++round) {
       if (!MeetSlopes()) break;
+    }
+    for (int round = 0; decks && round < kSlopeRounds; ++round) {
+      if (!MeetBelow()) break;
     }
     return std::move(plan_);
   }
@@ -169,10 +179,11 @@ class Planner {
     double z_m = 0.0;
     Eigen::Vector2d slope = Eigen::Vector2d::Zero();
   };
-  Ground GroundWithin(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) {
-    LevelsWithin(world_, p_W, towards_W, 1, levels_);
+  Ground GroundWithin(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t level = 0, std::size_t least = 1) {
+    LevelsWithin(world_, p_W, towards_W, std::max(level + 1, least), levels_, least);
     if (levels_.empty()) return {};
-    return {levels_.front().z_m, {levels_.front().slope_x, levels_.front().slope_y}};
+    const road::SurfacePoint& at = levels_[std::min(level, levels_.size() - 1)];
+    return {at.z_m, {at.slope_x, at.slope_y}};
   }
   double HeightWithin(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) { return GroundWithin(p_W, towards_W).z_m; }
 
@@ -206,25 +217,25 @@ class Planner {
     std::array<double, 3> z{};
     std::array<Eigen::Vector2d, 3> slope;
   };
-  Corners CornersOf(const Triangulation::Triangle& t, std::uint32_t face, bool thin) {
+  Corners CornersOf(const Triangulation::Triangle& t, std::uint32_t face, bool thin, std::size_t level = 0) {
     Corners corners;
     corners.middle_W = ToWorld(plan_.key, Middle(t));
     for (std::size_t k = 0; k < 3; ++k) {
       corners.at[k] = ToWorld(plan_.key, plan_.triangles.points()[t.corner[k]]);
-      const Ground ground = thin ? GroundWithin(corners.at[k], corners.middle_W) : CornerGround(t.corner[k], face, corners.at[k], corners.middle_W);
+      const Ground ground = thin ? GroundWithin(corners.at[k], corners.middle_W, level) : CornerGround(t.corner[k], face, corners.at[k], corners.middle_W, level);
       corners.z[k] = ground.z_m, corners.slope[k] = ground.slope;
     }
     return corners;
   }
 
   // Of a face at one of its points, asked from within the first triangle there.
-  Ground CornerGround(std::uint32_t point, std::uint32_t face, const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) {
+  Ground CornerGround(std::uint32_t point, std::uint32_t face, const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t level) {
     if (first_known_.size() < plan_.triangles.points().size()) first_known_.resize(plan_.triangles.points().size(), kNone);
     for (std::uint32_t i = first_known_[point]; i != kNone; i = known_[i].next) {
-      if (known_[i].face == face) return known_[i].ground;
+      if (known_[i].face == face && known_[i].level == level) return known_[i].ground;
     }
-    const Ground ground = GroundWithin(p_W, towards_W);
-    known_.push_back({face, first_known_[point], ground});
+    const Ground ground = GroundWithin(p_W, towards_W, level, plan_.faces[face].levels.size());
+    known_.push_back({face, static_cast<std::uint32_t>(level), first_known_[point], ground});
     first_known_[point] = static_cast<std::uint32_t>(known_.size() - 1);
     return ground;
   }
@@ -269,6 +280,73 @@ class Planner {
     return !fresh.empty();
   }
 
+  // What lies below decks is followed as slopes are: where a bridge begins, land comes up to it. False where nothing was put in.
+  bool MeetBelow() {
+    std::vector<GridPoint> fresh;
+    const auto triangles = plan_.triangles.triangles();
+    below_.resize(triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+      const Face& face = plan_.faces[plan_.face_of[i]];
+      if (below_[i] == triangles[i].corner) continue;
+      below_[i] = triangles[i].corner;
+      for (std::size_t level = 1; level < face.levels.size(); ++level) {
+        const std::size_t before = fresh.size();
+        const Corners corners = CornersOf(triangles[i], plan_.face_of[i], false, level);
+        FollowBelow(triangles[i], corners, level, fresh);
+        if (fresh.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < kSlopes[level_].margin_m) continue;
+        if (IsOff(LevelAt(corners.middle_W, level).z_m, corners, kSlopes[level_].tolerance_m)) fresh.push_back(Middle(triangles[i]));
+      }
+    }
+    for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
+    if (!fresh.empty()) CarryFaces();
+    return !fresh.empty();
+  }
+
+  BendRange Below() const { return {kSlopes[level_].tolerance_m, kSlopes[level_].margin_m, kBelowStep_m}; }
+  road::SurfacePoint LevelAt(const Eigen::Vector2d& p_W, std::size_t level) {
+    LevelsAt(world_, p_W, level + 1, levels_);
+    return levels_.empty() ? road::SurfacePoint{} : levels_[std::min(level, levels_.size() - 1)];
+  }
+
+  static GridPoint PartOf(const GridPoint& p, const GridPoint& q, double part) {
+    const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + part * (to - from))); };
+    return {between(p.x, q.x), between(p.y, q.y)};
+  }
+
+  void FollowBelow(const Triangulation::Triangle& t, const Corners& c, std::size_t level, std::vector<GridPoint>& fresh) {
+    const auto points = plan_.triangles.points();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t n = (k + 1) % 3;
+      if (t.fixed[k] || t.across[k] == kNone || t.corner[k] > t.corner[n]) continue;  // lines have their points
+      const auto part = BendBetween([&](const Eigen::Vector2d& p_W) { return LevelAt(p_W, level); }, c.at[k], c.z[k], c.at[n], c.z[n], Below());
+      if (!part) continue;
+      const GridPoint bend = PartOf(points[t.corner[k]], points[t.corner[n]], *part);
+      if (!OnEdge(bend)) fresh.push_back(bend);
+    }
+  }
+
+  // A line on a deck or at its edge, with points where what lies below bends.
+  std::vector<GridPoint> BelowDecks(const partition::GridSegment& segment) {
+    std::vector<GridPoint> line = {segment.a, segment.b};
+    const Eigen::Vector2d along = ToWorld(plan_.key, segment.b) - ToWorld(plan_.key, segment.a);
+    for (const double side : {kBesideLine_m, -kBesideLine_m}) {
+      const Eigen::Vector2d aside = side * Eigen::Vector2d(-along.y(), along.x()).normalized();
+      LevelsAt(world_, ToWorld(plan_.key, segment.a) + 0.5 * along + aside, kMostLevels, levels_);
+      const std::size_t count = levels_.size();
+      for (std::size_t level = 1; level < count; ++level) {
+        const GroundAt ground = [&](const Eigen::Vector2d& p_W) { return LevelAt(p_W + aside, level); };
+        for (std::size_t i = 0; i + 1 < line.size() && line.size() < kMostOnLine;) {
+          const Eigen::Vector2d a_W = ToWorld(plan_.key, line[i]), b_W = ToWorld(plan_.key, line[i + 1]);
+          const auto part = BendBetween(ground, a_W, ground(a_W).z_m, b_W, ground(b_W).z_m, Below());
+          const GridPoint bend = part ? PartOf(line[i], line[i + 1], *part) : line[i];
+          if (!part || bend == line[i] || bend == line[i + 1] || OnEdge(bend)) ++i;
+          else line.insert(line.begin() + static_cast<std::ptrdiff_t>(i) + 1, bend);
+        }
+      }
+    }
+    return line;
+  }
+
   bool SlopesTouch(const Triangulation::Triangle& t) const {
     const auto points = plan_.triangles.points();
     GridPoint low = points[t.corner[0]], high = low;
@@ -294,7 +372,7 @@ class Planner {
       const Eigen::Vector2d way = c.at[n] - c.at[k];
       const double rise_m = c.z[n] - c.z[k];
       const bool straight_ends = std::fabs(c.slope[k].dot(way) - rise_m) <= kSlopes[level_].tolerance_m && std::fabs(c.slope[n].dot(way) - rise_m) <= kSlopes[level_].tolerance_m;
-      const auto part = BendBetween(world_, p_W, c.z[k], q_W, c.z[n], kSlopes[level_], straight_ends);
+      const auto part = BendBetween(highest_, p_W, c.z[k], q_W, c.z[n], kSlopes[level_], straight_ends);
       const GridPoint p = plan_.triangles.points()[t.corner[k]], q = plan_.triangles.points()[t.corner[n]];
       if (!part) continue;
       const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + *part * (to - from))); };
@@ -328,11 +406,12 @@ class Planner {
   const road::World& world_;
   const Land& land_;
   std::size_t level_;
+  GroundAt highest_ = [this](const Eigen::Vector2d& p_W) { return world_.At(p_W.x(), p_W.y()); };
   bool kept_ = false;            // beyond slopes the land is the terrain's own triangles
   bool follows_slopes_ = false;
   TilePlan plan_;
   std::vector<std::array<std::uint32_t, 2>> fixed_;
-  std::vector<std::array<std::uint32_t, 3>> tried_, followed_;
+  std::vector<std::array<std::uint32_t, 3>> tried_, followed_, below_;
   struct OnKept {
     GridPoint bend;
     std::uint32_t a, b;  // the ends of the side that is kept
@@ -340,6 +419,7 @@ class Planner {
   std::vector<OnKept> on_kept_;
   struct Known {
     std::uint32_t face;
+    std::uint32_t level;
     std::uint32_t next;  // of the same point
     Ground ground;
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,7 @@ double ThicknessOf(const partition::Triangulation& triangles, const partition::T
 struct Land {
   PostLines posts;
   SlopeSquares slopes;
+  std::set<TileKey> decks;  // where bridges are, in worlds with a terrain
 
   // The terrain itself, with all of its posts, is all the ground that a tile without any line has.
   bool IsBare(const TileKey& tile) const { return posts.HoldsAll(tile) && !slopes.InTile(tile); }

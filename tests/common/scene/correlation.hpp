@@ -40,6 +40,18 @@ inline bool MeetsNearby(const road::World& world, const Eigen::Vector3d& p, doub
   return false;
 }
 
+// How far the nearest of SUELO's surfaces there is from a height: land that comes up to a bridge's deck lies less than a hint can tell below it.
+inline double FromNearest(const road::World& world, const Eigen::Vector3d& p) {
+  double nearest_m = 1e9;
+  for (road::SurfacePoint at = world.At(p.x(), p.y()); at.inside;) {
+    nearest_m = std::min(nearest_m, std::fabs(at.z_m - p.z()));
+    const road::SurfacePoint below = world.At(p.x(), p.y(), at.z_m - terrain::kHintAbove_m - 1e-6);
+    if (!(below.z_m < at.z_m)) break;
+    at = below;
+  }
+  return nearest_m;
+}
+
 // A point of the triangles whose areas add up to these sums: one of many that are spread evenly over all of them.
 inline Eigen::Vector3d PointIn(const std::vector<std::array<Eigen::Vector3d, 3>>& triangles, const std::vector<double>& sums, std::uint64_t seed, std::uint64_t n) {
   const auto draw = [&](std::uint64_t what) { return base::RandomUniform({seed, n, what}, 0.0, 1.0); };
@@ -74,7 +86,8 @@ Correlation Correlate(const road::World& world, const std::vector<GroundTile>& t
     if (!point_counts(p)) continue;
     ++result.asked;
     const road::SurfacePoint at = world.At(p.x(), p.y(), p.z() + 0.3);
-    const double error = at.inside ? std::fabs(at.z_m - p.z()) : 1e9;
+    double error = at.inside ? std::fabs(at.z_m - p.z()) : 1e9;
+    if (error > asked.height_m && !world.open_drive()) error = FromNearest(world, p);
     if (error > asked.height_m && MeetsNearby(world, p, asked.height_m, asked.beside_m)) {
       ++result.stepped;
       continue;

@@ -97,6 +97,7 @@ TEST(Ground, ABridgeHasAnUnderside) {
 // What is not closed of a tile at one level: sides of triangles that none goes back along, but on the tile's own edge, and faces that look down.
 struct Flaws {
   std::vector<Eigen::Vector3d> open;  // sides of the ground: where they begin
+  std::vector<Eigen::Vector3d> met;   // the same where some go back, but not as many: more than two sheets meet in a line
   int free = 0;    // lower sides and ends of walls, which hang: aprons of bridges, cliffs beside them
   int turned = 0;  // triangles of the ground that face down, or whose corners' normals do
 };
@@ -132,6 +133,7 @@ Flaws FlawsOf(const GroundTile& tile, std::size_t level) {
     if (back != sides.end() && back->second.count == found.count) continue;
     if (on_edge(side.first) && on_edge(side.second)) continue;
     if (found.wall) ++flaws.free;
+    else if (back != sides.end()) flaws.met.emplace_back(side.first[0], side.first[1], side.first[2]);
     else flaws.open.emplace_back(side.first[0], side.first[1], side.first[2]);
   }
   return flaws;
@@ -156,8 +158,8 @@ bool IsBelowADeck(const network::Network& network, const Eigen::Vector3d& p) {
 }
 
 // The same for the project's worlds at every level, on tiles drawn by lot and on all at bridges, and for real files. At bridges aprons hang free, and the
-// ground below a deck ends where the deck comes down to the land: there it is open to nobody who stands on it. That happens at a few corners of each
-// bridge, and only with the deck above.
+// ground below a deck ends where the deck comes down to the land: there three sheets meet, or it is open to nobody who stands on it. That happens at
+// the ends of each bridge, and only with the deck above.
 TEST(Ground, OfTheProjectsWorldsIsClosed) {
   const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 60) / 3;  // each of them at all levels
   for (const std::string name : {"haste", "motorway", "n222", "flat", "example/world"}) {
@@ -186,6 +188,9 @@ TEST(Ground, OfTheProjectsWorldsIsClosed) {
       at_bridges += at_bridge;
       for (std::size_t level = 0; level < kGroundLevels; ++level) {
         const Flaws flaws = FlawsOf(tile, level);
+        for (const Eigen::Vector3d& p : flaws.met) {  // road, deck and the land below it, where a bridge begins
+          EXPECT_TRUE(IsBelowADeck(*world.value()->network(), p)) << name << ", level " << level << ", tile " << key.column << " " << key.row << ": three meet at " << p.transpose();
+        }
         for (const Eigen::Vector3d& p : flaws.open) {
           const bool below_deck = IsBelowADeck(*world.value()->network(), p);
           EXPECT_TRUE(below_deck) << name << ", level " << level << ", tile " << key.column << " " << key.row << ": open at " << p.transpose();
@@ -212,7 +217,7 @@ TEST(Ground, OfRealFilesIsClosed) {
     for (const GroundTile& tile : BuildAll(*world.value())) {
       for (std::size_t level = 0; level < kGroundLevels; ++level) {
         const Flaws flaws = FlawsOf(tile, level);
-        open += static_cast<int>(flaws.open.size()), turned += flaws.turned, hang += flaws.free;
+        open += static_cast<int>(flaws.open.size() + flaws.met.size()), turned += flaws.turned, hang += flaws.free;
         for (const Eigen::Vector3d& p : flaws.open) ADD_FAILURE() << name << ", level " << level << ", tile " << tile.key.column << " " << tile.key.row << ": open at " << p.transpose();
       }
     }

@@ -93,6 +93,75 @@ TEST(GroundLevels, OfTheProjectsWorldsKeepWhatIsAsked) {
   }
 }
 
+// The tiles around a road's bridge: land comes up to its deck at both ends, and falls away below its sides. All levels, the finest too.
+TEST(GroundLevels, LandBelowBridgesIsMet) {
+  for (const auto& [name, id] : {std::pair("haste", "bridge"), std::pair("motorway", "over")}) {
+    const auto loaded = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (std::string(name) + ".yaml"));
+    ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
+    const road::World& world = *loaded.value();
+    const network::Road& road = world.network()->roads()[*world.network()->FindRoad(id)];
+    const network::Structure& bridge = road.spec().structures.at(0);
+    ASSERT_TRUE(bridge.bridge);
+    std::set<TileKey> keys;
+    const auto along = [&](double s_m) { return Eigen::Vector2d(road.Surface(s_m, 0.0).p_W.head<2>()); };
+    for (double s_m = bridge.s_m - 10.0; s_m < bridge.s_m + bridge.length_m + 10.0; s_m += 5.0) {
+      const WorldStep at = ToSteps(along(s_m));
+      keys.insert({TileOf(at.x), TileOf(at.y)});
+    }
+    const GroundPlan plan(world);
+    std::vector<GroundTile> tiles;
+    for (const TileKey& key : keys) tiles.push_back(plan.Build(key));
+    const double reach_m = 0.5 * bridge.length_m + 15.0;
+    const Eigen::Vector2d middle = along(bridge.s_m + 0.5 * bridge.length_m);
+    const auto near = [&](const Mesh& mesh, std::size_t i) {
+      const auto corners = CornersOf(mesh, i);
+      return ((corners[0] + corners[1] + corners[2]).head<2>() / 3.0 - middle).norm() < reach_m + 10.0;
+    };
+    for (const Asked& asked : kAsked) {
+      int below = 0;
+      const Correlation found = Correlate(world, tiles, 4 * Points(), 71, near, asked, [&](const Eigen::Vector3d& p) {
+        if ((p.head<2>() - middle).norm() > reach_m) return false;
+        below += world.At(p.x(), p.y()).z_m > p.z() + 0.1;
+        return true;
+      });
+      EXPECT_EQ(found.asked, 4 * Points()) << name << ", level " << asked.level;
+      EXPECT_GT(below, found.asked / 50) << name << ", level " << asked.level;
+      EXPECT_EQ(found.far, 0) << name << ", level " << asked.level << ": worst " << found.worst_m << " m at " << found.where.transpose();
+      EXPECT_LT(found.stepped, 0.002 * found.asked) << name << ", level " << asked.level;
+      std::printf("%s, level %zu: %d points, %d of them below the deck, %d at steps, %d farther off than %.3f m, worst %.4f m\n", name, asked.level, found.asked, below, found.stepped, found.far,
+                  asked.height_m, found.worst_m);
+    }
+  }
+}
+
+// Places of N222 and the motorway that were off at the finest level: a toe that winds through many triangles, a strip of a cut that ends within a few
+// metres, the edge of a road that leans.
+TEST(GroundLevels, NarrowStripsOfSlopesAreMet) {
+  const std::vector<std::pair<std::string, std::vector<Eigen::Vector2d>>> places = {
+      {"n222", {{981.5, 309.0}, {295.4, 33.2}, {1482.7, 436.6}, {294.7, 53.2}}}, {"motorway", {{949.6, 97.2}, {1616.7, 308.6}, {2502.6, 1142.3}}}};
+  for (const auto& [name, at] : places) {
+    const auto loaded = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
+    ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
+    const road::World& world = *loaded.value();
+    const GroundPlan plan(world);
+    std::set<TileKey> keys;
+    for (const Eigen::Vector2d& p : at) keys.insert({TileOf(ToSteps(p).x), TileOf(ToSteps(p).y)});
+    std::vector<GroundTile> tiles;
+    for (const TileKey& key : keys) tiles.push_back(plan.Build(key));
+    const auto is_there = [&](const Mesh& mesh, std::size_t i) {
+      const auto c = CornersOf(mesh, i);
+      const Eigen::Vector2d middle = (c[0] + c[1] + c[2]).head<2>() / 3.0;
+      return std::any_of(at.begin(), at.end(), [&](const Eigen::Vector2d& place) { return (middle - place).norm() < 30.0; });
+    };
+    for (const std::size_t level : {std::size_t{0}, std::size_t{1}}) {
+      const Correlation found = Correlate(world, tiles, Points(), 67, is_there, kAsked[level], [&](const Eigen::Vector3d& p) { return KindAt(world, p) == Kind::kSlope; });
+      EXPECT_EQ(found.asked, Points()) << name;
+      EXPECT_EQ(found.far, 0) << name << ", level " << level << ": worst " << found.worst_m << " m at " << found.where.transpose();
+      std::printf("%s, level %zu: %d points of slopes, %d farther off than %.3f m, worst %.4f m\n", name.c_str(), level, found.asked, found.far, kAsked[level].height_m, found.worst_m);
+    }
+  }
+}
+
 // In plan, a bend of 12 m radius: lanes' edges are circles about its middle, and faces, which have vertices of their own, end at them.
 TEST(GroundLevels, LinesOfASmallRadiusLieWhereTheyAreAskedTo) {
   const auto parsed = road::World::Parse(
