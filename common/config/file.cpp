@@ -45,6 +45,20 @@ void CollectScalars(const YAML::Node& node, std::vector<std::string>& out) {
   }
 }
 
+// The same value without the lines that it had in its own text: it stands in no line of the file that it is put into.
+YAML::Node WithoutLines(const YAML::Node& node) {
+  YAML::Node out(node.Type());
+  if (node.IsScalar()) out = YAML::Node(node.Scalar());
+  if (node.IsSequence()) {
+    for (const auto& item : node) out.push_back(WithoutLines(item));
+  }
+  if (node.IsMap()) {
+    for (const auto& item : node) out.force_insert(WithoutLines(item.first), WithoutLines(item.second));
+  }
+  if (!node.IsNull()) out.SetTag(node.Tag());
+  return out;
+}
+
 }  // namespace
 
 File::File(std::shared_ptr<detail::Context> context) : context_(std::move(context)) {}
@@ -83,7 +97,7 @@ base::Status File::Override(std::string_view key, std::string_view value) {
     if (!at.IsMap() && !at.IsNull()) return base::WrongInput(fmt::format("'{}' is {}, no mapping", key.substr(0, from == 0 ? 0 : from - 1), KindOf(at)), where);
     if (dot == std::string_view::npos) {
       if (leaf.value().IsNull()) at.remove(part);
-      else at[part] = leaf.value();
+      else at[part] = WithoutLines(leaf.value());
       return {};
     }
     if (!Find(at, part).IsDefined()) at[part] = YAML::Node(YAML::NodeType::Map);

@@ -131,7 +131,7 @@ void ReadMirrors(const config::Map& map, ViewSettings& settings) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string name = names.Text(i);
     if (const auto mirror = scene::MirrorOf(name)) settings.mirrors[static_cast<std::size_t>(*mirror)] = true;
-    else names.Problem(i, fmt::format("'{}' is no mirror; left, inside or right was expected", name));
+    else names.Problem(i, fmt::format("'{}' is no mirror{}", name, base::DidYouMean(name, {"left", "inside", "right"})));
   }
 }
 

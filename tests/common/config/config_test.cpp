@@ -114,6 +114,20 @@ TEST(Config, AnOverrideByNothingTakesAKeyOut) {
   EXPECT_TRUE(file.Finish().ok());
 }
 
+// What is wrong in it stands in no line of the file.
+TEST(Config, AnOverrideHasNoLine) {
+  File file = Parsed("a: 1\nb: {c: 2}\n");
+  ASSERT_TRUE(file.Override("b", "{c: 3, list: [1, x], inner: {odd: 1}}").ok());
+  (void)file.root().Number("a");
+  const Map b = file.root().Child("b");
+  EXPECT_EQ(b.Number("c"), 3.0);
+  (void)b.Items("list").Number(1);
+  (void)b.Child("inner").Number("even", {}, 1.0);
+  const auto problems = file.Problems();
+  ASSERT_EQ(problems.size(), 2u);
+  for (const base::Error& problem : problems) EXPECT_EQ(problem.context, "folder/car.yaml") << problem.Text();
+}
+
 TEST(Config, OverridesReplaceAndAdd) {
   File file = Parsed("a: 1\nb: {c: 2}\n");
   ASSERT_TRUE(file.Override("a", "5").ok());

@@ -45,7 +45,7 @@ TEST(ViewSettings, WrongOnesAreRefusedWithTheirPlace) {
   EXPECT_NE(Complaint("{quality: hihg}").find("did you mean 'high'"), std::string::npos) << Complaint("{quality: hihg}");
   EXPECT_NE(Complaint("{width_px: 10}").find("width_px"), std::string::npos);
   EXPECT_EQ(Complaint("{follow: egg}"), "fake.yaml:9: 'egg' is no vehicle that this view is wired to; did you mean 'ego'?");
-  EXPECT_EQ(Complaint("{mirrors: [left, middle]}"), "fake.yaml:9: 'middle' is no mirror; left, inside or right was expected");
+  EXPECT_EQ(Complaint("{mirrors: [left, middle]}"), "fake.yaml:9: 'middle' is no mirror; known are left, inside, right");
   EXPECT_EQ(Complaint("{mirrors: []}"), "");
   EXPECT_EQ(Complaint("{sound: false, volume: 0.3}"), "");
   EXPECT_NE(Complaint("{volume: 1.5}").find("fake.yaml:9: "), std::string::npos) << Complaint("{volume: 1.5}");
