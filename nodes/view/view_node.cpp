@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <deque>
 
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -62,17 +63,50 @@ class ViewNode final : public lockstep::Node {
 
   void Save(base::StateWriter& out) const override {
     out.Put("taken_through", taken_through_);
-    out.Put("sources", static_cast<std::uint32_t>(newest_.size()));
-    for (const auto& [source, payload] : newest_) {
+    Put(out, newest_);
+    out.Put("ordered", static_cast<std::uint32_t>(ordered_.size()));
+    for (const OrderedFrame& frame : ordered_) {
+      out.Put("step", frame.step);
+      Put(out, frame.newest);
+    }
+  }
+
+  // Pictures that another had ordered and perhaps not written yet are ordered again: they are the same.
+  void Restore(base::StateReader& in) override {
+    in.Get("taken_through", taken_through_);
+    newest_ = Get(in);
+    ordered_.clear();
+    std::uint32_t count = 0;
+    in.Get("ordered", count);
+    for (std::uint32_t i = 0; i < count && i < view::Stage::kMostOrders; ++i) {
+      OrderedFrame frame;
+      in.Get("step", frame.step);
+      frame.newest = Get(in);
+      ordered_.push_back(std::move(frame));
+    }
+    if (stage_ == nullptr) return;
+    for (const OrderedFrame& frame : ordered_) {
+      if (!Order(frame)) return;  // the next order's answer is the same error
+    }
+  }
+
+ private:
+  // A picture as it was ordered. As many are kept as may be unwritten at a time.
+  struct OrderedFrame {
+    lockstep::Step step = 0;
+    view::NewestSamples newest;
+  };
+
+  static void Put(base::StateWriter& out, const view::NewestSamples& newest) {
+    out.Put("sources", static_cast<std::uint32_t>(newest.size()));
+    for (const auto& [source, payload] : newest) {
       out.Put("source", source);
       out.Put("payload", std::span<const std::uint8_t>(reinterpret_cast<const std::uint8_t*>(payload->data()), payload->size()));
     }
   }
-
-  void Restore(base::StateReader& in) override {
-    newest_.clear();
+  view::NewestSamples Get(base::StateReader& in) const {
+    view::NewestSamples newest;
     std::uint32_t count = 0;
-    in.Get("taken_through", taken_through_);
     in.Get("sources", count);
     for (std::uint32_t i = 0; i < count && i < roster_.sources().size(); ++i) {
       SourceIndex source = 0;
@@ -80,11 +114,11 @@ class ViewNode final : public lockstep::Node {
       in.Get("source", source);
       in.Get("payload", payload);
       const auto bytes = std::as_bytes(std::span(payload));
-      newest_[source] = std::make_shared<const base::Bytes>(bytes.begin(), bytes.end());
+      newest[source] = std::make_shared<const base::Bytes>(bytes.begin(), bytes.end());
     }
+    return newest;
   }
 
- private:
   // Takes the samples in their order and orders the frames of steps in (after, through] on the way.
   base::Status Take(const lockstep::Inbox& inbox, lockstep::Step after, lockstep::Step through) {
     std::vector<const Sample*> samples;
@@ -121,9 +155,15 @@ class ViewNode final : public lockstep::Node {
   }
 
   base::Status WriteFrame(lockstep::Step step) {
-    auto moment = view::MakeMoment(roster_, step, newest_);
+    ordered_.push_back({step, newest_});
+    if (ordered_.size() > view::Stage::kMostOrders) ordered_.pop_front();
+    return Order(ordered_.back());
+  }
+
+  base::Status Order(const OrderedFrame& frame) const {
+    auto moment = view::MakeMoment(roster_, frame.step, frame.newest);
     if (!moment) return moment.error();
-    return stage_->Order(view::PictureOf(settings_, std::move(moment).value()), settings_.folder / view::FrameName(step));
+    return stage_->Order(view::PictureOf(settings_, std::move(moment).value()), settings_.folder / view::FrameName(frame.step));
   }
 
   const lockstep::Roster& roster_;
@@ -131,6 +171,7 @@ class ViewNode final : public lockstep::Node {
   view::ViewSettings settings_;
   std::unique_ptr<view::Stage> stage_;  // null: nothing is drawn
   view::NewestSamples newest_;
+  std::deque<OrderedFrame> ordered_;  // the last ones
   lockstep::Step taken_through_ = -1;
 };
 
