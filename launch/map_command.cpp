@@ -72,6 +72,10 @@ int Convert(const MapOptions& options) {
   }
   const auto written = map::WriteWorld(made.value(), out, "made of " + from.filename().string());
   if (!written) return Complain(written.error().context.empty() ? base::WrongInput(written.error().message, options.file) : written.error());
+  const auto companion = map::LoadHeightsOf(options.file);
+  if (companion && !companion.value().flows.empty()) {
+    fmt::print(stderr, "rodeira: warning: the flows beside {} are not in it: a world has none; a file of traffic settings takes them (`flows`)\n", from.filename().string());
+  }
   const map::OpenDrive& drive = written.value();
   fmt::print("wrote {}{}: {} roads in {} pieces, {} junctions; off by at most {:.2f} mm (middle), {:.2f} mm (borders), {:.2f} mm (height)\n", options.out,
              kind == ".yaml" ? " and " + std::filesystem::path(out).replace_extension(".xodr").string() : "", drive.roads, drive.pieces, drive.junctions,

@@ -16,7 +16,8 @@ std::string NearestFile(const std::filesystem::path& path) {
   std::error_code problem;
   for (std::filesystem::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem)) {
     std::error_code other;
-    if (entry->path().extension() == path.extension() && entry->is_regular_file(other)) names.push_back(entry->path().filename().string());
+    const bool alike = entry->path().extension() == path.extension() || entry->path().stem() == path.stem();
+    if (alike && entry->is_regular_file(other)) names.push_back(entry->path().filename().string());
   }
   std::sort(names.begin(), names.end());
   const std::string nearest = NearestName(path.filename().string(), names);

@@ -5,8 +5,8 @@
 
 namespace rodeira::base {
 
-// "; did you mean 'demo.yaml'?" for the end of a sentence, where a file of the same kind (by its extension) with nearly
-// that name lies in the same folder; otherwise nothing.
+// "; did you mean 'demo.yaml'?" for the end of a sentence, where a file with nearly that name, of the same kind (by its
+// extension) or of the same stem, lies in the same folder; otherwise nothing.
 std::string NearestFile(const std::filesystem::path& path);
 
 // "there is no such file; did you mean ...?" where there is none, otherwise nothing.

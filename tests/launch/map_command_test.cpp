@@ -51,6 +51,19 @@ TEST(MapCommand, NamesWhatIsWrong) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.svg"));
 }
 
+// A world has no flows of its own: that they stay behind is said.
+TEST(MapCommand, SaysThatFlowsStayBehind) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "a.motors";
+  std::filesystem::copy(kCrossing, file);
+  ASSERT_EQ(Asked({"convert", file, folder.path() / "a.yaml"}).errors, "");
+  const auto map = map::LoadLaneMap(file).value();
+  ASSERT_TRUE(base::WriteWhole(folder.path() / "a.motors.yaml", "rodeira: motors/1\nflows_vehph:\n  " + std::to_string(map.lanes[map.start_lanes.front()].id) + ": 300\n").ok());
+  const Said said = Asked({"convert", file, folder.path() / "a.yaml"});
+  EXPECT_EQ(said.status, 0);
+  EXPECT_EQ(said.errors, "rodeira: warning: the flows beside a.motors are not in it: a world has none; a file of traffic settings takes them (`flows`)\n");
+}
+
 // What the check lets pass can be driven: a bend that no road has, and lights that are green together, are found by it too.
 TEST(MapCommand, FindsWhatCannotBeDriven) {
   const TemporaryFolder folder;
