@@ -23,8 +23,6 @@ namespace rodeira::view {
 // is drawn depends on them alone, not on when.
 class Stage {
  public:
-  static constexpr std::size_t kMostOrders = 4;  // that are not yet written
-
   // Starts the thread and waits until everything is loaded and drawn once; a window is there before its world is read. Null where the settings want no picture here:
   // no frames, and no window or no display for one. Wrong input where a display or OpenGL is missing.
   // `keys` is told what is held in the window; null where nobody drives by it. `requests`: what is asked for there; null where nobody
@@ -49,6 +47,7 @@ class Stage {
   base::Status Drain();
 
  private:
+  static constexpr std::size_t kMostOrders = 4;
   struct Hand;  // what only the thread touches
   struct Ordered {
     Picture picture;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <deque>
 
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -38,6 +37,10 @@ class ViewNode final : public lockstep::Node {
   base::Status Initialise(lockstep::Outbox&) override { return {}; }
 
   base::Status Step(const lockstep::StepInfo& info, const lockstep::Inbox& inbox, lockstep::Outbox&) override {
+    // A view that takes a dead one's place begins at its last activation at the earliest: pictures of those before must be written.
+    if (stage_ != nullptr && !settings_.frame_steps.empty()) {
+      if (auto status = stage_->Drain(); !status) return status;
+    }
     if (auto status = Take(inbox, info.step - info.period, info.step); !status) return status;
     if (stage_ == nullptr || !stage_->has_window()) return {};
     if (auto status = TellEvents(inbox); !status) return status;
@@ -63,50 +66,17 @@ class ViewNode final : public lockstep::Node {
 
   void Save(base::StateWriter& out) const override {
     out.Put("taken_through", taken_through_);
-    Put(out, newest_);
-    out.Put("ordered", static_cast<std::uint32_t>(ordered_.size()));
-    for (const OrderedFrame& frame : ordered_) {
-      out.Put("step", frame.step);
-      Put(out, frame.newest);
-    }
-  }
-
-  // Pictures that another had ordered and perhaps not written yet are ordered again: they are the same.
-  void Restore(base::StateReader& in) override {
-    in.Get("taken_through", taken_through_);
-    newest_ = Get(in);
-    ordered_.clear();
-    std::uint32_t count = 0;
-    in.Get("ordered", count);
-    for (std::uint32_t i = 0; i < count && i < view::Stage::kMostOrders; ++i) {
-      OrderedFrame frame;
-      in.Get("step", frame.step);
-      frame.newest = Get(in);
-      ordered_.push_back(std::move(frame));
-    }
-    if (stage_ == nullptr) return;
-    for (const OrderedFrame& frame : ordered_) {
-      if (!Order(frame)) return;  // the next order's answer is the same error
-    }
-  }
-
- private:
-  // A picture as it was ordered. As many are kept as may be unwritten at a time.
-  struct OrderedFrame {
-    lockstep::Step step = 0;
-    view::NewestSamples newest;
-  };
-
-  static void Put(base::StateWriter& out, const view::NewestSamples& newest) {
-    out.Put("sources", static_cast<std::uint32_t>(newest.size()));
-    for (const auto& [source, payload] : newest) {
+    out.Put("sources", static_cast<std::uint32_t>(newest_.size()));
+    for (const auto& [source, payload] : newest_) {
       out.Put("source", source);
       out.Put("payload", std::span<const std::uint8_t>(reinterpret_cast<const std::uint8_t*>(payload->data()), payload->size()));
     }
   }
-  view::NewestSamples Get(base::StateReader& in) const {
-    view::NewestSamples newest;
+
+  void Restore(base::StateReader& in) override {
+    newest_.clear();
     std::uint32_t count = 0;
+    in.Get("taken_through", taken_through_);
     in.Get("sources", count);
     for (std::uint32_t i = 0; i < count && i < roster_.sources().size(); ++i) {
       SourceIndex source = 0;
@@ -114,11 +84,11 @@ class ViewNode final : public lockstep::Node {
       in.Get("source", source);
       in.Get("payload", payload);
       const auto bytes = std::as_bytes(std::span(payload));
-      newest[source] = std::make_shared<const base::Bytes>(bytes.begin(), bytes.end());
+      newest_[source] = std::make_shared<const base::Bytes>(bytes.begin(), bytes.end());
     }
-    return newest;
   }
 
+ private:
   // Takes the samples in their order and orders the frames of steps in (after, through] on the way.
   base::Status Take(const lockstep::Inbox& inbox, lockstep::Step after, lockstep::Step through) {
     std::vector<const Sample*> samples;
@@ -155,15 +125,9 @@ class ViewNode final : public lockstep::Node {
   }
 
   base::Status WriteFrame(lockstep::Step step) {
-    ordered_.push_back({step, newest_});
-    if (ordered_.size() > view::Stage::kMostOrders) ordered_.pop_front();
-    return Order(ordered_.back());
-  }
-
-  base::Status Order(const OrderedFrame& frame) const {
-    auto moment = view::MakeMoment(roster_, frame.step, frame.newest);
+    auto moment = view::MakeMoment(roster_, step, newest_);
     if (!moment) return moment.error();
-    return stage_->Order(view::PictureOf(settings_, std::move(moment).value()), settings_.folder / view::FrameName(frame.step));
+    return stage_->Order(view::PictureOf(settings_, std::move(moment).value()), settings_.folder / view::FrameName(step));
   }
 
   const lockstep::Roster& roster_;
@@ -171,7 +135,6 @@ class ViewNode final : public lockstep::Node {
   view::ViewSettings settings_;
   std::unique_ptr<view::Stage> stage_;  // null: nothing is drawn
   view::NewestSamples newest_;
-  std::deque<OrderedFrame> ordered_;  // the last ones
   lockstep::Step taken_through_ = -1;
 };
 
