@@ -84,7 +84,7 @@ base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
   auto decoded = idl::Decode<msg::Report>(payload);
   if (!decoded) return decoded.error();
   msg::Report& in = decoded.value();
-  if (in.phase() > static_cast<std::uint32_t>(lockstep::Phase::kLost) || in.waiting() > static_cast<std::uint32_t>(lockstep::Waiting::kServer)) {
+  if (in.phase() > static_cast<std::uint32_t>(lockstep::Phase::kLost) || in.waiting() > static_cast<std::uint32_t>(lockstep::Waiting::kOutput)) {
     return base::WrongInput(fmt::format("a report of phase {} and waiting {} was found", in.phase(), in.waiting()));
   }
   NamedReport out;

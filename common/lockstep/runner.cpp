@@ -130,6 +130,8 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
       NoteWaiting(next_);
       return Outcome::kBlocked;
   }
+  Note(Phase::kRunning, Waiting::kOutput);
+  if (auto status = node_.Settle(); !status) return Fail(status.error());
   if (auto status = TakeSnapshotIfDue(next_); !status) return Fail(status.error());
   const Inbox inbox = mailbox_.Open(next_);
   const StepInfo info{next_, next_ * roster_.base_step_ns(), spec_.period,

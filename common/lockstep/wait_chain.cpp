@@ -13,6 +13,7 @@ std::string Doing(const Report& report) {
   const double since_s = static_cast<double>(report.since_ms) * 1e-3;
   switch (report.waiting) {
     case Waiting::kServer: return fmt::format("waits at step {} for a server's answer since {:.1f} s", report.progress, since_s);
+    case Waiting::kOutput: return fmt::format("writes what it made before step {} since {:.1f} s", report.progress, since_s);
     default: break;
   }
   if (report.phase >= Phase::kFailed) return std::string(PhaseName(report.phase));

@@ -71,6 +71,10 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
       return Fault{n, fmt::format("node '{}' has been computing step {} for {:.2f} s, its deadline is {:.2f} s", spec.name, life.report.progress,
                                   static_cast<double>(life.report.since_ms) / 1e3, static_cast<double>(deadline_ms) / 1e3)};
     }
+    if (life.report.phase == Phase::kRunning && life.report.waiting == Waiting::kOutput && life.report.since_ms > settings_.start_ms) {
+      return Fault{n, fmt::format("node '{}' has been writing what it made before step {} for {:.0f} s", spec.name, life.report.progress,
+                                  static_cast<double>(life.report.since_ms) / 1e3)};
+    }
   }
   everybody_ready_ = everybody_ready_ || missing.empty();
   if (!everybody_ready_ && now_ms - *first_ms_ > settings_.start_ms) {

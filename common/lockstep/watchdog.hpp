@@ -17,7 +17,7 @@ class Watchdog {
   struct Settings {
     std::int64_t silence_ms = 600;    // longest time without a report
     std::int64_t deadline_ms = 5000;  // longest wall time of one step, where the node names none of its own
-    std::int64_t start_ms = 60000;    // longest time until everybody is ready
+    std::int64_t start_ms = 60000;    // longest time until everybody is ready, and until somebody has written what it made
   };
   struct Fault {
     NodeIndex node = 0;

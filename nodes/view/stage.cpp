@@ -68,8 +68,7 @@ void Stage::Tell(const std::vector<scenario::Event>& events) {
 }
 
 base::Status Stage::Order(Picture picture, std::filesystem::path file) {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return orders_.size() < kMostOrders || !written_; });
+  const std::lock_guard lock(mutex_);
   if (!written_) return written_;
   orders_.push_back({std::move(picture), std::move(file)});
   changed_.notify_all();

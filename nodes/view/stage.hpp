@@ -40,14 +40,13 @@ class Stage {
   void Show(scene::Moment moment);
   // What the run's scenario has said. Never waits.
   void Tell(const std::vector<scenario::Event>& events);
-  // Orders exactly this picture as a PNG file. Waits where kMostOrders are not yet written: a slow disk slows the run. The
-  // first order that failed is every later one's answer.
+  // Orders exactly this picture as a PNG file. Never waits; who orders without end drains between. The first order that failed is
+  // every later one's answer.
   base::Status Order(Picture picture, std::filesystem::path file);
   // Waits until all orders are written.
   base::Status Drain();
 
  private:
-  static constexpr std::size_t kMostOrders = 4;
   struct Hand;  // what only the thread touches
   struct Ordered {
     Picture picture;

@@ -36,11 +36,10 @@ class ViewNode final : public lockstep::Node {
 
   base::Status Initialise(lockstep::Outbox&) override { return {}; }
 
+  // A view that takes a dead one's place begins at its last activation at the earliest: pictures of those before must be written.
+  base::Status Settle() override { return stage_ == nullptr || settings_.frame_steps.empty() ? base::Status() : stage_->Drain(); }
+
   base::Status Step(const lockstep::StepInfo& info, const lockstep::Inbox& inbox, lockstep::Outbox&) override {
-    // A view that takes a dead one's place begins at its last activation at the earliest: pictures of those before must be written.
-    if (stage_ != nullptr && !settings_.frame_steps.empty()) {
-      if (auto status = stage_->Drain(); !status) return status;
-    }
     if (auto status = Take(inbox, info.step - info.period, info.step); !status) return status;
     if (stage_ == nullptr || !stage_->has_window()) return {};
     if (auto status = TellEvents(inbox); !status) return status;

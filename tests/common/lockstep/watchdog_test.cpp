@@ -48,6 +48,13 @@ TEST_F(WatchdogTest, NamesWhoHangsByItsOwnDeadlineButNotWhoWaits) {
   EXPECT_EQ(dog_.Check(0)->reason, "node 'car' has been computing step 7 for 0.30 s, its deadline is 0.30 s");
 }
 
+TEST_F(WatchdogTest, WhoWritesWhatItMadeHasAsLongAsAtTheStart) {
+  Hear(0, 0, Phase::kRunning, Waiting::kOutput, 5000);
+  EXPECT_FALSE(dog_.Check(0));
+  Hear(0, 0, Phase::kRunning, Waiting::kOutput, 5001);
+  EXPECT_EQ(dog_.Check(0)->reason, "node 'car' has been writing what it made before step 7 for 5 s");
+}
+
 TEST_F(WatchdogTest, ANodesOwnWordComesFirst) {
   Hear(0, 0, Phase::kRunning, Waiting::kNothing, 9000);
   Hear(1, 0, Phase::kFailed);
