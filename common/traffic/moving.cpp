@@ -32,7 +32,7 @@ base::Status TrafficModel::PlaceFull(std::uint32_t id) {
   vehicle::InitialCondition initial;
   initial.x_m = middle.x(), initial.y_m = middle.y(), initial.z_hint_m = middle.z();
   initial.heading_rad = std::atan2(along.y(), along.x());
-  initial.speed_mps = agent.speed_mps;
+  initial.speed_mps = agent.speed_mps * along.norm() / along.head<2>().norm();  // along the car; an agent's is over the plan
   return full_->Place(id, traits_[id].body, initial);
 }
 

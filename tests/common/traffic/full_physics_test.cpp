@@ -46,7 +46,7 @@ TEST(FullPhysics, ACarIsThatOfTheVehicleLibrary) {
     const Eigen::Vector3d front = FrameAt(model.graph(), agent.path, agent.o_m + half).p_W, rear = FrameAt(model.graph(), agent.path, agent.o_m - half).p_W;
     const Eigen::Vector3d middle = 0.5 * (front + rear), along = front - rear;
     alone.emplace_back(pose.id, vehicle::BicycleModel(CarOfBody(model.traits(pose.id).body)));
-    ASSERT_TRUE(alone.back().second.Initialise({.x_m = middle.x(), .y_m = middle.y(), .z_hint_m = middle.z(), .heading_rad = std::atan2(along.y(), along.x()), .speed_mps = agent.speed_mps}, *ground).ok());
+    ASSERT_TRUE(alone.back().second.Initialise({.x_m = middle.x(), .y_m = middle.y(), .z_hint_m = middle.z(), .heading_rad = std::atan2(along.y(), along.x()), .speed_mps = agent.speed_mps * along.norm() / along.head<2>().norm()}, *ground).ok());
   }
   std::size_t compared = 0, steepest = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -126,7 +126,7 @@ TEST(FullPhysics, TheTankLosesTheIntegralOfTheFlow) {
     const Eigen::Vector3d front = FrameAt(model.graph(), agent.path, agent.o_m + half).p_W, rear = FrameAt(model.graph(), agent.path, agent.o_m - half).p_W;
     const Eigen::Vector3d middle = 0.5 * (front + rear), along = front - rear;
     alone.push_back({pose.id, vehicle::BicycleModel(CarOfBody(model.traits(pose.id).body))});
-    ASSERT_TRUE(alone.back().car.Initialise({.x_m = middle.x(), .y_m = middle.y(), .z_hint_m = middle.z(), .heading_rad = std::atan2(along.y(), along.x()), .speed_mps = agent.speed_mps}, *ground).ok());
+    ASSERT_TRUE(alone.back().car.Initialise({.x_m = middle.x(), .y_m = middle.y(), .z_hint_m = middle.z(), .heading_rad = std::atan2(along.y(), along.x()), .speed_mps = agent.speed_mps * along.norm() / along.head<2>().norm()}, *ground).ok());
   }
   int compared = 0, overrun = 0, changed = 0;
   for (int i = 0; i < 1500; ++i) {
@@ -152,6 +152,21 @@ TEST(FullPhysics, TheTankLosesTheIntegralOfTheFlow) {
   EXPECT_GT(compared, 5000);
   EXPECT_GT(overrun, 5000);
   EXPECT_GT(changed, 1000);  // the flow is not that of the step's end
+}
+
+// On a steep grade a car begins with the speed over the plan that it was given: the first step changes it by what pedals and slope can do.
+TEST(FullPhysics, BeginsOnAGradeWithItsSpeedOverThePlan) {
+  constexpr double kGrade = 0.2, kMost_mps2 = 3.0;  // weight along the slope: 1.9 m/s²
+  TrafficModel model = TrafficModel::Make(Full(12), driver::StraightWorld(3000.0, 16.0, kGrade), {}).value();
+  std::vector<double> before(model.vehicles());
+  ASSERT_GT(model.poses().size(), 5u);
+  for (const AgentPose& pose : model.poses()) {
+    before[pose.id] = pose.speed_mps;
+    ASSERT_GT(pose.speed_mps, 5.0);
+    ASSERT_GT(std::fabs(model.agent(pose.id).grade), 0.75 * kGrade);
+  }
+  model.Step(kStep_s, {});
+  for (const AgentPose& pose : model.poses()) EXPECT_NEAR(pose.speed_mps, before[pose.id], kMost_mps2 * kStep_s) << "car " << pose.id;
 }
 
 // At a constant speed uphill the throttle is what weight, rolling and air ask of the engine through the gears.
