@@ -75,7 +75,7 @@ void StartedRun::Stop() const { child_.Signal(SIGINT); }
 std::string StartedRun::State() const {
   if (!child_.ended()) return fmt::format("goes on for {:.0f} s; its own window shows how far it is loaded", std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count());
   if (child_.exit_status() == 0) return "has ended";
-  return "it " + child_.Fate();
+  return child_.Fate();
 }
 
 void StartWindow::Draw(int width_px, int height_px) {
@@ -193,10 +193,10 @@ void StartWindow::DrawRun() {
   run_->Poll();
   if (went_on && run_->ended()) LookForRecordings();
   ImGui::Separator();
-  ImGui::TextWrapped("the run %s", run_->State().c_str());
+  ImGui::TextWrapped("it %s", run_->State().c_str());
   if (!run_->ended() && ImGui::Button("stop it")) run_->Stop();
   ImGui::BeginChild("said");
-  for (const std::string& line : run_->lines()) ImGui::TextUnformatted(line.c_str());
+  for (const std::string& line : run_->lines()) ImGui::TextWrapped("%s", line.c_str());
   if (!run_->ended()) ImGui::SetScrollHereY(1.0F);
   ImGui::EndChild();
 }

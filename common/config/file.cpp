@@ -115,7 +115,7 @@ Map File::root() const {
 }
 
 std::vector<base::Error> File::Problems() const {
-  std::vector<detail::Problem> all = context_->problems;
+  std::vector<detail::Problem> all = context_->problems, unknown;
   for (const auto& [place, asked] : context_->asked) {
     std::set<std::string> seen;
     for (const auto& item : asked.node) {
@@ -126,11 +126,14 @@ std::vector<base::Error> File::Problems() const {
       const std::string key = item.first.Scalar();
       if (!seen.insert(key).second) all.push_back({LineOf(item.first), fmt::format("key '{}' stands twice", Sub(asked.path, key)), ""});
       if (asked.keys.contains(key)) continue;
-      const Meant meant = MeantBy(key, asked.keys);
+      std::set<std::string, std::less<>> known = asked.keys;
+      known.insert(asked.hoped.begin(), asked.hoped.end());
+      const Meant meant = MeantBy(key, known);
       if (!meant.key.empty()) std::erase_if(all, [&](const auto& problem) { return problem.missing == Sub(asked.path, meant.key); });
-      all.push_back({LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
+      unknown.push_back({LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
     }
   }
+  all.insert(all.begin(), unknown.begin(), unknown.end());  // what is misspelt says more than what is missing
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
   std::vector<base::Error> errors;
   for (auto& problem : all) errors.push_back(base::WrongInput(problem.message, PlaceOf(*context_, problem.line)));

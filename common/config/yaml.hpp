@@ -41,6 +41,7 @@ struct Context {
     YAML::Node node;
     std::string path;
     std::set<std::string, std::less<>> keys;
+    std::set<std::string, std::less<>> hoped;  // those that may stand there
   };
   std::map<std::pair<int, std::string>, Asked> asked;
 

@@ -23,6 +23,9 @@ struct CabinDial {
   Facing place;
   double radius_m = 0.0;
 };
+// The tank is full when a car begins; what is left of it is shown.
+inline constexpr double kTank_l = 50.0;
+
 // Speed, engine, fuel.
 const std::array<CabinDial, 3>& CabinDials();
 // The end of a dial's needle, in E.

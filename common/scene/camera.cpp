@@ -32,6 +32,8 @@ double Smooth(double x, double from, double to) {
 
 constexpr double kChase_m = 7.2, kChaseHigh_m = 2.45;
 constexpr double kLeastChase_m = 1.0;
+// The driver's eye over B's origin, and below the roof of a low car; below that of a lorry or a bus.
+constexpr double kEyeHigh_m = 1.20, kEyeLow_m = 0.6, kHeadroom_m = 0.21, kCabRoof_m = 1.2;
 
 // How far behind the car its eye is, where so many others may stand between it and the car. In plan, along the car's nose.
 double ChaseDistance(const Body& car, double eye_z_m, std::span<const Body> others) {
@@ -132,11 +134,12 @@ Camera ChaseCamera(const Body& car, const road::World& world, std::span<const Bo
   const Vector3d ahead = std::hypot(nose.x(), nose.y()) > 1e-3 ? Vector3d(nose.x(), nose.y(), 0.7 * nose.z()).normalized() : Vector3d::UnitX();
   const double away_m = ChaseDistance(car, car.p_WB_W.z() - kChase_m * ahead.z() + kChaseHigh_m, others);
   const Vector3d eye = AboveGround(car.p_WB_W - away_m * ahead + Vector3d(0.0, 0.0, kChaseHigh_m), world);
-  const Vector3d target = car.p_WB_W + 9.0 * ahead + Vector3d(0.0, 0.0, 0.75);
+  const double share = (away_m - kLeastChase_m) / (kChase_m - kLeastChase_m);  // the nearer the eye, the steeper it looks: the car stays in the picture
+  const Vector3d target = car.p_WB_W + 9.0 * share * ahead + Vector3d(0.0, 0.0, 0.75);
   return LookFrom(eye, target - eye, Vector3d::UnitZ(), 48.0 * kDegree);
 }
 
-Vector3d DriversEye_B(const Body& car) { return {0.10, 0.22 * car.width_m, 1.20}; }
+Vector3d DriversEye_B(const Body& car) { return {0.10, 0.22 * car.width_m, std::max({kEyeLow_m, std::min(kEyeHigh_m, car.height_m - kHeadroom_m), car.height_m - kCabRoof_m})}; }
 
 Camera DriverCamera(const Body& car) {
   const Vector3d forward_B(1.0, 0.0, -0.015);

@@ -83,7 +83,7 @@ void HeatMap::Add(const Moment& moment) {
       const auto fuel_l = a.detail && b.detail ? std::optional(0.5 * (a.detail->fuel_lph + b.detail->fuel_lph) * passed_s / 3600.0) : std::nullopt;
       AddWay(a.p_WB_W, b.p_WB_W, passed_s, fuel_l);
     });
-    ForSame(before_->cars, moment.cars, [&](const CarPose& a, const CarPose& b) { AddWay(a.p_WB_W, b.p_WB_W, passed_s, std::fabs(a.fuel_l - b.fuel_l)); });
+    ForSame(before_->cars, moment.cars, [&](const CarPose& a, const CarPose& b) { AddWay(a.p_WB_W, b.p_WB_W, passed_s, std::fabs(a.fuel_used_l - b.fuel_used_l)); });
   }
   before_ = moment;
 }

@@ -40,7 +40,7 @@ CarPose BetweenCars(const CarPose& a, const CarPose& b, double alpha, double int
   car.q_WB = a.q_WB.slerp(alpha, b.q_WB);
   car.speed_mps = Between(a.speed_mps, b.speed_mps, alpha);
   car.engine_rpm = Between(a.engine_rpm, b.engine_rpm, alpha);
-  car.fuel_l = Between(a.fuel_l, b.fuel_l, alpha);
+  car.fuel_used_l = Between(a.fuel_used_l, b.fuel_used_l, alpha);
   car.steering_wheel_rad = Between(a.steering_wheel_rad, b.steering_wheel_rad, alpha);
   for (std::size_t i = 0; i < car.wheels.size(); ++i) car.wheels[i] = BetweenWheels(a.wheels[i], b.wheels[i], alpha, interval_s);
   return car;

@@ -33,7 +33,7 @@ struct CarPose {
   double brake = 0.0;               // 0 … 1
   CarLights lights;
   std::int32_t gear = 0;
-  double engine_rpm = 0.0, fuel_l = 0.0, fuel_lph = 0.0;  // litres, litres an hour
+  double engine_rpm = 0.0, fuel_used_l = 0.0, fuel_lph = 0.0;  // litres burnt since the start, litres an hour
   double odometer_m = 0.0;
   double steering_wheel_rad = 0.0;  // positive to the left
   double throttle = 0.0;            // 0 … 1

@@ -9,20 +9,13 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "common/window/display.hpp"
 #include "common/window/input.hpp"
 
 namespace rodeira::window {
 namespace {
 
 constexpr float kOffscreenFrame_s = 1.0f / 60.0f;  // where nobody looks, frames follow one another evenly
-
-bool NamesDisplay() {
-  const auto says_one = [](const char* variable) {
-    const char* name = std::getenv(variable);
-    return name != nullptr && *name != '\0';
-  };
-  return says_one("DISPLAY") || says_one("WAYLAND_DISPLAY");
-}
 
 void AskForContext() {
   SDL_GL_ResetAttributes();
@@ -55,6 +48,9 @@ base::Result<std::unique_ptr<Window>> Window::Open(const Settings& settings) {
                                    : std::string("OpenGL without a display does not start (") + SDL_GetError() + "); the packages libegl1 and libegl-mesa0 were expected");
   }
   window->video_ = true;
+  if (wanted && !IsDisplay(SDL_GetCurrentVideoDriver())) {
+    return base::WrongInput("a window is wanted, but no display answers (" + NamedDisplay() + "); another DISPLAY was expected");
+  }
   if (auto status = window->Make(settings); !status) return status.error();
   return window;
 }

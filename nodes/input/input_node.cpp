@@ -10,6 +10,7 @@
 #include "nodes/input/joystick_source.hpp"
 #include "nodes/input/keyboard_source.hpp"
 #include "nodes/input/pad_source.hpp"
+#include "nodes/input/parked_source.hpp"
 #include "nodes/input/script_source.hpp"
 #include "nodes/input/source.hpp"
 
@@ -92,13 +93,19 @@ base::Result<std::unique_ptr<Source>> MakeScript(const config::Map& config, laun
   return MakeScriptSource(std::move(script).value());
 }
 
+base::Result<std::unique_ptr<Source>> MakePerson(const std::string& device, const config::Map& config, launch::NodeContext& context) {
+  if (device == "keyboard") return MakeKeyboardSource(config, context);
+  if (device == "joystick") return MakeJoystickSource(config, context);
+  return MakePadSource(config, context);
+}
+
 base::Result<std::unique_ptr<Source>> MakeSource(const config::Map& config, launch::NodeContext& context) {
   const std::string source = config.Choice("source", {"script", "autopilot", "keyboard", "joystick", "gamepad"});
   if (source == "autopilot") return MakeAutopilotSource(config, context);
-  if (source == "keyboard") return MakeKeyboardSource(config, context);
-  if (source == "joystick") return MakeJoystickSource(config, context);
-  if (source == "gamepad") return MakePadSource(config, context);
-  return MakeScript(config, context);
+  if (source == "script") return MakeScript(config, context);
+  auto person = MakePerson(source, config, context);
+  if (!person) return person.error();
+  return ParkedSource(std::move(person).value());
 }
 
 }  // namespace

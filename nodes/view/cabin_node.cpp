@@ -104,7 +104,7 @@ void CabinNode::Show(const scene::CarPose* car) {
   const Eigen::Vector3d at = car->p_WB_W + car->q_WB * eye_B;
   const Eigen::Quaterniond& q = car->q_WB;
   group_->setMatrix(osg::Matrixd::rotate(osg::Quat(q.x(), q.y(), q.z(), q.w())) * osg::Matrixd::translate(ToOsg(at)));
-  const std::array<double, 3> values = {3.6 * std::fabs(car->speed_mps), car->engine_rpm, car->fuel_l};
+  const std::array<double, 3> values = {3.6 * std::fabs(car->speed_mps), car->engine_rpm, std::max(0.0, scene::kTank_l - car->fuel_used_l)};
   for (std::size_t i = 0; i < needles_.size(); ++i) {
     needles_[i]->setMatrix(osg::Matrixd::rotate(scene::NeedleAngle_rad(scene::CabinDials()[i].dial, values[i]), osg::Vec3d(0.0, 0.0, 1.0)));
   }

@@ -38,7 +38,7 @@ void Chosen::Choose(const scene::Moment& moment, std::optional<std::size_t> numb
     const scene::CarPose& car = moment.cars[*number];
     who_ = Who{true, car.id};
     since_ns_ = moment.time_ns;
-    since_l_ = car.fuel_l;
+    since_l_ = car.fuel_used_l;
     since_m_ = car.odometer_m;
   } else if (*number - cars < moment.agents.size()) {
     const scene::AgentPose& agent = moment.agents[*number - cars];
@@ -66,7 +66,7 @@ std::string Chosen::Panel(const scene::Moment& moment) {
   const double driven_m = car.odometer_m - since_m_;
   return fmt::format("{:.1f} km/h   gear {}   {:.0f} 1/min\nthrottle {:.0f} %   brake {:.0f} %\nsteering wheel {:.0f} deg\nnow {}\nmean {}", 3.6 * std::fabs(car.speed_mps), GearName(car.gear),
                      car.engine_rpm, 100.0 * car.throttle, 100.0 * car.brake, car.steering_wheel_rad * 180.0 / std::numbers::pi,
-                     Now(car.fuel_lph, car.speed_mps), Mean(since_l_ - car.fuel_l, driven_m));
+                     Now(car.fuel_lph, car.speed_mps), Mean(car.fuel_used_l - since_l_, driven_m));
 }
 
 std::string Chosen::AgentPanel(const scene::Moment& moment, const scene::AgentPose& agent) {

@@ -3,8 +3,7 @@
 #include <SDL.h>
 #include <SDL_opengl.h>
 
-#include <cstdlib>
-#include <cstring>
+#include "common/window/display.hpp"
 
 namespace rodeira::view {
 namespace {
@@ -16,17 +15,6 @@ bool StartVideo(const char* driver) {
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // signals are the run's
   SDL_SetMainReady();
   return SDL_VideoInit(driver) == 0;
-}
-
-bool IsDisplay(const char* driver) { return driver != nullptr && std::strcmp(driver, "offscreen") != 0 && std::strcmp(driver, "dummy") != 0; }
-
-// Without a name there is nobody to ask, and libraries that try complain aloud.
-bool NamesDisplay() {
-  const auto says_one = [](const char* variable) {
-    const char* name = std::getenv(variable);
-    return name != nullptr && *name != '\0';
-  };
-  return says_one("DISPLAY") || says_one("WAYLAND_DISPLAY");
 }
 
 void AskForContext(int samples) {
@@ -53,9 +41,9 @@ bool IsSoftware(const std::string& renderer) {
 }  // namespace
 
 bool HasDisplay() {
-  if (!NamesDisplay()) return false;
+  if (!window::NamesDisplay()) return false;
   if (!StartVideo(nullptr)) return false;
-  const bool display = IsDisplay(SDL_GetCurrentVideoDriver());
+  const bool display = window::IsDisplay(SDL_GetCurrentVideoDriver());
   SDL_VideoQuit();
   return display;
 }
@@ -64,14 +52,14 @@ base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width
                                                        std::optional<Quality> quality) {
   std::unique_ptr<Surface> surface(new Surface());
   surface->kind_ = kind;
-  if (kind == SurfaceKind::kWindow && !NamesDisplay()) return base::WrongInput(kNoDisplay);
+  if (kind == SurfaceKind::kWindow && !window::NamesDisplay()) return base::WrongInput(kNoDisplay);
   if (!StartVideo(kind == SurfaceKind::kOffscreen ? "offscreen" : nullptr)) {
     return base::WrongInput(std::string(kind == SurfaceKind::kWindow ? "a window is wanted, but no display answers (" : "OpenGL without a display does not start (") +
                             SDL_GetError() + (kind == SurfaceKind::kWindow ? "); set DISPLAY, or 'window: never'" : "); the packages libegl1 and libegl-mesa0 were expected"));
   }
   surface->video_ = true;
-  if (kind == SurfaceKind::kWindow && !IsDisplay(SDL_GetCurrentVideoDriver())) {
-    return base::WrongInput(kNoDisplay);
+  if (kind == SurfaceKind::kWindow && !window::IsDisplay(SDL_GetCurrentVideoDriver())) {
+    return base::WrongInput("a window is wanted, but no display answers (" + window::NamedDisplay() + "); another DISPLAY was expected, or 'window: never'");
   }
   if (auto status = surface->MakeWindow(width_px, height_px, title, resizable, display, quality); !status) return status.error();
   return surface;

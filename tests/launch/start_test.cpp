@@ -154,7 +154,7 @@ TEST(Start, WhatWasBegunSaysHowItGoesAndHowItEnded) {
   }
   run.value().Poll();
   EXPECT_EQ(run.value().lines(), (std::vector<std::string>{"loading", "wrong"}));
-  EXPECT_EQ(run.value().State(), "it left with status 3");
+  EXPECT_EQ(run.value().State(), "left with status 3");
   auto endless = StartedRun::Start("/bin/sleep", {"100"});
   ASSERT_TRUE(endless.ok());
   endless.value().Poll();

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "common/base/files.hpp"
@@ -139,6 +140,43 @@ TEST_F(Hosts, ADriveInBadWeatherIsRecordedTheSame) {
 }
 
 // --- the end, on both PCs ---
+
+// Two screens of one seat, each drawn by a PC of its own: at each step the pictures of one PC alone, byte for byte.
+TEST_F(Hosts, ScreensOnTwoPcsShowTheStepsOfOne) {
+  const std::string root = SourceDir();
+  const auto launch = [&](const std::string& lab, const std::string& left, const std::string& right, const std::string& folder) {
+    const auto view = [&](const std::string& screen, const std::string& host) {
+      return "  " + screen + ": {kind: view" + host + ", config: {screen: " + screen + ", window: never, quality: low, mirrors: [], width_px: 320, height_px: 180, frames: {times_s: [0.5, 1.5], folder: " +
+             (folder_.path() / folder / screen).string() + "}}}\n";
+    };
+    return "rodeira: launch/1\nname: seat\nlab: " + lab + "\nworld: " + root + "/configs/worlds/n222.yaml\nduration_s: 1.6\nnodes:\n  road: {kind: road}\n  driver: {kind: input, config: {source: autopilot, driver: " + root +
+           "/configs/drivers/default.yaml, vehicle: " + root + "/configs/vehicles/default.yaml}}\n  ego: {kind: vehicle, config: {vehicle: " + root + "/configs/vehicles/default.yaml}}\n" +
+           view("centre", left) + view("side", right);
+  };
+  const std::string screens = "screens:\n  centre: {width_cm: 70.8, height_cm: 39.8, distance_cm: 70, angle_deg: 0, eye_height_cm: 22}\n"
+                              "  side: {width_cm: 70.8, height_cm: 39.8, distance_cm: 70, angle_deg: -53.66, eye_height_cm: 22}\n";
+  Make(2, Weather{}, "{kind: peers}\n" + screens, launch("lab.yaml", ", host: left", ", host: right", "two"));
+  if (!rig_->problem().empty()) return;
+  (void)folder_.Write("one_lab.yaml", "rodeira: lab/1\ndomain: 8\nrun: seat\ntransport: shared_memory\nhosts: {here: {address: 127.0.0.1}}\n" + screens);
+  const std::string one = folder_.Write("one.yaml", launch("one_lab.yaml", "", "", "one")).string();
+  const Ended alone = RunCommand({Bin("rodeira"), "run", one, "--no-record", "--quiet"});
+  if (alone.out.find("OpenGL") != std::string::npos) GTEST_SKIP() << alone.out;
+  ASSERT_EQ(alone.status, 0) << alone.out;
+  const auto left = Start(0), right = Start(1);
+  const Ended on_left = left->Wait(120s), on_right = right->Wait(30s);
+  ASSERT_EQ(on_left.status, 0) << on_left.out;
+  ASSERT_EQ(on_right.status, 0) << on_right.out;
+  std::set<base::Digest> different;
+  for (const char* screen : {"centre", "side"}) {
+    for (const char* picture : {"step_000000500.png", "step_000001500.png"}) {
+      const auto of_one = base::ReadBytes(folder_.path() / "one" / screen / picture), of_two = base::ReadBytes(folder_.path() / "two" / screen / picture);
+      ASSERT_TRUE(of_one.ok() && of_two.ok()) << screen << " " << picture;
+      EXPECT_EQ(base::Hash(of_one.value()), base::Hash(of_two.value())) << screen << " " << picture;
+      different.insert(base::Hash(of_one.value()));
+    }
+  }
+  EXPECT_EQ(different.size(), 4u) << "another picture at each step and on each screen";
+}
 
 TEST_F(Hosts, TheSecondPcWaitsForTheClockAsLongAsItLikes) {
   Make(2, kNoMulticast, "{kind: peers}", kFour);

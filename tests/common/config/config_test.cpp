@@ -142,6 +142,22 @@ TEST(Config, OverridesReplaceAndAdd) {
   EXPECT_FALSE(file.Override("a", "[1").ok());
 }
 
+// A key that may stand there and does not is known where another is misspelt, and what is misspelt comes before what is missing.
+TEST(Config, WhatMayStandThereIsAmongTheNamesThatAreNear) {
+  const auto file = File::Parse("throtle: 1\nframes: {fsp: 25}\n", "wheel.yaml");
+  ASSERT_TRUE(file.ok());
+  const Map root = file.value().root();
+  EXPECT_FALSE(root.Has("throttle"));
+  const Map frames = root.Child("frames");
+  EXPECT_FALSE(frames.Has("fps"));
+  (void)frames.Text("times_s");
+  const auto problems = file.value().Problems();
+  ASSERT_EQ(problems.size(), 3u);
+  EXPECT_NE(problems[0].Text().find("unknown key 'throtle'; did you mean 'throttle'?"), std::string::npos) << problems[0].Text();
+  EXPECT_NE(problems[1].Text().find("unknown key 'frames.fsp'; did you mean 'fps'?"), std::string::npos) << problems[1].Text();
+  EXPECT_NE(problems[2].Text().find("key 'frames.times_s' is missing"), std::string::npos) << problems[2].Text();
+}
+
 TEST(Config, WhatIsLeftToOthersIsNotUnknown) {
   const File file = Parsed("mine: 1\nyours: {x: 1}\n");
   (void)file.root().Number("mine");

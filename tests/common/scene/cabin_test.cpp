@@ -64,8 +64,12 @@ TEST(Cabin, TheInstrumentsAreSeenAndTheRoadToo) {
 
 // Nobody sits in a post: nothing is nearer to the eye than a hand, and the left half of the body is the right one mirrored at the car's middle.
 TEST(CabinBody, LeavesRoomForAHeadAndIsTheSameOnBothSides) {
-  for (const auto& [width_m, height_m] : {std::pair(1.65, 1.42), std::pair(1.9, 1.9)}) {
-    const CabinShape shape{width_m, height_m, 0.22 * width_m, 1.20};
+  for (const auto& [width_m, height_m] : {std::pair(1.65, 1.42), std::pair(1.9, 1.9), std::pair(1.55, 1.15)}) {
+    CarPose car;
+    car.width_m = width_m, car.height_m = height_m;
+    const Eigen::Vector3d eye_B = DriversEye_B(car);
+    const CabinShape shape{width_m, height_m, eye_B.y(), eye_B.z()};
+    EXPECT_LE(eye_B.z() + shape.roof_m(), height_m) << "the lining is under the roof";
     const Mesh body = BuildCabinBody(shape);
     Eigen::Vector3d left = Eigen::Vector3d::Zero(), right = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < body.triangles.size(); i += 3) {

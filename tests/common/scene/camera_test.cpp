@@ -81,6 +81,10 @@ TEST(Camera, ALorryCloseBehindIsNotWhereTheEyeIs) {
     EXPECT_EQ(BodyOn(moment, {at, (roof - at).normalized()}), std::optional<std::size_t>(0)) << gap_m;
     EXPECT_LT((at - before).norm(), 0.08) << gap_m;
     before = at;
+    const Camera camera = *MakeCamera(CameraKind::kChase, moment, 0, {}, *world);
+    const auto seen = camera.Project(roof, 1280, 720);
+    ASSERT_TRUE(seen) << gap_m;
+    EXPECT_TRUE(seen->y() > 0.0 && seen->y() < 720.0) << gap_m << ": " << seen->transpose();
   }
   EXPECT_EQ(eye(6.0, 0.0), alone);
   EXPECT_EQ(eye(1.0, 3.5), alone) << "in the lane beside";
@@ -109,6 +113,16 @@ TEST(Camera, TheDriverSitsOnTheLeftAndRollsWithTheCar) {
   EXPECT_GT(eye_B.y(), 0.2);
   EXPECT_NEAR(eye_B.z(), 1.20, 1e-9);
   EXPECT_NEAR((car.q_WB.conjugate() * camera.up_W).y(), 0.0, 1e-12);
+}
+
+// In every vehicle of the project, and in lorries: below the roof, and where heads are.
+TEST(Camera, TheDriversEyeIsUnderTheRoof) {
+  CarPose car;
+  for (const auto& [height_m, eye_m] : {std::pair(1.15, 0.94), std::pair(1.42, 1.20), std::pair(2.0, 1.20), std::pair(3.4, 2.2)}) {
+    car.height_m = height_m;
+    EXPECT_NEAR(DriversEye_B(car).z(), eye_m, 1e-9) << height_m;
+    EXPECT_LT(DriversEye_B(car).z(), height_m - 0.2);
+  }
 }
 
 TEST(Camera, KindsGoRoundAndHaveNames) {

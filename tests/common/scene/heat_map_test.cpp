@@ -160,7 +160,7 @@ TEST(HeatMap, ADriversCarSaysWhatItBurns) {
     moment.time_ns = i * kStep_ns;
     moment.cars.emplace_back();
     moment.cars[0].p_WB_W = {0.4 * i, -70.0, 0.0};
-    moment.cars[0].fuel_l = 40.0 - 0.4 * i * 7.0 / 1e5;
+    moment.cars[0].fuel_used_l = 0.4 * i * 7.0 / 1e5;
     map.Add(moment);
   }
   for (const auto& [key, cell] : map.cells()) EXPECT_NEAR(*map.Value(HeatKind::kFuel, cell), 7.0, 1e-6);

@@ -161,5 +161,20 @@ TEST(Window, WithoutADisplayThereIsASentence) {
   EXPECT_EQ(opened.error().exit_status(), 2);
 }
 
+TEST(Window, ADisplayThatDoesNotAnswerIsNamed) {
+  const char* set = std::getenv("DISPLAY");
+  const char* wayland = std::getenv("WAYLAND_DISPLAY");
+  const std::string kept = set != nullptr ? set : "", kept_wayland = wayland != nullptr ? wayland : "";
+  ::unsetenv("WAYLAND_DISPLAY");
+  ::setenv("DISPLAY", ":5517", 1);  // nobody has so many
+  const auto opened = Window::Open({Kind::kWindow, kWidth, kHeight, "test"});
+  if (kept.empty()) ::unsetenv("DISPLAY");
+  else ::setenv("DISPLAY", kept.c_str(), 1);
+  if (!kept_wayland.empty()) ::setenv("WAYLAND_DISPLAY", kept_wayland.c_str(), 1);
+  ASSERT_FALSE(opened.ok());
+  EXPECT_NE(opened.error().Text().find("no display answers (DISPLAY=:5517"), std::string::npos) << opened.error().Text();
+  EXPECT_EQ(opened.error().exit_status(), 2);
+}
+
 }  // namespace
 }  // namespace rodeira::window

@@ -28,7 +28,7 @@ class CabinStill : public DriverStill {
 TEST_F(CabinStill, TheNeedlesPointAtWhatTheCarDoes) {
   Car().speed_mps = 110.0 / 3.6;
   Car().engine_rpm = 2500.0;
-  Car().fuel_l = 40.0;
+  Car().fuel_used_l = scene::kTank_l - 40.0;
   const Image image = Drawn();
   const std::array<std::pair<double, double>, 3> right_and_wrong = {{{110.0, 70.0}, {2500.0, 4000.0}, {40.0, 15.0}}};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -291,7 +291,7 @@ TEST(Chosen, SaysWhatTheCarDoesAndSinceWhen) {
   car.gear = 4;
   car.engine_rpm = 2900.0;
   car.throttle = 0.4;
-  car.fuel_l = 40.0;
+  car.fuel_used_l = 3.00;
   car.fuel_lph = 5.4;  // at 90 km/h: 6 l for 100 km
   car.odometer_m = 1000.0;
   Chosen chosen;
@@ -300,7 +300,7 @@ TEST(Chosen, SaysWhatTheCarDoesAndSinceWhen) {
   EXPECT_NE(chosen.Panel(moment).find("now 6.0 l/100 km"), std::string::npos) << chosen.Panel(moment);
   moment.time_ns = 80'000'000'000;
   car.odometer_m = 3000.0;
-  car.fuel_l = 39.86;
+  car.fuel_used_l = 3.14;
   EXPECT_NE(chosen.Panel(moment).find("mean 7.0 l/100 km over 2.00 km"), std::string::npos) << chosen.Panel(moment);
   moment.time_ns = 0;
   car.odometer_m = 500.0;  // back in a recording: counted from there
