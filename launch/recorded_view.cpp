@@ -107,10 +107,24 @@ base::Status ForEachOf(const replay::RecordedRun& run, std::string_view topic, c
   return {};
 }
 
+// Numbers among the words with six digits: for eyes.
+std::string Rounded(const std::string& words) {
+  std::string out;
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t end = std::min(words.find(' ', at), words.size());
+    const std::string word = words.substr(at, end - at);
+    double number = 0.0;
+    const auto [rest, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
+    out += (out.empty() ? "" : " ") + (problem == std::errc{} && rest == word.data() + word.size() ? fmt::format("{:g}", number) : word);
+    at = end + 1;
+  }
+  return out;
+}
+
 // "weather rain 8", "traffic.brake ahead 4", "traffic.change_lane 3 left"; of a text that somebody wrote only that.
 std::string TextOf(const msg::ScenarioEvent& event) {
   if (event.name() == scenario::kMark) return Shortened(event.argument());
-  const std::string argument = event.argument().empty() ? "" : " " + event.argument();
+  const std::string argument = event.argument().empty() ? "" : " " + Rounded(event.argument());
   const scenario::EventKind* kind = scenario::FindEventKind(event.name());
   std::string value = event.value() != 0.0 ? fmt::format(" {:g}", event.value()) : "";
   if (kind != nullptr && kind->value == scenario::ValueKind::kSide) value = event.value() > 0.0 ? " left" : " right";

@@ -235,7 +235,7 @@ base::Result<std::vector<lockstep::Step>> FilmSteps(const lockstep::Roster& rost
   const double grid_s = static_cast<double>(grid * roster.base_step_ns()) * 1e-9;
   if (!(to_s >= from_s)) return base::WrongInput(fmt::format("a film from {} s to {} s was found; an end behind its beginning was expected", from_s, to_s));
   if (!(fps > 0.0 && fps * grid_s <= 1.0 + 1e-9)) {
-    return base::WrongInput(fmt::format("{} pictures a second were found; at most {:g} were expected, as many as all cars have samples", fps, 1.0 / grid_s));
+    return base::WrongInput(fmt::format("{} pictures a second were found; more than 0 and at most {:g} were expected, as many as all cars have samples", fps, 1.0 / grid_s));
   }
   std::vector<lockstep::Step> steps;
   for (std::int64_t k = 0;; ++k) {
