@@ -273,14 +273,15 @@ TEST_F(WatchTest, TheScenariosEventsAreOnTheBar) {
       msg::ScenarioEvents events;
       if (step == 1) events.events() = {event("weather", "rain", 8.0), event("mark", "here it begins", 0.0)};
       if (step == 3) events.events() = {event("traffic.release", "all", 0.0)};
-      if (step == 4) events.events() = {event("traffic.change_lane", "3", -1.0)};
+      if (step == 4) events.events() = {event("traffic.change_lane", "3", -1.0), event("vehicle.place", "ego -1960.3132921686006 -534.1019500003695 20", 0.0)};
       replay::Must(writer.Write(channel, 0, static_cast<std::uint64_t>(step) * 1'000, 0, idl::Encode(events)));
     }
   }));
   ASSERT_TRUE(run.ok()) << run.error().Text();
   const auto marks = MarksOf(run.value());
   ASSERT_TRUE(marks.ok()) << marks.error().Text();
-  ASSERT_EQ(marks.value().size(), 4u);
+  ASSERT_EQ(marks.value().size(), 5u);
+  EXPECT_EQ(marks.value()[4].text, "vehicle.place ego -1960.31 -534.102 20");
   EXPECT_EQ(marks.value()[0].text, "weather rain 8");
   EXPECT_EQ(marks.value()[1].text, "here it begins");
   EXPECT_EQ(marks.value()[2].text, "traffic.release all");
