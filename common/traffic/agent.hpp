@@ -33,6 +33,11 @@ struct AgentPose {
 // The rectangle of an agent.
 driver::Footprint FootprintOf(const AgentPose& pose, const AgentTraits& traits);
 
+// How a car stands whose axles are on a straight line.
+Eigen::Quaterniond TurnedOn(const lanes::Curve::Straight& straight);
+// Rise over plan distance of its length.
+double GradeOf(const Eigen::Quaterniond& q_WB);
+
 // A part of the path of one agent, by the agent's odometer: the middle of a track, which it approaches from where it came
 // over blend_m from blend_from_m on, offset and slope going to 0 with the smooth polynomials of degree five. Who overtakes drives
 // beside that middle, by aside_m, and the offset is from there.

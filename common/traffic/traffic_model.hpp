@@ -309,6 +309,7 @@ class TrafficModel {
   bool TryEnter(std::uint32_t id);
   void FindColours();
   void FindPoses();
+  const lanes::Curve::Straight* StraightBelow(std::uint32_t id) const;
   AgentPose PoseOf(std::uint32_t id) const;
   AgentPose PoseOfStruck(std::uint32_t id) const;
   double HeightAt(const Struck& struck, double near_z_m) const;
