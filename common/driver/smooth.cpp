@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace rodeira::driver {
 namespace {
@@ -12,7 +13,8 @@ constexpr double kLonger_m = 0.25;
 
 double EasedStop_mps2(double speed_mps, double jerk_mps3, double dt_s) {
   const double step = jerk_mps3 * dt_s, v = std::max(0.0, speed_mps) / (step * dt_s);
-  const double n = std::floor(0.5 * (std::sqrt(1.0 + 8.0 * v) - 1.0));
+  const double steps = 0.5 * (std::sqrt(1.0 + 8.0 * v) - 1.0);
+  const double n = steps < 1e15 ? static_cast<double>(static_cast<std::int64_t>(steps)) : std::floor(steps);  // in registers
   return step * (n + (v - 0.5 * n * (n + 1.0)) / (n + 1.0));
 }
 

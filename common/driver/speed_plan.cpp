@@ -23,6 +23,7 @@ double AllowedSquared(const Way& path, const SpeedPlanSettings& settings, double
 }
 
 SpeedPlan::Allowed Between(const SpeedPlan::Node& a, const SpeedPlan::Node& b, double d_m) {
+  if (a.squared_m2ps2 == b.squared_m2ps2 && a.squared_m2ps2 >= 0.0) return {std::sqrt(a.squared_m2ps2), 0.0};  // most of a street, and the same bits
   const double rise = (b.squared_m2ps2 - a.squared_m2ps2) / (b.d_m - a.d_m);  // d(v²)/dd = 2 v dv/dd
   const double squared = a.squared_m2ps2 + (std::max(0.0, d_m) - a.d_m) * rise;
   return {std::sqrt(std::max(0.0, squared)), 0.5 * rise / std::sqrt(std::max(squared, kLeastSquared_m2ps2))};

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "common/base/assert.hpp"
-
 namespace rodeira::traffic {
 namespace {
 
@@ -17,13 +15,6 @@ constexpr double kSame_m = 1e-4, kSame = 1e-4;  // lanes that meet so are one
 constexpr std::size_t kPieceNumbers = 7;
 
 }  // namespace
-
-ZoneGrant Agent::GrantOf(double out_m) const {
-  for (const ZoneGrant& grant : grants) {
-    if (out_m <= grant.to_m) return grant;
-  }
-  return {};
-}
 
 void Agent::Save(base::StateWriter& writer) const {
   writer.Put("on_road", on_road);
@@ -141,13 +132,6 @@ void Agent::Restore(base::StateReader& reader) {
     path.push_back({tracks[i], at[0], at[1], at[2], at[3], at[4], at[5], at[6]});
   }
   on_road = on_road && !is_struck && !path.empty();
-}
-
-const Piece& PieceAt(const Path& path, double odometer_m) {
-  RODEIRA_ASSERT(!path.empty());
-  std::size_t i = path.size() - 1;
-  while (i > 0 && path[i].begin_m > odometer_m) --i;
-  return path[i];
 }
 
 PathFrame FrameAt(const lanes::Graph& graph, const Path& path, double odometer_m) {

@@ -5,6 +5,7 @@
 #include <boost/container/small_vector.hpp>
 #include <cstdint>
 
+#include "common/base/assert.hpp"
 #include "common/base/state.hpp"
 #include "common/driver/footprint.hpp"
 #include "common/lanes/graph.hpp"
@@ -32,6 +33,11 @@ struct AgentPose {
 
 // The rectangle of an agent.
 driver::Footprint FootprintOf(const AgentPose& pose, const AgentTraits& traits);
+
+// How a car stands whose axles are on a straight line.
+Eigen::Quaterniond TurnedOn(const lanes::Curve::Straight& straight);
+// Rise over plan distance of its length.
+double GradeOf(const Eigen::Quaterniond& q_WB);
 
 // A part of the path of one agent, by the agent's odometer: the middle of a track, which it approaches from where it came
 // over blend_m from blend_from_m on, offset and slope going to 0 with the smooth polynomials of degree five. Who overtakes drives
@@ -104,7 +110,12 @@ struct alignas(64) Agent {
   double struck_z_m = 0.0;  // its height, where no lane is below it
 
   // That of a zone with this end; nothing for zones that it came into without any.
-  ZoneGrant GrantOf(double out_m) const;
+  ZoneGrant GrantOf(double out_m) const {
+    for (const ZoneGrant& grant : grants) {
+      if (out_m <= grant.to_m) return grant;
+    }
+    return {};
+  }
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
@@ -122,7 +133,12 @@ struct PathFrame {
 };
 PathFrame FrameAt(const lanes::Graph& graph, const Path& path, double odometer_m);
 // The piece on which an odometer lies, and the path there by the point of that piece's track.
-const Piece& PieceAt(const Path& path, double odometer_m);
+inline const Piece& PieceAt(const Path& path, double odometer_m) {
+  RODEIRA_ASSERT(!path.empty());
+  std::size_t i = path.size() - 1;
+  while (i > 0 && path[i].begin_m > odometer_m) --i;
+  return path[i];
+}
 PathFrame FrameOn(const Piece& piece, const lanes::CurvePoint& at, double odometer_m);
 
 // The piece that begins at the end of the path's last one and goes on by a link, joining the new middle comfortably.

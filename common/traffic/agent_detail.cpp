@@ -82,7 +82,7 @@ std::vector<AgentDetail> TrafficModel::Details() {
         detail.look_ahead_W = MotorsLooksAt(id);
         detail.target_mps = own->stops || agent.brake_mps2 > 0.0 ? 0.0 : TurningSpeed_mps(MotorsTurn_rad(id, detail.look_ahead_W), std::min(kMotorsLimit_mps, Cap_mps(id)));
       }
-      const vehicle::BicycleSettings& car = CarOfBody(traits_[id].body);
+      const PlanarCar& car = PlanarCarOfBody(traits_[id].body);
       // In the plane what goes with the motion as it is now, which the next step goes on from.
       detail.driving = full_ ? full_->DrivingOf(id) : DriveOn(car, agent.driving, agent.speed_mps, agent.acceleration_mps2, agent.grade, 0.0);
       detail.fuel_mgps = full_ ? agent.fuel_mgps : FuelFlow_mgps(car, detail.driving);

@@ -39,7 +39,8 @@ bool TrafficModel::RoomBehind(std::uint32_t id, const Crossing& crossing, const 
   const Passage& passage = passages_[id];
   if (!passage.able || zones()[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge) return true;
   const double its_rear = agents_[holder.id].o_m - 0.5 * traits_[holder.id].length_m;
-  return crossing.out_m + its_rear + ReachOf(holder.id, 0) - holder.out_m >= passage.room_m;
+  if (crossing.out_m + its_rear + ReachOf(holder.id, 0) - holder.out_m < passage.room_m) return false;
+  return LeavesInTime(id, holder.id, passage.room_m - crossing.out_m + holder.out_m - its_rear);
 }
 
 // Whether who holds the zone takes up the same room behind it, and does not go round there.

@@ -141,4 +141,13 @@ const vehicle::BicycleSettings& CarOfBody(std::uint32_t body) {
   return kCars[body];
 }
 
+const PlanarCar& PlanarCarOfBody(std::uint32_t body) {
+  static const std::vector<PlanarCar> kCars = [] {
+    std::vector<PlanarCar> cars;
+    for (std::uint32_t i = 0; i < kBodies; ++i) cars.emplace_back(CarOfBody(i));
+    return cars;
+  }();
+  return kCars[body];
+}
+
 }  // namespace rodeira::traffic

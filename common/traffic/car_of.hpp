@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/traffic/drivetrain.hpp"
 #include "common/traffic/traffic_settings.hpp"
 #include "common/vehicle/bicycle_settings.hpp"
 
@@ -12,5 +13,6 @@ vehicle::BicycleSettings CarOf(const AgentTraits& traits);
 
 // The same by AgentTraits::body, made once.
 const vehicle::BicycleSettings& CarOfBody(std::uint32_t body);
+const PlanarCar& PlanarCarOfBody(std::uint32_t body);
 
 }  // namespace rodeira::traffic

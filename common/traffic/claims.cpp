@@ -61,7 +61,7 @@ void TrafficModel::AskForZones() {
 // A head that waits to be granted its zones comes to them; where nobody asks it is not told.
 void TrafficModel::ComeToZones(std::uint32_t id) {
   const Passage& passage = passages_[id];
-  if (agents_[id].brake_mps2 > 0.0 || passage.red || passage.barred) return;
+  if (agents_[id].brake_mps2 > 0.0 || passage.red || passage.barred || (passage.due && !(passage.head && passage.able))) return;
   const auto is_asked = [&](const Crossing& crossing) {
     return crossing.zone >= 0 && is_asked_[static_cast<std::size_t>(2 * crossing.zone + crossing.side)] != 0;
   };

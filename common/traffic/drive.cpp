@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kLeast_mps = 0.01;
 constexpr double kSlow_mps = 0.3;
+constexpr double kAbove = 1.0 + 1e-9;  // than any rounding of a square
 constexpr double kLeastGap_m = 0.02;
 constexpr double kEased_mps2 = 4.0;  // harder braking than this is let go of later
 constexpr double kComes_mps = -0.1, kEvades_mps2 = 1.0;  // who comes on the own lane; braking from which on it is braked for as hard as can be
@@ -36,7 +37,9 @@ driver::SpeedPlan::Allowed TrafficModel::Allowed(std::uint32_t id, double odomet
     }
     const double there = stretch.planned_mps;
     const double b = settings_.speed.braking_mps2;
-    const double now = std::sqrt(there * there + 2.0 * b * (stretch.begin_m - odometer_m));
+    const double squared = there * there + 2.0 * b * (stretch.begin_m - odometer_m);
+    if (squared > kAbove * allowed.speed_mps * allowed.speed_mps) continue;  // its root is no less
+    const double now = std::sqrt(squared);
     if (now < allowed.speed_mps) allowed = {now, -b / std::max(now, kLeast_mps)};
   }
   return allowed;

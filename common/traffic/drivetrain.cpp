@@ -17,14 +17,6 @@ double Resistance_N(const vehicle::BicycleSettings& car, double speed_mps, doubl
   return weight_N * (grade + car.wheel.rolling_resistance) + vehicle::AirDrag(car.body.air_density_kgpm3, car.body.drag_area_m2, speed_mps);
 }
 
-// An engine without a torque curve's ends: what there is to open the throttle for, and the drag.
-struct Torques {
-  double full_Nm = 0.0, drag_Nm = 0.0;
-
-  Torques(const vehicle::EngineSettings& engine, double radps) : full_Nm(vehicle::FullLoadTorque(engine, radps)), drag_Nm(vehicle::DragTorque(engine, radps)) {}
-  double Net(double throttle) const { return throttle * (full_Nm + drag_Nm) - drag_Nm; }
-};
-
 // What the gears leave of an engine's torque at both driven wheels together (the inverse of vehicle::ShaftTorque).
 double AtWheels(const vehicle::GearboxSettings& gearbox, double ratio, double engine_Nm) {
   return ratio * engine_Nm * (engine_Nm > 0.0 ? gearbox.efficiency : 2.0 - gearbox.efficiency);
@@ -38,35 +30,48 @@ double FullBrake_N(const vehicle::BicycleSettings& car) {
   return torque_Nm / car.wheel.rolling_radius_m;
 }
 
+// An engine without a torque curve's ends: what there is to open the throttle for, and the drag.
+Torques::Torques(const vehicle::EngineSettings& engine, double radps) : full_Nm(vehicle::FullLoadTorque(engine, radps)), drag_Nm(vehicle::DragTorque(engine, radps)) {}
+
+PlanarCar::PlanarCar(const vehicle::BicycleSettings& of)
+    : settings_(&of), full_brake_N_(FullBrake_N(of)), idling_(of.powertrain.engine, of.powertrain.engine.idle_radps) {
+  for (int gear = 1; gear <= static_cast<int>(of.powertrain.gearbox.forward.size()); ++gear) ratios_.push_back(vehicle::TotalRatio(of.powertrain.gearbox, gear));
+}
+
 namespace {
 
 // What it takes to drive so.
 struct Demand {
-  const vehicle::BicycleSettings& car;
-  double speed_mps, force_N, at_wheels_Nm;
+  const PlanarCar& car;
+  double speed_mps, resistance_N, force_N, at_wheels_Nm, wheels_radps;
 
-  Demand(const vehicle::BicycleSettings& of, double v, double acceleration_mps2, double grade)
-      : car(of), speed_mps(v), force_N(of.body.mass_kg * acceleration_mps2 + Resistance_N(of, v, grade)), at_wheels_Nm(force_N * of.wheel.rolling_radius_m) {}
+  Demand(const PlanarCar& planar, double v, double acceleration_mps2, double grade) : car(planar), speed_mps(v) {
+    const vehicle::BicycleSettings& of = planar.settings();
+    resistance_N = Resistance_N(of, v, grade);
+    force_N = of.body.mass_kg * acceleration_mps2 + resistance_N;
+    at_wheels_Nm = force_N * of.wheel.rolling_radius_m;
+    wheels_radps = v / of.wheel.rolling_radius_m;
+  }
 
-  double Turns_radps(int gear) const { return speed_mps / car.wheel.rolling_radius_m * vehicle::TotalRatio(car.powertrain.gearbox, gear); }
+  double Turns_radps(int gear) const { return wheels_radps * car.Ratio(gear); }
   // Whether the engine can do `margin` times it in this gear.
   bool Reaches(int gear, double margin = 1.0) const {
-    const vehicle::PowertrainSettings& p = car.powertrain;
-    const double ratio = vehicle::TotalRatio(p.gearbox, gear), wheels = speed_mps / car.wheel.rolling_radius_m;
-    return at_wheels_Nm <= 0.0 || AtWheels(p.gearbox, ratio, vehicle::FullLoadTorque(p.engine, std::max(p.engine.idle_radps, wheels * ratio))) >= margin * at_wheels_Nm;
+    const vehicle::PowertrainSettings& p = car.settings().powertrain;
+    const double ratio = car.Ratio(gear);
+    return at_wheels_Nm <= 0.0 || AtWheels(p.gearbox, ratio, vehicle::FullLoadTorque(p.engine, std::max(p.engine.idle_radps, wheels_radps * ratio))) >= margin * at_wheels_Nm;
   }
 };
 
 // The highest gear in which the engine neither labours nor is too weak.
 int BestGear(const Demand& demand) {
-  const vehicle::PowertrainSettings& p = demand.car.powertrain;
-  int gear = static_cast<int>(p.gearbox.forward.size());
+  const vehicle::PowertrainSettings& p = demand.car.settings().powertrain;
+  int gear = demand.car.gears();
   while (gear > 1 && (demand.Turns_radps(gear) < p.automatic.down_light_radps || (!demand.Reaches(gear) && demand.Turns_radps(gear - 1) < p.engine.resume_radps))) --gear;
   return gear;
 }
 
 int NextGear(const Demand& demand, const Driving& before) {
-  const vehicle::PowertrainSettings& p = demand.car.powertrain;
+  const vehicle::PowertrainSettings& p = demand.car.settings().powertrain;
   const int best = BestGear(demand), gear = before.gear;
   if (before.engine_radps <= 0.0 || best == gear) return best;
   if (best < gear) {
@@ -82,20 +87,22 @@ int NextGear(const Demand& demand, const Driving& before) {
   return gear;
 }
 
-Driving Standing(const vehicle::BicycleSettings& car, double grade) {
-  return {0.0, std::min(1.0, kHolding + car.body.mass_kg * kGravity_mps2 * std::fabs(grade) / FullBrake_N(car)), 1.0, car.powertrain.engine.idle_radps, 1};
+Driving Standing(const PlanarCar& car, double grade) {
+  const vehicle::BicycleSettings& of = car.settings();
+  return {0.0, std::min(1.0, kHolding + of.body.mass_kg * kGravity_mps2 * std::fabs(grade) / car.full_brake_N()), 1.0, of.powertrain.engine.idle_radps, 1};
 }
 
+// How fast the engine turns in a gear.
+double EngineIn_radps(int gear, const Demand& demand) { return std::max(demand.car.settings().powertrain.engine.idle_radps, demand.Turns_radps(gear)); }
+
 // The pedals for it in a gear.
-Driving DrivingIn(int gear, const Demand& demand) {
-  const vehicle::PowertrainSettings& p = demand.car.powertrain;
-  const double idle = p.engine.idle_radps, turns = demand.Turns_radps(gear);
+Driving DrivingIn(int gear, const Demand& demand, const Torques& torques) {
+  const vehicle::PowertrainSettings& p = demand.car.settings().powertrain;
   Driving driving;
   driving.gear = gear;
-  driving.engine_radps = std::max(idle, turns);
-  driving.clutch = std::clamp(1.0 - turns / idle, 0.0, 1.0);
-  const Torques torques(p.engine, driving.engine_radps);
-  const double ratio = vehicle::TotalRatio(p.gearbox, gear);
+  driving.engine_radps = EngineIn_radps(gear, demand);
+  driving.clutch = std::clamp(1.0 - demand.Turns_radps(gear) / p.engine.idle_radps, 0.0, 1.0);
+  const double ratio = demand.car.Ratio(gear);
   if (demand.force_N < 0.0 && driving.clutch > 0.0) {
     driving.clutch = 1.0;  // nothing is left for the engine to do
   } else {
@@ -103,44 +110,61 @@ Driving DrivingIn(int gear, const Demand& demand) {
     driving.throttle = std::clamp((wanted + torques.drag_Nm) / (torques.full_Nm + torques.drag_Nm), 0.0, 1.0);
   }
   if (driving.throttle > 0.0) return driving;
-  const double overrun_N = -AtWheels(p.gearbox, ratio, -torques.drag_Nm) / demand.car.wheel.rolling_radius_m * (1.0 - driving.clutch);
-  driving.brake = std::clamp((-demand.force_N - overrun_N) / FullBrake_N(demand.car), 0.0, 1.0);
+  const double overrun_N = -AtWheels(p.gearbox, ratio, -torques.drag_Nm) / demand.car.settings().wheel.rolling_radius_m * (1.0 - driving.clutch);
+  driving.brake = std::clamp((-demand.force_N - overrun_N) / demand.car.full_brake_N(), 0.0, 1.0);
   return driving;
+}
+
+Torques TorquesIn(int gear, const Demand& demand) { return {demand.car.settings().powertrain.engine, EngineIn_radps(gear, demand)}; }
+
+double AccelerationOf(const PlanarCar& car, const Driving& driving, double speed_mps, double resistance_N, const Torques& torques) {
+  const vehicle::BicycleSettings& of = car.settings();
+  const double net_Nm = torques.Net(driving.throttle) * (driving.throttle > 0.0 ? 1.0 : 1.0 - driving.clutch);
+  const double push_N = AtWheels(of.powertrain.gearbox, car.Ratio(driving.gear), net_Nm) / of.wheel.rolling_radius_m;
+  const double brake_N = driving.brake * car.full_brake_N();
+  if (speed_mps <= 0.0 && push_N - resistance_N - brake_N <= 0.0) return 0.0;
+  return (push_N - resistance_N - brake_N) / of.body.mass_kg;
+}
+
+double FuelFlow_mgps(const PlanarCar& car, const Driving& driving, const Torques& torques) {
+  const vehicle::EngineSettings& engine = car.settings().powertrain.engine;
+  double indicated_Nm = driving.throttle * (torques.full_Nm + torques.drag_Nm);
+  if (driving.clutch > 0.0) indicated_Nm = std::max(indicated_Nm, torques.drag_Nm);  // idle control
+  return 1e6 * indicated_Nm * driving.engine_radps / (engine.indicated_efficiency * engine.heating_value_Jpkg);
 }
 
 }  // namespace
 
-Driving DrivingFor(const vehicle::BicycleSettings& car, double speed_mps, double acceleration_mps2, double grade) {
+Driving DrivingFor(const PlanarCar& car, double speed_mps, double acceleration_mps2, double grade) {
   if (speed_mps <= 0.0 && acceleration_mps2 <= 0.0) return Standing(car, grade);
   const Demand demand(car, speed_mps, acceleration_mps2, grade);
-  return DrivingIn(BestGear(demand), demand);
+  const int gear = BestGear(demand);
+  return DrivingIn(gear, demand, TorquesIn(gear, demand));
 }
 
-Driving DriveOn(const vehicle::BicycleSettings& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double dt_s) {
-  if (speed_mps <= 0.0 && acceleration_mps2 <= 0.0) return Standing(car, grade);
+Driving DriveOn(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double dt_s) {
+  return Drive(car, before, speed_mps, acceleration_mps2, grade, dt_s).driving;
+}
+
+double AccelerationOf(const PlanarCar& car, const Driving& driving, double speed_mps, double grade) {
+  return AccelerationOf(car, driving, speed_mps, Resistance_N(car.settings(), speed_mps, grade), Torques(car.settings().powertrain.engine, driving.engine_radps));
+}
+
+double FuelFlow_mgps(const PlanarCar& car, const Driving& driving) {
+  return FuelFlow_mgps(car, driving, Torques(car.settings().powertrain.engine, driving.engine_radps));
+}
+
+Driven Drive(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double dt_s) {
+  if (speed_mps <= 0.0 && acceleration_mps2 <= 0.0) {
+    const Driving held = Standing(car, grade);
+    return {held, AccelerationOf(car, held, speed_mps, Resistance_N(car.settings(), speed_mps, grade), car.idling()), FuelFlow_mgps(car, held, car.idling())};
+  }
   const Demand demand(car, speed_mps, acceleration_mps2, grade);
   const int gear = NextGear(demand, before);
-  Driving driving = DrivingIn(gear, demand);
+  const Torques torques = TorquesIn(gear, demand);
+  Driving driving = DrivingIn(gear, demand, torques);
   driving.gear_s = gear == before.gear ? before.gear_s + dt_s : 0.0;
-  return driving;
-}
-
-double AccelerationOf(const vehicle::BicycleSettings& car, const Driving& driving, double speed_mps, double grade) {
-  const Torques torques(car.powertrain.engine, driving.engine_radps);
-  const double net_Nm = torques.Net(driving.throttle) * (driving.throttle > 0.0 ? 1.0 : 1.0 - driving.clutch);
-  const double ratio = vehicle::TotalRatio(car.powertrain.gearbox, driving.gear);
-  const double push_N = AtWheels(car.powertrain.gearbox, ratio, net_Nm) / car.wheel.rolling_radius_m;
-  const double brake_N = driving.brake * FullBrake_N(car), resistance_N = Resistance_N(car, speed_mps, grade);
-  if (speed_mps <= 0.0 && push_N - resistance_N - brake_N <= 0.0) return 0.0;
-  return (push_N - resistance_N - brake_N) / car.body.mass_kg;
-}
-
-double FuelFlow_mgps(const vehicle::BicycleSettings& car, const Driving& driving) {
-  const vehicle::EngineSettings& engine = car.powertrain.engine;
-  const Torques torques(engine, driving.engine_radps);
-  double indicated_Nm = driving.throttle * (torques.full_Nm + torques.drag_Nm);
-  if (driving.clutch > 0.0) indicated_Nm = std::max(indicated_Nm, torques.drag_Nm);  // idle control
-  return 1e6 * indicated_Nm * driving.engine_radps / (engine.indicated_efficiency * engine.heating_value_Jpkg);
+  return {driving, AccelerationOf(car, driving, speed_mps, demand.resistance_N, torques), FuelFlow_mgps(car, driving, torques)};
 }
 
 }  // namespace rodeira::traffic

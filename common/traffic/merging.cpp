@@ -57,7 +57,7 @@ void TrafficModel::YieldInZones(std::uint32_t id) {
   double nearest = 1e9;
   const std::int64_t eased_for = std::exchange(agent.eased_for, -1);
   for (const Stretch& stretch : stretches_[id]) {
-    if (stretch.begin_m > agent.granted_m) break;
+    if (agent.grants.empty() || stretch.begin_m > agent.granted_m) break;  // without any nobody goes before it by his number
     if (!stretch.crosses) continue;
     for (const lanes::ZoneSide& part : zones().ConflictsOf(stretch.track)) {
       const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;

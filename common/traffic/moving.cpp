@@ -39,10 +39,10 @@ base::Status TrafficModel::PlaceFull(std::uint32_t id) {
 // The pedals for the acceleration, and what they give, held over the step; a car that comes to rest stays at rest.
 void TrafficModel::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s) {
   Agent& agent = agents_[id];
-  const vehicle::BicycleSettings& car = CarOfBody(traits_[id].body);
   const double before = agent.speed_mps;
-  agent.driving = DriveOn(car, agent.driving, before, wanted_mps2, agent.grade, dt_s);
-  const double acceleration = AccelerationOf(car, agent.driving, before, agent.grade);
+  const Driven driven = Drive(PlanarCarOfBody(traits_[id].body), agent.driving, before, wanted_mps2, agent.grade, dt_s);
+  agent.driving = driven.driving;
+  const double acceleration = driven.acceleration_mps2;
   double travel = (before + 0.5 * acceleration * dt_s) * dt_s;
   double after = before + acceleration * dt_s;
   if (after < 0.0) {
@@ -52,7 +52,7 @@ void TrafficModel::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s)
   agent.acceleration_mps2 = agent.wish_mps2 = (after - before) / dt_s;  // he goes on from what the car can
   agent.speed_mps = after;
   agent.driven_m += travel;
-  agent.fuel_mgps = FuelFlow_mgps(car, agent.driving);
+  agent.fuel_mgps = driven.fuel_mgps;
   agent.fuel_mg += agent.fuel_mgps * dt_s;
   if (travel > 0.0) agent.o_m = Moved(id, travel);
 }

@@ -98,7 +98,7 @@ PassCase TrafficModel::CaseOf(std::uint32_t id, const Ahead& passed, double top_
       steepest = std::max(steepest, graph()[stretch.track].curve.At(at - stretch.zero_m).grade);
     }
   }
-  const vehicle::BicycleSettings& car = CarOfBody(traits.body);
+  const PlanarCar& car = PlanarCarOfBody(traits.body);
   const double wants = kHaste * traits.idm.acceleration_mps2;
   PassCase pass;
   pass.speed_mps = agent.speed_mps, pass.passed_mps = std::max(0.0, passed.speed_mps), pass.top_mps = top_mps;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/traffic/traffic_model.hpp"
+#include "common/traffic/travel_time.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -13,6 +14,8 @@ constexpr double kLoose_m = 0.5;       // more than its standing gap that a queu
 constexpr double kNever_m = 1e18;
 constexpr double kRoom_m = 5.0;        // before who stands anywhere else than at a line
 constexpr int kDeepest = 256;           // longer columns count as ending there
+constexpr double kStands_mps = 0.5, kFollows_s = 1.2, kClose_m = 3.0;  // slower, who has no more than so far to close up starts so much later than who is ahead
+constexpr double kWaits_s = 3.0;        // within its zones for who leaves it room, at most, as told beforehand
 
 double StopsWithin(double speed_mps) { return std::max(0.0, speed_mps) * speed_mps / (2.0 * kHardest_mps2); }
 
@@ -78,6 +81,29 @@ double TrafficModel::ReachOf(std::uint32_t id, int depth) {
   return reaches_[id] = std::max(0.0, to - front);
 }
 
+// Whether somebody has gone so far before this one has long been waiting at the end of its zones. Who stands starts so long after all who stand in a row
+// before him; who drives up to such a row comes as far as its end before.
+bool TrafficModel::LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) const {
+  double comes = 0.0, starts = 0.0;
+  std::uint32_t at = other;
+  for (int depth = 0; depth < kDeepest; ++depth) {
+    const Agent& agent = agents_[at];
+    const Ahead& ahead = ahead_[at];
+    const bool stands = agent.speed_mps < kStands_mps;
+    const std::int64_t next = agent.eased_for >= 0 ? agent.eased_for : ahead.id;
+    const double gap = next == ahead.id ? ahead.gap_m : 0.0, closes = std::max(0.0, gap - traits_[at].idm.standing_gap_m);
+    if (next < 0 || next == other || (stands ? closes > kClose_m : starts > 0.0)) break;
+    if (stands) starts += kFollows_s;
+    else comes += closes;
+    if (starts == 0.0 && comes >= way_m) return true;
+    at = static_cast<std::uint32_t>(next);
+  }
+  if (starts == 0.0) return true;
+  const double leaves = starts + TravelTime(way_m - comes, 0.0, Desired_mps(other), traits_[other].start_mps2);
+  const double arrives = TravelTime(passages_[id].end_m - FrontOf(id), agents_[id].speed_mps, AllowedAt(id, passages_[id].end_m), traits_[id].start_mps2);
+  return leaves < arrives + kWaits_s;
+}
+
 // Whether it can stand behind the zones once all before it have come as far as they surely do. Who waits before it at the
 // same line makes it no head.
 void TrafficModel::FindRoom(std::uint32_t id) {
@@ -93,6 +119,7 @@ void TrafficModel::FindRoom(std::uint32_t id) {
     }
     if (other < 0) return;
     const auto next = static_cast<std::uint32_t>(other);
+    if (passage.able && !LeavesInTime(id, next, to - rear_m)) passage.able = false, passage.waits_for = other;
     const double its_line = rear_m + 0.5 * traits_[next].length_m + passages_[next].line_m - agents_[next].o_m;
     if (passages_[next].any && its_line < passage.line_m + kSameLine_m) passage.head = false;
   });

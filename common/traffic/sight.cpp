@@ -43,7 +43,10 @@ void TrafficModel::LookBelow(std::uint32_t id) {
     return;
   }
   const lanes::Track& on = graph()[track];
-  below = {track, static_cast<std::int32_t>(on.lane.road), on.lane.lane, !on.next.empty(), on.left || on.right, on.length_m(), on.curve.straight(), map_->plans[track].plan.Around(d)};
+  below = {track, static_cast<std::int32_t>(on.lane.road), on.lane.lane, !on.next.empty(), on.left || on.right, on.length_m(), on.curve.straight(), std::nullopt, 0.0, map_->plans[track].plan.Around(d)};
+  if (!on.curve.straight() || on.curve.straight()->bank_1pm != 0.0) return;
+  below.turned = TurnedOn(*on.curve.straight());
+  below.grade = GradeOf(*below.turned);
 }
 
 PathFrame TrafficModel::FrameOf(std::uint32_t id, double odometer_m) const {

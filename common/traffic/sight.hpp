@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,8 @@ struct Below {
   bool has_beside = false;  // there is another lane of its direction beside it
   double length_m = 0.0;
   std::optional<lanes::Curve::Straight> straight;
+  std::optional<Eigen::Quaterniond> turned;  // how a car stands anywhere on a straight whose surface does not twist …
+  double grade = 0.0;                        // … and climbs
   driver::SpeedPlan::Part plan;  // about that place
 };
 

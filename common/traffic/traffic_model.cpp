@@ -168,7 +168,11 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
     missed_now_[id] = Follow(id);
     ends_[id] = AtTheEnd(id);
     is_moved_[id] = !ends_[id];
-    if (!ends_[id]) moved_[id] = PoseOf(id);
+    if (!ends_[id]) {
+      moved_[id] = PoseOf(id);
+      const bool as_below = below_[id].turned && moved_[id].q_WB.coeffs() == below_[id].turned->coeffs();
+      agents_[id].grade = as_below ? below_[id].grade : GradeOf(moved_[id].q_WB);
+    }
     const auto& path = agents_[id].path;
     at_entry_[id] = std::any_of(path.begin(), path.end(), [&](const Piece& piece) { return map_->enters[piece.track]; });
   });
@@ -210,9 +214,7 @@ double TrafficModel::Advance(std::uint32_t id, double odometer_m) const {
 // The odometer when that point has gone so far; where bends are tight, and beside a lane's middle, found by secants.
 double TrafficModel::Moved(std::uint32_t id, double travel_m) const {
   const Agent& agent = agents_[id];
-  const Piece& piece = agent.path.front();
-  const bool on_line = agent.path.size() == 1 && piece.offset_m == 0.0 && piece.slope == 0.0 && piece.aside_m == 0.0;
-  if (on_line && (below_[id].track == piece.track ? below_[id].straight : graph()[piece.track].curve.straight())) return agent.o_m + travel_m;
+  if (StraightBelow(id) != nullptr) return agent.o_m + travel_m;
   const double rate = Advance(id, agent.o_m + 0.5 * travel_m);
   double odometer = agent.o_m + travel_m / rate;
   if (std::fabs(rate - 1.0) * travel_m < kGentle_m && agent.change.side == 0 && !agent.overtaking.active()) return odometer;

@@ -212,6 +212,7 @@ class TrafficModel {
   void EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell);
   double ReachOf(std::uint32_t id, int depth);
   void FindRoom(std::uint32_t id);
+  bool LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) const;
   void TellComing(std::uint32_t id);
   void AskForZones();
   void ComeToZones(std::uint32_t id);
@@ -309,6 +310,7 @@ class TrafficModel {
   bool TryEnter(std::uint32_t id);
   void FindColours();
   void FindPoses();
+  const lanes::Curve::Straight* StraightBelow(std::uint32_t id) const;
   AgentPose PoseOf(std::uint32_t id) const;
   AgentPose PoseOfStruck(std::uint32_t id) const;
   double HeightAt(const Struck& struck, double near_z_m) const;

@@ -9,6 +9,7 @@
 #include "common/base/files.hpp"
 #include "common/base/temporary_folder.hpp"
 #include "common/map/heights.hpp"
+#include "common/map/lane_map.hpp"
 #include "common/map/map_network.hpp"
 #include "common/scenario/scenario_file.hpp"
 #include "common/traffic/map_demand.hpp"
@@ -144,6 +145,31 @@ TEST(TrafficFiles, LightsOfMaps) {
   }, MutateStructure);
   if (Setting("RODEIRA_FUZZ_FILES", 2000) >= 1000) {
     EXPECT_GT(conflicts, 0);
+  }
+}
+
+// Maps: what can be made into lanes at all can be made into a network, and driven on.
+TEST(TrafficFiles, MapsChangedByBytes) {
+  const auto crossing = base::ReadText(kRoot / "configs/maps/crossing.motors"), roundabout = base::ReadText(kRoot / "configs/maps/roundabout.motors");
+  ASSERT_TRUE(crossing.ok() && roundabout.ok());
+  int driven = 0;
+  Fuzz("motors, driven", {crossing.value(), roundabout.value()}, [&](const std::string& text) -> std::optional<base::Error> {
+    const auto file = map::ParseMap(text, "fuzz.motors");
+    if (!file) return file.error();
+    const auto made = map::MakeLaneMap(file.value(), {}, "fuzz.motors");
+    if (!made) return made.error();
+    const auto network = map::ToNetwork(made.value(), "fuzz.motors");
+    if (!network) return network.error();
+    traffic::TrafficSettings settings;
+    settings.vehicles = 6;
+    auto model = traffic::TrafficModel::Make(settings, network.value(), {});
+    if (!model) return model.error();
+    Drive(model.value());
+    driven += model.value().on_road() > 0 ? 1 : 0;
+    return std::nullopt;
+  });
+  if (Setting("RODEIRA_FUZZ_FILES", 2000) >= 1000) {
+    EXPECT_GT(driven, 100);
   }
 }
 

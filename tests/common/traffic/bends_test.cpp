@@ -37,7 +37,9 @@ Felt DriveOver(const std::shared_ptr<const road::World>& world, double step_s) {
       const double lateral = std::fabs(pose.speed_mps * std::remainder(heading - before[pose.id].heading_rad, 2.0 * std::numbers::pi) / step_s);
       if (before[pose.id].trip == static_cast<std::int64_t>(pose.trip)) {
         felt.over_mps = std::max(felt.over_mps, over);
-        if (lateral > felt.lateral_mps2) felt.where = "car " + std::to_string(pose.id) + " after " + std::to_string(i * step_s) + " s at " + std::to_string(d) + " m of lane " + std::to_string(pose.lane);
+        if (lateral > felt.lateral_mps2) {
+          felt.where = "car " + std::to_string(pose.id) + " after " + std::to_string(i * step_s) + " s at " + std::to_string(d) + " m of lane " + std::to_string(pose.lane);
+        }
         felt.lateral_mps2 = std::max(felt.lateral_mps2, lateral);
       }
       before[pose.id] = {pose.trip, heading};
@@ -52,7 +54,8 @@ TEST(Bends, ATighterBendBehindABendIsComeToSlowly) {
   for (const double way : {-1.0, 1.0}) {
     for (const double lets_go_m : {1.0, 2.0, 3.0, 5.0}) {
       const double wide = way / 10.6, open = way / 27.0, tight = way / 5.7;
-      const std::vector<geometry::PlanPiece> pieces{{70.0, 0.0, 0.0}, {5.0, wide, wide}, {1.0, wide, open}, {lets_go_m, open, open}, {1.5, open, tight}, {4.0, tight, tight}, {1.5, tight, 0.0}, {80.0, 0.0, 0.0}};
+      const std::vector<geometry::PlanPiece> pieces{{70.0, 0.0, 0.0},          {5.0, wide, wide},    {1.0, wide, open},   {lets_go_m, open, open},
+                                                    {1.5, open, tight}, {4.0, tight, tight}, {1.5, tight, 0.0}, {80.0, 0.0, 0.0}};
       double length = 0.0;
       for (const auto& piece : pieces) length += piece.length_m;
       const auto world = driver::WorldOf(driver::TwoLanes(pieces, 14.0, {{0.0, 0.0, 0.0}, {length, 0.0, 0.0}}));

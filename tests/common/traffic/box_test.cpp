@@ -29,7 +29,7 @@ bool InABox(const TrafficModel& model, std::uint32_t id) {
 }
 
 // More cars than these roads bear: there are queues before all junctions, and none in them. Who has been let in after another one may wait for him on the way
-// through: for seconds, and that is less than a hundredth of all standing.
+// through: for seconds, and that is less than a hundredth of all standing, of seven seeds.
 TEST(Box, IsNotBlockedByAQueue) {
   struct Case {
     std::string name;
@@ -39,35 +39,39 @@ TEST(Box, IsNotBlockedByAQueue) {
   for (const Case& c : {Case{"crossing", lanes::MapNetwork("crossing"), 70}, Case{"town", lanes::MapNetwork("town"), 150},
                         Case{"closed town", lanes::ClosedGrid::Make(3), static_cast<std::uint32_t>(45.0 * lanes::ClosedGrid::Lanes_km(3))},
                         Case{"closed town with lights", lanes::ClosedGrid::Make(3, true), static_cast<std::uint32_t>(45.0 * lanes::ClosedGrid::Lanes_km(3))}}) {
-    TrafficSettings settings;
-    settings.vehicles = c.vehicles;
-    settings.seed = 9;
-    TrafficModel model = TrafficModel::Make(settings, c.network, {}).value();
-    constexpr double kStep_s = 0.05, kAtRest_mps = 0.05;
-    std::vector<double> stands_s(c.vehicles, 0.0);
-    double standing_s = 0.0, in_boxes_s = 0.0, longest_s = 0.0;
-    std::string where;
-    for (int i = 0; i < 8000; ++i) {
-      model.Step(kStep_s, {});
-      for (const AgentPose& pose : model.poses()) {
-        double& stands = stands_s[pose.id];
-        if (pose.speed_mps > kAtRest_mps) {
-          stands = 0.0;
-          continue;
+    double standing_s = 0.0, in_boxes_s = 0.0;
+    for (std::uint64_t seed = 6; seed <= 12; ++seed) {
+      TrafficSettings settings;
+      settings.vehicles = c.vehicles;
+      settings.seed = seed;
+      TrafficModel model = TrafficModel::Make(settings, c.network, {}).value();
+      constexpr double kStep_s = 0.05, kAtRest_mps = 0.05;
+      std::vector<double> stands_s(c.vehicles, 0.0);
+      double longest_s = 0.0;
+      std::string where;
+      for (int i = 0; i < 8000; ++i) {
+        model.Step(kStep_s, {});
+        for (const AgentPose& pose : model.poses()) {
+          double& stands = stands_s[pose.id];
+          if (pose.speed_mps > kAtRest_mps) {
+            stands = 0.0;
+            continue;
+          }
+          standing_s += kStep_s;
+          if (!InABox(model, pose.id)) continue;
+          stands += kStep_s;
+          in_boxes_s += kStep_s;
+          if (stands <= longest_s) continue;
+          longest_s = stands;
+          where = fmt::format("car {} after {:.2f} s at ({:.1f}, {:.1f})", pose.id, kStep_s * i, pose.p_WB_W.x(), pose.p_WB_W.y());
         }
-        standing_s += kStep_s;
-        if (!InABox(model, pose.id)) continue;
-        stands += kStep_s;
-        in_boxes_s += kStep_s;
-        if (stands <= longest_s) continue;
-        longest_s = stands;
-        where = fmt::format("car {} after {:.2f} s at ({:.1f}, {:.1f})", pose.id, kStep_s * i, pose.p_WB_W.x(), pose.p_WB_W.y());
       }
+      EXPECT_LT(longest_s, 15.0) << c.name << ", seed " << seed << ": " << where;
+      if (std::getenv("RODEIRA_TELL") != nullptr) fmt::print("{} {}: at most {:.2f} s, {}\n", c.name, seed, longest_s, where);
     }
-    EXPECT_LT(longest_s, 20.0) << c.name << ": " << where;
     EXPECT_LT(in_boxes_s, 0.01 * standing_s) << c.name;
-    EXPECT_GT(standing_s, 500.0) << c.name;
-    if (std::getenv("RODEIRA_TELL") != nullptr) fmt::print("{}: {:.2f} s of {:.0f} s, at most {:.2f} s, {}\n", c.name, in_boxes_s, standing_s, longest_s, where);
+    EXPECT_GT(standing_s, 3500.0) << c.name;
+    if (std::getenv("RODEIRA_TELL") != nullptr) fmt::print("{}: {:.2f} s of {:.0f} s\n", c.name, in_boxes_s, standing_s);
   }
 }
 

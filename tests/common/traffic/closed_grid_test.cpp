@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <string>
 
 #include "common/traffic/study.hpp"
 #include "tests/common/lanes/closed_grid.hpp"
+#include "tests/common/traffic/exit_room.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -20,6 +23,7 @@ struct Town {
   std::uint32_t vehicles = 0;
   StudyResult result;
   std::array<double, 3> driven_m{};  // in each ten minutes
+  double longest_with_exit_s = 0.0;  // of standing first at a line with room at the exit (ExitRoom)
   std::string told;
 };
 
@@ -33,7 +37,11 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed) {
   Town town;
   town.vehicles = settings.traffic.vehicles;
   std::array<double, 3> until_m{};
+  constexpr double kLook_s = 0.5;
+  std::optional<ExitRoom> exits;
   town.result = RunStudy(settings, lanes::ClosedGrid::Make(count), [&](const StudyMoment& moment) {
+    if (!exits) exits.emplace(moment.model.graph(), moment.model.vehicles(), kLook_s);
+    if (std::fabs(std::remainder(moment.time_s, kLook_s)) < 1e-6) exits->Look(moment.model);
     double driven_m = 0.0;
     for (std::uint32_t id = 0; id < moment.model.vehicles(); ++id) driven_m += moment.model.agent(id).driven_m;
     for (std::size_t third = 0; third < 3; ++third) {
@@ -48,6 +56,10 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed) {
   EXPECT_EQ(town.result.off_lane, 0) << town.told;
   EXPECT_EQ(town.result.on_road + town.result.waiting, town.vehicles);
   EXPECT_GT(town.result.on_road, town.vehicles * 9 / 10);
+  exits->End();
+  town.longest_with_exit_s = exits->longest_s();
+  EXPECT_LT(town.longest_with_exit_s, 300.0) << "car " << exits->longest_id() << town.told;
+  EXPECT_GT(town.longest_with_exit_s, 1.0);
   EXPECT_LT(town.result.longest_with_room_s, 300.0) << "car " << town.result.longest_with_room_id << town.told;
   return town;
 }
@@ -59,6 +71,7 @@ TEST(ClosedGrid, AsFullAsItMayBeNobodyIsStuck) {
   RecordProperty("vehicles", static_cast<int>(town.vehicles));
   RecordProperty("driven_km", std::to_string(1e-3 * (town.driven_m[0] + town.driven_m[1] + town.driven_m[2])));
   RecordProperty("longest_stand_s", std::to_string(town.result.longest_stand_s));
+  RecordProperty("longest_with_exit_s", std::to_string(town.longest_with_exit_s));
   RecordProperty("longest_with_room_s", std::to_string(town.result.longest_with_room_s));
 }
 

@@ -216,7 +216,12 @@ TEST(Demand, AnUnrelatedRoadChangesNothing) {
     a.Step(kStep_s, {});
     b.Step(kStep_s, {});
     ASSERT_EQ(a.poses().size(), b.poses().size()) << i;
-    for (std::size_t k = 0; k < a.poses().size(); ++k) ASSERT_EQ(a.poses()[k].p_WB_W, b.poses()[k].p_WB_W) << i;
+    for (std::size_t k = 0; k < a.poses().size(); ++k) {
+      const AgentPose &one = a.poses()[k], &other = b.poses()[k];
+      ASSERT_EQ(one.p_WB_W, other.p_WB_W) << i;
+      ASSERT_EQ(one.q_WB.coeffs(), other.q_WB.coeffs()) << i;
+      ASSERT_EQ(std::tie(one.id, one.trip, one.speed_mps, one.acceleration_mps2, one.steer_rad), std::tie(other.id, other.trip, other.speed_mps, other.acceleration_mps2, other.steer_rad)) << i;
+    }
   }
   EXPECT_GT(a.ended(), 40u);
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -80,6 +82,44 @@ TEST(Motion, PlannedDrivingIsSmoothOnTheMaps) {
       EXPECT_EQ(feels.hurried, 0) << name << " of " << feels.samples << feels.first;
       EXPECT_GT(feels.planned_mps3, 0.99 * kPlanned_mps3) << name;  // it says something
     }
+  }
+}
+
+// Sideways no jerk is planned: it is that of the path, v³ dκ/ds where its curvature changes, at the speed that its curvature allows. From the published headings: more than the 3 m/s³ that are
+// kept along the way, and less than what an emergency may take there.
+TEST(Motion, BendsBeginNoHarderThanTheirPathsSay) {
+  constexpr double kStep_s = 0.01;
+  for (const std::string& name : lanes::MapNames()) {
+    TrafficSettings settings;
+    settings.vehicles = name == "town" ? 40 : 25;
+    TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork(name), {}).value();
+    struct Before {
+      std::int64_t trip = -1;
+      int steps = 0;
+      double heading_rad = 0.0, lateral_mps2 = 0.0;
+    };
+    std::vector<Before> before(model.vehicles());
+    double hardest = 0.0;
+    std::string where;
+    for (int i = 1; i * kStep_s <= 90.0; ++i) {
+      model.Step(kStep_s, {});
+      for (const AgentPose& pose : model.poses()) {
+        Before& at = before[pose.id];
+        if (at.trip != static_cast<std::int64_t>(pose.trip)) at = {pose.trip, 0, 0.0, 0.0};
+        const double heading = FootprintOf(pose, model.traits(pose.id)).heading_rad;
+        const double lateral = pose.speed_mps * std::remainder(heading - at.heading_rad, 2.0 * std::numbers::pi) / kStep_s;
+        const double jerk = std::fabs(lateral - at.lateral_mps2) / kStep_s;
+        if (at.steps >= 2 && jerk > hardest) {
+          hardest = jerk;
+          where = fmt::format("car {} at {:.2f} s, {:.2f} m/s, at ({:.1f}, {:.1f})", pose.id, i * kStep_s, pose.speed_mps, pose.p_WB_W.x(), pose.p_WB_W.y());
+        }
+        at = {pose.trip, at.steps + 1, heading, lateral};
+      }
+    }
+    EXPECT_LT(hardest, kEmergency_mps3) << name << ": " << where;
+    EXPECT_GT(hardest, 0.5) << name;
+    RecordProperty(name, std::to_string(hardest));
+    if (std::getenv("RODEIRA_TELL") != nullptr) fmt::print("{}: {:.2f} m/s3, {}\n", name, hardest, where);
   }
 }
 

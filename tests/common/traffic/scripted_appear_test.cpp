@@ -170,6 +170,26 @@ TEST(Scripted, WhereItCanNeverAppearIsRefused) {
   EXPECT_NE(TrafficModel::Make(none, lanes::MapNetwork("crossing"), {}).value().LetAppear(3, lane, 20.0, 5.0).error().Text().find("have no 'scripted' vehicles, as in 'scripted: [car]'"), std::string::npos);
 }
 
+// Where lanes of a junction are roads of their own it is said that they are.
+TEST(Scripted, NobodyAppearsWithinAJunction) {
+  const auto world = road::World::Load(SourceDir() + "/configs/worlds/lights.yaml");
+  ASSERT_TRUE(world.ok());
+  TrafficSettings settings = OnlyScripted({kCar});
+  settings.vehicles = 1;
+  TrafficModel model = TrafficModel::Make(settings, world.value(), {}).value();
+  int within = 0;
+  for (const lanes::Track& track : model.graph().tracks()) {
+    if (track.junction < 0 || track.length_m() < model.traits(1).length_m + 1.0) continue;
+    const std::string lane = model.graph().network().roads()[track.lane.road].id() + ":" + std::to_string(track.lane.lane);
+    const auto told = model.LetAppear(1, lane, track.curve.StationAt(0.5 * track.length_m()), 5.0);
+    ASSERT_FALSE(told.ok()) << lane;
+    EXPECT_EQ(told.error().exit_status(), 2);
+    EXPECT_NE(told.error().Text().find("of lane '" + lane + "' would stand within a junction; a place on plain lane was expected"), std::string::npos) << told.error().Text();
+    ++within;
+  }
+  EXPECT_GE(within, 4);
+}
+
 // A scripted vehicle that has not appeared is nothing to the others: to the bit.
 TEST(Scripted, WhoDoesNotAppearChangesNothing) {
   TrafficSettings settings;

@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <pugixml.hpp>
+#include <set>
 #include <sstream>
 
 #include "common/traffic/car_of.hpp"
@@ -308,6 +310,99 @@ TEST_F(Written, PicturesAreSoundXml) {
     ASSERT_TRUE(document.load_string(svg.c_str()));
     EXPECT_GT(document.child("svg").attribute("width").as_double(), 100.0);
   }
+}
+
+// The points of a line of a picture, in its pixels.
+std::vector<Eigen::Vector2d> PointsOf(const pugi::xml_node& line) {
+  std::istringstream text(line.attribute("points").value());
+  std::vector<Eigen::Vector2d> points;
+  for (std::string point; text >> point;) {
+    const std::size_t comma = point.find(',');
+    points.emplace_back(std::stod(point.substr(0, comma)), std::stod(point.substr(comma + 1)));
+  }
+  return points;
+}
+
+// Every cell of the map lies where its lane does, north up, and has the colour of the legend that its mean speed over its limit asks for; grey where nobody was.
+TEST_F(Written, TheMapHasTheColoursOfItsLegend) {
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(SpeedMap(model_.graph(), statistics_, "a").c_str()));
+  std::vector<std::string> legend;
+  for (const pugi::xml_node box : document.child("svg").children("rect")) {
+    if (box.attribute("width").as_double() < 10.0) legend.push_back(box.attribute("fill").value());
+  }
+  ASSERT_GE(legend.size(), 5u);
+  std::set<std::string> seen;
+  std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> first;  // in the world, and in the picture
+  double scale = 0.0;
+  pugi::xml_node line = document.child("svg").child("g").child("polyline");
+  std::vector<Eigen::Vector2d> points = PointsOf(line);
+  std::size_t at = 0;
+  for (std::uint32_t track = 0; track < model_.graph().tracks().size(); ++track) {
+    const double length_m = statistics_.CellLength_m(track);
+    for (std::size_t i = 0; i < statistics_.CellsOf(track).size(); ++i) {
+      const LaneCell& cell = statistics_.CellsOf(track)[i];
+      std::string colour = "#d0d0d0";
+      if (cell.time_s > 0.0) {
+        const double share = cell.distance_m / cell.time_s / model_.graph().SpeedLimit_mps(track, (static_cast<double>(i) + 0.5) * length_m);
+        colour = legend[std::min(legend.size() - 1, static_cast<std::size_t>(share * static_cast<double>(legend.size())))];
+      }
+      ASSERT_TRUE(line);
+      EXPECT_EQ(std::string(line.attribute("stroke").value()), colour) << track << " " << i;
+      seen.insert(colour);
+      ASSERT_LT(at, points.size());
+      const Eigen::Vector2d world = model_.graph()[track].curve.At(static_cast<double>(i) * length_m).p_W.head<2>(), pixel = points[at];
+      if (!first) first = {world, pixel};
+      const Eigen::Vector2d across = world - first->first, moved(pixel.x() - first->second.x(), first->second.y() - pixel.y());
+      if (scale == 0.0 && across.norm() > 20.0) scale = moved.norm() / across.norm();
+      if (scale > 0.0) {
+        EXPECT_LT((moved - scale * across).norm(), 0.3 + 0.02 * scale * across.norm()) << track << " " << i;
+      }
+      if (++at + 1 < points.size()) continue;
+      line = line.next_sibling("polyline"), points = PointsOf(line), at = 0;
+    }
+  }
+  EXPECT_FALSE(line);
+  EXPECT_GE(seen.size(), 4u);
+}
+
+// A car that stands is a level line of the first colour, one that drives as fast as it may a rising one of the last.
+TEST(Diagram, HasTheColoursOfSpeeds) {
+  TrafficSettings settings = Identical(2, 1.4);
+  const double limit = 20.0;
+  TrafficModel model = TrafficModel::Make(settings, Ring(1000.0, limit), {}).value();
+  model.Brake(0, 4.0);
+  for (int i = 0; i < 3000; ++i) model.Step(0.02, {});
+  const std::uint32_t track = model.agent(0).path.back().track;
+  TrajectoryDiagram standing(track);
+  for (int i = 0; i < 100; ++i) model.Step(0.02, {}), standing.Add(0.02 * i, model);
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(standing.ToSvg(model.graph(), "b").c_str()));
+  bool stands = false;
+  for (const pugi::xml_node line : document.child("svg").child("g").children("polyline")) {
+    const auto points = PointsOf(line);
+    if (std::string(line.attribute("stroke").value()) == "#b2182b" && points.front().y() == points.back().y()) stands = true;
+  }
+  EXPECT_TRUE(stands);
+  model.Release(0);
+  for (int i = 0; i < 2000; ++i) model.Step(0.02, {});
+  TrajectoryDiagram driving(track);
+  std::size_t fast = 0;
+  for (int i = 0; i < 500; ++i) {
+    model.Step(0.02, {}), driving.Add(0.02 * i, model);
+    for (const AgentPose& pose : model.poses()) fast += pose.speed_mps >= 0.8 * limit ? 1 : 0;
+  }
+  ASSERT_EQ(fast, 1000u);
+  ASSERT_TRUE(document.load_string(driving.ToSvg(model.graph(), "b").c_str()));
+  int lines = 0;
+  for (const pugi::xml_node line : document.child("svg").child("g").children("polyline")) {
+    const auto points = PointsOf(line);
+    EXPECT_EQ(std::string(line.attribute("stroke").value()), "#2166ac");
+    EXPECT_LT(points.back().y(), points.front().y());  // onwards is up
+    EXPECT_GT(points.back().x(), points.front().x());
+    ++lines;
+  }
+  EXPECT_GE(lines, 2);
 }
 
 }  // namespace
