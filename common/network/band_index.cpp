@@ -68,14 +68,24 @@ Band MakeBand(const Road& road, std::uint32_t road_index, std::uint32_t panel_in
   return band;
 }
 
+// How far the middle of a square of the grid may be from that of a band's rectangle, along the sides of both, where they may touch.
+struct Reach {
+  Reach(const Band& band, double half_m) {
+    const Eigen::Vector2d along = band.along_W.cwiseAbs();
+    const double turned_m = half_m * along.sum() + kSlack_m;
+    along_m = band.half_along_m + turned_m, across_m = band.half_across_m + turned_m;
+    x_m = band.half_along_m * along.x() + band.half_across_m * along.y() + half_m + kSlack_m;
+    y_m = band.half_along_m * along.y() + band.half_across_m * along.x() + half_m + kSlack_m;
+  }
+  double along_m, across_m, x_m, y_m;
+};
+
 // Whether a band's rectangle and a square of the grid may have a point in common: where no line along a side of either parts them.
 bool Touches(const Band& band, const Eigen::Vector2d& centre_W, double half_m) {
-  const Eigen::Vector2d away = centre_W - band.centre_W, along = band.along_W.cwiseAbs();
-  const double turned_m = half_m * along.sum() + kSlack_m, side_m = half_m + kSlack_m;
-  return std::fabs(away.dot(band.along_W)) <= band.half_along_m + turned_m &&
-         std::fabs(geometry::Cross(band.along_W, away)) <= band.half_across_m + turned_m &&
-         std::fabs(away.x()) <= band.half_along_m * along.x() + band.half_across_m * along.y() + side_m &&
-         std::fabs(away.y()) <= band.half_along_m * along.y() + band.half_across_m * along.x() + side_m;
+  const Eigen::Vector2d away = centre_W - band.centre_W;
+  const Reach reach(band, half_m);
+  return std::fabs(away.dot(band.along_W)) <= reach.along_m && std::fabs(geometry::Cross(band.along_W, away)) <= reach.across_m &&
+         std::fabs(away.x()) <= reach.x_m && std::fabs(away.y()) <= reach.y_m;
 }
 
 }  // namespace
@@ -144,17 +154,28 @@ void BandIndex::BuildGrid() {
   for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) first_[cell + 1] += first_[cell];
   cell_bands_.resize(first_.back());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (std::uint32_t i = 0; i < bands_.size(); ++i)
+    each_cell(bands_[i], [&](std::size_t cell, const Eigen::Vector2d& centre) { cell_bands_[next[cell]++] = {i, PartsOf(bands_[i], centre)}; });
+}
+
+// As Touches says of each square of a cell.
+std::uint32_t BandIndex::PartsOf(const Band& band, const Eigen::Vector2d& cell_centre_W) const {
   const double part_m = cell_m_ / kParts;
-  for (std::uint32_t i = 0; i < bands_.size(); ++i) {
-    each_cell(bands_[i], [&](std::size_t cell, const Eigen::Vector2d& centre) {
-      std::uint32_t parts = 0;
-      for (std::uint32_t part = 0; part < kParts * kParts; ++part) {
-        const Eigen::Vector2d from_corner = part_m * Eigen::Vector2d(part % kParts + 0.5, part / kParts + 0.5);
-        if (Touches(bands_[i], centre - Eigen::Vector2d::Constant(0.5 * cell_m_) + from_corner, 0.5 * part_m)) parts |= std::uint32_t{1} << part;
-      }
-      cell_bands_[next[cell]++] = {i, parts};
-    });
+  const Eigen::Vector2d first = cell_centre_W - Eigen::Vector2d::Constant(0.5 * (cell_m_ - part_m)) - band.centre_W;  // the first square's centre
+  const Reach reach(band, 0.5 * part_m);
+  const double ahead = first.dot(band.along_W), aside = geometry::Cross(band.along_W, first);
+  std::uint32_t parts = 0;
+  for (std::uint32_t row = 0; row < kParts; ++row) {
+    const double up = part_m * row;
+    if (std::fabs(first.y() + up) > reach.y_m) continue;
+    for (std::uint32_t column = 0; column < kParts; ++column) {
+      const double right = part_m * column;
+      const bool touches = std::fabs(first.x() + right) <= reach.x_m && std::fabs(ahead + right * band.along_W.x() + up * band.along_W.y()) <= reach.along_m &&
+                           std::fabs(aside + up * band.along_W.x() - right * band.along_W.y()) <= reach.across_m;
+      parts |= std::uint32_t{touches} << (row * kParts + column);
+    }
   }
+  return parts;
 }
 
 std::optional<std::uint32_t> BandIndex::OnlyOne(const Eigen::Vector2d& low_W, const Eigen::Vector2d& high_W) const {

@@ -90,6 +90,7 @@ class BandIndex {
   }
   void AddBands(std::span<const Road> roads, double closed_m);
   void BuildGrid();
+  std::uint32_t PartsOf(const Band& band, const Eigen::Vector2d& cell_centre_W) const;
   std::uint32_t BuildTree(std::uint32_t first, std::uint32_t last, std::span<const Eigen::Vector2d> low,
                           std::span<const Eigen::Vector2d> high);
   template <class Visit>
