@@ -8,7 +8,7 @@
 namespace rodeira::network {
 namespace {
 
-constexpr double kSlack_m = 1e-6;  // far above all rounding
+constexpr double kSlack_m = BandIndex::kSlack_m;
 constexpr double kMostCells = 4e6;
 constexpr std::uint32_t kLeaf = 4;
 constexpr double kSteepest = 0.8;  // sine of any superelevation and of any grade
@@ -68,6 +68,26 @@ Band MakeBand(const Road& road, std::uint32_t road_index, std::uint32_t panel_in
   return band;
 }
 
+// How far the middle of a square of the grid may be from that of a band's rectangle, along the sides of both, where they may touch.
+struct Reach {
+  Reach(const Band& band, double half_m) {
+    const Eigen::Vector2d along = band.along_W.cwiseAbs();
+    const double turned_m = half_m * along.sum() + kSlack_m;
+    along_m = band.half_along_m + turned_m, across_m = band.half_across_m + turned_m;
+    x_m = band.half_along_m * along.x() + band.half_across_m * along.y() + half_m + kSlack_m;
+    y_m = band.half_along_m * along.y() + band.half_across_m * along.x() + half_m + kSlack_m;
+  }
+  double along_m, across_m, x_m, y_m;
+};
+
+// Whether a band's rectangle and a square of the grid may have a point in common: where no line along a side of either parts them.
+bool Touches(const Band& band, const Eigen::Vector2d& centre_W, double half_m) {
+  const Eigen::Vector2d away = centre_W - band.centre_W;
+  const Reach reach(band, half_m);
+  return std::fabs(away.dot(band.along_W)) <= reach.along_m && std::fabs(geometry::Cross(band.along_W, away)) <= reach.across_m &&
+         std::fabs(away.x()) <= reach.x_m && std::fabs(away.y()) <= reach.y_m;
+}
+
 }  // namespace
 
 double Band::Distance(const Eigen::Vector2d& p_W) const {
@@ -114,7 +134,6 @@ void BandIndex::BuildGrid() {
   cell_m_ = std::max(cell_m_, std::sqrt(size.x() * size.y() / kMostCells));
   columns_ = std::floor(size.x() / cell_m_) + 1.0;
   rows_ = std::floor(size.y() / cell_m_) + 1.0;
-  const double half_diagonal = cell_m_ * std::sqrt(0.5) + kSlack_m;
   const auto each_cell = [&](const Band& band, const auto& use) {
     const Eigen::Vector2d reach =
         band.half_along_m * band.along_W.cwiseAbs() + band.half_across_m * geometry::Left(band.along_W).cwiseAbs();
@@ -126,24 +145,37 @@ void BandIndex::BuildGrid() {
     for (double row = index(band.centre_W.y() - reach.y(), low.y(), rows_); row <= row_high; row += 1.0) {
       for (double column = index(band.centre_W.x() - reach.x(), low.x(), columns_); column <= column_high; column += 1.0) {
         const Eigen::Vector2d centre = origin_W_ + cell_m_ * Eigen::Vector2d(column + 0.5, row + 0.5);
-        if (band.Distance(centre) <= half_diagonal) use(static_cast<std::size_t>(row * columns_ + column));
+        if (Touches(band, centre, 0.5 * cell_m_)) use(static_cast<std::size_t>(row * columns_ + column), centre);
       }
     }
   };
   first_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-  for (const Band& band : bands_) each_cell(band, [&](std::size_t cell) { ++first_[cell + 1]; });
+  for (const Band& band : bands_) each_cell(band, [&](std::size_t cell, const Eigen::Vector2d&) { ++first_[cell + 1]; });
   for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) first_[cell + 1] += first_[cell];
   cell_bands_.resize(first_.back());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::uint32_t i = 0; i < bands_.size(); ++i)
-    each_cell(bands_[i], [&](std::size_t cell) { cell_bands_[next[cell]++] = i; });
+    each_cell(bands_[i], [&](std::size_t cell, const Eigen::Vector2d& centre) { cell_bands_[next[cell]++] = {i, PartsOf(bands_[i], centre)}; });
 }
 
-std::span<const std::uint32_t> BandIndex::Around(const Eigen::Vector2d& p_W) const {
-  const double column = (p_W.x() - origin_W_.x()) / cell_m_, row = (p_W.y() - origin_W_.y()) / cell_m_;
-  if (!(column >= 0.0 && column < columns_ && row >= 0.0 && row < rows_)) return {};
-  const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
-  return std::span(cell_bands_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
+// As Touches says of each square of a cell.
+std::uint32_t BandIndex::PartsOf(const Band& band, const Eigen::Vector2d& cell_centre_W) const {
+  const double part_m = cell_m_ / kParts;
+  const Eigen::Vector2d first = cell_centre_W - Eigen::Vector2d::Constant(0.5 * (cell_m_ - part_m)) - band.centre_W;  // the first square's centre
+  const Reach reach(band, 0.5 * part_m);
+  const double ahead = first.dot(band.along_W), aside = geometry::Cross(band.along_W, first);
+  std::uint32_t parts = 0;
+  for (std::uint32_t row = 0; row < kParts; ++row) {
+    const double up = part_m * row;
+    if (std::fabs(first.y() + up) > reach.y_m) continue;
+    for (std::uint32_t column = 0; column < kParts; ++column) {
+      const double right = part_m * column;
+      const bool touches = std::fabs(first.x() + right) <= reach.x_m && std::fabs(ahead + right * band.along_W.x() + up * band.along_W.y()) <= reach.along_m &&
+                           std::fabs(aside + up * band.along_W.x() - right * band.along_W.y()) <= reach.across_m;
+      parts |= std::uint32_t{touches} << (row * kParts + column);
+    }
+  }
+  return parts;
 }
 
 std::optional<std::uint32_t> BandIndex::OnlyOne(const Eigen::Vector2d& low_W, const Eigen::Vector2d& high_W) const {
@@ -153,7 +185,8 @@ std::optional<std::uint32_t> BandIndex::OnlyOne(const Eigen::Vector2d& low_W, co
   std::optional<std::uint32_t> only;
   // A cell is wider than the box: what holds some of it is known in a corner's cell.
   for (const Eigen::Vector2d& corner : {low_W, high_W, Eigen::Vector2d(low_W.x(), high_W.y()), Eigen::Vector2d(high_W.x(), low_W.y())}) {
-    for (const std::uint32_t index : Around(corner)) {
+    for (const CellBand& listed : Listed((corner.x() - origin_W_.x()) / cell_m_, (corner.y() - origin_W_.y()) / cell_m_)) {
+      const std::uint32_t index = listed.band;
       if (only == index) continue;
       const Band& band = bands_[index];
       const Eigen::Vector2d away = middle - band.centre_W;

@@ -35,6 +35,7 @@ struct Band {
 // the same for the same roads; what it leaves out cannot be an answer, so that it changes none.
 class BandIndex {
  public:
+  static constexpr double kSlack_m = 1e-6;  // far above all rounding
   // closed_m: bands reach this far beyond the ends of their panels, for gaps that are closed.
   BandIndex(std::span<const Road> roads, double closed_m);
 
@@ -42,8 +43,18 @@ class BandIndex {
   // The corners of a box that holds all bands; the origin without any.
   Eigen::Vector2d low_W() const { return nodes_.empty() ? Eigen::Vector2d::Zero() : nodes_[0].low; }
   Eigen::Vector2d high_W() const { return nodes_.empty() ? Eigen::Vector2d::Zero() : nodes_[0].high; }
-  // Every band whose rectangle holds (x, y), and maybe others; ascending.
-  std::span<const std::uint32_t> Around(const Eigen::Vector2d& p_W) const;
+  // Visits every band whose rectangle holds (x, y), and maybe a few others; ascending.
+  template <class Visit>
+  void Around(const Eigen::Vector2d& p_W, const Visit& visit) const {
+    const double column = (p_W.x() - origin_W_.x()) / cell_m_, row = (p_W.y() - origin_W_.y()) / cell_m_;
+    const std::span<const CellBand> listed = Listed(column, row);
+    if (listed.empty()) return;
+    const auto part = [](double value) { return static_cast<std::uint32_t>((value - std::floor(value)) * kParts); };
+    const std::uint32_t here = std::uint32_t{1} << (part(row) * kParts + part(column));
+    for (const CellBand& band : listed) {
+      if ((band.parts & here) != 0) visit(band.band);
+    }
+  }
   // The one band whose rectangle holds all of a box that is no wider than kWidest_m, where no other band holds any of it; otherwise
   // nothing, and maybe nothing too where a band's edge is near.
   static constexpr double kWidest_m = 2.0;
@@ -65,8 +76,21 @@ class BandIndex {
 
     double Distance(const Eigen::Vector2d& p_W) const { return (low - p_W).cwiseMax(p_W - high).cwiseMax(0.0).norm(); }
   };
+  // A band that lies in a cell, and in which of its kParts x kParts squares (row by row, a bit each): most that lie in a cell are not at a point
+  // of it, and this tells so without another place in memory.
+  struct CellBand {
+    std::uint32_t band = 0, parts = 0;
+  };
+  static constexpr std::uint32_t kParts = 5;
+
+  std::span<const CellBand> Listed(double column, double row) const {
+    if (!(column >= 0.0 && column < columns_ && row >= 0.0 && row < rows_)) return {};
+    const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+    return std::span(cell_bands_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
+  }
   void AddBands(std::span<const Road> roads, double closed_m);
   void BuildGrid();
+  std::uint32_t PartsOf(const Band& band, const Eigen::Vector2d& cell_centre_W) const;
   std::uint32_t BuildTree(std::uint32_t first, std::uint32_t last, std::span<const Eigen::Vector2d> low,
                           std::span<const Eigen::Vector2d> high);
   template <class Visit>
@@ -90,7 +114,7 @@ class BandIndex {
   double cell_m_ = 8.0;
   double columns_ = 0.0, rows_ = 0.0;  // whole numbers
   std::vector<std::uint32_t> first_;   // per cell, where its bands begin in cell_bands_; one more at the end
-  std::vector<std::uint32_t> cell_bands_;
+  std::vector<CellBand> cell_bands_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
 };

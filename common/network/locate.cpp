@@ -30,22 +30,24 @@ struct Network::Hit {
 
 Network::Hit Network::Try(const Eigen::Vector2d& p_W, std::uint32_t band_index) const {
   const BandRecord& record = records_.Of(band_index);
-  if (!(record.from_s_m < record.to_s_m)) return TryRoad(p_W, band_index);
+  if (!(record.piece.from_s_m < record.piece.to_s_m)) return TryRoad(p_W, band_index);
   const geometry::PlanAxis& axis = spec_.roads[record.road].axis();
   const geometry::AxisFoot foot = axis.Foot(record.panel, p_W);
   const double found = record.panel.middle_s_m + foot.u_m, s = std::clamp(found, record.low_s_m, record.high_s_m), t = foot.t_m;
-  if (!record.Holds(s)) return TryRoad(p_W, band_index);
+  const BandPiece* piece = records_.PieceAt(record, s);
+  if (piece == nullptr) return TryRoad(p_W, band_index);
   const double beyond = std::fabs(foot.beyond_m) + std::fabs(found - s);
-  const geometry::CubicPoint centre{record.centre_t.Value(s), record.centre_t.Slope(s), 0.0};
-  const BandRecords::LaneAt lane = records_.At(record, s, t, centre);
+  const geometry::CubicPoint centre{piece->centre_t.Value(s), piece->centre_t.Slope(s), 0.0};
+  const BandRecords::LaneAt lane = records_.At(*piece, s, t, centre);
   Hit hit;
   hit.span = lane.span;
   hit.outside_m = lane.outside_m;
-  if (beyond > (s <= record.low_s_m ? record.closed_before_m : record.closed_behind_m)) hit.outside_m = std::sqrt(hit.outside_m * hit.outside_m + beyond * beyond);
+  const bool closed = s <= record.low_s_m ? record.closed_before : record.closed_behind;
+  if (beyond > (closed ? kClosed_m : BandIndex::kSlack_m)) hit.outside_m = std::sqrt(hit.outside_m * hit.outside_m + beyond * beyond);
   hit.at = s == found ? foot.at : axis.At(record.panel, s - record.panel.middle_s_m);
   hit.claim = {beyond > 0.0, lane.drivable, lane.id == 0 ? 0.0 : std::fabs(t - lane.span.centre_t_m()), band_index};
-  hit.place = {{record.road, record.section, lane.id}, s, t, 0.0, hit.outside_m};
-  if (record.flat) hit.place.z_m = record.elevation.Value(s), hit.has_height = true;
+  hit.place = {{record.road, piece->section, lane.id}, s, t, 0.0, hit.outside_m};
+  if (piece->flat) hit.place.z_m = piece->elevation.Value(s), hit.has_height = true;
   return hit;
 }
 
@@ -115,11 +117,18 @@ std::optional<Place> Network::Locate(double x_m, double y_m, std::optional<doubl
   hits.clear();
   thread_local std::vector<std::uint32_t> near;
   near.clear();
-  for (const std::uint32_t band : index_.Around(p)) {
-    if (!index_.bands()[band].Holds(p)) continue;
-    near.push_back(band);
+  index_.Around(p, [&](std::uint32_t band) {
     records_.Fetch(band);
+    near.push_back(band);
+  });
+  std::size_t held = 0;
+  for (const std::uint32_t band : near) {
+    const BandRecord& record = records_.Of(band);
+    if (!record.MayHold(p)) continue;
+    records_.FetchLanes(record);
+    near[held++] = band;
   }
+  near.resize(held);
   for (const std::uint32_t band : near) {
     Hit hit = Try(p, band);
     if (hit.outside_m > 0.0) continue;
@@ -163,20 +172,20 @@ void Network::Surfaces(double x_m, double y_m, std::vector<Surfacing>& surfaces)
   surfaces.clear();
   if (!OnEarth(x_m) || !OnEarth(y_m)) return;
   const Eigen::Vector2d p(x_m, y_m);
-  for (const std::uint32_t band : index_.Around(p)) {
-    if (!index_.bands()[band].Holds(p)) continue;
+  index_.Around(p, [&](std::uint32_t band) {
+    if (!records_.Of(band).MayHold(p)) return;
     const Hit hit = Try(p, band);
-    if (hit.outside_m > 0.0) continue;
+    if (hit.outside_m > 0.0) return;
     const SurfaceSample sample = SurfaceAt(hit);
     // Of one road on one level the better place: neighbouring panels share their ends.
     const auto same = std::find_if(surfaces.begin(), surfaces.end(), [&](const Surfacing& other) {
       return other.place.lane.road == hit.place.lane.road && std::fabs(other.place.z_m - sample.p_W.z()) < kLevel_m;
     });
-    if (same != surfaces.end() && !hit.claim.Before(same->claim)) continue;
+    if (same != surfaces.end() && !hit.claim.Before(same->claim)) return;
     Surfacing& found = same == surfaces.end() ? surfaces.emplace_back() : *same;
     found = {hit.place, sample, hit.claim};
     found.place.z_m = sample.p_W.z();
-  }
+  });
   if (surfaces.size() < 2) return;
   std::sort(surfaces.begin(), surfaces.end(), [](const Surfacing& a, const Surfacing& b) {
     return a.place.z_m > b.place.z_m || (a.place.z_m == b.place.z_m && a.claim.Before(b.claim));

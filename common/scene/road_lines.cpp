@@ -11,6 +11,7 @@ using network::Road;
 
 constexpr double kLongest_m = 24.0;   // between two stations
 constexpr double kShortest_m = 0.05;  // where a formula has a kink nothing is gained by going on
+constexpr double kAtQuarters = 0.91;  // of how far a cubic lies from its chord at most, this much at least is seen at one of the chord's quarters
 constexpr int kMostParts = 16;        // of a lane, across
 
 // How far q lies from the chord from a to b, in plan and in height.
@@ -143,7 +144,7 @@ class SectionLines {
     for (const int parts : parts_) edges += static_cast<std::size_t>(parts);
     for (std::size_t k = 0; k < a.size(); ++k) {
       const auto [plan, height] = FromChord(a[k], b[k], between[k]);
-      if (plan > tolerance_.plan_m || height > tolerance_.height_m) return false;
+      if (plan > kAtQuarters * tolerance_.plan_m || height > kAtQuarters * tolerance_.height_m) return false;
       if (k > 0 && k < edges && std::fabs(a[k].z() - a[k - 1].z() - b[k].z() + b[k - 1].z()) / 4.0 > tolerance_.height_m) return false;
     }
     return true;

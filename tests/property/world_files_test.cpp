@@ -1,6 +1,7 @@
 // World files of version 2, mutated by bytes and by structure (tests/property/fuzz.hpp): what is taken is a world that answers
 // finite numbers, the same ones by index and without it; what is refused is a sentence.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -10,6 +11,8 @@
 #include "common/road/network_world.hpp"
 #include "common/road/world.hpp"
 #include "common/road/world_report.hpp"
+#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/surface/made_crg.hpp"
 #include "tests/property/fuzz.hpp"
 #include "tests/property/mutate_structure.hpp"
 #include "tests/tree.hpp"
@@ -167,6 +170,37 @@ std::optional<base::Error> ReadWorld(const std::string& text) {
 }
 
 TEST(WorldFiles, ChangedByBytes) { Fuzz("world of version 2", {kHills, kPlane, kIncluding, kBare}, ReadWorld); }
+
+// OpenDRIVE files as worlds: with measured surfaces, one of each mode, signs and objects; what is taken is the world that is driven on.
+TEST(WorldFiles, OpenDriveOnDisk) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rodeira-world-property-" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  surface::MadeCrg made;
+  made.rows = 201;
+  made.z = [](double u, double v) { return 0.01 * std::sin(u) + 0.002 * v; };
+  ASSERT_TRUE(base::WriteWhole(folder / "made.crg", std::string_view(made.Text())).ok());
+  const auto measured = [](const std::string& surfaces) {
+    opendrive::RoadText road;
+    road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0.1" length="40"><line/></geometry><geometry s="40" x="39.8001666" y="3.9933367" hdg="0.1" length="60"><arc curvature="0.01"/></geometry>)";
+    road.elevation = R"(<elevation s="0" a="1" b="0.02" c="0" d="0"/><elevation s="50" a="2" b="0.02" c="-0.0001" d="0"/>)";
+    road.more = "<surface>" + surfaces + R"(</surface><objects><object id="o" s="10" t="8" type="tree" height="6" radius="1"/><object id="b" s="30" t="6" type="barrier" length="1" width="0.2" height="1">
+        <repeat s="30" length="40" distance="0" tStart="6" tEnd="7" heightStart="1" heightEnd="1" zOffsetStart="0" zOffsetEnd="0"/></object></objects>
+        <signals><signal id="s" s="90" t="-5" dynamic="no" orientation="+" type="274" subtype="-1" value="50"/></signals>)";
+    return opendrive::Document(road.Text());
+  };
+  const std::vector<std::string> good = {
+      measured(R"(<CRG file="made.crg" sStart="5" sEnd="6.5" mode="attached" zScale="0.5" sOffset="0.1"/><CRG file="made.crg" sStart="20" sEnd="21.5" mode="attached0" orientation="opposite"/>)"),
+      measured(R"(<CRG file="made.crg" sStart="60" sEnd="61.5" mode="genuine" tOffset="0.2" hOffset="0.01" zOffset="1"/>)"),
+      measured(R"(<CRG file="made.crg" sStart="5" sEnd="6.5" mode="attached" purpose="friction" zOffset="0.5"/>)")};
+  Fuzz("xodr as a world", good, [&](const std::string& text) -> std::optional<base::Error> {
+    if (const auto written = base::WriteWhole(folder / "fuzz.xodr", std::string_view(text)); !written.ok()) ADD_FAILURE() << written.error().Text();
+    const auto world = road::World::Load(folder / "fuzz.xodr");
+    if (!world) return world.error();
+    AskWorld(*world.value());
+    return std::nullopt;
+  });
+  std::filesystem::remove_all(folder);
+}
 
 TEST(WorldFiles, ChangedByStructure) { Fuzz("world of version 2, structure", {kHills, kPlane, kIncluding, kBare}, ReadWorld, MutateStructure); }
 
