@@ -171,7 +171,7 @@ std::optional<base::Error> ReadWorld(const std::string& text) {
 
 TEST(WorldFiles, ChangedByBytes) { Fuzz("world of version 2", {kHills, kPlane, kIncluding, kBare}, ReadWorld); }
 
-// OpenDRIVE files as worlds: with measured surfaces, one of each mode, signs and objects; what is taken is the world that is driven on.
+// OpenDRIVE files as worlds: with measured surfaces (attached, attached0, genuine, and friction alone), signs and objects; what is taken is the world that is driven on.
 TEST(WorldFiles, OpenDriveOnDisk) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rodeira-world-property-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
