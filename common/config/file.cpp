@@ -115,7 +115,7 @@ Map File::root() const {
 }
 
 std::vector<base::Error> File::Problems() const {
-  std::vector<detail::Problem> all = context_->problems, unknown;
+  std::vector<detail::Problem> all = context_->problems, misspelt, strange;
   for (const auto& [place, asked] : context_->asked) {
     std::set<std::string> seen;
     for (const auto& item : asked.node) {
@@ -128,12 +128,18 @@ std::vector<base::Error> File::Problems() const {
       if (asked.keys.contains(key)) continue;
       std::set<std::string, std::less<>> known = asked.keys;
       known.insert(asked.hoped.begin(), asked.hoped.end());
+      known.erase(key);  // it may stand there, but what is wrong elsewhere kept it from being read
       const Meant meant = MeantBy(key, known);
       if (!meant.key.empty()) std::erase_if(all, [&](const auto& problem) { return problem.missing == Sub(asked.path, meant.key); });
-      unknown.push_back({LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
+      (meant.key.empty() ? strange : misspelt).push_back({LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
     }
   }
-  all.insert(all.begin(), unknown.begin(), unknown.end());  // what is misspelt says more than what is missing
+  // What is misspelt comes before what is missing in its line, perhaps for that; what nobody asked for behind both, perhaps since something is missing.
+  for (auto& problem : misspelt) {
+    const auto missing = std::find_if(all.begin(), all.end(), [&](const auto& other) { return other.line == problem.line && !other.missing.empty(); });
+    all.insert(missing, std::move(problem));
+  }
+  all.insert(all.end(), strange.begin(), strange.end());
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
   std::vector<base::Error> errors;
   for (auto& problem : all) errors.push_back(base::WrongInput(problem.message, PlaceOf(*context_, problem.line)));

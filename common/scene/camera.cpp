@@ -34,6 +34,7 @@ constexpr double kChase_m = 7.2, kChaseHigh_m = 2.45;
 constexpr double kLeastChase_m = 1.0;
 // The driver's eye over B's origin, and below the roof of a low car; below that of a lorry or a bus.
 constexpr double kEyeHigh_m = 1.20, kEyeLow_m = 0.6, kHeadroom_m = 0.21, kCabRoof_m = 1.2;
+constexpr double kCabFront_m = 1.3;  // of a lorry's or bus's driver from its front
 
 // How far behind the car its eye is, where so many others may stand between it and the car. In plan, along the car's nose.
 double ChaseDistance(const Body& car, double eye_z_m, std::span<const Body> others) {
@@ -139,7 +140,10 @@ Camera ChaseCamera(const Body& car, const road::World& world, std::span<const Bo
   return LookFrom(eye, target - eye, Vector3d::UnitZ(), 48.0 * kDegree);
 }
 
-Vector3d DriversEye_B(const Body& car) { return {0.10, 0.22 * car.width_m, std::max({kEyeLow_m, std::min(kEyeHigh_m, car.height_m - kHeadroom_m), car.height_m - kCabRoof_m})}; }
+Vector3d DriversEye_B(const Body& car) {
+  const double low = std::max(kEyeLow_m, std::min(kEyeHigh_m, car.height_m - kHeadroom_m)), cab = car.height_m - kCabRoof_m;
+  return {cab > low ? car.front_m - kCabFront_m : 0.10, 0.22 * car.width_m, std::max(low, cab)};
+}
 
 Camera DriverCamera(const Body& car) {
   const Vector3d forward_B(1.0, 0.0, -0.015);

@@ -73,7 +73,7 @@ struct ScreenPlane {
   double aside_m = 0.0;        // of the screen's middle from the foot of the eye's distance, positive to the right
 };
 
-// The driver's eye, in B: 1.2 m high, below the roof of a lower car, and higher in a lorry.
+// The driver's eye, in B: 1.2 m high, below the roof of a lower car; higher in a lorry or a bus, and at its front.
 Eigen::Vector3d DriversEye_B(const Body& car);
 // Behind and above the car, without its roll. `others`: who stands in the way of the eye, as a lorry does that is close behind, has it come nearer, to
 // before its front; evenly, as they come and go.

@@ -94,7 +94,7 @@ osg::ref_ptr<osg::StateSet> PulseState(const osg::ref_ptr<osg::Uniform>& pulse) 
 }  // namespace
 
 CarNode::CarNode(Look& look, scene::AgentKind kind, const scene::CarShape& shape, scene::Colour paint)
-    : shape_(shape), body_(new osg::MatrixTransform), frame_(new osg::Group),
+    : kind_(kind), shape_(shape), body_(new osg::MatrixTransform), frame_(new osg::Group),
       glows_(new osg::Uniform(osg::Uniform::FLOAT, "glows", static_cast<int>(scene::kLamps))), pulse_(new osg::Uniform("pulse", 0.0F)) {
   const scene::CarMeshes car = scene::BuildVehicle(kind, shape, paint);
   std::map<scene::Material, scene::Mesh> parts;  // as few as there are materials: each costs a call a frame
@@ -119,6 +119,15 @@ CarNode::CarNode(Look& look, scene::AgentKind kind, const scene::CarShape& shape
     for (const auto& [material, part] : parts) wheels_[i]->addChild(look.GeometryOf(part));
     body_->addChild(wheels_[i]);
     Turn(i, shape.hubs_B[i], 0.0, 0.0);
+  }
+}
+
+void CarNode::SeenFromInside(bool inside) {
+  const unsigned mask = inside ? 0U : ~0U;
+  frame_->setNodeMask(mask);
+  if (kind_ == scene::AgentKind::kCar) return;
+  for (unsigned i = 0; i < body_->getNumChildren(); ++i) {
+    if (body_->getChild(i) != shadow_) body_->getChild(i)->setNodeMask(mask);
   }
 }
 
@@ -219,7 +228,8 @@ void Fleet::WearModel(const std::string& file) {
 void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen, bool dark) {
   const double now = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * kPulse_Hz * static_cast<double>(moment.time_ns) * 1e-9);
   const auto pulse = [&](std::size_t number) { return chosen == number ? now : 0.0; };
-  const auto pulse_of = [&](const scene::AgentPose& agent) { return pulse(moment.cars.size() + static_cast<std::size_t>(&agent - moment.agents.data())); };
+  const auto number_of = [&](const scene::AgentPose& agent) { return moment.cars.size() + static_cast<std::size_t>(&agent - moment.agents.data()); };
+  const auto pulse_of = [&](const scene::AgentPose& agent) { return pulse(number_of(agent)); };
   std::vector<const scene::CarPose*> cars;
   std::vector<const scene::AgentPose*> agents, people;
   for (const scene::CarPose& car : moment.cars) cars.push_back(&car);
@@ -231,7 +241,7 @@ void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside,
   };
   Match(cars, cars_, make_car, [&](CarNode& node, const scene::CarPose& car) {
     node.Place(car.p_WB_W, car.q_WB);
-    node.SeenFromInside(inside && &car == &moment.cars[*inside]);
+    node.SeenFromInside(inside == static_cast<std::size_t>(&car - moment.cars.data()));
     for (std::size_t i = 0; i < car.wheels.size(); ++i) node.Turn(i, car.wheels[i].hub_B, car.wheels[i].steer_rad, car.wheels[i].spin_rad);
     scene::CarLights lights = car.lights;
     lights.brake = lights.brake || car.brake > kPressed;  // of recordings that have no lights yet
@@ -243,6 +253,7 @@ void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside,
     node.Place(agent.p_WB_W, agent.q_WB);
     const scene::CarShape shape = scene::CarShape::Of(agent);
     for (std::size_t i = 0; i < 4; ++i) node.Turn(i, shape.hubs_B[i], i < 2 ? agent.steer_rad : 0.0, agent.wheel_spin_rad);
+    node.SeenFromInside(inside == number_of(agent));
     node.Shine(scene::GlowsOf(agent.lights, dark, moment.time_ns));
     node.Pulse(pulse_of(agent));
   });

@@ -31,12 +31,13 @@ class CarNode {
   // wheel_front_left, wheel_front_right, wheel_rear_left and wheel_rear_right, each about its hub, turn, steer and move as wheels do; those that are called
   // lamp_brake, lamp_indicator_left, lamp_indicator_right, lamp_reversing and lamp_head, as many as there are, look and shine as the procedural car's lamps.
   void Wear(Look& look, osg::Node& model);
-  // Leaves away what stands in the eyes of somebody who sits in it.
-  void SeenFromInside(bool inside) { frame_->setNodeMask(inside ? 0U : ~0U); }
+  // Leaves away what stands in the eyes of somebody who sits in it: of a car what is above its waist, of a van, a lorry and a bus all but the shadow.
+  void SeenFromInside(bool inside);
 
  private:
   osg::ref_ptr<osg::Geometry> Painted(Look& look, const scene::Mesh& mesh);
 
+  scene::AgentKind kind_;
   scene::CarShape shape_;
   osg::ref_ptr<osg::MatrixTransform> body_;
   std::array<osg::ref_ptr<osg::MatrixTransform>, 4> wheels_;
@@ -71,7 +72,7 @@ class Fleet {
   osg::Node* node() { return group_; }
   // A model for driven cars, which ReadModel can read.
   void WearModel(const std::string& file);
-  // `inside`: the number, in the moment, of the car that the camera is in, or none; `chosen`: who pulses, counted behind the cars for the traffic.
+  // `inside`: the number, in the moment, of whom the camera is in, or none; `chosen`: who pulses; both counted behind the cars for the traffic.
   // `dark`: headlights are on.
   void Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen, bool dark);
 

@@ -240,7 +240,7 @@ void Painter::DrawOnce(const Picture& picture, const PictureTarget& target, bool
   parts_->heat.SetEye(state, eye.getViewMatrix());
   SetRain(state, picture.moment.time_ns, aspect);
   parts_->rain->setNodeMask(air.rain > 0.0F ? ~0U : 0U);
-  parts_->fleet.Show(picture.moment, is_car && picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt, picture.chosen, air.headlights > 0.0F);
+  parts_->fleet.Show(picture.moment, picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt, picture.chosen, air.headlights > 0.0F);
   parts_->cabin.Show(is_car && picture.cabin && picture.camera == scene::CameraKind::kDriver ? &picture.moment.cars[picture.followed] : nullptr);
   parts_->lights.Show(picture.moment.lights);
   parts_->vectors.Show(picture);

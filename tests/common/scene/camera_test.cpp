@@ -122,6 +122,7 @@ TEST(Camera, TheDriversEyeIsUnderTheRoof) {
     car.height_m = height_m;
     EXPECT_NEAR(DriversEye_B(car).z(), eye_m, 1e-9) << height_m;
     EXPECT_LT(DriversEye_B(car).z(), height_m - 0.2);
+    EXPECT_NEAR(DriversEye_B(car).x(), height_m < 3.0 ? 0.10 : Body(car).front_m - 1.3, 1e-9) << height_m;
   }
 }
 
