@@ -12,31 +12,7 @@ namespace {
 
 const std::string kConfig = "{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}";
 
-// Keys down from a step on (until the next entry).
-using Script = std::map<lockstep::Step, std::vector<std::string>>;
-
-LiveDrive Drive(const Script& script, lockstep::Step last) {
-  const auto launch = launch::Launch::Parse(LiveLaunch(kConfig), std::filesystem::path(SourceDir()) / "launch/live.yaml");
-  EXPECT_TRUE(launch.ok()) << launch.error().Text();
-  auto nodes = front::LocalNodes::Make(launch.value());
-  EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
-  const auto window = nodes.value().keys().MakeSender();
-  std::map<hands::Key, launch::LiveKey> keys;
-  return DriveLive(launch.value(), nodes.value(), last, [&](lockstep::Step step) {
-    if (const auto now = script.find(step); now != script.end()) {
-      for (auto& [key, entry] : keys) entry.held = false;
-      for (const std::string& name : now->second) {
-        launch::LiveKey& entry = keys[hands::KeyOf(name).value()];
-        entry.key = hands::KeyOf(name).value();
-        entry.held = true;
-        ++entry.presses;
-      }
-    }
-    std::vector<launch::LiveKey> all;
-    for (const auto& [key, entry] : keys) all.push_back(entry);
-    window->Say(std::move(all));
-  });
-}
+LiveDrive Drive(const KeyScript& script, lockstep::Step last) { return DriveByKeys(LiveLaunch(kConfig), script, last); }
 
 // Held when the sample valid at 100 appears (activation 90): activation 100 sees it first, its sample is valid at 110.
 TEST(KeyboardSource, AKeyBecomesControlsAtTheNextActivation) {

@@ -5,13 +5,16 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "common/hands/key_names.hpp"
 #include "common/launch/launch.hpp"
 #include "common/lockstep/in_process.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "launch/local_nodes.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira {
 
@@ -47,6 +50,33 @@ inline LiveDrive DriveLive(const launch::Launch& launch, front::LocalNodes& node
   drive.outcome = lockstep::RunThreaded(launch.roster(), nodes.nodes(), settings);
   EXPECT_TRUE(drive.outcome.ok) << drive.outcome.fault;
   return drive;
+}
+
+// Keys down from a step on (until the next entry).
+using KeyScript = std::map<lockstep::Step, std::vector<std::string>>;
+
+// The same of a launch file's text, as if it lay in `launch`, with a window in which keys are held by a script.
+inline LiveDrive DriveByKeys(const std::string& launch_text, const KeyScript& script, lockstep::Step last) {
+  const auto launch = launch::Launch::Parse(launch_text, std::filesystem::path(SourceDir()) / "launch/live.yaml");
+  EXPECT_TRUE(launch.ok()) << launch.error().Text();
+  auto nodes = front::LocalNodes::Make(launch.value());
+  EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
+  const auto window = nodes.value().keys().MakeSender();
+  std::map<hands::Key, launch::LiveKey> keys;
+  return DriveLive(launch.value(), nodes.value(), last, [&](lockstep::Step step) {
+    if (const auto now = script.find(step); now != script.end()) {
+      for (auto& [key, entry] : keys) entry.held = false;
+      for (const std::string& name : now->second) {
+        launch::LiveKey& entry = keys[hands::KeyOf(name).value()];
+        entry.key = hands::KeyOf(name).value();
+        entry.held = true;
+        ++entry.presses;
+      }
+    }
+    std::vector<launch::LiveKey> all;
+    for (const auto& [key, entry] : keys) all.push_back(entry);
+    window->Say(std::move(all));
+  });
 }
 
 }  // namespace rodeira

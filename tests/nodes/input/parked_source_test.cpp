@@ -3,38 +3,16 @@
 
 #include <cmath>
 
-#include "common/hands/keyboard_driver.hpp"
 #include "tests/nodes/input/live_drive.hpp"
-#include "tests/tree.hpp"
 
 namespace rodeira {
 namespace {
 
-// Keys down from a step on (until the next entry), on N222, whose start is on a grade.
-LiveDrive DriveOnAHill(const std::map<lockstep::Step, std::vector<std::string>>& script, lockstep::Step last, const std::string& more = "") {
-  const std::string text =
-      "rodeira: launch/1\nworld: ../configs/worlds/n222.yaml\nnodes:\n  road: {kind: road}\n  driver: {kind: input, config: {source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}}\n"
-      "  ego: {kind: vehicle, config: {vehicle: ../configs/vehicles/default.yaml" + more + "}}\n";
-  const auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/live.yaml");
-  EXPECT_TRUE(launch.ok()) << launch.error().Text();
-  auto nodes = front::LocalNodes::Make(launch.value());
-  EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
-  const auto window = nodes.value().keys().MakeSender();
-  std::map<hands::Key, launch::LiveKey> keys;
-  return DriveLive(launch.value(), nodes.value(), last, [&](lockstep::Step step) {
-    if (const auto now = script.find(step); now != script.end()) {
-      for (auto& [key, entry] : keys) entry.held = false;
-      for (const std::string& name : now->second) {
-        launch::LiveKey& entry = keys[hands::KeyOf(name).value()];
-        entry.key = hands::KeyOf(name).value();
-        entry.held = true;
-        ++entry.presses;
-      }
-    }
-    std::vector<launch::LiveKey> all;
-    for (const auto& [key, entry] : keys) all.push_back(entry);
-    window->Say(std::move(all));
-  });
+// On N222, whose start is on a grade.
+LiveDrive DriveOnAHill(const KeyScript& script, lockstep::Step last, const std::string& start = "") {
+  return DriveByKeys("rodeira: launch/1\nworld: ../configs/worlds/n222.yaml\nnodes:\n  road: {kind: road}\n  driver: {kind: input, config: {source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}}\n"
+                     "  ego: {kind: vehicle, config: {vehicle: ../configs/vehicles/default.yaml" + start + "}}\n",
+                     script, last);
 }
 
 double Speed(const LiveDrive& drive) {
