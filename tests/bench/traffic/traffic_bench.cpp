@@ -1,10 +1,11 @@
 // What a step of traffic costs: planar mode on closed-meshed grids of streets, by the number of vehicles. The grids are maps that
-// tools/make_grid.py writes; RODEIRA_GRIDS is the folder with grid4.motors, grid10.motors and grid32.motors.
+// tools/make_grid.py writes; RODEIRA_GRIDS is the folder with grid4.motors, grid10.motors, grid32.motors and grid37.motors.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
 #include <chrono>
 #include <optional>
+#include <vector>
 
 #include "common/base/state.hpp"
 #include "common/map/map_network.hpp"
@@ -49,7 +50,29 @@ void BM_PlanarStep(benchmark::State& state) {
   state.counters["updates"] = benchmark::Counter(updates, benchmark::Counter::kIsRate);
   state.counters["on_road"] = on_road / steps;
 }
-BENCHMARK(BM_PlanarStep)->Args({4, 100})->Args({10, 1000})->Args({32, 10000})->Unit(benchmark::kMillisecond)->MinTime(4.0);
+BENCHMARK(BM_PlanarStep)->Args({4, 100})->Args({10, 1000})->Args({32, 10000})->Args({37, 12700})->Unit(benchmark::kMillisecond)->MinTime(4.0);
+
+// The same where nothing of a step before is in near memory: between two steps, untimed, more is written than the caches hold. What a step of many
+// vehicles costs more than one of few is compared with this.
+void BM_PlanarStepFromFarMemory(benchmark::State& state) {
+  auto warm = Warm(state);
+  if (!warm) return;
+  TrafficModel& model = *warm;
+  constexpr std::size_t kLine_bytes = 64;
+  std::vector<char> far(64u << 20u);
+  double updates = 0.0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    for (std::size_t at = 0; at < far.size(); at += kLine_bytes) ++far[at];
+    benchmark::DoNotOptimize(far.data());
+    benchmark::ClobberMemory();
+    state.ResumeTiming();
+    model.Step(0.01, {});
+    updates += static_cast<double>(model.on_road());
+  }
+  state.counters["updates"] = benchmark::Counter(updates, benchmark::Counter::kIsRate);
+}
+BENCHMARK(BM_PlanarStepFromFarMemory)->Args({4, 100})->Args({10, 1000})->Args({32, 10000})->Args({37, 12700})->Unit(benchmark::kMillisecond)->MinTime(0.4);
 
 // Full physics, 1 kHz below decisions of 100 Hz, SUELO under every wheel: 10 ms of the town of 10 × 10 on one thread, and how many of such cars one core
 // drives in real time.
