@@ -83,6 +83,7 @@ network::Patch ReadPatch(const Map& item, const Context& context, double length_
   }
   if (item.Has("friction")) patch.friction = item.Number("friction", {0.01, 2.0});
   AddObject("patch", patch.piece, spec);
+  spec.objects.back().material = {patch.surface, patch.friction, ""};
   return patch;
 }
 

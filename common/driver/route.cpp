@@ -63,7 +63,7 @@ std::vector<RouteLeg> StraightOn(const Network& network, const LaneKey& start, d
     for (const LaneEnd& end : last.along ? network.AtEnd(last.lane) : network.AtStart(last.lane)) {
       const RouteLeg leg{end.lane, end.end == network::End::kStart};
       const network::Lane& lane = *network.Find(leg.lane);
-      if (!network::IsDrivable(lane.type) || lane.direction == (leg.along ? -1 : 1)) continue;
+      if (!network::IsDrivable(lane.type) || !network::OpenToCars(lane) || lane.direction == (leg.along ? -1 : 1)) continue;
       if (!next || Turn(network, leg) < Turn(network, *next)) next = leg;
     }
     if (!next) break;

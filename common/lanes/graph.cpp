@@ -18,7 +18,7 @@ constexpr double kNoLimit_mps = 130.0 / 3.6;
 // The way in which a lane is driven: nothing where motor traffic does not.
 std::optional<bool> Along(const network::Network& network, const LaneKey& key) {
   const network::Lane& lane = *network.Find(key);
-  if (!network::IsDrivable(lane.type)) return std::nullopt;
+  if (!network::IsDrivable(lane.type) || !network::OpenToCars(lane)) return std::nullopt;
   if (lane.direction != 0) return lane.direction > 0;
   return (key.lane < 0) != network.roads()[key.road].spec().left_hand;
 }

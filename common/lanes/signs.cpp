@@ -16,6 +16,12 @@ std::optional<Sign> SignOf(const network::Signal& signal) {
   if (type == "205") return Sign::kGiveWay;
   if (type == "301" || type == "306") return Sign::kPriority;
   if (type == "307") return Sign::kNone;
+  // Signs of other countries' numbers say what they mean.
+  const std::string_view priority = signal.priority;
+  if (priority == "stop" || priority == "4way") return Sign::kStop;
+  if (priority == "yield") return Sign::kGiveWay;
+  if (priority == "priorityRoad") return Sign::kPriority;
+  if (priority == "priorityRoadEnd") return Sign::kNone;
   return std::nullopt;
 }
 

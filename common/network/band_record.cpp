@@ -76,9 +76,8 @@ BandPiece BandRecords::MakePiece(const Road& road, double s_m, Known& known) {
   std::vector<const void*> edges = {&section};
   for (const auto* side : {&section.left, &section.right}) {
     for (const Lane& lane : *side) {
-      const bool bordered = lane.width.empty() && !lane.border.empty();
-      const Cubic& edge = InForce(bordered ? lane.border : lane.width, s_m, from, to);
-      lanes.push_back({edge, &lane, lane.id, bordered, IsDrivable(lane.type)});
+      const Cubic& edge = InForce(lane.bordered() ? lane.border : lane.width, s_m, from, to);
+      lanes.push_back({edge, &lane, lane.id, lane.bordered(), IsDrivable(lane.type)});
       edges.push_back(&edge);
     }
   }
@@ -97,7 +96,7 @@ BandRecords::LaneAt BandRecords::At(const BandPiece& piece, double s_m, double t
   CubicPoint inner = centre_t;
   LaneAt at;
   for (const LaneRecord& lane : side) {
-    const CubicPoint outer = OuterEdgeBy(lane.bordered, Evaluate(lane.edge, s_m), sign, inner, centre_t);
+    const CubicPoint outer = OuterEdgeBy(lane.bordered, Evaluate(lane.edge, s_m), sign, inner);
     at.span = {lane.lane, inner.value, outer.value, inner.slope, outer.slope};
     at.id = lane.id, at.drivable = lane.drivable;
     if (sign * (outer.value - t_m) >= 0.0 && outer.value != inner.value) return at;

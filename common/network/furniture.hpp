@@ -37,6 +37,7 @@ struct Signal {
   double h_offset_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
   std::vector<LaneValidity> validity;
   std::vector<std::string> depends_on;  // ids of signals
+  std::string priority;                 // what it means for who may go first, whatever its country calls it: stop, yield, priorityRoad …; empty: not said
   std::variant<std::monostate, SeenAtRoad, SeenInWorld> seen;
 };
 
@@ -58,7 +59,9 @@ struct Corner {
 };
 
 struct Outline {
+  std::string id;
   bool closed = true;
+  std::string fill;  // what lies within: grass, concrete, cobble, asphalt, pavement, gravel or soil; empty: not said
   std::vector<Corner> corners;
 };
 
@@ -71,6 +74,30 @@ struct Repeat {
   double width_start_m = 0.0, width_end_m = 0.0;
   double length_start_m = 0.0, length_end_m = 0.0;
   double radius_start_m = 0.0, radius_end_m = 0.0;
+  bool straight = false;  // from its beginning to its end, seen from above, whichever way the road bends
+};
+
+// A frame within an outline's edge, or along some of its corners: a kerb or a strip of concrete.
+struct ObjectBorder {
+  std::size_t outline = 0;           // of the object's
+  std::vector<std::string> corners;  // their ids, in order; none: all of the outline
+  double width_m = 0.0;
+  std::string type;  // "concrete", "curb"
+};
+
+// A point of a skeleton: round with a radius, otherwise a rectangle across the line.
+struct SkeletonPoint {
+  bool local = false;     // as of Corner
+  double first_m = 0.0, second_m = 0.0, dz_m = 0.0;
+  double radius_m = 0.0;
+  double width_m = 0.0, length_m = 0.0;
+};
+using SkeletonLine = std::vector<SkeletonPoint>;  // straight from each point to the next; at least two
+
+struct ObjectMaterial {
+  std::string surface;  // as of LaneMaterial
+  std::optional<double> friction;
+  std::string colour;  // of its paint; empty: not said
 };
 
 // A line of paint along a side of an object, or from corner to corner of its outline.
@@ -94,7 +121,16 @@ struct Object {
   std::vector<Outline> outlines;
   std::vector<LaneValidity> validity;
   std::vector<ObjectMark> marks;
+  std::vector<ObjectBorder> borders;
+  std::vector<SkeletonLine> skeleton;
+  ObjectMaterial material;
+  std::string access;  // who may use it, of a parking place: all, car, women, handicapped, bus, truck, electric, residents; empty: not said
 };
+
+// It is part of the ground, however high a file says that it is: crossings, parking places, paint, patches.
+bool IsFlat(const Object& object);
+// A piece of the road that is made of something else.
+bool IsPatch(const Object& object);
 
 struct ObjectReference {
   double s_m = 0.0, t_m = 0.0;

@@ -44,10 +44,8 @@ constexpr std::array<std::pair<LaneType, std::string_view>, 31> kNames = {{
     {LaneType::kSpecial3, "special3"},
 }};
 
-geometry::CubicPoint OuterEdge(const Lane& lane, double sign, const geometry::CubicPoint& inner,
-                               const geometry::CubicPoint& centre, double s_m) {
-  const bool bordered = lane.width.empty() && !lane.border.empty();
-  return OuterEdgeBy(bordered, (bordered ? lane.border : lane.width).Evaluate(s_m), sign, inner, centre);
+geometry::CubicPoint OuterEdge(const Lane& lane, double sign, const geometry::CubicPoint& inner, double s_m) {
+  return OuterEdgeBy(lane.bordered(), (lane.bordered() ? lane.border : lane.width).Evaluate(s_m), sign, inner);
 }
 
 }  // namespace
@@ -92,6 +90,13 @@ bool IsDrivable(LaneType type) {
   }
 }
 
+bool OpenToCars(const Lane& lane) {
+  return std::none_of(lane.access.begin(), lane.access.end(), [](const LaneAccess& access) {
+    const bool names_cars = std::any_of(access.restrictions.begin(), access.restrictions.end(), [](const std::string& who) { return who == "passengerCar" || who == "autonomousTraffic"; });
+    return (access.rule == "deny" && names_cars) || (access.rule == "allow" && !access.restrictions.empty() && !names_cars);
+  });
+}
+
 const Lane* LaneSection::Find(int id) const {
   if (id == 0) return &centre;
   const std::vector<Lane>& side = id > 0 ? left : right;
@@ -104,7 +109,7 @@ std::optional<LaneSpan> LaneSection::Span(int id, const geometry::CubicPoint& ce
   const double sign = id > 0 ? 1.0 : -1.0;
   geometry::CubicPoint inner = centre_t;
   for (const Lane& lane : id > 0 ? left : right) {
-    const geometry::CubicPoint outer = OuterEdge(lane, sign, inner, centre_t, at_s_m);
+    const geometry::CubicPoint outer = OuterEdge(lane, sign, inner, at_s_m);
     if (lane.id == id) return LaneSpan{&lane, inner.value, outer.value, inner.slope, outer.slope};
     inner = outer;
   }
@@ -116,7 +121,7 @@ LaneSpan LaneSection::At(double t_m, const geometry::CubicPoint& centre_t, doubl
   geometry::CubicPoint inner = centre_t;
   LaneSpan span;
   for (const Lane& lane : sign > 0.0 ? left : right) {
-    const geometry::CubicPoint outer = OuterEdge(lane, sign, inner, centre_t, at_s_m);
+    const geometry::CubicPoint outer = OuterEdge(lane, sign, inner, at_s_m);
     span = {&lane, inner.value, outer.value, inner.slope, outer.slope};
     // A lane without width holds nothing; t on the centre belongs to the first that has one.
     if (sign * (outer.value - t_m) >= 0.0 && outer.value != inner.value) {
@@ -142,9 +147,8 @@ void LaneSection::Bounds(const geometry::CubicTable& centre_t, double low_s_m, d
     double edge = is_left ? high : low;
     for (const Lane& lane : *side) {
       double smallest, largest;
-      const bool bordered = lane.width.empty() && !lane.border.empty();
-      (bordered ? lane.border : lane.width).Bounds(low_s_m, high_s_m, smallest, largest);
-      if (bordered) edge = is_left ? std::max(edge, high + largest) : std::min(edge, low + smallest);
+      (lane.bordered() ? lane.border : lane.width).Bounds(low_s_m, high_s_m, smallest, largest);
+      if (lane.bordered()) edge = is_left ? std::max(edge, largest) : std::min(edge, smallest);
       else edge += (is_left ? 1.0 : -1.0) * std::max(0.0, largest);
     }
     (is_left ? left_t_m : right_t_m) = edge;

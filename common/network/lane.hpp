@@ -69,7 +69,7 @@ struct LaneMaterial {
 
 struct LaneAccess {
   double s_m = 0.0;
-  std::string rule;
+  std::string rule;  // "allow": these and no others; "deny": all but these
   std::vector<std::string> restrictions;
 };
 
@@ -79,7 +79,7 @@ struct Lane {
   bool level = false;  // exempt from superelevation and cross-section
   int direction = 1;   // of traffic: +1 along s, -1 against it, 0 both
   geometry::CubicTable width;   // over s; empty where the lane has a border instead
-  geometry::CubicTable border;  // t of the outer edge over s, counted from the lane reference
+  geometry::CubicTable border;  // t of the outer edge over s, wherever the centre lane lies; it counts where there is no width
   std::vector<LaneHeight> heights;
   std::vector<RoadMark> marks;
   std::vector<SpeedLimit> speeds;
@@ -87,7 +87,13 @@ struct Lane {
   std::vector<LaneAccess> access;
   std::vector<int> predecessors;  // ids in the section before, or in the road's predecessor
   std::vector<int> successors;
+
+  bool bordered() const { return width.empty() && !border.empty(); }
 };
+
+// Whether cars may drive on a lane from its beginning to its end. Rules that name neither "passengerCar" nor "autonomousTraffic" are for others; one that
+// allows only others closes it. A rule that says neither "allow" nor "deny" is passed over.
+bool OpenToCars(const Lane& lane);
 
 // A lane at one s: its edges as t, positive to the left, and how they move with s.
 struct LaneSpan {

@@ -68,8 +68,32 @@ struct Sizes {
         length(repeat.length_start_m, repeat.length_end_m, object.length_m), radius(repeat.radius_start_m, repeat.radius_end_m, object.radius_m) {}
 };
 
+// The straight line of a repeat, seen from above: between the places of its beginning and end that are on the road.
+struct Chord {
+  Eigen::Vector2d from_W, way_W;
+  double from_s_m, to_s_m;
+  double from_share = 0.0, shares = 1.0;  // of the repeat's length: where it begins, and how much of it it is
+
+  Chord(const Road& road, const Repeat& repeat) : from_s_m(std::clamp(repeat.s_m, 0.0, road.length_m())), to_s_m(std::clamp(repeat.s_m + repeat.length_m, 0.0, road.length_m())) {
+    if (to_s_m > from_s_m) from_share = (from_s_m - repeat.s_m) / repeat.length_m, shares = (to_s_m - from_s_m) / repeat.length_m;
+    from_W = road.Surface(from_s_m, Between(repeat.t_start_m, repeat.t_end_m, from_share)).p_W.head<2>();
+    way_W = road.Surface(to_s_m, Between(repeat.t_start_m, repeat.t_end_m, from_share + shares)).p_W.head<2>() - from_W;
+  }
+  // The thing stands where the road lies under the chord.
+  void Stand(const Road& road, double share_of_repeat, double turn_rad, Placed& placed) const {
+    const double share = (share_of_repeat - from_share) / shares;
+    const Eigen::Vector2d p = from_W + share * way_W;
+    placed.s_m = Between(from_s_m, to_s_m, share);
+    road.Settle(p, 0.0, road.length_m(), placed.s_m, placed.t_m);
+    placed.foot_W = {p.x(), p.y(), road.Surface(placed.s_m, placed.t_m).p_W.z()};
+    const bool short_way = way_W.squaredNorm() == 0.0;
+    placed.heading_rad = (short_way ? road.axis().Evaluate(placed.s_m).heading_rad : std::atan2(way_W.y(), way_W.x())) + turn_rad;
+  }
+};
+
 void PlaceRow(const Road& road, const Object& object, const Repeat& repeat, std::uint32_t index, std::vector<Placed>& things) {
   const Sizes sizes(repeat, object);
+  const std::optional<Chord> chord = repeat.straight ? std::optional<Chord>(Chord(road, repeat)) : std::nullopt;
   const double last = std::min(std::floor(repeat.length_m / repeat.distance_m + 1e-9), kMostOfARepeat);
   for (double i = 0.0; i <= last; i += 1.0) {
     const double s = repeat.s_m + i * repeat.distance_m;
@@ -82,7 +106,8 @@ void PlaceRow(const Road& road, const Object& object, const Repeat& repeat, std:
     placed.z_offset_m = Between(repeat.z_start_m, repeat.z_end_m, share);
     placed.height_m = sizes.height.At(share), placed.width_m = sizes.width.At(share);
     placed.length_m = sizes.length.At(share), placed.radius_m = sizes.radius.At(share);
-    Stand(road, object.hdg_rad, placed);
+    if (chord) chord->Stand(road, share, object.hdg_rad, placed);
+    else Stand(road, object.hdg_rad, placed);
     things.push_back(placed);
   }
 }
@@ -103,10 +128,35 @@ void PlaceRun(const Road& road, const Object& object, const Repeat& repeat, std:
   const auto width_at = [&](double s) { return sizes.width.At(share(s)) > 0.0 ? sizes.width.At(share(s)) : 2.0 * sizes.radius.At(share(s)); };
   run.height_start_m = sizes.height.At(share(run.from_s_m)), run.height_end_m = sizes.height.At(share(run.to_s_m));
   run.width_start_m = width_at(run.from_s_m), run.width_end_m = width_at(run.to_s_m);
+  run.straight = repeat.straight;
   runs.push_back(run);
 }
 
 }  // namespace
+
+PlacedRun::Point PlacedRun::At(const Road& on, double share) const {
+  if (!straight) {
+    const double s = Between(from_s_m, to_s_m, share);
+    return {on.Surface(s, Between(t_start_m, t_end_m, share)).p_W, on.axis().Evaluate(s).left_W()};
+  }
+  const Eigen::Vector3d begin = on.Surface(from_s_m, t_start_m).p_W, end = on.Surface(to_s_m, t_end_m).p_W;
+  const Eigen::Vector2d way = (end - begin).head<2>();
+  const Eigen::Vector2d left = way.squaredNorm() > 0.0 ? Eigen::Vector2d(Eigen::Vector2d(-way.y(), way.x()).normalized()) : on.axis().Evaluate(from_s_m).left_W();
+  return {begin + share * (end - begin), left};
+}
+
+double PlacedRun::Step(const Road& on, double longest_m, double chord_m) const {
+  if (straight) return longest_m;
+  const double length = to_s_m - from_s_m;
+  const int looks = std::max(2, static_cast<int>(length));
+  double step = longest_m;
+  for (int i = 0; i <= looks; ++i) {
+    const double share = static_cast<double>(i) / looks, k = on.axis().Evaluate(from_s_m + share * length).curvature_1pm;
+    const double bend = std::fabs(k / std::max(0.1, 1.0 - k * Between(t_start_m, t_end_m, share)));
+    if (bend > 0.0) step = std::min(step, std::max(0.5, std::sqrt(8.0 * chord_m / bend)));
+  }
+  return step;
+}
 
 Furniture PlaceFurniture(const Network& network) {
   Furniture furniture;

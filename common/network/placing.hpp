@@ -35,6 +35,17 @@ struct PlacedRun {
   double z_start_m = 0.0, z_end_m = 0.0;  // over the road's surface
   double height_start_m = 0.0, height_end_m = 0.0;
   double width_start_m = 0.0, width_end_m = 0.0;
+  bool straight = false;  // its ends are joined by a straight line, seen from above; t is theirs alone
+
+  // A point of it on the road's surface (of a straight one: between the heights there of its ends), share 0 at its beginning, 1 at its end; and what
+  // lies to its left there.
+  struct Point {
+    Eigen::Vector3d p_W;
+    Eigen::Vector2d left_W;
+  };
+  Point At(const Road& on, double share) const;
+  // The longest a piece of it may be, at most `longest_m`, so that its chord stays within `chord_m` of it.
+  double Step(const Road& on, double longest_m, double chord_m) const;
 };
 
 struct Furniture {
@@ -44,7 +55,8 @@ struct Furniture {
 
 // Everything that stands at a network's roads, by road, then signals and objects as they were written. An object that is
 // repeated every d metres over a length L stands at floor(L / d) + 1 stations as its repeats say, and not at its own; stations
-// beyond the road's end are left out, and what is said once for a road that ends before counts to its end. A signal
+// beyond the road's end are left out, and what is said once for a road that ends before counts to its end. A straight repeat stands
+// evenly along its chord, heading along it, its s and t those of the road under it. A signal
 // that is seen elsewhere than where it counts stands there, with that road; where there is no such road, at its own place.
 Furniture PlaceFurniture(const Network& network);
 

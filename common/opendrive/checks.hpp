@@ -21,6 +21,8 @@ std::string GapWords(double found, double most, double asam, std::string_view un
 
 // Elements of one road: stations, gaps and kinks between them, the lengths of cubics, the road's length.
 void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& findings);
+// Borders of lanes that lie within the edge of the lane inside of them.
+void CheckBorders(const RoadReading& road, const Tolerance& tolerance, Findings& findings);
 // One warning for a file whose reference lines have jumps of curvature: at the largest of them.
 void TellCurvatureJumps(std::span<const RoadReading> roads, Findings& findings);
 // Junctions with a boundary and heights of their own: the ground of each, laid under its connecting roads too.

@@ -75,7 +75,10 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   if (!import.errors.empty()) return import;
 
   Findings findings;
-  for (const RoadReading& road : readings) CheckPlan(road, tolerance, findings);
+  for (const RoadReading& road : readings) {
+    CheckPlan(road, tolerance, findings);
+    CheckBorders(road, tolerance, findings);
+  }
   TellCurvatureJumps(readings, findings);
   std::vector<RoadLines> lines;
   for (RoadReading& road : readings) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace rodeira::opendrive {
 namespace {
@@ -64,7 +65,7 @@ constexpr Row kRows[] = {
     {"lane/visibility", "", "sOffset forward back left right", ""},
     {"objects", "object objectReference tunnel bridge", "", ""},
     {"object", "repeat outline outlines material validity parkingSpace markings borders surface skeleton",
-     "type subtype dynamic name id s t zOffset validLength orientation hdg pitch roll height length width radius perpToRoad temporary", "outlines markings borders"},
+     "type subtype dynamic name id s t zOffset validLength orientation hdg pitch roll height length width radius perpToRoad temporary", "outlines markings borders parkingSpace skeleton surface"},
     {"repeat", "", "s length distance tStart tEnd widthStart widthEnd heightStart heightEnd zOffsetStart zOffsetEnd lengthStart lengthEnd radiusStart radiusEnd detachFromReferenceLine", ""},
     {"outlines", "outline", "", ""},
     {"outline", "cornerRoad cornerLocal", "id fillType outer closed laneType", ""},
@@ -75,6 +76,13 @@ constexpr Row kRows[] = {
     {"markings", "marking", "", ""},
     {"markings/marking", "cornerReference", "side weight width color zOffset spaceLength lineLength startOffset stopOffset", ""},
     {"cornerReference", "", "id", ""},
+    {"parkingSpace", "", "access restrictions", ""},
+    {"borders", "border", "", ""},
+    {"borders/border", "cornerReference", "width type outlineId useCompleteOutline", ""},
+    {"skeleton", "polyline", "", ""},
+    {"polyline", "vertexRoad vertexLocal", "id", ""},
+    {"vertexRoad", "", "s t dz id radius width length height intersectionPoint", ""},
+    {"vertexLocal", "", "u v z id radius width length height intersectionPoint", ""},
     {"objectReference", "validity", "s t id zOffset validLength orientation", ""},
     {"objectReference/validity", "", "fromLane toLane layer", ""},
     {"tunnel", "validity", "s length name id type lighting daylight", ""},
@@ -88,6 +96,8 @@ constexpr Row kRows[] = {
     {"dependency", "", "id type", ""},
     {"positionRoad", "", "roadId s t zOffset hOffset pitch roll", ""},
     {"positionInertial", "", "x y z hdg pitch roll", ""},
+    {"semantics", "speed lane priority prohibited warning routing streetName parking tourist supplementaryTime supplementaryAllows supplementaryProhibits supplementaryDistance supplementaryEnvironment supplementaryExplanatory", "", ""},
+    {"semantics/priority", "", "type", ""},
     {"signalReference", "validity", "s t id orientation", ""},
     {"signalReference/validity", "", "fromLane toLane layer", ""},
     {"road/surface", "CRG", "", ""},
@@ -127,6 +137,11 @@ constexpr Choice kChoices[] = {
     {"OpenDRIVE", "junction", "type", "default|virtual|direct|crossing|common"},
     {"junction", "connection", "contactPoint", "start|end"},
     {"OpenDRIVE", "road", "rule", "RHT|LHT"},
+    {"outlines", "outline", "fillType", "grass|concrete|cobble|asphalt|pavement|gravel|soil|paint"},
+    {"object", "outline", "fillType", "grass|concrete|cobble|asphalt|pavement|gravel|soil|paint"},
+    {"object", "material", "roadMarkColor", "standard|white|yellow|red|blue|green|orange|violet|black"},
+    {"object", "parkingSpace", "access", "all|bus|car|electric|handicapped|residents|truck|women"},
+    {"semantics", "priority", "type", "4way|keepClearLine|noParkingLine|noTurnOnRed|priorityRoad|priorityRoadEnd|priorityToTheRightRule|stop|stopLine|turnOnRedAllowed|trafficLight|waitingLine|yield"},
     {"surface", "CRG", "orientation", "same|opposite"},
     {"surface", "CRG", "purpose", "elevation|friction"},
     {"surface", "CRG", "mode", "attached|attached0|genuine|global"},
@@ -164,6 +179,14 @@ const KnownElement* FindKnown(std::string_view parent, std::string_view element)
   auto found = known.find(std::string(parent) + "/" + std::string(element));
   if (found == known.end()) found = known.find(element);
   return found == known.end() ? nullptr : &found->second;
+}
+
+std::vector<std::string> KnownNames() {
+  std::set<std::string> names;
+  for (const Row& row : kRows) {
+    for (std::string& child : Split(row.children, ' ')) names.insert(std::move(child));
+  }
+  return {names.begin(), names.end()};
 }
 
 const std::vector<std::string>& WordsOf(std::string_view parent, std::string_view element, std::string_view attribute) {

@@ -16,6 +16,9 @@ struct KnownElement {
 // Null: what is known of such an element is nothing, and nothing below it is looked at.
 const KnownElement* FindKnown(std::string_view parent, std::string_view element);
 
+// The names of all elements that are known, each once, ascending.
+std::vector<std::string> KnownNames();
+
 // Words that an attribute may say; empty: anything. Files of others write them in letters of either case.
 const std::vector<std::string>& WordsOf(std::string_view parent, std::string_view element, std::string_view attribute);
 

@@ -14,15 +14,25 @@ struct Unread {
   std::string_view parent, name;
   bool attribute;
 };
-constexpr std::array<Unread, 20> kUnread = {{
-    {"object", "borders", false}, {"object", "material", false}, {"object", "parkingSpace", false}, {"object", "skeleton", false}, {"object", "surface", false},
-    {"repeat", "detachFromReferenceLine", true}, {"outline", "fillType", true},
-    {"signal", "reference", false}, {"signal", "staticBoard", false}, {"signal", "vmsBoard", false}, {"signal", "semantics", false},
-    {"junction", "crossPath", false}, {"junction", "roadSection", false}, {"junction", "mainRoad", true},
+// Why each of them is not, stands in docs/formats.md.
+constexpr std::array<Unread, 31> kUnread = {{
+    {"object", "surface", false}, {"object", "perpToRoad", true}, {"outline", "laneType", true},
+    {"tunnel", "lighting", true}, {"tunnel", "daylight", true}, {"tunnel", "validity", false}, {"bridge", "validity", false},
+    {"signal", "reference", false}, {"signal", "staticBoard", false}, {"signal", "vmsBoard", false},
+    {"semantics", "speed", false}, {"semantics", "lane", false}, {"semantics", "prohibited", false},
+    {"lane", "rule", false}, {"lane", "advisory", true}, {"lane", "dynamicLaneDirection", true}, {"lane", "dynamicLaneType", true}, {"lane", "roadWorks", true},
+    {"predecessor", "elementS", true}, {"successor", "elementS", true},
+    {"junction", "crossPath", false}, {"junction", "roadSection", false}, {"junction", "mainRoad", true}, {"junction", "surface", false}, {"junction", "objects", false},
     {"road", "railroad", false},
     {"OpenDRIVE", "junctionGroup", false}, {"OpenDRIVE", "station", false},
     {"OpenDRIVE", "include", false}, {"road", "include", false}, {"lanes", "include", false},
 }};
+
+// An attribute that is there and not "no".
+bool Says(const pugi::xml_attribute& attribute) {
+  const std::string_view value = attribute.value();
+  return attribute && !value.empty() && value != "false" && value != "no" && value != "none" && value != "0";
+}
 
 struct Walker final : pugi::xml_tree_walker {
   std::array<std::size_t, kUnread.size()> count{};
@@ -32,7 +42,7 @@ struct Walker final : pugi::xml_tree_walker {
     const std::string_view name = node.name(), parent = node.parent().name();
     for (std::size_t i = 0; i < kUnread.size(); ++i) {
       const Unread& unread = kUnread[i];
-      const bool here = unread.attribute ? name == unread.parent && node.attribute(unread.name.data()) : name == unread.name && parent == unread.parent;
+      const bool here = unread.attribute ? name == unread.parent && Says(node.attribute(unread.name.data())) : name == unread.name && parent == unread.parent;
       if (here && count[i]++ == 0) first[i] = node;
     }
     return true;

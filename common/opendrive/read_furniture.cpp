@@ -61,6 +61,9 @@ network::Signal ReadSignal(const Node& node) {
   signal.roll_rad = node.Number("roll", 0.0);
   signal.validity = ReadValidity(node);
   for (const Node& dependency : node.Children("dependency")) signal.depends_on.push_back(dependency.Text("id"));
+  for (const Node& semantics : node.Children("semantics")) {
+    for (const Node& priority : semantics.Children("priority")) signal.priority = priority.Text("type", "");
+  }
   ReadSeen(node, signal);
   CheckSign(node, signal);
   return signal;
@@ -83,12 +86,15 @@ network::Repeat ReadRepeat(const Node& node) {
   repeat.length_end_m = node.Number("lengthEnd", 0.0);
   repeat.radius_start_m = node.Number("radiusStart", 0.0);
   repeat.radius_end_m = node.Number("radiusEnd", 0.0);
+  repeat.straight = node.Flag("detachFromReferenceLine", false);
   return repeat;
 }
 
 network::Outline ReadOutline(const Node& node) {
   network::Outline outline;
+  outline.id = node.Text("id", "");
   outline.closed = node.Flag("closed", true);
+  outline.fill = node.Text("fillType", "");
   for (const Node& corner : node.Children("cornerRoad")) {
     outline.corners.push_back(
         {false, corner.Number("s"), corner.Number("t"), corner.Number("dz", 0.0), corner.Number("height", 0.0), corner.Text("id", "")});
@@ -129,6 +135,70 @@ void ReadMarks(const Node& node, network::Object& object) {
       else if (mark.corners.empty() && std::find(kSides.begin(), kSides.end(), mark.side) == kSides.end()) warn(each, fmt::format("lies on the side '{}'{}", mark.side, base::DidYouMean(mark.side, kSides)));
       else object.marks.push_back(std::move(mark));
     }
+  }
+}
+
+void WarnOf(const Node& node, std::string_view rule, std::string message) {
+  const Source::Where& where = node.source().where;
+  node.source().warnings.push_back({std::string(rule), std::move(message), node.line(), where.road, where.lane, where.s_m});
+}
+
+// A frame that has no outline, no width or not enough corners is no error: it is said, and not drawn.
+void ReadBorders(const Node& node, network::Object& object) {
+  static const std::vector<std::string> kTypes = {"concrete", "curb"};
+  const auto& outlines = object.outlines;
+  for (const Node& each : node.Child("borders").Children("border")) {
+    network::ObjectBorder border;
+    border.width_m = each.Number("width", 0.0);
+    border.type = each.Text("type", "");
+    for (const Node& corner : each.Children("cornerReference")) border.corners.push_back(corner.Text("id"));
+    const bool whole = each.Flag("useCompleteOutline", true);
+    const std::string id = each.Text("outlineId", "");
+    const auto warn = [&](std::string_view rule, const std::string& what) { WarnOf(each, rule, fmt::format("a border of the object '{}' {}: it is not drawn", object.id, what)); };
+    const auto found = std::find_if(outlines.begin(), outlines.end(), [&](const network::Outline& outline) { return outline.id == id; });
+    if (found == outlines.end()) {
+      warn("road.object.borders.outline_id", fmt::format("is of the outline '{}', which it has not", id));
+      continue;
+    }
+    border.outline = static_cast<std::size_t>(found - outlines.begin());
+    const auto lost = std::find_if_not(border.corners.begin(), border.corners.end(), [&](const std::string& corner) {
+      return std::any_of(found->corners.begin(), found->corners.end(), [&](const network::Corner& of) { return of.id == corner; });
+    });
+    if (lost != border.corners.end()) warn("road.object.borders", fmt::format("names the corner '{}', which its outline has not", *lost));
+    else if (!whole && border.corners.size() < 2) warn("road.object.borders", fmt::format("names {} corners of its outline; two at least were expected", border.corners.size()));
+    else if (!(border.width_m > 0.0)) warn("road.object.borders", fmt::format("is {} m wide", border.width_m));
+    else if (std::find(kTypes.begin(), kTypes.end(), border.type) == kTypes.end()) warn("road.object.borders", fmt::format("is of the type '{}'{}", border.type, base::DidYouMean(border.type, kTypes)));
+    else {
+      if (whole && !border.corners.empty()) {
+        WarnOf(each, "road.object.borders.useCompleteOutline_true", fmt::format("a border of the object '{}' goes along its complete outline and names corners: it goes along all of it", object.id));
+        border.corners.clear();
+      }
+      object.borders.push_back(std::move(border));
+    }
+  }
+}
+
+// Of points with a radius, or with a width and a length; a line that mixes them, or has no extent, is said and not drawn.
+void ReadSkeleton(const Node& node, network::Object& object) {
+  for (const Node& line : node.Child("skeleton").Children("polyline")) {
+    network::SkeletonLine points;
+    const auto read = [&](const Node& vertex, bool local) {
+      network::SkeletonPoint point{local, vertex.Number(local ? "u" : "s"), vertex.Number(local ? "v" : "t"), vertex.Number(local ? "z" : "dz", 0.0)};
+      point.radius_m = vertex.Number("radius", 0.0), point.width_m = vertex.Number("width", 0.0), point.length_m = vertex.Number(vertex.Has("length") ? "length" : "height", 0.0);
+      points.push_back(point);
+    };
+    for (const Node& vertex : line.Children("vertexRoad")) read(vertex, false);
+    for (const Node& vertex : line.Children("vertexLocal")) read(vertex, true);
+    const auto warn = [&](std::string_view rule, const std::string& what) { WarnOf(line, rule, fmt::format("a skeleton's line of the object '{}' {}: it is not drawn", object.id, what)); };
+    const auto round = std::count_if(points.begin(), points.end(), [](const network::SkeletonPoint& p) { return p.radius_m > 0.0; });
+    const auto square = std::count_if(points.begin(), points.end(), [](const network::SkeletonPoint& p) { return p.width_m > 0.0 && p.length_m > 0.0; });
+    const bool mixed = std::any_of(points.begin(), points.end(), [&](const network::SkeletonPoint& p) { return p.local != points.front().local; });
+    const bool finite = std::all_of(points.begin(), points.end(), [](const network::SkeletonPoint& p) { return p.radius_m >= 0.0 && p.width_m >= 0.0 && p.length_m >= 0.0; });
+    const auto count = static_cast<std::ptrdiff_t>(points.size());
+    if (points.size() < 2) warn("road.object.skeleton.polyline_followed_by_vertex", fmt::format("has {} points; two at least were expected", points.size()));
+    else if (mixed) warn("road.object.skeleton.vertex_road.polyline_elements", "has both <vertexRoad> and <vertexLocal>");
+    else if (!finite || !((round == count && square == 0) || (round == 0 && square == count))) warn("road.object.skeleton.use_radius_or_width_length", "has points without a radius, or a width and a length, above 0; all were expected to have the one, or all the other");
+    else object.skeleton.push_back(std::move(points));
   }
 }
 
@@ -174,7 +244,16 @@ network::Object ReadObject(const Node& node) {
     for (const Node& outline : outlines.Children("outline")) object.outlines.push_back(ReadOutline(outline));
   }
   object.validity = ReadValidity(node);
+  for (const Node& material : node.Children("material")) {
+    object.material.surface = material.Text("surface", "");
+    if (material.Has("friction")) object.material.friction = material.Number("friction");
+    object.material.colour = material.Text("roadMarkColor", "");
+    if (object.material.friction && !(*object.material.friction >= 0.0)) material.Wrong("road.object.material", fmt::format("a friction of {} was found", *object.material.friction));
+  }
+  if (const Node place = node.Child("parkingSpace")) object.access = place.Text("access", "");
   ReadMarks(node, object);
+  ReadBorders(node, object);
+  ReadSkeleton(node, object);
   CheckType(node, object);
   return object;
 }

@@ -38,6 +38,27 @@ network::LaneAccess ReadAccess(const Node& node) {
   return access;
 }
 
+// At one place several may stand, one for each of those that the rule is for.
+std::vector<network::LaneAccess> ReadAccesses(const Node& lane, double section_s_m) {
+  std::vector<network::LaneAccess> all;
+  for (const Node& node : lane.Children("access")) {
+    network::LaneAccess access = ReadAccess(node);
+    access.s_m = section_s_m + node.Number("sOffset", 0.0);
+    if (all.empty() || access.s_m > all.back().s_m) {
+      all.push_back(std::move(access));
+    } else if (access.s_m < all.back().s_m) {
+      node.Wrong("road.lane.access.elem_asc_order", "<access> elements were expected in ascending order of sOffset");
+    } else if (access.rule == all.back().rule) {
+      all.back().restrictions.insert(all.back().restrictions.end(), access.restrictions.begin(), access.restrictions.end());
+    } else {
+      const Source::Where& where = node.source().where;
+      node.source().warnings.push_back({"road.lane.access.no_mix_of_deny_or_allow", fmt::format("at one place the lane has a rule '{}' and a rule '{}': the second counts", all.back().rule, access.rule), node.line(), where.road, where.lane, access.s_m});
+      all.back() = std::move(access);
+    }
+  }
+  return all;
+}
+
 network::LaneMaterial ReadMaterial(const Node& node) {
   network::LaneMaterial material;
   material.surface = node.Text("surface", "");
@@ -48,10 +69,35 @@ network::LaneMaterial ReadMaterial(const Node& node) {
   return material;
 }
 
-// A border's records are t of the outer edge. Files exist that count them positive on the right side too.
-geometry::CubicTable ReadBorder(const Node& lane, double section_s_m, bool right) {
-  geometry::CubicTable table = ReadCubics(lane.Children("border"), "sOffset", section_s_m, "road.lane.border.elem_asc_order");
-  if (!right || table.empty() || table.records().front().a <= 0.0) return table;
+// What the lanes of a section have in common.
+struct Around {
+  double section_s_m = 0.0;
+  bool left_hand = false;
+  bool offset = false;  // the centre lane lies beside the reference line
+};
+
+void Warn(const Node& node, std::string_view rule, std::string message) {
+  const Source::Where& where = node.source().where;
+  node.source().warnings.push_back({std::string(rule), std::move(message), node.line(), where.road, where.lane, where.s_m});
+}
+
+// Whether the first number of a border that is not 0 is above it, and none of its places at the records' beginnings lies below 0.
+bool IsPositive(const std::vector<geometry::Cubic>& records) {
+  if (std::any_of(records.begin(), records.end(), [](const geometry::Cubic& r) { return r.a < 0.0; })) return false;
+  for (const geometry::Cubic& r : records) {
+    for (const double number : {r.a, r.b, r.c, r.d}) {
+      if (number != 0.0) return number > 0.0;
+    }
+  }
+  return false;
+}
+
+// A border's records are t of the outer edge. Files exist that count them positive on the right side too, where no lane can lie while the centre
+// lane lies on the reference line.
+geometry::CubicTable ReadBorder(const Node& lane, const Around& around, bool right) {
+  geometry::CubicTable table = ReadCubics(lane.Children("border"), "sOffset", around.section_s_m, "road.lane.border.elem_asc_order");
+  if (!right || around.offset || !IsPositive(table.records())) return table;
+  Warn(lane.Child("border"), "road.lane.border", "the border of a lane on the right lies to the left of the reference line: it is read with its sign turned");
   std::vector<geometry::Cubic> turned = table.records();
   for (geometry::Cubic& record : turned) record = {record.from, -record.a, -record.b, -record.c, -record.d};
   return geometry::CubicTable(turned);
@@ -62,7 +108,8 @@ void ReadLinks(const Node& node, Lane& lane) {
   for (const Node& link : node.Child("link").Children("successor")) lane.successors.push_back(link.Integer("id"));
 }
 
-Lane ReadLane(const Node& node, double section_s_m, bool left_hand) {
+Lane ReadLane(const Node& node, const Around& around) {
+  const double section_s_m = around.section_s_m;
   Lane lane;
   lane.id = node.Integer("id");
   Within within(node.source());
@@ -73,12 +120,13 @@ Lane ReadLane(const Node& node, double section_s_m, bool left_hand) {
     node.Wrong("road.lane.type",
                fmt::format("the lane's type is '{}'{}", type, base::DidYouMean(type, network::LaneTypeNames())));
   lane.level = node.Flag("level", false);
-  lane.direction = (lane.id < 0) == left_hand ? -1 : 1;
+  lane.direction = (lane.id < 0) == around.left_hand ? -1 : 1;
   const std::string direction = node.Text("direction", "standard");
   if (direction == "reversed") lane.direction = -lane.direction;
   if (direction == "both" || lane.type == network::LaneType::kBidirectional) lane.direction = 0;
   lane.width = ReadCubics(node.Children("width"), "sOffset", section_s_m, "road.lane.width.elem_asc_order");
-  lane.border = ReadBorder(node, section_s_m, lane.id < 0);
+  lane.border = ReadBorder(node, around, lane.id < 0);
+  if (!lane.width.empty() && !lane.border.empty()) Warn(node, "road.lane.border.exclusive_width_border", "the lane has both <width> and <border>: its widths count");
   lane.heights = ReadRecords<network::LaneHeight>(node, "height", section_s_m, [](const Node& height) {
     return network::LaneHeight{0.0, height.Number("inner"), height.Number("outer")};
   });
@@ -88,7 +136,7 @@ Lane ReadLane(const Node& node, double section_s_m, bool left_hand) {
     return network::SpeedLimit{0.0, ReadSpeed(speed, "max").value_or(std::numeric_limits<double>::infinity())};
   });
   lane.materials = ReadRecords<network::LaneMaterial>(node, "material", section_s_m, ReadMaterial);
-  lane.access = ReadRecords<network::LaneAccess>(node, "access", section_s_m, ReadAccess);
+  lane.access = ReadAccesses(node, section_s_m);
   ReadLinks(node, lane);
   if (lane.id == 0 && (!lane.width.empty() || !lane.border.empty())) {
     node.Wrong("road.lane.center_lane_no_width", "the centre lane has a width; none was expected");
@@ -97,12 +145,12 @@ Lane ReadLane(const Node& node, double section_s_m, bool left_hand) {
 }
 
 // The lanes of one side from inside outward, their ids without gaps.
-std::vector<Lane> ReadSide(const Node& section_node, const char* side, double section_s_m, bool left_hand) {
+std::vector<Lane> ReadSide(const Node& section_node, const char* side, const Around& around) {
   std::vector<Lane> lanes;
   const bool left = std::string_view(side) == "left";
   for (const Node& group : section_node.Children(side)) {
     for (const Node& node : group.Children("lane")) {
-      Lane lane = ReadLane(node, section_s_m, left_hand);
+      Lane lane = ReadLane(node, around);
       if (lane.id == 0 || (lane.id > 0) != left) {
         node.Wrong("road.lane.id",
                    fmt::format("a lane on the {} has the id {}; one {} 0 was expected", side, lane.id, left ? "above" : "below"));
@@ -121,7 +169,24 @@ std::vector<Lane> ReadSide(const Node& section_node, const char* side, double se
                     side, lanes[i].id));
     lanes.resize(i);
   }
+  const auto wide = std::find_if(lanes.begin(), lanes.end(), [](const Lane& lane) { return !lane.width.empty(); });
+  const auto bordered = std::find_if(lanes.begin(), lanes.end(), [](const Lane& lane) { return lane.bordered(); });
+  if (wide != lanes.end() && bordered != lanes.end()) {
+    Warn(section_node, "road.lane.border.exclusive_width_border",
+         fmt::format("on the {} lane {} has a <width> and lane {} a <border>: each is read by what it has", side, wide->id, bordered->id));
+  }
   return lanes;
+}
+
+// Borders are t of the road; what a lane offset beside them means nobody says.
+void TellBorders(const Node& section_node, const LaneSection& section, const Around& around) {
+  if (!around.offset) return;
+  for (const auto* side : {&section.left, &section.right}) {
+    for (const Lane& lane : *side) {
+      if (!lane.bordered()) continue;
+      return Warn(section_node, "road.lane.border.exclusive_offset_border", fmt::format("lane {} has a <border>, and the road a <laneOffset>: it moves the centre lane, and no border", lane.id));
+    }
+  }
 }
 
 }  // namespace
@@ -148,12 +213,14 @@ void ReadLanes(const Node& road, network::RoadSpec& spec, RoadLines& lines) {
     section.s_m = node.Number("s");
     node.source().where.s_m = section.s_m;
     section.single_side = node.Flag("singleSide", false);
-    section.left = ReadSide(node, "left", section.s_m, spec.left_hand);
-    section.right = ReadSide(node, "right", section.s_m, spec.left_hand);
+    const Around around{section.s_m, spec.left_hand, !spec.lane_offset.zero()};
+    section.left = ReadSide(node, "left", around);
+    section.right = ReadSide(node, "right", around);
     const auto centres = node.Child("center").Children("lane");
     if (centres.size() != 1)
       node.Wrong("road.lane.center_lane", fmt::format("a lane section has {} centre lanes; one was expected", centres.size()));
-    else section.centre = ReadLane(centres[0], section.s_m, spec.left_hand);
+    else section.centre = ReadLane(centres[0], around);
+    TellBorders(node, section, around);
     if (!spec.sections.empty() && section.s_m <= spec.sections.back().s_m) {
       node.Wrong("road.lane.lane_section.elem_asc_order",
                  fmt::format("a <laneSection> of s {:.6g} stands behind one of s {:.6g}; ascending order was expected",

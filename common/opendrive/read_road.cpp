@@ -8,7 +8,7 @@ namespace rodeira::opendrive {
 namespace {
 
 std::optional<network::RoadLink> ReadLink(const Node& link) {
-  if (!link) return std::nullopt;
+  if (!link || link.Has("elementS")) return std::nullopt;  // the middle of a road (a virtual junction's main one) is no end to go on from
   network::RoadLink read;
   const std::string type = link.Text("elementType", "road");
   read.junction = type == "junction";

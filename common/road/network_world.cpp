@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/config/config.hpp"
 #include "common/geometry/angle.hpp"
+#include "common/network/placing.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -28,7 +30,7 @@ StartPose StartOn(const network::Network& network) {
   const auto lanes = network.Lanes();
   for (const network::LaneKey& key : lanes) {
     const network::LaneSection& section = network.Section(key);
-    if (!network::IsDrivable(network.Find(key)->type) || !network.roads()[key.road].spec().junction.empty()) continue;
+    if (!network::IsDrivable(network.Find(key)->type) || !network::OpenToCars(*network.Find(key)) || !network.roads()[key.road].spec().junction.empty()) continue;
     const auto span = network.Span(key, StationIn(network, key));
     if (span->width_m() < kNarrowest_m) continue;
     const bool leads_on = !network.Successors(key).empty();
@@ -39,6 +41,30 @@ StartPose StartOn(const network::Network& network) {
   StartPose start = PoseOn(network, *longest, StationIn(network, *longest));
   start.road = -1;  // nobody named one
   return start;
+}
+
+// What pieces of a road that are made of something else say of their friction, by road: in the rectangle of s and t about each.
+std::vector<network::Laid> PatchesOf(const network::Network& network) {
+  std::vector<network::Laid> laid(network.roads().size());
+  bool any = false;
+  for (const network::Placed& placed : network::PlaceFurniture(network).things) {
+    if (placed.object == nullptr || !network::IsPatch(*placed.object) || !placed.object->material.friction) continue;
+    network::LaidPiece piece{placed.s_m - 0.5 * placed.length_m, placed.s_m + 0.5 * placed.length_m, placed.t_m - 0.5 * placed.width_m, placed.t_m + 0.5 * placed.width_m};
+    if (!placed.object->outlines.empty() && !placed.object->outlines.front().corners.empty()) {
+      const double turn = placed.heading_rad - network.roads()[placed.road].axis().Evaluate(placed.s_m).heading_rad;
+      piece = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+      for (const network::Corner& corner : placed.object->outlines.front().corners) {
+        const double s = corner.local ? placed.s_m + std::cos(turn) * corner.first_m - std::sin(turn) * corner.second_m : corner.first_m;
+        const double t = corner.local ? placed.t_m + std::sin(turn) * corner.first_m + std::cos(turn) * corner.second_m : corner.second_m;
+        piece = {std::min(piece.from_s_m, s), std::max(piece.to_s_m, s), std::min(piece.right_t_m, t), std::max(piece.left_t_m, t)};
+      }
+    }
+    if (!(piece.to_s_m > piece.from_s_m && piece.left_t_m > piece.right_t_m)) continue;
+    laid[placed.road].patches.push_back({piece, placed.object->material.surface, *placed.object->material.friction});
+    any = true;
+  }
+  if (!any) laid.clear();
+  return laid;
 }
 
 }  // namespace
@@ -78,7 +104,7 @@ base::Result<SurfaceDetail> LoadSurfaces(const opendrive::Import& import, const 
     }
     return file.string();
   };
-  return SurfaceDetail::Load(*import.network, file.parent_path(), {}, place_of);
+  return SurfaceDetail::Load(*import.network, file.parent_path(), PatchesOf(*import.network), place_of);
 }
 
 base::Result<WorldSpec> ReadNetworkWorld(const std::filesystem::path& file) {

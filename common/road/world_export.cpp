@@ -134,7 +134,10 @@ std::string ObjectText(const network::Object& object) {
                         r.s_m, r.length_m, r.distance_m, r.t_start_m, r.t_end_m, r.z_start_m, r.z_end_m, r.height_start_m, r.height_end_m,
                         r.width_start_m, r.width_end_m);
   }
-  return text + OutlinesText(object.outlines) + ValidityText(object.validity) + "</object>\n";
+  text += OutlinesText(object.outlines);
+  const network::ObjectMaterial& material = object.material;
+  if (material.friction) text += fmt::format("<material surface=\"{}\" friction=\"{}\"/>", Escaped(material.surface), *material.friction);
+  return text + ValidityText(object.validity) + "</object>\n";
 }
 
 std::string SignalText(const network::Signal& signal) {

@@ -152,7 +152,7 @@ double PavedWidth(const network::Road& road) {
   double width = 0.0;
   for (const auto* side : {&road.spec().sections[0].left, &road.spec().sections[0].right}) {
     for (const network::Lane& lane : *side) {
-      if (lane.type != network::LaneType::kNone) width += lane.width.Value(0.0);
+      if (lane.type != network::LaneType::kNone) width += lane.bordered() ? road.SpanAt(0, lane.id, 0.0)->width_m() : lane.width.Value(0.0);
     }
   }
   return width;

@@ -16,6 +16,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kPlate_m = 0.004;  // thickness
+constexpr double kThickBar_m = 0.5;  // is seen from afar
 constexpr double kTwoPosts_m = 1.0;  // plates as wide as this have two
 
 const Colour kSteel = Colour::Of(0x9aa0a3);
@@ -125,7 +126,13 @@ void AddThing(const Thing& thing, int level, Drawing& drawing) {
     case ThingKind::kPost: return drawing.RepeatSolid(KeyOf(Model::kPost, size), stand, [&] { return PostModel(size, level); });
     case ThingKind::kLamp: return drawing.RepeatSolid(KeyOf(Model::kLamp, size), stand, [&] { return LampModel(size, level); });
     case ThingKind::kPlain: return drawing.RepeatSolid(KeyOf(Model::kPlain, size, thing.radius_m, thing.colour), stand, [&] { return PlainModel(size, thing.radius_m, thing.colour, level); });
-    case ThingKind::kOutline: return AddOutline(drawing.solid, thing.feet_W, thing.heights_m, thing.closed, thing.colour, Shade(thing.colour, 0.85));
+    case ThingKind::kOutline: return AddOutline(drawing.solid, thing.feet_W, thing.heights_m, thing.closed, thing.colour, thing.top.value_or(Shade(thing.colour, 0.85)));
+    case ThingKind::kBar: {
+      const std::array<BarEnd, 2> ends = {BarEnd{thing.feet_W[0], thing.heights_m[0], thing.heights_m[1]}, BarEnd{thing.feet_W[1], thing.heights_m[2], thing.heights_m[3]}};
+      const Vector2d left(-thing.stand.x_W.y(), thing.stand.x_W.x());
+      if (level < 2 || std::max(ends[0].wide_m, ends[1].wide_m) > kThickBar_m) AddBar(drawing.solid, ends[0], ends[1], thing.closed, level == 0 ? 10 : 5, left, thing.colour);
+      return;
+    }
     case ThingKind::kSign:
     case ThingKind::kTrafficLight: return AddSign(thing, level, drawing);
     case ThingKind::kModel: return;

@@ -88,7 +88,7 @@ class Piece {
 }  // namespace
 
 bool IsLaid(const network::Object& object) {
-  return object.type == "roadSurface" && (object.subtype == "patch" || object.subtype == "speedBump") && object.length_m > 0.0 && object.width_m > 0.0;
+  return (network::IsPatch(object) || (object.type == "roadSurface" && object.subtype == "speedBump")) && object.length_m > 0.0 && object.width_m > 0.0;
 }
 
 void AddLaidLines(const road::World& world, const network::Road& road, const Tolerance& tolerance, std::vector<Line3>& lines) {

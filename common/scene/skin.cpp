@@ -49,7 +49,7 @@ std::optional<terrain::LaidPicture> PictureAt(const network::Lane& lane, double 
 // Whether a patch lies at a place of a road.
 bool IsPatched(const network::Road& road, double s_m, double t_m) {
   return std::any_of(road.spec().objects.begin(), road.spec().objects.end(), [&](const network::Object& object) {
-    return IsLaid(object) && object.subtype == "patch" && std::fabs(s_m - object.s_m) <= 0.5 * object.length_m && std::fabs(t_m - object.t_m) <= 0.5 * object.width_m;
+    return IsLaid(object) && network::IsPatch(object) && std::fabs(s_m - object.s_m) <= 0.5 * object.length_m && std::fabs(t_m - object.t_m) <= 0.5 * object.width_m;
   });
 }
 

@@ -9,11 +9,9 @@
 #include "common/geometry/plane.hpp"
 
 namespace rodeira::scene {
-namespace {
 
 using Eigen::Vector3d;
 
-// Cuts ears off a polygon, counter-clockwise seen from above; nothing where it crosses itself.
 std::vector<std::array<std::size_t, 3>> Ears(std::span<const Vector3d> corners) {
   std::vector<std::size_t> left(corners.size());
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = i;
@@ -38,8 +36,6 @@ std::vector<std::array<std::size_t, 3>> Ears(std::span<const Vector3d> corners) 
   }
   return ears;
 }
-
-}  // namespace
 
 Stand Stand::At(const Vector3d& foot_W, double heading_rad) { return {foot_W, {std::cos(heading_rad), std::sin(heading_rad)}}; }
 
@@ -77,6 +73,36 @@ Mesh Pole(double low_m, double high_m, double foot_m, double top_m, int sides, C
   }
   AddFlat(mesh, lid, colour);
   return mesh;
+}
+
+void AddBar(Mesh& mesh, const BarEnd& from, const BarEnd& to, bool round, int sides, const Eigen::Vector2d& across_W, Colour colour) {
+  const Vector3d way = to.p_W - from.p_W;
+  if (!(way.norm() > 0.0)) return;
+  const Vector3d along = way.normalized();
+  Vector3d wide(across_W.x(), across_W.y(), 0.0);
+  wide -= wide.dot(along) * along;
+  if (wide.norm() < 1e-3) {
+    wide = Vector3d(across_W.y(), -across_W.x(), 0.0);
+    wide -= wide.dot(along) * along;
+  }
+  wide.normalize();
+  const Vector3d high = along.cross(wide);
+  std::vector<Vector3d> begin, end;
+  const int count = round ? sides : 4;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2.0 * geometry::kPi * (k + (round ? 0.0 : 0.5)) / count;
+    const double scale = round ? 1.0 : std::sqrt(2.0);  // to the corners of the rectangle
+    const double c = scale * std::cos(angle), s = scale * std::sin(angle);
+    begin.push_back(from.p_W + from.wide_m * c * wide + from.high_m * s * high);
+    end.push_back(to.p_W + to.wide_m * c * wide + to.high_m * s * high);
+  }
+  for (std::size_t k = 0; k < begin.size(); ++k) {
+    const std::size_t next = (k + 1) % begin.size();
+    AddFlat(mesh, std::array<Vector3d, 4>{begin[k], begin[next], end[next], end[k]}, colour);
+  }
+  AddFlat(mesh, end, colour);
+  std::reverse(begin.begin(), begin.end());
+  AddFlat(mesh, begin, colour);
 }
 
 Mesh Block(const Vector3d& low, const Vector3d& high, Colour colour) {

@@ -71,25 +71,18 @@ void Things::AddRun(const road::World& world, const network::PlacedRun& run) {
   const network::Road& road = world.network()->roads()[run.road];
   const double length = run.to_s_m - run.from_s_m;
   const network::Object& object = *run.object;
+  if (network::IsFlat(object)) return;
   const bool rail = object.subtype == "guard_rail" || object.subtype == "guardRail" || object.subtype == "railing" || object.type == "railing";
-  const auto t_at = [&](double share) { return run.t_start_m + share * (run.t_end_m - run.t_start_m); };
-  double step = kPiece_m;
-  const int looks = std::max(2, static_cast<int>(length));
-  for (int i = 0; i <= looks; ++i) {
-    const double share = static_cast<double>(i) / looks, k = road.axis().Evaluate(run.from_s_m + share * length).curvature_1pm;
-    const double bend = std::fabs(k / std::max(0.1, 1.0 - k * t_at(share)));
-    if (bend > 0.0) step = std::min(step, std::max(0.5, std::sqrt(8.0 * kChord_m / bend)));
-  }
-  const int pieces = std::max(1, static_cast<int>(std::ceil(length / step - 1e-9)));
+  const int pieces = std::max(1, static_cast<int>(std::ceil(length / run.Step(road, kPiece_m, kChord_m) - 1e-9)));
   RailPiece piece;
   piece.wall = !rail;
   for (int i = 0; i <= pieces; ++i) {
-    const double share = static_cast<double>(i) / pieces, s = run.from_s_m + share * length;
+    const double share = static_cast<double>(i) / pieces;
     const auto mix = [share](double a, double b) { return a + share * (b - a); };
     piece.foot_W[0] = piece.foot_W[1], piece.left_W[0] = piece.left_W[1], piece.height_m[0] = piece.height_m[1], piece.width_m[0] = piece.width_m[1];
-    const Vector3d on_road = road.Surface(s, t_at(share)).p_W;
+    const auto [on_road, left_W] = run.At(road, share);
     piece.foot_W[1] = {on_road.x(), on_road.y(), GroundAt(world, on_road) + mix(run.z_start_m, run.z_end_m)};
-    piece.left_W[1] = road.axis().Evaluate(s).left_W();
+    piece.left_W[1] = left_W;
     const double height = mix(run.height_start_m, run.height_end_m), width = mix(run.width_start_m, run.width_end_m);
     piece.height_m[1] = height > kFlatThing_m ? height : rail ? 0.75 : 1.0;
     piece.width_m[1] = width > 0.0 ? width : 0.3;

@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ namespace rodeira::scene {
 // What is lower lies: it is not drawn as a thing.
 inline constexpr double kFlatThing_m = 0.02;
 
-enum class ThingKind { kTree, kBush, kHouse, kFillingStation, kPost, kLamp, kPlain, kOutline, kSign, kTrafficLight, kModel };
+enum class ThingKind { kTree, kBush, kHouse, kFillingStation, kPost, kLamp, kPlain, kOutline, kSign, kTrafficLight, kModel, kBar };
 
 // Something that stands, as it is to be drawn.
 struct Thing {
@@ -33,9 +34,10 @@ struct Thing {
   bool both_sides = false;
   bool on_post = false;        // of signs and traffic lights; what hangs over a lane has none
   Colour colour;               // of plain ones and outlines
-  std::vector<Eigen::Vector3d> feet_W;  // of an outline
-  std::vector<double> heights_m;
-  bool closed = true;
+  std::vector<Eigen::Vector3d> feet_W;  // of an outline; of a bar its two ends
+  std::vector<double> heights_m;        // of a bar the halves of what BarEnd calls wide and high, at its beginning and at its end
+  bool closed = true;                   // of a bar: it is round
+  std::optional<Colour> top;            // of an outline; nothing: as its walls, a little darker
 };
 
 // A piece of a rail or wall. Neighbours meet in the same points.
@@ -72,6 +74,8 @@ class Things {
   void AddThing(const road::World& world, const network::Placed& placed);
   void AddSignal(const network::Road& road, const network::Placed& placed, Thing thing);
   void AddObject(const network::Road* road, const network::Placed& placed, Thing thing);  // null: at no road
+  void AddOutlines(const network::Road* road, const network::Placed& placed, const Thing& thing);
+  void AddSkeleton(const network::Road* road, const network::Placed& placed, const Thing& thing);
   void AddRun(const road::World& world, const network::PlacedRun& run);
   void AddStanding(const road::World& world, const network::Standing& standing);
   void Keep(Thing thing);

@@ -26,6 +26,10 @@ base::Digest Things::DigestOf(const TileKey& key) const {
                    thing.length_m, thing.width_m, thing.height_m, thing.radius_m, thing.face, thing.both_sides, thing.on_post, thing.closed, thing.colour.red, thing.colour.green,
                    thing.colour.blue, thing.feet_W.size());
     for (std::size_t i = 0; i < thing.feet_W.size(); ++i) put(thing.feet_W[i]), fmt::format_to(std::back_inserter(text), "{} ", thing.heights_m[i]);
+    if (thing.kind == ThingKind::kBar) {
+      for (const double half : thing.heights_m) fmt::format_to(std::back_inserter(text), "{} ", half);
+    }
+    if (thing.top) fmt::format_to(std::back_inserter(text), "{}-{}-{}", thing.top->red, thing.top->green, thing.top->blue);
     text += '\n';
   }
   for (const RailPiece& piece : found->second.rails) {

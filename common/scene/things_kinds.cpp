@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "common/network/network.hpp"
+#include "common/scene/object_shapes.hpp"
 #include "common/scene/road_paint.hpp"
 #include "common/scene/sign_face.hpp"
 #include "common/scene/things.hpp"
@@ -18,6 +19,7 @@ constexpr double kFlatSign_m = 0.05;
 constexpr double kHousing_m = 0.9;   // of three lights
 constexpr double kOverhead_m = 3.5;  // signs this high over a lane hang
 constexpr double kAhead_m = 40.0;    // over which a chevron's bend is looked for
+constexpr double kFrameOver_m = 0.01;
 
 bool OverLane(const network::Road& road, double s_m, double t_m) {
   const network::LaneSection& section = road.SectionAt(s_m);
@@ -35,7 +37,11 @@ bool BendsLeft(const network::Road& road, const network::Placed& placed) {
   return turn > 0.0;
 }
 
-bool IsOneOf(std::string_view word, std::initializer_list<std::string_view> words) { return std::find(words.begin(), words.end(), word) != words.end(); }
+template <class Word>
+bool IsOneOf(const Word& word, std::initializer_list<Word> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+bool IsOneOf(std::string_view word, std::initializer_list<std::string_view> words) { return IsOneOf<std::string_view>(word, words); }
 
 Colour ColourOf(std::string_view type) {
   if (type == "building") return Colour::Of(0xb9b2a6);
@@ -90,6 +96,65 @@ void Things::AddSignal(const network::Road& road, const network::Placed& placed,
   Keep(std::move(thing));
 }
 
+void Things::AddOutlines(const network::Road* road, const network::Placed& placed, const Thing& thing) {
+  const network::Object& object = *placed.object;
+  for (std::size_t i = 0; i < object.outlines.size(); ++i) {
+    const network::Outline& outline = object.outlines[i];
+    Thing part = thing;
+    part.kind = ThingKind::kOutline;
+    part.closed = outline.closed;
+    part.top = FillColour(outline.fill);
+    double highest = 0.0;
+    std::vector<Vector2d> corners;
+    for (const network::Corner& corner : outline.corners) {
+      Vector3d foot = thing.stand.ToWorld({corner.first_m, corner.second_m, placed.z_offset_m + corner.dz_m});
+      if (!corner.local && road != nullptr) foot = road->Surface(corner.first_m, corner.second_m).p_W + corner.dz_m * Vector3d::UnitZ();
+      part.feet_W.push_back(foot);
+      part.heights_m.push_back(corner.height_m);
+      corners.emplace_back(foot.head<2>());
+      highest = std::max(highest, corner.height_m);
+    }
+    if (highest <= kFlatThing_m) part.heights_m.assign(part.feet_W.size(), highest = placed.height_m);
+    if (highest <= kFlatThing_m || part.feet_W.size() < 2) continue;
+    // Frames stand a little over what they frame, or both would shine through one another.
+    for (const network::ObjectBorder& border : object.borders) {
+      if (border.outline != i) continue;
+      for (const FramePiece& piece : FrameOf(corners, outline.closed, CornersOf(object, border), border.width_m)) {
+        Thing frame = thing;
+        frame.kind = ThingKind::kOutline;
+        frame.top = frame.colour = BorderColour(border.type);
+        for (std::size_t k = 0; k < 4; ++k) {
+          const std::size_t at = k == 0 || k == 3 ? piece.from : piece.to;
+          frame.feet_W.emplace_back(piece.corners[k].x(), piece.corners[k].y(), part.feet_W[at].z());
+          frame.heights_m.push_back(part.heights_m[at] + kFrameOver_m);
+        }
+        Keep(std::move(frame));
+      }
+    }
+    Keep(std::move(part));
+  }
+}
+
+void Things::AddSkeleton(const network::Road* road, const network::Placed& placed, const Thing& thing) {
+  for (const network::SkeletonLine& line : placed.object->skeleton) {
+    const auto at = [&](const network::SkeletonPoint& point) -> Vector3d {
+      if (point.local || road == nullptr) return thing.stand.ToWorld({point.first_m, point.second_m, placed.z_offset_m + point.dz_m});
+      return road->Surface(point.first_m, point.second_m).p_W + point.dz_m * Vector3d::UnitZ();
+    };
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      Thing bar = thing;
+      bar.kind = ThingKind::kBar;
+      bar.closed = line[i].radius_m > 0.0;
+      for (const network::SkeletonPoint* point : {&line[i - 1], &line[i]}) {
+        bar.feet_W.push_back(at(*point));
+        bar.heights_m.push_back(bar.closed ? point->radius_m : 0.5 * point->width_m);
+        bar.heights_m.push_back(bar.closed ? point->radius_m : 0.5 * point->length_m);
+      }
+      Keep(std::move(bar));
+    }
+  }
+}
+
 void Things::AddObject(const network::Road* road, const network::Placed& placed, Thing thing) {
   const network::Object& object = *placed.object;
   thing.kind = KindOf(object);
@@ -99,23 +164,11 @@ void Things::AddObject(const network::Road* road, const network::Placed& placed,
     thing.file = object.name;
     return Keep(std::move(thing));
   }
-  if (IsPaint(object)) return;
-  for (const network::Outline& outline : object.outlines) {
-    Thing part = thing;
-    part.kind = ThingKind::kOutline;
-    part.closed = outline.closed;
-    double highest = 0.0;
-    for (const network::Corner& corner : outline.corners) {
-      Vector3d foot = thing.stand.ToWorld({corner.first_m, corner.second_m, placed.z_offset_m + corner.dz_m});
-      if (!corner.local && road != nullptr) foot = road->Surface(corner.first_m, corner.second_m).p_W + corner.dz_m * Vector3d::UnitZ();
-      part.feet_W.push_back(foot);
-      part.heights_m.push_back(corner.height_m);
-      highest = std::max(highest, corner.height_m);
-    }
-    if (highest <= kFlatThing_m) part.heights_m.assign(part.feet_W.size(), highest = placed.height_m);
-    if (highest > kFlatThing_m && part.feet_W.size() >= 2) Keep(std::move(part));
-  }
-  if (!object.outlines.empty()) return;
+  if (network::IsFlat(object)) return;
+  const bool skeleton = !object.skeleton.empty() && IsOneOf(thing.kind, {ThingKind::kPlain, ThingKind::kPost, ThingKind::kLamp});
+  if (skeleton) AddSkeleton(road, placed, thing);
+  else AddOutlines(road, placed, thing);
+  if (skeleton || !object.outlines.empty()) return;
   const auto usual = [&](double length, double width, double height) {
     if (!(thing.height_m > kFlatThing_m)) thing.height_m = height;
     if (!(thing.width_m > 0.0)) thing.width_m = thing.radius_m > 0.0 ? 2.0 * thing.radius_m : width;

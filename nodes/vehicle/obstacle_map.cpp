@@ -80,10 +80,11 @@ void ObstacleMap::AddStanding(const road::World& world, const network::Standing&
 
 void ObstacleMap::AddBody(const network::Placed& placed, const Vector3d& foot, const network::Road* road) {
   const network::Object& object = *placed.object;
-  if (GivesWay(object)) return;
+  if (GivesWay(object) || network::IsFlat(object)) return;
   const bool stands = placed.z_offset_m < kHangs_m;
   if (IsTree(object)) return AddBox(object.id, foot, placed.heading_rad, {kTrunk_m, kTrunk_m, kTall_m}, stands);
   const Eigen::Rotation2Dd turned(placed.heading_rad);
+  if (!object.skeleton.empty()) return AddSkeleton(placed, foot, road);
   for (const network::Outline& outline : object.outlines) {
     std::vector<Vector3d> feet;
     double height = placed.height_m;
@@ -104,12 +105,37 @@ void ObstacleMap::AddBody(const network::Placed& placed, const Vector3d& foot, c
          {usual(placed.length_m, house ? 12.0 : 0.12), usual(placed.width_m, house ? 9.0 : 0.12), std::max(placed.height_m, kLow_m)}, stands);
 }
 
+// Each of its bars is a box along it, seen from above, between its heights: what hangs high is passed under.
+void ObstacleMap::AddSkeleton(const network::Placed& placed, const Vector3d& foot, const network::Road* road) {
+  const Eigen::Rotation2Dd turned(placed.heading_rad);
+  const auto at = [&](const network::SkeletonPoint& point) -> Vector3d {
+    if (!point.local && road != nullptr) return road->Surface(point.first_m, point.second_m).p_W + point.dz_m * Vector3d::UnitZ();
+    const Eigen::Vector2d local = turned * Eigen::Vector2d(point.first_m, point.second_m);
+    return foot + Vector3d(local.x(), local.y(), point.dz_m);
+  };
+  const auto half = [](const network::SkeletonPoint& point) { return std::max(point.radius_m, 0.5 * std::max(point.width_m, point.length_m)); };
+  for (const network::SkeletonLine& line : placed.object->skeleton) {
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const Vector3d from = at(line[i - 1]), to = at(line[i]), way = to - from;
+      const double thick = std::max(half(line[i - 1]), half(line[i]));
+      const bool upright = way.head<2>().norm() <= 0.01 * std::fabs(way.z());
+      const double heading = way.head<2>().norm() > 0.0 ? std::atan2(way.y(), way.x()) : placed.heading_rad;
+      Vector3d low = 0.5 * (from + to);
+      low.z() = std::min(from.z(), to.z()) - (upright ? 0.0 : thick);
+      const double high = std::max(from.z(), to.z()) + (upright ? 0.0 : thick) - low.z();
+      const double ground = foot.z() - placed.z_offset_m;
+      const bool stands = low.z() - ground < kHangs_m;
+      if (low.z() + high - ground >= kLow_m) AddBox(placed.object->id, low, heading, {way.head<2>().norm() + 2.0 * thick, 2.0 * thick, high}, stands);
+    }
+  }
+}
+
 void ObstacleMap::AddRun(const road::World& world, const network::PlacedRun& run) {
-  if (GivesWay(*run.object)) return;
+  if (GivesWay(*run.object) || network::IsFlat(*run.object)) return;
   const network::Road& road = world.network()->roads()[run.road];
   const double length = run.to_s_m - run.from_s_m;
   double step = kPiece_m;
-  for (double s = run.from_s_m; s <= run.to_s_m; s += 1.0) {
+  for (double s = run.from_s_m; !run.straight && s <= run.to_s_m; s += 1.0) {
     const double bend = std::fabs(road.axis().Evaluate(s).curvature_1pm);
     if (bend > 0.0) step = std::min(step, std::max(0.5, std::sqrt(8.0 * kChord_m / bend)));
   }
@@ -118,8 +144,7 @@ void ObstacleMap::AddRun(const road::World& world, const network::PlacedRun& run
   for (int i = 0; i <= pieces; ++i) {
     const double share = static_cast<double>(i) / pieces;
     const auto mix = [share](double a, double b) { return a + share * (b - a); };
-    const Vector3d foot = OnGround(world, road.Surface(run.from_s_m + share * length, mix(run.t_start_m, run.t_end_m)).p_W) +
-                          mix(run.z_start_m, run.z_end_m) * Vector3d::UnitZ();
+    const Vector3d foot = OnGround(world, run.At(road, share).p_W) + mix(run.z_start_m, run.z_end_m) * Vector3d::UnitZ();
     const double width = mix(run.width_start_m, run.width_end_m), height = mix(run.height_start_m, run.height_end_m);
     if (i > 0 && (height >= kLow_m || IsBody(*run.object))) AddWall(run.object->id, last, foot, width > 0.0 ? width : 0.3, height);
     last = foot;

@@ -35,6 +35,7 @@ class ObstacleMap {
   static Cell CellAt(double x_m, double y_m);
 
   void AddThing(const road::World& world, const network::Placed& placed);
+  void AddSkeleton(const network::Placed& placed, const Eigen::Vector3d& foot_W, const network::Road* road);
   void AddRun(const road::World& world, const network::PlacedRun& run);
   void AddStanding(const road::World& world, const network::Standing& standing);
   // A thing whose foot is known; what stands at no road has no outline.

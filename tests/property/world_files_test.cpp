@@ -171,7 +171,7 @@ std::optional<base::Error> ReadWorld(const std::string& text) {
 
 TEST(WorldFiles, ChangedByBytes) { Fuzz("world of version 2", {kHills, kPlane, kIncluding, kBare}, ReadWorld); }
 
-// OpenDRIVE files as worlds: with measured surfaces (attached, attached0, genuine, and friction alone), signs and objects; what is taken is the world that is driven on.
+// OpenDRIVE files as worlds: with measured surfaces (attached, attached0, genuine, global, and friction alone), signs and objects; what is taken is the world that is driven on.
 TEST(WorldFiles, OpenDriveOnDisk) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rodeira-world-property-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
@@ -179,6 +179,8 @@ TEST(WorldFiles, OpenDriveOnDisk) {
   made.rows = 201;
   made.z = [](double u, double v) { return 0.01 * std::sin(u) + 0.002 * v; };
   ASSERT_TRUE(base::WriteWhole(folder / "made.crg", std::string_view(made.Text())).ok());
+  made.road_keys = "REFERENCE_LINE_START_X = 20\nREFERENCE_LINE_START_Y = 2\nREFERENCE_LINE_START_PHI = 0.1\n";
+  ASSERT_TRUE(base::WriteWhole(folder / "placed.crg", std::string_view(made.Text())).ok());
   const auto measured = [](const std::string& surfaces) {
     opendrive::RoadText road;
     road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0.1" length="40"><line/></geometry><geometry s="40" x="39.8001666" y="3.9933367" hdg="0.1" length="60"><arc curvature="0.01"/></geometry>)";
@@ -191,12 +193,71 @@ TEST(WorldFiles, OpenDriveOnDisk) {
   const std::vector<std::string> good = {
       measured(R"(<CRG file="made.crg" sStart="5" sEnd="6.5" mode="attached" zScale="0.5" sOffset="0.1"/><CRG file="made.crg" sStart="20" sEnd="21.5" mode="attached0" orientation="opposite"/>)"),
       measured(R"(<CRG file="made.crg" sStart="60" sEnd="61.5" mode="genuine" tOffset="0.2" hOffset="0.01" zOffset="1"/>)"),
+      measured(R"(<CRG file="placed.crg" sStart="18" sEnd="60" mode="global" zOffset="1.4"/><CRG file="placed.crg" sStart="60" sEnd="90" mode="global" orientation="opposite" purpose="friction" zOffset="0.5"/>)"),
       measured(R"(<CRG file="made.crg" sStart="5" sEnd="6.5" mode="attached" purpose="friction" zOffset="0.5"/>)")};
+  {
+    // The good one of them that lies where it says itself, lies under its road.
+    ASSERT_TRUE(base::WriteWhole(folder / "fuzz.xodr", std::string_view(good[2])).ok());
+    const auto world = road::World::Load(folder / "fuzz.xodr");
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    const double u = 10.0, v = 0.5, x = 20.0 + u * std::cos(0.1) - v * std::sin(0.1), y = 2.0 + u * std::sin(0.1) + v * std::cos(0.1);
+    EXPECT_NEAR(world.value()->At(x, y).z_m, 1.4 + 0.01 * std::sin(u) + 0.002 * v, 1e-4);
+  }
   Fuzz("xodr as a world", good, [&](const std::string& text) -> std::optional<base::Error> {
     if (const auto written = base::WriteWhole(folder / "fuzz.xodr", std::string_view(text)); !written.ok()) ADD_FAILURE() << written.error().Text();
     const auto world = road::World::Load(folder / "fuzz.xodr");
     if (!world) return world.error();
     AskWorld(*world.value());
+    return std::nullopt;
+  });
+  std::filesystem::remove_all(folder);
+}
+
+// OpenCRG files, mutated, as they lie on a road: each mode, either way round, and as friction. What is taken answers finite numbers.
+TEST(WorldFiles, MeasuredSurfacesOnARoad) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rodeira-laid-property-" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  opendrive::RoadText road;
+  road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0.1" length="100"><arc curvature="0.002"/></geometry>)";
+  road.elevation = R"(<elevation s="0" a="1" b="0.02" c="0" d="0"/>)";
+  std::string surfaces;
+  double s = 2.0;
+  for (const char* mode : {"attached", "attached0", "genuine", "global"}) {
+    for (const char* orientation : {"same", "opposite"}) {
+      // What lies where it says itself is asked all along the road.
+      const bool global = std::string_view(mode) == "global";
+      surfaces += fmt::format("<CRG file=\"fuzz.crg\" sStart=\"{}\" sEnd=\"{}\" mode=\"{}\" orientation=\"{}\" zOffset=\"0.1\"/>", global ? 1.0 : s, global ? 99.0 : s + 8.0, mode, orientation);
+      s += 10.0;
+    }
+  }
+  surfaces += R"(<CRG file="fuzz.crg" sStart="1" sEnd="99" mode="global" purpose="friction" zOffset="0.6"/>)";
+  road.more = "<surface>" + surfaces + "</surface>";
+  ASSERT_TRUE(base::WriteWhole(folder / "fuzz.xodr", std::string_view(opendrive::Document(road.Text()))).ok());
+  std::vector<std::string> good;
+  for (const char* format : {"LRFI", "LDFI", "KRBI", "KDBI"}) {
+    surface::MadeCrg made;
+    made.format = format;
+    made.rows = 17;
+    made.heading = [](double u) { return 0.1 + 0.002 * u; };
+    made.z = [](double u, double v) { return u > 6.0 && v > 1.5 ? std::nan("") : 0.01 * u + 0.002 * v; };
+    made.road_keys = "REFERENCE_LINE_START_X = 70\nREFERENCE_LINE_START_Y = 10\nREFERENCE_LINE_START_PHI = 0.1\n";
+    made.sections = "$ROAD_CRG_OPTS\nBORDER_MODE_U = 3\nBORDER_MODE_V = 4\nREFLINE_CONTINUATION = 1\n$\n$ROAD_CRG_MODS\nSCALE_LENGTH = 1.1\nGRID_NAN_MODE = 2\nREFPOINT_U_FRACTION = 0.5\nREFPOINT_X = 72\n$\n";
+    good.push_back(made.Text());
+    made.sections.clear();
+    good.push_back(made.Text());
+  }
+  Fuzz("OpenCRG on a road", good, [&](const std::string& text) -> std::optional<base::Error> {
+    if (const auto written = base::WriteWhole(folder / "fuzz.crg", std::string_view(text)); !written.ok()) ADD_FAILURE() << written.error().Text();
+    const auto world = road::World::Load(folder / "fuzz.xodr");
+    if (!world) return world.error();
+    const network::Road& on = world.value()->network()->roads()[0];
+    for (double at = 0.5; at < 100.0; at += 3.3) {
+      for (const double t : {-3.1, -0.4, 1.9}) {
+        const Eigen::Vector3d p = on.Surface(at, t).p_W;
+        const road::SurfacePoint ground = world.value()->At(p.x(), p.y());
+        EXPECT_TRUE(std::isfinite(ground.z_m) && std::isfinite(ground.slope_x) && std::isfinite(ground.slope_y) && ground.friction >= 0.0 && ground.friction <= 2.0) << at << " " << t;
+      }
+    }
     return std::nullopt;
   });
   std::filesystem::remove_all(folder);

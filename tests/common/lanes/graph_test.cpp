@@ -7,6 +7,7 @@
 #include "common/lanes/ring.hpp"
 #include "common/lanes/signs.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/opendrive/sample.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::lanes {
@@ -48,6 +49,20 @@ TEST(LaneGraph, LinksMeetWithinTheFilesGaps) {
         EXPECT_LT(std::fabs(end.p_W.z() - at.p_W.z()), 0.5) << file;
       }
     }
+  }
+}
+
+// A driving lane that a file leaves to buses is none for cars: nobody is beside it, and nobody goes on into it.
+TEST(LaneGraph, LanesThatAreClosedToCarsAreNotDriven) {
+  opendrive::RoadText road;
+  const auto lane = [](int id, const std::string& access) { return fmt::format("<lane id=\"{}\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>{}</lane>", id, access); };
+  for (const bool closed : {false, true}) {
+    road.right = lane(-1, "") + lane(-2, closed ? "<access sOffset=\"0\" rule=\"allow\" restriction=\"bus\"/>" : "<access sOffset=\"0\" rule=\"deny\" restriction=\"truck\"/>");
+    const auto network = opendrive::MustRead(opendrive::Document(road.Text()));
+    const Graph graph(*network);
+    EXPECT_EQ(graph.tracks().size(), closed ? 2u : 3u);
+    EXPECT_EQ(graph.Find({0, 0, -2}).has_value(), !closed);
+    EXPECT_EQ(graph[*graph.Find({0, 0, -1})].right.has_value(), !closed);
   }
 }
 

@@ -26,17 +26,18 @@ class Drawn {
  public:
   explicit Drawn(const std::string& text) { EXPECT_TRUE(document_.load_string(text.c_str())); }
 
-  // A signal for the traffic of a road's lane, where the road ends.
+  // A signal for the traffic of a road's lane, where the road ends: a German number, or behind '=' what a sign of another country means (<semantics>).
   Drawn& Sign(const std::string& road_id, const std::string& type) {
     pugi::xml_node road = document_.child("OpenDRIVE").find_child_by_attribute("road", "id", road_id.c_str());
     EXPECT_TRUE(road) << road_id;
     pugi::xml_node signals = road.child("signals") ? road.child("signals") : road.append_child("signals");
     pugi::xml_node signal = signals.append_child("signal");
     for (const auto& [key, value] : {std::pair{"s", road.attribute("length").value()}, {"t", "-3"}, {"dynamic", "no"}, {"orientation", "+"}, {"zOffset", "2"},
-                                     {"country", "DE"}, {"type", type.c_str()}, {"subtype", "-1"}}) {
+                                     {"country", type[0] == '=' ? "US" : "DE"}, {"type", type[0] == '=' ? "R1" : type.c_str()}, {"subtype", "-1"}}) {
       signal.append_attribute(key).set_value(value);
     }
     signal.append_attribute("id").set_value(("sign " + road_id).c_str());
+    if (type[0] == '=') signal.append_child("semantics").append_child("priority").append_attribute("type").set_value(type.c_str() + 1);
     return *this;
   }
   // What a junction says of two of its connecting roads.

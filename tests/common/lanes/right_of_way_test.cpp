@@ -76,7 +76,8 @@ TEST_P(Crossing, SignsGoBeforeTheRules) {
       int first;                      // the arm that goes first of these two
     };
     for (const Case& c : {Case{"205", "", other}, {"", "205", arm}, {"206", "", other}, {"", "206", arm}, {"301", "", arm}, {"", "301", other},
-                          {"306", "205", arm}, {"205", "206", arm}, {"206", "205", other}}) {
+                          {"306", "205", arm}, {"205", "206", arm}, {"206", "205", other},
+                          {"=yield", "", other}, {"", "=stop", arm}, {"=priorityRoad", "205", arm}, {"", "=priorityRoad", other}, {"=4way", "=priorityRoad", other}}) {
       Drawn drawn(MapText("lights", false));
       if (*c.on_arm != 0) drawn.Sign(ComesBy(arm), c.on_arm);
       if (*c.on_other != 0) drawn.Sign(ComesBy(other), c.on_other);

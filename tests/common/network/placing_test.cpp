@@ -50,6 +50,43 @@ TEST(Placing, ARowHasItsCountItsSpacingAndItsTaper) {
   }
 }
 
+// On the chord from (s 10, t 6) to (s 50, t -4) of the circle, evenly, heading along it; s and t are those of the circle under it.
+TEST(Placing, ARowThatLeavesTheRoadsLineStandsOnItsChord) {
+  RoadText road = Circle();
+  road.more = R"(<objects><object id="o" type="tree" s="1" t="1" height="3" hdg="0.25"><repeat s="10" length="40" distance="8" tStart="6" tEnd="-4" detachFromReferenceLine="true"/></object></objects>)";
+  const auto network = MustRead(Document(road.Text()));
+  const Furniture furniture = PlaceFurniture(*network);
+  ASSERT_EQ(furniture.things.size(), 6u);
+  const Eigen::Vector2d begin = OnCircle(10.0, 6.0).head<2>(), end = OnCircle(50.0, -4.0).head<2>(), way = end - begin;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Placed& tree = furniture.things[i];
+    const Eigen::Vector2d p = begin + 0.2 * static_cast<double>(i) * way, out = p - Eigen::Vector2d(10.0, 70.0);
+    EXPECT_NEAR((tree.foot_W.head<2>() - p).norm(), 0.0, 1e-9) << i;
+    EXPECT_NEAR(tree.s_m, kRadius_m * std::atan2(out.x(), -out.y()), 1e-8) << i;
+    EXPECT_NEAR(tree.t_m, kRadius_m - out.norm(), 1e-8) << i;
+    EXPECT_NEAR(tree.foot_W.z(), 5.0 + 0.03 * tree.s_m, 1e-9);
+    EXPECT_NEAR(tree.heading_rad, std::atan2(way.y(), way.x()) + 0.25, 1e-12);
+  }
+}
+
+TEST(Placing, ARunThatLeavesTheRoadsLineIsItsChord) {
+  RoadText road = Circle();
+  road.more = R"(<objects><object id="o" type="barrier" s="1" t="1" height="1"><repeat s="10" length="40" distance="0" tStart="6" tEnd="6" detachFromReferenceLine="true"/></object>
+    <object id="q" type="barrier" s="1" t="1" height="1"><repeat s="10" length="40" distance="0" tStart="6" tEnd="6"/></object></objects>)";
+  const auto network = MustRead(Document(road.Text()));
+  const Furniture furniture = PlaceFurniture(*network);
+  ASSERT_EQ(furniture.runs.size(), 2u);
+  const Eigen::Vector3d begin = OnCircle(10.0, 6.0), end = OnCircle(50.0, 6.0);
+  for (const double share : {0.0, 0.3, 0.5, 1.0}) {
+    const PlacedRun::Point straight = furniture.runs[0].At(network->roads()[0], share), bent = furniture.runs[1].At(network->roads()[0], share);
+    EXPECT_NEAR((straight.p_W - (begin + share * (end - begin))).norm(), 0.0, 1e-9);
+    EXPECT_NEAR(straight.left_W.dot((end - begin).head<2>()), 0.0, 1e-9);
+    EXPECT_NEAR((bent.p_W - OnCircle(10.0 + 40.0 * share, 6.0)).norm(), 0.0, 1e-9);
+  }
+  // Half of 0.8 rad to each side on 44 m: the chord's middle lies 44 (1 - cos 0.4) m nearer to the centre.
+  EXPECT_NEAR((furniture.runs[0].At(network->roads()[0], 0.5).p_W - furniture.runs[1].At(network->roads()[0], 0.5).p_W).head<2>().norm(), 44.0 * (1.0 - std::cos(0.4)), 1e-9);
+}
+
 TEST(Placing, LengthsAndRadiiTaperAsTheirRepeatSays) {
   RoadText road = Circle();
   road.more = R"(<objects><object id="o" type="building" s="1" t="1" length="3" width="2" height="3"><repeat s="10" length="40" distance="20" tStart="6" tEnd="6" lengthStart="4" lengthEnd="8"/></object>

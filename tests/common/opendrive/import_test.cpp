@@ -190,6 +190,30 @@ TEST(OpenDrive, ReferencesDependenciesAndWhoMayDriveAreKept) {
   EXPECT_THAT(lane.access[1].restrictions, testing::ElementsAre("bus", "taxi"));
 }
 
+// One <access> names one kind (up to 1.7): those at one place are one rule.
+TEST(OpenDrive, RulesOfAccessAtOnePlaceAreOne) {
+  RoadText road;
+  const auto lane = [&](const std::string& access) {
+    road.right = "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>" + access + "</lane>";
+    const Import import = MustImport(Document(road.Text()));
+    std::vector<std::string> said;
+    for (const Finding& warning : import.warnings) said.push_back(warning.Text());
+    return std::pair(*import.network->Find({0, 0, -1}), said);
+  };
+  const auto [buses, nothing] = lane(R"(<access sOffset="10" rule="allow" restriction="bus"/><access sOffset="10" rule="allow" restriction="taxi"/>)");
+  ASSERT_EQ(buses.access.size(), 1u);
+  EXPECT_THAT(buses.access[0].restrictions, testing::ElementsAre("bus", "taxi"));
+  EXPECT_THAT(nothing, testing::IsEmpty());
+  EXPECT_FALSE(network::OpenToCars(buses));
+  EXPECT_FALSE(network::OpenToCars(lane(R"(<access sOffset="0" rule="deny" restriction="truck"/><access sOffset="0" rule="deny" restriction="passengerCar"/>)").first));
+  for (const char* open : {"", R"(<access sOffset="0" rule="deny" restriction="truck"/>)", R"(<access sOffset="0" rule="allow" restriction="passengerCar"/><access sOffset="0" rule="allow" restriction="bus"/>)",
+                           R"(<access sOffset="0" restriction="simulator"/>)"}) {
+    EXPECT_TRUE(network::OpenToCars(lane(open).first)) << open;
+  }
+  EXPECT_THAT(lane(R"(<access sOffset="10" rule="allow" restriction="bus"/><access sOffset="10" rule="deny" restriction="taxi"/>)").second,
+              testing::ElementsAre("road.lane.access.no_mix_of_deny_or_allow: road 1, lane -1, s 10: at one place the lane has a rule 'allow' and a rule 'deny': the second counts"));
+}
+
 // A line that sways about the edge by 0.01 (s - 20) from s = 20 on, and from 50 on at 0.3.
 TEST(OpenDrive, AMarkSwaysAboutItsEdge) {
   RoadText road;
@@ -279,11 +303,90 @@ TEST(OpenDrive, MarksOfObjectsAndPlacesOfSignsThatCannotBeAreTold) {
   EXPECT_EQ(marks[1].corners, (std::vector<std::string>{"a", "b"}));
 }
 
+// Of an island, a parking place, a row beside a bend and a mast: what a file says of them beyond a box.
+TEST(OpenDrive, FramesFillingsSkeletonsAndMaterialsAreRead) {
+  RoadText road;
+  road.more = R"(<objects>
+    <object id="i" type="trafficIsland" s="10" t="8"><outlines><outline id="3" fillType="grass"><cornerLocal id="0" u="0" v="0"/><cornerLocal id="1" u="5" v="0"/><cornerLocal id="2" u="5" v="2"/></outline></outlines>
+      <borders><border outlineId="3" type="curb" width="0.15" useCompleteOutline="true"/><border outlineId="3" type="concrete" width="0.3" useCompleteOutline="false"><cornerReference id="0"/><cornerReference id="1"/></border></borders></object>
+    <object id="p" type="parkingSpace" s="20" t="8"><material surface="asphalt" friction="0.7" roadMarkColor="yellow"/><parkingSpace access="handicapped" restrictions="till 8"/></object>
+    <object id="r" type="streetLamp" s="1" t="8"><repeat s="1" length="9" distance="3" detachFromReferenceLine="true"/></object>
+    <object id="m" type="pole" s="30" t="8"><skeleton><polyline id="1"><vertexRoad s="30" t="8" dz="0" radius="0.15"/><vertexRoad s="30" t="8" dz="4" radius="0.1"/></polyline>
+      <polyline id="2"><vertexLocal u="0" v="0" z="3" width="0.2" length="0.1"/><vertexLocal u="0" v="-2" z="3.5" width="0.2" length="0.1"/></polyline></skeleton></object></objects>
+    <signals><signal id="1" s="5" t="-4" type="r1-1" subtype="-1" country="US"><semantics><priority type="stop"/></semantics></signal></signals>)";
+  const Import import = MustImport(Document(road.Text()));
+  ASSERT_EQ(import.warnings.size(), 1u);  // the plate's face, which nobody knows
+  const network::RoadSpec& spec = import.network->roads()[0].spec();
+  const auto& island = spec.objects[0];
+  EXPECT_EQ(island.outlines[0].id, "3");
+  EXPECT_EQ(island.outlines[0].fill, "grass");
+  ASSERT_EQ(island.borders.size(), 2u);
+  EXPECT_EQ(island.borders[0].type, "curb");
+  EXPECT_EQ(island.borders[0].width_m, 0.15);
+  EXPECT_TRUE(island.borders[0].corners.empty());
+  EXPECT_EQ(island.borders[1].corners, (std::vector<std::string>{"0", "1"}));
+  EXPECT_EQ(spec.objects[1].access, "handicapped");
+  EXPECT_EQ(spec.objects[1].material.surface, "asphalt");
+  EXPECT_EQ(spec.objects[1].material.friction, 0.7);
+  EXPECT_EQ(spec.objects[1].material.colour, "yellow");
+  EXPECT_TRUE(spec.objects[2].repeats[0].straight);
+  const auto& mast = spec.objects[3];
+  ASSERT_EQ(mast.skeleton.size(), 2u);
+  EXPECT_FALSE(mast.skeleton[0][1].local);
+  EXPECT_EQ(mast.skeleton[0][1].dz_m, 4.0);
+  EXPECT_EQ(mast.skeleton[0][1].radius_m, 0.1);
+  EXPECT_TRUE(mast.skeleton[1][1].local);
+  EXPECT_EQ(mast.skeleton[1][1].second_m, -2.0);
+  EXPECT_EQ(mast.skeleton[1][1].width_m, 0.2);
+  EXPECT_EQ(mast.skeleton[1][1].length_m, 0.1);
+  EXPECT_EQ(spec.signals[0].priority, "stop");
+}
+
+TEST(OpenDrive, FramesAndSkeletonsThatCannotBeAreTold) {
+  RoadText road;
+  const std::string corners = R"(<outlines><outline id="0"><cornerLocal id="0" u="0" v="0"/><cornerLocal id="1" u="5" v="0"/><cornerLocal id="2" u="5" v="2"/></outline></outlines>)";
+  road.more = "<objects><object id=\"i\" type=\"trafficIsland\" s=\"10\" t=\"8\">" + corners + R"(<borders><border outlineId="1" type="curb" width="0.15"/><border outlineId="0" type="curb" width="0"/>
+      <border outlineId="0" type="kurb" width="0.1"/><border outlineId="0" type="curb" width="0.1" useCompleteOutline="false"><cornerReference id="0"/></border><border outlineId="0" type="curb" width="0.1" useCompleteOutline="false"><cornerReference id="0"/><cornerReference id="9"/></border>
+      <border outlineId="0" type="curb" width="0.1"><cornerReference id="0"/></border></borders>
+      <skeleton><polyline><vertexLocal u="0" v="0" z="0" radius="0.1"/></polyline><polyline><vertexLocal u="0" v="0" z="0" radius="0.1"/><vertexLocal u="0" v="0" z="1" width="0.1" length="0.1"/></polyline>
+      <polyline><vertexLocal u="0" v="0" z="0" radius="0.1"/><vertexRoad s="10" t="8" dz="1" radius="0.1"/></polyline><polyline><vertexLocal u="0" v="0" z="0"/><vertexLocal u="0" v="0" z="1"/></polyline></skeleton></object></objects>)";
+  const Import import = MustImport(Document(road.Text()));
+  std::vector<std::string> said;
+  for (const Finding& warning : import.warnings) said.push_back(warning.Text());
+  const std::string points = "road.object.skeleton.use_radius_or_width_length: road 1, s 10: a skeleton's line of the object 'i' has points without a radius, or a width and a length, above 0; all were expected to have the one, or all the other: it is not drawn";
+  EXPECT_THAT(said, testing::UnorderedElementsAre(
+                        "road.object.borders.outline_id: road 1, s 10: a border of the object 'i' is of the outline '1', which it has not: it is not drawn",
+                        "road.object.borders: road 1, s 10: a border of the object 'i' is 0 m wide: it is not drawn", "road.object.borders: road 1, s 10: a border of the object 'i' is of the type 'kurb'; did you mean 'curb'?: it is not drawn",
+                        "road.object.borders: road 1, s 10: a border of the object 'i' names 1 corners of its outline; two at least were expected: it is not drawn",
+                        "road.object.borders: road 1, s 10: a border of the object 'i' names the corner '9', which its outline has not: it is not drawn",
+                        "road.object.borders.useCompleteOutline_true: road 1, s 10: a border of the object 'i' goes along its complete outline and names corners: it goes along all of it",
+                        "road.object.skeleton.polyline_followed_by_vertex: road 1, s 10: a skeleton's line of the object 'i' has 1 points; two at least were expected: it is not drawn", points,
+                        "road.object.skeleton.vertex_road.polyline_elements: road 1, s 10: a skeleton's line of the object 'i' has both <vertexRoad> and <vertexLocal>: it is not drawn", points));
+  EXPECT_EQ(import.network->roads()[0].spec().objects[0].borders.size(), 1u);
+  EXPECT_TRUE(import.network->roads()[0].spec().objects[0].skeleton.empty());
+}
+
+// An entry that leaves the middle of a main road: nothing of its beginning is joined to the main road's, and that is told.
+TEST(OpenDrive, AVirtualJunctionLeavesItsMainRoadWhole) {
+  RoadText main, entry;
+  entry.id = "2", entry.length = 20.0, entry.attributes = "junction=\"5\"";
+  entry.geometry = R"(<geometry s="0" x="50" y="0" hdg="0" length="20"><arc curvature="-0.05"/></geometry>)";
+  entry.link = R"(<predecessor elementType="road" elementId="1" elementS="50.0" elementDir="+"/>)";
+  entry.left = "";
+  entry.right = R"(<lane id="-1" type="driving"><link><predecessor id="-1"/></link><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
+  const Import import = MustImport(Document(main.Text() + entry.Text() + R"(<junction id="5" type="virtual" mainRoad="1" sStart="50" sEnd="50" orientation="-"><connection id="0" incomingRoad="1" connectingRoad="2" contactPoint="start"><laneLink from="-1" to="-1"/></connection></junction>)"));
+  std::vector<std::string> said;
+  for (const Finding& warning : import.warnings) said.push_back(warning.Text());
+  EXPECT_THAT(said, testing::UnorderedElementsAre("not_read: the attribute 'elementS' of <predecessor> is not read", "not_read: the attribute 'mainRoad' of <junction> is not read"));
+  EXPECT_TRUE(import.network->AtStart({1, 0, -1}).empty());
+  EXPECT_TRUE(import.network->AtStart({0, 0, -1}).empty() && import.network->AtEnd({0, 0, -1}).empty());
+}
+
 // What is passed over is said once a kind, at the first, with how often.
 TEST(OpenDrive, WhatIsNotReadIsTold) {
   RoadText road;
-  road.more = "<objects><object id=\"7\" type=\"parkingSpace\" s=\"10\" t=\"8\"><repeat s=\"1\" length=\"9\" distance=\"3\" detachFromReferenceLine=\"true\"/>\n<parkingSpace access=\"all\"/><borders/></object>\n"
-              "<object id=\"8\" type=\"parkingSpace\" s=\"20\" t=\"8\"><parkingSpace access=\"all\"/></object></objects>\n"
+  road.more = "<objects><object id=\"7\" type=\"pole\" s=\"10\" t=\"8\" perpToRoad=\"true\"><surface/></object>\n"
+              "<object id=\"8\" type=\"pole\" s=\"20\" t=\"8\" perpToRoad=\"true\"/><object id=\"9\" type=\"pole\" s=\"30\" t=\"8\" perpToRoad=\"false\"/>\n<tunnel s=\"1\" length=\"9\" id=\"t\" type=\"standard\" lighting=\"0.5\"/></objects>\n"
               "<signals><signal id=\"1\" s=\"5\" t=\"-4\" type=\"206\" subtype=\"-1\"><reference elementId=\"7\" elementType=\"object\"/></signal></signals>";
   const std::string text = Document(road.Text() + "<junctionGroup id=\"1\" type=\"roundabout\"/>\n");
   const auto line_of = [&](const std::string& what) { return static_cast<std::size_t>(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(what)), '\n')); };
@@ -291,8 +394,8 @@ TEST(OpenDrive, WhatIsNotReadIsTold) {
   std::vector<std::pair<std::string, std::size_t>> said;
   for (const Finding& warning : import.warnings) said.emplace_back(warning.Text(), warning.line);
   EXPECT_THAT(said, testing::UnorderedElementsAre(
-                        std::pair(std::string("not_read: the attribute 'detachFromReferenceLine' of <repeat> is not read"), line_of("<repeat")), std::pair(std::string("not_read: <parkingSpace> of <object> is not read (2 times)"), line_of("<parkingSpace")),
-                        std::pair(std::string("not_read: <borders> of <object> is not read"), line_of("<borders")), std::pair(std::string("not_read: <reference> of <signal> is not read"), line_of("<reference")),
+                        std::pair(std::string("not_read: the attribute 'perpToRoad' of <object> is not read (2 times)"), line_of("perpToRoad")), std::pair(std::string("not_read: <surface> of <object> is not read"), line_of("<surface")),
+                        std::pair(std::string("not_read: the attribute 'lighting' of <tunnel> is not read"), line_of("<tunnel")), std::pair(std::string("not_read: <reference> of <signal> is not read"), line_of("<reference")),
                         std::pair(std::string("not_read: <junctionGroup> of <OpenDRIVE> is not read"), line_of("<junctionGroup"))));
 }
 

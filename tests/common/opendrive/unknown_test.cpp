@@ -2,6 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
+#include <set>
+
+#include "common/base/files.hpp"
+#include "common/opendrive/known_elements.hpp"
 #include "tests/common/opendrive/sample.hpp"
 
 namespace rodeira::opendrive {
@@ -14,6 +19,24 @@ std::vector<std::string> WarningsOf(const std::string& text) {
   std::vector<std::string> said;
   for (const Finding& warning : MustImport(text).warnings) said.push_back(warning.Text());
   return said;
+}
+
+// Whoever looks what becomes of an element finds it: each has its place in the document.
+TEST(Unknown, EveryKnownElementStandsInTheTable) {
+  const std::string text = base::ReadText(std::filesystem::path(SourceDir()) / "docs/formats.md").value();
+  const std::size_t begin = text.find("\n## OpenDRIVE\n"), end = text.find("\n## ", begin + 5);
+  ASSERT_NE(end, std::string::npos);
+  std::set<std::string> said;
+  std::string word;
+  for (std::size_t i = begin; i <= end; ++i) {
+    if (std::isalnum(static_cast<unsigned char>(text[i])) != 0) {
+      word += text[i];
+    } else if (!word.empty()) {
+      said.insert(std::move(word));
+      word.clear();
+    }
+  }
+  for (const std::string& name : KnownNames()) EXPECT_TRUE(said.contains(name)) << name;
 }
 
 TEST(Unknown, NothingIsSaidOfAFileThatIsRight) { EXPECT_THAT(WarningsOf(Document(RoadText().Text())), IsEmpty()); }

@@ -2,10 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <bit>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
+#include "common/base/files.hpp"
 #include "common/base/random.hpp"
 #include "common/road/world_export.hpp"
 #include "common/road/world_report.hpp"
@@ -199,6 +203,44 @@ TEST(Laid, WhatIsWrongIsSaid) {
   EXPECT_THAT(error("    bumps: [{from_s_m: 50, to_s_m: 54}]\n"), HasSubstr("either one 'height_m' or a list of 'heights'"));
   EXPECT_THAT(error("    bumps: [{from_s_m: 50, to_s_m: 54, heights: [{s_m: 0, z_m: 0}, {s_m: 2, z_m: 0.1}]}]\n"), HasSubstr("end at s_m 4"));
   EXPECT_THAT(error("    bumps: [{from_s_m: 50, to_s_m: 54, height_m: 0.1, from_t_m: 0, to_t_m: 0.4}]\n"), HasSubstr("narrower than twice its 'side_m'"));
+}
+
+// A patch of a world file in OpenDRIVE, and of an OpenDRIVE file of somebody else's: along the road, by its outline, and repeated; friction is that of the material.
+TEST(Laid, PatchesOfOpenDriveHaveTheirFriction) {
+  const auto folder = std::filesystem::temp_directory_path() / ("rodeira-laid-" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const auto load = [&](const std::string& text) {
+    EXPECT_TRUE(base::WriteWhole(folder / "it.xodr", std::string_view(text)).ok());
+    auto world = World::Load(folder / "it.xodr");
+    EXPECT_TRUE(world.ok()) << world.error().Text();
+    return world.value();
+  };
+  const auto ours = MustParse(Straight("    patches:\n      - {from_s_m: 40, to_s_m: 70, from_t_m: -3, to_t_m: -0.5, friction: 0.12}\n      - {from_s_m: 60, to_s_m: 90, from_t_m: -2, to_t_m: 3, material: mud}\n"));
+  const auto again = load(ExportOpenDrive(*ours).value());
+  for (std::uint64_t i = 0; i < 20'000; ++i) {
+    const double x = base::RandomUniform({i, 1}, 20.0, 130.0), y = base::RandomUniform({i, 2}, -4.4, 4.4);
+    EXPECT_EQ(ours->At(x, y).friction, again->At(x, y).friction) << x << " " << y;
+    EXPECT_EQ(ours->At(x, y).surface, again->At(x, y).surface) << x << " " << y;
+  }
+  const auto theirs = load(R"(<?xml version="1.0"?><OpenDRIVE><header revMajor="1" revMinor="8"/><road id="1" length="200" junction="-1"><planView><geometry s="0" x="0" y="0" hdg="0" length="200"><line/></geometry></planView>
+    <lanes><laneSection s="0"><left><lane id="1" type="driving"><width sOffset="0" a="5" b="0" c="0" d="0"/></lane></left><center><lane id="0"/></center><right><lane id="-1" type="driving"><width sOffset="0" a="5" b="0" c="0" d="0"/></lane></right></laneSection></lanes>
+    <objects><object id="a" type="patch" s="20" t="1" length="4" width="2"><material surface="gravel" friction="0.6"/></object>
+    <object id="b" type="patch" s="50" t="-2" hdg="1.5707963267948966"><outlines><outline id="0"><cornerLocal u="-1" v="-3" z="0" height="0"/><cornerLocal u="1" v="-3" z="0" height="0"/><cornerLocal u="1" v="3" z="0" height="0"/><cornerLocal u="-1" v="3" z="0" height="0"/></outline></outlines><material friction="0.3"/></object>
+    <object id="c" type="patch" s="100" t="0" length="2" width="2"><repeat s="100" length="30" distance="10" tStart="0" tEnd="3"/><material friction="0.2"/></object>
+    <object id="d" type="patch" s="160" t="0" length="2" width="2"/><object id="e" type="obstacle" s="170" t="0" length="2" width="2"><material friction="0.1"/></object></objects></road></OpenDRIVE>)");
+  for (std::uint64_t i = 0; i < 20'000; ++i) {
+    const double x = base::RandomUniform({i, 3}, 1.0, 199.0), y = base::RandomUniform({i, 4}, -4.9, 4.9);
+    double expected = 1.0;
+    if (std::fabs(x - 20.0) <= 2.0 && std::fabs(y - 1.0) <= 1.0) expected = 0.6;
+    if (std::fabs(x - 50.0) <= 3.0 && std::fabs(y + 2.0) <= 1.0) expected = 0.3;
+    for (double k = 0.0; k < 4.0; k += 1.0) {
+      if (std::fabs(x - 100.0 - 10.0 * k) <= 1.0 && std::fabs(y - k) <= 1.0) expected = 0.2;
+    }
+    const SurfacePoint at = theirs->At(x, y);
+    EXPECT_EQ(at.friction, expected) << x << " " << y;
+    EXPECT_EQ(at.surface, expected == 0.6 ? terrain::Surface::kGravel : terrain::Surface::kAsphalt);
+  }
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Laid, OpenDriveNamesThem) {

@@ -156,6 +156,7 @@ std::string Said(const network::Object& o) {
   for (const network::Repeat& r : o.repeats) {
     text += fmt::format(" ({} {} {} {} {} {} {} {} {} {} {})", r.s_m, r.length_m, r.distance_m, r.t_start_m, r.t_end_m, r.z_start_m, r.z_end_m, r.height_start_m, r.height_end_m, r.width_start_m, r.width_end_m);
   }
+  if (o.material.friction) text += fmt::format(" '{}' {}", o.material.surface, *o.material.friction);
   for (const network::Outline& outline : o.outlines) {
     text += outline.closed ? " closed" : " open";
     for (const network::Corner& c : outline.corners) text += fmt::format(" ({} {} {} {} {})", c.local, c.first_m, c.second_m, c.dz_m, c.height_m);

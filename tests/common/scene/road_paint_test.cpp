@@ -166,6 +166,42 @@ TEST(RoadPaint, AParkingPlaceHasItsLines) {
   EXPECT_TRUE(Things(*world).tiles().empty());
 }
 
+// Whoever parks sees where: lines of 0.12 m within the edges, of the rectangle or of a slanted outline; a height that a file gives it makes no body of it.
+TEST(RoadPaint, AParkingPlaceWithoutMarksHasLinesAlongItsEdges) {
+  const auto world = WorldWith(R"(<objects><object id="p" type="parkingSpace" s="50" t="0" length="5" width="2.5" height="4"><material roadMarkColor="yellow"/></object></objects>)");
+  ASSERT_NE(world, nullptr);
+  const Painted painted = PaintOf(*world);
+  EXPECT_NEAR(painted.area_m2, 5.0 * 2.5 - 4.76 * 2.26, 2e-3);
+  ExpectBox(painted, 57.5, 18.75, 62.5, 21.25);
+  EXPECT_TRUE(Things(*world).tiles().empty());
+  // A rhomboid of base 2.5 and height 5, slanted by 45 degrees: its inner one has the same shape, 0.12 m within each side.
+  const auto slanted = WorldWith(R"(<objects><object id="p" type="parkingSpace" s="50" t="0"><outlines><outline id="0" closed="true"><cornerLocal u="-2.5" v="-2.5" z="0" height="4"/><cornerLocal u="0" v="-2.5" z="0" height="4"/>
+      <cornerLocal u="5" v="2.5" z="0" height="4"/><cornerLocal u="2.5" v="2.5" z="0" height="4"/></outline></outlines></object></objects>)");
+  const double base = 2.5 - 2.0 * 0.12 * std::sqrt(2.0), height = 5.0 - 0.24;
+  EXPECT_NEAR(PaintOf(*slanted).area_m2, 2.5 * 5.0 - base * height, 2e-3);
+  EXPECT_TRUE(Things(*slanted).tiles().empty());
+}
+
+// A flat island of 6 x 3 m with a kerb of 0.2 m: grass within the kerb, and both together the whole of it, whichever way round its corners run.
+TEST(RoadPaint, AFlatIslandHasItsFrameAndItsFilling) {
+  for (const bool turned : {false, true}) {
+    const std::string a = R"(<cornerRoad s="47" t="-1" dz="0" height="0" id="0"/>)", b = R"(<cornerRoad s="53" t="-1" dz="0" height="0" id="1"/>)", c = R"(<cornerRoad s="53" t="2" dz="0" height="0" id="2"/>)",
+                      d = R"(<cornerRoad s="47" t="2" dz="0" height="0" id="3"/>)";
+    const auto island = [&](const std::string& fill, const std::string& borders) {
+      return WorldWith("<objects><object id=\"i\" type=\"trafficIsland\" s=\"50\" t=\"0\"><outlines><outline id=\"0\" " + fill + ">" + (turned ? d + c + b + a : a + b + c + d) + "</outline></outlines>" + borders + "</object></objects>");
+    };
+    const std::string whole = R"(<borders><border outlineId="0" type="curb" width="0.2" useCompleteOutline="true"/></borders>)";
+    const Painted both = PaintOf(*island("fillType=\"grass\"", whole)), frame = PaintOf(*island("", whole));
+    EXPECT_NEAR(both.area_m2, 18.0, 2e-3) << turned;
+    EXPECT_NEAR(frame.area_m2, 18.0 - 5.6 * 2.6, 2e-3) << turned;
+    ExpectBox(both, 57.0, 19.0, 63.0, 22.0);
+    // From corner 0 to 1 and 2: 6 m and 3 m of 0.2 m, mitred where they meet.
+    const Painted part = PaintOf(*island("", R"(<borders><border outlineId="0" type="concrete" width="0.2" useCompleteOutline="false"><cornerReference id="0"/><cornerReference id="1"/><cornerReference id="2"/></border></borders>)"));
+    EXPECT_NEAR(part.area_m2, 9.0 * 0.2 - 0.04, 2e-3) << turned;
+    ExpectBox(part, 57.0, 19.0, 63.0, 22.0);
+  }
+}
+
 TEST(Stencils, AGiveWayLineHasWholeStrokesEvenlyOnBothSides) {
   static_assert(kGiveWayLine_m >= 0.2 && kGiveWayLine_m <= 0.6 && kStopLine_m >= 0.2 && kStopLine_m <= 0.6);
   for (const double width : {0.3, 2.5, 2.1, 3.5, 7.0}) {

@@ -219,6 +219,80 @@ TEST(Things, ObjectsByTheirKindsAndDeclaredSizes) {
   EXPECT_NEAR(east, 10.0 + 30.0 + 2.0 * std::cos(0.5) + 1.0 * std::sin(0.5), 1e-5);
 }
 
+// An island 0.15 m high with a kerb: the frame stands a centimetre over the filling, and both fill the outline.
+TEST(Things, AnIslandHasItsKerbAndItsFilling) {
+  const auto world = WorldWith(R"(<objects><object id="i" type="trafficIsland" s="50" t="0" height="0.15"><outlines><outline id="0" fillType="grass"><cornerLocal u="-3" v="-1" z="0" height="0.15"/><cornerLocal u="3" v="-1" z="0" height="0.15"/>
+      <cornerLocal u="3" v="1" z="0" height="0.15"/><cornerLocal u="-3" v="1" z="0" height="0.15"/></outline></outlines><borders><border outlineId="0" type="curb" width="0.25" useCompleteOutline="true"/></borders></object></objects>)");
+  ASSERT_NE(world, nullptr);
+  const Things things(*world);
+  ASSERT_EQ(things.tiles().size(), 1u);
+  const Things::Tile& tile = things.tiles().begin()->second;
+  ASSERT_EQ(tile.things.size(), 5u);  // four sides and what is within
+  double kerb_m2 = 0.0, filled_m3 = 0.0;
+  for (const Thing& thing : tile.things) {
+    Things::Tile one;
+    one.things.push_back(thing);
+    const bool filling = thing.heights_m[0] == 0.15;
+    for (Mesh& mesh : DrawThings(one, {0, 0}, 0).meshes) {
+      mesh.origin_W.z() -= 5.0;  // the road's height: its lower face, which is missing, comes to lie on 0
+      if (filling) filled_m3 += Volume(mesh);
+      else kerb_m2 += Volume(mesh) / 0.16;
+    }
+    EXPECT_TRUE(thing.top.has_value());
+  }
+  EXPECT_NEAR(filled_m3, 6.0 * 2.0 * 0.15, 1e-4);
+  EXPECT_NEAR(kerb_m2, 12.0 - 5.5 * 1.5, 1e-3);
+}
+
+// ASAM's example of a mast with an arm over the road: tapered round bars, and nothing of its box.
+TEST(Things, AMastIsItsSkeleton) {
+  const auto world = WorldWith(R"(<objects><object id="m" type="pole" s="50" t="-5" height="4" length="0.3" width="5"><skeleton>
+      <polyline id="1"><vertexRoad s="50" t="-5" dz="0" radius="0.15"/><vertexRoad s="50" t="-5" dz="4" radius="0.1"/></polyline>
+      <polyline id="2"><vertexLocal u="0" v="0" z="3.5" width="0.1" length="0.2"/><vertexLocal u="0" v="4" z="3.5" width="0.1" length="0.2"/></polyline></skeleton></object></objects>)");
+  ASSERT_NE(world, nullptr);
+  const Things things(*world);
+  ASSERT_EQ(things.tiles().size(), 1u);
+  const Things::Tile& tile = things.tiles().begin()->second;
+  ASSERT_EQ(tile.things.size(), 2u);
+  const auto extent = [&](std::size_t which, Vector3d& low, Vector3d& high) {
+    Things::Tile one;
+    one.things.push_back(tile.things[which]);
+    low = Vector3d::Constant(1e9), high = -low;
+    double volume = 0.0;
+    for (const Mesh& mesh : DrawThings(one, {0, 0}, 0).meshes) {
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i) low = low.cwiseMin(mesh.PositionW(i)), high = high.cwiseMax(mesh.PositionW(i));
+      volume += Volume(mesh);
+    }
+    return volume;
+  };
+  Vector3d low, high;
+  // A frustum of ten sides.
+  EXPECT_NEAR(extent(0, low, high), 4.0 / 3.0 * 5.0 * std::sin(2.0 * 3.14159265358979 / 10.0) * (0.15 * 0.15 + 0.15 * 0.1 + 0.1 * 0.1), 5e-4);  // float32, 60 m from the origin
+  EXPECT_NEAR((low - Vector3d(60.0 - 0.15, 15.0 - 0.15, 5.0)).norm(), 0.0, 0.01);
+  EXPECT_NEAR(high.z(), 9.0, 1e-4);
+  // The arm lies along v: its width along u, its length upright.
+  EXPECT_NEAR(extent(1, low, high), 4.0 * 0.1 * 0.2, 5e-4);
+  EXPECT_NEAR((low - Vector3d(60.0 - 0.05, 15.0, 8.4)).norm(), 0.0, 1e-4);
+  EXPECT_NEAR((high - Vector3d(60.0 + 0.05, 19.0, 8.6)).norm(), 0.0, 1e-4);
+}
+
+// A wall beside half a circle, said to leave the road's line: straight from its beginning to its end.
+TEST(Things, ARailThatLeavesTheRoadsLineIsStraight) {
+  const auto world = WorldWith(R"(<objects><object id="r" type="barrier" subtype="guardRail" s="0" t="-5" height="0.75" width="0.3"><repeat s="0" length="100" distance="0" tStart="-5" tEnd="-5" detachFromReferenceLine="true"/></object></objects>)",
+                               "<arc curvature=\"0.02\"/>", 150.0);
+  ASSERT_NE(world, nullptr);
+  const Things things(*world);
+  const Eigen::Vector2d begin(10.0, 15.0), end(10.0 + 55.0 * std::sin(2.0), 70.0 - 55.0 * std::cos(2.0)), way = (end - begin).normalized();
+  double chords = 0.0;
+  for (const auto& [key, tile] : things.tiles()) {
+    for (const RailPiece& piece : tile.rails) {
+      chords += (piece.foot_W[1] - piece.foot_W[0]).head<2>().norm();
+      for (const Vector3d& foot : piece.foot_W) EXPECT_NEAR((foot.head<2>() - begin).dot(Eigen::Vector2d(-way.y(), way.x())), 0.0, 1e-9);
+    }
+  }
+  EXPECT_NEAR(chords, (end - begin).norm(), 1e-9);
+}
+
 TEST(Things, StandOnTheGroundThatIsDrawn) {
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/example/world.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();

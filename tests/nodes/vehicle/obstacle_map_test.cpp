@@ -2,10 +2,13 @@
 #include "nodes/vehicle/obstacle_map.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "common/base/files.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::nodes {
@@ -93,6 +96,50 @@ TEST(ObstacleMap, WhatStandsAtNoRoadStopsACarToo) {
   EXPECT_NEAR(wall_m, 12.0, 1e-9);
   EXPECT_FALSE(map.Near({0.0, 6.0, 3.0}).empty());
   EXPECT_TRUE(map.Near({500.0, 500.0, 3.0}).empty());
+}
+
+// A crossing and a parking place with the heights that ASAM's own examples give their outlines, a mast with an arm over the road, a hedge that leaves the road's
+// line: only the last two are in the way, and the arm is passed under.
+TEST(ObstacleMap, WhatLiesOnTheRoadIsNoBodyAndASkeletonIsItsBars) {
+  const std::string corners = R"(<outlines><outline id="0"><cornerRoad s="18" t="3.5" dz="0" height="4" id="0"/><cornerRoad s="18" t="-3.5" dz="0" height="4" id="1"/><cornerRoad s="22" t="-3.5" dz="0" height="4" id="2"/></outline></outlines>)";
+  const std::string text = "<?xml version=\"1.0\"?>\n<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/><road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><arc curvature=\"0.01\"/></geometry></planView>"
+                           "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes>"
+                           "<objects><object id=\"z\" type=\"crosswalk\" s=\"20\" t=\"0\" height=\"4\">" + corners + "</object><object id=\"p\" type=\"parkingSpace\" s=\"30\" t=\"0\" length=\"5\" width=\"2.5\" height=\"4\"/>"
+                           R"(<object id="m" type="pole" s="0" t="-5" height="6" length="0.3" width="5"><skeleton><polyline id="1"><vertexRoad s="0" t="-5" dz="0" radius="0.2"/><vertexRoad s="0" t="-5" dz="6" radius="0.1"/></polyline>
+      <polyline id="2"><vertexLocal u="0" v="0" z="5" radius="0.1"/><vertexLocal u="0" v="4" z="5.5" radius="0.1"/></polyline></skeleton></object>
+      <object id="w" type="barrier" s="40" t="-6" height="1" width="0.3"><repeat s="40" length="40" distance="0" tStart="-6" tEnd="-6" detachFromReferenceLine="true"/></object></objects></road></OpenDRIVE>)";
+  const auto file = std::filesystem::temp_directory_path() / ("rodeira-obstacles-" + std::to_string(::getpid()) + ".xodr");
+  ASSERT_TRUE(base::WriteWhole(file, std::string_view(text)).ok());
+  const auto world = road::World::Load(file);
+  std::filesystem::remove(file);
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  const ObstacleMap map(*world.value(), kReach_m);
+  double wall_m = 0.0;
+  std::size_t bars = 0;
+  const Eigen::Vector2d begin(106.0 * std::sin(0.4), 100.0 - 106.0 * std::cos(0.4)), end(106.0 * std::sin(0.8), 100.0 - 106.0 * std::cos(0.8)), way = (end - begin).normalized();
+  for (std::size_t i = 0; i < map.all().size(); ++i) {
+    const vehicle::Obstacle& box = map.all()[i];
+    if (map.NameOf(i) == "w") {
+      wall_m += 2.0 * box.half_m.x();
+      EXPECT_NEAR((box.centre_W.head<2>() - begin).dot(Eigen::Vector2d(-way.y(), way.x())), 0.0, 1e-9);
+      continue;
+    }
+    ASSERT_EQ(map.NameOf(i), "m");
+    if (bars++ == 0) {
+      EXPECT_NEAR((box.centre_W.head<2>() - Eigen::Vector2d(0.0, -5.0)).norm(), 0.0, 1e-9);
+      EXPECT_NEAR(box.half_m.x(), 0.2, 1e-12);
+      EXPECT_NEAR(box.centre_W.z() - box.half_m.z(), -1.0, 1e-9);
+      EXPECT_NEAR(box.centre_W.z() + box.half_m.z(), 6.0, 1e-9);
+    } else {
+      EXPECT_NEAR((box.centre_W.head<2>() - Eigen::Vector2d(0.0, -3.0)).norm(), 0.0, 1e-9);
+      EXPECT_NEAR(box.half_m.x(), 2.1, 1e-12);
+      EXPECT_NEAR((box.q_WO * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-9);
+      EXPECT_NEAR(box.centre_W.z() - box.half_m.z(), 4.9, 1e-9) << "a lorry of 4 m passes under it";
+      EXPECT_NEAR(box.centre_W.z() + box.half_m.z(), 5.6, 1e-9);
+    }
+  }
+  EXPECT_EQ(bars, 2u);
+  EXPECT_NEAR(wall_m, (end - begin).norm(), 1e-9);
 }
 
 TEST(ObstacleMap, WhereNothingStandsNothingIsNear) {
