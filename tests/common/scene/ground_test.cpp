@@ -220,6 +220,26 @@ TEST(Ground, IsWhereTheTyresAreOnTheEdgesOfTiles) {
   std::printf("%d sides on the edge, worst %.4f m from SUELO\n", sides, worst_m);
 }
 
+// A wide road that climbs 20 m within 100, in a bend that tightens: many rounds of points until it is met everywhere.
+TEST(Ground, IsMetToTheLastPlaceWhereAWideRoadClimbsInABend) {
+  const auto width = [](double a) { return fmt::format("<width sOffset=\"0\" a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/>", a); };
+  const auto side = [&](int sign) {
+    std::string lanes;
+    for (const auto& [id, wide] : {std::pair(1, 3.0), std::pair(2, 5.0), std::pair(3, 20.0)}) lanes += fmt::format("<lane id=\"{}\" type=\"{}\">{}</lane>", sign * id, id == 1 ? "driving" : "border", width(wide));
+    return lanes;
+  };
+  const auto world = OpenDriveWorld(
+      "<road id=\"1\" length=\"200\" junction=\"-1\"><planView><geometry s=\"0\" x=\"350\" y=\"-50\" hdg=\"0\" length=\"100\"><spiral curvStart=\"0\" curvEnd=\"0.02\"/></geometry>"
+      "<geometry s=\"100\" x=\"440.45242379\" y=\"-18.97316983\" hdg=\"1\" length=\"100\"><spiral curvStart=\"0.02\" curvEnd=\"0\"/></geometry></planView>"
+      "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/><elevation s=\"20\" a=\"0\" b=\"0\" c=\"0.006\" d=\"-0.00004\"/><elevation s=\"120\" a=\"20\" b=\"0\" c=\"-0.006\" d=\"0.00004\"/></elevationProfile>"
+      "<lanes><laneSection s=\"0\"><left>" + side(1) + "</left><center><lane id=\"0\"/></center><right>" + side(-1) + "</right></laneSection></lanes></road>\n");
+  ASSERT_NE(world, nullptr);
+  const std::vector<GroundTile> tiles = BuildAll(*world);
+  const Correlation found = Correlate(*world, tiles, std::max(Points(), 100'000), 13);
+  EXPECT_EQ(found.far, 0) << "worst " << found.worst_m << " m at " << found.where.transpose();
+  std::printf("%d points, worst %.4f m from SUELO\n", found.asked, found.worst_m);
+}
+
 // 5 000 km away the same file gives the same ground, as exactly: only where a height lies between two steps it may go to
 // the other one.
 TEST(Ground, LosesNothingFarAway) {
