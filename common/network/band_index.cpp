@@ -145,17 +145,27 @@ void BandIndex::BuildGrid() {
     for (double row = index(band.centre_W.y() - reach.y(), low.y(), rows_); row <= row_high; row += 1.0) {
       for (double column = index(band.centre_W.x() - reach.x(), low.x(), columns_); column <= column_high; column += 1.0) {
         const Eigen::Vector2d centre = origin_W_ + cell_m_ * Eigen::Vector2d(column + 0.5, row + 0.5);
-        if (Touches(band, centre, 0.5 * cell_m_)) use(static_cast<std::size_t>(row * columns_ + column), centre);
+        if (Touches(band, centre, 0.5 * cell_m_)) use(column, row, centre);
       }
     }
   };
-  first_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-  for (const Band& band : bands_) each_cell(band, [&](std::size_t cell, const Eigen::Vector2d&) { ++first_[cell + 1]; });
+  block_columns_ = static_cast<std::size_t>(columns_) / kBlock + 1;
+  blocks_.assign(block_columns_ * (static_cast<std::size_t>(rows_) / kBlock + 1), 0);
+  for (const Band& band : bands_) {
+    each_cell(band, [&](double column, double row, const Eigen::Vector2d&) {
+      blocks_[static_cast<std::size_t>(row) / kBlock * block_columns_ + static_cast<std::size_t>(column) / kBlock] = 1;
+    });
+  }
+  std::uint32_t blocks = 0;
+  for (std::uint32_t& block : blocks_) block = block == 0 ? 0 : ++blocks;
+  first_.assign(blocks * kBlock * kBlock + 1, 0);
+  for (const Band& band : bands_) each_cell(band, [&](double column, double row, const Eigen::Vector2d&) { ++first_[CellOf(column, row)]; });
   for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) first_[cell + 1] += first_[cell];
   cell_bands_.resize(first_.back());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::uint32_t i = 0; i < bands_.size(); ++i)
-    each_cell(bands_[i], [&](std::size_t cell, const Eigen::Vector2d& centre) { cell_bands_[next[cell]++] = {i, PartsOf(bands_[i], centre)}; });
+  for (std::uint32_t i = 0; i < bands_.size(); ++i) {
+    each_cell(bands_[i], [&](double column, double row, const Eigen::Vector2d& centre) { cell_bands_[next[CellOf(column, row) - 1]++] = {i, PartsOf(bands_[i], centre)}; });
+  }
 }
 
 // As Touches says of each square of a cell.

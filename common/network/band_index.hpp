@@ -82,11 +82,19 @@ class BandIndex {
     std::uint32_t band = 0, parts = 0;
   };
   static constexpr std::uint32_t kParts = 5;
+  // So many cells a side are a block. Most blocks of a large map hold nothing, and have no cells.
+  static constexpr std::size_t kBlock = 4;
 
+  // Of the cell's block, whose cells' numbers follow one another; 0 where nothing lies in the whole block.
+  std::size_t CellOf(double column, double row) const {
+    const auto x = static_cast<std::size_t>(column), y = static_cast<std::size_t>(row);
+    const std::uint32_t block = blocks_[y / kBlock * block_columns_ + x / kBlock];
+    return block == 0 ? 0 : (block - 1) * kBlock * kBlock + y % kBlock * kBlock + x % kBlock + 1;
+  }
   std::span<const CellBand> Listed(double column, double row) const {
     if (!(column >= 0.0 && column < columns_ && row >= 0.0 && row < rows_)) return {};
-    const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
-    return std::span(cell_bands_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
+    const std::size_t cell = CellOf(column, row);
+    return cell == 0 ? std::span<const CellBand>() : std::span(cell_bands_).subspan(first_[cell - 1], first_[cell] - first_[cell - 1]);
   }
   void AddBands(std::span<const Road> roads, double closed_m);
   void BuildGrid();
@@ -113,7 +121,9 @@ class BandIndex {
   Eigen::Vector2d origin_W_ = Eigen::Vector2d::Zero();
   double cell_m_ = 8.0;
   double columns_ = 0.0, rows_ = 0.0;  // whole numbers
-  std::vector<std::uint32_t> first_;   // per cell, where its bands begin in cell_bands_; one more at the end
+  std::size_t block_columns_ = 0;
+  std::vector<std::uint32_t> blocks_;  // by row and column; 0: nothing lies in it, otherwise its number, from 1
+  std::vector<std::uint32_t> first_;   // per cell of those that hold something, where its bands begin in cell_bands_; one more at the end
   std::vector<CellBand> cell_bands_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;

@@ -24,30 +24,31 @@ struct Network::Hit {
   Claim claim;
   double outside_m = 0.0;  // across, without the height
   bool has_height = false;  // place.z_m is known already
-  LaneSpan span;
-  geometry::PlanPoint at;  // the reference line at place.s_m
+  LaneSpan span;  // without its lane where the road is flat
+  geometry::PlanPoint at;  // the reference line at place.s_m; of its heading nobody asks
 };
 
 Network::Hit Network::Try(const Eigen::Vector2d& p_W, std::uint32_t band_index) const {
   const BandRecord& record = records_.Of(band_index);
   if (!(record.piece.from_s_m < record.piece.to_s_m)) return TryRoad(p_W, band_index);
-  const geometry::PlanAxis& axis = spec_.roads[record.road].axis();
-  const geometry::AxisFoot foot = axis.Foot(record.panel, p_W);
-  const double found = record.panel.middle_s_m + foot.u_m, s = std::clamp(found, record.low_s_m, record.high_s_m), t = foot.t_m;
+  const Road& road = spec_.roads[record.road];
+  const geometry::AxisPanel panel = record.Panel();
+  const geometry::AxisFoot foot = road.axis().Foot(panel, p_W);
+  const double low = record.low_s_m(), found = panel.middle_s_m + foot.u_m, s = std::clamp(found, low, record.high_s_m), t = foot.t_m;
   const BandPiece* piece = records_.PieceAt(record, s);
   if (piece == nullptr) return TryRoad(p_W, band_index);
   const double beyond = std::fabs(foot.beyond_m) + std::fabs(found - s);
-  const geometry::CubicPoint centre{piece->centre_t.Value(s), piece->centre_t.Slope(s), 0.0};
-  const BandRecords::LaneAt lane = records_.At(*piece, s, t, centre);
+  const BandRecords::LaneAt lane = records_.At(*piece, s, t);
   Hit hit;
   hit.span = lane.span;
   hit.outside_m = lane.outside_m;
-  const bool closed = s <= record.low_s_m ? record.closed_before : record.closed_behind;
+  const bool closed = s <= low ? record.closed_before : record.closed_behind;
   if (beyond > (closed ? kClosed_m : BandIndex::kSlack_m)) hit.outside_m = std::sqrt(hit.outside_m * hit.outside_m + beyond * beyond);
-  hit.at = s == found ? foot.at : axis.At(record.panel, s - record.panel.middle_s_m);
+  hit.at = s == found ? foot.at : road.axis().At(panel, s - panel.middle_s_m);
   hit.claim = {beyond > 0.0, lane.drivable, lane.id == 0 ? 0.0 : std::fabs(t - lane.span.centre_t_m()), band_index};
   hit.place = {{record.road, piece->section, lane.id}, s, t, 0.0, hit.outside_m};
-  if (piece->flat) hit.place.z_m = piece->elevation.Value(s), hit.has_height = true;
+  if (piece->flat) hit.place.z_m = records_.Height(*piece, s), hit.has_height = true;
+  else if (lane.id != 0) hit.span.lane = road.spec().sections[piece->section].Find(lane.id);
   return hit;
 }
 

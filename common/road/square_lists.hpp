@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "common/road/square_grid.hpp"
+
 namespace rodeira::road {
 
 // For each square of the plane a list of the strips that touch it: what may reach a point is told without a search.
@@ -29,17 +31,14 @@ class SquareLists {
 
   // The numbers of all strips that hold the point, and of some beside it; ascending.
   std::span<const std::uint32_t> At(const Eigen::Vector2d& p_W) const {
-    const double column = (p_W.x() - low_W_.x()) / side_m_, row = (p_W.y() - low_W_.y()) / side_m_;
-    if (!(column >= 0.0 && column < static_cast<double>(columns_) && row >= 0.0 && row < static_cast<double>(rows_))) return {};
-    const std::size_t square = static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column);
-    return std::span(strips_).subspan(first_[square], first_[square + 1] - first_[square]);
+    const auto square = grid_.At(p_W);
+    if (!square) return {};
+    return std::span(strips_).subspan(first_[*square], first_[*square + 1] - first_[*square]);
   }
 
  private:
-  double side_m_ = 32.0;
-  Eigen::Vector2d low_W_ = Eigen::Vector2d::Zero();
-  std::size_t columns_ = 0, rows_ = 0;
-  std::vector<std::uint32_t> first_;   // by row and column, where a square's list begins in strips_; one more at the end
+  SquareGrid grid_;
+  std::vector<std::uint32_t> first_;   // by square, where a square's list begins in strips_; one more at the end
   std::vector<std::uint32_t> strips_;
 };
 

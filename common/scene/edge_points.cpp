@@ -5,6 +5,7 @@
 #include <functional>
 #include <set>
 
+#include "common/network/network.hpp"
 #include "common/scene/bend.hpp"
 #include "common/scene/levels_at.hpp"
 #include "common/scene/tile_plan.hpp"
@@ -19,7 +20,13 @@ constexpr BendRange kEdge = {0.003, 0.02, 2.0};
 }  // namespace
 
 void RefineEdges(const road::World& world, const TileKey& tile, std::vector<GridPoint>& edge, bool decks) {
-  if (world.grid() == nullptr) return;
+  // Without a terrain land is followed so closely nowhere, roads are.
+  const bool roads_alone = world.grid() == nullptr;
+  if (roads_alone && world.network() == nullptr) return;
+  const auto on_road = [&](const Eigen::Vector2d& p_W) {
+    const auto place = world.network()->Locate(p_W.x(), p_W.y());
+    return place && place->distance_m == 0.0;
+  };
   const auto size = static_cast<std::int32_t>(kTileSteps);
   std::set<GridPoint> points(edge.begin(), edge.end());
   std::vector<road::SurfacePoint> levels;
@@ -57,6 +64,7 @@ void RefineEdges(const road::World& world, const TileKey& tile, std::vector<Grid
       for (std::size_t i = 0; i + 1 < places.size(); ++i) {
         const GridPoint a = point_at(places[i]), b = point_at(places[i + 1]);
         const Eigen::Vector2d a_W = ToWorld(tile, a), b_W = ToWorld(tile, b);
+        if (roads_alone && !on_road(0.5 * (a_W + b_W))) continue;
         if (level > 0 && levels_at(0.5 * (a_W + b_W), level + 1).size() <= level) continue;
         any = true;
         divide(places[i], places[i + 1], ground(a_W).z_m, ground(b_W).z_m);
@@ -64,7 +72,7 @@ void RefineEdges(const road::World& world, const TileKey& tile, std::vector<Grid
       places.insert(places.end(), more.begin(), more.end());
       return any;
     };
-    for (std::size_t level = 0; level < (decks ? kMostLevels : 1) && refine(level); ++level) {
+    for (std::size_t level = 0; level < (decks || roads_alone ? kMostLevels : 1) && refine(level); ++level) {
     }
     for (const std::int32_t k : places) points.insert(point_at(k));
   };

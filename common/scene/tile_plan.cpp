@@ -15,8 +15,10 @@ using partition::Triangulation;
 
 constexpr double kLongSide = 8.0;  // times as long as the thinnest triangle is thick: such a side of a thin one is looked at
 constexpr std::uint32_t kNone = Triangulation::kNone;
-constexpr int kRounds = 12;  // of points put in where the ground is not met
-constexpr int kSlopeRounds = 100;  // where cuts and fills are followed: a toe that winds through many triangles is met from one to the next (at most 83 in the project's worlds)
+// Of points put in where the ground is not met: what bends along many triangles is met from one to the next, and each goes on until nothing is off. At most 76 on real
+// files, and where cuts and fills are followed 83 in the project's worlds.
+constexpr int kRounds = 100;
+constexpr int kSlopeRounds = 100;
 constexpr double kMiddle = 0.7;  // of what the sides may be off: within a triangle both come together
 // Cuts and fills, level by level: less than they may be off, for it is asked at few places.
 constexpr std::array<BendRange, kGroundLevels> kSlopes = {{{0.0023, 0.01, 2.0}, {0.015, 0.02, 2.0}, {0.075, 0.1, 2.0}, {0.375, 0.5, 2.0}}};

@@ -7,6 +7,7 @@
 
 #include "common/base/random.hpp"
 #include "common/road/square_lists.hpp"
+#include "common/road/squares.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -75,6 +76,31 @@ TEST(SquareLists, OfNothingAreEmptyEverywhere) {
   EXPECT_TRUE(lists.At({500.0, 10.0}).empty());
   EXPECT_TRUE(lists.At({-500.0, 10.0}).empty());
   EXPECT_TRUE(lists.At({std::nan(""), 10.0}).empty());
+}
+
+// Boxes of 0.1 to 300 m, some of them a single place, far from the origin: they are touched to their very corners, and most of the rest is not.
+TEST(Squares, AreTouchedWhereverABoxIs) {
+  std::vector<Squares::Box> boxes;
+  for (std::uint64_t i = 0; i < 30; ++i) {
+    const Eigen::Vector2d low_W(4'000'000.0 + Drawn(i, 10, -3000.0, 3000.0), Drawn(i, 11, -2000.0, 2000.0));
+    const Eigen::Vector2d size = i % 7 == 0 ? Eigen::Vector2d::Zero() : Eigen::Vector2d(Drawn(i, 12, 0.1, 300.0), Drawn(i, 13, 0.1, 300.0));
+    boxes.push_back({low_W, low_W + size});
+  }
+  const Squares squares{boxes};
+  for (std::uint64_t n = 0; n < 20'000; ++n) {
+    const Squares::Box& box = boxes[n % boxes.size()];
+    const bool corner = n % 3 == 0;
+    const Eigen::Vector2d part(corner ? static_cast<double>(n / 3 % 2) : Drawn(n, 14, 0.0, 1.0), corner ? static_cast<double>(n / 6 % 2) : Drawn(n, 15, 0.0, 1.0));
+    const Eigen::Vector2d p_W = box.low_W + part.cwiseProduct(box.high_W - box.low_W);
+    EXPECT_TRUE(squares.MayHold(p_W)) << p_W.transpose();
+  }
+  int held = 0;
+  for (std::uint64_t n = 0; n < 10'000; ++n) held += squares.MayHold({4'000'000.0 + Drawn(n, 16, -3000.0, 3000.0), Drawn(n, 17, -2000.0, 2000.0)}) ? 1 : 0;
+  EXPECT_LT(held, 2500);
+  EXPECT_GT(held, 100);
+  EXPECT_FALSE(squares.MayHold({3'000'000.0, 0.0}));
+  EXPECT_FALSE(squares.MayHold({4'000'000.0, std::nan("")}));
+  EXPECT_FALSE(Squares().MayHold({0.0, 0.0}));
 }
 
 }  // namespace

@@ -187,6 +187,59 @@ TEST(Ground, IsNearlyWhereTheTyresAreOnRealFiles) {
   }
 }
 
+// A road over a crest and through a hollow, along whose left lane the edge between two tiles runs: both draw it where SUELO is, in a world
+// without a terrain too.
+TEST(Ground, IsWhereTheTyresAreOnTheEdgesOfTiles) {
+  const std::string lane = "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
+  const auto world = OpenDriveWorld(fmt::format(
+      "<road id=\"1\" length=\"230\" junction=\"-1\"><planView><geometry s=\"0\" x=\"{}\" y=\"13\" hdg=\"{}\" length=\"230\"><line/></geometry></planView>"
+      "<elevationProfile><elevation s=\"0\" a=\"3\" b=\"0.08\" c=\"-0.002\" d=\"0.00001\"/></elevationProfile>"
+      "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\">{}</left><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\">{}</right></laneSection></lanes></road>\n",
+      kTile_m + 1.7, 0.5 * M_PI, lane, lane));
+  ASSERT_NE(world, nullptr);
+  int sides = 0;
+  double worst_m = 0.0;
+  for (const GroundTile& tile : BuildAll(*world)) {
+    for (const Mesh& mesh : tile.levels[0].ground) {
+      for (std::size_t i = 0; IsRoad(mesh) && i < mesh.triangle_count(); ++i) {
+        const auto corners = CornersOf(mesh, i);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Eigen::Vector3d &a = corners[k], &b = corners[(k + 1) % 3];
+          if (std::fabs(a.x() - kTile_m) > 1e-6 || std::fabs(b.x() - kTile_m) > 1e-6) continue;
+          ++sides;
+          for (int n = 1; n < 32; ++n) {
+            const Eigen::Vector3d p = a + n / 32.0 * (b - a);
+            worst_m = std::max(worst_m, std::fabs(world->At(p.x(), p.y(), p.z() + 0.3).z_m - p.z()));
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(sides, 100);  // of both tiles
+  EXPECT_LT(worst_m, 0.005);
+  std::printf("%d sides on the edge, worst %.4f m from SUELO\n", sides, worst_m);
+}
+
+// A wide road that climbs 20 m within 100, in a bend that tightens: many rounds of points until it is met everywhere.
+TEST(Ground, IsMetToTheLastPlaceWhereAWideRoadClimbsInABend) {
+  const auto width = [](double a) { return fmt::format("<width sOffset=\"0\" a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/>", a); };
+  const auto side = [&](int sign) {
+    std::string lanes;
+    for (const auto& [id, wide] : {std::pair(1, 3.0), std::pair(2, 5.0), std::pair(3, 20.0)}) lanes += fmt::format("<lane id=\"{}\" type=\"{}\">{}</lane>", sign * id, id == 1 ? "driving" : "border", width(wide));
+    return lanes;
+  };
+  const auto world = OpenDriveWorld(
+      "<road id=\"1\" length=\"200\" junction=\"-1\"><planView><geometry s=\"0\" x=\"350\" y=\"-50\" hdg=\"0\" length=\"100\"><spiral curvStart=\"0\" curvEnd=\"0.02\"/></geometry>"
+      "<geometry s=\"100\" x=\"440.45242379\" y=\"-18.97316983\" hdg=\"1\" length=\"100\"><spiral curvStart=\"0.02\" curvEnd=\"0\"/></geometry></planView>"
+      "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/><elevation s=\"20\" a=\"0\" b=\"0\" c=\"0.006\" d=\"-0.00004\"/><elevation s=\"120\" a=\"20\" b=\"0\" c=\"-0.006\" d=\"0.00004\"/></elevationProfile>"
+      "<lanes><laneSection s=\"0\"><left>" + side(1) + "</left><center><lane id=\"0\"/></center><right>" + side(-1) + "</right></laneSection></lanes></road>\n");
+  ASSERT_NE(world, nullptr);
+  const std::vector<GroundTile> tiles = BuildAll(*world);
+  const Correlation found = Correlate(*world, tiles, std::max(Points(), 100'000), 13);
+  EXPECT_EQ(found.far, 0) << "worst " << found.worst_m << " m at " << found.where.transpose();
+  std::printf("%d points, worst %.4f m from SUELO\n", found.asked, found.worst_m);
+}
+
 // 5 000 km away the same file gives the same ground, as exactly: only where a height lies between two steps it may go to
 // the other one.
 TEST(Ground, LosesNothingFarAway) {
