@@ -8,6 +8,7 @@
 #include <set>
 
 #include "common/base/suggest.hpp"
+#include "common/design/join_check.hpp"
 #include "common/design/junction_builder.hpp"
 #include "common/design/standing_reader.hpp"
 #include "common/geometry/angle.hpp"
@@ -114,7 +115,8 @@ void JoinLanes(network::RoadSpec& own, End end, const network::RoadSpec& other, 
   }
 }
 
-void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& designs, Layout& layout) {
+void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& designs, Layout& layout, std::vector<std::string>& warnings) {
+  std::set<std::pair<std::pair<std::size_t, End>, std::pair<std::size_t, End>>> seen;
   std::vector<network::RoadSpec> specs;
   for (const network::Road& road : layout.network.roads) specs.push_back(road.spec());
   const auto join = [&](std::size_t own, End end, std::size_t other, End contact) {
@@ -136,15 +138,12 @@ void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& de
     const auto own = PieceAt(layout, link.road, link.end), other = PieceAt(layout, *target, link.contact);
     if (!own || !other) continue;
     const auto at = [&](std::size_t piece, End end) {
-      const network::Road& road = layout.network.roads[piece];
-      return road.Surface(end == End::kStart ? 0.0 : road.length_m(), 0.0).p_W;
+      const Piece& part = layout.pieces[piece];
+      return JoinEnd{layout.network.roads[piece], end, designs[part.design].spec.id, end == End::kStart ? part.from_s_m : part.to_s_m};
     };
-    const double apart = (at(*own, link.end) - at(*other, link.contact)).norm();
-    if (apart > network::Network::kClosed_m) {
-      link.map.Problem("road", fmt::format("the ends of the roads '{}' and '{}' are {:.3f} m apart; at most {} m was expected",
-                                           designs[link.road].spec.id, link.other, apart, network::Network::kClosed_m));
-      continue;
-    }
+    // Said by both roads, it is looked at once.
+    const auto pair = std::minmax(std::pair(link.road, link.end), std::pair(*target, link.contact));
+    if (seen.insert(pair).second && !CheckJoin(link.map, at(*own, link.end), at(*other, link.contact), warnings)) continue;
     join(*own, link.end, *other, link.contact);
     join(*other, link.contact, *own, link.end);
   }
@@ -292,7 +291,7 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
   for (std::size_t i = 0; i < roads.size(); ++i) roads[i] = *BuildRoad(designs[i]);
   Layout layout = BuildLayout(designs, roads, junctions);
   if (!sound()) return design;
-  JoinRoads(links, designs, layout);
+  JoinRoads(links, designs, layout, design.warnings);
   design.laid = LayOn(designs, layout);
   for (std::size_t i = 0; i < roads.size(); ++i) CheckFits(i, designs[i], roads[i], layout.pieces, terrain_is_at);
   if (start_map.Has("x_m") == false) design.start = FindStart(start, start_map, designs, layout);
