@@ -20,6 +20,7 @@ using config::Map;
 using network::End;
 
 constexpr std::size_t kMostFiles = 1000;
+constexpr double kFromStart_m = 10.0;  // of a road, where nothing else is said
 
 // One name for a file, however it is written; of what cannot be a file the text itself.
 std::filesystem::path Canonical(const std::filesystem::path& path) {
@@ -177,18 +178,30 @@ std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const
     map.Problem("lane", fmt::format("road '{}' has no lane {}", spec.id, lane));
     return std::nullopt;
   }
-  const double s = wish.s_m.value_or(found->direction < 0 ? spec.length_m - std::min(10.0, 0.5 * spec.length_m) : std::min(10.0, 0.5 * spec.length_m));
+  const bool against = found->direction < 0;
+  const double s = wish.s_m.value_or(against ? spec.length_m - std::min(kFromStart_m, 0.5 * spec.length_m) : std::min(kFromStart_m, 0.5 * spec.length_m));
   if (s > spec.length_m) {
     map.Problem("s_m", fmt::format("'start.s_m' is {}; the road is {:.3f} m long", s, spec.length_m));
     return std::nullopt;
   }
-  for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
-    const Piece& piece = layout.pieces[i];
-    if (piece.design == *road && s >= piece.from_s_m && s <= piece.to_s_m) {
-      return StartPlace{static_cast<std::uint32_t>(i), lane, s - piece.from_s_m};
+  const auto at = [&](double station) -> std::optional<StartPlace> {
+    for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
+      const Piece& piece = layout.pieces[i];
+      if (piece.design == *road && station >= piece.from_s_m && station <= piece.to_s_m) return StartPlace{static_cast<std::uint32_t>(i), lane, station - piece.from_s_m};
     }
+    return std::nullopt;
+  };
+  if (const auto place = at(s)) return place;
+  // In a junction: 10 m behind it, as the lane is driven.
+  std::optional<double> behind;
+  for (const Piece& piece : layout.pieces) {
+    if (piece.design != *road || (against ? piece.from_s_m > s : piece.to_s_m < s)) continue;
+    const double into = std::min(kFromStart_m, 0.5 * (piece.to_s_m - piece.from_s_m));
+    const double station = against ? piece.to_s_m - into : piece.from_s_m + into;
+    if (!behind || (against ? station > *behind : station < *behind)) behind = station;
   }
-  map.Problem("s_m", fmt::format("'start.s_m' {} of road '{}' lies in a junction", s, spec.id));
+  if (behind && !wish.s_m) return at(*behind);
+  map.Problem(map.Has("s_m") ? "s_m" : "", fmt::format("'start.s_m' {} of road '{}' lies in a junction{}", s, spec.id, behind ? fmt::format("; {:.1f} is behind it", *behind) : ""));
   return std::nullopt;
 }
 
