@@ -102,7 +102,7 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
   Context own = context;
   own.left_hand = rule == "left";
   ReadSection(map, own, length, spec);
-  ReadFurniture(map, own, length, spec);
+  ReadFurniture(map, own, length, spec, context.warnings);
   ReadMarkings(map, length, spec);
   design.laid = ReadLaid(map, own, length, spec);
   return design;
