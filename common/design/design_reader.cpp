@@ -284,6 +284,10 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
   };
   design.warnings = context.warnings;
   design.missing = context.missing;
+  if (!sound()) {  // what can be told of the junctions without the roads
+    for (const Map& root : files.roots()) (void)ReadJunctions(root, designs, {});
+    design.problems = files.Problems();
+  }
   if (designs.empty() || !sound()) return design;
 
   std::vector<network::Road> roads;

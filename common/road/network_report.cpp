@@ -29,6 +29,8 @@ NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict) {
   if (const auto detail = LoadSurfaces(import.value(), file); !detail) {
     check.errors.push_back(detail.error());
     check.table.clear();
+  } else {
+    for (const std::string& wall : detail.value().Walls(*import.value().network)) check.warnings.push_back(fmt::format("{}: {}", file.string(), wall));
   }
   return check;
 }
