@@ -143,7 +143,7 @@ void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& de
       return JoinEnd{layout.network.roads[piece], end, designs[part.design].spec.id, end == End::kStart ? part.from_s_m : part.to_s_m};
     };
     // Said by both roads, it is looked at once.
-    const auto pair = std::minmax(std::pair(link.road, link.end), std::pair(*target, link.contact));
+    const auto pair = std::minmax({std::pair(link.road, link.end), std::pair(*target, link.contact)});
     if (seen.insert(pair).second && !CheckJoin(link.map, at(*own, link.end), at(*other, link.contact), warnings)) continue;
     join(*own, link.end, *other, link.contact);
     join(*other, link.contact, *own, link.end);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/network/meeting.hpp"
 #include "common/opendrive/checks.hpp"
@@ -99,9 +100,12 @@ struct Checker {
     // What the reference lines' heights do is told with the roads.
     const bool lines_meet = road.spec().junction.empty() && other_road.spec().junction.empty();
     const double step = meeting.step_m - (lines_meet ? AxisStep(key, end, other) : 0.0);
+    // A junction's own grid of heights is as high as it says; how it goes over into its roads is told, never refused.
+    const bool on_grid = road.spec().ground != nullptr || other_road.spec().ground != nullptr;
+    const double most = on_grid ? std::numeric_limits<double>::infinity() : StepMost(tolerance, kListed_m);
     JudgeStep(At(key, end, "lane_smoothness.contact_point_no_vertical_gaps",
-                 fmt::format("a step of {:.4g} m between the lane's edges and those of lane {} of road {}; {}", meeting.step_m, other.lane.lane, other_road.id(), StepWords(step, LaneGap(tolerance)))),
-              step, LaneGap(tolerance), findings);
+                 fmt::format("a step of {:.4g} m between the lane's edges and those of lane {} of road {}; {}", meeting.step_m, other.lane.lane, other_road.id(), StepWords(step, most))),
+              step, most, findings);
   }
 
   double AxisStep(const LaneKey& key, End end, const LaneEnd& other) const {

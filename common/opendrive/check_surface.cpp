@@ -38,7 +38,7 @@ struct Checker {
       const double s = records[i].from;
       if (!(s > 0.0 && s < road.length_m()) || road.spec().ground != nullptr) continue;
       const double step = records[i].a - records[i - 1].Value(s);
-      JudgeStep(At(index, "road.elevation.contact_point", fmt::format("the elevation jumps by {:.4g} m from one record to the next; {}", step, StepWords(step, tolerance.gap_m)), s), step, tolerance.gap_m, findings);
+      JudgeStep(At(index, "road.elevation.contact_point", fmt::format("the elevation jumps by {:.4g} m from one record to the next; {}", step, StepWords(step, StepMost(tolerance, tolerance.gap_m))), s), step, StepMost(tolerance, tolerance.gap_m), findings);
     }
   }
 
@@ -75,7 +75,7 @@ struct Checker {
           }
         }
       }
-      JudgeStep(At(index, "road.lateral.contact_point", fmt::format("bank or cross-section jump: the road's surface by {:.4g} m at t {:.4g}; {}", most, most_t, StepWords(most, LaneGap(tolerance))), s), most, LaneGap(tolerance),
+      JudgeStep(At(index, "road.lateral.contact_point", fmt::format("bank or cross-section jump: the road's surface by {:.4g} m at t {:.4g}; {}", most, most_t, StepWords(most, StepMost(tolerance, LaneGap(tolerance)))), s), most, StepMost(tolerance, LaneGap(tolerance)),
                 findings);
     }
   }
@@ -134,10 +134,8 @@ struct Checker {
         for (const Lane& lane : *side) {
           double narrowest = kNarrow_m, narrowest_s = -1.0;
           const int steps = std::max(1, static_cast<int>(std::min(1e6, std::ceil(section.end_s_m - section.s_m))));
-          for (int i = 0; i <= steps; ++i) {
-            const double s = section.s_m + (section.end_s_m - section.s_m) * i / steps;
-            const LaneSpan span = *road.SpanAt(number, lane.id, s);
-            const double width = lane.id > 0 ? span.outer_t_m - span.inner_t_m : span.inner_t_m - span.outer_t_m;
+          for (int i = 0; i <= steps && !lane.width.empty(); ++i) {
+            const double s = section.s_m + (section.end_s_m - section.s_m) * i / steps, width = lane.width.Value(s);  // a span has none below 0
             if (width < narrowest) narrowest = width, narrowest_s = s;
           }
           if (narrowest_s < 0.0) continue;

@@ -19,7 +19,10 @@ struct Findings {
 // The end of a sentence about a gap: that it is too large, or that it is closed, and what ASAM's own checker allows.
 std::string GapWords(double found, double most, double asam, std::string_view unit);
 
-// A step of heights where road or lane go on: up to `most_m` a warning (a millimetre or more), above it an error; and the end of the sentence about it.
+// A step of heights where road or lane go on: up to `most_m` a warning (a millimetre or more), above it an error; and the end of the sentence about it. Nothing closes a step, so it is an error where no car
+// climbs it (StepMost), or strictly where ASAM allows none.
+constexpr double kClimbed_m = 0.2;
+inline double StepMost(const Tolerance& tolerance, double strictly_m) { return tolerance.strict ? strictly_m : kClimbed_m; }
 void JudgeStep(const Finding& finding, double step_m, double most_m, Findings& findings);
 std::string StepWords(double step_m, double most_m);
 // The most between two lanes: strictly ASAM's own.

@@ -87,7 +87,7 @@ TEST(Objects, AreTurnedRepeatedAndOfTheirSize) {
 TEST(Objects, KeepBesideAnEdgeThatMoves) {
   const Design design = SoundDesign(
       "rodeira: world/2\nroads:\n  - id: a\n    axis: [line: {length_m: 200}]\n    z_m: 0\n"
-      "    section: {lanes: [{id: -1, widths: [{s_m: 0, width_m: 3}, {s_m: 60, width_m: 9}, {s_m: 140, width_m: 9}, {s_m: 200, width_m: 3}]}, {id: 1, width_m: 3}]}\n"
+      "    section: {lanes: [{id: -1, widths: [{s_m: 0, width_m: 3}, {s_m: 60, width_m: 9}, {s_m: 140, width_m: 9}, {s_m: 200, width_m: 3}]}, {id: 1, width_m: 3}], verge: {width_m: 0}}\n"
       "    objects: [{type: guard_rail, side: right, beside_m: 0.5}, {type: tree, side: right, beside_m: 2, from_s_m: 0, every_m: 10}, {type: tree, side: left, beside_m: 2, from_s_m: 5, every_m: 10}]\n");
   EXPECT_THAT(design.warnings, testing::IsEmpty());
   const auto edge = [](double s) {

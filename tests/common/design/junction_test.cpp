@@ -256,7 +256,8 @@ TEST(Start, LiesOutsideOfJunctionsUnlessItIsSaid) {
     const config::Map map = file.value().root().OptionalChild("start");
     StartWish wish;
     if (map.Has("s_m")) wish.s_m = map.Number("s_m");
-    return std::pair(ReadDesign(file.value(), kFriction, "made", "", wish, map), file.value().Problems());
+    Design design = ReadDesign(file.value(), kFriction, "made", "", wish, map);
+    return std::pair(std::move(design), file.value().Problems());
   };
   const auto [design, problems] = text_of("");
   for (const auto& problem : problems) ADD_FAILURE() << problem.Text();

@@ -50,10 +50,10 @@ TEST(Joints, OfRoadsThatMeetSayNothing) {
 TEST(Joints, AStepBetweenRoadsIsToldOnce) {
   Pair pair;
   pair.Height(1.0);
-  EXPECT_THAT(Of(pair.Text()).errors, ElementsAre("road.elevation.contact_point: road 1, s 100: a step of 1 m to the start of road 2; at most 0.05 m was expected"));
-  pair.Height(0.03);
+  EXPECT_THAT(Of(pair.Text()).errors, ElementsAre("road.elevation.contact_point: road 1, s 100: a step of 1 m to the start of road 2; at most 0.2 m was expected"));
+  pair.Height(0.15);
   EXPECT_THAT(Of(pair.Text()).errors, IsEmpty());
-  EXPECT_THAT(Of(pair.Text()).warnings, ElementsAre(StartsWith("road.elevation.contact_point: road 1, s 100: a step of 0.03 m to the start of road 2")));
+  EXPECT_THAT(Of(pair.Text()).warnings, ElementsAre(StartsWith("road.elevation.contact_point: road 1, s 100: a step of 0.15 m to the start of road 2; at most 0.2 m is passed")));
   EXPECT_THAT(Of(pair.Text(), Tolerance::Strict()).errors, Contains(StartsWith("road.elevation.contact_point")));
   pair.Height(0.0005);
   EXPECT_THAT(Of(pair.Text()).warnings, IsEmpty());
@@ -81,7 +81,7 @@ TEST(Joints, ABankAgainstNoneIsAStepOfTheLanes) {
 TEST(Joints, AJumpOfTheElevationWithinARoad) {
   RoadText road;
   road.elevation = R"(<elevation s="0" a="0" b="0.01" c="0" d="0"/><elevation s="50" a="1.5" b="0" c="0" d="0"/>)";
-  EXPECT_THAT(Of(Document(road.Text())).errors, ElementsAre("road.elevation.contact_point: road 1, s 50: the elevation jumps by 1 m from one record to the next; at most 0.05 m was expected"));
+  EXPECT_THAT(Of(Document(road.Text())).errors, ElementsAre("road.elevation.contact_point: road 1, s 50: the elevation jumps by 1 m from one record to the next; at most 0.2 m was expected"));
   road.elevation = R"(<elevation s="0" a="0" b="0.01" c="0" d="0"/><elevation s="50" a="0.5" b="0" c="0" d="0"/>)";
   EXPECT_THAT(Of(Document(road.Text())).warnings, IsEmpty());
 }
@@ -89,7 +89,7 @@ TEST(Joints, AJumpOfTheElevationWithinARoad) {
 TEST(Joints, AJumpOfTheBankWithinARoad) {
   RoadText road;
   road.lateral = R"(<superelevation s="0" a="0" b="0" c="0" d="0"/><superelevation s="40" a="0.1" b="0" c="0" d="0"/>)";
-  EXPECT_THAT(Of(Document(road.Text())).errors, ElementsAre(HasSubstr("road.lateral.contact_point: road 1, s 40: bank or cross-section jump: the road's surface by 0.3494 m at t 3.5; at most 0.05 m was expected")));
+  EXPECT_THAT(Of(Document(road.Text())).errors, ElementsAre(HasSubstr("road.lateral.contact_point: road 1, s 40: bank or cross-section jump: the road's surface by 0.3494 m at t 3.5; at most 0.2 m was expected")));
   road.lateral = R"(<superelevation s="0" a="0" b="0.0025" c="0" d="0"/><superelevation s="40" a="0.1" b="0" c="0" d="0"/>)";
   EXPECT_THAT(Of(Document(road.Text())).errors, IsEmpty());
   EXPECT_THAT(Of(Document(road.Text())).warnings, IsEmpty());

@@ -41,6 +41,7 @@ const std::map<std::string, std::vector<std::string>> kPlaces = {
     {"design/points.cpp", {"roads.points"}},
     {"design/profile_reader.cpp", {"roads.", "roads.vertical", "roads.superelevation"}},
     {"design/join_check.cpp", {"roads.predecessor"}},
+    {"design/road_fit.cpp", {"roads."}},
     {"design/road_reader.cpp", {"roads.", "roads.place", "roads.speed_limits", "roads.points"}},
     {"design/section_reader.cpp", {"roads.", "roads.section"}},
     {"design/standing_reader.cpp", {".", "objects"}},

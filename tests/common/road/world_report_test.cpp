@@ -67,7 +67,7 @@ roads:
   - id: a
     axis: [line: {length_m: 40}]
     z_m: 0
-    section: {lanes: [{id: -1, width_m: 3}, {id: 1, width_m: 3}]}
+    section: {lanes: [{id: -1, width_m: 3}, {id: 1, width_m: 3.5}]}
     successor: {road: b, end: start}
   - id: b
     start: {x_m: 40, y_m: 0}
