@@ -97,14 +97,14 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
       command->add_flag("--quiet", options.quiet, "no progress");
     }
     if (std::string(name) == "map") {
-      command->add_option("-o,--out", options.out, "file to draw the plan into")->required();
-      command->add_option("--profile", options.profile, "draw heights, grades, curvatures and slopes across into this file");
+      command->add_option("-o,--out", options.out, "file to draw the plan into")->required()->check(NewFile());
+      command->add_option("--profile", options.profile, "draw heights, grades, curvatures and slopes across into this file")->check(NewFile());
     }
-    if (std::string(name) == "export") command->add_option("-o,--out,--opendrive", options.out, "file to write")->required();
+    if (std::string(name) == "export") command->add_option("-o,--out,--opendrive", options.out, "file to write")->required()->check(NewFile());
     if (std::string(name) == "check") command->add_flag("--strict", options.strict, "OpenDRIVE: ASAM's own tolerances");
     if (std::string(name) == "info") {
-      command->add_option("--svg", options.svg, "draw the plan into this file");
-      command->add_option("--profile", options.profile, "draw heights, grades, curvatures and slopes across into this file");
+      command->add_option("--svg", options.svg, "draw the plan into this file")->check(NewFile());
+      command->add_option("--profile", options.profile, "draw heights, grades, curvatures and slopes across into this file")->check(NewFile());
     }
     command->callback([&options, name] { options.command = name; });
   }
@@ -117,7 +117,7 @@ void AddMap(CLI::App& app, MapOptions& options) {
                                    std::pair("convert", "draw it (.svg), or write it as OpenDRIVE (.xodr) or as a world of this project (.yaml)")}) {
     CLI::App* command = map->add_subcommand(name, text);
     command->add_option("FILE.motors", options.file, "map")->required();
-    if (std::string(name) == "convert") command->add_option("-o,--out", options.out, "file to write: OUT.svg, OUT.xodr or OUT.yaml (with OUT.xodr beside it)")->required();
+    if (std::string(name) == "convert") command->add_option("-o,--out", options.out, "file to write: OUT.svg, OUT.xodr or OUT.yaml (with OUT.xodr beside it)")->required()->check(NewFile());
     command->callback([&options, name] { options.command = name; });
   }
 }
@@ -135,9 +135,9 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
   run->add_option("--physics", options.physics, "how cars move: planar, along their paths, or full, as the driver's car does")->check(OneOf({"planar", "full"}));
   run->add_option("--settings", options.settings, "how they drive: a file of 'rodeira: traffic/1', with the keys of a launch file's traffic");
   run->add_option("--csv", options.csv, "folder for trajectories.csv, lanes.csv, queues.csv, trips.csv");
-  run->add_option("--heat", options.heat, "mean speed by the metre as a picture (.svg); flow, density, speed and fuel as a GeoTIFF (.tif)");
-  run->add_option("--fcd", options.fcd, "floating car data for SUMO's tools (.xml)");
-  run->add_option("--diagram", options.diagram, "trajectories of a lane over time (.svg)");
+  run->add_option("--heat", options.heat, "mean speed by the metre as a picture (.svg); flow, density, speed and fuel as a GeoTIFF (.tif)")->check(NewFile());
+  run->add_option("--fcd", options.fcd, "floating car data for SUMO's tools (.xml)")->check(NewFile());
+  run->add_option("--diagram", options.diagram, "trajectories of a lane over time (.svg)")->check(NewFile());
   run->add_option("--lane", options.lane, "which lane, ROAD:LANE; the longest one unless said")->needs("--diagram");
   run->add_flag("--quiet", options.quiet, "no progress, no table");
   run->callback([&options] { options.asked = true; });
@@ -151,7 +151,7 @@ void AddPolyline(CLI::App& app, PolylineOptions& options) {
     CLI::Option* files = command->add_option(file, options.files, "CSV file, or a road's axis: WORLD.yaml#ROAD, FILE.xodr#ROAD")->required();
     if (std::string(name) == "join") files->expected(2, CLI::detail::expected_max_vector_size);
     else files->expected(1);
-    command->add_option("-o,--out", options.out, "CSV file to write")->required();
+    command->add_option("-o,--out", options.out, "CSV file to write")->required()->check(NewFile());
     command->add_option("--step", options.step_m, "metres between the points of a road's axis")->check(Above0("a number above 0"))->capture_default_str();
     command->callback([&options, name] { options.command = name; });
     return command;
@@ -180,7 +180,7 @@ void AddSurface(CLI::App& app, SurfaceOptions& options) {
   surface->require_subcommand(1);
   CLI::App* check = surface->add_subcommand("check", "what an OpenCRG file holds, or what is wrong with it");
   check->add_option("FILE.crg", options.file, "OpenCRG file")->required();
-  check->add_option("--svg", options.svg, "draw plan, heights and tracks into this file");
+  check->add_option("--svg", options.svg, "draw plan, heights and tracks into this file")->check(NewFile());
   check->callback([&options] { options.command = "check"; });
 }
 
@@ -201,8 +201,8 @@ void AddMechanism(CLI::App& app, MechanismOptions& options) {
   run->add_option("MECHANISM.yaml", options.file, "mechanism file")->required();
   run->add_option("--until", options.until_s, "simulated seconds")->required()->check(Positive);
   run->add_option("--step", options.step_s, "step in seconds")->required()->check(Positive);
-  run->add_option("--csv", options.csv, "write the outputs of every step into this file");
-  run->add_option("--svg", options.svg, "draw the outputs over time into this file");
+  run->add_option("--csv", options.csv, "write the outputs of every step into this file")->check(NewFile());
+  run->add_option("--svg", options.svg, "draw the outputs over time into this file")->check(NewFile());
   run->add_flag("--quiet", options.quiet, "no progress, no table");
   run->callback([&options] { options.asked = true; });
 }
@@ -214,8 +214,8 @@ void AddVehicle(CLI::App& app, VehicleOptions& options) {
   test->add_option("VEHICLE.yaml", options.file, "vehicle file")->required();
   test->add_option("--manoeuvre", options.manoeuvres, "acceleration, braking, split_friction, constant_radius, step_steer, sine, lane_change, park, bump; otherwise all");
   test->add_option("--step", options.step_s, "step in seconds")->capture_default_str();
-  test->add_option("--csv", options.csv, "write the motion over time into this file");
-  test->add_option("--svg", options.svg, "draw it into this file");
+  test->add_option("--csv", options.csv, "write the motion over time into this file")->check(NewFile());
+  test->add_option("--svg", options.svg, "draw it into this file")->check(NewFile());
   test->add_option("--out", options.out, "folder: NAME.csv and NAME.svg of each manoeuvre");
   test->add_flag("--quiet", options.quiet, "no progress, no table");
   test->callback([&options] { options.asked = true; });

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
+#include <string_view>
 
 #include "common/base/suggest.hpp"
 
@@ -42,6 +44,20 @@ std::vector<std::string> OptionsOf(const CLI::App& command) {
   return names;
 }
 
+// The parser says "Could not convert: NAME = VALUE"; nothing where it says something else.
+std::string ConversionSentence(const CLI::App& command, const std::string& called, const std::string& said) {
+  constexpr std::string_view kSaid = "Could not convert: ", kIs = " = ";
+  const std::size_t equals = said.find(kIs);
+  if (!said.starts_with(kSaid) || equals == std::string::npos) return "";
+  const std::string name = said.substr(kSaid.size(), equals - kSaid.size()), value = said.substr(equals + kIs.size());
+  std::string type;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_name() == name || option->check_name(name)) type = option->get_type_name();
+  }
+  const bool whole = type.starts_with("INT") || type.starts_with("UINT");
+  return fmt::format("{} of '{}' is '{}'; a {} was expected", name, called, value, whole ? "whole number" : "number");
+}
+
 }  // namespace
 
 CLI::Validator OneOf(std::vector<std::string> words) {
@@ -73,6 +89,17 @@ CLI::Validator WholeNumber() {
       "NUMBER");
 }
 
+CLI::Validator NewFile() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const std::filesystem::path folder = std::filesystem::path(text).parent_path();
+        std::error_code problem;
+        if (folder.empty() || std::filesystem::is_directory(folder, problem)) return std::string();
+        return fmt::format("'{}' was found; there is no folder '{}'", text, folder.string());
+      },
+      "FILE");
+}
+
 std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem) {
   const Reading reading = Deepest(app);
   const std::vector<std::string> extras = reading.command->remaining(true);
@@ -85,6 +112,9 @@ std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem) 
   if (!commands.empty() && !extras.empty()) return fmt::format("'{}' is no command of '{}'{}", extras.front(), reading.name, base::DidYouMean(extras.front(), commands));
   if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&problem) != nullptr) return fmt::format("'{}' needs a command; known are {}", reading.name, fmt::join(commands, ", "));
   if (!extras.empty()) return fmt::format("'{}' was not expected by '{}'", extras.front(), reading.name);
+  if (dynamic_cast<const CLI::ConversionError*>(&problem) != nullptr) {
+    if (const std::string sentence = ConversionSentence(*reading.command, reading.name, problem.what()); !sentence.empty()) return sentence;
+  }
   return problem.what();
 }
 

@@ -14,6 +14,9 @@ CLI::Validator Above0(std::string what);
 // A whole number from 0 to 2^64 - 1, as a seed is.
 CLI::Validator WholeNumber();
 
+// A file to be written, in a folder that is there.
+CLI::Validator NewFile();
+
 // One line without its end: the word that no command or option is called, of which command, and the nearest that there is;
 // otherwise the parser's own words.
 std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem);

@@ -122,18 +122,24 @@ void CutFurniture(const network::RoadSpec& whole, double from_m, double length_m
       if (!within(object.s_m)) continue;
       object.s_m -= from_m;
     } else {
-      network::Repeat& repeat = object.repeats[0];
-      double begin = repeat.s_m;
-      if (repeat.distance_m > 0.0) begin += std::max(0.0, std::ceil((from_m - begin) / repeat.distance_m)) * repeat.distance_m;
-      begin = std::max(begin, from_m);
-      const double end = std::min(repeat.s_m + repeat.length_m, from_m + length_m);
-      if (end < begin) continue;
-      const double slope = repeat.length_m > 0.0 ? (repeat.t_end_m - repeat.t_start_m) / repeat.length_m : 0.0;
-      const double t_start = repeat.t_start_m;
-      repeat.t_start_m = t_start + slope * (begin - repeat.s_m);
-      repeat.t_end_m = t_start + slope * (end - repeat.s_m);
-      repeat.length_m = end - begin;
-      object.s_m = repeat.s_m = begin - from_m;
+      std::vector<network::Repeat> kept;
+      for (network::Repeat repeat : object.repeats) {
+        double begin = repeat.s_m;
+        if (repeat.distance_m > 0.0) begin += std::max(0.0, std::ceil((from_m - begin) / repeat.distance_m)) * repeat.distance_m;
+        begin = std::max(begin, from_m);
+        const double end = std::min(repeat.s_m + repeat.length_m, from_m + length_m);
+        if (end < begin) continue;
+        const double slope = repeat.length_m > 0.0 ? (repeat.t_end_m - repeat.t_start_m) / repeat.length_m : 0.0;
+        const double t_start = repeat.t_start_m;
+        repeat.t_start_m = t_start + slope * (begin - repeat.s_m);
+        repeat.t_end_m = t_start + slope * (end - repeat.s_m);
+        repeat.length_m = end - begin;
+        repeat.s_m = begin - from_m;
+        kept.push_back(repeat);
+      }
+      if (kept.empty()) continue;
+      object.repeats = std::move(kept);
+      object.s_m = object.repeats[0].s_m;
       object.id += "@" + part.id;
     }
     part.objects.push_back(std::move(object));

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "common/base/suggest.hpp"
+#include "common/design/join_check.hpp"
 #include "common/design/junction_builder.hpp"
 #include "common/design/standing_reader.hpp"
 #include "common/geometry/angle.hpp"
@@ -19,6 +20,7 @@ using config::Map;
 using network::End;
 
 constexpr std::size_t kMostFiles = 1000;
+constexpr double kFromStart_m = 10.0;  // of a road, where nothing else is said
 
 // One name for a file, however it is written; of what cannot be a file the text itself.
 std::filesystem::path Canonical(const std::filesystem::path& path) {
@@ -114,7 +116,8 @@ void JoinLanes(network::RoadSpec& own, End end, const network::RoadSpec& other, 
   }
 }
 
-void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& designs, Layout& layout) {
+void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& designs, Layout& layout, std::vector<std::string>& warnings) {
+  std::set<std::pair<std::pair<std::size_t, End>, std::pair<std::size_t, End>>> seen;
   std::vector<network::RoadSpec> specs;
   for (const network::Road& road : layout.network.roads) specs.push_back(road.spec());
   const auto join = [&](std::size_t own, End end, std::size_t other, End contact) {
@@ -136,15 +139,12 @@ void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& de
     const auto own = PieceAt(layout, link.road, link.end), other = PieceAt(layout, *target, link.contact);
     if (!own || !other) continue;
     const auto at = [&](std::size_t piece, End end) {
-      const network::Road& road = layout.network.roads[piece];
-      return road.Surface(end == End::kStart ? 0.0 : road.length_m(), 0.0).p_W;
+      const Piece& part = layout.pieces[piece];
+      return JoinEnd{layout.network.roads[piece], end, designs[part.design].spec.id, end == End::kStart ? part.from_s_m : part.to_s_m};
     };
-    const double apart = (at(*own, link.end) - at(*other, link.contact)).norm();
-    if (apart > network::Network::kClosed_m) {
-      link.map.Problem("road", fmt::format("the ends of the roads '{}' and '{}' are {:.3f} m apart; at most {} m was expected",
-                                           designs[link.road].spec.id, link.other, apart, network::Network::kClosed_m));
-      continue;
-    }
+    // Said by both roads, it is looked at once.
+    const auto pair = std::minmax({std::pair(link.road, link.end), std::pair(*target, link.contact)});
+    if (seen.insert(pair).second && !CheckJoin(link.map, at(*own, link.end), at(*other, link.contact), warnings)) continue;
     join(*own, link.end, *other, link.contact);
     join(*other, link.contact, *own, link.end);
   }
@@ -178,18 +178,30 @@ std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const
     map.Problem("lane", fmt::format("road '{}' has no lane {}", spec.id, lane));
     return std::nullopt;
   }
-  const double s = wish.s_m.value_or(found->direction < 0 ? spec.length_m - std::min(10.0, 0.5 * spec.length_m) : std::min(10.0, 0.5 * spec.length_m));
+  const bool against = found->direction < 0;
+  const double s = wish.s_m.value_or(against ? spec.length_m - std::min(kFromStart_m, 0.5 * spec.length_m) : std::min(kFromStart_m, 0.5 * spec.length_m));
   if (s > spec.length_m) {
     map.Problem("s_m", fmt::format("'start.s_m' is {}; the road is {:.3f} m long", s, spec.length_m));
     return std::nullopt;
   }
-  for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
-    const Piece& piece = layout.pieces[i];
-    if (piece.design == *road && s >= piece.from_s_m && s <= piece.to_s_m) {
-      return StartPlace{static_cast<std::uint32_t>(i), lane, s - piece.from_s_m};
+  const auto at = [&](double station) -> std::optional<StartPlace> {
+    for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
+      const Piece& piece = layout.pieces[i];
+      if (piece.design == *road && station >= piece.from_s_m && station <= piece.to_s_m) return StartPlace{static_cast<std::uint32_t>(i), lane, station - piece.from_s_m};
     }
+    return std::nullopt;
+  };
+  if (const auto place = at(s)) return place;
+  // In a junction: 10 m behind it, as the lane is driven.
+  std::optional<double> behind;
+  for (const Piece& piece : layout.pieces) {
+    if (piece.design != *road || (against ? piece.from_s_m > s : piece.to_s_m < s)) continue;
+    const double into = std::min(kFromStart_m, 0.5 * (piece.to_s_m - piece.from_s_m));
+    const double station = against ? piece.to_s_m - into : piece.from_s_m + into;
+    if (!behind || (against ? station > *behind : station < *behind)) behind = station;
   }
-  map.Problem("s_m", fmt::format("'start.s_m' {} of road '{}' lies in a junction", s, spec.id));
+  if (behind && !wish.s_m) return at(*behind);
+  map.Problem(map.Has("s_m") ? "s_m" : "", fmt::format("'start.s_m' {} of road '{}' lies in a junction{}", s, spec.id, behind ? fmt::format("; {:.1f} is behind it", *behind) : ""));
   return std::nullopt;
 }
 
@@ -272,6 +284,10 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
   };
   design.warnings = context.warnings;
   design.missing = context.missing;
+  if (!sound()) {  // what can be told of the junctions without the roads
+    for (const Map& root : files.roots()) (void)ReadJunctions(root, designs, {});
+    design.problems = files.Problems();
+  }
   if (designs.empty() || !sound()) return design;
 
   std::vector<network::Road> roads;
@@ -292,7 +308,7 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
   for (std::size_t i = 0; i < roads.size(); ++i) roads[i] = *BuildRoad(designs[i]);
   Layout layout = BuildLayout(designs, roads, junctions);
   if (!sound()) return design;
-  JoinRoads(links, designs, layout);
+  JoinRoads(links, designs, layout, design.warnings);
   design.laid = LayOn(designs, layout);
   for (std::size_t i = 0; i < roads.size(); ++i) CheckFits(i, designs[i], roads[i], layout.pieces, terrain_is_at);
   if (start_map.Has("x_m") == false) design.start = FindStart(start, start_map, designs, layout);

@@ -3,12 +3,13 @@
 #include <filesystem>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/nearest_file.hpp"
 #include "common/base/suggest.hpp"
+#include "common/design/beside.hpp"
 #include "common/design/object_reader.hpp"
-#include "common/design/section_reader.hpp"
 #include "common/design/tables.hpp"
 #include "common/geometry/angle.hpp"
 
@@ -38,19 +39,34 @@ Stand ReadStand(const Map& item, double length_m) {
   return stand;
 }
 
-// t of a place: as it is, or beyond the outermost lane's edge on a side.
-double ReadAcross(const Map& item, const network::RoadSpec& spec, double s_m, double usual_m, bool right_side) {
-  if (item.Has("t_m")) return item.Number("t_m", {-1000.0, 1000.0});
-  const bool right = item.Choice("side", {"left", "right"}, right_side ? "right" : "left") == "right";
-  const double beside = item.Number("beside_m", {-100.0, 1000.0}, usual_m);
-  const auto& section = spec.sections[0];
-  const int lane = right ? -static_cast<int>(section.right.size()) : static_cast<int>(section.left.size());
-  return EdgeOf(spec, lane).Value(s_m) + (right ? -beside : beside);
+constexpr double kAstray_m = 0.05;  // how far from its place a row or a rail may pass
+constexpr double kLook_m = 1.0;
+constexpr double kOverhead_m = 4.0;  // what hangs so high is driven under
+constexpr double kMost = 1e5;
+
+// The stations where something stands.
+std::vector<double> StationsOf(const Stand& stand) {
+  if (!stand.repeated) return {stand.s_m};
+  std::vector<double> stations;
+  const double count = std::floor((stand.to_s_m - stand.from_s_m) / stand.every_m + 1e-9);
+  for (double i = 0.0; i <= std::min(count, kMost); i += 1.0) stations.push_back(stand.from_s_m + i * stand.every_m);
+  return stations;
+}
+
+// What stands where one drives is told, once for each item of the file.
+void WarnOnLanes(const Map& item, const std::string& what, const network::RoadSpec& spec, const std::vector<double>& stations, const Beside& beside, double reach_m, std::vector<std::string>& warnings) {
+  for (const double s : stations) {
+    const double t = beside.At(s);
+    const network::Lane* lane = DrivenLaneAt(spec, s, t, reach_m);
+    if (lane == nullptr) continue;
+    warnings.push_back(fmt::format("{}: {} of road '{}' at s = {:.1f} m, t = {:.2f} m stands on lane {}, which is driven on", item.Place(), what, spec.id, s, t, lane->id));
+    return;
+  }
 }
 
 double ReadRotation(const Map& item) { return item.Number("rotation_deg", {-360.0, 360.0}, 0.0) * geometry::kPi / 180.0; }
 
-void ReadSign(const Map& item, const Context& context, double length_m, network::RoadSpec& spec) {
+void ReadSign(const Map& item, const Context& context, double length_m, network::RoadSpec& spec, std::vector<std::string>& warnings) {
   std::vector<std::string> names;
   for (const SignKind& kind : SignKinds()) names.emplace_back(kind.name);
   const std::string name = item.Text("type");
@@ -68,13 +84,15 @@ void ReadSign(const Map& item, const Context& context, double length_m, network:
   const double rotation = ReadRotation(item), height = item.Number("z_m", {-50.0, 50.0}, 2.0);
   const double size = item.Number("height_m", {0.1, 10.0}, kind->height_m);
   const std::string text = item.Text("text", "");
-  const double count = stand.repeated ? std::floor((stand.to_s_m - stand.from_s_m) / stand.every_m + 1e-9) : 0.0;
-  if (count > 1e5) return item.Problem("every_m", "more than 100 000 signs; fewer were expected");
-  for (double i = 0.0; i <= count; i += 1.0) {
+  if (stand.repeated && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost) return item.Problem("every_m", "more than 100 000 signs; fewer were expected");
+  const Beside beside(item, spec, -0.3, right_side);
+  const std::vector<double> stations = StationsOf(stand);
+  if (height < kOverhead_m) WarnOnLanes(item, fmt::format("the sign '{}'", name), spec, stations, beside, 0.0, warnings);
+  for (const double s : stations) {
     network::Signal signal = MakeSign(*kind, value);
     signal.id = fmt::format("{}-sign{}", spec.id, spec.signals.size());
-    signal.s_m = stand.s_m + i * stand.every_m;
-    signal.t_m = ReadAcross(item, spec, signal.s_m, -0.3, right_side);
+    signal.s_m = s;
+    signal.t_m = beside.At(s);
     signal.z_offset_m = height;
     signal.orientation = facing == "along" ? "+" : facing == "against" ? "-" : "none";
     signal.h_offset_rad = rotation;
@@ -85,28 +103,67 @@ void ReadSign(const Map& item, const Context& context, double length_m, network:
   }
 }
 
-void ReadObject(const Map& item, double length_m, network::RoadSpec& spec) {
-  auto [object, continuous] = ReadObjectItself(item, fmt::format("{}-object{}", spec.id, spec.objects.size()));
-  object.hdg_rad = ReadRotation(item);
-  Stand stand{};
+// A row or a rail beside an edge that need not be straight: one repeat for each piece that is.
+std::vector<network::Repeat> RepeatsOf(const Stand& stand, bool continuous, const Beside& beside, const network::Object& object) {
+  std::vector<double> stations;
   if (continuous) {
-    stand.from_s_m = stand.s_m = item.Number("from_s_m", {0.0, length_m}, 0.0);
-    stand.to_s_m = item.Number("to_s_m", {0.0, length_m}, length_m);
-    if (!(stand.to_s_m > stand.from_s_m)) item.Problem("to_s_m", "'to_s_m' must lie behind 'from_s_m'");
-    stand.repeated = true;
+    const int steps = std::max(1, static_cast<int>(std::ceil((stand.to_s_m - stand.from_s_m) / kLook_m)));
+    for (int i = 0; i <= steps; ++i) stations.push_back(i == steps ? stand.to_s_m : stand.from_s_m + (stand.to_s_m - stand.from_s_m) * i / steps);
+    for (const double s : beside.Knots()) {
+      if (s > stand.from_s_m && s < stand.to_s_m) stations.push_back(s);
+    }
+    std::sort(stations.begin(), stations.end());
+    stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
   } else {
-    stand = ReadStand(item, length_m);
+    stations = StationsOf(stand);
+    if (stations.size() > 1 || stand.to_s_m > stand.from_s_m) stations.push_back(std::max(stand.to_s_m, stations.back()));  // the row says where it ends, whether one stands there or not
   }
-  object.s_m = stand.s_m;
-  object.t_m = ReadAcross(item, spec, stand.s_m, continuous ? -0.5 : 4.0, true);
-  if (stand.repeated) {
+  std::vector<double> across;
+  for (const double s : stations) across.push_back(beside.At(s));
+  std::vector<network::Repeat> repeats;
+  for (const auto& [from, to] : StraightPieces(stations, across, kAstray_m, continuous)) {
+    if (!continuous && from == to && from + 1 == stations.size() && from > 0) continue;  // only the end that was said
     network::Repeat repeat;
-    repeat.s_m = stand.from_s_m, repeat.length_m = stand.to_s_m - stand.from_s_m, repeat.distance_m = stand.every_m;
-    repeat.t_start_m = object.t_m, repeat.t_end_m = ReadAcross(item, spec, stand.to_s_m, continuous ? -0.5 : 4.0, true);
+    repeat.s_m = stations[from], repeat.length_m = stations[to] - stations[from], repeat.distance_m = stand.every_m;
+    repeat.t_start_m = across[from], repeat.t_end_m = across[to];
     repeat.z_start_m = repeat.z_end_m = object.z_offset_m;
     repeat.height_start_m = repeat.height_end_m = object.height_m;
     repeat.width_start_m = repeat.width_end_m = object.width_m;
-    object.repeats.push_back(repeat);
+    repeats.push_back(repeat);
+  }
+  return repeats;
+}
+
+void ReadObject(const Map& item, double length_m, network::RoadSpec& spec, std::vector<std::string>& warnings) {
+  auto [object, continuous] = ReadObjectItself(item, fmt::format("{}-object{}", spec.id, spec.objects.size()));
+  object.hdg_rad = ReadRotation(item);
+  Stand stand{};
+  bool sound = true;
+  if (continuous) {
+    stand.from_s_m = stand.s_m = item.Number("from_s_m", {0.0, length_m}, 0.0);
+    stand.to_s_m = item.Number("to_s_m", {0.0, length_m}, length_m);
+    sound = stand.to_s_m > stand.from_s_m;
+    if (!sound) item.Problem("to_s_m", "'to_s_m' must lie behind 'from_s_m'");
+    stand.repeated = true;
+  } else {
+    stand = ReadStand(item, length_m);
+    sound = !stand.repeated || (stand.to_s_m >= stand.from_s_m && stand.every_m > 0.0);
+    if (sound && stand.repeated && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost) return item.Problem("every_m", "more than 100 000 objects; fewer were expected");
+  }
+  const Beside beside(item, spec, continuous ? -0.5 : 4.0, true);
+  object.s_m = stand.s_m;
+  object.t_m = beside.At(stand.s_m);
+  if (sound && stand.repeated) object.repeats = RepeatsOf(stand, continuous, beside, object);
+  // Posts stand on lanes on purpose, as the gates of a test do.
+  if (sound && object.subtype != "post" && object.z_offset_m < kOverhead_m) {
+    const bool building = object.type == "building";
+    std::vector<double> stations;
+    if (continuous) {
+      for (double s = stand.from_s_m; s <= stand.to_s_m; s += kLook_m) stations.push_back(s);
+    } else {
+      stations = StationsOf(stand);
+    }
+    WarnOnLanes(item, fmt::format("the {}", object.subtype), spec, stations, beside, building ? 0.5 * std::min(object.length_m, object.width_m) : 0.0, warnings);
   }
   spec.objects.push_back(std::move(object));
 }
@@ -217,11 +274,11 @@ network::Signal MakeSign(const SignKind& kind, std::optional<double> value) {
   return signal;
 }
 
-void ReadFurniture(const Map& road, const Context& context, double length_m, network::RoadSpec& spec) {
+void ReadFurniture(const Map& road, const Context& context, double length_m, network::RoadSpec& spec, std::vector<std::string>& warnings) {
   const List signs = road.OptionalItems("signs");
-  for (std::size_t i = 0; i < signs.size(); ++i) ReadSign(signs.At(i), context, length_m, spec);
+  for (std::size_t i = 0; i < signs.size(); ++i) ReadSign(signs.At(i), context, length_m, spec, warnings);
   const List objects = road.OptionalItems("objects");
-  for (std::size_t i = 0; i < objects.size(); ++i) ReadObject(objects.At(i), length_m, spec);
+  for (std::size_t i = 0; i < objects.size(); ++i) ReadObject(objects.At(i), length_m, spec, warnings);
   ReadStructures(road, "bridges", true, length_m, spec);
   ReadStructures(road, "tunnels", false, length_m, spec);
   ReadSurfaces(road, length_m, spec);

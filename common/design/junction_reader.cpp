@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/base/suggest.hpp"
 #include "common/design/tables.hpp"
@@ -18,7 +19,8 @@ constexpr double kMeets_m = 0.5;
 constexpr double kFlattest_rad = 0.6;  // between the directions of two roads
 constexpr double kSteepFit = 0.12;
 
-Meeting ReadMeeting(const Map& item, const std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads) {
+// Nothing where the road is not there. Without roads, because something is wrong with one of them, the rest is looked at all the same.
+std::optional<Meeting> ReadMeeting(const Map& item, const std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads) {
   Meeting meeting;
   const std::string id = item.Text("road");
   std::vector<std::string> ids;
@@ -28,7 +30,7 @@ Meeting ReadMeeting(const Map& item, const std::vector<RoadDesign>& designs, con
     if (designs[i].spec.id == id) meeting.road = i, found = true;
   }
   if (!found) item.Problem("road", fmt::format("there is no road '{}'{}", id, base::DidYouMean(id, ids)));
-  const double length = found ? roads[meeting.road].length_m() : 1e7;
+  const double length = found && !roads.empty() ? roads[meeting.road].length_m() : 1e7;
   if (item.Has("end") == item.Has("s_m")) {
     item.Problem(item.Has("end") ? "end" : "", "a road either passes a junction ('s_m') or has an 'end' there (start or end)");
   }
@@ -39,7 +41,7 @@ Meeting ReadMeeting(const Map& item, const std::vector<RoadDesign>& designs, con
   } else if (item.Has("s_m")) {
     meeting.s_m = item.Number("s_m", {0.0, length});
   }
-  return meeting;
+  return found ? std::optional(meeting) : std::nullopt;
 }
 
 // The phases of a junction's lights: every road that meets it is green in one of them.
@@ -109,17 +111,21 @@ std::vector<JunctionWish> ReadJunctions(const Map& file, const std::vector<RoadD
     }
     if (junction.id.find('/') != std::string::npos) item.Problem("id", "a junction's id holds no '/': the ways through it are named with it");
     const config::List meetings = item.Items("roads");
-    for (std::size_t k = 0; k < meetings.size(); ++k) junction.meetings.push_back(ReadMeeting(meetings.At(k), designs, roads));
+    for (std::size_t k = 0; k < meetings.size(); ++k) {
+      if (const auto meeting = ReadMeeting(meetings.At(k), designs, roads)) junction.meetings.push_back(*meeting);
+    }
+    const bool all_found = junction.meetings.size() == meetings.size();
     const std::string control = item.Choice("control", {"give_way", "stop", "none", "lights"}, "give_way");
     junction.control = control == "stop"     ? Control::kStop
                        : control == "none"   ? Control::kNone
                        : control == "lights" ? Control::kLights
                                              : Control::kGiveWay;
-    if (junction.control == Control::kLights) ReadLights(item, designs, junction);
+    if (junction.control == Control::kLights && all_found) ReadLights(item, designs, junction);
+    else if (junction.control == Control::kLights) item.LeaveToOthers("lights");
     junction.radius_m = item.Number("radius_m", {1.0, 100.0}, 8.0);
     junction.fit_m = item.Number("fit_m", {1.0, 1000.0}, 60.0);
-    if (junction.meetings.size() < 2) item.Problem("roads", "a junction has two roads or more");
-    else CheckMeets(junction, roads);
+    if (meetings.size() < 2) item.Problem("roads", "a junction has two roads or more");
+    else if (all_found && !roads.empty()) CheckMeets(junction, roads);
     junctions.push_back(std::move(junction));
   }
   return junctions;

@@ -14,6 +14,7 @@ using config::List;
 using config::Map;
 
 constexpr double kSteepestGrade = 0.5;
+constexpr double kFeltKink = 0.005;  // of a grade, without a parabola
 constexpr config::Range kStation_m = {-1e8, 1e8};
 constexpr config::Range kHeight_m = {-12'000.0, 12'000.0};
 
@@ -37,6 +38,7 @@ std::vector<geometry::GradePoint> ReadGrades(const Map& road) {
     const geometry::GradePoint& before = grades[i - 1];
     const geometry::GradePoint& here = grades[i];
     const double between = here.s_m - before.s_m;
+    if (!(between > 0.0)) continue;  // told above
     const double grade = (here.z_m - before.z_m) / between;
     if (!(std::fabs(grade) <= kSteepestGrade)) {
       points.Problem(i, fmt::format("the grade before this point of 'vertical' is {:.3g}; at most {} was expected", grade, kSteepestGrade));
@@ -47,6 +49,18 @@ std::vector<geometry::GradePoint> ReadGrades(const Map& road) {
     }
   }
   return grades;
+}
+
+std::vector<std::string> GradeWarnings(const Map& road, const std::vector<geometry::GradePoint>& grades) {
+  std::vector<std::string> warnings;
+  const List points = road.Items("vertical");
+  for (std::size_t i = 1; i + 1 < grades.size(); ++i) {
+    const geometry::GradePoint &before = grades[i - 1], &here = grades[i], &behind = grades[i + 1];
+    const double kink = (behind.z_m - here.z_m) / (behind.s_m - here.s_m) - (here.z_m - before.z_m) / (here.s_m - before.s_m);
+    if (here.parabola_m > 0.0 || !(std::fabs(kink) > kFeltKink)) continue;
+    warnings.push_back(fmt::format("{}: the grade kinks by {:.2f} % at s = {:.3f} m; a 'parabola_m' rounds it", points.Place(i), 100.0 * kink, here.s_m));
+  }
+  return warnings;
 }
 
 geometry::CubicTable Elevation(const geometry::VerticalProfile& profile, double length_m) {

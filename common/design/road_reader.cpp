@@ -90,6 +90,10 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
     for (std::size_t i = 1; i < grades.size(); ++i) {
       ascending = ascending && grades[i].s_m > grades[i - 1].s_m && grades[i].parabola_m >= 0.0;
     }
+    if (ascending) {
+      const std::vector<std::string> kinks = GradeWarnings(map, grades);
+      context.warnings.insert(context.warnings.end(), kinks.begin(), kinks.end());
+    }
     spec.elevation = ascending ? Elevation(geometry::VerticalProfile(std::move(grades)), length) : Constant(0.0);
   } else if (axis.elevation) {
     spec.elevation = std::move(*axis.elevation);
@@ -102,7 +106,7 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
   Context own = context;
   own.left_hand = rule == "left";
   ReadSection(map, own, length, spec);
-  ReadFurniture(map, own, length, spec);
+  ReadFurniture(map, own, length, spec, context.warnings);
   ReadMarkings(map, length, spec);
   design.laid = ReadLaid(map, own, length, spec);
   return design;
@@ -121,23 +125,30 @@ void CheckBends(const RoadDesign& design, const network::Road& road) {
   const int left_lane = static_cast<int>(design.spec.sections[0].left.size());
   const int right_lane = -static_cast<int>(design.spec.sections[0].right.size());
   const geometry::CubicTable left = EdgeOf(design.spec, left_lane), right = EdgeOf(design.spec, right_lane);
-  const auto folds = [&](double s, double k) {
+  const bool points = design.map.Has("points");
+  const auto folds = [&](const geometry::PlanElement& element, double s, double k) {
     const double inner = k > 0.0 ? left.Value(s) : right.Value(s);
     if (k * inner <= kSharpest) return false;
-    design.map.Problem(design.map.Has("points") ? "points" : "axis",
-                       fmt::format("the edge of road '{}' {:.2f} m to the {} folds at s = {:.0f} m: the bend there has a radius of {:.6g} m",
-                                   design.spec.id, std::fabs(inner), k > 0.0 ? "left" : "right", s, 1.0 / std::fabs(k)));
+    // A corner between points is rounded by an arc: one whose radius is large enough passes its point farther away.
+    std::string help;
+    if (points && element.kind == geometry::PlanElement::Kind::kClothoid) {
+      const double turn = std::fabs(k) * element.length_m, radius = std::fabs(inner) / kSharpest;
+      help = fmt::format("; a corner of {:.0f} degrees needs 'within_m' {:.2f} or more between longer pieces, or 'smooth: true'", turn * 180.0 / geometry::kPi, std::ceil(100.0 * radius * std::tan(0.5 * turn) * std::tan(0.25 * turn)) / 100.0);
+    }
+    design.map.Problem(points ? "points" : "axis",
+                       fmt::format("the edge of road '{}' {:.2f} m to the {} folds at s = {:.0f} m: the bend there has a radius of {:.6g} m{}",
+                                   design.spec.id, std::fabs(inner), k > 0.0 ? "left" : "right", s, 1.0 / std::fabs(k), help));
     return true;
   };
   // Every metre, and at both ends of each element by its own formula, however short it is.
   for (const geometry::PlanElement& element : design.elements) {
-    if (element.kind == geometry::PlanElement::Kind::kClothoid && folds(element.s_m, element.curvature_start_1pm)) return;
+    if (element.kind == geometry::PlanElement::Kind::kClothoid && folds(element, element.s_m, element.curvature_start_1pm)) return;
     const int steps = std::max(1, static_cast<int>(std::ceil(element.length_m)));
     for (int i = 0; i < steps; ++i) {
       const double s = element.s_m + element.length_m * (i + 0.5) / steps;
-      if (folds(s, road.axis().Evaluate(s).curvature_1pm)) return;
+      if (folds(element, s, road.axis().Evaluate(s).curvature_1pm)) return;
     }
-    if (folds(element.s_m + element.length_m, geometry::PlanAxis::End(element).curvature_1pm)) return;
+    if (folds(element, element.s_m + element.length_m, geometry::PlanAxis::End(element).curvature_1pm)) return;
   }
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "common/network/meeting.hpp"
 #include "common/opendrive/checks.hpp"
 
 namespace rodeira::opendrive {
@@ -86,25 +88,29 @@ struct Checker {
   void Gap(const LaneKey& key, End end, const LaneEnd& other) const {
     const Lane &lane = *network.Find(key), &met = *network.Find(other.lane);
     if (!network::IsDrivable(lane.type) || !network::IsDrivable(met.type)) return;
-    const double s = StationOf(key, end), other_s = StationOf(other.lane, other.end);
-    const auto span = network.Span(key, s), other_span = network.Span(other.lane, other_s);
     const Road &road = network.roads()[key.road], &other_road = network.roads()[other.lane.road];
-    const auto edge = [](const Road& on, double at_s, double t, const network::LaneSection& section,
-                         const network::LaneSpan& of) { return Eigen::Vector2d(on.Surface(at_s, t, section, of).p_W.head<2>()); };
-    const Eigen::Vector2d inner = edge(road, s, span->inner_t_m, network.Section(key), *span);
-    const Eigen::Vector2d outer = edge(road, s, span->outer_t_m, network.Section(key), *span);
-    Eigen::Vector2d other_inner = edge(other_road, other_s, other_span->inner_t_m, network.Section(other.lane), *other_span);
-    Eigen::Vector2d other_outer = edge(other_road, other_s, other_span->outer_t_m, network.Section(other.lane), *other_span);
-    // Left is left on both where the roads run the same way; inside may be on either side.
-    const bool turned = (end == other.end) == ((key.lane > 0) == (other.lane.lane > 0));
-    if (turned) std::swap(other_inner, other_outer);
-    const double gap = std::max((inner - other_inner).norm(), (outer - other_outer).norm());
+    const network::LaneMeeting meeting = network::MeetingOf({&road, key.section, key.lane, end}, {&other_road, other.lane.section, other.lane.lane, other.end});
+    const double gap = meeting.gap_m;
     Finding finding = At(
         key, end, "lane_smoothness.contact_point_no_horizontal_gaps",
         fmt::format("a gap of {:.4g} m between the lane's edges and those of lane {} of road {}; {}", gap, other.lane.lane,
-                    other_road.id(), GapWords(gap, tolerance.strict ? kListed_m : tolerance.gap_m, kListed_m, "m")));
-    if (gap > (tolerance.strict ? kListed_m : tolerance.gap_m)) findings.errors.push_back(finding);
+                    other_road.id(), GapWords(gap, LaneGap(tolerance), kListed_m, "m")));
+    if (gap > LaneGap(tolerance)) findings.errors.push_back(finding);
     else if (gap > kListed_m) findings.warnings.push_back(finding);
+    // What the reference lines' heights do is told with the roads.
+    const bool lines_meet = road.spec().junction.empty() && other_road.spec().junction.empty();
+    const double step = meeting.step_m - (lines_meet ? AxisStep(key, end, other) : 0.0);
+    // A junction's own grid of heights is as high as it says; how it goes over into its roads is told, never refused.
+    const bool on_grid = road.spec().ground != nullptr || other_road.spec().ground != nullptr;
+    const double most = on_grid ? std::numeric_limits<double>::infinity() : StepMost(tolerance, kListed_m);
+    JudgeStep(At(key, end, "lane_smoothness.contact_point_no_vertical_gaps",
+                 fmt::format("a step of {:.4g} m between the lane's edges and those of lane {} of road {}; {}", meeting.step_m, other.lane.lane, other_road.id(), StepWords(step, most))),
+              step, most, findings);
+  }
+
+  double AxisStep(const LaneKey& key, End end, const LaneEnd& other) const {
+    const auto height = [&](const LaneKey& of, End at) { return network.roads()[of.road].spec().elevation.Value(StationOf(of, at)); };
+    return std::fabs(height(key, end) - height(other.lane, other.end));
   }
 
   void JunctionLanes() const {
@@ -137,6 +143,8 @@ struct Checker {
 };
 
 }  // namespace
+
+double LaneGap(const Tolerance& tolerance) { return tolerance.strict ? kListed_m : tolerance.gap_m; }
 
 void CheckLaneLinks(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance, Findings& findings) {
   const Checker checker{network, lines, tolerance, findings};

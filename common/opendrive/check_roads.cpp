@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "common/base/suggest.hpp"
+#include "common/network/meeting.hpp"
 #include "common/opendrive/checks.hpp"
 
 namespace rodeira::opendrive {
@@ -14,6 +16,8 @@ using network::Network;
 using network::Road;
 
 constexpr double kRounding_m = 1e-9;
+constexpr double kTurned_rad = 1e-6;
+constexpr double kStep_m = 1e-3;  // less is what the digits of files leave
 
 std::string_view Name(End end) { return end == End::kStart ? "start" : "end"; }
 double StationOf(const Road& road, End end) { return end == End::kStart ? 0.0 : road.length_m(); }
@@ -52,13 +56,24 @@ struct Checker {
     }
   }
 
+  void HeightAndHeading(std::size_t index, End end, std::size_t other_index, End contact, const network::RoadMeeting& meeting) const {
+    const Road &road = network.roads()[index], &other = network.roads()[other_index];
+    const double s = StationOf(road, end), kink = std::fabs(meeting.kink_rad);
+    JudgeStep(At(index, "road.elevation.contact_point", fmt::format("a step of {:.4g} m to the {} of road {}; {}", meeting.step_m, Name(contact), other.id(), StepWords(meeting.step_m, StepMost(tolerance, tolerance.gap_m))), s), meeting.step_m,
+              StepMost(tolerance, tolerance.gap_m), findings);
+    const Finding finding = At(index, "road.geometry.contact_heading",
+                               fmt::format("a kink of {:.4g} rad to the {} of road {}; {}", kink, Name(contact), other.id(), GapWords(kink, tolerance.kink_rad, Tolerance::Strict().kink_rad, "rad")), s);
+    if (kink > tolerance.kink_rad) findings.errors.push_back(finding);
+    else if (kink > kTurned_rad) findings.warnings.push_back(finding);
+  }
+
   // A road whose end goes on into another road.
   void RoadToRoad(std::size_t index, End end, std::size_t other_index, End contact) const {
     const Road& road = network.roads()[index];
     const Road& other = network.roads()[other_index];
     const double s = StationOf(road, end);
-    const Eigen::Vector3d here = road.Surface(s, 0.0).p_W, there = other.Surface(StationOf(other, contact), 0.0).p_W;
-    const double gap = (here - there).head<2>().norm();
+    const network::RoadMeeting meeting = network::MeetingOf(road, end, other, contact);
+    const double gap = meeting.gap_m;
     Finding finding = At(index, "road.geometry.contact_point",
                          fmt::format("a gap of {:.4g} m to the {} of road {}; {}", gap, Name(contact), other.id(),
                                      GapWords(gap, tolerance.gap_m, Tolerance::Strict().gap_m, "m")),
@@ -70,6 +85,8 @@ struct Checker {
     // Of the other road's links one should lead back. A connecting road is reached by way of the junction.
     const auto& back = LinkOf(other, contact);
     const bool means_us = back && !back->junction && back->id == road.id() && back->contact == end;
+    const bool told_by_other = means_us && std::pair(other_index, contact) < std::pair(index, end);
+    if (!in_junction && !told_by_other) HeightAndHeading(index, end, other_index, contact, meeting);
     if (means_us || (back && back->junction)) return;
     if (back && !back->junction && back->id != road.id() && !in_junction) {
       finding.rule = "road.linkage.is_junction_needed";
@@ -164,6 +181,16 @@ struct Checker {
 };
 
 }  // namespace
+
+void JudgeStep(const Finding& finding, double step_m, double most_m, Findings& findings) {
+  if (std::fabs(step_m) > most_m) findings.errors.push_back(finding);
+  else if (std::fabs(step_m) > kStep_m) findings.warnings.push_back(finding);
+}
+
+std::string StepWords(double step_m, double most_m) {
+  if (std::fabs(step_m) > most_m) return fmt::format("at most {:.3g} m was expected", most_m);
+  return std::isfinite(most_m) ? fmt::format("at most {:.3g} m is passed", most_m) : "wheels feel it";
+}
 
 void CheckRoadLinks(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance, Findings& findings) {
   const Checker checker{network, lines, tolerance, findings};

@@ -79,7 +79,6 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
     CheckPlan(road, tolerance, findings);
     CheckBorders(road, tolerance, findings);
   }
-  TellCurvatureJumps(readings, findings);
   std::vector<RoadLines> lines;
   for (RoadReading& road : readings) {
     auto axis = geometry::PlanAxis::Make(std::move(road.elements));
@@ -92,6 +91,8 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   import.network = std::make_shared<const network::Network>(std::move(spec));
   CheckRoadLinks(*import.network, lines, tolerance, findings);
   CheckLaneLinks(*import.network, lines, tolerance, findings);
+  CheckSurfaces(*import.network, lines, tolerance, findings);
+  TellCurvatureJumps(*import.network, lines, findings);
   import.errors = std::move(findings.errors);
   import.warnings.insert(import.warnings.end(), findings.warnings.begin(), findings.warnings.end());
   if (!import.errors.empty()) import.network = nullptr;

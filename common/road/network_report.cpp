@@ -8,6 +8,7 @@
 #include "common/network/placing.hpp"
 #include "common/opendrive/import.hpp"
 #include "common/road/network_world.hpp"
+#include "common/road/overlaps.hpp"
 
 namespace rodeira::road {
 
@@ -23,10 +24,13 @@ NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict) {
     check.warnings.push_back(opendrive::ToError(warning, file).Text());
   check.table = opendrive::Describe(import.value());
   if (import.value().network == nullptr) return check;
+  for (const std::string& overlap : DescribeOverlaps(*import.value().network, false)) check.warnings.push_back(fmt::format("{}: {}", file.string(), overlap));
   // What else a world of the file needs: surfaces that it names, laid on its roads.
   if (const auto detail = LoadSurfaces(import.value(), file); !detail) {
     check.errors.push_back(detail.error());
     check.table.clear();
+  } else {
+    for (const std::string& wall : detail.value().Walls(*import.value().network)) check.warnings.push_back(fmt::format("{}: {}", file.string(), wall));
   }
   return check;
 }

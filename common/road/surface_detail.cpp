@@ -286,6 +286,42 @@ network::Bump::Height SurfaceDetail::RaisedAt(std::uint32_t road, double s_m, do
   return all;
 }
 
+std::vector<std::string> SurfaceDetail::Walls(const network::Network& network) const {
+  constexpr double kWall_m = 0.1, kAcross_m = 0.25;
+  std::vector<std::string> walls;
+  for (std::uint32_t index = 0; index < roads_.size(); ++index) {
+    const network::Road& road = network.roads()[index];
+    std::size_t number = 0;
+    for (const Stretch& stretch : roads_[index]) {
+      if (stretch.measured == nullptr) continue;
+      const network::CrgSurface& crg = road.spec().crg[number++];
+      if (stretch.friction || stretch.lay != Lay::kOnTop || stretch.end_m - stretch.begin_m < 2.0 * kFadesAlong_m) continue;
+      for (const bool begins : {true, false}) {
+        const double s = begins ? stretch.begin_m + kFadesAlong_m : stretch.end_m - kFadesAlong_m;
+        if (s < 0.0 || s > road.length_m() || (begins ? stretch.begin_m < 0.0 : stretch.end_m > road.length_m())) continue;  // it goes on
+        double sum = 0.0;
+        int count = 0;
+        const auto section = static_cast<std::uint32_t>(road.SectionIndex(s));
+        for (const auto* side : {&road.spec().sections[section].left, &road.spec().sections[section].right}) {
+          for (const network::Lane& lane : *side) {
+            if (!network::IsDrivable(lane.type)) continue;
+            const network::LaneSpan span = *road.SpanAt(section, lane.id, s);
+            for (double share = 0.5 * kAcross_m; share < 1.0; share += kAcross_m) {
+              const Measured at = Measure(stretch, s, span.inner_t_m + share * (span.outer_t_m - span.inner_t_m), {});
+              if (at.inside) sum += at.height.z_m, ++count;
+            }
+          }
+        }
+        if (count == 0 || std::fabs(sum / count) < kWall_m) continue;
+        walls.push_back(fmt::format("the measured surface '{}' {} at s = {:.1f} m of road '{}' {:.2f} m {} the road, a wall within {:g} m; a z offset of {:.3f} m lays it on the road there",
+                                    std::filesystem::path(crg.file).filename().string(), begins ? "begins" : "ends", begins ? stretch.begin_m : stretch.end_m, road.id(), std::fabs(sum / count),
+                                    sum > 0.0 ? "above" : "below", kFadesAlong_m, stretch.z_offset_m - sum / count));
+      }
+    }
+  }
+  return walls;
+}
+
 bool SurfaceDetail::On(std::uint32_t road, double low_s_m, double high_s_m) const {
   if (!roads_.empty() && !roads_[road].empty()) return true;
   const auto near = [&](const auto& laid) { return high_s_m >= laid.piece.from_s_m && low_s_m <= laid.piece.to_s_m; };

@@ -48,6 +48,9 @@ class SurfaceDetail {
   Raised AddOnWay(const network::Road& way, std::uint32_t index, const network::LaneSection& section, double s_m, double t_m, Share& left) const;
   // The heights of all bumps at (s, t), as they are away from the road's edges.
   network::Bump::Height RaisedAt(std::uint32_t road, double s_m, double t_m) const;
+  // A sentence for each measured surface whose heights are added to a road's, and which begins or ends 10 cm or more above or below it in the mean of the lanes that are driven on: there is a wall,
+  // climbed within the metre over which it passes into nothing. It names the offset that would lay it on the road.
+  std::vector<std::string> Walls(const network::Network& network) const;
   // A patch at (s, t) takes the place of the ground.
   void Cover(std::uint32_t road, double s_m, double t_m, LaneGround& ground) const;
 

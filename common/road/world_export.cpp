@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "common/base/files.hpp"
+#include "common/road/export_ids.hpp"
 #include "common/road/export_lanes.hpp"
 #include "common/road/export_text.hpp"
 #include "common/road/measured_files.hpp"
+#include "common/terrain/geographic.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -250,11 +252,13 @@ base::Result<std::string> Export(const World& world, const NameOf& name_of) {
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<OpenDRIVE>\n";
   text += fmt::format("<header revMajor=\"1\" revMinor=\"{}\" name=\"{}\" version=\"1.00\" vendor=\"Rodeira\">\n", strips ? 8 : 7,
                       Escaped(world.name()));
-  if (!network.geo_reference().empty()) text += fmt::format("<geoReference>{}</geoReference>\n", Escaped(network.geo_reference()));
+  // What other programs read; WKT where PROJ has no string for it.
+  if (!network.geo_reference().empty()) text += fmt::format("<geoReference>{}</geoReference>\n", Escaped(terrain::ProjString(network.geo_reference()).value_or(network.geo_reference())));
   text += "</header>\n";
-  for (const network::Road& road : network.roads()) text += RoadText(road, name_of);
-  for (const network::Controller& controller : network.controllers()) text += ControllerText(controller);
-  for (const network::Junction& junction : network.junctions()) text += JunctionText(junction);
+  const ExportParts parts = WithPlainIds(network);
+  for (const network::Road& road : parts.roads) text += RoadText(road, name_of);
+  for (const network::Controller& controller : parts.controllers) text += ControllerText(controller);
+  for (const network::Junction& junction : parts.junctions) text += JunctionText(junction);
   return text + "</OpenDRIVE>\n";
 }
 

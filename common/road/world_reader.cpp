@@ -253,6 +253,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
       reading.problems.push_back(base::WrongInput(detail.error().Text(), file.path().string()));
       return reading;
     }
+    for (const std::string& wall : detail.value().Walls(*design.network)) reading.warnings.push_back(fmt::format("{}: {}", file.path().string(), wall));
     keys.spec.detail = std::make_shared<const SurfaceDetail>(std::move(detail).value());
   }
   reading.problems = file.Problems();
@@ -265,6 +266,13 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
 
 WorldReading ReadWorld(const config::File& file) {
   const Map root = file.root();
+  if (const std::string version = root.Peek({"rodeira"}).value_or(kVersion); version != kVersion && version != kFirstVersion) {
+    (void)ReadVersion(root);
+    (void)root.Keys();  // those of another version are not known here
+    WorldReading reading;
+    reading.problems = file.Problems();
+    return reading;
+  }
   Keys keys = ReadKeys(root);
   if (keys.network_file) return ReadNamedNetwork(file, *keys.network_file, std::move(keys.spec), keys.start);
   if (keys.second) return ReadSecond(file, std::move(keys));

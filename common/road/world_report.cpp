@@ -9,6 +9,7 @@
 #include "common/config/config.hpp"
 #include "common/geometry/angle.hpp"
 #include "common/road/network_world.hpp"
+#include "common/road/overlaps.hpp"
 #include "common/road/road_chains.hpp"
 #include "common/road/world_reader.hpp"
 #include "common/terrain/geographic.hpp"
@@ -132,6 +133,10 @@ std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) 
   if (!file) return {};
   WorldReading reading = ReadWorld(file.value());
   if (reading.spec && !reading.spec->roads.empty()) reading.warnings.push_back(fmt::format("{}: {}", world_yaml.string(), kVersion1IsNotWritten));
+  // A road of version 1 is one alone.
+  if (reading.spec && reading.spec->roads.empty() && reading.spec->network != nullptr && OpenDriveOf(world_yaml).empty()) {
+    for (const std::string& overlap : DescribeOverlaps(*reading.spec->network, true)) reading.warnings.push_back(fmt::format("{}: {}", world_yaml.string(), overlap));
+  }
   return std::move(reading.warnings);
 }
 

@@ -61,9 +61,6 @@ base::Status Check(const BtHeader& header) {
         fmt::format("the .bt header says {} heights of {} bytes; integers of 2 or 4 bytes or floats of 4 were expected",
                     header.floating ? "float" : "integer", header.bytes_a_post));
   }
-  if (header.metres_a_unit == 0.0) {
-    return base::WrongInput("the .bt grid is in degrees; metres or feet were expected (gdalwarp brings it into a projection)");
-  }
   if (header.metres_a_unit < 0.0) return base::WrongInput("the .bt header's horizontal unit is none of 0 to 3");
   if (!ExtentsHold(header.left, header.bottom, header.right, header.top, header.columns, header.rows)) {
     return base::WrongInput(fmt::format("the .bt header's extents enclose nothing: left {}, right {}, bottom {}, top {}",
@@ -112,7 +109,8 @@ base::Result<BtHeader> ParseBtHeader(std::span<const std::byte> bytes) {
 
 base::Bytes BtHeaderBytes(const BtHeader& header) {
   std::int16_t unit = 1;
-  if (header.metres_a_unit == 0.3048) unit = 2;
+  if (header.metres_a_unit == 0.0) unit = 0;
+  else if (header.metres_a_unit == 0.3048) unit = 2;
   else if (header.metres_a_unit != 1.0) unit = 3;
   base::ByteWriter out;
   out.PutRaw(std::as_bytes(std::span("binterr1.3", 10)));

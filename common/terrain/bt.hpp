@@ -20,7 +20,7 @@ struct BtHeader {
   int rows = 0;
   int bytes_a_post = 4;  // 2 or 4
   bool floating = true;
-  double metres_a_unit = 1.0;  // horizontally
+  double metres_a_unit = 1.0;  // horizontally; 0: degrees
   int utm_zone = 0;  // 0: none, the .prj says what the coordinates are
   int datum = -2;    // unknown
   // Of the outermost posts, in the file's unit.

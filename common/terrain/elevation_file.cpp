@@ -8,13 +8,16 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "common/base/nearest_file.hpp"
 #include "common/terrain/bt.hpp"
 #include "common/terrain/elevation_heights.hpp"
 #include "common/terrain/elevation_projection.hpp"
+#include "common/terrain/elevation_warp.hpp"
 #include "common/terrain/gdal_quiet.hpp"
 
 namespace rodeira::terrain {
@@ -24,11 +27,25 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostPosts = 400'000'000;  // 1.6 GB of heights
 
-// GDAL's drivers for files that lie on the disk and hold heights: none of those that call a server or a program.
-constexpr const char* kOtherDrivers[] = {
-    "GTiff", "AAIGrid", "GRASSASCIIGrid", "EHdr",    "ENVI", "HFA",  "SAGA",    "GSAG", "GSBG", "GS7BG",
-    "RST",   "ILWIS",   "RRASTER",        "USGSDEM", "SDTS", "DTED", "SRTMHGT", "XYZ",  "PNG",  "netCDF",
-    "KRO",   "PAux",    "GenBin",         "FIT",     nullptr};
+// Drivers that are not asked. A file is read, and nothing else: these call a server, log in to a database, or read what the file only names, among which are addresses of servers, pieces of programs and places in
+// memory.
+constexpr std::string_view kNotAsked[] = {"WMS", "WMTS", "WCS", "OGCAPI", "HTTP", "PLMOSAIC", "EEDA", "EEDAI", "DAAS", "RDA", "NGW", "STACIT", "STACTA", "STAC",  // servers
+                                          "PostGISRaster", "GeoRaster", "Rasterlite", "TileDB", "MSSQLSpatial",                                                // data bases
+                                          "VRT", "DERIVED", "GTI", "GDALG", "MEM", "Memory", "Zarr"};                                                          // what a file names
+
+// All others of GDAL's that read rasters, in its order.
+std::vector<const char*> DriversAsked() {
+  std::vector<const char*> names;
+  GDALDriverManager* all = GetGDALDriverManager();
+  for (int i = 0; i < all->GetDriverCount(); ++i) {
+    GDALDriver* driver = all->GetDriver(i);
+    const char* name = driver->GetDescription();
+    const bool raster = driver->GetMetadataItem(GDAL_DCAP_RASTER) != nullptr;
+    if (raster && std::find(std::begin(kNotAsked), std::end(kNotAsked), std::string_view(name)) == std::end(kNotAsked)) names.push_back(name);
+  }
+  names.push_back(nullptr);
+  return names;
+}
 
 struct FileStart {
   std::string gdal_name;
@@ -163,8 +180,9 @@ base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path&
   }
   const std::string& name = upgraded.name().empty() ? start.value().gdal_name : upgraded.name();
   const std::array<const char*, 2> bt = {"BT", nullptr};
+  const std::vector<const char*> others = DriversAsked();
   const GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                                       header ? bt.data() : kOtherDrivers));
+                                                       header ? bt.data() : others.data()));
   if (!dataset) {
     return base::WrongInput(
         fmt::format("this is no elevation file that can be read (.bt, GeoTIFF, Arc/Info ASCII, …); {}", QuietGdal::Words()),
@@ -176,10 +194,26 @@ base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path&
   }
   auto projection = ReadProjection(path, start.value().gzipped, *dataset);
   if (!projection) return projection.error();
-  const auto frame = header ? FrameOfBt(*header, *dataset, registration, path)
-                            : FrameOfRaster(*dataset, registration, projection.value().metres_a_unit, path);
+  GDALDatasetUniquePtr warped;
+  if (header && header->metres_a_unit == 0.0 && projection.value().geographic_wkt.empty()) {
+    if (!projection.value().wkt.empty()) return base::WrongInput("the .bt grid is in degrees, and its coordinate system in metres", path.string());
+    projection.value().geographic_wkt = SRS_WKT_WGS84_LAT_LONG;
+  } else if (header && header->metres_a_unit != 0.0 && !projection.value().geographic_wkt.empty()) {
+    return base::WrongInput("the .bt grid is in metres or feet, and its coordinate system in degrees", path.string());
+  }
+  if (!projection.value().geographic_wkt.empty()) {
+    if (dataset->GetRasterCount() != 1) return base::WrongInput(BandsSentence(dataset->GetRasterCount()), path.string());
+    auto metric = WarpedToMetres(*dataset, projection.value().geographic_wkt, header, registration == Registration::kPosts || (header && registration == Registration::kUsual), path);
+    if (!metric) return metric.error();
+    warped = std::move(metric).value();
+    projection = MetricProjection(*warped->GetSpatialRef());
+    if (!projection) return projection.error();
+  }
+  GDALDataset& read = warped ? *warped : *dataset;
+  const auto frame = header && !warped ? FrameOfBt(*header, *dataset, registration, path)
+                                       : FrameOfRaster(read, warped ? Registration::kUsual : registration, projection.value().metres_a_unit, path);
   if (!frame) return frame.error();
-  auto heights = ReadHeights(*dataset, header, path);
+  auto heights = ReadHeights(read, header, path);
   if (!heights) return heights.error();
   return std::make_shared<const ElevationGrid>(frame.value(), std::move(heights).value(), std::move(projection).value().wkt);
 }

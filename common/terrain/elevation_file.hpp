@@ -16,8 +16,8 @@ enum class Registration { kUsual, kPosts, kCells };
 
 // Reads an elevation file through GDAL: .bt, gzipped or not, or a raster of another format (GeoTIFF, Arc/Info ASCII …),
 // with the .prj beside it. North up; coordinates and heights in metres or feet come out as metres, and the coordinate
-// system with them. Wrong input where the file is missing, cut short, of no format known, in degrees, turned, of more
-// than one band, or has a broken .prj.
+// system with them; what is in degrees is brought into the UTM zone of its middle (WarpedToMetres). Wrong input where the
+// file is missing, cut short, of no format known, turned, of more than one band, or has a broken .prj.
 base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const std::filesystem::path& path, Registration registration = Registration::kUsual);
 
 // The coordinate system as WKT 1, in the spelling of .prj files. `definition` is an EPSG code ("EPSG:3763") or WKT;

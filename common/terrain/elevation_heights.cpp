@@ -53,14 +53,14 @@ base::Result<HeightScale> HeightScaleOf(GDALRasterBand& band, const std::optiona
 
 }  // namespace
 
+std::string BandsSentence(int bands) { return fmt::format("the raster has {} bands; one, the heights, was expected (gdal_translate -b picks one)", bands); }
+
 base::Result<std::vector<float>> ReadHeights(GDALDataset& dataset, const std::optional<BtHeader>& header,
                                              const std::filesystem::path& path) {
   const int columns = dataset.GetRasterXSize();
   const int rows = dataset.GetRasterYSize();
   if (dataset.GetRasterCount() != 1) {
-    return base::WrongInput(fmt::format("the raster has {} bands; one, the heights, was expected (gdal_translate -b picks one)",
-                                        dataset.GetRasterCount()),
-                            path.string());
+    return base::WrongInput(BandsSentence(dataset.GetRasterCount()), path.string());
   }
   GDALRasterBand* band = dataset.GetRasterBand(1);
   const auto metres = HeightScaleOf(*band, header, path);

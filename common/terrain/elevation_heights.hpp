@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/base/result.hpp"
@@ -10,6 +11,9 @@
 class GDALDataset;
 
 namespace rodeira::terrain {
+
+// That a raster has another number of bands than one.
+std::string BandsSentence(int bands);
 
 // All heights of a raster of one band in metres, columns from west to east, each from south to north; voids as
 // ElevationGrid::kVoid. Scale, offset and unit are the .bt header's where it is one, otherwise those that GDAL finds.

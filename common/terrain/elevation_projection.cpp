@@ -14,7 +14,7 @@
 namespace rodeira::terrain {
 namespace {
 
-base::Result<Projection> FromDefinition(std::string_view definition) {
+base::Result<OGRSpatialReference> FromDefinition(std::string_view definition) {
   const QuietGdal quiet;
   OGRSpatialReference reference;
   const std::string text(definition);
@@ -23,7 +23,18 @@ base::Result<Projection> FromDefinition(std::string_view definition) {
     return base::WrongInput(fmt::format("'{}' is no coordinate system that PROJ knows; an EPSG code or WKT was expected",
                                         text.substr(0, std::min<std::size_t>(60, text.find('\n')))));
   }
-  return MetricProjection(reference);
+  return reference;
+}
+
+base::Result<Projection> AnyProjection(const OGRSpatialReference& reference) {
+  if (reference.IsGeographic() == 0) return MetricProjection(reference);
+  Projection projection;
+  char* text = nullptr;
+  const OGRErr failed = reference.exportToWkt(&text);
+  projection.geographic_wkt = text == nullptr ? "" : text;
+  CPLFree(text);
+  if (failed != OGRERR_NONE || projection.geographic_wkt.empty()) return base::WrongInput("the coordinate system cannot be written as WKT");
+  return projection;
 }
 
 }  // namespace
@@ -31,7 +42,7 @@ base::Result<Projection> FromDefinition(std::string_view definition) {
 base::Result<Projection> MetricProjection(const OGRSpatialReference& reference) {
   if (reference.IsGeographic() != 0) {
     return base::WrongInput(
-        "the coordinate system is in degrees; a projection in metres was expected (gdalwarp brings it into one)");
+        "the coordinate system is in degrees; a projection in metres was expected");
   }
   Projection projection;
   projection.metres_a_unit = reference.GetLinearUnits();
@@ -57,19 +68,23 @@ base::Result<Projection> ReadProjection(const std::filesystem::path& path, bool 
   if (std::filesystem::exists(beside, problem)) {
     const auto text = base::ReadText(beside, 1u << 20);
     if (!text) return text.error();
-    auto projection = FromDefinition(text.value());
+    const auto reference = FromDefinition(text.value());
+    if (!reference) return base::WrongInput(reference.error().message, beside.string());
+    auto projection = AnyProjection(reference.value());
     if (!projection) return base::WrongInput(projection.error().message, beside.string());
     return projection;
   }
   const OGRSpatialReference* reference = dataset.GetSpatialRef();
   if (reference == nullptr) return Projection();
-  auto projection = MetricProjection(*reference);
+  auto projection = AnyProjection(*reference);
   if (!projection) return base::WrongInput(projection.error().message, path.string());
   return projection;
 }
 
 base::Result<std::string> ProjectionWkt(std::string_view definition) {
-  auto projection = FromDefinition(definition);
+  const auto reference = FromDefinition(definition);
+  if (!reference) return reference.error();
+  auto projection = MetricProjection(reference.value());
   if (!projection) return projection.error();
   return std::move(projection).value().wkt;
 }

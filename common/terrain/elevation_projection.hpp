@@ -15,12 +15,13 @@ namespace rodeira::terrain {
 struct Projection {
   std::string wkt;               // WKT 1 in the spelling of .prj files, its unit the metre; empty: the file names none
   double metres_a_unit = 1.0;    // of the coordinates in the file
+  std::string geographic_wkt;    // not empty: the file's coordinates are degrees of this system, and the two above say nothing
 };
 
 // Wrong input where the coordinates are degrees.
 base::Result<Projection> MetricProjection(const OGRSpatialReference& reference);
 
-// The .prj beside the file (trusted before everything else), or what GDAL found in the file, or nothing.
+// The .prj beside the file (trusted before everything else), or what GDAL found in the file, or nothing. Degrees are none of its errors.
 base::Result<Projection> ReadProjection(const std::filesystem::path& path, bool gzipped, GDALDataset& dataset);
 
 }  // namespace rodeira::terrain

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace rodeira::terrain {
 namespace {
@@ -66,5 +67,20 @@ std::optional<EarthPlace> Geographic::ToEarth(double x_m, double y_m) const {
 }
 
 std::optional<Eigen::Vector2d> Geographic::ToMap(const EarthPlace& place) const { return parts_->Move(PJ_INV, place.longitude_deg, place.latitude_deg); }
+
+std::optional<std::string> ProjString(const std::string& definition) {
+  PJ_CONTEXT* context = proj_context_create();
+  proj_log_level(context, PJ_LOG_NONE);
+  proj_context_set_enable_network(context, 0);
+  PJ* system = proj_create(context, definition.c_str());
+  const char* said = system == nullptr ? nullptr : proj_as_proj_string(context, system, PJ_PROJ_4, nullptr);
+  std::optional<std::string> text;
+  if (said != nullptr) text = said;
+  proj_destroy(system);
+  proj_context_destroy(context);
+  constexpr std::string_view kType = " +type=crs";
+  if (text && text->ends_with(kType)) text->resize(text->size() - kType.size());
+  return text;
+}
 
 }  // namespace rodeira::terrain

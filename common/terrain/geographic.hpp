@@ -34,4 +34,7 @@ class Geographic {
   std::shared_ptr<Parts> parts_;
 };
 
+// A coordinate system (a PROJ string, WKT, "EPSG:…") as a PROJ string without "+type=crs", as OpenDRIVE's geoReference wants it. Nothing where PROJ does not know it or has no string for it.
+std::optional<std::string> ProjString(const std::string& definition);
+
 }  // namespace rodeira::terrain

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "tests/launch/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 
 namespace rodeira::front {
@@ -40,6 +42,26 @@ TEST(OptionErrors, SayWhatAValueShouldBe) {
   EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--seed", "-1"}), HasSubstr("rodeira: --seed: '-1' was found; a whole number from 0 on was expected\n"));
   EXPECT_THAT(Refused({"polyline", "scale", "a.csv", "-o", "b.csv", "--by", "0"}), HasSubstr("rodeira: --by: '0' was found; a number above 0 was expected\n"));
   EXPECT_THAT(Refused({"run", "a.yaml", "--for", "nan"}), HasSubstr("'nan' was found; a positive number of seconds was expected\n"));
+}
+
+TEST(OptionErrors, SayWhatIsNoNumber) {
+  EXPECT_THAT(Refused({"world", "query", "a.yaml", "a", "2"}), HasSubstr("rodeira: X of 'rodeira world query' is 'a'; a number was expected\n"));
+  EXPECT_THAT(Refused({"world", "build", "a.yaml", "-o", "b", "--threads", "many"}), HasSubstr("rodeira: --threads of 'rodeira world build' is 'many'; a whole number was expected\n"));
+}
+
+// A folder that nobody made is no place to write into: it is more likely mistyped.
+TEST(OptionErrors, NoFolderIsMadeForAFile) {
+  const TemporaryFolder folder;
+  const std::string missing = (folder.path() / "no/such").string();
+  const auto says = [&](std::vector<std::string> words) { EXPECT_THAT(Refused(std::move(words)), HasSubstr("'" + missing + "/it' was found; there is no folder '" + missing + "'\n")); };
+  says({"world", "map", "a.yaml", "-o", missing + "/it"});
+  says({"world", "export", "a.yaml", "-o", missing + "/it"});
+  says({"world", "info", "a.yaml", "--svg", missing + "/it"});
+  says({"map", "convert", "a.motors", "-o", missing + "/it"});
+  says({"traffic", "run", "a.yaml", "--heat", missing + "/it"});
+  says({"polyline", "scale", "a.csv", "--by", "2", "-o", missing + "/it"});
+  says({"surface", "check", "a.crg", "--svg", missing + "/it"});
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "no"));
 }
 
 TEST(OptionErrors, HelpAndVersionAreNoErrors) {

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "common/base/random.hpp"
+#include "common/network/placing.hpp"
 #include "common/network/strokes.hpp"
 #include "tests/common/design/made_roads.hpp"
 
@@ -78,8 +80,21 @@ TEST(Cut, PaintAndFurnitureStayWhereTheyWere) {
   const network::Road part = Cut(whole, 100.0, 220.0, "part");
   for (double s = 0.05; s < 119.9; s += 0.1) EXPECT_EQ(painted(part, s), painted(whole, s + 100.0)) << s;
   ASSERT_EQ(part.spec().objects.size(), 1u);
-  EXPECT_NEAR(part.spec().objects[0].repeats[0].s_m, 5.0, 1e-9);
-  EXPECT_NEAR(part.spec().objects[0].repeats[0].length_m, 115.0, 1e-9);
+  // Beside lane -2, which grows, the row has several pieces: its posts stand at s = 105, 115 … 215 of the road, each once, and where they stood.
+  network::NetworkSpec both;
+  both.roads = {whole, part};
+  const network::Network network(std::move(both));
+  std::map<double, double> before, after;
+  for (const network::Placed& post : network::PlaceFurniture(network).things) {
+    auto& posts = post.road == 0 ? before : after;
+    EXPECT_TRUE(posts.emplace(std::round(post.s_m + (post.road == 0 ? 0.0 : 100.0)), post.t_m).second) << post.s_m;
+  }
+  ASSERT_EQ(after.size(), 12u);
+  EXPECT_GT(part.spec().objects[0].repeats.size(), 1u);
+  for (const auto& [s, t] : after) {
+    ASSERT_TRUE(before.contains(s)) << s;
+    EXPECT_NEAR(before[s], t, 1e-9) << s;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/geometry/angle.hpp"
@@ -80,6 +81,56 @@ TEST(Objects, AreTurnedRepeatedAndOfTheirSize) {
   EXPECT_EQ(placed.runs[0].from_s_m, 30.0);
   EXPECT_EQ(placed.runs[0].to_s_m, 80.0);
   EXPECT_NEAR(placed.runs[0].t_start_m, -3.5, 1e-12);  // half a metre within the edge
+}
+
+// A lane that widens from 3 to 9 m and back, its edge by 3u^2 - 2u^3: what stands beside it keeps its distance within 5 cm, at every station, and a row its stations.
+TEST(Objects, KeepBesideAnEdgeThatMoves) {
+  const Design design = SoundDesign(
+      "rodeira: world/2\nroads:\n  - id: a\n    axis: [line: {length_m: 200}]\n    z_m: 0\n"
+      "    section: {lanes: [{id: -1, widths: [{s_m: 0, width_m: 3}, {s_m: 60, width_m: 9}, {s_m: 140, width_m: 9}, {s_m: 200, width_m: 3}]}, {id: 1, width_m: 3}], verge: {width_m: 0}}\n"
+      "    objects: [{type: guard_rail, side: right, beside_m: 0.5}, {type: tree, side: right, beside_m: 2, from_s_m: 0, every_m: 10}, {type: tree, side: left, beside_m: 2, from_s_m: 5, every_m: 10}]\n");
+  EXPECT_THAT(design.warnings, testing::IsEmpty());
+  const auto edge = [](double s) {
+    const double u = std::clamp(s < 100.0 ? s / 60.0 : (200.0 - s) / 60.0, 0.0, 1.0);
+    return -3.0 - 6.0 * u * u * (3.0 - 2.0 * u);
+  };
+  const network::Furniture furniture = network::PlaceFurniture(*design.network);
+  std::vector<double> right, left;
+  for (const network::Placed& placed : furniture.things) {
+    (placed.t_m < 0.0 ? right : left).push_back(placed.s_m);
+    if (placed.t_m < 0.0) EXPECT_NEAR(placed.t_m, edge(placed.s_m) - 2.0, 0.05) << placed.s_m;
+    else EXPECT_DOUBLE_EQ(placed.t_m, 5.0);
+  }
+  ASSERT_EQ(right.size(), 21u);
+  for (std::size_t i = 0; i < right.size(); ++i) EXPECT_NEAR(right[i], 10.0 * static_cast<double>(i), 1e-9);
+  EXPECT_EQ(left.size(), 20u);
+  double end = 0.0;
+  ASSERT_GT(furniture.runs.size(), 4u);
+  for (const network::PlacedRun& run : furniture.runs) {
+    EXPECT_DOUBLE_EQ(run.from_s_m, end);
+    end = run.to_s_m;
+    for (int i = 0; i <= 20; ++i) {
+      const double s = run.from_s_m + (run.to_s_m - run.from_s_m) * i / 20.0, t = run.t_start_m + (run.t_end_m - run.t_start_m) * i / 20.0;
+      EXPECT_NEAR(t, edge(s) - 0.5, 0.055) << s;  // 5 cm at every metre
+    }
+  }
+  EXPECT_DOUBLE_EQ(end, 200.0);
+  // Beside a straight edge one repeat says all.
+  EXPECT_EQ(design.network->roads()[0].spec().objects[2].repeats.size(), 1u);
+}
+
+TEST(Objects, OnLanesThatAreDrivenOnAreWarnings) {
+  const auto warnings = [](const std::string& objects) {
+    return SoundDesign("rodeira: world/2\nroads:\n  - id: a\n    axis: [line: {length_m: 100}]\n    z_m: 0\n    section: {template: rural}\n    " + objects + "\n").warnings;
+  };
+  EXPECT_THAT(warnings("objects: [{type: house, t_m: 0, s_m: 50}]"), testing::ElementsAre(testing::HasSubstr("made.yaml:7: the house of road 'a' at s = 50.0 m, t = 0.00 m stands on lane 1, which is driven on")));
+  // The house is 9 m deep: half of it reaches the lane, whose edge lies at 3.5 m.
+  EXPECT_THAT(warnings("objects: [{type: house, t_m: 7.9, s_m: 50}]"), testing::SizeIs(1));
+  EXPECT_THAT(warnings("objects: [{type: house, t_m: 8.1, s_m: 50}]"), testing::IsEmpty());
+  EXPECT_THAT(warnings("objects: [{type: tree, side: right, beside_m: -3, from_s_m: 0, every_m: 5}]"), testing::ElementsAre(testing::HasSubstr("the tree of road 'a' at s = 0.0 m, t = -2.75 m stands on lane -1")));
+  EXPECT_THAT(warnings("objects: [{type: wall, t_m: 3, from_s_m: 20, to_s_m: 30}]"), testing::ElementsAre(testing::HasSubstr("the wall of road 'a' at s = 20.0 m")));
+  EXPECT_THAT(warnings("signs: [{type: stop, t_m: -3.2, s_m: 20}]"), testing::ElementsAre(testing::HasSubstr("the sign 'stop' of road 'a' at s = 20.0 m")));
+  EXPECT_THAT(warnings("objects: [{type: post, t_m: -1, s_m: 20}, {type: lamp, t_m: 0, s_m: 20, z_m: 5}]"), testing::IsEmpty());
 }
 
 TEST(Structures, AreBridgesAndTunnels) {

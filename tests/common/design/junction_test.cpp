@@ -1,4 +1,5 @@
 // Roads that cross and meet: what is cut, joined, made level, painted.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -235,6 +236,41 @@ TEST(Junction, WhatDoesNotMeetIsTold) {
   EXPECT_THAT(with("turn_deg: -95", "turn_deg: -20"), HasSubstr("at an angle of 20.0 degrees; at least 34.4 was expected"));
   EXPECT_THAT(with("axis: [line: {length_m: 150}]", "axis: [line: {length_m: 15}]"), HasSubstr("junction 'j2' reaches from"));
   EXPECT_THAT(with("{road: end, end: start}", "{road: ent, end: start}"), HasSubstr("there is no road 'ent'; did you mean 'end'?"));
+}
+
+// Five roads that all begin at one junction, 20 m of which lie in it or so: nobody said where to start, so it is 10 m behind the junction.
+std::string FiveRoads(const std::string& start) {
+  std::string text = "rodeira: world/2\n" + start + "roads:\n", meetings;
+  for (int i = 0; i < 5; ++i) {
+    text += "  - {id: r" + std::to_string(i) + ", start: {x_m: 0, y_m: 0, heading_deg: " + std::to_string(72 * i) + "}, axis: [line: {length_m: 80}], z_m: 0, section: {template: rural}}\n";
+    meetings += (i == 0 ? "" : ", ") + std::string("{road: r") + std::to_string(i) + ", end: start}";
+  }
+  return text + "junctions:\n  - {id: j, roads: [" + meetings + "]}\n";
+}
+
+TEST(Start, LiesOutsideOfJunctionsUnlessItIsSaid) {
+  const auto text_of = [](const std::string& start) {
+    const auto file = config::File::Parse(FiveRoads(start), "made.yaml");
+    EXPECT_TRUE(file.ok());
+    (void)file.value().root().Text("rodeira");
+    const config::Map map = file.value().root().OptionalChild("start");
+    StartWish wish;
+    if (map.Has("s_m")) wish.s_m = map.Number("s_m");
+    Design design = ReadDesign(file.value(), kFriction, "made", "", wish, map);
+    return std::pair(std::move(design), file.value().Problems());
+  };
+  const auto [design, problems] = text_of("");
+  for (const auto& problem : problems) ADD_FAILURE() << problem.Text();
+  ASSERT_TRUE(design.start.has_value());
+  const network::Road& road = design.network->roads()[design.start->road];
+  EXPECT_EQ(road.id(), "r0/1");
+  EXPECT_EQ(design.start->lane, -1);
+  EXPECT_DOUBLE_EQ(design.start->s_m, 10.0);
+  const double behind = 80.0 - road.length_m() + 10.0;  // on the road before it was cut
+  EXPECT_GT(behind, 20.0);
+  const auto [refused, told] = text_of("start: {s_m: 10}\n");
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_THAT(told[0].Text(), HasSubstr(fmt::format("'start.s_m' 10 of road 'r0' lies in a junction; {:.1f} is behind it", behind)));
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "common/opendrive/import.hpp"
 #include "common/road/world.hpp"
 #include "common/road/world_export.hpp"
+#include "common/terrain/geographic.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
@@ -272,16 +273,28 @@ double LengthOfEdge(const std::string& edges, const std::string& nodes, const st
   return length_m;
 }
 
-// SUMO draws an edge along the line that lanes are counted from; here before it cuts that by the shapes of its own junctions.
-TEST_P(NetworkExport, NetconvertFindsEveryEdgeWithItsLength) {
-  if (std::system("command -v netconvert > /dev/null 2>&1") != 0) GTEST_SKIP() << "SUMO's netconvert is not installed";
-  const std::string command = "cd " + folder_.path().string() +
+// What netconvert complains of, but for what every road closed in itself gets: it has no edge from a node to the same.
+std::string Complaints(const std::string& log) {
+  std::string said;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    const bool closed = line.starts_with("Warning: Edge '") && line.ends_with("has to be split as it connects same junctions.");
+    if ((line.find("Warning") != std::string::npos || line.find("Error") != std::string::npos) && !closed) said += line + "\n";
+  }
+  return said;
+}
+
+// SUMO draws an edge along the line that lanes are counted from; here before it cuts that by the shapes of its own junctions. `it.xodr` in the folder is the network; SUMO says ids as the file does.
+void ExpectEveryEdge(const std::filesystem::path& folder, const Network& network, const std::vector<std::string>& ids, int at_least) {
+  const std::string command = "cd " + folder.string() +
                               " && { [ -n \"$SUMO_HOME\" ] || [ ! -d /usr/share/sumo ] || export SUMO_HOME=/usr/share/sumo; } && netconvert --opendrive-files it.xodr "
                               "--opendrive.curve-resolution 0.2 --precision 6 --plain-output-prefix it --output-file it.net.xml > log 2>&1";
-  ASSERT_EQ(std::system(command.c_str()), 0) << base::ReadText(folder_.path() / "log").value();
-  const std::string edges = base::ReadText(folder_.path() / "it.edg.xml").value(), nodes = base::ReadText(folder_.path() / "it.nod.xml").value();
+  ASSERT_EQ(std::system(command.c_str()), 0) << base::ReadText(folder / "log").value();
+  EXPECT_EQ(Complaints(base::ReadText(folder / "log").value()), "");
+  const std::string edges = base::ReadText(folder / "it.edg.xml").value(), nodes = base::ReadText(folder / "it.nod.xml").value();
   int found = 0;
-  for (const network::Road& road : ours().roads()) {
+  for (std::size_t index = 0; index < network.roads().size(); ++index) {
+    const network::Road& road = network.roads()[index];
     if (!road.spec().junction.empty()) continue;
     double length_m = 0.0;
     constexpr int kSteps = 4000;
@@ -296,11 +309,79 @@ TEST_P(NetworkExport, NetconvertFindsEveryEdgeWithItsLength) {
       const network::LaneSection& section = road.spec().sections[0];
       const auto& side = left ? section.left : section.right;
       if (std::none_of(side.begin(), side.end(), [](const network::Lane& lane) { return network::IsDrivable(lane.type); })) continue;
-      EXPECT_NEAR(LengthOfEdge(edges, nodes, std::string(left ? "" : "-") + road.id()), length_m, 2e-4 * length_m + 0.03) << road.id();
+      EXPECT_NEAR(LengthOfEdge(edges, nodes, std::string(left ? "" : "-") + ids[index]), length_m, 2e-4 * length_m + 0.03) << road.id();
       ++found;
     }
   }
-  EXPECT_GE(found, std::string(GetParam()) == "ring.yaml" ? 1 : 2);
+  EXPECT_GE(found, at_least);
+}
+
+std::vector<std::string> IdsOf(const Network& network) {
+  std::vector<std::string> ids;
+  for (const network::Road& road : network.roads()) ids.push_back(road.id());
+  return ids;
+}
+
+bool HasNetconvert() { return std::system("command -v netconvert > /dev/null 2>&1") == 0; }
+
+TEST_P(NetworkExport, NetconvertFindsEveryEdgeWithItsLength) {
+  if (!HasNetconvert()) GTEST_SKIP() << "SUMO's netconvert is not installed";
+  ExpectEveryEdge(folder_.path(), ours(), IdsOf(ours()), std::string(GetParam()) == "ring.yaml" ? 1 : 2);
+}
+
+TEST_P(NetworkExport, GeoReferenceIsAProjStringOfTheSamePlaces) {
+  EXPECT_EQ(again_->geo_reference().empty(), ours().geo_reference().empty());
+  if (ours().geo_reference().empty()) return;
+  EXPECT_TRUE(again_->geo_reference().starts_with("+proj=")) << again_->geo_reference();
+  EXPECT_EQ(again_->geo_reference().find("+type"), std::string::npos);
+  const auto a = terrain::Geographic::Make(ours().geo_reference()), b = terrain::Geographic::Make(again_->geo_reference());
+  ASSERT_TRUE(a.ok() && b.ok());
+  for (const double x : {-1000.0, 0.0, 500'000.0}) {
+    const auto here = a.value().ToEarth(x, 20'000.0), there = b.value().ToEarth(x, 20'000.0);
+    ASSERT_TRUE(here && there);
+    EXPECT_NEAR(here->longitude_deg, there->longitude_deg, 1e-9);
+    EXPECT_NEAR(here->latitude_deg, there->latitude_deg, 1e-9);
+  }
+}
+
+// The world of docs/first-road.md, whose junction is called 'at the farm'.
+TEST(NetworkExportIds, HaveNoBlanksAndNamesAreKept) {
+  const std::string document = base::ReadText(std::filesystem::path(SourceDir()) / "docs/first-road.md").value();
+  const std::size_t begin = document.find("```yaml\n") + 8;
+  const auto world = World::Parse(document.substr(begin, document.find("\n```\n", begin) + 1 - begin), "first_road.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  const front::TemporaryFolder folder;
+  ASSERT_TRUE(WriteOpenDrive(*world.value(), folder.path() / "it.xodr").ok());
+  const auto again = opendrive::LoadNetwork(folder.path() / "it.xodr", opendrive::Tolerance::Strict());
+  ASSERT_TRUE(again.ok()) << again.error().Text();
+  ASSERT_EQ(again.value()->junctions().size(), 1u);
+  EXPECT_EQ(again.value()->junctions()[0].id, "at_the_farm");
+  EXPECT_EQ(again.value()->junctions()[0].name, "at the farm");
+  EXPECT_TRUE(again.value()->FindRoad("at_the_farm/valley").has_value());
+  if (!HasNetconvert()) GTEST_SKIP() << "SUMO's netconvert is not installed";
+  ExpectEveryEdge(folder.path(), *world.value()->network(), IdsOf(*again.value()), 6);
+}
+
+// What differs goes on differing, and links follow.
+TEST(NetworkExportIds, StayDifferent) {
+  const auto world = World::Parse("rodeira: world/2\nname: odd\nground: {kind: plane}\nroads:\n"
+                                  "  - {id: a b, axis: [line: {length_m: 100}], z_m: 0, section: {template: rural}, successor: {road: a_b}}\n"
+                                  "  - {id: a_b, start: {x_m: 100, y_m: 0}, axis: [line: {length_m: 100}], z_m: 0, section: {template: rural}, successor: {road: \"a,b\"}}\n"
+                                  "  - {id: \"a,b\", start: {x_m: 200, y_m: 0}, axis: [line: {length_m: 100}], z_m: 0, section: {template: rural}}\n",
+                                  "odd.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  const front::TemporaryFolder folder;
+  ASSERT_TRUE(WriteOpenDrive(*world.value(), folder.path() / "it.xodr").ok());
+  const auto again = opendrive::LoadNetwork(folder.path() / "it.xodr", opendrive::Tolerance::Strict());
+  ASSERT_TRUE(again.ok()) << again.error().Text();
+  EXPECT_EQ(IdsOf(*again.value()), (std::vector<std::string>{"a_b_2", "a_b", "a_b_3"}));
+  const auto& roads = again.value()->roads();
+  EXPECT_EQ(roads[0].spec().name, "a b");
+  EXPECT_EQ(roads[0].spec().successor->id, "a_b");
+  EXPECT_EQ(roads[1].spec().predecessor->id, "a_b_2");
+  EXPECT_EQ(roads[1].spec().successor->id, "a_b_3");
+  if (!HasNetconvert()) GTEST_SKIP() << "SUMO's netconvert is not installed";
+  ExpectEveryEdge(folder.path(), *world.value()->network(), IdsOf(*again.value()), 6);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, NetworkExport, testing::Values("haste.yaml", "motorway.yaml", "flat.yaml", "lights.yaml", "n222.yaml", "ring.yaml", "example/world.yaml"),

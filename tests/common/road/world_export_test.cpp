@@ -113,7 +113,7 @@ std::map<std::string, double> LengthsIn(const std::string& net) {
     const std::string id = net.substr(at + 10, net.find('"', at + 10) - at - 10);
     const std::size_t length = net.find("length=\"", at) + 8;
     if (id[0] != ':') lengths[id.substr(0, id.rfind('_'))] = std::strtod(net.c_str() + length, nullptr);
-  }
+  }  }
   return lengths;
 }
 
@@ -122,7 +122,7 @@ TEST(WorldExport, NetconvertReadsItWithTheSameLanes) {
   if (std::system("command -v netconvert > /dev/null 2>&1") != 0) GTEST_SKIP() << "SUMO's netconvert is not installed";
   const auto folder = std::filesystem::temp_directory_path() / ("rodeira-export-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
-  for (const char* name : {"n222.yaml", "motorway.yaml"}) {
+  for (const char* name : {"n222.yaml", "motorway.yaml", "flat.yaml"}) {
     const auto world = Of(name);
     ASSERT_TRUE(base::WriteWhole(folder / "it.xodr", std::string_view(ExportOpenDrive(*world).value())).ok());
     const std::string command =
@@ -135,6 +135,7 @@ TEST(WorldExport, NetconvertReadsItWithTheSameLanes) {
         const double ours = MeanLength(network, road, left);
         if (ours == 0.0) continue;
         const std::string edge = (left ? "" : "-") + network.roads()[road].id();
+        if (lengths.contains(edge + "#0")) continue;  // closed in itself, and split: NetworkExport looks at its parts
         ASSERT_TRUE(lengths.contains(edge)) << edge;
         // Chords of 2 m on bends of 30 m are 2e-4 shorter than the bend.
         EXPECT_NEAR(lengths.at(edge), ours, 2e-4 * ours) << edge;

@@ -18,6 +18,7 @@
 #include "common/road/world_plot.hpp"
 #include "common/road/world_profile.hpp"
 #include "tests/common/road/sample_world.hpp"
+#include "tests/common/surface/made_crg.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
@@ -66,7 +67,7 @@ roads:
   - id: a
     axis: [line: {length_m: 40}]
     z_m: 0
-    section: {lanes: [{id: -1, width_m: 3}, {id: 1, width_m: 3}]}
+    section: {lanes: [{id: -1, width_m: 3}, {id: 1, width_m: 3.5}]}
     successor: {road: b, end: start}
   - id: b
     start: {x_m: 40, y_m: 0}
@@ -269,6 +270,32 @@ TEST(WorldPlot, WordsWithoutRoomAreLeftOut) {
   EXPECT_EQ(WordsOf(labels.svg()).size(), 9u);
   EXPECT_NE(labels.svg().find(">a&lt;b</text>"), std::string::npos);
   for (const Words& word : WordsOf(labels.svg())) EXPECT_LE(word.right, 200.0);
+}
+
+// What else is wrong with a file of another version is not told: its keys are not known here.
+TEST_F(WorldReport, AnotherVersionIsToldAlone) {
+  ASSERT_TRUE(base::WriteWhole(folder_ / "v.yaml", "rodeira: world/3\nname: c\nearth: {}\n").ok());
+  const auto problems = WorldProblems(folder_ / "v.yaml");
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0].Text(), HasSubstr("v.yaml:1: 'rodeira' is 'world/3'; a world file of this program says 'world/2' or 'world/1'"));
+}
+
+// A measured surface 2.1 m over the height that it is laid on, and one that is laid where it belongs.
+TEST_F(WorldReport, AMeasuredSurfaceThatIsAWallIsTold) {
+  surface::MadeCrg crg;
+  crg.rows = 81;
+  crg.z = [](double u, double) { return 2.1 + 0.001 * u; };
+  ASSERT_TRUE(base::WriteWhole(folder_ / "made.crg", std::string_view(crg.Text())).ok());
+  const auto warnings = [&](const std::string& more) {
+    EXPECT_TRUE(base::WriteWhole(folder_ / "c.yaml", "rodeira: world/2\nname: c\nground: {kind: plane}\nroads:\n  - {id: a, axis: [line: {length_m: 100}], z_m: 0, section: {lanes: [{id: -1, width_m: 1.5}, {id: 1, width_m: 1.5}]}, "
+                                                         "surfaces: [{crg: made.crg, from_s_m: 20, to_s_m: 60" + more + "}]}\n").ok());
+    EXPECT_THAT(WorldProblems(folder_ / "c.yaml"), ::testing::IsEmpty());
+    return WorldWarnings(folder_ / "c.yaml");
+  };
+  // A metre behind its beginning it has 2.101 m, a metre before its end 2.139 m.
+  EXPECT_THAT(warnings(""), ::testing::ElementsAre(HasSubstr("c.yaml: the measured surface 'made.crg' begins at s = 20.0 m of road 'a' 2.10 m above the road, a wall within 1 m; a z offset of -2.101 m lays it on the road there"),
+                                                   HasSubstr("ends at s = 60.0 m of road 'a' 2.14 m above the road, a wall within 1 m; a z offset of -2.139 m")));
+  EXPECT_THAT(warnings(", z_offset_m: -2.12"), ::testing::IsEmpty());
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ TEST(BtHeaders, AMutatedHeaderIsReadAsSomethingThatCanBeOrRefused) {
     ASSERT_TRUE(h.version_tenths >= 10 && h.version_tenths <= 13 && h.columns >= 2 && h.rows >= 2) << number;
     ASSERT_TRUE(std::isfinite(h.right - h.left) && h.left < h.right && std::isfinite(h.top - h.bottom) && h.bottom < h.top)
         << number;
-    ASSERT_TRUE(h.vertical_scale > 0.0 && std::isfinite(h.vertical_scale) && h.metres_a_unit > 0.0) << number;
+    ASSERT_TRUE(h.vertical_scale > 0.0 && std::isfinite(h.vertical_scale) && h.metres_a_unit >= 0.0) << number;
     ASSERT_GE(h.file_bytes(), kBtHeaderBytes + 8u) << number;
     if (h.version_tenths == 10) continue;  // keeps its extents in single precision, and elsewhere
     const auto again = ParseBtHeader(BtHeaderBytes(h));

@@ -200,7 +200,8 @@ TEST_F(ElevationFile, HeadersThatCannotBeAreRefused) {
   EXPECT_THAT(refusal([](HandMade& made) { made.version = "1.7"; }), HasSubstr("begins with 'binterr1.7'"));
   EXPECT_THAT(refusal([](HandMade& made) { made.columns = 1; }), HasSubstr("1 columns and 2 rows"));
   EXPECT_THAT(refusal([](HandMade& made) { made.columns = -5; }), HasSubstr("-5 columns"));
-  EXPECT_THAT(refusal([](HandMade& made) { made.units = 0; }), HasSubstr("in degrees"));
+  EXPECT_THAT(refusal([](HandMade& made) { made.units = 0; }), HasSubstr("the middle of the grid, in degrees, lies at longitude 1010 and latitude 502.5; a place on the earth was expected"));
+  EXPECT_THAT(refusal([](HandMade& made) { made.units = 0, made.left = -10, made.right = 10, made.bottom = 40, made.top = 41; }), HasSubstr("spans 30 degrees of longitude; at most 12 was expected"));
   EXPECT_THAT(refusal([](HandMade& made) { made.units = 9; }), HasSubstr("horizontal unit"));
   EXPECT_THAT(refusal([](HandMade& made) { made.bytes_a_post = 2; }), HasSubstr("float heights of 2 bytes"));
   EXPECT_THAT(refusal([](HandMade& made) { made.right = made.left; }), HasSubstr("extents enclose nothing"));
@@ -222,7 +223,7 @@ TEST_F(ElevationFile, ProjectionsAreReadFromThePrjAndBrokenOnesRefused) {
   ASSERT_TRUE(base::WriteWhole(folder_ / "here.prj", std::string_view("GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\",6378137,"
                                                                      "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"Degree\",0.017453292519943295]]"))
                   .ok());
-  EXPECT_THAT(Refusal(path), HasSubstr("in degrees"));
+  EXPECT_THAT(Refusal(path), HasSubstr("the .bt grid is in metres or feet, and its coordinate system in degrees"));
   EXPECT_FALSE(ProjectionWkt("EPSG:nonsense").ok());
 }
 

@@ -1,0 +1,133 @@
+#include "common/road/overlaps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "common/road/road_chains.hpp"
+
+namespace rodeira::road {
+namespace {
+
+using network::End;
+using network::LaneKey;
+using network::Network;
+
+constexpr double kStep_m = 1.0;
+constexpr double kMostSteps = 1e6;  // of longer roads in longer steps
+constexpr double kInset_m = 0.1;
+constexpr double kMouth_m = 60.0;
+
+// Which roads belong together, and where.
+class Kin {
+ public:
+  explicit Kin(const Network& network) : network_(network), junctions_(network.roads().size()), links_(network.roads().size()) {
+    for (std::uint32_t i = 0; i < network.roads().size(); ++i) {
+      const network::RoadSpec& spec = network.roads()[i].spec();
+      if (const auto own = network.FindJunction(spec.junction); own && !spec.junction.empty()) junctions_[i].insert(*own);
+      for (const auto* link : {&spec.predecessor, &spec.successor}) {
+        if (!*link) continue;
+        if ((*link)->junction) {
+          if (const auto met = network.FindJunction((*link)->id)) junctions_[i].insert(*met);
+        } else if (const auto road = network.FindRoad((*link)->id)) {
+          links_[i].insert(*road), links_[*road].insert(i);
+        }
+      }
+    }
+    for (std::uint32_t j = 0; j < network.junctions().size(); ++j) {
+      for (const network::JunctionConnection& connection : network.junctions()[j].connections) {
+        for (const std::string* id : {&connection.incoming_road, &connection.connecting_road}) {
+          if (const auto road = network.FindRoad(*id)) junctions_[*road].insert(j);
+        }
+      }
+    }
+  }
+
+  bool Excused(std::uint32_t a, double a_s, std::uint32_t b, double b_s) const {
+    std::vector<std::uint32_t> both;
+    std::set_intersection(junctions_[a].begin(), junctions_[a].end(), junctions_[b].begin(), junctions_[b].end(), std::back_inserter(both));
+    const bool in_a = !network_.roads()[a].spec().junction.empty(), in_b = !network_.roads()[b].spec().junction.empty();
+    if (!both.empty() && (in_a || in_b)) return true;
+    return (!both.empty() || links_[a].contains(b)) && NearEnd(a, a_s) && NearEnd(b, b_s);
+  }
+
+ private:
+  bool NearEnd(std::uint32_t road, double s) const { return std::min(s, network_.roads()[road].length_m() - s) < kMouth_m; }
+
+  const Network& network_;
+  std::vector<std::set<std::uint32_t>> junctions_, links_;
+};
+
+// t of the places across a section that are looked at.
+std::vector<double> Across(const network::Road& road, std::uint32_t section, double s) {
+  std::vector<double> across;
+  double right = std::numeric_limits<double>::infinity(), left = -right;
+  for (const auto* side : {&road.spec().sections[section].left, &road.spec().sections[section].right}) {
+    for (const network::Lane& lane : *side) {
+      if (!network::IsDrivable(lane.type)) continue;
+      const network::LaneSpan span = *road.SpanAt(section, lane.id, s);
+      if (span.width_m() < 2.0 * kInset_m) continue;
+      across.push_back(span.centre_t_m());
+      right = std::min({right, span.inner_t_m, span.outer_t_m}), left = std::max({left, span.inner_t_m, span.outer_t_m});
+    }
+  }
+  if (!across.empty()) across.push_back(right + kInset_m), across.push_back(left - kInset_m);
+  return across;
+}
+
+}  // namespace
+
+std::vector<Overlap> FindOverlaps(const Network& network) {
+  const Kin kin(network);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Overlap> found;
+  std::vector<network::Surfacing> surfaces;
+  for (std::uint32_t index = 0; index < network.roads().size(); ++index) {
+    const network::Road& road = network.roads()[index];
+    const int steps = std::max(1, static_cast<int>(std::min(kMostSteps, std::ceil(road.length_m() / kStep_m))));
+    for (int i = 0; i <= steps; ++i) {
+      const double s = road.length_m() * i / steps;
+      const auto section = static_cast<std::uint32_t>(road.SectionIndex(s));
+      for (const double t : Across(road, section, s)) {
+        const Eigen::Vector3d p = road.Surface(s, t).p_W;
+        network.Surfaces(p.x(), p.y(), surfaces);
+        for (const network::Surfacing& other : surfaces) {
+          const LaneKey& key = other.place.lane;
+          const double apart = other.sample.p_W.z() - p.z();
+          if (key.road == index || other.place.distance_m > 0.0 || key.lane == 0 || !network::IsDrivable(network.Find(key)->type) || !(std::fabs(apart) < Network::kLevel_m)) continue;
+          if (kin.Excused(index, s, key.road, other.place.s_m)) continue;
+          if (index < key.road) found.try_emplace({index, key.road}, Overlap{index, key.road, s, other.place.s_m, apart});
+          else found.try_emplace({key.road, index}, Overlap{key.road, index, other.place.s_m, s, -apart});
+        }
+      }
+    }
+  }
+  std::vector<Overlap> overlaps;
+  for (const auto& [pair, overlap] : found) overlaps.push_back(overlap);
+  return overlaps;
+}
+
+std::vector<std::string> DescribeOverlaps(const Network& network, bool own) {
+  std::map<std::uint32_t, std::pair<std::string, double>> names;
+  for (const RoadChain& chain : own ? ChainsOf(network) : std::vector<RoadChain>()) {
+    const std::string& id = network.roads()[chain.parts.front().road].id();
+    for (const RoadChain::Part& part : chain.parts) names[part.road] = {id.substr(0, id.find('/')), part.from_s_m};
+  }
+  const auto named = [&](std::uint32_t road, double s) {
+    const auto name = names.find(road);
+    return name == names.end() ? fmt::format("road '{}' at s = {:.1f} m", network.roads()[road].id(), s) : fmt::format("road '{}' at s = {:.1f} m", name->second.first, name->second.second + s);
+  };
+  std::vector<std::string> said;
+  for (const Overlap& overlap : FindOverlaps(network)) {
+    said.push_back(fmt::format("{} and {} lie on one another, {:.2f} m apart in height, and neither a junction nor a link joins them there", named(overlap.road, overlap.s_m),
+                               named(overlap.other, overlap.other_s_m), std::fabs(overlap.apart_m)));
+  }
+  return said;
+}
+
+}  // namespace rodeira::road
