@@ -162,7 +162,8 @@ Keys FindKeys(const Map& road, const Context& context) {
   std::vector<std::string> names;
   for (const auto& [known, map] : context.templates) names.push_back(known);
   section.Problem("template", fmt::format("there is no template '{}'{}", name, base::DidYouMean(name, names)));
-  return {section, context.templates.find("rural")->second.Child("rural")};  // what is missing for want of it is not told
+  constexpr std::string_view kUsual = "rural";
+  return {section, context.templates.find(std::string(kUsual))->second.Child(kUsual)};  // what is missing for want of it is not told
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct Checker {
   std::span<const RoadLines> lines;
   const Tolerance& tolerance;
   Findings& findings;
+  bool ground_is_wrong = false;  // of a junction
 
   double StationOf(const LaneKey& key, End end) const {
     const network::LaneSection& section = network.Section(key);
@@ -101,7 +102,8 @@ struct Checker {
     const bool lines_meet = road.spec().junction.empty() && other_road.spec().junction.empty();
     const double step = meeting.step_m - (lines_meet ? AxisStep(key, end, other) : 0.0);
     // A junction's own grid of heights is as high as it says; how it goes over into its roads is told, never refused.
-    const bool on_grid = road.spec().ground != nullptr || other_road.spec().ground != nullptr;
+    // One that is wrong is told for itself, and leaves its roads without their heights.
+    const bool on_grid = road.spec().ground != nullptr || other_road.spec().ground != nullptr || ground_is_wrong;
     const double most = on_grid ? std::numeric_limits<double>::infinity() : StepMost(tolerance, kListed_m);
     JudgeStep(At(key, end, "lane_smoothness.contact_point_no_vertical_gaps",
                  fmt::format("a step of {:.4g} m between the lane's edges and those of lane {} of road {}; {}", meeting.step_m, other.lane.lane, other_road.id(), StepWords(step, most))),
@@ -147,7 +149,8 @@ struct Checker {
 double LaneGap(const Tolerance& tolerance) { return tolerance.strict ? kListed_m : tolerance.gap_m; }
 
 void CheckLaneLinks(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance, Findings& findings) {
-  const Checker checker{network, lines, tolerance, findings};
+  const bool ground_is_wrong = std::any_of(findings.errors.begin(), findings.errors.end(), [](const Finding& error) { return error.rule.starts_with("junctions.elevation_grid") || error.rule.starts_with("junctions.boundary"); });
+  const Checker checker{network, lines, tolerance, findings, ground_is_wrong};
   for (const LaneKey& key : network.Lanes()) {
     for (const End end : {End::kStart, End::kEnd}) {
       checker.Links(key, end);

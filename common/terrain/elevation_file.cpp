@@ -196,7 +196,8 @@ base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path&
   if (!projection) return projection.error();
   GDALDatasetUniquePtr warped;
   if (header && header->metres_a_unit == 0.0 && projection.value().geographic_wkt.empty()) {
-    if (!projection.value().wkt.empty()) return base::WrongInput("the .bt grid is in degrees, and its coordinate system in metres", path.string());
+    // A zone that its header says beside degrees is none of its own.
+    if (header->external_projection && !projection.value().wkt.empty()) return base::WrongInput("the .bt grid is in degrees, and its coordinate system in metres", path.string());
     projection.value().geographic_wkt = SRS_WKT_WGS84_LAT_LONG;
   } else if (header && header->metres_a_unit != 0.0 && !projection.value().geographic_wkt.empty()) {
     return base::WrongInput("the .bt grid is in metres or feet, and its coordinate system in degrees", path.string());

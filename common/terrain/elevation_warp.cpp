@@ -1,16 +1,15 @@
 #include "common/terrain/elevation_warp.hpp"
 
 #include <fmt/format.h>
-#include <gdal_alg.h>
 #include <gdal_utils.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "common/geometry/angle.hpp"
 #include "common/terrain/elevation_grid.hpp"
 #include "common/terrain/gdal_quiet.hpp"
 
@@ -19,7 +18,8 @@ namespace {
 
 constexpr double kPolar_deg = 84.0;  // UTM ends there
 constexpr double kWidest_deg = 12.0;  // so far from a zone's middle its scale is off by half a per cent
-constexpr double kMostTimes = 16.0;   // as many heights as the raster has: a map of tiny cells where the raster's are long and thin
+constexpr double kMostTimes = 16.0;   // as many heights as the raster has, where its cells are long and thin
+constexpr double kDegree_m = 111'000.0;
 
 // EPSG's number of the map for a place.
 int MapFor(double longitude_deg, double latitude_deg) {
@@ -27,20 +27,6 @@ int MapFor(double longitude_deg, double latitude_deg) {
   const double turned = longitude_deg - 360.0 * std::floor((longitude_deg + 180.0) / 360.0);  // from -180 on
   const int zone = std::clamp(static_cast<int>(std::floor((turned + 180.0) / 6.0)) + 1, 1, 60);
   return (latitude_deg < 0.0 ? 32700 : 32600) + zone;
-}
-
-// How many heights the map would have for one of the raster's; infinite: GDAL cannot say.
-double TimesAsMany(GDALDataset& raster, const std::string& map) {
-  char** options = CSLSetNameValue(nullptr, "DST_SRS", map.c_str());
-  void* transformer = GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(&raster), nullptr, options);
-  CSLDestroy(options);
-  if (transformer == nullptr) return std::numeric_limits<double>::infinity();
-  std::array<double, 6> transform{};
-  int columns = 0, rows = 0;
-  const CPLErr failed = GDALSuggestedWarpOutput(GDALDataset::ToHandle(&raster), GDALGenImgProjTransform, transformer, transform.data(), &columns, &rows);
-  GDALDestroyGenImgProjTransformer(transformer);
-  if (failed != CE_None) return std::numeric_limits<double>::infinity();
-  return static_cast<double>(columns) * rows / (static_cast<double>(raster.GetRasterXSize()) * raster.GetRasterYSize());
 }
 
 class Arguments {
@@ -76,6 +62,12 @@ base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std
   if (!(width <= kWidest_deg)) {
     return base::WrongInput(fmt::format("the grid, in degrees, spans {:.6g} degrees of longitude; at most {} was expected, which one map in metres holds (gdalwarp brings it into another one)", width, kWidest_deg), path.string());
   }
+  // Square cells as small as the raster's are in either direction: where larger ones are asked for, GDAL's warper takes means of several heights.
+  const double across_m = std::hypot(g[1], g[2]) * kDegree_m * std::cos(latitude * geometry::kPi / 180.0), along_m = std::hypot(g[4], g[5]) * kDegree_m, cell_m = std::min(across_m, along_m);
+  if (const double times = std::max(across_m, along_m) / cell_m; !(times <= kMostTimes)) {
+    return base::WrongInput(fmt::format("the cells, in degrees, are {:.4g} m x {:.4g} m on the ground: too long and thin for a map in metres (gdalwarp brings them into one of cells as they should be)", across_m, along_m),
+                            path.string());
+  }
   GDALRasterBand* band = raster.GetRasterBand(1);
   int has_void = 0;
   const double no_data = band->GetNoDataValue(&has_void);
@@ -90,10 +82,7 @@ base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std
   const GDALDatasetUniquePtr laid(GDALDataset::FromHandle(GDALTranslate("", GDALDataset::ToHandle(&raster), how_laid, &failed)));
   GDALTranslateOptionsFree(how_laid);
   if (!laid || failed != 0) return refuse();
-  if (const double times = TimesAsMany(*laid, map); !(times <= kMostTimes)) {
-    return base::WrongInput(fmt::format("the heights, in degrees, would be {:.3g} times as many in metres: their cells are too long and thin (gdalwarp brings them into a map of cells as they should be)", times), path.string());
-  }
-  Arguments words({"-of", "MEM", "-ot", "Float32", "-r", "bilinear", "-et", "0", "-t_srs", map, "-dstnodata",
+  Arguments words({"-of", "MEM", "-ot", "Float32", "-r", "bilinear", "-et", "0", "-tr", fmt::format("{}", cell_m), fmt::format("{}", cell_m), "-t_srs", map, "-dstnodata",
                    fmt::format("{}", has_void != 0 && std::isfinite(no_data) ? no_data : static_cast<double>(ElevationGrid::kVoid))});
   GDALWarpAppOptions* how = GDALWarpAppOptionsNew(words.get(), nullptr);
   GDALDatasetH from = GDALDataset::ToHandle(laid.get());

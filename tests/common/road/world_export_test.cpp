@@ -113,7 +113,7 @@ std::map<std::string, double> LengthsIn(const std::string& net) {
     const std::string id = net.substr(at + 10, net.find('"', at + 10) - at - 10);
     const std::size_t length = net.find("length=\"", at) + 8;
     if (id[0] != ':') lengths[id.substr(0, id.rfind('_'))] = std::strtod(net.c_str() + length, nullptr);
-  }  }
+  }
   return lengths;
 }
 

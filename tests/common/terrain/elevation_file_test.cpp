@@ -202,6 +202,7 @@ TEST_F(ElevationFile, HeadersThatCannotBeAreRefused) {
   EXPECT_THAT(refusal([](HandMade& made) { made.columns = -5; }), HasSubstr("-5 columns"));
   EXPECT_THAT(refusal([](HandMade& made) { made.units = 0; }), HasSubstr("the middle of the grid, in degrees, lies at longitude 1010 and latitude 502.5; a place on the earth was expected"));
   EXPECT_THAT(refusal([](HandMade& made) { made.units = 0, made.left = -10, made.right = 10, made.bottom = 40, made.top = 41; }), HasSubstr("spans 30 degrees of longitude; at most 12 was expected"));
+  EXPECT_THAT(refusal([](HandMade& made) { made.units = 0, made.left = -1, made.right = 1, made.bottom = 40, made.top = 40.01; }), HasSubstr("on the ground: too long and thin for a map in metres"));
   EXPECT_THAT(refusal([](HandMade& made) { made.units = 9; }), HasSubstr("horizontal unit"));
   EXPECT_THAT(refusal([](HandMade& made) { made.bytes_a_post = 2; }), HasSubstr("float heights of 2 bytes"));
   EXPECT_THAT(refusal([](HandMade& made) { made.right = made.left; }), HasSubstr("extents enclose nothing"));

@@ -209,14 +209,14 @@ TEST_F(Rasters, DegreesComeIntoTheirUtmZone) {
   ExpectLinear(*beside.value(), {kWest_deg + 2.0 * kCell_deg, kNorth_deg - last}, {kWest_deg + last, kNorth_deg - 2.0 * kCell_deg});
 }
 
-// A .bt in degrees (unit 0): its outermost heights stand on its edges.
+// A .bt in degrees (unit 0): its outermost heights stand on its edges; the zone that it says too, another one, means nothing.
 TEST_F(Rasters, ABtInDegreesComesIntoItsUtmZone) {
   constexpr int kMany = 50;
   constexpr double kWest_deg = -8.05, kSouth_deg = 42.48, kSpan_deg = 0.049;
   const auto map = Geographic::Make("EPSG:32629");
   base::ByteWriter out;
   out.PutRaw(std::as_bytes(std::span("binterr1.3", 10)));
-  out.Put(std::int32_t{kMany}), out.Put(std::int32_t{kMany}), out.Put(std::int16_t{4}), out.Put(std::int16_t{1}), out.Put(std::int16_t{0}), out.Put(std::int16_t{0}), out.Put(std::int16_t{6326});
+  out.Put(std::int32_t{kMany}), out.Put(std::int32_t{kMany}), out.Put(std::int16_t{4}), out.Put(std::int16_t{1}), out.Put(std::int16_t{0}), out.Put(std::int16_t{31}), out.Put(std::int16_t{6326});
   for (const double edge : {kWest_deg, kWest_deg + kSpan_deg, kSouth_deg, kSouth_deg + kSpan_deg}) out.Put(edge);
   out.Put(std::int16_t{0}), out.Put(2.0F);  // two metres a unit of height
   out.bytes().resize(256);
