@@ -58,6 +58,12 @@ BuiltGround::BuiltGround(std::shared_ptr<const network::Network> network, Juncti
   for (const network::Road& road : network_->roads()) in_junction_.push_back(made.contains(road.spec().junction));
 }
 
+std::shared_ptr<const BuiltGround> BuiltGround::With(SurfaceDetail detail) const {
+  auto other = std::make_shared<BuiltGround>(*this);
+  other->detail_ = std::move(detail);
+  return other;
+}
+
 SurfacePoint BuiltGround::OnRoad(const network::Surfacing& surfacing) const {
   const network::Place& place = surfacing.place;
   const network::Road& road = network_->roads()[place.lane.road];

@@ -25,6 +25,9 @@ class BuiltGround {
   BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions, const FrictionTable& friction, SurfaceDetail detail,
               BareTerrain terrain);
 
+  // The same ground with something else on its roads.
+  std::shared_ptr<const BuiltGround> With(SurfaceDetail detail) const;
+
   SurfacePoint At(double x_m, double y_m, double z_hint_m) const;
   // The same of points close to one another, where they lie on one road alone, whose surface then answers whatever the hints: to the bit
   // what At says of each. False, and then nothing is written, where that is not so or not told so quickly. Spans of equal length, of

@@ -10,11 +10,13 @@
 #include "common/base/bytes.hpp"
 #include "common/base/suggest.hpp"
 #include "common/surface/crg_file.hpp"
+#include "common/surface/crg_smooth.hpp"
 
 namespace rodeira::road {
 namespace {
 
 constexpr double kMostFriction = 2.0;
+constexpr double kSeenReach_m = 1.0;  // over so much to either side measured heights are smoothed, twice
 
 // v, turned by the angle of `turn`, which has unit length.
 Eigen::Vector2d Turned(const Eigen::Vector2d& v, const Eigen::Vector2d& turn) {
@@ -147,6 +149,27 @@ base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network,
   for (const network::Laid& on_road : laid) PutLaid(on_road, numbers);
   if (!numbers.bytes().empty()) detail.digest_ = base::Hash(numbers.bytes());
   return detail;
+}
+
+bool SurfaceDetail::IsFine() const {
+  return std::any_of(roads_.begin(), roads_.end(), [](const auto& stretches) {
+    return std::any_of(stretches.begin(), stretches.end(), [](const Stretch& stretch) { return !stretch.friction; });
+  });
+}
+
+SurfaceDetail SurfaceDetail::AsSeen() const {
+  SurfaceDetail seen = *this;
+  std::map<const surface::CrgSurface*, std::shared_ptr<const surface::CrgSurface>> smooth;
+  for (std::vector<Stretch>& stretches : seen.roads_) {
+    std::erase_if(stretches, [](const Stretch& stretch) { return stretch.made != nullptr; });
+    for (Stretch& stretch : stretches) {
+      if (stretch.friction) continue;
+      auto& file = smooth[stretch.measured.get()];
+      if (file == nullptr) file = std::make_shared<const surface::CrgSurface>(surface::Smoothed(*stretch.measured, kSeenReach_m));
+      stretch.measured = file;
+    }
+  }
+  return seen;
 }
 
 // The ways through junctions that carry on what lies on a road, where it goes on.

@@ -34,6 +34,10 @@ class SurfaceDetail {
   bool empty() const { return roads_.empty() && laid_.empty(); }
   // Whether anything is there between two stations of a road.
   bool On(std::uint32_t road, double low_s_m, double high_s_m) const;
+  // What is seen of it: no made roughness, of measured heights what is left when waves of up to some 2 m are taken out; what an author lays, whole.
+  SurfaceDetail AsSeen() const;
+  // Whether that is something else.
+  bool IsFine() const;
   // Of every number of the measured surfaces, whose places are the network's, and of what is laid. 0: there are none.
   base::Digest digest() const { return digest_; }
   // What stands over the road at (s, t) between its outermost edges, added to the sample. Over the first and last metre of a

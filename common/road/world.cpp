@@ -113,6 +113,14 @@ std::unique_ptr<terrain::Ground> World::MakeGround() const {
   return std::make_unique<WorldGround>(shared_from_this(), std::move(together));
 }
 
+std::shared_ptr<const World> World::AsSeen() const {
+  if (detail_ == nullptr || !detail_->IsFine()) return shared_from_this();
+  const std::shared_ptr<World> seen(new World(*this));
+  seen->detail_ = std::make_shared<const SurfaceDetail>(detail_->AsSeen());
+  if (built_ != nullptr) seen->built_ = built_->With(*seen->detail_);
+  return seen;
+}
+
 base::Digest World::measured_digest() const { return detail_ == nullptr ? 0 : detail_->digest(); }
 
 SurfacePoint World::At(double x_m, double y_m, double z_hint_m) const {

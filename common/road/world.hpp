@@ -72,6 +72,9 @@ class World : public std::enable_shared_from_this<World> {
   // One of its answers: the road within its verges, and beside it the terrain, cut and filled to meet it (BuiltGround). Beside
   // a road of version 1, over its blend, both, weighted by 3 u^2 - 2 u^3 of the distance from the verge over the blend's width.
   SurfacePoint At(double x_m, double y_m, double z_hint_m = std::numeric_limits<double>::quiet_NaN()) const;
+  // The world as it is drawn: its roads without what is too fine for a picture, made roughness and the short waves of measured surfaces. This
+  // world itself where it has neither; the same network, hash and everything else.
+  std::shared_ptr<const World> AsSeen() const;
   // The terrain without any road.
   SurfacePoint TerrainAt(double x_m, double y_m) const { return terrain_.At(x_m, y_m); }
 
@@ -81,6 +84,7 @@ class World : public std::enable_shared_from_this<World> {
 
  private:
   explicit World(WorldSpec spec);
+  World(const World&) = default;
   void LayRoad(const Road& road, double x_m, double y_m, SurfacePoint& point) const;
 
   std::string name_;

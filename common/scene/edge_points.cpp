@@ -5,7 +5,6 @@
 #include <functional>
 #include <set>
 
-#include "common/network/network.hpp"
 #include "common/scene/bend.hpp"
 #include "common/scene/levels_at.hpp"
 #include "common/scene/tile_plan.hpp"
@@ -20,13 +19,6 @@ constexpr BendRange kEdge = {0.003, 0.02, 2.0};
 }  // namespace
 
 void RefineEdges(const road::World& world, const TileKey& tile, std::vector<GridPoint>& edge, bool decks) {
-  // Without a terrain land is followed so closely nowhere, roads are.
-  const bool roads_alone = world.grid() == nullptr;
-  if (roads_alone && world.network() == nullptr) return;
-  const auto on_road = [&](const Eigen::Vector2d& p_W) {
-    const auto place = world.network()->Locate(p_W.x(), p_W.y());
-    return place && place->distance_m == 0.0;
-  };
   const auto size = static_cast<std::int32_t>(kTileSteps);
   std::set<GridPoint> points(edge.begin(), edge.end());
   std::vector<road::SurfacePoint> levels;
@@ -48,6 +40,12 @@ void RefineEdges(const road::World& world, const TileKey& tile, std::vector<Grid
         const auto& all = levels_at(p_W, level + 1);
         return all.empty() ? road::SurfacePoint{} : all[std::min(level, all.size() - 1)];
       };
+      // A piece's end as it is drawn, seen from within the piece: at a kerb SUELO steps there.
+      std::vector<road::SurfacePoint> seen;
+      const auto end_z_m = [&](const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) {
+        LevelsWithin(world, p_W, towards_W, level + 1, seen, level + 1);
+        return seen.empty() ? 0.0 : seen[std::min(level, seen.size() - 1)].z_m;
+      };
       std::vector<std::int32_t> more;
       const std::function<void(std::int32_t, std::int32_t, double, double)> divide = [&](std::int32_t a, std::int32_t b, double at_a, double at_b) {
         const auto part = BendBetween(ground, ToWorld(tile, point_at(a)), at_a, ToWorld(tile, point_at(b)), at_b, kEdge);
@@ -64,15 +62,15 @@ void RefineEdges(const road::World& world, const TileKey& tile, std::vector<Grid
       for (std::size_t i = 0; i + 1 < places.size(); ++i) {
         const GridPoint a = point_at(places[i]), b = point_at(places[i + 1]);
         const Eigen::Vector2d a_W = ToWorld(tile, a), b_W = ToWorld(tile, b);
-        if (roads_alone && !on_road(0.5 * (a_W + b_W))) continue;
         if (level > 0 && levels_at(0.5 * (a_W + b_W), level + 1).size() <= level) continue;
         any = true;
-        divide(places[i], places[i + 1], ground(a_W).z_m, ground(b_W).z_m);
+        const Eigen::Vector2d half_W = 0.5 * (a_W + b_W);
+        divide(places[i], places[i + 1], end_z_m(a_W, half_W), end_z_m(b_W, half_W));
       }
       places.insert(places.end(), more.begin(), more.end());
       return any;
     };
-    for (std::size_t level = 0; level < (decks || roads_alone ? kMostLevels : 1) && refine(level); ++level) {
+    for (std::size_t level = 0; level < (decks || world.grid() == nullptr ? kMostLevels : 1) && refine(level); ++level) {
     }
     for (const std::int32_t k : places) points.insert(point_at(k));
   };

@@ -8,9 +8,9 @@
 
 namespace rodeira::scene {
 
-// Puts more points among those on a tile's edges, where the ground is not straight from each to the next: in worlds without a terrain on roads
-// alone. They follow from the edge's own points and SUELO alone, so that both tiles have the same. decks: there are bridges in the world, below
-// which ground is met too.
+// Puts more points among those on a tile's edges, where the ground is not straight from each to the next. They follow
+// from the edge's own points and SUELO alone, so that both tiles have the same. decks:
+// there are bridges in the world, below which ground is met too.
 void RefineEdges(const road::World& world, const TileKey& tile, std::vector<partition::GridPoint>& edge, bool decks);
 
 }  // namespace rodeira::scene

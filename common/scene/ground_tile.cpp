@@ -89,13 +89,14 @@ void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void
   if (told) told(count);
 }
 
-GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere is_there) : world_(world), things_(world, std::move(is_there)), land_{PostLines(world), {}, {}}, edges_(land_.posts) {
+GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere is_there)
+    : seen_(world.AsSeen()), world_(*seen_), things_(world, std::move(is_there)), land_{PostLines(world), {}, {}}, edges_(land_.posts) {
   const auto roads = world.network()->roads();
   std::vector<std::vector<Line3>> lines(roads.size());
   std::vector<std::array<TilePaint, kGroundLevels - 1>> paint(roads.size());
   ForEachAtOnce(roads.size(), threads, [&](std::size_t i) {
     lines[i] = RoadLinesOf(roads[i], kRoadTolerances[0]);
-    AddLaidLines(world, roads[i], kRoadTolerances[0], lines[i]);
+    AddLaidLines(world_, roads[i], kRoadTolerances[0], lines[i]);
     AddStructureLines(roads[i], lines[i]);
     for (std::size_t level = 0; level < paint[i].size(); ++level) PaintRoad(roads[i], kPaintChords_m[level], paint[i][level]);
   });
@@ -144,10 +145,11 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
     if (spec.earthwork) reach_m = std::max(spec.earthwork->reach_m, spec.earthwork->blend_m);
     if (!spec.junction.empty()) reach_m = std::max(reach_m, network::Earthwork().reach_m + kJunctionBeyond_m);
     slopes_reach_m_ = std::max(slopes_reach_m_, reach_m);
-    if (world.grid() != nullptr) {  // cells that the road itself cuts, too
-      land_.slopes.Add(lines[i], std::max(reach_m + 1.0, 1.5 * std::max(world.grid()->spacing_x_m(), world.grid()->spacing_y_m())));
+    if (world.grid() != nullptr) reach_m = std::max(reach_m, 1.5 * std::max(world.grid()->spacing_x_m(), world.grid()->spacing_y_m()) - 1.0);  // cells that the road itself cuts, too
+    if (!world.open_drive()) {
+      land_.slopes.Add(lines[i], reach_m + 1.0);
+      AddDecks(roads[i], land_.decks);
     }
-    if (world.grid() != nullptr) AddDecks(roads[i], land_.decks);
     traces_.push_back(std::move(trace));
   }
   terrain_digest_ = TerrainDigest(world);

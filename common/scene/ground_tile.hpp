@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -47,7 +48,7 @@ class GroundPlan {
   // Land is drawn this far around roads.
   static constexpr double kAround_m = 500.0;
 
-  // world.network() must not be null; the world must outlive the plan. threads: 0 for as many as the machine has.
+  // world.network() must not be null; the world must outlive the plan. Its surface is drawn as it is seen (World::AsSeen). threads: 0 for as many as the machine has.
   explicit GroundPlan(const road::World& world, unsigned threads = 0, ModelIsThere is_there = {});
 
   std::span<const TileKey> tiles() const { return tiles_; }
@@ -80,7 +81,8 @@ class GroundPlan {
   // Whether nothing but the terrain itself is in the tile.
   bool IsBare(const TileKey& tile) const { return !segments_.contains(tile) && land_.IsBare(tile); }
 
-  const road::World& world_;
+  std::shared_ptr<const road::World> seen_;
+  const road::World& world_;  // as it is seen
   Things things_;
   std::vector<TileKey> tiles_;  // ascending
   std::map<TileKey, std::vector<partition::GridSegment>> segments_;

@@ -58,7 +58,7 @@ class Planner {
     for (const auto& [a, b] : fixed_) plan_.left_out += !t.Fix(a, b);
     kept_ = OwnLines() && land_.posts.HoldsAll(plan_.key);
     const bool slopes = land_.slopes.InTile(plan_.key), bare = kept_ && segments.empty() && !slopes;
-    follows_slopes_ = world_.grid() != nullptr && (level_ == 0 || slopes);
+    follows_slopes_ = slopes || (world_.grid() != nullptr && level_ == 0);
     plan_.face_of = t.Faces();
     Classify();
     SpreadOverLand();
@@ -112,6 +112,14 @@ class Planner {
     for (std::size_t i = plan_.face_of.size(); i-- > 0;) before[now[i]] = plan_.face_of[i];
     plan_.face_of.resize(now.size());
     for (std::size_t i = 0; i < now.size(); ++i) plan_.face_of[i] = before[now[i]];
+  }
+
+  // But those on the tile's edge, where a quarter of a side may lie by rounding: the neighbour does not have them. False where nothing is put in.
+  bool PutIn(std::vector<GridPoint>& fresh) {
+    std::erase_if(fresh, OnEdge);
+    for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
+    if (!fresh.empty()) CarryFaces();
+    return !fresh.empty();
   }
 
   // The lines on which land has its points: the terrain's own, or evenly spaced ones.
@@ -205,9 +213,7 @@ class Planner {
       if (!land) CheckSides(triangles[i], thin ? kLongSide * kThinnestRoad_m[level_] : 0.0, know, fresh);
       if (!thin) CheckMiddle(triangles[i], land ? kLandTolerances_m[level_] : kMiddle * RoadTolerance(), know(), fresh);
     }
-    for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
-    if (!fresh.empty()) CarryFaces();
-    return !fresh.empty();
+    return PutIn(fresh);
   }
 
   double RoadTolerance() const { return 0.75 * kRoadTolerances[level_].height_m; }
@@ -247,8 +253,8 @@ class Planner {
     if (IsOff(Height(c.middle_W), c, tolerance_m)) fresh.push_back(Middle(t));
   }
 
-  // In a world with a terrain land is followed as roads are, along every side between two of its triangles: toes of slopes and the terrain's
-  // own edges run anywhere. At the finest level all of it, at coarser ones where slopes may be. False where nothing was put in.
+  // Land is followed as roads are, along every side between two of its triangles: toes of slopes and a terrain's own edges run
+  // anywhere. On a terrain at the finest level all of it, at coarser ones and on a plane where slopes may be. False where nothing was put in.
   bool MeetSlopes() {
     const BendRange& slope = kSlopes[level_];
     std::vector<GridPoint> fresh;
@@ -258,7 +264,7 @@ class Planner {
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
       if (followed_[i] == triangles[i].corner) continue;
       followed_[i] = triangles[i].corner;
-      if (!plan_.faces[plan_.face_of[i]].land || ((level_ > 0 || kept_) && !SlopesTouch(triangles[i]))) continue;
+      if (!plan_.faces[plan_.face_of[i]].land || ((level_ > 0 || kept_ || world_.grid() == nullptr) && !SlopesTouch(triangles[i]))) continue;
       const std::size_t before = fresh.size() + on_kept_.size();
       const Corners corners = CornersOf(triangles[i], plan_.face_of[i], false);
       FollowSides(triangles[i], plan_.face_of[i], corners, fresh);
@@ -271,8 +277,7 @@ class Planner {
       plan_.triangles.Release(on.a, on.b);
       fresh.push_back(on.bend);
     }
-    for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
-    if (!fresh.empty()) CarryFaces();
+    PutIn(fresh);
     // Sides are kept again once every triangle has its face: those that a side parts from the others may all be new.
     for (const OnKept& on : on_kept_) {
       const std::uint32_t at = plan_.triangles.Insert(on.bend);
@@ -299,9 +304,7 @@ class Planner {
         if (IsOff(LevelAt(corners.middle_W, level).z_m, corners, kSlopes[level_].tolerance_m)) fresh.push_back(Middle(triangles[i]));
       }
     }
-    for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
-    if (!fresh.empty()) CarryFaces();
-    return !fresh.empty();
+    return PutIn(fresh);
   }
 
   BendRange Below() const { return {kSlopes[level_].tolerance_m, kSlopes[level_].margin_m, kBelowStep_m}; }
@@ -323,7 +326,7 @@ class Planner {
       const auto part = BendBetween([&](const Eigen::Vector2d& p_W) { return LevelAt(p_W, level); }, c.at[k], c.z[k], c.at[n], c.z[n], Below());
       if (!part) continue;
       const GridPoint bend = PartOf(points[t.corner[k]], points[t.corner[n]], *part);
-      if (!OnEdge(bend)) fresh.push_back(bend);
+      fresh.push_back(bend);
     }
   }
 
@@ -379,7 +382,7 @@ class Planner {
       if (!part) continue;
       const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + *part * (to - from))); };
       const GridPoint bend{between(p.x, q.x), between(p.y, q.y)};
-      if (OnEdge(bend)) continue;
+      if (OnEdge(bend)) continue;  // nor is its kept side cut
       if (kept) on_kept_.push_back({bend, t.corner[k], t.corner[n]});
       else fresh.push_back(bend);
     }

@@ -7,12 +7,16 @@
 #include <cstdio>
 #include <filesystem>
 #include <numeric>
+#include <set>
+#include <unistd.h>
 
+#include "common/base/files.hpp"
 #include "common/base/random.hpp"
 #include "common/network/marking.hpp"
 #include "tests/common/scene/correlation.hpp"
 #include "tests/common/scene/ground_tiles.hpp"
 #include "tests/common/scene/ground_worlds.hpp"
+#include "tests/common/surface/made_crg.hpp"
 #include "tests/setting.hpp"
 #include "tests/tree.hpp"
 
@@ -139,14 +143,16 @@ TEST(Ground, WhatIsLaidOnJunctionsIsWhereTheTyresAre) {
   std::printf("%d points of a junction, %d more than 5 mm from SUELO, worst %.4f m\n", found.asked, found.far, found.worst_m);
 }
 
-// The project's own worlds: roads, verges, cuts, fills, land and what lies between the roads of a junction, on tiles drawn by lot.
+// The project's own worlds: roads, verges, cuts, fills, land and what lies between the roads of a junction, on tiles drawn by lot. Made roughness and
+// the short waves of measured surfaces are not drawn: there SUELO is asked without them.
 TEST(Ground, OfTheProjectsWorldsIsWhereTheTyresAre) {
   const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 60);
-  for (const std::string name : {"haste", "motorway", "n222", "example/world"}) {
+  for (const std::string name : {"haste", "motorway", "n222", "example/world", "ring", "lights", "flat"}) {
     const auto loaded = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
     ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
-    const road::World& world = *loaded.value();
-    const GroundPlan plan(world);
+    const std::shared_ptr<const road::World> seen = loaded.value()->AsSeen();
+    const road::World& world = *seen;
+    const GroundPlan plan(*loaded.value());
     std::vector<std::size_t> drawn(plan.tiles().size());
     std::iota(drawn.begin(), drawn.end(), std::size_t{0});
     std::sort(drawn.begin(), drawn.end(), [](std::size_t a, std::size_t b) { return base::RandomBits({a, 17}) < base::RandomBits({b, 17}); });
@@ -154,15 +160,12 @@ TEST(Ground, OfTheProjectsWorldsIsWhereTheTyresAre) {
     std::vector<GroundTile> tiles(drawn.size());
     ForEachAtOnce(tiles.size(), 0, [&](std::size_t i) { tiles[i] = plan.Build(plan.tiles()[drawn[i]]); });
     for (const bool road : {true, false}) {
+      if (!road && name == "flat") continue;  // all of it is asphalt
       const Correlation found = Correlate(world, tiles, Points(), 11, [&](const Mesh& mesh, std::size_t i) {
         if (IsRoad(mesh) != road) return false;
         const auto corners = CornersOf(mesh, i);
         const auto there = [&](const Eigen::Vector3d& p) { return world.At(p.x(), p.y()).inside; };
-        if (!std::all_of(corners.begin(), corners.end(), there)) return false;  // around the terrain land goes on to the end of its tiles
-        const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-        const auto place = world.network()->Locate(middle.x(), middle.y());
-        // What is rough or measured is finer than faces are.
-        return !place || (world.network()->roads()[place->lane.road].spec().unevenness.empty() && world.network()->roads()[place->lane.road].spec().crg.empty());
+        return std::all_of(corners.begin(), corners.end(), there);  // around the terrain land goes on to the end of its tiles
       });
       EXPECT_EQ(found.asked, Points());
       // Where a bridge's deck comes down to land that its slopes leave standing there is a wall's foot, narrower than faces are.
@@ -172,6 +175,111 @@ TEST(Ground, OfTheProjectsWorldsIsWhereTheTyresAre) {
                   tiles.size(), plan.tiles().size(), found.stepped, found.far, found.worst_m);
     }
   }
+}
+
+// Up to 2 m beside the outermost lanes, where cuts and fills are steepest and narrowest, also where the terrain is a plane: points of the whole
+// land hardly meet these strips.
+TEST(Ground, CutsAndFillsBesideVergesAreWhereTheTyresAre) {
+  constexpr double kBeside_m = 2.0;
+  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 60) / 2;
+  const std::string raised =
+      "rodeira: world/2\nname: raised\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: -200, y_m: 30, heading_deg: 10}\n"
+      "    axis: [line: {length_m: 200}, arc: {length_m: 150, radius_m: 120}]\n    vertical: [{s_m: 0, z_m: 0.4}, {s_m: 150, z_m: -1.5, parabola_m: 80}, {s_m: 350, z_m: 2}]\n    section: {template: rural}\n";
+  for (const std::string name : {"raised", "ring", "lights", "flat", "n222", "motorway"}) {
+    const auto loaded = name == "raised" ? road::World::Parse(raised, "raised.yaml") : road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
+    ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
+    const std::shared_ptr<const road::World> seen = loaded.value()->AsSeen();
+    const GroundPlan plan(*loaded.value());
+    std::set<TileKey> keys;
+    const auto roads = seen->network()->roads();
+    for (std::uint64_t n = 0; keys.size() < at_most && n < 100 * at_most; ++n) {
+      const network::Road& road = roads[base::RandomBits({n, 43}) % roads.size()];
+      const WorldStep at = ToSteps(road.Surface(base::RandomUniform({n, 47}, 0.0, road.length_m()), 0.0).p_W.head<2>());
+      keys.insert({TileOf(at.x), TileOf(at.y)});
+    }
+    const std::vector<TileKey> drawn(keys.begin(), keys.end());
+    std::vector<GroundTile> tiles(drawn.size());
+    ForEachAtOnce(tiles.size(), 0, [&](std::size_t i) { tiles[i] = plan.Build(drawn[i]); });
+    const auto is_near = [&](const Mesh& mesh, std::size_t i) {
+      const auto corners = CornersOf(mesh, i);
+      const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+      double size_m = 0.0;
+      for (const Eigen::Vector3d& corner : corners) size_m = std::max(size_m, (corner - middle).norm());
+      const auto place = seen->network()->Locate(middle.x(), middle.y());
+      return place && place->distance_m < kBeside_m + size_m && place->distance_m + size_m > 0.0;
+    };
+    const auto is_beside = [&](const Eigen::Vector3d& p) {
+      const auto place = seen->network()->Locate(p.x(), p.y(), p.z());
+      return place && place->distance_m > 0.0 && place->distance_m < kBeside_m;
+    };
+    const Correlation found = Correlate(*seen, tiles, Points(), 53, is_near, Asked{}, is_beside);
+    EXPECT_EQ(found.asked, Points()) << name;
+    EXPECT_LE(found.far, 2e-5 * found.asked) << name << ": worst " << found.worst_m << " m at " << found.where.transpose();
+    EXPECT_LT(found.stepped, 0.002 * found.asked) << name;
+    std::printf("%s: %d points up to 2 m beside the outermost lanes on %zu tiles, %d at steps, %d more than 5 mm from SUELO, worst %.4f m\n", name.c_str(), found.asked, tiles.size(), found.stepped,
+                found.far, found.worst_m);
+  }
+}
+
+// A road of class E is drawn as the same road without any roughness, to the bit; of a measured surface of 8 cm with waves of 3 cm the 8 cm are seen.
+TEST(Ground, WhatIsRoughIsDrawnEven) {
+  const auto text = [](const std::string& surfaces) {
+    return "rodeira: world/2\nname: rough\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: 10, y_m: 10, heading_deg: 20}\n    axis: [line: {length_m: 200}]\n    z_m: 0\n"
+           "    section: {template: rural}\n" + surfaces;
+  };
+  const auto even = road::World::Parse(text(""), "even.yaml"), rough = road::World::Parse(text("    surfaces: [{iso_8608: E, seed: 1}]\n"), "rough.yaml");
+  ASSERT_TRUE(even.ok() && rough.ok());
+  EXPECT_EQ(even.value()->AsSeen(), even.value());
+  const Eigen::Vector2d ahead(std::cos(20.0 * M_PI / 180.0), std::sin(20.0 * M_PI / 180.0));
+  double highest_m = 0.0;
+  for (double s_m = 10.0; s_m < 190.0; s_m += 0.7) {
+    const Eigen::Vector2d p = Eigen::Vector2d(10.0, 10.0) + s_m * ahead;
+    highest_m = std::max(highest_m, std::fabs(rough.value()->At(p.x(), p.y()).z_m - even.value()->At(p.x(), p.y()).z_m));
+  }
+  EXPECT_GT(highest_m, 0.05);  // tyres feel it
+  const auto of_even = BuildAll(*even.value()), of_rough = BuildAll(*rough.value());
+  ASSERT_EQ(of_even.size(), of_rough.size());
+  for (std::size_t i = 0; i < of_even.size(); ++i) {
+    for (std::size_t level = 0; level < kGroundLevels; ++level) {
+      ASSERT_EQ(of_even[i].levels[level].ground.size(), of_rough[i].levels[level].ground.size());
+      for (std::size_t m = 0; m < of_even[i].levels[level].ground.size(); ++m) {
+        EXPECT_TRUE(of_even[i].levels[level].ground[m].positions == of_rough[i].levels[level].ground[m].positions) << "tile " << i << ", level " << level;
+        EXPECT_TRUE(of_even[i].levels[level].ground[m].triangles == of_rough[i].levels[level].ground[m].triangles) << "tile " << i << ", level " << level;
+      }
+    }
+  }
+
+  surface::MadeCrg crg;
+  crg.rows = 401, crg.step = 0.05;
+  crg.v = {-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0};
+  crg.z = [](double u, double v) { return 0.08 + 0.03 * std::sin(2.0 * M_PI * u / 0.3) * std::cos(v); };
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("rodeira_rough_{}.crg", ::getpid());
+  ASSERT_TRUE(base::WriteWhole(file, std::string_view(crg.Text())).ok());
+  const auto waves = road::World::Parse(text("    surfaces: [{crg: " + file.string() + ", from_s_m: 100, to_s_m: 120}]\n"), "waves.yaml");
+  std::filesystem::remove(file);
+  ASSERT_TRUE(waves.ok()) << waves.error().Text();
+  std::size_t count = 0, before = 0;
+  double lowest_m = 1e9, top_m = -1e9;
+  for (const GroundTile& tile : of_even) {
+    for (const Mesh& mesh : tile.levels[0].ground) before += mesh.triangle_count();
+  }
+  for (const GroundTile& tile : BuildAll(*waves.value())) {
+    for (const Mesh& mesh : tile.levels[0].ground) {
+      count += mesh.triangle_count();
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const Eigen::Vector3d p = mesh.PositionW(i);
+        const Eigen::Vector2d from = p.head<2>() - Eigen::Vector2d(10.0, 10.0);
+        const double s_m = from.dot(ahead), t_m = ahead.x() * from.y() - ahead.y() * from.x();
+        if (s_m < 102.5 || s_m > 117.5 || std::fabs(t_m) > 1.0) continue;
+        const double z_m = p.z() - even.value()->At(p.x(), p.y()).z_m;
+        lowest_m = std::min(lowest_m, z_m), top_m = std::max(top_m, z_m);
+      }
+    }
+  }
+  EXPECT_NEAR(lowest_m, 0.08, 0.003);
+  EXPECT_NEAR(top_m, 0.08, 0.003);
+  EXPECT_LT(count, before + 10'000);
+  std::printf("%zu triangles with a measured surface, %zu without; it is drawn from %.4f to %.4f m\n", count, before, lowest_m, top_m);
 }
 
 // In files of other programs surfaces of overlapping roads cross and step anywhere: nearly all points agree, not all.
