@@ -6,6 +6,7 @@
 
 #include "common/geometry/plane.hpp"
 #include "common/network/junction_ground.hpp"
+#include "common/road/overlap.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -22,21 +23,27 @@ struct Source {
   const SurfaceDetail* detail;
 };
 
-SurfacePoint OnRoad(const Source& source, const network::Surfacing& surfacing) {
+SurfacePoint OnLayer(const Source& source, const Layer& layer) {
   const auto& [network, grounds, friction, paint, detail] = source;
-  network::SurfaceSample sample = surfacing.sample;
-  const network::Place& place = surfacing.place;
-  if (detail != nullptr) {
-    detail->Add(network.roads()[place.lane.road], place.lane.road, network.Section(place.lane), place.s_m, place.t_m, sample);
+  thread_local std::vector<PlaneHeight> heights;
+  heights.clear();
+  Eigen::Vector2d p_W = Eigen::Vector2d::Zero();
+  for (const network::Surfacing* road : layer.roads) {
+    network::SurfaceSample sample = road->sample;
+    const network::Place& at = road->place;
+    if (detail != nullptr) detail->Add(network.roads()[at.lane.road], at.lane.road, network.Section(at.lane), at.s_m, at.t_m, sample);
+    if (road == layer.named) p_W = sample.p_W.head<2>();
+    heights.push_back(HeightOf(sample));
   }
-  const Eigen::Vector3d normal = sample.ds_W.cross(sample.dt_W);
+  const PlaneHeight height = layer.Mean(heights);
+  const network::Place& place = layer.named->place;
   LaneGround ground = grounds.At(network, place.lane, place.s_m);
   if (paint != nullptr && paint->At(place.lane.road, place.lane.section, place.s_m, place.t_m)) {
     ground.surface = terrain::Surface::kRoadMark;
     ground.friction = friction[static_cast<std::size_t>(ground.surface)];
   }
-  const auto measured = detail == nullptr ? std::nullopt : detail->FrictionAt(place.lane.road, place.s_m, place.t_m, sample.p_W.head<2>());
-  return {sample.p_W.z(), -normal.x() / normal.z(), -normal.y() / normal.z(), measured.value_or(ground.friction), ground.surface, true};
+  const auto measured = detail == nullptr ? std::nullopt : detail->FrictionAt(place.lane.road, place.s_m, place.t_m, p_W);
+  return {height.z_m, height.slope_W.x(), height.slope_W.y(), measured.value_or(ground.friction), ground.surface, true};
 }
 
 // Within a junction that has a ground of its own, between its connecting roads.
@@ -66,33 +73,55 @@ SurfacePoint OnVerge(const Network& network, const FrictionTable& friction, cons
   return point;
 }
 
+// What answers at a point: a layer of roads, a junction's own ground, or the verge beside a place; null all of them: nothing is there.
+struct Answer {
+  const Layer* layer = nullptr;
+  const network::JunctionGround* between = nullptr;
+  std::optional<Place> beside;
+};
+
+// verge_z: how high the verge beside a place lies. The layers hold until the next question of this thread.
+template <class VergeHeight>
+Answer Find(const Network& network, const Eigen::Vector2d& p_W, double z_hint_m, const VergeHeight& verge_z) {
+  thread_local std::vector<network::Surfacing> surfaces;
+  network.Surfaces(p_W.x(), p_W.y(), surfaces);
+  const network::JunctionGround* open = network.GroundAt(p_W);
+  const double between_z = open == nullptr ? 0.0 : open->At(p_W).z_m;
+  const bool meant = open != nullptr && !(between_z > z_hint_m + terrain::kHintAbove_m);
+  thread_local std::vector<Layer> layers;
+  std::size_t count;
+  FindLayers(network, surfaces, open == nullptr, layers, count);  // where a road goes on over a gap, the junction lies
+  const Layer* lowest = nullptr;
+  for (const Layer& layer : std::span(layers).first(count)) {
+    const bool its_own = open != nullptr && network.roads()[layer.named->place.lane.road].spec().ground.get() == open;
+    if (meant && between_z > layer.z_m && !its_own) return {nullptr, open, {}};
+    if (!(layer.z_m > z_hint_m + terrain::kHintAbove_m)) return {&layer, nullptr, {}};  // NaN: the first
+    lowest = &layer;
+  }
+  if (meant) return {nullptr, open, {}};
+  const auto place = network.Locate(p_W.x(), p_W.y(), std::isfinite(z_hint_m) ? std::optional(z_hint_m) : std::nullopt);
+  if (!place || place->distance_m > kVerge_m) return {lowest, nullptr, {}};
+  if (lowest != nullptr && verge_z(*place) > z_hint_m + terrain::kHintAbove_m) return {lowest, nullptr, {}};
+  return {nullptr, nullptr, place};
+}
+
 }  // namespace
 
 SurfacePoint NetworkGround(const Network& network, const LaneGrounds& grounds, const FrictionTable& friction, double x_m, double y_m,
                            double z_hint_m, const MarkPaint* paint, const SurfaceDetail* detail) {
-  const Source source{network, grounds, friction, paint, detail};
-  thread_local std::vector<network::Surfacing> surfaces;
-  network.Surfaces(x_m, y_m, surfaces);
-  const network::JunctionGround* open = network.GroundAt({x_m, y_m});
-  const SurfacePoint between = open == nullptr ? SurfacePoint{} : OnJunction(*open, friction, {x_m, y_m});
-  const bool meant = open != nullptr && !(between.z_m > z_hint_m + terrain::kHintAbove_m);
-  const network::Surfacing* lowest = nullptr;
-  for (const network::Surfacing& surfacing : surfaces) {
-    if (surfacing.place.lane.lane == 0) continue;  // a road without lanes on that side
-    if (open != nullptr && surfacing.claim.past_end) continue;  // a road goes on over a gap; the junction lies there
-    const double z = surfacing.sample.p_W.z();
-    const bool its_own = open != nullptr && network.roads()[surfacing.place.lane.road].spec().ground.get() == open;
-    if (meant && between.z_m > z && !its_own) return between;
-    if (!(z > z_hint_m + terrain::kHintAbove_m)) return OnRoad(source, surfacing);  // NaN: the first
-    lowest = &surfacing;
-  }
-  if (meant) return between;
-  const bool hinted = std::isfinite(z_hint_m);
-  const auto place = network.Locate(x_m, y_m, hinted ? std::optional(z_hint_m) : std::nullopt);
-  if (!place || place->distance_m > kVerge_m) return lowest == nullptr ? SurfacePoint{} : OnRoad(source, *lowest);
-  const SurfacePoint verge = OnVerge(network, friction, {x_m, y_m}, *place);
-  if (lowest != nullptr && verge.z_m > z_hint_m + terrain::kHintAbove_m) return OnRoad(source, *lowest);
-  return verge;
+  const Eigen::Vector2d p_W(x_m, y_m);
+  const auto verge = [&](const Place& place) { return OnVerge(network, friction, p_W, place); };
+  const Answer answer = Find(network, p_W, z_hint_m, [&](const Place& place) { return verge(place).z_m; });
+  if (answer.layer != nullptr) return OnLayer({network, grounds, friction, paint, detail}, *answer.layer);
+  if (answer.between != nullptr) return OnJunction(*answer.between, friction, p_W);
+  return answer.beside ? verge(*answer.beside) : SurfacePoint{};
+}
+
+std::optional<Place> NetworkPlace(const Network& network, double x_m, double y_m, double z_hint_m) {
+  const Eigen::Vector2d p_W(x_m, y_m);
+  const Answer answer = Find(network, p_W, z_hint_m, [&](const Place& place) { return OnVerge(network, kUsualFriction, p_W, place).z_m; });
+  if (answer.layer != nullptr) return answer.layer->named->place;
+  return answer.between != nullptr ? std::nullopt : answer.beside;
 }
 
 Extents NetworkExtents(const Network& network) {

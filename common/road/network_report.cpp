@@ -83,8 +83,7 @@ std::string DescribeLane(const network::Network& network, const network::Place& 
 
 }  // namespace
 
-std::string DescribePlace(const network::Network& network, double x_m, double y_m, std::optional<double> z_m) {
-  const auto place = network.Locate(x_m, y_m, z_m);
+std::string DescribePlace(const network::Network& network, const std::optional<network::Place>& place) {
   if (!place) return "";
   const network::Road& road = network.roads()[place->lane.road];
   std::string text = fmt::format("road: {}\ns_m: {:.6f}\nt_m: {:.6f}\n", road.id(), place->s_m, place->t_m);

@@ -41,7 +41,7 @@ NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict);
 
 // Extents, roads, lanes; and where a point lies, as further lines of an answer of SUELO.
 std::string DescribeNetwork(const network::Network& network);
-std::string DescribePlace(const network::Network& network, double x_m, double y_m, std::optional<double> z_m);
+std::string DescribePlace(const network::Network& network, const std::optional<network::Place>& place);
 
 // The plan as SVG: lanes in the colours of their types, lines between them, junctions, the ids of roads.
 std::string PlotNetwork(const network::Network& network);

@@ -8,6 +8,7 @@
 
 #include "common/config/config.hpp"
 #include "common/geometry/angle.hpp"
+#include "common/road/network_ground.hpp"
 #include "common/road/network_world.hpp"
 #include "common/road/overlaps.hpp"
 #include "common/road/road_chains.hpp"
@@ -125,6 +126,13 @@ std::string DescribeEarth(const World& world, double x_m, double y_m) {
   return place ? fmt::format("longitude_deg: {:.9f}\nlatitude_deg: {:.9f}\n", place->longitude_deg, place->latitude_deg) : "";
 }
 
+// The place that SUELO's answer is of; between the roads of a junction and on a world's own ground, the nearest to it.
+std::optional<network::Place> AnsweredFrom(const World& world, double x_m, double y_m, std::optional<double> z_hint_m) {
+  std::optional<network::Place> place;
+  if (world.open_drive()) place = NetworkPlace(*world.network(), x_m, y_m, z_hint_m.value_or(std::numeric_limits<double>::quiet_NaN()));
+  return place ? place : world.network()->Locate(x_m, y_m, z_hint_m);
+}
+
 }  // namespace
 
 std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) {
@@ -192,7 +200,7 @@ std::string DescribePoint(const World& world, double x_m, double y_m, std::optio
   const Eigen::Vector3d normal = at.normal_W + Eigen::Vector3d::Zero();  // -0 is 0
   text += fmt::format("inside: true\nz_m: {:.7f}\nnormal: [{:.9f}, {:.9f}, {:.9f}]\nfriction: {}\nsurface: {}\n", at.z_m, normal.x(),
                       normal.y(), normal.z(), at.friction, SurfaceName(at.surface));
-  if (world.roads().empty() && world.network() != nullptr) text += DescribePlace(*world.network(), x_m, y_m, z_hint_m);
+  if (world.roads().empty() && world.network() != nullptr) text += DescribePlace(*world.network(), AnsweredFrom(world, x_m, y_m, z_hint_m));
   for (const Road& road : world.roads()) {
     const auto place = road.Locate(x_m, y_m, z_hint_m);
     if (!place || std::fabs(place->t_m) > road.section().reach_m()) continue;
