@@ -21,6 +21,8 @@ double StationIn(const network::Network& network, const network::LaneKey& key) {
   return network.Find(key)->direction < 0 ? section.end_s_m - into : section.s_m + into;
 }
 
+}  // namespace
+
 StartPose StartOn(const network::Network& network) {
   const network::LaneKey* longest = nullptr;
   double length = 0.0;
@@ -40,8 +42,6 @@ StartPose StartOn(const network::Network& network) {
   start.road = -1;  // nobody named one
   return start;
 }
-
-}  // namespace
 
 StartPose PoseOn(const network::Network& network, const network::LaneKey& key, double s_m) {
   const Eigen::Vector3d p = network.Centre(key, s_m);

@@ -8,6 +8,7 @@
 
 #include "common/config/config.hpp"
 #include "common/geometry/angle.hpp"
+#include "common/road/map_world.hpp"
 #include "common/road/network_world.hpp"
 #include "common/road/road_chains.hpp"
 #include "common/road/world_reader.hpp"
@@ -128,6 +129,7 @@ std::string DescribeEarth(const World& world, double x_m, double y_m) {
 
 std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) {
   if (IsOpenDrive(world_yaml)) return CheckNetwork(world_yaml, false).warnings;
+  if (IsTrafficMap(world_yaml)) return {};
   const auto file = config::File::Load(world_yaml);
   if (!file) return {};
   WorldReading reading = ReadWorld(file.value());
@@ -139,6 +141,10 @@ std::string WhyNoTiles(const World& world) { return world.roads().empty() ? "" :
 
 std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml) {
   if (IsOpenDrive(world_yaml)) return CheckNetwork(world_yaml, false).errors;
+  if (IsTrafficMap(world_yaml)) {
+    const auto spec = ReadMapWorld(world_yaml);
+    return spec ? std::vector<base::Error>() : std::vector{spec.error()};
+  }
   const auto file = config::File::Load(world_yaml);
   if (!file) return {file.error()};
   WorldReading reading = ReadWorld(file.value());
