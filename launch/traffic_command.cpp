@@ -67,6 +67,7 @@ void Describe(const TrafficOptions& options, const traffic::StudyResult& r, doub
   fmt::print("standing         {:.1f} % of the time, at most {:.1f} s (car {}), with room ahead {:.1f} s (car {})\n",
              r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, r.longest_stand_s, r.longest_stand_id, r.longest_with_room_s, r.longest_with_room_id);
   fmt::print("hardest braking  {:.2f} m/s2 by the foot, {:.2f} m/s2 in all\n", r.hardest_mps2, r.hardest_any_mps2);
+  fmt::print("emergencies      {} steps of a vehicle\n", r.hurried_steps);
   fmt::print("collisions       {}\n", r.collisions);
   fmt::print("beside its lane  {} times, a wheel off the road {} times, looked at every 0.1 s\n", r.off_lane, r.wheels_off);
   fmt::print("wall time        {:.2f} s, {:.1f} times real time, {:.0f} vehicle steps a second\n", wall_s, options.duration_s / wall_s,
