@@ -57,10 +57,8 @@ std::string WhatIsMissing(const StartFiles& files, const StartChoice& choice) {
   if (files.root.empty()) return "the folders launch and configs were found neither here nor beside the program";
   if (choice.world.empty()) return "choose a world";
   if (!fs::is_regular_file(choice.world, problem)) return fmt::format("there is no file '{}'", choice.world.string());
-  if (choice.world.extension() == ".motors") {
-    return fmt::format("'{}' is a traffic map; `rodeira map convert {} -o {}` makes a world of it", choice.world.string(), choice.world.string(), fs::path(choice.world).filename().replace_extension(".yaml").string());
-  }
-  if (choice.world.extension() != ".yaml" && choice.world.extension() != ".xodr") return fmt::format("'{}' is no world; a file that ends on .yaml or .xodr was expected", choice.world.string());
+  const fs::path ending = choice.world.extension();
+  if (ending != ".yaml" && ending != ".xodr" && ending != ".motors") return fmt::format("'{}' is no world; a file that ends on .yaml, .xodr or .motors was expected", choice.world.string());
   if (choice.vehicle.empty()) return "choose a vehicle";
   return fs::is_regular_file(choice.vehicle, problem) ? "" : fmt::format("there is no file '{}'", choice.vehicle.string());
 }

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "common/map/heights.hpp"
-#include "common/map/map_network.hpp"
+#include "common/road/map_world.hpp"
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/map_demand.hpp"
 #include "common/traffic/road_network.hpp"
@@ -31,24 +31,6 @@ int Complain(const base::Error& error) {
 
 double SecondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-bool IsTrafficMap(const std::string& map) { return std::filesystem::path(map).extension() == ".motors"; }
-
-struct Roads {
-  std::shared_ptr<const network::Network> network;
-  std::shared_ptr<const road::World> world;  // null: a traffic map, which has nothing but roads
-
-  static base::Result<Roads> Load(const std::string& map) {
-    if (IsTrafficMap(map)) {
-      auto network = map::LoadNetwork(map);
-      if (!network) return network.error();
-      return Roads{std::move(network).value(), nullptr};
-    }
-    auto world = road::World::Load(map);
-    if (!world) return world.error();
-    return Roads{traffic::NetworkOf(world.value()), std::move(world).value()};
-  }
-};
-
 // As the file of settings says; without flows there those of a traffic map's companion.
 base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& options) {
   traffic::TrafficSettings settings;
@@ -66,7 +48,7 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
     if (settings.pedestrians) return base::WrongInput("the driver 'motors' sees nobody on foot; no 'pedestrians' were expected", options.settings);
     settings.physics = traffic::Physics::kFull;
   }
-  if (settings.demand.flows.empty() && IsTrafficMap(options.map)) {
+  if (settings.demand.flows.empty() && road::IsTrafficMap(options.map)) {
     const auto companion = map::LoadHeightsOf(options.map);
     if (!companion) return companion.error();
     settings.demand.flows = traffic::DemandOf(companion.value(), options.map + ".yaml").flows;
@@ -85,6 +67,7 @@ void Describe(const TrafficOptions& options, const traffic::StudyResult& r, doub
   fmt::print("standing         {:.1f} % of the time, at most {:.1f} s (car {}), with room ahead {:.1f} s (car {})\n",
              r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, r.longest_stand_s, r.longest_stand_id, r.longest_with_room_s, r.longest_with_room_id);
   fmt::print("hardest braking  {:.2f} m/s2 by the foot, {:.2f} m/s2 in all\n", r.hardest_mps2, r.hardest_any_mps2);
+  fmt::print("emergencies      {} steps of a vehicle\n", r.hurried_steps);
   fmt::print("collisions       {}\n", r.collisions);
   fmt::print("beside its lane  {} times, a wheel off the road {} times, looked at every 0.1 s\n", r.off_lane, r.wheels_off);
   fmt::print("wall time        {:.2f} s, {:.1f} times real time, {:.0f} vehicle steps a second\n", wall_s, options.duration_s / wall_s,
@@ -107,8 +90,9 @@ void Describe(const FlowsSeen& seen) {
 }  // namespace
 
 int TrafficRun(const TrafficOptions& options) {
-  const auto roads = Roads::Load(options.map);
-  if (!roads) return Complain(roads.error());
+  const auto world = road::World::Load(options.map);
+  if (!world) return Complain(world.error());
+  const auto network = traffic::NetworkOf(world.value());
   auto how = HowTrafficIs(options);
   if (!how) return Complain(how.error());
   traffic::StudySettings settings;
@@ -116,7 +100,7 @@ int TrafficRun(const TrafficOptions& options) {
   settings.duration_s = options.duration_s;
   settings.step_s = options.step_s;
   settings.watch_s = std::max(0.1, options.step_s);
-  auto opened = TrafficFiles::Open(options, *roads.value().network);
+  auto opened = TrafficFiles::Open(options, *network);
   if (!opened) return Complain(opened.error());
   TrafficFiles files = std::move(opened).value();
   if (files.wants_cells()) settings.cell_m = kCell_m;
@@ -131,10 +115,10 @@ int TrafficRun(const TrafficOptions& options) {
     fmt::print(stderr, "\r{:3.0f} %", 100.0 * moment.time_s / options.duration_s);
     shown = true;
   };
-  const auto result = roads.value().world ? traffic::RunStudy(settings, roads.value().world, watch) : traffic::RunStudy(settings, roads.value().network, watch);
+  const auto result = traffic::RunStudy(settings, world.value(), watch);
   if (shown) fmt::print(stderr, "\r     \r");
   if (!result) return Complain(result.error());
-  const auto written = files.Close(*roads.value().network, result.value());
+  const auto written = files.Close(*network, result.value());
   if (!written) return Complain(written.error());
   if (options.quiet) return 0;
   Describe(options, result.value(), SecondsSince(begin));

@@ -13,6 +13,7 @@
 
 #include "common/base/files.hpp"
 #include "common/road/logical_files.hpp"
+#include "common/road/map_world.hpp"
 #include "common/road/measured_files.hpp"
 #include "common/road/network_world.hpp"
 #include "common/road/world_export.hpp"
@@ -54,6 +55,12 @@ int CheckBuilt(const WorldOptions& options) {
   const bool is_seen = std::filesystem::exists(folder / view::kManifest, none);
   fmt::print("{}: every file of '{}'{} is as it was written\n", options.world_file, road::kLogicalManifest, is_seen ? fmt::format(" and '{}'", view::kManifest) : "");
   return 0;
+}
+
+// What is asked of the files of a world, which a traffic map is not.
+base::Error NoWorldFile(const WorldOptions& options) {
+  const std::string name = std::filesystem::path(options.world_file).stem().string();
+  return base::WrongInput(fmt::format("this is a traffic map; `rodeira map convert {} -o {}.yaml` makes a world file of it, -o {}.xodr an OpenDRIVE file", options.world_file, name, name), options.world_file);
 }
 
 int Check(const WorldOptions& options) {
@@ -156,6 +163,7 @@ int Build(const WorldOptions& options) {
 
 int World(const WorldOptions& options) {
   if (options.command == "check") return Check(options);
+  if (road::IsTrafficMap(options.world_file) && (options.command == "build" || options.command == "export")) return Complain(NoWorldFile(options));
   if (options.command == "build") return Build(options);
   const auto world = road::World::Load(options.world_file);
   if (options.command == "export" && world) {

@@ -6,7 +6,7 @@
 
 #include "common/geometry/plane.hpp"
 #include "common/network/junction_ground.hpp"
-#include "common/road/overlap.hpp"
+#include "common/road/one_ground.hpp"
 
 namespace rodeira::road {
 namespace {

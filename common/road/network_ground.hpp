@@ -11,7 +11,7 @@ namespace rodeira::road {
 // Beyond its lanes a road goes on level across for this far; farther away there is no ground.
 inline constexpr double kVerge_m = 100.0;
 
-// SUELO on an OpenDRIVE network: of the layers of roads (overlap.hpp) the highest that is not above the hint by more than 0.5 m (without a
+// SUELO on an OpenDRIVE network: of the layers of roads (one_ground.hpp) the highest that is not above the hint by more than 0.5 m (without a
 // hint the highest), with the ground and paint (road_mark) of the lane that it is named by; beside all roads a level verge of grass that goes on from the nearest lane's edge.
 SurfacePoint NetworkGround(const network::Network& network, const LaneGrounds& grounds, const FrictionTable& friction, double x_m, double y_m,
                            double z_hint_m, const MarkPaint* paint = nullptr, const SurfaceDetail* detail = nullptr);

@@ -8,7 +8,7 @@
 #include "common/network/placing.hpp"
 #include "common/opendrive/import.hpp"
 #include "common/road/network_world.hpp"
-#include "common/road/overlaps.hpp"
+#include "common/road/unjoined.hpp"
 
 namespace rodeira::road {
 

@@ -23,26 +23,6 @@ double StationIn(const network::Network& network, const network::LaneKey& key) {
   return network.Find(key)->direction < 0 ? section.end_s_m - into : section.s_m + into;
 }
 
-StartPose StartOn(const network::Network& network) {
-  const network::LaneKey* longest = nullptr;
-  double length = 0.0;
-  bool goes_on = false;
-  const auto lanes = network.Lanes();
-  for (const network::LaneKey& key : lanes) {
-    const network::LaneSection& section = network.Section(key);
-    if (!network::IsDrivable(network.Find(key)->type) || !network::OpenToCars(*network.Find(key)) || !network.roads()[key.road].spec().junction.empty()) continue;
-    const auto span = network.Span(key, StationIn(network, key));
-    if (span->width_m() < kNarrowest_m) continue;
-    const bool leads_on = !network.Successors(key).empty();
-    if (leads_on < goes_on || (leads_on == goes_on && section.end_s_m - section.s_m <= length)) continue;
-    length = section.end_s_m - section.s_m, longest = &key, goes_on = leads_on;
-  }
-  if (longest == nullptr) return {};
-  StartPose start = PoseOn(network, *longest, StationIn(network, *longest));
-  start.road = -1;  // nobody named one
-  return start;
-}
-
 // What pieces of a road that are made of something else say of their friction, by road: in the rectangle of s and t about each.
 std::vector<network::Laid> PatchesOf(const network::Network& network) {
   std::vector<network::Laid> laid(network.roads().size());
@@ -68,6 +48,26 @@ std::vector<network::Laid> PatchesOf(const network::Network& network) {
 }
 
 }  // namespace
+
+StartPose StartOn(const network::Network& network) {
+  const network::LaneKey* longest = nullptr;
+  double length = 0.0;
+  bool goes_on = false;
+  const auto lanes = network.Lanes();
+  for (const network::LaneKey& key : lanes) {
+    const network::LaneSection& section = network.Section(key);
+    if (!network::IsDrivable(network.Find(key)->type) || !network::OpenToCars(*network.Find(key)) || !network.roads()[key.road].spec().junction.empty()) continue;
+    const auto span = network.Span(key, StationIn(network, key));
+    if (span->width_m() < kNarrowest_m) continue;
+    const bool leads_on = !network.Successors(key).empty();
+    if (leads_on < goes_on || (leads_on == goes_on && section.end_s_m - section.s_m <= length)) continue;
+    length = section.end_s_m - section.s_m, longest = &key, goes_on = leads_on;
+  }
+  if (longest == nullptr) return {};
+  StartPose start = PoseOn(network, *longest, StationIn(network, *longest));
+  start.road = -1;  // nobody named one
+  return start;
+}
 
 StartPose PoseOn(const network::Network& network, const network::LaneKey& key, double s_m) {
   const Eigen::Vector3d p = network.Centre(key, s_m);

@@ -22,12 +22,14 @@ std::filesystem::path OpenDriveOf(const std::filesystem::path& world_file);
 // In the middle of a lane, facing its traffic.
 StartPose PoseOn(const network::Network& network, const network::LaneKey& key, double s_m);
 
+// Where the car starts on roads of whom nobody has said it: on the drivable lane that is longest in one lane section outside of junctions, of those that lead on if there
+// are any, 10 m behind its beginning (or in its middle), where it is 2 m wide; at the origin where there is none.
+StartPose StartOn(const network::Network& network);
+
 // The measured and made surfaces of the file's roads. Wrong input, with the file's line, where one cannot be read or laid.
 base::Result<SurfaceDetail> LoadSurfaces(const opendrive::Import& import, const std::filesystem::path& file);
 
-// A world of the file's roads. The car starts on the drivable lane that is longest in one lane section outside of
-// junctions, of those that lead on if there are any, 10 m behind its beginning
-// (or in its middle), where it is 2 m wide. Wrong input: the first error of the file.
+// A world of the file's roads, with the start of StartOn. Wrong input: the first error of the file.
 base::Result<WorldSpec> ReadNetworkWorld(const std::filesystem::path& file);
 
 // What `rodeira world check` says of the file: errors and warnings with their places, by line, and a table of what the

@@ -7,6 +7,7 @@
 #include "common/base/files.hpp"
 #include "common/config/config.hpp"
 #include "common/road/logical_files.hpp"
+#include "common/road/map_world.hpp"
 #include "common/road/network_world.hpp"
 #include "common/road/world_report.hpp"
 #include "common/terrain/bt.hpp"
@@ -69,7 +70,7 @@ std::string WithWholePaths(std::string text, const config::File& file) {
 }  // namespace
 
 bool IsGenerated(const std::filesystem::path& world_file) {
-  if (IsOpenDrive(world_file)) return false;
+  if (IsOpenDrive(world_file) || IsTrafficMap(world_file)) return false;
   const auto file = config::File::Load(world_file);
   return file.ok() && file.value().root().OptionalChild("terrain").Has("generate");
 }

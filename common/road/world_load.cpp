@@ -1,4 +1,5 @@
 #include "common/config/config.hpp"
+#include "common/road/map_world.hpp"
 #include "common/road/network_world.hpp"
 #include "common/road/world.hpp"
 #include "common/road/world_reader.hpp"
@@ -16,8 +17,9 @@ base::Result<std::shared_ptr<const World>> Build(const base::Result<config::File
 }  // namespace
 
 base::Result<std::shared_ptr<const World>> World::Load(const std::filesystem::path& world_yaml) {
-  if (!IsOpenDrive(world_yaml)) return Build(config::File::Load(world_yaml));
-  auto spec = ReadNetworkWorld(world_yaml);
+  const bool is_map = IsTrafficMap(world_yaml);
+  if (!is_map && !IsOpenDrive(world_yaml)) return Build(config::File::Load(world_yaml));
+  auto spec = is_map ? ReadMapWorld(world_yaml) : ReadNetworkWorld(world_yaml);
   if (!spec) return spec.error();
   return Make(std::move(spec).value());
 }

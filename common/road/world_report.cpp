@@ -8,9 +8,10 @@
 
 #include "common/config/config.hpp"
 #include "common/geometry/angle.hpp"
+#include "common/road/map_world.hpp"
 #include "common/road/network_ground.hpp"
 #include "common/road/network_world.hpp"
-#include "common/road/overlaps.hpp"
+#include "common/road/unjoined.hpp"
 #include "common/road/road_chains.hpp"
 #include "common/road/world_reader.hpp"
 #include "common/terrain/geographic.hpp"
@@ -137,6 +138,7 @@ std::optional<network::Place> AnsweredFrom(const World& world, double x_m, doubl
 
 std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) {
   if (IsOpenDrive(world_yaml)) return CheckNetwork(world_yaml, false).warnings;
+  if (IsTrafficMap(world_yaml)) return {};
   const auto file = config::File::Load(world_yaml);
   if (!file) return {};
   WorldReading reading = ReadWorld(file.value());
@@ -152,6 +154,10 @@ std::string WhyNoTiles(const World& world) { return world.roads().empty() ? "" :
 
 std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml) {
   if (IsOpenDrive(world_yaml)) return CheckNetwork(world_yaml, false).errors;
+  if (IsTrafficMap(world_yaml)) {
+    const auto spec = ReadMapWorld(world_yaml);
+    return spec ? std::vector<base::Error>() : std::vector{spec.error()};
+  }
   const auto file = config::File::Load(world_yaml);
   if (!file) return {file.error()};
   WorldReading reading = ReadWorld(file.value());

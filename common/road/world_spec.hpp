@@ -44,7 +44,7 @@ struct WorldSpec {
   std::shared_ptr<const terrain::ElevationGrid> grid;  // one of these two, or an OpenDRIVE file
   std::optional<PlaneSpec> plane;
   std::shared_ptr<const network::Network> network;  // null: made of `roads`, where there are any
-  base::Digest network_hash = 0;                    // of an OpenDRIVE file's bytes
+  base::Digest network_hash = 0;                    // of the bytes of an OpenDRIVE file, or of a traffic map and what stands beside it
   std::vector<std::shared_ptr<const design::JunctionSurface>> junctions;  // of a network that is built into the terrain
   std::shared_ptr<const network::Standing> standing;  // what stands at no road; null: nothing
   std::shared_ptr<const SurfaceDetail> detail;      // what stands on the network's roads; null: nothing

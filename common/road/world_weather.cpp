@@ -1,12 +1,13 @@
 #include "common/road/world_weather.hpp"
 
 #include "common/config/config.hpp"
+#include "common/road/map_world.hpp"
 #include "common/road/network_world.hpp"
 
 namespace rodeira::road {
 
 base::Result<std::optional<weather::Change>> WeatherOf(const std::filesystem::path& world_file) {
-  if (IsOpenDrive(world_file)) return std::optional<weather::Change>();
+  if (IsOpenDrive(world_file) || IsTrafficMap(world_file)) return std::optional<weather::Change>();
   const auto file = config::File::Load(world_file);
   if (!file) return file.error();
   const config::Map root = file.value().root();

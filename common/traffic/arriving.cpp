@@ -38,8 +38,7 @@ void TrafficModel::Begin(std::uint32_t id, std::uint32_t flow, std::uint32_t arr
   if (track >= 0) {
     agent.entry = static_cast<std::uint32_t>(track);
   } else {
-    const double draw = base::RandomUniform({settings_.seed, flow, kDrawFlowLane, arrival});
-    agent.entry = map_->entries[static_cast<std::size_t>(draw * static_cast<double>(map_->entries.size()))];
+    agent.entry = map_->DrawEntry(base::RandomBits({settings_.seed, flow, kDrawFlowLane, arrival}));
   }
   if (const Route* route = RouteOf(agent)) agent.leg = route->LegOn(0, agent.entry);
   traits_[id] = TraitsFor(id);

@@ -19,8 +19,7 @@ constexpr double kUntouched_m = 0.4;     // between who enters by MOTORS' rule a
 
 // Where it enters on this trip: by lot.
 std::uint32_t TrafficModel::DrawEntry(std::uint32_t id, std::uint32_t trip) const {
-  const double draw = base::RandomUniform({settings_.seed, id, kDrawLane, trip});
-  return map_->entries[static_cast<std::size_t>(draw * static_cast<double>(map_->entries.size()))];
+  return map_->DrawEntry(base::RandomBits({settings_.seed, id, kDrawLane, trip}));
 }
 
 // The speed from which it can stop before the first zones that are not its own.

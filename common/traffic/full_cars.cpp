@@ -60,11 +60,13 @@ Eigen::Vector2d FullCars::RearAxle_W(std::uint32_t id) const {
   return (cars_.p_WB_W(id) - 0.5 * cars_.chassis(id).settings.body.wheelbase_m * ahead_W).head<2>();
 }
 
+// With rear wheels that do not slide the middle moves by atan(½ tan δ) off where the car points.
 double FullCars::PlanSpeed_mps(std::uint32_t id) const {
   const Eigen::Vector2d v = cars_.car(id).body.VelocityAt(cars_.p_WB_W(id)).head<2>();
-  const double speed = v.norm();
-  if (speed < kStanding_mps) return 0.0;
-  return v.dot((cars_.car(id).body.q_WG * Eigen::Vector3d::UnitX()).head<2>()) < 0.0 ? -speed : speed;
+  if (v.norm() < kStanding_mps) return 0.0;
+  const Eigen::Vector2d ahead = (cars_.car(id).body.q_WG * Eigen::Vector3d::UnitX()).head<2>().normalized(), left(-ahead.y(), ahead.x());
+  const double half = 0.5 * std::tan(cars_.chassis(id).SteerAngle(vehicle::kFrontLeft, controls_[id].steering_wheel_rad));
+  return (v.dot(ahead) + half * v.dot(left)) / std::hypot(1.0, half);
 }
 
 // The curvature that the rear axle is to follow: the path's, and what leads back to it, critically damped over the preview's way. The path is kept by the

@@ -43,7 +43,8 @@ class FullCars {
 
   const vehicle::CarArray& cars() const { return cars_; }
   const vehicle::Controls& controls(std::uint32_t id) const { return controls_[id]; }
-  // In the plane, along the car's motion; below 0 where it rolls back. At less than a millimetre a second it stands.
+  // Of its middle, in the plane, along the way on which its wheels roll, heading + atan(½ tan δ): less than its motion where it slides, and
+  // below 0 where it rolls back. At less than a millimetre a second it stands.
   double PlanSpeed_mps(std::uint32_t id) const;
   Eigen::Vector2d RearAxle_W(std::uint32_t id) const;
   Driving DrivingOf(std::uint32_t id) const;

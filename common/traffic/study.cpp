@@ -24,7 +24,7 @@ constexpr double kSmooth_mps3 = 3.0 * (1.0 + 1e-6), kLateral_mps2 = 3.0, kYaw_ra
 class Watcher {
  public:
   Watcher(const network::Network& network, const StudySettings& settings)
-      : network_(network), settings_(settings), stands_s_(settings.traffic.vehicles + settings.traffic.scripted.size(), 0.0), with_room_s_(stands_s_), turning_(stands_s_.size()) {}
+      : network_(network), settings_(settings), stands_s_(settings.traffic.vehicles + settings.traffic.scripted.size(), 0.0), with_room_s_(stands_s_), turning_(stands_s_.size()), hurried_(stands_s_.size(), 0) {}
 
   StudyResult& result() { return result_; }
 
@@ -38,6 +38,7 @@ class Watcher {
       result_.vehicle_s += settings_.step_s;
       if (k >= before_.size() || before_[k].id != pose.id || before_[k].trip != pose.trip) continue;
       ++same;
+      Hurry(model, pose);
       if (settings_.feels) Feel(model, pose, before_[k]);
       const double moved = (pose.p_WB_W - before_[k].p_WB_W).head<2>().norm();
       const double told = 0.5 * (pose.speed_mps + before_[k].speed_mps) * settings_.step_s;
@@ -54,6 +55,14 @@ class Watcher {
     else result_.entered += static_cast<std::int64_t>(model.poses().size() - same), result_.left += static_cast<std::int64_t>(before_.size() - same);
     before_ = model.poses();
     ++result_.steps;
+  }
+
+  // Once told until it is over.
+  void Hurry(const TrafficModel& model, const AgentPose& pose) {
+    const bool hurries = model.Hurries(pose.id);
+    if (hurries) ++result_.hurried_steps;
+    if (hurries && hurried_[pose.id] == 0) Tell("hurries", pose);
+    hurried_[pose.id] = hurries ? 1 : 0;
   }
 
   // From one step to the next; a heading is that of the middle between the axles.
@@ -179,6 +188,7 @@ class Watcher {
   network::Hint hint_;
   std::vector<double> stands_s_, with_room_s_;  // by agent: its stand as yet, and how much of it with room ahead
   std::vector<Turning> turning_;                // by agent
+  std::vector<std::uint8_t> hurried_;           // by agent: in the step before
   std::vector<AgentPose> before_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> touching_;
 };

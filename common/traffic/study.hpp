@@ -37,6 +37,7 @@ struct StudyResult {
   double hardest_mps2 = 0.0;         // deceleration with a foot on the brake
   double planned_jerk_mps3 = 0.0;    // largest change of acceleration from one step to the next, but …
   double emergency_jerk_mps3 = 0.0;  // … in an emergency
+  std::int64_t hurried_steps = 0;    // steps that somebody drove in an emergency (TrafficModel::Hurries), each vehicle's counted
   double lateral_mps2 = 0.0;         // largest speed times yaw rate, and change of the yaw rate
   double yaw_radps2 = 0.0;
   double hardest_any_mps2 = 0.0;     // and by whatever: on a hill that the engine is too weak for, in overrun, while a gear changes

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/huge_pages.hpp"
+#include "common/base/random.hpp"
 #include "common/lanes/ring.hpp"
 
 namespace rodeira::traffic {
@@ -17,7 +18,24 @@ bool Zips(const lanes::Graph& graph, const lanes::Zone& zone) {
   return graph[zone.track[0]].curve.nodes().front().along_W.head<2>().dot(graph[zone.track[1]].curve.nodes().front().along_W.head<2>()) > kAlike;
 }
 
+std::uint64_t KeyOf(const lanes::Graph& graph, std::uint32_t track) {
+  const network::LaneKey& lane = graph[track].lane;
+  std::uint64_t key = 0;
+  for (const char letter : graph.network().roads()[lane.road].id()) key = base::RandomBits({key, static_cast<unsigned char>(letter)});
+  return base::RandomBits({key, lane.section, static_cast<std::uint64_t>(static_cast<std::int64_t>(lane.lane))});
+}
+
 }  // namespace
+
+std::uint32_t TrafficMap::DrawEntry(std::uint64_t draw) const {
+  std::size_t best = 0;
+  std::uint64_t highest = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::uint64_t own = base::RandomBits({draw, entry_keys[i]});
+    if (i == 0 || own > highest) best = i, highest = own;
+  }
+  return entries[best];
+}
 
 TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const TrafficSettings& settings)
     : network(std::move(of)), graph(*network), zones(graph, LargestOf(settings)), marks(graph), opposites(lanes::Opposites(graph)), no_overtaking(graph) {
@@ -31,6 +49,7 @@ TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const Traffic
     }
     if (!entries.empty()) break;
   }
+  for (const std::uint32_t track : entries) entry_keys.push_back(KeyOf(graph, track));
   base::PreferHugePages(plans);
   for (const lanes::Zone& zone : zones.zones()) zips.push_back(Zips(graph, zone));
   enters.resize(graph.tracks().size());

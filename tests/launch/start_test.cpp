@@ -83,9 +83,9 @@ TEST(Start, WhatIsNoWorldIsSaidInTheWindow) {
   const StartFiles files = Here();
   StartChoice choice = DefaultChoice(files);
   choice.world = fs::path(SourceDir()) / "configs/maps/town.motors";
-  EXPECT_EQ(WhatIsMissing(files, choice), "'" + choice.world.string() + "' is a traffic map; `rodeira map convert " + choice.world.string() + " -o town.yaml` makes a world of it");
+  EXPECT_EQ(WhatIsMissing(files, choice), "");
   choice.world = fs::path(SourceDir()) / "README.md";
-  EXPECT_EQ(WhatIsMissing(files, choice), "'" + choice.world.string() + "' is no world; a file that ends on .yaml or .xodr was expected");
+  EXPECT_EQ(WhatIsMissing(files, choice), "'" + choice.world.string() + "' is no world; a file that ends on .yaml, .xodr or .motors was expected");
   choice = DefaultChoice(files);
   choice.vehicle = "/elsewhere/car.yaml";
   EXPECT_EQ(WhatIsMissing(files, choice), "there is no file '/elsewhere/car.yaml'");

@@ -159,6 +159,40 @@ TEST(Motors, DrivesTheMapsAndHisCollisionsAreCounted) {
   EXPECT_GT(collisions, 0);
 }
 
+// Speed goes on from step to step even where he has lost his car and slides sideways or turns about: by no more than what four tyres take of friction, and as fast as the direction turns
+// along which it is told, heading and steering; it stays at 0 where the car goes backwards.
+TEST(Motors, HisSpeedHasNoStepsWhereHeSlides) {
+  constexpr double kStep_s = 0.01, kTyres_mps2 = 1.3 * 9.81;
+  double fastest_aside_mps = 0.0, hardest_mps2 = 0.0;
+  for (const std::uint64_t seed : {1, 4}) {
+    TrafficSettings settings = AsMotors(15);
+    settings.seed = seed;
+    TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("crossing"), {}).value();
+    struct Before { std::int64_t trip = -1; double speed_mps = 0.0, course_rad = 0.0; };
+    std::vector<Before> before(model.vehicles());
+    for (int i = 0; i < 6000; ++i) {
+      model.Step(kStep_s, {});
+      for (const AgentPose& pose : model.poses()) {
+        const vehicle::RigidBody& body = model.full()->cars().car(pose.id).body;
+        const Eigen::Vector2d v = body.VelocityAt(pose.p_WB_W).head<2>();
+        const Eigen::Vector3d ahead = pose.q_WB * Eigen::Vector3d::UnitX();
+        const double course = std::atan2(ahead.y(), ahead.x()) + std::atan(0.5 * std::tan(pose.steer_rad));
+        Before& last = before[pose.id];
+        if (last.trip == static_cast<std::int64_t>(pose.trip)) {
+          const double turned = std::fabs(std::remainder(course - last.course_rad, 2.0 * std::numbers::pi));
+          ASSERT_LE(std::fabs(pose.speed_mps - last.speed_mps), kTyres_mps2 * kStep_s + v.norm() * turned + 2e-3) << "car " << pose.id << " at " << kStep_s * i << " s";
+          hardest_mps2 = std::max(hardest_mps2, -pose.acceleration_mps2);
+        }
+        last = {pose.trip, pose.speed_mps, course};
+        fastest_aside_mps = std::max(fastest_aside_mps, std::fabs(v.dot(Eigen::Vector2d(-std::sin(course), std::cos(course)))));
+        ASSERT_NEAR(pose.speed_mps, std::max(0.0, v.dot(Eigen::Vector2d(std::cos(course), std::sin(course)))), 2e-3);
+      }
+    }
+  }
+  EXPECT_GT(fastest_aside_mps, 3.0);  // somebody does slide
+  if (std::getenv("RODEIRA_TELL") != nullptr) fmt::print("at most {:.2f} m/s aside, {:.1f} m/s2 slower\n", fastest_aside_mps, hardest_mps2);
+}
+
 TEST(Motors, ThreadsAndSnapshotsChangeNoBit) {
   const auto network = lanes::MapNetwork("crossing");
   const auto digest = [](const TrafficModel& model) {

@@ -24,7 +24,7 @@ std::vector<Poses> Alone(const std::string& world, const traffic::TrafficSetting
   study.duration_s = for_s;
   study.watch_s = study.step_s;
   std::vector<Poses> poses;
-  const auto loaded = road::World::Load(SourceDir() + "/configs/worlds/" + world).value();
+  const auto loaded = road::World::Load(SourceDir() + "/configs/" + world).value();
   const auto result = traffic::RunStudy(study, loaded, [&](const traffic::StudyMoment& moment) { poses.push_back(moment.model.poses()); });
   EXPECT_TRUE(result.ok()) << result.error().Text();
   return poses;
@@ -32,7 +32,7 @@ std::vector<Poses> Alone(const std::string& world, const traffic::TrafficSetting
 
 // Every sample of a run is, to the bit, what the model says alone at that step.
 void ExpectTheSame(const std::string& world, const std::string& config, const std::vector<Poses>& alone) {
-  const std::string text = fmt::format("rodeira: launch/1\nworld: ../configs/worlds/{}\nseed: 5\nnodes:\n  road: {{kind: road}}\n  others: {{kind: traffic, config: {{{}}}}}\n",
+  const std::string text = fmt::format("rodeira: launch/1\nworld: ../configs/{}\nseed: 5\nnodes:\n  road: {{kind: road}}\n  others: {{kind: traffic, config: {{{}}}}}\n",
                                        world, config);
   auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/alone.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
@@ -68,7 +68,17 @@ TEST(TrafficAlone, IsTheSameAsInARun) {
   traffic::TrafficSettings settings;
   settings.seed = 5;
   settings.vehicles = 20;
-  ExpectTheSame("lights.yaml", "vehicles: 20", Alone("lights.yaml", settings, 30.0));
+  ExpectTheSame("worlds/lights.yaml", "vehicles: 20", Alone("worlds/lights.yaml", settings, 30.0));
+}
+
+// A traffic map is a world as it is, its companion's lights and heights among it.
+TEST(TrafficAlone, IsTheSameAsInARunOnATrafficMap) {
+  traffic::TrafficSettings settings;
+  settings.seed = 5;
+  settings.vehicles = 20;
+  for (const char* map : {"maps/town.motors", "maps/lights.motors"}) ExpectTheSame(map, "vehicles: 20", Alone(map, settings, 20.0));
+  settings.physics = traffic::Physics::kFull;
+  ExpectTheSame("maps/overpass.motors", "vehicles: 20, physics: full", Alone("maps/overpass.motors", settings, 5.0));
 }
 
 // Each car's own physics feels the world's ground, which is more than its roads: terrain, measured surfaces.
@@ -77,7 +87,7 @@ TEST(TrafficAlone, IsTheSameWithFullPhysicsOnAWorldWithTerrain) {
   settings.seed = 5;
   settings.vehicles = 20;
   settings.physics = traffic::Physics::kFull;
-  ExpectTheSame("example/world.yaml", "vehicles: 20, physics: full", Alone("example/world.yaml", settings, 5.0));
+  ExpectTheSame("worlds/example/world.yaml", "vehicles: 20, physics: full", Alone("worlds/example/world.yaml", settings, 5.0));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "common/road/overlap.hpp"
+#include "common/road/one_ground.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

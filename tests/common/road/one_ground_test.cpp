@@ -1,5 +1,5 @@
 // SUELO where roads of an OpenDRIVE file lie over one another: one ground, without steps, named by the lane that Network::Locate names.
-#include "common/road/overlap.hpp"
+#include "common/road/one_ground.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ std::shared_ptr<const World> Crossing(double above_m) {
   return World::Load(folder.Write("crossing.xodr", opendrive::Document(level.Text() + across.Text()))).value();
 }
 
-// By the formula of overlap.hpp, straight from the numbers above.
+// By the formula of one_ground.hpp, straight from the numbers above.
 double CountOf(double aside_m, double along_m) {
   const double a = 3.5 - aside_m, b = 3.5 + aside_m, mean = a * b / (a + b);
   const auto end = [](double d) { return d * d / (d * d + 25.0); };

@@ -1,5 +1,5 @@
 // Roads that lie on one another without a junction: named with both stations, which are computed by hand here.
-#include "common/road/overlaps.hpp"
+#include "common/road/unjoined.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "common/road/overlaps.hpp"
+#include "common/road/unjoined.hpp"
 
 #include <fmt/format.h>
 
