@@ -22,6 +22,9 @@ constexpr int kSlopeRounds = 100;
 constexpr double kMiddle = 0.7;  // of what the sides may be off: within a triangle both come together
 // Cuts and fills, level by level: less than they may be off, for it is asked at few places.
 constexpr std::array<BendRange, kGroundLevels> kSlopes = {{{0.0023, 0.01, 2.0}, {0.015, 0.02, 2.0}, {0.075, 0.1, 2.0}, {0.375, 0.5, 2.0}}};
+// The land beside OpenDRIVE's roads, in the same way: it steps where the verges of different roads meet, and a step is drawn no steeper than over a
+// side that is left as it is, four margins long.
+constexpr std::array<BendRange, kGroundLevels> kVerges = {{{0.003, 0.25, 4.0}, {0.015, 0.25, 4.0}, {0.075, 0.5, 4.0}, {0.375, 1.0, 4.0}}};
 constexpr double kBelowStep_m = 0.2;  // below decks, where strips are narrower
 constexpr double kTerrainsRoom_m = 0.002;  // where the terrain's own triangles are kept no post is left out but as near to another point
 constexpr double kWithin_m = 1e-3;
@@ -58,7 +61,7 @@ class Planner {
     for (const auto& [a, b] : fixed_) plan_.left_out += !t.Fix(a, b);
     kept_ = OwnLines() && land_.posts.HoldsAll(plan_.key);
     const bool slopes = land_.slopes.InTile(plan_.key), bare = kept_ && segments.empty() && !slopes;
-    follows_slopes_ = slopes || (world_.grid() != nullptr && level_ == 0);
+    follows_slopes_ = slopes || world_.open_drive() || (world_.grid() != nullptr && level_ == 0);
     plan_.face_of = t.Faces();
     Classify();
     SpreadOverLand();
@@ -256,7 +259,8 @@ class Planner {
   // Land is followed as roads are, along every side between two of its triangles: toes of slopes and a terrain's own edges run
   // anywhere. On a terrain at the finest level all of it, at coarser ones and on a plane where slopes may be. False where nothing was put in.
   bool MeetSlopes() {
-    const BendRange& slope = kSlopes[level_];
+    const BendRange& slope = Slope();
+    const bool within_slopes = !world_.open_drive() && (level_ > 0 || kept_ || world_.grid() == nullptr);
     std::vector<GridPoint> fresh;
     on_kept_.clear();
     const auto triangles = plan_.triangles.triangles();
@@ -264,7 +268,7 @@ class Planner {
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
       if (followed_[i] == triangles[i].corner) continue;
       followed_[i] = triangles[i].corner;
-      if (!plan_.faces[plan_.face_of[i]].land || ((level_ > 0 || kept_ || world_.grid() == nullptr) && !SlopesTouch(triangles[i]))) continue;
+      if (!plan_.faces[plan_.face_of[i]].land || (within_slopes && !SlopesTouch(triangles[i]))) continue;
       const std::size_t before = fresh.size() + on_kept_.size();
       const Corners corners = CornersOf(triangles[i], plan_.face_of[i], false);
       FollowSides(triangles[i], plan_.face_of[i], corners, fresh);
@@ -307,6 +311,7 @@ class Planner {
     return PutIn(fresh);
   }
 
+  const BendRange& Slope() const { return world_.open_drive() ? kVerges[level_] : kSlopes[level_]; }
   BendRange Below() const { return {kSlopes[level_].tolerance_m, kSlopes[level_].margin_m, kBelowStep_m}; }
   road::SurfacePoint LevelAt(const Eigen::Vector2d& p_W, std::size_t level) {
     LevelsAt(world_, p_W, level + 1, levels_);
@@ -376,8 +381,8 @@ class Planner {
       }
       const Eigen::Vector2d way = c.at[n] - c.at[k];
       const double rise_m = c.z[n] - c.z[k];
-      const bool straight_ends = std::fabs(c.slope[k].dot(way) - rise_m) <= kSlopes[level_].tolerance_m && std::fabs(c.slope[n].dot(way) - rise_m) <= kSlopes[level_].tolerance_m;
-      const auto part = BendBetween(highest_, p_W, c.z[k], q_W, c.z[n], kSlopes[level_], straight_ends);
+      const bool straight_ends = std::fabs(c.slope[k].dot(way) - rise_m) <= Slope().tolerance_m && std::fabs(c.slope[n].dot(way) - rise_m) <= Slope().tolerance_m;
+      const auto part = BendBetween(highest_, p_W, c.z[k], q_W, c.z[n], Slope(), straight_ends);
       const GridPoint p = plan_.triangles.points()[t.corner[k]], q = plan_.triangles.points()[t.corner[n]];
       if (!part) continue;
       const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + *part * (to - from))); };

@@ -39,7 +39,7 @@ class Weaver {
       const Face& face = plan_.faces[plan_.face_of[i]];
       for (std::size_t level = 0; level < face.levels.size(); ++level) {
         Ground(i, level);
-        if (level + 1 < face.levels.size() && !face.skins[level].land) Underside(i, level);
+        if (HasUnderside(face, level)) Underside(i, level);
       }
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t beyond = triangles[i].across[k];
@@ -119,6 +119,8 @@ class Weaver {
     woven_.triangles.push_back(ground);
   }
 
+  static bool HasUnderside(const Face& face, std::size_t level) { return level + 1 < face.levels.size() && !face.skins[level].land; }
+
   // Of a deck, as deep as its sides: seen from the road below it.
   void Underside(std::uint32_t triangle, std::size_t level) {
     const auto& corner = plan_.triangles.triangles()[triangle].corner;
@@ -134,8 +136,8 @@ class Weaver {
     return 0.5 * (heights_.At(side[0], face)[level].z_m + heights_.At(side[1], face)[level].z_m);
   }
 
-  // Which of the other face's levels goes on from this one.
-  std::size_t Partner(const std::array<std::uint32_t, 2>& side, std::uint32_t face, std::size_t level, std::uint32_t other) const {
+  // Which of the other face's levels is nearest to this one.
+  std::size_t Nearest(const std::array<std::uint32_t, 2>& side, std::uint32_t face, std::size_t level, std::uint32_t other) const {
     const std::size_t count = plan_.faces[other].levels.size();
     if (count == 1 && plan_.faces[face].levels.size() == 1) return 0;
     const double z = MeanHeight(side, face, level);
@@ -148,6 +150,12 @@ class Weaver {
     return best;
   }
 
+  // Which of the other face's levels goes on from this one: each is the other's nearest. At most two sheets of ground meet in a line.
+  std::size_t Partner(const std::array<std::uint32_t, 2>& side, std::uint32_t face, std::size_t level, std::uint32_t other) const {
+    const std::size_t nearest = Nearest(side, face, level, other);
+    return nearest != kNobody && Nearest(side, other, nearest, face) == level ? nearest : kNobody;
+  }
+
   // What stands between a triangle's side and the face beyond, seen from there: where this one is higher.
   void Steps(std::uint32_t triangle, std::size_t k, std::uint32_t beyond) {
     const auto& t = plan_.triangles.triangles()[triangle];
@@ -157,6 +165,13 @@ class Weaver {
       const auto z = [&](std::size_t c) { return heights_.At(side[c], face)[level].z_m; };
       const std::size_t partner = Partner(side, face, level, other);
       std::array<double, 2> foot = {z(0) - kApron_m, z(1) - kApron_m};
+      const Face& own = plan_.faces[face];
+      // The ground below a deck that goes on beyond its end stops at the abutment, up to the deck's underside.
+      const bool abuts = partner == kNobody && level > 0 && !HasUnderside(own, level) && HasUnderside(own, level - 1) && Partner(side, face, level - 1, other) != kNobody;
+      if (abuts) {
+        for (const std::size_t c : {0, 1}) foot[c] = heights_.At(side[c], face)[level - 1].z_m - kApron_m;
+        if (z(0) == foot[0] && z(1) == foot[1]) continue;
+      }
       if (partner != kNobody) {
         foot = {heights_.At(side[0], other)[partner].z_m, heights_.At(side[1], other)[partner].z_m};
         if (z(0) == foot[0] && z(1) == foot[1]) continue;
@@ -172,10 +187,11 @@ class Weaver {
     }
   }
 
-  // Between two points, each with its way down.
+  // Between two points, each with its way down, or up.
   void Wall(const std::array<std::uint32_t, 2>& side, const std::array<std::vector<double>, 2>& ways_m, Colour colour) {
     const Eigen::Vector3d along = Place(side[1], 0.0) - Place(side[0], 0.0);
-    const Eigen::Vector3d normal = Eigen::Vector3d(along.y(), -along.x(), 0.0).normalized();
+    const bool up = ways_m[0].back() + ways_m[1].back() > ways_m[0].front() + ways_m[1].front();  // then it is seen from the other side
+    const Eigen::Vector3d normal = (up ? -1.0 : 1.0) * Eigen::Vector3d(along.y(), -along.x(), 0.0).normalized();
     std::array<std::vector<std::uint32_t>, 2> down;
     for (std::size_t k = 0; k < 2; ++k) {
       for (const double z_m : ways_m[k]) down[k].push_back(wall_.Add(Place(side[k], z_m), normal, colour));

@@ -40,6 +40,28 @@ inline bool MeetsNearby(const road::World& world, const Eigen::Vector3d& p, doub
   return false;
 }
 
+// Whether SUELO's highest ground steps by more than 2 mm within some distance of a place: the way to 16 places around is halved towards its steeper half
+// until a thousandth of it is left, where ground that does not step rises by less.
+inline bool StepsNearby(const road::World& world, const Eigen::Vector3d& p, double within_m) {
+  const auto height_m = [&](const Eigen::Vector2d& at) {
+    const road::SurfacePoint ground = world.At(at.x(), at.y());
+    return ground.inside ? ground.z_m : 1e3;
+  };
+  for (int k = 0; k < 16; ++k) {
+    const double angle = M_PI / 8.0 * k;
+    Eigen::Vector2d a = p.head<2>(), b = a + within_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    double a_m = height_m(a), b_m = height_m(b);
+    for (int half = 0; half < 10; ++half) {
+      const Eigen::Vector2d middle = 0.5 * (a + b);
+      const double middle_m = height_m(middle);
+      if (std::fabs(middle_m - a_m) > std::fabs(b_m - middle_m)) b = middle, b_m = middle_m;
+      else a = middle, a_m = middle_m;
+    }
+    if (std::fabs(b_m - a_m) > 0.002) return true;
+  }
+  return false;
+}
+
 // How far the nearest of SUELO's surfaces there is from a height: land that comes up to a bridge's deck lies less than a hint can tell below it.
 inline double FromNearest(const road::World& world, const Eigen::Vector3d& p) {
   double nearest_m = 1e9;

@@ -348,6 +348,55 @@ TEST(Ground, IsMetToTheLastPlaceWhereAWideRoadClimbsInABend) {
   std::printf("%d points, worst %.4f m from SUELO\n", found.asked, found.worst_m);
 }
 
+// The land beside the roads of real files, as far as SUELO knows it: level across from the nearest lane's edge. Where different roads are nearest it
+// steps, and the step is drawn over a metre at most; in the middle of bends verges turn about a point, and are as steep there as one likes.
+TEST(Ground, LandOfRealFilesIsWhereTheTyresAre) {
+  constexpr double kStep_m = 1.2;
+  std::vector<std::string> names{"esmini_curves_elevation", "esmini_e6mini", "esmini_tunnels", "carla_Town04", "esmini_fabriksgatan", "esmini_highway_exit", "esmini_multi_intersections",
+                                 "esmini_straight_500_superelevation_elevation_curve", "esmini_straight_500m_roadmarks", "esmini_straight_500m_signs",
+                                 "asamqc_lane_gap_issue119", "asamqc_positive_v18"};
+  names.resize(std::min<std::size_t>(names.size(), Setting("RODEIRA_LAND_FILES", 3)));
+  for (const std::string& name : names) {
+    if (!std::filesystem::exists(SharedXodr(name))) GTEST_SKIP() << "skipped: " << SharedXodr(name) << " is absent";
+    const auto loaded = road::World::Load(SharedXodr(name));
+    ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
+    const road::World& world = *loaded.value();
+    std::vector<std::array<Eigen::Vector3d, 3>> triangles;
+    std::vector<double> sums_m2;
+    for (const GroundTile& tile : BuildAll(world)) {
+      for (const Mesh& mesh : tile.levels[0].ground) {
+        for (std::size_t i = 0; i < mesh.triangle_count() && !IsRoad(mesh); ++i) {
+          if (IsWall(mesh, i)) continue;
+          const auto c = triangles.emplace_back(CornersOf(mesh, i));
+          const Eigen::Vector3d u = c[1] - c[0], v = c[2] - c[0];
+          sums_m2.push_back((sums_m2.empty() ? 0.0 : sums_m2.back()) + 0.5 * (u.x() * v.y() - u.y() * v.x()));
+        }
+      }
+    }
+    ASSERT_FALSE(triangles.empty());
+    int asked = 0, far = 0, stepped = 0;
+    double worst_m = 0.0;
+    Eigen::Vector3d where = Eigen::Vector3d::Zero();
+    for (std::uint64_t n = 0; asked < Points() && n < 50 * static_cast<std::uint64_t>(Points()); ++n) {
+      const Eigen::Vector3d p = PointIn(triangles, sums_m2, 59, n);
+      const road::SurfacePoint highest = world.At(p.x(), p.y());
+      if (!highest.inside) continue;
+      ++asked;
+      const double off_m = std::min(std::fabs(highest.z_m - p.z()), std::fabs(world.At(p.x(), p.y(), p.z() + 0.3).z_m - p.z()));
+      if (off_m > 0.005 && StepsNearby(world, p, kStep_m)) {
+        ++stepped;
+        continue;
+      }
+      far += off_m > 0.005;
+      if (off_m > worst_m) worst_m = off_m, where = p;
+    }
+    EXPECT_EQ(asked, Points()) << name;
+    EXPECT_LE(far, 0.001 * asked) << name << ": worst " << worst_m << " m at " << where.transpose();
+    EXPECT_LE(stepped, 0.005 * asked) << name;
+    std::printf("%s: %d points of land, %d at steps, %d more than 5 mm from SUELO, worst %.4f m\n", name.c_str(), asked, stepped, far, worst_m);
+  }
+}
+
 // 5 000 km away the same file gives the same ground, as exactly: only where a height lies between two steps it may go to
 // the other one.
 TEST(Ground, LosesNothingFarAway) {
