@@ -120,7 +120,7 @@ TEST(LaneStatistics, SumsAreWhatWasDriven) {
   EXPECT_NEAR(sum.fuel_mg, fuel_mg, 1e-9 * fuel_mg);
   EXPECT_NEAR(std::accumulate(statistics.fuel_mg().begin(), statistics.fuel_mg().end(), 0.0), fuel_mg, 1e-9 * fuel_mg);
   EXPECT_GT(visited, 1000);
-  for (const double seconds : statistics.travel_times_s()) EXPECT_GT(seconds, 3.0);
+  for (const LaneTrip& trip : statistics.trips()) EXPECT_GT(trip.took_s, 3.0);
 }
 
 // Each cell's time is, within a step a visit, that of the steps at whose ends somebody's middle was in it, on lanes that are changed, in a ring and at merges; and who
