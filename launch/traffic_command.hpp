@@ -6,7 +6,7 @@
 
 namespace rodeira::front {
 
-// `rodeira traffic run MAP --vehicles N --for S [--driver standard|motors] [--physics planar|full] [--settings FILE] [--csv DIR] [--heat FILE] [--fcd FILE] [--diagram FILE --lane ROAD:LANE]`
+// `rodeira traffic run MAP --vehicles N --for S [--driver standard|motors] [--physics planar|full] [--settings FILE] [--csv DIR] [--heat FILE [--pixel M]] [--fcd FILE] [--diagram FILE --lane ROAD:LANE]`
 struct TrafficOptions {
   bool asked = false;
   std::string map;  // a world file, .xodr or .motors
@@ -19,6 +19,7 @@ struct TrafficOptions {
   std::string settings;  // a file of `rodeira: traffic/1`; empty: as usual
   std::string csv;  // folder; empty: no tables
   std::string heat;     // .svg or .tif; empty: none
+  double pixel_m = 1.0;  // of heat.tif
   std::string fcd;      // .xml; empty: none
   std::string diagram;  // .svg; empty: none
   std::string lane;     // of the diagram, "ROAD:LANE"; empty: the longest one

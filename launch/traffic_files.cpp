@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <system_error>
 
+#include "common/base/csv_cell.hpp"
 #include "common/base/files.hpp"
 #include "common/base/suggest.hpp"
+#include "common/base/writable.hpp"
 #include "common/traffic/floating_cars.hpp"
 #include "common/traffic/lane_tables.hpp"
 
@@ -17,7 +19,6 @@ namespace rodeira::front {
 namespace {
 
 constexpr double kRowEvery_s = 0.5;
-constexpr double kPixel_m = 1.0;
 
 bool EndsOn(const std::string& file, const char* ending) { return std::filesystem::path(file).extension() == ending; }
 
@@ -59,6 +60,13 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
     if (!track) return track.error();
     files.diagram_.emplace(track.value());
   }
+  if (EndsOn(options.heat, ".tif")) {
+    if (auto status = traffic::CheckHeatRaster(lanes::Graph(network), options.pixel_m, options.heat); !status) return status.error();
+  }
+  for (const std::string& file : {options.heat, options.diagram}) {  // before it drives for hours
+    if (file.empty()) continue;
+    if (auto status = base::CheckWritable(file); !status) return status.error();
+  }
   if (!options.csv.empty()) {
     std::error_code problem;
     std::filesystem::create_directories(options.csv, problem);
@@ -80,7 +88,7 @@ void TrafficFiles::WriteTrajectories(const traffic::StudyMoment& moment) {
     const Eigen::Vector3d forward = pose.q_WB * Eigen::Vector3d::UnitX();
     trajectories_ << fmt::format("{:.2f},{},{},{:.3f},{:.3f},{:.3f},{:.5f},{:.3f},{:.3f},{},{}\n", moment.time_s, pose.id, pose.trip,
                                  pose.p_WB_W.x(), pose.p_WB_W.y(), pose.p_WB_W.z(), std::atan2(forward.y(), forward.x()), pose.speed_mps,
-                                 pose.acceleration_mps2, moment.model.graph().network().roads()[static_cast<std::size_t>(pose.road)].id(),
+                                 pose.acceleration_mps2, base::CsvCell(moment.model.graph().network().roads()[static_cast<std::size_t>(pose.road)].id()),
                                  pose.lane);
   }
 }
@@ -107,9 +115,8 @@ base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Networ
     written.push_back(InFolder("trajectories.csv"));
     if (auto status = text(InFolder("lanes.csv"), traffic::LaneTable(graph, *result.lanes)); !status) return status.error();
     if (auto status = text(InFolder("queues.csv"), traffic::QueueTable(graph, *result.lanes)); !status) return status.error();
-    std::string trips = "travel_time_s\n";
-    for (const double seconds : result.lanes->travel_times_s()) trips += fmt::format("{:.2f}\n", seconds);
-    if (auto status = text(InFolder("trips.csv"), trips); !status) return status.error();
+    if (auto status = text(InFolder("flows.csv"), traffic::FlowTable(graph, *result.lanes)); !status) return status.error();
+    if (auto status = text(InFolder("trips.csv"), traffic::TripTable(graph, *result.lanes)); !status) return status.error();
   }
   if (fcd_.is_open()) {
     fcd_ << traffic::FloatingCarsEnd();
@@ -123,7 +130,7 @@ base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Networ
   if (EndsOn(options_.heat, ".svg")) {
     if (auto status = text(options_.heat, traffic::SpeedMap(graph, *result.lanes, title)); !status) return status.error();
   } else if (!options_.heat.empty()) {
-    if (auto status = traffic::WriteHeatRaster(graph, *result.lanes, kPixel_m, options_.heat); !status) return status.error();
+    if (auto status = traffic::WriteHeatRaster(graph, *result.lanes, options_.pixel_m, options_.heat); !status) return status.error();
     written.push_back(options_.heat);
   }
   return written;

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <utility>
 
+#include "common/base/csv_cell.hpp"
+
 namespace rodeira::csv {
 namespace {
 
@@ -57,18 +59,7 @@ base::Status CsvFile::Close() {
   return {};
 }
 
-void AppendCell(std::string_view text, std::string& out) {
-  if (text.find_first_of("\",\r\n") == std::string_view::npos) {
-    out += text;
-    return;
-  }
-  out += '"';
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  out += '"';
-}
+void AppendCell(std::string_view text, std::string& out) { out += base::CsvCell(text); }
 
 void AppendSeconds(std::int64_t time_ns, std::string& out) {
   constexpr std::uint64_t kSecond = 1'000'000'000;

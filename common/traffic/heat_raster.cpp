@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gdal_priv.h>
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "common/traffic/drivetrain.hpp"
@@ -28,7 +30,8 @@ struct Raster {
   std::vector<Pixel> pixels;
 };
 
-base::Result<Raster> Gather(const lanes::Graph& graph, const LaneStatistics& statistics, double pixel_m, const std::string& file) {
+// Its frame, without pixels.
+base::Result<Raster> FrameOf(const lanes::Graph& graph, double pixel_m, const std::string& file) {
   double west = 1e18, east = -1e18, south = 1e18, north = -1e18;
   for (const lanes::Track& track : graph.tracks()) {
     for (const auto& node : track.curve.nodes()) {
@@ -41,8 +44,18 @@ base::Result<Raster> Gather(const lanes::Graph& graph, const LaneStatistics& sta
   raster.west_m = pixel_m * std::floor(west / pixel_m);
   raster.north_m = pixel_m * std::ceil(north / pixel_m);
   const double columns = std::floor((east - raster.west_m) / pixel_m) + 1.0, rows = std::floor((raster.north_m - south) / pixel_m) + 1.0;
-  if (!(columns * rows <= kMostPixels) || columns < 1.0 || rows < 1.0) return base::WrongInput("a heat map of at most 10^8 pixels was expected; larger ones make fewer", file);
+  if (!(columns * rows <= kMostPixels) || columns < 1.0 || rows < 1.0) {
+    return base::WrongInput(fmt::format("{:.0f} by {:.0f} pixels of {} m were found; at most 10^8 were expected (larger pixels make fewer)", columns, rows, pixel_m), file);
+  }
   raster.columns = static_cast<int>(columns), raster.rows = static_cast<int>(rows);
+  return raster;
+}
+
+base::Result<Raster> Gather(const lanes::Graph& graph, const LaneStatistics& statistics, double pixel_m, const std::string& file) {
+  auto framed = FrameOf(graph, pixel_m, file);
+  if (!framed) return framed.error();
+  Raster raster = std::move(framed).value();
+  const auto columns = static_cast<double>(raster.columns), rows = static_cast<double>(raster.rows);
   raster.pixels.resize(static_cast<std::size_t>(columns * rows));
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
     const double length = statistics.CellLength_m(track);
@@ -61,6 +74,12 @@ base::Result<Raster> Gather(const lanes::Graph& graph, const LaneStatistics& sta
 }
 
 }  // namespace
+
+base::Status CheckHeatRaster(const lanes::Graph& graph, double pixel_m, const std::string& file) {
+  const auto frame = FrameOf(graph, pixel_m, file);
+  if (!frame) return frame.error();
+  return {};
+}
 
 base::Status WriteHeatRaster(const lanes::Graph& graph, const LaneStatistics& statistics, double pixel_m, const std::string& file) {
   auto gathered = Gather(graph, statistics, pixel_m, file);

@@ -16,9 +16,10 @@ constexpr std::uint32_t kAhead = 16;  // vehicles whose memory is on its way whi
 
 }  // namespace
 
-LaneStatistics::LaneStatistics(const TrafficModel& model, double cell_m) : seen_(model.vehicles()), fuel_mg_(model.vehicles(), 0.0) {
+LaneStatistics::LaneStatistics(const TrafficModel& model, double cell_m) : seen_(model.vehicles()), fuel_mg_(model.vehicles(), 0.0), now_(model.vehicles()) {
   RODEIRA_ASSERT(cell_m > 0.0);
   queues_.resize(model.graph().tracks().size());
+  counts_.resize(model.graph().tracks().size());
   for (const lanes::Track& track : model.graph().tracks()) {
     const auto count = static_cast<std::size_t>(std::max(1.0, std::round(track.length_m() / cell_m)));
     const auto index = static_cast<std::uint32_t>(tracks_.size());
@@ -32,7 +33,10 @@ LaneStatistics::LaneStatistics(const TrafficModel& model, double cell_m) : seen_
   for (std::uint32_t id = 0; id < model.vehicles(); ++id) {
     const Agent& agent = model.agent(id);
     seen_[id].on_road = agent.on_road, seen_[id].trip = agent.trip, seen_[id].o_m = agent.o_m;
-    if (agent.on_road) ++began_;
+    if (!agent.on_road) continue;
+    ++began_;
+    now_[id].to = PieceAt(agent.path, agent.o_m).track;
+    ++counts_[now_[id].to].began;
   }
   there_ = began_;
 }
@@ -50,6 +54,13 @@ void LaneStatistics::PourAll() const {
   pending_ = false;
 }
 
+// Its middle is on that track now.
+void LaneStatistics::GoOnto(std::uint32_t id, std::uint32_t track) {
+  if (now_[id].to == track) return;
+  ++counts_[now_[id].to].out, ++counts_[track].in;
+  now_[id].to = track;
+}
+
 // The way from one odometer to another, piece by piece and cell by cell. What lies before the path that is still known counts to
 // its first piece. Pieces that come later begin at its front bumper or beyond, so that as far as there the last cell is its own.
 void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double from_m, double to_m, const LaneCell& sum) {
@@ -61,6 +72,7 @@ void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double f
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool last = i + 1 == path.size();
     if (!last && path[i + 1].begin_m <= at && path[i + 1].begin_m < to_m) continue;
+    GoOnto(id, path[i].track);
     const double end = last ? to_m : std::min(to_m, path[i + 1].begin_m);
     const auto& [first, count, length] = tracks_[path[i].track];
     LaneCell* const cells = cells_.data() + first;
@@ -120,12 +132,20 @@ void LaneStatistics::Add(const TrafficModel& model, double dt_s) {
     if (seen.on_road && !same) {
       ++left_, --there_;
       Pour(seen);
-      if (seen.entered_s >= 0.0) travel_times_s_.push_back(watched_s_ - seen.entered_s);
+      LaneTrip& trip = now_[id];
+      ++counts_[trip.to].out;
+      if (trip.entered_s >= 0.0) trip.took_s = watched_s_ - trip.entered_s, trips_.push_back(trip);
     }
-    if (agent.on_road && !same) ++entered_, ++there_, seen.entered_s = watched_s_;
+    if (agent.on_road && !same) {
+      ++entered_, ++there_;
+      const std::uint32_t track = PieceAt(agent.path, agent.o_m).track;
+      now_[id] = {id, model.traits(id).kind, track, track, watched_s_, 0.0, 0.0};
+      ++counts_[track].in;
+    }
     if (same) {
       const double way = agent.o_m - seen.o_m;
       fuel_mg_[id] += agent.fuel_mgps * dt_s;
+      now_[id].fuel_mg += agent.fuel_mgps * dt_s;
       const LaneCell step{way, dt_s, agent.fuel_mgps * dt_s};
       if (way >= 0.0 && agent.o_m < seen.until_m) {
         seen.sum.distance_m += step.distance_m, seen.sum.time_s += step.time_s, seen.sum.fuel_mg += step.fuel_mg;

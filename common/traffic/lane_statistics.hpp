@@ -21,6 +21,22 @@ struct LaneCell {
   double Speed_mps() const { return time_s > 0.0 ? distance_m / time_s : 0.0; }
 };
 
+// One vehicle's way through the network.
+struct LaneTrip {
+  std::uint32_t id = 0;
+  VehicleKind kind = VehicleKind::kCar;
+  std::uint32_t from = 0, to = 0;  // tracks: where it came onto the road, and where its middle was last
+  double entered_s = -1.0;         // since the watching began; below 0: was there then
+  double took_s = 0.0;             // until it left
+  double fuel_mg = 0.0;
+};
+
+struct LaneCount {
+  std::int64_t began = 0, in = 0, out = 0;
+
+  std::int64_t there() const { return began + in - out; }
+};
+
 // Sums for every metre (or so) of every lane, by watching a model after each step. The way of a step is shared out exactly among
 // the cells that it crosses, its time and fuel in the same shares. What a vehicle does within a cell is summed up beside the vehicle and
 // told to the cell when it leaves it, or somebody asks: cells lie in far memory, and most steps lead to no other one.
@@ -54,8 +70,10 @@ class LaneStatistics {
   std::int64_t entered() const { return entered_; }
   std::int64_t left() const { return left_; }
   std::int64_t there() const { return there_; }
-  // Of ended trips that began while watched: seconds from entering to leaving.
-  const std::vector<double>& travel_times_s() const { return travel_times_s_; }
+  // Of trips that began and ended while watched, in the order of their ends.
+  const std::vector<LaneTrip>& trips() const { return trips_; }
+  // Of a track: whose middle was on it at first, came onto it (from another lane, or into the network), and left it: began + in - out = there.
+  const LaneCount& CountOf(std::uint32_t track) const { return counts_[track]; }
   // Of each vehicle, over all its trips.
   const std::vector<double>& fuel_mg() const { return fuel_mg_; }
 
@@ -65,7 +83,6 @@ class LaneStatistics {
     double o_m = 0.0;
     double until_m = kNowhere_m;  // odometer up to which it is in its cell, whatever it does …
     LaneCell sum;                 // … and what it has done there since the cell was told
-    double entered_s = -1.0;      // below 0: was there from the beginning
     std::uint32_t trip = 0;
     std::uint32_t cell = 0;       // of all cells, the one that it was seen in last
     bool on_road = false;
@@ -81,6 +98,7 @@ class LaneStatistics {
   static constexpr double kNowhere_m = -1e18;
 
   void Share(const TrafficModel& model, std::uint32_t id, double from_m, double to_m, const LaneCell& sum);
+  void GoOnto(std::uint32_t id, std::uint32_t track);
   void Pour(Seen& seen) const;
   void PourAll() const;
   void FetchFor(const TrafficModel& model, std::uint32_t id) const;
@@ -93,7 +111,9 @@ class LaneStatistics {
   std::vector<Queue> queues_;                 // by track
   std::int64_t looks_ = 0;
   std::vector<double> fuel_mg_;
-  std::vector<double> travel_times_s_;
+  std::vector<LaneTrip> now_;      // by vehicle: its trip as yet, `to` the track that its middle is on
+  std::vector<LaneTrip> trips_;
+  std::vector<LaneCount> counts_;  // by track
   double watched_s_ = 0.0;
   std::int64_t began_ = 0, entered_ = 0, left_ = 0, there_ = 0;
 };

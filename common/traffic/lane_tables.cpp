@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
+#include "common/base/csv_cell.hpp"
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/xml_text.hpp"
 
@@ -37,6 +39,10 @@ Frame FrameOf(const lanes::Graph& graph) {
   return frame;
 }
 
+const std::string& RoadOf(const lanes::Graph& graph, std::uint32_t track) { return graph.network().roads()[graph[track].lane.road].id(); }
+
+std::string RoadCell(const lanes::Graph& graph, std::uint32_t track) { return base::CsvCell(RoadOf(graph, track)); }
+
 }  // namespace
 
 std::string LaneTable(const lanes::Graph& graph, const LaneStatistics& statistics) {
@@ -50,9 +56,10 @@ std::string LaneTable(const lanes::Graph& graph, const LaneStatistics& statistic
       const LaneCell& cell = statistics.CellsOf(track)[i];
       const double d = (static_cast<double>(i) + 0.5) * length;
       const lanes::CurvePoint at = lane.curve.At(d);
-      fmt::format_to(std::back_inserter(table), "{},{},{:.2f},{:.2f},{:.2f},{:.4f},{:.3f},{:.3f},{:.3f},{:.2f},{:.3f}\n", graph.network().roads()[lane.lane.road].id(), lane.lane.lane,
+      fmt::format_to(std::back_inserter(table), "{},{},{:.2f},{:.2f},{:.2f},{:.4f},{:.3f},{:.3f},{},{},{:.3f}\n", RoadCell(graph, track), lane.lane.lane,
                      lane.curve.StationAt(d), at.p_W.x(), at.p_W.y(), length, 3600.0 * cell.Flow_vehps(length, watched), 1000.0 * cell.Density_vehpm(length, watched),
-                     cell.Speed_mps(), cell.distance_m > 0.0 ? 1e6 * cell.fuel_mg / kFuelDensity_mgpl / cell.distance_m : 0.0, statistics.FreeSpeed_mps(track, i));
+                     cell.time_s > 0.0 ? fmt::format("{:.3f}", cell.Speed_mps()) : "",
+                     cell.distance_m > 0.0 ? fmt::format("{:.2f}", 1e6 * cell.fuel_mg / kFuelDensity_mgpl / cell.distance_m) : "", statistics.FreeSpeed_mps(track, i));
     }
   }
   return table;
@@ -62,8 +69,29 @@ std::string QueueTable(const lanes::Graph& graph, const LaneStatistics& statisti
   std::string table = "road,lane,length_m,queue_longest,queue_mean\n";
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
     const lanes::Track& lane = graph[track];
-    fmt::format_to(std::back_inserter(table), "{},{},{:.2f},{},{:.4f}\n", graph.network().roads()[lane.lane.road].id(), lane.lane.lane, lane.length_m(),
+    fmt::format_to(std::back_inserter(table), "{},{},{:.2f},{},{:.4f}\n", RoadCell(graph, track), lane.lane.lane, lane.length_m(),
                    statistics.LongestQueue(track), statistics.MeanQueue(track));
+  }
+  return table;
+}
+
+std::string FlowTable(const lanes::Graph& graph, const LaneStatistics& statistics) {
+  std::string table = "road,section,lane,began,in,out,there\n";
+  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
+    const network::LaneKey& lane = graph[track].lane;
+    const LaneCount& count = statistics.CountOf(track);
+    fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{}\n", RoadCell(graph, track), lane.section, lane.lane, count.began, count.in, count.out, count.there());
+  }
+  return table;
+}
+
+std::string TripTable(const lanes::Graph& graph, const LaneStatistics& statistics) {
+  constexpr std::array<const char*, 4> kKinds = {"car", "van", "lorry", "bus"};
+  const auto place = [&](std::uint32_t track) { return base::CsvCell(fmt::format("{}:{}", RoadOf(graph, track), graph[track].lane.lane)); };
+  std::string table = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml\n";
+  for (const LaneTrip& trip : statistics.trips()) {
+    fmt::format_to(std::back_inserter(table), "{},{},{},{},{:.2f},{:.2f},{:.3f}\n", trip.id, kKinds[static_cast<std::size_t>(trip.kind)], place(trip.from), place(trip.to), trip.entered_s,
+                   trip.took_s, 1e3 * trip.fuel_mg / kFuelDensity_mgpl);
   }
   return table;
 }

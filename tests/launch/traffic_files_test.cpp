@@ -16,6 +16,7 @@
 
 #include "common/base/files.hpp"
 #include "launch/traffic_command.hpp"
+#include "tests/common/opendrive/sample.hpp"
 #include "tests/launch/said.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/tree.hpp"
@@ -32,9 +33,18 @@ Said Asked(const TrafficOptions& options) { return SaidBy(TrafficRun, options); 
 Rows Table(const std::filesystem::path& file, const std::string& header) {
   std::istringstream text(base::ReadText(file).value());
   const auto fields = [](const std::string& line) {
-    std::vector<std::string> all;
-    std::istringstream parts(line);
-    for (std::string part; std::getline(parts, part, ',');) all.push_back(part);
+    std::vector<std::string> all{""};
+    bool quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      if (line[i] == '"') {
+        if (quoted && i + 1 < line.size() && line[i + 1] == '"') all.back() += line[++i];
+        else quoted = !quoted;
+      } else if (line[i] == ',' && !quoted) {
+        all.emplace_back();
+      } else {
+        all.back() += line[i];
+      }
+    }
     return all;
   };
   std::string line;
@@ -52,6 +62,9 @@ Rows Table(const std::filesystem::path& file, const std::string& header) {
 }
 
 double Number(const std::map<std::string, std::string>& row, const std::string& key) { return std::stod(row.at(key)); }
+
+const char* const kLanes = "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm,free_mps";
+const char* const kTrips = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml";
 
 // Ten cars for a minute and a half on the ramp's map, whose name is one that XML has to spell otherwise.
 class TrafficFilesTest : public testing::Test {
@@ -71,9 +84,10 @@ class TrafficFilesTest : public testing::Test {
 
 TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   options_.csv = In("out");
+  options_.duration_s = 180.0;
   const Said said = Asked(options_);
   ASSERT_EQ(said.status, 0) << said.errors;
-  for (const char* name : {"trajectories.csv", "lanes.csv", "queues.csv", "trips.csv"}) EXPECT_THAT(said.out, HasSubstr("wrote            " + In("out") + "/" + name + "\n"));
+  for (const char* name : {"trajectories.csv", "lanes.csv", "queues.csv", "flows.csv", "trips.csv"}) EXPECT_THAT(said.out, HasSubstr("wrote            " + In("out") + "/" + name + "\n"));
   // A row a car and half second: what a car goes between two of them is what its speed says.
   const Rows cars = Table(In("out") + "/trajectories.csv", "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane");
   std::map<std::string, const std::map<std::string, std::string>*> before;
@@ -91,20 +105,29 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
     }
     last = &row;
   }
-  EXPECT_EQ(times.size(), 181u);
+  EXPECT_EQ(times.size(), 361u);
   EXPECT_EQ(ids.size(), 10u);
   // A row a metre of lane: flow = density · speed, and all flows together are the way that was driven.
-  const Rows lanes = Table(In("out") + "/lanes.csv", "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm,free_mps");
+  const Rows lanes = Table(In("out") + "/lanes.csv", kLanes);
   double flows_m = 0.0, lanes_m = 0.0, fuel_l = 0.0;
+  int empty = 0;
   for (const auto& row : lanes) {
     EXPECT_NEAR(Number(row, "length_m"), 1.0, 0.2);
+    EXPECT_EQ(row.at("speed_mps").empty(), row.at("density_vehpkm") == "0.000") << row.at("road");  // nobody was there
+    lanes_m += Number(row, "length_m");
+    EXPECT_GT(Number(row, "free_mps"), 2.0);
+    if (row.at("speed_mps").empty()) {
+      EXPECT_EQ(row.at("fuel_mlpkm"), "");
+      EXPECT_EQ(row.at("flow_vehph"), "0.000");
+      ++empty;
+      continue;
+    }
     EXPECT_NEAR(Number(row, "flow_vehph"), 3.6 * Number(row, "density_vehpkm") * Number(row, "speed_mps"), 0.01 * Number(row, "flow_vehph") + 0.2);
     flows_m += Number(row, "flow_vehph") / 3600.0 * Number(row, "length_m") * options_.duration_s;
-    lanes_m += Number(row, "length_m");
     fuel_l += 1e-6 * Number(row, "fuel_mlpkm") * Number(row, "flow_vehph") / 3600.0 * Number(row, "length_m") * options_.duration_s;
-    EXPECT_GT(Number(row, "free_mps"), 2.0);
     EXPECT_LE(Number(row, "speed_mps"), 1.001 * Number(row, "free_mps") + 0.5);  // nobody here drives faster than the plan
   }
+  EXPECT_GT(empty, 0);
   // The closing table: who was there, came and left are those who are there; the fuel is that of the table, but for what an idling engine burns at rest.
   const auto told = [&](const char* name) {
     std::istringstream line(said.out.substr(said.out.find(std::string("\n") + name) + 18));
@@ -131,11 +154,43 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   }
   EXPECT_EQ(queues.size(), 19u);
   EXPECT_NEAR(queues_m, lanes_m, 0.2);
-  const Rows trips = Table(In("out") + "/trips.csv", "travel_time_s");
+  // Who came onto each lane and left it: as many are there as the last rows of the cars say, and as many came into the network and left it as the closing table does.
+  std::map<std::string, double> last_on, there_on;
+  for (const auto& row : cars) {
+    if (row.at("time_s") == "180.00") last_on[row.at("road")] += 1.0;
+  }
+  double balance = 0.0;
+  for (const auto& row : Table(In("out") + "/flows.csv", "road,section,lane,began,in,out,there")) {
+    EXPECT_EQ(Number(row, "began") + Number(row, "in") - Number(row, "out"), Number(row, "there"));
+    there_on[row.at("road")] += Number(row, "there");
+    balance += Number(row, "in") - Number(row, "out");
+  }
+  for (const auto& [road, cars_there] : there_on) EXPECT_EQ(cars_there, last_on[road]) << road;
+  EXPECT_EQ(balance, there[0] - there[1]);
+  const Rows trips = Table(In("out") + "/trips.csv", kTrips);
+  std::map<std::pair<std::string, std::string>, std::pair<const std::map<std::string, std::string>*, const std::map<std::string, std::string>*>> ways;  // first and last row of each
+  for (const auto& row : cars) {
+    auto& way = ways[{row.at("car"), row.at("trip")}];
+    if (way.first == nullptr) way.first = &row;
+    way.second = &row;
+  }
   EXPECT_GT(trips.size(), 0u);
   const std::string ended = said.out.substr(0, said.out.find(" trips ended"));
   EXPECT_LE(trips.size(), std::stoul(ended.substr(ended.rfind(' ') + 1)));  // those that began on the way have no whole time
-  for (const auto& row : trips) EXPECT_GT(Number(row, "travel_time_s"), 1.0);
+  for (const auto& row : trips) {
+    EXPECT_GT(Number(row, "travel_time_s"), 1.0);
+    EXPECT_GT(Number(row, "fuel_ml"), 0.1);
+    EXPECT_TRUE(row.at("kind") == "car" || row.at("kind") == "van") << row.at("kind");
+    int found = 0;
+    for (const auto& [key, way] : ways) {  // its first row is at most half a second after it entered, its last one as long before it left
+      const double first = Number(*way.first, "time_s"), last = Number(*way.second, "time_s"), entered = Number(row, "entered_s"), left = entered + Number(row, "travel_time_s");
+      if (key.first != row.at("vehicle") || first < entered - 1e-6 || first > entered + 0.51 || last > left + 1e-6 || last < left - 0.51) continue;
+      ++found;
+      EXPECT_EQ(row.at("from"), way.first->at("road") + ":" + way.first->at("lane"));
+      EXPECT_EQ(row.at("to"), way.second->at("road") + ":" + way.second->at("lane"));
+    }
+    EXPECT_EQ(found, 1) << row.at("vehicle") << " at " << row.at("entered_s");
+  }
 }
 
 TEST_F(TrafficFilesTest, PicturesAreWholeAndNameTheMap) {
@@ -204,12 +259,17 @@ TEST_F(TrafficFilesTest, AWishThatCannotBeIsRefusedBeforeAnythingDrives) {
     std::string sentence;
   };
   ASSERT_TRUE(base::WriteWhole(In("file"), "a file").ok());
+  std::filesystem::create_directory(In("folder.svg"));
   ASSERT_TRUE(base::WriteWhole(In("bad.yaml"), "rodeira: traffic/1\nvariety: 0.6\n").ok());
   for (const Case& c : std::vector<Case>{
            {[&](TrafficOptions& o) { o.heat = In("heat.png"); }, 2, "--heat: '" + In("heat.png") + "' was found; a file on .svg or .tif was expected"},
            {[&](TrafficOptions& o) { o.diagram = In("d.svg"), o.lane = "1:-7"; }, 2, "--lane: '1:-7' was found; a drivable lane as ROAD:LANE was expected"},
            {[&](TrafficOptions& o) { o.diagram = In("d.svg"), o.lane = "1"; }, 2, "--lane: '1' was found; a drivable lane as ROAD:LANE was expected"},
            {[&](TrafficOptions& o) { o.csv = In("file") + "/out"; }, 1, In("file") + "/out: the folder cannot be written to"},
+           {[&](TrafficOptions& o) { o.heat = In("file") + "/heat.svg"; }, 1, In("file") + "/heat.svg: the file cannot be created"},
+           {[&](TrafficOptions& o) { o.heat = In("file") + "/heat.tif"; }, 1, In("file") + "/heat.tif: the file cannot be created"},
+           {[&](TrafficOptions& o) { o.diagram = In("folder.svg"); }, 1, In("folder.svg") + ": the file cannot be written: a folder has that name"},
+           {[&](TrafficOptions& o) { o.heat = In("heat.tif"), o.pixel_m = 0.01; }, 2, In("heat.tif") + ": "},
            {[&](TrafficOptions& o) { o.fcd = In("no/such/cars.xml"); }, 1, In("no/such/cars.xml") + ": the file cannot be written"},
            {[&](TrafficOptions& o) { o.settings = In("bad.yaml"); }, 2, In("bad.yaml") + ":2: 'variety' is 0.6"},
            {[&](TrafficOptions& o) { o.settings = In("none.yaml"); }, 2, In("none.yaml")},
@@ -224,6 +284,43 @@ TEST_F(TrafficFilesTest, AWishThatCannotBeIsRefusedBeforeAnythingDrives) {
     EXPECT_THAT(said.errors, testing::StartsWith("rodeira: " + c.sentence));
     EXPECT_EQ(said.out, "") << c.sentence;
   }
+  for (const auto& left : std::filesystem::directory_iterator(folder_.path())) EXPECT_EQ(left.path().string().find("heat"), std::string::npos) << left.path();
+}
+
+// Larger pixels make a map of the same place.
+TEST_F(TrafficFilesTest, ThePixelsOfAHeatMapCanBeChosen) {
+  options_.duration_s = 10.0;
+  std::map<double, std::uintmax_t> bytes;
+  for (const double pixel_m : {1.0, 5.0}) {
+    options_.pixel_m = pixel_m;
+    options_.heat = In("heat.tif");
+    ASSERT_EQ(Asked(options_).status, 0);
+    bytes[pixel_m] = std::filesystem::file_size(options_.heat);
+  }
+  EXPECT_GT(bytes[1.0], 10 * bytes[5.0]);
+}
+
+// A road's id may hold what separates cells: it is one cell then.
+TEST_F(TrafficFilesTest, NamesOfRoadsAreCells) {
+  opendrive::RoadText road;
+  road.id = "1,&quot;a&quot;";
+  options_.map = In("odd.xodr");
+  ASSERT_TRUE(base::WriteWhole(options_.map, opendrive::Document(road.Text())).ok());
+  options_.csv = In("out");
+  options_.vehicles = 2;
+  options_.duration_s = 40.0;
+  const Said said = Asked(options_);
+  ASSERT_EQ(said.status, 0) << said.errors;
+  const std::string header = "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane";
+  const std::string id = "1,\"a\"";
+  for (const auto& [file, names] : std::map<std::string, std::string>{{"trajectories.csv", header}, {"lanes.csv", kLanes}, {"queues.csv", "road,lane,length_m,queue_longest,queue_mean"}, {"flows.csv", "road,section,lane,began,in,out,there"}}) {
+    const Rows rows = Table(In("out") + "/" + file, names);
+    EXPECT_GT(rows.size(), 0u) << file;
+    for (const auto& row : rows) EXPECT_EQ(row.at("road"), id) << file;
+  }
+  const Rows trips = Table(In("out") + "/trips.csv", kTrips);
+  EXPECT_GT(trips.size(), 0u);
+  for (const auto& row : trips) EXPECT_EQ(row.at("from").substr(0, row.at("from").rfind(':')), id);
 }
 
 // What is wrong with a map is told with its line; nothing drives.

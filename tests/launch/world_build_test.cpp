@@ -334,5 +334,27 @@ TEST(WorldBuild, AWorldOnAPlaneIsListedWithItsFile) {
   EXPECT_EQ(base::ReadText(out / "lights.yaml").value(), base::ReadText(fs::path(SourceDir()) / "configs/worlds/lights.yaml").value());
 }
 
+// A traffic map is a world, but has no world file: what is asked of such files is refused, with what makes one of it. Its hash is that of its bytes, and of what stands beside it.
+TEST(WorldOfAMap, IsAWorldWithoutAWorldFile) {
+  const TemporaryFolder folder;
+  const fs::path map = folder.path() / "lights.motors", beside = folder.path() / "lights.motors.yaml";
+  fs::copy_file(SourceDir() + "/configs/maps/lights.motors", map);
+  fs::copy_file(SourceDir() + "/configs/maps/lights.motors.yaml", beside);
+  EXPECT_EQ(Asked("check", map).out, map.string() + ": no problem found\n");
+  EXPECT_EQ(Asked("map", map, folder.path() / "plan.svg").status, 0);
+  for (const char* command : {"build", "export"}) {
+    const Said said = Asked(command, map, folder.path() / "out");
+    EXPECT_EQ(said.status, 2) << command;
+    EXPECT_THAT(said.errors, HasSubstr("this is a traffic map; `rodeira map convert " + map.string() + " -o lights.yaml` makes a world file of it")) << command;
+  }
+  const auto hash = road::World::Load(map).value()->content_hash();
+  fs::remove(beside);
+  EXPECT_NE(road::World::Load(map).value()->content_hash(), hash);  // its lights are gone
+  ASSERT_TRUE(base::WriteWhole(map, base::ReadText(map).value().substr(0, 500)).ok());
+  const Said cut = Asked("check", map);
+  EXPECT_EQ(cut.status, 2);
+  EXPECT_THAT(cut.errors, HasSubstr("lights.motors: the file ends at byte 500"));
+}
+
 }  // namespace
 }  // namespace rodeira::front

@@ -1,10 +1,12 @@
 // Four cars meet where each has another one on its right.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <random>
 
 #include "common/base/random.hpp"
@@ -35,6 +37,12 @@ struct Outcome {
   std::array<double, 4> out_s{};  // when each has left the crossing; -1: not within two minutes
   double hardest_mps2 = 0.0;
   bool touched = false;
+};
+
+// What the three others cost each car, and in which order they leave.
+struct Course {
+  std::array<double, 4> delay_s{};
+  std::array<std::uint32_t, 4> order{};
 };
 
 class FourCars : public testing::Test {
@@ -94,8 +102,8 @@ class FourCars : public testing::Test {
     return outcome;
   }
 
-  // What the three others cost each car, in the mean.
-  double MeanDelay(const std::vector<Meeting>& meetings, double step_s) {
+  // How each meeting goes by a step.
+  std::vector<Course> Courses(const std::vector<Meeting>& meetings, double step_s) {
     std::array<std::array<double, 3>, 4> alone{};
     for (std::uint32_t id = 0; id < 4; ++id) {
       for (int turn = 0; turn < 3; ++turn) {
@@ -106,7 +114,7 @@ class FourCars : public testing::Test {
         alone[id][static_cast<std::size_t>(turn)] = Run(meeting, there, step_s).out_s[id];
       }
     }
-    double delay = 0.0;
+    std::vector<Course> courses;
     for (const Meeting& meeting : meetings) {
       const Outcome outcome = Run(meeting, {true, true, true, true}, step_s);
       std::string told;
@@ -114,13 +122,17 @@ class FourCars : public testing::Test {
       EXPECT_FALSE(outcome.touched) << told;
       EXPECT_LE(outcome.hardest_mps2, 4.5) << told;
       hardest_mps2_ = std::max(hardest_mps2_, outcome.hardest_mps2);
+      Course course;
       for (std::uint32_t id = 0; id < 4; ++id) {
         EXPECT_GT(outcome.out_s[id], 0.0) << told;
         last_s_ = std::max(last_s_, outcome.out_s[id]);
-        delay += outcome.out_s[id] - meeting.later_s[id] - alone[id][static_cast<std::size_t>(meeting.turn[id])];
+        course.delay_s[id] = outcome.out_s[id] - meeting.later_s[id] - alone[id][static_cast<std::size_t>(meeting.turn[id])];
+        course.order[id] = id;
       }
+      std::stable_sort(course.order.begin(), course.order.end(), [&](std::uint32_t a, std::uint32_t b) { return outcome.out_s[a] < outcome.out_s[b]; });
+      courses.push_back(course);
     }
-    return delay / (4.0 * static_cast<double>(meetings.size()));
+    return courses;
   }
 
   TrafficSettings settings_;
@@ -130,8 +142,15 @@ class FourCars : public testing::Test {
   double hardest_mps2_ = 0.0, last_s_ = 0.0;
 };
 
-// All pass, gently, and what it costs does not depend on the step. (SUMO 1.15's last one leaves after 38.5 s with a step of a
-// second, after 61.4 s with one of 0.01 s: shared/facts/traffic.md.)
+double MeanDelay(const std::vector<Course>& courses) {
+  double delay = 0.0;
+  for (const auto& course : courses) delay += std::accumulate(course.delay_s.begin(), course.delay_s.end(), 0.0);
+  return delay / (4.0 * static_cast<double>(courses.size()));
+}
+
+// All pass, gently, and what it costs does not depend on the step: not in the mean, nor, where they leave in the same order, by more than a step for nineteen of twenty. Nearly all leave in the same order. (SUMO 1.15's last one leaves after 38.5 s
+// with a step of a second, after 61.4 s with one of 0.01 s: shared/facts/traffic.md.) Who comes to a line in the same moment as another one may go before him by one step and behind
+// him by another.
 TEST_F(FourCars, AllPassAndTheStepDoesNotMatter) {
   ASSERT_EQ(arms_.size(), 4u);
   std::mt19937 random(11);
@@ -142,11 +161,34 @@ TEST_F(FourCars, AllPassAndTheStepDoesNotMatter) {
     for (double& later : meeting.later_s) later = i % 10 == 0 ? 0.0 : kLatest_s * static_cast<double>(random()) / 4294967296.0;
     meetings.push_back(meeting);
   }
-  const double coarse = MeanDelay(meetings, 0.04), fine = MeanDelay(meetings, 0.01);
-  EXPECT_GT(fine, 0.5);
-  EXPECT_NEAR(coarse, fine, 0.02 * fine);
-  RecordProperty("delay_s_at_0.04", std::to_string(coarse));
-  RecordProperty("delay_s_at_0.01", std::to_string(fine));
+  const auto fine = Courses(meetings, 0.01);
+  const double delay_s = MeanDelay(fine);
+  EXPECT_GT(delay_s, 0.5);
+  RecordProperty("delay_s_at_0.01", std::to_string(delay_s));
+  for (const double step_s : {0.02, 0.04, 0.1}) {
+    const auto coarse = Courses(meetings, step_s);
+    int others = 0;
+    std::vector<double> apart_s;
+    double worst_s = 0.0, worst_of_all_s = 0.0;
+    for (std::size_t i = 0; i < meetings.size(); ++i) {
+      const bool same = coarse[i].order == fine[i].order;
+      if (!same) ++others;
+      for (std::size_t id = 0; id < 4; ++id) {
+        const double apart = std::fabs(coarse[i].delay_s[id] - fine[i].delay_s[id]);
+        worst_of_all_s = std::max(worst_of_all_s, apart);
+        if (same) worst_s = std::max(worst_s, apart), apart_s.push_back(apart);
+      }
+    }
+    std::sort(apart_s.begin(), apart_s.end());
+    const auto share = [&](double of) { return apart_s[static_cast<std::size_t>(of * static_cast<double>(apart_s.size() - 1))]; };
+    if (std::getenv("RODEIRA_TELL") != nullptr) {
+      fmt::print("{} s: mean {:.4f} s (0.01 s: {:.4f} s), {} of {} in another order; of the others half are within {:.3f} s, 95 % within {:.3f} s, all within {:.3f} s; of all within {:.3f} s\n", step_s,
+                 MeanDelay(coarse), delay_s, others, meetings.size(), share(0.5), share(0.95), worst_s, worst_of_all_s);
+    }
+    EXPECT_NEAR(MeanDelay(coarse), delay_s, 0.02 * delay_s) << step_s;
+    EXPECT_LE(static_cast<double>(others), (step_s > 0.05 ? 0.03 : 0.01) * static_cast<double>(meetings.size())) << step_s;
+    EXPECT_LE(share(0.95), step_s);
+  }
   RecordProperty("hardest_mps2", std::to_string(hardest_mps2_));
   RecordProperty("last_s", std::to_string(last_s_));
 }

@@ -91,20 +91,44 @@ TEST(FullPhysics, RestoredItGoesOnWithTheSameBits) {
 
 // Through pedals, engine and tyres the gap of the IDM's equilibrium, (s0 + v T) / sqrt(1 - (v/v0)^4), behind a car of constant speed.
 TEST(FullPhysics, KeepsTheEquilibriumGapWithin5Centimetres) {
-  TrafficSettings settings = Identical(10, 1.3);
-  settings.physics = Physics::kFull;
-  TrafficModel model = TrafficModel::Make(settings, Ring(600.0), {}).value();
-  ASSERT_EQ(model.on_road(), 10u);
-  model.CapSpeed(0, 9.0);  // the leader of the nine others
-  for (int i = 0; i < 15000; ++i) model.Step(kStep_s, {});
-  int compared = 0;
-  for (std::uint32_t id = 1; id < 10; ++id) {
-    if (model.GapAhead(id) > 40.0) continue;
-    EXPECT_NEAR(model.agent(id).speed_mps, model.agent(0).speed_mps, 0.02) << id;
-    EXPECT_NEAR(model.GapAhead(id), driver::IdmEquilibriumGap(settings.idm, model.agent(id).speed_mps, kRingLimit_mps), 0.05) << id;
-    ++compared;
+  for (const double speed_mps : {5.0, 9.0, 13.0}) {
+    TrafficSettings settings = Identical(10, 1.3);
+    settings.physics = Physics::kFull;
+    TrafficModel model = TrafficModel::Make(settings, Ring(600.0), {}).value();
+    ASSERT_EQ(model.on_road(), 10u);
+    model.CapSpeed(0, speed_mps);  // the leader of the nine others
+    for (int i = 0; i < (speed_mps > 10.0 ? 50000 : 15000); ++i) model.Step(kStep_s, {});  // near the limit who is behind comes up slowly
+    int compared = 0;
+    for (std::uint32_t id = 1; id < 10; ++id) {
+      if (model.GapAhead(id) > 40.0) continue;
+      EXPECT_NEAR(model.agent(id).speed_mps, model.agent(0).speed_mps, 0.02) << id << " at " << speed_mps;
+      EXPECT_NEAR(model.GapAhead(id), driver::IdmEquilibriumGap(settings.idm, model.agent(id).speed_mps, kRingLimit_mps), 0.05) << id << " at " << speed_mps;
+      ++compared;
+    }
+    EXPECT_GE(compared, 7) << speed_mps;
   }
-  EXPECT_GE(compared, 7);
+}
+
+// The same uphill and downhill, two cars one behind the other.
+TEST(FullPhysics, KeepsTheEquilibriumGapOnAGrade) {
+  constexpr double kLimit_mps = 16.0;
+  for (const double grade : {0.04, -0.04}) {
+    for (const double speed_mps : {5.0, 9.0, 13.0}) {
+      TrafficSettings settings = Identical(0, 1.3);
+      settings.physics = Physics::kFull;
+      settings.scripted = {VehicleKind::kCar, VehicleKind::kCar};
+      settings.overtaking.allowed = false;
+      TrafficModel model = TrafficModel::Make(settings, driver::StraightWorld(3000.0, kLimit_mps, grade), {}).value();
+      model.CapSpeed(0, speed_mps);
+      ASSERT_TRUE(model.LetAppear(0, "test:-1", 60.0, speed_mps).value());
+      ASSERT_TRUE(model.LetAppear(1, "test:-1", 25.0, speed_mps).value());
+      for (int i = 0; i < 18000; ++i) model.Step(kStep_s, {});
+      ASSERT_EQ(model.on_road(), 2u);
+      EXPECT_NEAR(model.agent(0).grade, grade, 5e-3);  // the car pitches a little
+      EXPECT_NEAR(model.agent(1).speed_mps, model.agent(0).speed_mps, 0.02) << grade << " at " << speed_mps;
+      EXPECT_NEAR(model.GapAhead(1), driver::IdmEquilibriumGap(settings.idm, model.agent(1).speed_mps, kLimit_mps), 0.05) << grade << " at " << speed_mps;
+    }
+  }
 }
 
 // What leaves a car's tank is the integral of the flow that its engine tells of, millisecond by millisecond, of a car of the vehicle library that is driven alone

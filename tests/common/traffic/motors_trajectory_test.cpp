@@ -117,7 +117,7 @@ TEST(MotorsPedals, AreForAnEngineThatWouldStall) {
 }
 
 // Two roads that cross, one to the east, one to the north, and perhaps above it; one lane each.
-std::shared_ptr<const network::Network> Crossing(bool left_hand, double above_m) {
+std::shared_ptr<const network::Network> Crossing(bool left_hand, double above_m, bool both_ways = false) {
   const std::string lane = "<lane id=\"{}\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" max=\"14\" unit=\"m/s\"/></lane>";
   std::string text;
   for (const bool north : {false, true}) {
@@ -127,8 +127,8 @@ std::shared_ptr<const network::Network> Crossing(bool left_hand, double above_m)
     if (left_hand) road.attributes += " rule=\"LHT\"";
     road.geometry = fmt::format("<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{:.17g}\" length=\"400\"><line/></geometry>", north ? 0 : -200, north ? -200 : 0, north ? 0.5 * std::numbers::pi : 0.0);
     if (north) road.elevation = fmt::format("<elevation s=\"0\" a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/>", above_m);
-    road.left = left_hand ? fmt::format(fmt::runtime(lane), 1) : "";
-    road.right = left_hand ? "" : fmt::format(fmt::runtime(lane), -1);
+    road.left = left_hand || (north && both_ways) ? fmt::format(fmt::runtime(lane), 1) : "";
+    road.right = left_hand && !(north && both_ways) ? "" : fmt::format(fmt::runtime(lane), -1);
     text += road.Text();
   }
   return opendrive::MustRead(opendrive::Document(text));
@@ -160,6 +160,46 @@ TEST(MotorsYielding, WhoSeesSomebodyOnHisRightStops) {
       EXPECT_EQ(stops[1 - yields], 0) << left_hand << " " << above_m;
       EXPECT_EQ(slowest[yields] < 9.0, above_m == 0.0) << left_hand << " " << above_m << ": " << slowest[yields];
       EXPECT_GT(slowest[1 - yields], 9.0) << left_hand << " " << above_m;
+    }
+  }
+}
+
+// A third one comes from the left of the one who yields, later (in left-hand traffic all is mirrored): he has that one on his right, and stops for him; without him for nobody, since the two on
+// the crossing road see past one another. They pass in this order: who has nobody on his right, who yields to him, the third.
+TEST(MotorsYielding, AThirdWhoComesLaterLetsBothGo) {
+  for (const bool left_hand : {false, true}) {
+    for (const bool is_there : {true, false}) {  // the one who yields first
+      TrafficModel model = TrafficModel::Make(AsMotors({VehicleKind::kCar, VehicleKind::kCar, VehicleKind::kCar}), Crossing(left_hand, 0.0, true), {}).value();
+      const double side = left_hand ? -1.0 : 1.0, meets_m = 200.0 - 1.75 * side;
+      if (is_there) {
+        ASSERT_TRUE(model.LetAppear(0, left_hand ? "1:1" : "1:-1", 201.75 - 40.0, 11.0).value());
+      }
+      ASSERT_TRUE(model.LetAppear(1, "2:-1", meets_m - 40.0 * side, 11.0).value());
+      ASSERT_TRUE(model.LetAppear(2, "2:1", meets_m + 75.0 * side, 11.0).value());
+      model.Step(kStep_s, {});
+      ASSERT_EQ(model.on_road(), is_there ? 3u : 2u);
+      int stops[3] = {0, 0, 0};
+      double passed_s[3] = {-1.0, -1.0, -1.0};
+      for (int i = 0; i < 1200; ++i) {
+        model.Step(kStep_s, {});
+        for (const AgentPose& pose : model.poses()) {
+          if (passed_s[pose.id] >= 0.0) continue;
+          stops[pose.id] += model.motors(pose.id)->stops ? 1 : 0;
+          const double along = (pose.q_WB * Eigen::Vector3d::UnitX()).head<2>().dot(pose.p_WB_W.head<2>());
+          if (along > 4.0) passed_s[pose.id] = kStep_s * i;
+        }
+      }
+      EXPECT_EQ(stops[1], 0) << left_hand;
+      EXPECT_EQ(stops[0] > 20, is_there) << left_hand << ": " << stops[0];
+      EXPECT_EQ(stops[2] > 10, is_there) << left_hand << ": " << stops[2];
+      EXPECT_GT(passed_s[1], 0.0) << left_hand;
+      EXPECT_GT(passed_s[2], passed_s[1]) << left_hand;
+      if (!is_there) {
+        EXPECT_EQ(stops[2], 0) << left_hand;
+        continue;
+      }
+      EXPECT_GT(passed_s[0], passed_s[1]) << left_hand;
+      EXPECT_GT(passed_s[2], passed_s[0]) << left_hand;
     }
   }
 }

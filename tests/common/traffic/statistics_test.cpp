@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -119,7 +120,7 @@ TEST(LaneStatistics, SumsAreWhatWasDriven) {
   EXPECT_NEAR(sum.fuel_mg, fuel_mg, 1e-9 * fuel_mg);
   EXPECT_NEAR(std::accumulate(statistics.fuel_mg().begin(), statistics.fuel_mg().end(), 0.0), fuel_mg, 1e-9 * fuel_mg);
   EXPECT_GT(visited, 1000);
-  for (const double seconds : statistics.travel_times_s()) EXPECT_GT(seconds, 3.0);
+  for (const LaneTrip& trip : statistics.trips()) EXPECT_GT(trip.took_s, 3.0);
 }
 
 // Each cell's time is, within a step a visit, that of the steps at whose ends somebody's middle was in it, on lanes that are changed, in a ring and at merges; and who
@@ -218,6 +219,68 @@ TEST(LaneStatistics, AQueueIsCounted) {
   }
   EXPECT_EQ(statistics.LongestQueue(0), 20);
   EXPECT_NEAR(statistics.MeanQueue(0), 20.0, 0.01);
+}
+
+// On the straight arms of the crossing, told apart from the model: each step's way from where its car was seen before and is seen now, its fuel from what the car says that it has burnt, shared out
+// among the metres between the two places. Every metre of an arm has that distance, time and fuel.
+TEST(LaneStatistics, CellsHaveWhatThePosesSay) {
+  constexpr double kStep_s = 0.02;
+  TrafficSettings settings;
+  settings.vehicles = 20;
+  TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("crossing"), {}).value();
+  LaneStatistics statistics(model);
+  const lanes::Graph& graph = model.graph();
+  std::map<std::pair<std::int32_t, std::int32_t>, std::uint32_t> arms;  // road and lane, and the track
+  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
+    if (graph[track].curve.straight() && graph[track].length_m() > 50.0) arms[{static_cast<std::int32_t>(graph[track].lane.road), graph[track].lane.lane}] = track;
+  }
+  ASSERT_EQ(arms.size(), 8u);
+  std::map<std::uint32_t, std::vector<LaneCell>> told;
+  for (const auto& [lane, track] : arms) told[track].resize(statistics.CellsOf(track).size());
+  struct Before { std::int64_t trip = -1; Eigen::Vector2d p_W; double fuel_mg = 0.0; };
+  std::vector<Before> before(settings.vehicles);
+  const auto look = [&](bool shares) {
+    for (const AgentPose& pose : model.poses()) {
+      const double fuel_mg = model.agent(pose.id).fuel_mg;
+      Before& last = before[pose.id];
+      const auto arm = arms.find({pose.road, pose.lane});
+      if (shares && last.trip == static_cast<std::int64_t>(pose.trip) && arm != arms.end()) {
+        const auto& nodes = graph[arm->second].curve.nodes();
+        const Eigen::Vector2d begin = nodes.front().p_W.head<2>(), along = (nodes.back().p_W.head<2>() - begin).normalized();
+        const double from = along.dot(last.p_W - begin), to = along.dot(pose.p_WB_W.head<2>() - begin), length = statistics.CellLength_m(arm->second);
+        auto& cells = told[arm->second];
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+          const double low = static_cast<double>(i) * length, high = low + length;
+          const double way = std::min(to, high) - std::max(from, low);
+          const bool stands = to <= from && to >= low && to < high;
+          if (way <= 0.0 && !stands) continue;
+          const double share = stands ? 1.0 : way / (to - from);
+          cells[i].distance_m += stands ? 0.0 : way;
+          cells[i].time_s += share * kStep_s;
+          cells[i].fuel_mg += share * (fuel_mg - last.fuel_mg);
+        }
+      }
+      last = {pose.trip, pose.p_WB_W.head<2>(), fuel_mg};
+    }
+  };
+  look(false);
+  for (int i = 0; i < 15000; ++i) {
+    model.Step(kStep_s, {});
+    statistics.Add(model, kStep_s);
+    look(true);
+  }
+  double driven_m = 0.0, burnt_mg = 0.0;
+  for (const auto& [track, cells] : told) {
+    for (std::size_t i = 3; i + 3 < cells.size(); ++i) {  // not where a step leads from one lane to another
+      const LaneCell& cell = statistics.CellsOf(track)[i];
+      ASSERT_NEAR(cell.distance_m, cells[i].distance_m, 1e-6 * (1.0 + cells[i].distance_m)) << track << " " << i;
+      ASSERT_NEAR(cell.time_s, cells[i].time_s, 1e-6 * (1.0 + cells[i].time_s)) << track << " " << i;
+      ASSERT_NEAR(cell.fuel_mg, cells[i].fuel_mg, 1e-6 * (1.0 + cells[i].fuel_mg)) << track << " " << i;
+      driven_m += cell.distance_m, burnt_mg += cell.fuel_mg;
+    }
+  }
+  EXPECT_GT(driven_m, 5000.0);
+  EXPECT_GT(burnt_mg, 1e5);
 }
 
 class Written : public testing::Test {

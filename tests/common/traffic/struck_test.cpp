@@ -59,13 +59,15 @@ TEST(Struck, SpinsAsLongAsFrictionSays) {
 
 // A car of a column is hit: it takes the momentum, slides, and stays; the others stop behind it; nobody is lost, and a snapshot goes on
 // with the same bits.
-TEST(Struck, StaysAnObstacleToTheOthers) {
-  TrafficModel model = TrafficModel::Make(Identical(20, 1.4), Ring(1000.0), {}).value();
+void StaysAnObstacle(Physics physics) {
+  TrafficSettings settings = Identical(20, 1.4);
+  settings.physics = physics;
+  TrafficModel model = TrafficModel::Make(settings, Ring(1000.0), {}).value();
   for (int i = 0; i < 2000; ++i) model.Step(0.02, {});
   const std::size_t on_road = model.on_road();
   const std::uint32_t id = model.poses()[3].id;
   const AgentPose before = model.poses()[3];
-  const Eigen::Vector2d ahead = (before.q_WB * Eigen::Vector3d::UnitX()).head<2>(), left(-ahead.y(), ahead.x());
+  const Eigen::Vector2d ahead = (before.q_WB * Eigen::Vector3d::UnitX()).head<2>().normalized(), left(-ahead.y(), ahead.x());
   const double mass = model.traits(id).mass_kg;
   model.Strike(id, 0.0005 * mass * left, before.p_WB_W.head<2>());
   EXPECT_FALSE(model.agent(id).is_struck) << "a touch is nothing";
@@ -75,7 +77,7 @@ TEST(Struck, StaysAnObstacleToTheOthers) {
   EXPECT_NEAR((model.agent(id).struck.v_W - expected).norm(), 0.0, 1e-9);
   base::StateWriter writer;
   model.Save(writer);
-  TrafficModel again = TrafficModel::Make(Identical(20, 1.4), Ring(1000.0), {}).value();
+  TrafficModel again = TrafficModel::Make(settings, Ring(1000.0), {}).value();
   base::StateReader reader(writer.bytes());
   again.Restore(reader);
   ASSERT_TRUE(reader.Finish().ok());
@@ -102,6 +104,11 @@ TEST(Struck, StaysAnObstacleToTheOthers) {
   EXPECT_EQ(wreck.speed_mps, 0.0);
   for (const AgentPose& pose : model.poses()) EXPECT_LT(pose.speed_mps, 0.05) << pose.id << " has not come to rest behind it";
 }
+
+TEST(Struck, StaysAnObstacleToTheOthers) { StaysAnObstacle(Physics::kPlanar); }
+
+// The others' cars feel the ground; his is one that slides, as in the plane.
+TEST(Struck, StaysAnObstacleToOthersWithFullPhysics) { StaysAnObstacle(Physics::kFull); }
 
 }  // namespace
 }  // namespace rodeira::traffic
