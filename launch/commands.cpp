@@ -135,7 +135,7 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
   run->add_option("--physics", options.physics, "how cars move: planar, along their paths, or full, as the driver's car does")->check(OneOf({"planar", "full"}));
   run->add_option("--settings", options.settings, "how they drive: a file of 'rodeira: traffic/1', with the keys of a launch file's traffic");
   run->add_option("--csv", options.csv, "folder for trajectories.csv, lanes.csv, queues.csv, flows.csv, trips.csv");
-  run->add_option("--heat", options.heat, "mean speed by the metre as a picture (.svg)->check(NewFile()); flow, density, speed and fuel as a GeoTIFF (.tif)");
+  run->add_option("--heat", options.heat, "mean speed by the metre as a picture (.svg); flow, density, speed and fuel as a GeoTIFF (.tif)")->check(NewFile());
   run->add_option("--pixel", options.pixel_m, "metres a pixel of the GeoTIFF")->check(CLI::Range(0.1, 1000.0))->needs("--heat")->capture_default_str();
   run->add_option("--fcd", options.fcd, "floating car data for SUMO's tools (.xml)")->check(NewFile());
   run->add_option("--diagram", options.diagram, "trajectories of a lane over time (.svg)")->check(NewFile());
