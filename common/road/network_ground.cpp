@@ -42,8 +42,11 @@ SurfacePoint OnLayer(const Source& source, const Layer& layer) {
     ground.surface = terrain::Surface::kRoadMark;
     ground.friction = friction[static_cast<std::size_t>(ground.surface)];
   }
-  const auto measured = detail == nullptr ? std::nullopt : detail->FrictionAt(place.lane.road, place.s_m, place.t_m, p_W);
-  return {height.z_m, height.slope_W.x(), height.slope_W.y(), measured.value_or(ground.friction), ground.surface, true};
+  if (detail != nullptr) {
+    ground.friction = detail->FrictionAt(place.lane.road, place.s_m, place.t_m, p_W).value_or(ground.friction);
+    detail->Cover(place.lane.road, place.s_m, place.t_m, ground);
+  }
+  return {height.z_m, height.slope_W.x(), height.slope_W.y(), ground.friction, ground.surface, true};
 }
 
 // Within a junction that has a ground of its own, between its connecting roads.

@@ -211,7 +211,8 @@ TEST(BordersToldOf, ABorderWithinTheLaneInsideIsNamedWithRoadLaneAndPlace) {
   };
   const auto errors = [&](const std::string& outer, const opendrive::Tolerance& tolerance = {}) {
     std::vector<std::string> said;
-    for (const auto& error : opendrive::Read(text(outer), "f.xodr", tolerance).value().errors) said.push_back(error.Text());
+    const auto read = opendrive::Read(text(outer), "f.xodr", tolerance);
+    for (const auto& error : read.value().errors) said.push_back(error.Text());
     return said;
   };
   // Its top, -3.2, lies at s = 40.
