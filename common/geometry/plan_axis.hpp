@@ -77,6 +77,11 @@ class PlanAxis {
   PlanPoint Evaluate(double s_m) const;
   PlanPoint At(const AxisPanel& panel, double u_m) const;
   AxisFoot Foot(const AxisPanel& panel, const Eigen::Vector2d& p_W) const;
+  // By how much a panel's curvature changes a metre, where it does so linearly; nothing for a cubic.
+  std::optional<double> RateOf(const AxisPanel& panel) const {
+    if (panel.kind == AxisPanel::Kind::kCubic) return std::nullopt;
+    return panel.kind == AxisPanel::Kind::kSeries ? series_[panel.detail].curvature_rate_1pm2 : 0.0;
+  }
   // No point of the panel is farther from the chord between its ends than this.
   double Bulge(const AxisPanel& panel) const;
   std::size_t PanelAt(double s_m) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/geometry/plane.hpp"
 
@@ -11,7 +12,6 @@ namespace {
 constexpr double kSlack_m = BandIndex::kSlack_m;
 constexpr double kMostCells = 4e6;
 constexpr std::uint32_t kLeaf = 4;
-constexpr double kSteepest = 0.8;  // sine of any superelevation and of any grade
 
 // What is closed between a panel's end and the next one's beginning.
 double ClosedBetween(const geometry::PlanAxis& axis, std::size_t before, double closed_m) {
@@ -21,6 +21,28 @@ double ClosedBetween(const geometry::PlanAxis& axis, std::size_t before, double 
   const geometry::PlanPoint end = axis.At(panels[before], panels[before].half_m), begin = axis.At(panels[before + 1], -panels[before + 1].half_m);
   const bool smooth = (end.p_W - begin.p_W).norm() < kSmooth && (end.tangent_W - begin.tangent_W).norm() < kSmooth;
   return smooth ? kSlack_m : closed_m;
+}
+
+// Of an angle between two stations, without its sign.
+double LargestSine(const geometry::CubicTable& angle, double low_s_m, double high_s_m) {
+  double smallest, largest;
+  angle.Bounds(low_s_m, high_s_m, smallest, largest);
+  const double most = std::max(std::fabs(smallest), std::fabs(largest));
+  return most < 0.5 * std::numbers::pi ? std::sin(most) : 1.0;
+}
+
+// Of how steeply a height climbs or falls between two stations.
+double SteepestSine(const geometry::CubicTable& height, double low_s_m, double high_s_m) {
+  const std::vector<geometry::Cubic>& records = height.records();
+  double steepest = 0.0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const double from = i == 0 ? low_s_m : std::max(low_s_m, records[i].from);
+    const double to = i + 1 < records.size() ? std::min(high_s_m, records[i + 1].from) : high_s_m;
+    if (from > to) continue;
+    const double flex = records[i].d == 0.0 ? from : std::clamp(records[i].from - records[i].c / (3.0 * records[i].d), from, to);
+    for (const double s : {from, flex, to}) steepest = std::max(steepest, std::fabs(records[i].Slope(s)));
+  }
+  return steepest / std::sqrt(1.0 + steepest * steepest);
 }
 
 Band MakeBand(const Road& road, std::uint32_t road_index, std::uint32_t panel_index, double closed_m) {
@@ -55,8 +77,9 @@ Band MakeBand(const Road& road, std::uint32_t road_index, std::uint32_t panel_in
   const double bulge = axis.Bulge(panel) + kSlack_m;
   double along = turn * reach + bulge + closed_m;
   double low = std::min(right, right * std::sqrt(1.0 - turn * turn)), high = std::max(left, left * std::sqrt(1.0 - turn * turn));
-  if (road.rolled()) {  // the section leans forward on a slope, and is narrower seen from above
-    along += reach * kSteepest * kSteepest;
+  const double from_s = std::max(panel.begin_s_m(), 0.0), to_s = std::min(panel.end_s_m(), road.length_m());
+  if (road.LeansBetween(from_s, to_s)) {  // the section leans forward on a slope, and is narrower seen from above
+    along += reach * LargestSine(road.spec().superelevation, from_s, to_s) * SteepestSine(road.spec().elevation, from_s, to_s);
     low = std::min(low, 0.0), high = std::max(high, 0.0);
   }
   band.centre_W = 0.5 * (begin + end) + 0.5 * (low + high) * geometry::Left(band.along_W);

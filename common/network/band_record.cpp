@@ -81,8 +81,8 @@ BandRecords::BandRecords(std::span<const Road> roads, const BandIndex& index) {
     record.high_s_m = std::min(road.axis().panels()[band.panel].end_s_m(), road.length_m());
     record.closed_before = band.closed_before_m > BandIndex::kSlack_m, record.closed_behind = band.closed_behind_m > BandIndex::kSlack_m;
     record.road = band.road;
-    if (road.rolled()) continue;
     const double low = record.low_s_m(), high = record.high_s_m;
+    if (road.LeansBetween(low, high)) continue;
     record.piece = MakePiece(road, std::clamp(record.middle_s_m, low, high), known);
     record.first_piece = static_cast<std::uint32_t>(pieces_.size());
     for (double s = low; s <= high && record.pieces < kMostPieces; s = pieces_.back().to_s_m) {

@@ -5,22 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/network/cluster_band.hpp"
+#include "common/network/cluster_lean.hpp"
+#include "common/network/in_force.hpp"
 #include "common/network/network.hpp"
 
 namespace rodeira::network {
 namespace {
 
-using geometry::Cubic;
-using geometry::CubicTable;
 using Numbers = Cluster::Numbers;
-
-void Range(const Numbers& numbers, std::size_t count, double& low, double& high) {
-  low = high = numbers[0];
-  for (std::size_t i = 1; i < count; ++i) {
-    low = std::min(low, numbers[i]);
-    high = std::max(high, numbers[i]);
-  }
-}
 
 bool AllOnEarth(const Numbers& coordinates_m, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -28,36 +21,6 @@ bool AllOnEarth(const Numbers& coordinates_m, std::size_t count) {
   }
   return true;
 }
-
-// The record of a table that is in force at all points; null for an empty table.
-class InForce {
- public:
-  InForce(const CubicTable& table, const Cluster& cluster) {
-    if (table.empty()) return;
-    record_ = &table.At(cluster.low_s_m);
-    common_ = record_ == &table.At(cluster.high_s_m);
-  }
-  bool common() const { return common_; }
-  bool constant() const { return record_ == nullptr || (record_->b == 0.0 && record_->c == 0.0 && record_->d == 0.0); }
-  // As CubicTable::Evaluate.
-  void Evaluate(const Cluster& cluster, Numbers& value, Numbers& slope) const {
-    const std::size_t count = cluster.feet.count;
-    if (record_ == nullptr) {
-      std::fill_n(value.begin(), count, 0.0);
-      std::fill_n(slope.begin(), count, 0.0);
-      return;
-    }
-    const Cubic cubic = *record_;
-    for (std::size_t i = 0; i < count; ++i) {
-      value[i] = cubic.Value(cluster.s_m[i]);
-      slope[i] = cubic.Slope(cluster.s_m[i]);
-    }
-  }
-
- private:
-  const Cubic* record_ = nullptr;
-  bool common_ = true;
-};
 
 bool IsConstant(const Lane& lane, const Cluster& cluster) {
   const InForce width(lane.width, cluster), border(lane.border, cluster);
@@ -188,7 +151,8 @@ bool OnStrips(const CrossSectionSurface& surface, const Cluster& cluster, Height
 void SetLateral(const LateralProfile& profile, const Cluster& cluster, Heights& heights) {
   const bool strips_alone = profile.shapes.empty() && profile.crossfall_left.empty() && profile.crossfall_right.empty() &&
                             (!profile.surface.left.empty() || !profile.surface.right.empty());
-  if (!strips_alone || !OnStrips(profile.surface, cluster, heights)) OneByOne(profile, cluster, heights);
+  if (profile.flat()) heights.z = heights.by_s = heights.by_t = {};
+  else if (!strips_alone || !OnStrips(profile.surface, cluster, heights)) OneByOne(profile, cluster, heights);
   for (std::size_t i = 0; i < cluster.feet.count; ++i) {  // both add up their parts from 0, so that a -0 becomes 0
     heights.z[i] = 0.0 + heights.z[i];
     heights.by_s[i] = 0.0 + (heights.by_s[i] + heights.by_t[i] * 0.0);
@@ -196,17 +160,19 @@ void SetLateral(const LateralProfile& profile, const Cluster& cluster, Heights& 
   }
 }
 
-// As Road::Surface.
-bool SetSurface(const Road& road, Cluster& cluster) {
+// As Road::Surface. leans: of the sections, where they lean.
+bool SetSurface(const Road& road, const ClusterLeans& leans, Cluster& cluster) {
   const InForce elevation(road.spec().elevation, cluster);
   if (!elevation.common()) return false;
   elevation.Evaluate(cluster, cluster.z_m, cluster.z_by_s);
   Heights heights;
   SetLateral(road.spec().lateral, cluster, heights);
+  if (cluster.leans) SetLeans(leans, cluster);
+  else std::fill_n(cluster.z_by_t.begin(), cluster.feet.count, 0.0);
   for (std::size_t i = 0; i < cluster.feet.count; ++i) {
     cluster.z_m[i] += heights.z[i];
     cluster.z_by_s[i] += heights.by_s[i];
-    cluster.z_by_t[i] = heights.by_t[i];
+    cluster.z_by_t[i] += heights.by_t[i];
   }
   return true;
 }
@@ -220,20 +186,33 @@ bool Network::Together(Cluster& cluster) const {
   Range(feet.x_m, feet.count, west, east);
   Range(feet.y_m, feet.count, south, north);
   const Eigen::Vector2d low(west, south), high(east, north);
-  const auto index = index_.OnlyOne(low, high);
-  if (!index) return false;
-  const Band& band = index_.bands()[*index];
+  const auto found = FindBand(index_, spec_.roads, low, high);
+  if (!found) return false;
+  const Band& band = index_.bands()[found->band];
   const Road& road = spec_.roads[band.road];
   const geometry::AxisPanel& panel = road.axis().panels()[band.panel];
-  if (road.rolled() || road.spec().ground != nullptr || !geometry::FindFeet(road.axis(), panel, feet)) return false;
+  if (road.spec().ground != nullptr || !geometry::FindFeet(road.axis(), panel, feet)) return false;
   for (std::size_t i = 0; i < feet.count; ++i) cluster.s_m[i] = panel.middle_s_m + feet.u_m[i];
-  Range(cluster.s_m, feet.count, cluster.low_s_m, cluster.high_s_m);
+  const double low_s = std::max(panel.begin_s_m(), 0.0), high_s = std::min(panel.end_s_m(), road.length_m());
+  const auto set_ranges = [&] {
+    Range(cluster.s_m, feet.count, cluster.low_s_m, cluster.high_s_m);
+    return cluster.low_s_m >= low_s && cluster.high_s_m <= high_s;
+  };
+  if (!set_ranges()) return false;
+  ClusterLeans leans;
+  cluster.leans = false;
+  if (road.rolled()) {
+    const InForce superelevation(road.spec().superelevation, cluster);
+    if (!superelevation.common()) return false;
+    cluster.leans = !IsZero(superelevation.record());
+    if (cluster.leans && !(SettleTogether(road, panel, superelevation.record(), cluster, leans) && set_ranges())) return false;
+  }
+  if (!IsApart(*found, index_, road, cluster)) return false;
   Range(feet.t_m, feet.count, cluster.low_t_m, cluster.high_t_m);
-  if (cluster.low_s_m < std::max(panel.begin_s_m(), 0.0) || cluster.high_s_m > std::min(panel.end_s_m(), road.length_m())) return false;
   cluster.road = band.road;
   cluster.section = static_cast<std::uint32_t>(road.SectionIndex(cluster.low_s_m));
   if (road.SectionIndex(cluster.high_s_m) != cluster.section) return false;
-  return FindLanes(road, road.spec().sections[cluster.section], cluster) && SetSurface(road, cluster);
+  return FindLanes(road, road.spec().sections[cluster.section], cluster) && SetSurface(road, leans, cluster);
 }
 
 }  // namespace rodeira::network

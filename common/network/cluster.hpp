@@ -12,12 +12,14 @@ struct Cluster {
   using Numbers = geometry::AxisFeet::Numbers;
   static constexpr std::size_t kMost = geometry::AxisFeet::kMost;
 
-  geometry::AxisFeet feet;  // the points, t, the direction of the reference line; of a road that is not rolled
+  geometry::AxisFeet feet;  // the points, t, and of the reference line at s the direction and the curvature
   std::uint32_t road = 0, section = 0;
   int lane = 0;  // of all of them; 0: each has its own
   std::array<int, kMost> lanes;
   Numbers s_m;
   Numbers z_m, z_by_s, z_by_t;                      // of the surface
+  bool leans = false;                               // superelevated at all of them; then how a point moves with s and with t, seen from above
+  Numbers ds_x, ds_y, dt_x, dt_y;
   double low_s_m, high_s_m, low_t_m, high_t_m;      // the smallest and the largest
 
   int LaneOf(std::size_t point) const { return lane != 0 ? lane : lanes[point]; }

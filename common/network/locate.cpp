@@ -63,19 +63,31 @@ Network::Hit Network::TryRoad(const Eigen::Vector2d& p_W, std::uint32_t band_ind
   const double found = panel.middle_s_m + foot.u_m;
   double s = std::clamp(found, low, high), t = foot.t_m;
   double beyond = std::fabs(foot.beyond_m) + std::fabs(found - s);
-  if (road.rolled()) beyond = road.Settle(p_W, low, high, s, t);
-  const std::size_t section_index = road.SectionIndex(s);
-  const LaneSection& section = road.spec().sections[section_index];
-  const geometry::CubicPoint centre = road.CentreAt(s);
-  hit.span = section.At(t, centre, s, hit.outside_m);
+  std::size_t section_index;
+  geometry::CubicPoint centre;
+  const auto find_lane = [&] {
+    section_index = road.SectionIndex(s), centre = road.CentreAt(s);
+    hit.span = road.spec().sections[section_index].At(t, centre, s, hit.outside_m);
+  };
+  const bool leans = road.Leans(s);
+  std::optional<Road::LeanFoot> on_lean = leans ? road.FootOnLean(panel, foot, low, high) : std::nullopt;
+  if (on_lean) {
+    s = on_lean->s_m, t = on_lean->t_m;
+    find_lane();
+    if (hit.span.lane != nullptr && hit.span.lane->level) on_lean.reset(), s = found, t = foot.t_m;  // its surface lies elsewhere
+  }
+  if (!on_lean) {
+    if (leans) beyond = road.Settle(p_W, low, high, s, t);
+    find_lane();
+  }
   hit.claim.past_end = beyond > 0.0;
-  if (road.rolled() && hit.outside_m > 0.0) {  // t runs along a slope there: what counts is seen from above
+  if (leans && hit.outside_m > 0.0) {  // t runs along a slope there: what counts is seen from above
     const double edge = t + (t > centre.value ? -hit.outside_m : hit.outside_m);
     hit.outside_m = road.DistanceToEdge(p_W, low, high, edge, s);
   } else if (beyond > (s <= low ? band.closed_before_m : band.closed_behind_m)) {
     hit.outside_m = std::sqrt(hit.outside_m * hit.outside_m + beyond * beyond);
   }
-  hit.at = s == found ? foot.at : road.axis().At(panel, s - panel.middle_s_m);
+  hit.at = on_lean && s == on_lean->s_m ? on_lean->at : s == found ? foot.at : road.axis().At(panel, s - panel.middle_s_m);
   hit.place.lane = {band.road, static_cast<std::uint32_t>(section_index), hit.span.lane == nullptr ? 0 : hit.span.lane->id};
   hit.place.s_m = s;
   hit.place.t_m = t;

@@ -6,6 +6,7 @@
 #include "common/base/assert.hpp"
 #include "common/geometry/plane.hpp"
 #include "common/network/junction_ground.hpp"
+#include "common/network/lean_foot.hpp"
 
 namespace rodeira::network {
 namespace {
@@ -129,30 +130,68 @@ SurfaceSample Road::Surface(const geometry::PlanPoint& at, double s_m, double t_
     height.slope_s += lateral.slope_s + lateral.slope_t * turned_s;
     height.slope_t += lateral.slope_t * turned_t;
   }
-  const double flat = t_m - turned;
   SurfaceSample sample;
-  if (!rolled_) {
+  if (!Leans(s_m)) {
     const double pace = 1.0 - at.curvature_1pm * t_m;
     sample.p_W = {at.p_W.x() + t_m * N.x(), at.p_W.y() + t_m * N.y(), z.value + height.z_m};
     sample.ds_W = {pace * T.x(), pace * T.y(), z.slope + height.slope_s};
     sample.dt_W = {N.x(), N.y(), height.slope_t};
     return sample;
   }
-  const geometry::CubicPoint roll = spec_.superelevation.Evaluate(s_m);
-  const double sine = std::sin(roll.value), cosine = std::cos(roll.value), k = at.curvature_1pm;
-  const double climb_cos = 1.0 / std::sqrt(1.0 + z.slope * z.slope), climb_sin = z.slope * climb_cos;
-  const double sin_s = z.bend * climb_cos * climb_cos * climb_cos;             // d climb_sin / ds
-  const double cos_s = -z.slope * z.bend * climb_cos * climb_cos * climb_cos;  // d climb_cos / ds
-  const Eigen::Vector2d e = cosine * N - sine * climb_sin * T;
-  const Eigen::Vector2d e_s =
-      -sine * roll.slope * N - cosine * k * T - (cosine * roll.slope * climb_sin + sine * sin_s) * T - sine * climb_sin * k * N;
-  const double up = sine * climb_cos;
-  const double up_s = cosine * roll.slope * climb_cos + sine * cos_s;
-  sample.p_W << at.p_W + turned * e + flat * N, z.value + turned * up + height.z_m;
+  const Lean lean = LeanAt(s_m);
+  if (turned_t == 1.0) {
+    const LeanPace pace = PaceOf(lean, at.curvature_1pm, t_m);
+    sample.p_W = {at.p_W.x() + t_m * (pace.dt_T * T.x() + pace.dt_N * N.x()), at.p_W.y() + t_m * (pace.dt_T * T.y() + pace.dt_N * N.y()), z.value + t_m * lean.up + height.z_m};
+    sample.ds_W = {pace.ds_T * T.x() + pace.ds_N * N.x(), pace.ds_T * T.y() + pace.ds_N * N.y(), z.slope + t_m * lean.up_1pm + height.slope_s};
+    sample.dt_W = {pace.dt_T * T.x() + pace.dt_N * N.x(), pace.dt_T * T.y() + pace.dt_N * N.y(), lean.up + height.slope_t};
+    return sample;
+  }
+  const double flat = t_m - turned, k = at.curvature_1pm;
+  const Eigen::Vector2d e = lean.left * N - lean.back * T;
+  const Eigen::Vector2d e_s = (lean.left_1pm - lean.back * k) * N - (lean.left * k + lean.back_1pm) * T;
+  sample.p_W << at.p_W + turned * e + flat * N, z.value + turned * lean.up + height.z_m;
   sample.ds_W << T + turned_s * e + turned * e_s - turned_s * N - flat * k * T,
-      z.slope + turned_s * up + turned * up_s + height.slope_s;
-  sample.dt_W << turned_t * e + (1.0 - turned_t) * N, turned_t * up + height.slope_t;
+      z.slope + turned_s * lean.up + turned * lean.up_1pm + height.slope_s;
+  sample.dt_W << N, height.slope_t;
   return sample;
+}
+
+Lean Road::LeanAt(double s_m) const {
+  const geometry::Cubic& elevation = spec_.elevation.empty() ? kLevel : spec_.elevation.At(s_m);
+  return LeanOf(RollAt(spec_.superelevation.At(s_m), s_m), ClimbAt(elevation, s_m));
+}
+
+bool Road::LeansBetween(double low_s_m, double high_s_m) const {
+  if (!rolled_) return false;
+  const geometry::Cubic* last = &spec_.superelevation.At(high_s_m);
+  return std::any_of(&spec_.superelevation.At(low_s_m), last + 1, [](const geometry::Cubic& record) { return !IsZero(record); });
+}
+
+std::optional<Road::LeanFoot> Road::FootOnLean(const geometry::AxisPanel& panel, const geometry::AxisFoot& foot, double low_s_m, double high_s_m) const {
+  const std::optional<double> rate = axis_.RateOf(panel);
+  const double from_s = panel.middle_s_m + foot.u_m;
+  if (!rate || foot.beyond_m != 0.0 || from_s < low_s_m || from_s > high_s_m) return std::nullopt;
+  const bool straight = panel.kind == geometry::AxisPanel::Kind::kLine;
+  const double k = foot.at.curvature_1pm;
+  const auto onward = [&](double u) { return straight ? StraightOn()(u, k) : BentOn{*rate}(u, k); };
+  LeanStep step = FirstLeanStep(foot.t_m, k, *rate, LeanAt(from_s));
+  double u = step.step_m;
+  for (int i = 1; std::fabs(step.step_m) > kLastLeanStep_m; ++i) {
+    if (i == kMostLeanSteps) return std::nullopt;
+    step = NextLeanStep(onward(u), foot.t_m, k + *rate * u, LeanAt(from_s + u));
+    u += step.step_m;
+  }
+  const double s = from_s + u;
+  if (!(step.fall > kLeastLeanFall && s >= low_s_m && s <= high_s_m)) return std::nullopt;  // NaN too
+  if (!straight && !BentOn{*rate}.Holds(u, k)) return std::nullopt;
+  const Onward way = onward(u);
+  const Eigen::Vector2d& T = foot.at.tangent_W;
+  const Eigen::Vector2d N = foot.at.left_W();
+  LeanFoot found{s, LeftOf(way, foot.t_m) / LeanAt(s).left, {}};
+  found.at.p_W = foot.at.p_W + way.ahead_m * T + way.left_m * N;
+  found.at.tangent_W = {way.cosine * T.x() - way.sine * T.y(), way.cosine * T.y() + way.sine * T.x()};
+  found.at.curvature_1pm = k + *rate * u;
+  return found;
 }
 
 double Road::Settle(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double& s_m, double& t_m) const {

@@ -11,6 +11,7 @@
 #include "common/network/furniture.hpp"
 #include "common/network/lane.hpp"
 #include "common/network/lateral.hpp"
+#include "common/network/lean.hpp"
 #include "common/network/line.hpp"
 
 namespace rodeira::network {
@@ -77,8 +78,12 @@ class Road {
   const geometry::PlanAxis& axis() const { return axis_; }
   // The smaller of what the file says and what its elements have.
   double length_m() const { return length_m_; }
-  // Superelevated somewhere: then (x, y) of a point does not follow from the plan alone.
+  // Superelevated somewhere.
   bool rolled() const { return rolled_; }
+  // Superelevated there: then (x, y) of a point does not follow from the plan alone.
+  bool Leans(double s_m) const { return rolled_ && !IsZero(spec_.superelevation.At(s_m)); }
+  // Superelevated somewhere from one station to another.
+  bool LeansBetween(double low_s_m, double high_s_m) const;
   // Across it is level everywhere: the elevation is all of its height.
   bool flat() const { return !rolled_ && !shaped_; }
 
@@ -97,8 +102,15 @@ class Road {
   }
   SurfaceSample Surface(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const;
   // On a rolled road: moves (s, t), found in plan, to where the surface stands over (x, y), with s held in [low, high].
-  // Returns how far that is from (x, y): 0 but where s is held.
+  // Returns how far that is from (x, y): 0 but where s is held. FootOnLean does the same sooner where it can.
   double Settle(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double& s_m, double& t_m) const;
+  // Where a leaning section that no lane is exempt from stands over a point that lies alongside the panel, whose foot in plan is known: the
+  // same place as Settle's, but for rounding. Nothing where that is not within [low, high], or too far from the foot to be told so quickly.
+  struct LeanFoot {
+    double s_m, t_m;
+    geometry::PlanPoint at;  // without its heading
+  };
+  std::optional<LeanFoot> FootOnLean(const geometry::AxisPanel& panel, const geometry::AxisFoot& foot, double low_s_m, double high_s_m) const;
   // The distance, seen from above, from (x, y) to the line of constant t; s moves to the nearest point.
   double DistanceToEdge(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double t_m, double& s_m) const;
   // In force at s on a lane: the lane's own limit, otherwise the road's. Infinite: none; nothing where none is said.
@@ -109,6 +121,7 @@ class Road {
  private:
   SurfaceSample OnGround(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSpan& span) const;
   LateralPoint LaneHeightAt(const LaneSpan& span, double s_m, double t_m) const;
+  Lean LeanAt(double s_m) const;  // superelevation has records
 
   RoadSpec spec_;
   geometry::PlanAxis axis_;

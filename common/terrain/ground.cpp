@@ -9,12 +9,11 @@ namespace {
 
 constexpr double kSameLayer_m = 1e-6;
 
-GroundQuery PointOf(const GroundPatch& patch, const Eigen::Vector2d& ahead, int row, int column) {
-  const auto place = [](double size_m, int index, int count) {
-    return count > 1 ? size_m * (static_cast<double>(index) / (count - 1) - 0.5) : 0.0;
-  };
-  const double forward = place(patch.length_m, row, patch.along), left = place(patch.width_m, column, patch.across);
-  return {patch.x_m + ahead.x() * forward - ahead.y() * left, patch.y_m + ahead.y() * forward + ahead.x() * left, patch.z_hint_m};
+// Of a row or a column, from the patch's middle.
+double Away(double size_m, int index, int count) { return count > 1 ? size_m * (static_cast<double>(index) / (count - 1) - 0.5) : 0.0; }
+
+GroundQuery PointOf(const GroundPatch& patch, const Eigen::Vector2d& ahead, double forward_m, double left_m) {
+  return {patch.x_m + ahead.x() * forward_m - ahead.y() * left_m, patch.y_m + ahead.y() * forward_m + ahead.x() * left_m, patch.z_hint_m};
 }
 
 }  // namespace
@@ -40,16 +39,19 @@ GroundPoint Ground::At(double x_m, double y_m, double z_hint_m) {
 }
 
 GroundQuery PatchPoint(const GroundPatch& patch, int row, int column) {
-  return PointOf(patch, {std::cos(patch.heading_rad), std::sin(patch.heading_rad)}, row, column);
+  return PointOf(patch, {std::cos(patch.heading_rad), std::sin(patch.heading_rad)}, Away(patch.length_m, row, patch.along), Away(patch.width_m, column, patch.across));
 }
 
 void Ground::Patch(const GroundPatch& patch, std::span<GroundPoint> points) {
   RODEIRA_ASSERT(patch.along >= 1 && patch.across >= 1 && points.size() == patch.size());
   const Eigen::Vector2d ahead(std::cos(patch.heading_rad), std::sin(patch.heading_rad));
+  std::vector<double> left_m;
+  for (int column = 0; column < patch.across; ++column) left_m.push_back(Away(patch.width_m, column, patch.across));
   std::vector<GroundQuery> queries;
   queries.reserve(patch.size());
   for (int row = 0; row < patch.along; ++row) {
-    for (int column = 0; column < patch.across; ++column) queries.push_back(PointOf(patch, ahead, row, column));
+    const double forward_m = Away(patch.length_m, row, patch.along);
+    for (const double left : left_m) queries.push_back(PointOf(patch, ahead, forward_m, left));
   }
   Query(queries, points);
 }

@@ -82,20 +82,22 @@ void N222Patch(benchmark::State& state) {
 }
 BENCHMARK(N222Patch)->Unit(benchmark::kMicrosecond);
 
-// The same on one element: of a road of a world file of version 2 on a plane (0), of a version 1's (1).
-void PatchOn(benchmark::State& state, const char* element) {
-  const std::string road = fmt::format("    axis: [{}]\n", element);
-  const std::string text =
-      state.range(0) == 0
-          ? "rodeira: world/2\nname: one\nground: {kind: plane}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 20}\n" + road + "    section: {template: rural}\n"
-          : "rodeira: world/1\nname: one\nground: {kind: plane}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 20}\n" + road +
-                "    vertical: [{s_m: 0, z_m: 0}]\n    section: {lanes: [{id: -1, width_m: 3.5, speed_limit_kmh: 80}, {id: 1, width_m: 3.5, speed_limit_kmh: 80}]}\n";
+// The same on one element of 400 m: of a road of a world file of version 2 on a plane (0), of a version 1's (1).
+std::string OfVersion2(const std::string& element, const std::string& more = "") {
+  return fmt::format("rodeira: world/2\nname: one\nground: {{kind: plane}}\nroads:\n  - id: a\n    start: {{x_m: 0, y_m: 0, heading_deg: 20}}\n    axis: [{}]\n{}    section: {{template: rural}}\n", element, more);
+}
+std::string OfVersion1(const std::string& element) {
+  return fmt::format("rodeira: world/1\nname: one\nground: {{kind: plane}}\nroads:\n  - id: a\n    start: {{x_m: 0, y_m: 0, heading_deg: 20}}\n    axis: [{}]\n    vertical: [{{s_m: 0, z_m: 0}}]\n"
+                     "    section: {{lanes: [{{id: -1, width_m: 3.5, speed_limit_kmh: 80}}, {{id: 1, width_m: 3.5, speed_limit_kmh: 80}}]}}\n", element);
+}
+
+void AskPatches(benchmark::State& state, const std::string& text, double to_s_m) {
   const auto world = World::Parse(text, "one.yaml");
   if (!world) return state.SkipWithError(world.error().Text().c_str());
   const network::Road& on = world.value()->network()->roads()[0];
   std::vector<terrain::GroundPatch> patches;
   for (std::uint64_t i = 0; i < 1024; ++i) {
-    const double s = base::RandomUniform({i, 1}, 1.0, on.length_m() - 1.0);
+    const double s = base::RandomUniform({i, 1}, 1.0, std::min(to_s_m, on.length_m()) - 1.0);
     const Eigen::Vector3d p = on.Surface(s, base::RandomUniform({i, 2}, -2.5, 2.5)).p_W;
     patches.push_back({p.x(), p.y(), on.axis().Evaluate(s).heading_rad, 0.2, 0.18, 20, 20, p.z()});
   }
@@ -107,24 +109,45 @@ void PatchOn(benchmark::State& state, const char* element) {
     benchmark::DoNotOptimize(points.data());
   }
 }
-BENCHMARK_CAPTURE(PatchOn, Straight, "line: {length_m: 400}")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(PatchOn, Arc, "arc: {length_m: 400, radius_m: 200}")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(PatchOn, Clothoid, "clothoid: {length_m: 400, radius_end_m: 200}")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
-// The same on Town04's driving lanes, as they come (needs the real file beside the project).
-void Town04Patch(benchmark::State& state) {
+constexpr const char* kStraight = "line: {length_m: 400}";
+constexpr const char* kArc = "arc: {length_m: 400, radius_m: 200}";
+constexpr const char* kClothoid = "clothoid: {length_m: 400, radius_end_m: 200}";
+
+void PatchOn(benchmark::State& state, const char* element) { AskPatches(state, state.range(0) == 0 ? OfVersion2(element) : OfVersion1(element), 400.0); }
+BENCHMARK_CAPTURE(PatchOn, Straight, kStraight)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(PatchOn, Arc, kArc)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(PatchOn, Clothoid, kClothoid)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+
+// The same on banked roads of version 2: climbing by 3 % and banked by 5 % throughout (0), where bank and grade change along the road (1),
+// before a road's bank begins (2).
+void PatchOnBank(benchmark::State& state, const char* element) {
+  const char* climbing = "    vertical: [{s_m: 0, z_m: 0}, {s_m: 600, z_m: 18}]\n    superelevation: [{s_m: 0, slope: 0.05}]\n";
+  const char* changing = "    vertical: [{s_m: 0, z_m: 0}, {s_m: 200, z_m: 6, parabola_m: 390}, {s_m: 400, z_m: 4}]\n    superelevation: [{s_m: 0, slope: -0.03}, {s_m: 400, slope: 0.06}]\n";
+  const char* before = "    vertical: [{s_m: 0, z_m: 0}, {s_m: 600, z_m: 18}]\n    superelevation: [{s_m: 0, slope: 0}, {s_m: 380, slope: 0}, {s_m: 400, slope: 0.05}]\n";
+  AskPatches(state, OfVersion2(element, state.range(0) == 0 ? climbing : state.range(0) == 1 ? changing : before), state.range(0) == 2 ? 380.0 : 400.0);
+}
+BENCHMARK_CAPTURE(PatchOnBank, Straight, kStraight)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(PatchOnBank, Arc, kArc)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(PatchOnBank, Clothoid, kClothoid)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
+
+// The same on a real file's driving lanes, as they come, or only where more than one road lies on one level (needs the files beside the project).
+void FilePatch(benchmark::State& state, const char* name, bool overlapping) {
   const std::filesystem::path root(SourceDir());
-  const char* file = "shared/data/road/xodr/carla_Town04.xodr";
+  const std::filesystem::path file = std::filesystem::path("shared/data/road/xodr") / name;
   const auto world = World::Load(std::filesystem::exists(root / ".." / file) ? root / ".." / file : root / "../.." / file);
-  if (!world) return state.SkipWithError("no Town04");
+  if (!world) return state.SkipWithError("no such file");
   const network::Network& network = *world.value()->network();
   const auto lanes = network.Lanes();
   std::vector<terrain::GroundPatch> patches;
+  std::vector<network::Surfacing> surfaces;
   for (std::uint64_t i = 0; patches.size() < 1024; ++i) {
     const network::LaneKey key = lanes[base::RandomBits({i, 1}) % lanes.size()];
     if (!network::IsDrivable(network.Find(key)->type)) continue;
     const double s = base::RandomUniform({i, 2}, network.Section(key).s_m, network.Section(key).end_s_m);
     const Eigen::Vector3d p = network.Centre(key, s);
+    network.Surfaces(p.x(), p.y(), surfaces);
+    if (overlapping && !(surfaces.size() > 1 && surfaces[0].place.z_m - surfaces[1].place.z_m < terrain::kHintAbove_m)) continue;
     patches.push_back({p.x(), p.y(), network.roads()[key.road].axis().Evaluate(s).heading_rad, 0.2, 0.18, 20, 20, p.z()});
   }
   const auto ground = world.value()->MakeGround();
@@ -135,7 +158,10 @@ void Town04Patch(benchmark::State& state) {
     benchmark::DoNotOptimize(points.data());
   }
 }
-BENCHMARK(Town04Patch)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(FilePatch, Town04, "carla_Town04.xodr", false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(FilePatch, Town04WhereRoadsOverlap, "carla_Town04.xodr", true)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(FilePatch, BankedStraight, "esmini_straight_500_superelevation_elevation_curve.xodr", false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(FilePatch, RolledBy45Degrees, "esmini_two_pitched_and_rolled_roads.xodr", false)->Unit(benchmark::kMicrosecond);
 
 void N222TerrainRandom(benchmark::State& state) {
   std::vector<terrain::GroundQuery> queries;

@@ -36,11 +36,13 @@ bool AskTogether(const Network& network, const Eigen::Vector2d& middle, double s
     const Place& place = alone[0].place;
     const SurfaceSample& sample = alone[0].sample;
     EXPECT_EQ(place.lane, (LaneKey{cluster.road, cluster.section, cluster.LaneOf(i)}));
+    EXPECT_EQ(cluster.leans, network.roads()[cluster.road].Leans(place.s_m));
     const double pace = 1.0 - cluster.feet.curvature_1pm[i] * cluster.feet.t_m[i];
+    const double ds_x = cluster.leans ? cluster.ds_x[i] : pace * cluster.feet.tangent_x[i], ds_y = cluster.leans ? cluster.ds_y[i] : pace * cluster.feet.tangent_y[i];
+    const double dt_x = cluster.leans ? cluster.dt_x[i] : -cluster.feet.tangent_y[i], dt_y = cluster.leans ? cluster.dt_y[i] : cluster.feet.tangent_x[i];
     EXPECT_TRUE(SameBits(cluster.s_m[i], place.s_m) && SameBits(cluster.feet.t_m[i], place.t_m) && SameBits(cluster.z_m[i], sample.p_W.z()) &&
-                SameBits(cluster.z_by_s[i], sample.ds_W.z()) && SameBits(cluster.z_by_t[i], sample.dt_W.z()) &&
-                SameBits(cluster.feet.tangent_x[i], sample.dt_W.y()) && SameBits(-cluster.feet.tangent_y[i], sample.dt_W.x()) &&
-                SameBits(pace * cluster.feet.tangent_x[i], sample.ds_W.x()) && SameBits(pace * cluster.feet.tangent_y[i], sample.ds_W.y()))
+                SameBits(cluster.z_by_s[i], sample.ds_W.z()) && SameBits(cluster.z_by_t[i], sample.dt_W.z()) && SameBits(dt_x, sample.dt_W.x()) &&
+                SameBits(dt_y, sample.dt_W.y()) && SameBits(ds_x, sample.ds_W.x()) && SameBits(ds_y, sample.ds_W.y()))
         << "road " << network.roads()[cluster.road].id() << " s " << place.s_m << " t " << place.t_m;
     if (testing::Test::HasFailure()) return true;
   }
@@ -80,6 +82,79 @@ TEST(Cluster, IsItsPointsOnLinesClothoidsAndArcs) {
   auto import = opendrive::Read(Document(Varied().Text()), "sample.xodr", {});
   ASSERT_TRUE(import.ok());
   EXPECT_GT(ShareTogether(*import.value().network, 0.3, 3.0, 1000), 0.75);
+}
+
+// Steady and changing banks on steady and changing grades, steep enough for the library's sine too.
+TEST(Cluster, IsItsPointsOnBankedRoads) {
+  const char* kBanks[] = {R"(<superelevation s="0" a="0.06" b="0" c="0" d="0"/>)", R"(<superelevation s="0" a="0.02" b="0.001" c="-0.00001" d="1e-8"/>)",
+                          R"(<superelevation s="0" a="-0.5" b="0" c="0" d="0"/>)", R"(<superelevation s="0" a="0.25" b="0.001" c="0" d="0"/>)",
+                          R"(<superelevation s="0" a="0" b="0" c="0" d="0"/><superelevation s="60" a="0" b="0.001" c="0" d="0"/>)",
+                          R"(<superelevation s="0" a="0.3" b="0" c="0" d="0"/><superelevation s="60" a="0.3" b="-0.01" c="0" d="0"/>)"};
+  const char* kGrades[] = {"", R"(<elevation s="0" a="3" b="-0.06" c="0" d="0"/>)", R"(<elevation s="0" a="3" b="0.05" c="-0.0004" d="0.000001"/>)"};
+  for (const char* bank : kBanks) {
+    for (const char* grade : kGrades) {
+      RoadText road = Varied();
+      road.lateral = bank + (grade[0] == '\0' ? "" : road.lateral);  // with a crossfall too
+      road.elevation = grade;
+      auto import = opendrive::Read(Document(road.Text()), "sample.xodr", {});
+      ASSERT_TRUE(import.ok());
+      EXPECT_GT(ShareTogether(*import.value().network, 0.3, 3.0, 600), 0.7) << bank << grade;
+      for (std::uint64_t i = 0; i < 200; ++i) {  // where another bank begins
+        const double s = 60.0 + base::RandomUniform({i, 5}, -0.5, 0.5), t = base::RandomUniform({i, 6}, -3.0, 3.0);
+        AskTogether(*import.value().network, import.value().network->roads()[0].Surface(s, t).p_W.head<2>(), 0.2, 60, i);
+      }
+      if (HasFailure()) return;
+    }
+  }
+}
+
+// A road that winds so tightly that its lanes reach over its centres of curvature on one side, and the bands of neighbouring panels over one
+// another's; plain, climbing, banked.
+TEST(Cluster, IsItsPointsWhereAPanelEnds) {
+  for (const char* lateral : {"", R"(<superelevation s="0" a="0.06" b="-0.002" c="0" d="0"/>)"}) {
+    RoadText road = Varied();
+    road.geometry =
+        R"(<geometry s="0" x="0" y="0" hdg="0" length="40"><spiral curvStart="0" curvEnd="0.1"/></geometry>)"
+        R"(<geometry s="40" x="26.7038739265" y="19.9524742268" hdg="2" length="20"><arc curvature="0.1"/></geometry>)"
+        R"(<geometry s="60" x="10.0428747049" y="22.3274420700" hdg="4" length="40"><spiral curvStart="0.1" curvEnd="-0.05"/></geometry>)";
+    road.length = 100.0;
+    road.lateral = lateral;
+    road.left = R"(<lane id="1" type="driving"><width sOffset="0" a="14" b="0" c="0" d="0"/></lane>)";
+    road.right = R"(<lane id="-1" type="driving"><width sOffset="0" a="14" b="0" c="0" d="0"/></lane>)";
+    auto import = opendrive::Read(Document(road.Text()), "sample.xodr", {});
+    ASSERT_TRUE(import.ok()) << import.error().Text();
+    ASSERT_NE(import.value().network, nullptr);
+    const Network& network = *import.value().network;
+    const Road& on = network.roads()[0];
+    int together = 0, asked = 0;
+    for (const geometry::AxisPanel& panel : on.axis().panels()) {
+      for (std::uint64_t i = 0; i < 60; ++i) {
+        const double s = panel.end_s_m() + base::RandomUniform({i, panel.detail, 1}, -0.8, 0.8), t = base::RandomUniform({i, panel.detail, 2}, -13.0, 13.0);
+        if (s < 0.0 || s > on.length_m()) continue;
+        ++asked;
+        together += AskTogether(network, on.Surface(s, t).p_W.head<2>(), 0.25, 20, i);
+        if (HasFailure()) FAIL() << "s " << s << " t " << t << lateral;
+      }
+    }
+    EXPECT_GT(together, asked / 10) << asked;
+  }
+}
+
+// Inside of a kink two panels of a road hold the same points, and the nearer one answers.
+TEST(Cluster, IsItsPointsAtAKink) {
+  RoadText road;
+  road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50" y="0" hdg="0.3" length="50"><line/></geometry>)";
+  road.left = R"(<lane id="1" type="driving"><width sOffset="0" a="14" b="0" c="0" d="0"/></lane>)";
+  auto import = opendrive::Read(Document(road.Text()), "sample.xodr", {1.0, 1.0, false});
+  ASSERT_TRUE(import.ok()) << import.error().Text();
+  const Network& network = *import.value().network;
+  int together = 0;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    const Eigen::Vector2d middle(base::RandomUniform({i, 1}, 40.0, 60.0), base::RandomUniform({i, 2}, -3.0, 13.0));
+    together += AskTogether(network, middle, 0.25, 20, i);
+    if (HasFailure()) FAIL() << middle.transpose();
+  }
+  EXPECT_GT(together, 100);
 }
 
 TEST(Cluster, IsItsPointsOnRealFiles) {

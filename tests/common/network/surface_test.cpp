@@ -150,6 +150,55 @@ TEST(Surface, LocateLeadsBackAlsoWhereTheRoadIsRolled) {
   }
 }
 
+// A line, a bend and a clothoid of 40 m each, whose lines an integration of the heading gives, and whose sections are turned by rotations.
+Eigen::Vector3d Turned(double k0, double rate, double s, double t, const geometry::Cubic& height, const geometry::Cubic& roll) {
+  Eigen::Vector2d line(0.0, 0.0);
+  const auto heading = [&](double u) { return 0.3 + k0 * u + 0.5 * rate * u * u; };
+  constexpr int kParts = 800;
+  for (int i = 0; i < kParts; ++i) {  // Simpson's rule: right to 2e-14 m
+    const double from = s * i / kParts, step = s / kParts;
+    for (const auto& [at, weight] : {std::pair{0.0, 1.0}, {0.5, 4.0}, {1.0, 1.0}}) {
+      const double angle = heading(from + at * step);
+      line += weight * step / 6.0 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    }
+  }
+  const Eigen::Matrix3d frame = (Eigen::AngleAxisd(heading(s), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(-std::atan(height.Slope(s)), Eigen::Vector3d::UnitY()) *
+                                 Eigen::AngleAxisd(roll.Value(s), Eigen::Vector3d::UnitX()))
+                                    .toRotationMatrix();
+  return Eigen::Vector3d(line.x(), line.y(), height.Value(s)) + t * frame.col(1);
+}
+
+TEST(Surface, APointOfABankIsFoundWhereRotationsPutIt) {
+  const char* kElements[] = {"<line/>", R"(<arc curvature="0.02"/>)", R"(<spiral curvStart="-0.01" curvEnd="0.02"/>)"};
+  const double kCurvature[] = {0.0, 0.02, -0.01}, kRate[] = {0.0, 0.0, 0.03 / 40.0};
+  const geometry::Cubic kHeights[] = {{0.0, 3.0, 0.0, 0.0, 0.0}, {0.0, 3.0, 0.12, 0.0, 0.0}, {0.0, 3.0, 0.2, -0.004, 1e-5}};
+  const geometry::Cubic kRolls[] = {{0.0, 0.08, 0.0, 0.0, 0.0}, {0.0, -0.6, 0.0, 0.0, 0.0}, {0.0, -0.05, 0.001, 2e-4, -2e-6}};
+  const auto record = [](const char* kind, const geometry::Cubic& cubic) { return fmt::format(R"(<{} s="0" a="{}" b="{}" c="{}" d="{}"/>)", kind, cubic.a, cubic.b, cubic.c, cubic.d); };
+  for (std::size_t element = 0; element < std::size(kElements); ++element) {
+    for (const geometry::Cubic& height : kHeights) {
+      for (const geometry::Cubic& roll : kRolls) {
+        RoadText road;
+        road.length = 40.0;
+        road.geometry = fmt::format(R"(<geometry s="0" x="0" y="0" hdg="0.3" length="40">{}</geometry>)", kElements[element]);
+        road.elevation = record("elevation", height);
+        road.lateral = record("superelevation", roll);
+        const auto network = MustRead(Document(road.Text()));
+        std::vector<Surfacing> surfaces;
+        for (std::uint64_t i = 0; i < 100; ++i) {
+          const double s = base::RandomUniform({i, 1}, 1.0, 39.0), t = base::RandomUniform({i, 2}, -3.4, 3.4);
+          const Eigen::Vector3d p = Turned(kCurvature[element], kRate[element], s, t, height, roll);
+          network->Surfaces(p.x(), p.y(), surfaces);
+          ASSERT_EQ(surfaces.size(), 1u);
+          EXPECT_NEAR(surfaces[0].place.s_m, s, 2e-12);
+          EXPECT_NEAR(surfaces[0].place.t_m, t, 2e-12);
+          EXPECT_NEAR(surfaces[0].place.z_m, p.z(), 2e-12);
+        }
+        ASSERT_FALSE(HasFailure()) << kElements[element] << road.elevation << road.lateral;
+      }
+    }
+  }
+}
+
 TEST(Surface, SpeedLimitsMarksAndMaterialsHoldUntilTheNext) {
   RoadText road;
   road.attributes = "junction=\"-1\" rule=\"LHT\"";
