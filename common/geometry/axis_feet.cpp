@@ -1,6 +1,7 @@
 #include "common/geometry/axis_feet.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 #include "common/geometry/small_arc_tangent.hpp"
 
@@ -10,10 +11,9 @@ namespace {
 using Numbers = AxisFeet::Numbers;
 
 bool AllWithin(const Numbers& numbers, std::size_t count, double bound) {
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!(std::fabs(numbers[i]) < bound)) return false;  // NaN too
-  }
-  return true;
+  std::int64_t others = 0;  // counted, so that none is a branch
+  for (std::size_t i = 0; i < count; ++i) others += std::fabs(numbers[i]) < bound ? 0 : 1;  // NaN too
+  return others == 0;
 }
 
 void OnLine(const AxisPanel& panel, AxisFeet& feet) {

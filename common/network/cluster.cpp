@@ -16,10 +16,7 @@ namespace {
 using Numbers = Cluster::Numbers;
 
 bool AllOnEarth(const Numbers& coordinates_m, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!(std::fabs(coordinates_m[i]) < Network::kFarthest_m)) return false;  // NaN too
-  }
-  return true;
+  return All(count, [&](std::size_t i) { return std::fabs(coordinates_m[i]) < Network::kFarthest_m; });  // not NaN
 }
 
 bool IsConstant(const Lane& lane, const Cluster& cluster) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "common/network/in_force.hpp"
 #include "common/network/lean_foot.hpp"
@@ -34,14 +33,6 @@ double Largest(const Numbers& numbers, std::size_t count) {
   double low, high;
   Range(numbers, count, low, high);
   return std::max(std::fabs(low), std::fabs(high));
-}
-
-// Whether something holds of every number up to count; not a branch each.
-template <class Holds>
-bool All(std::size_t count, const Holds& holds) {
-  std::int64_t others = 0;
-  for (std::size_t i = 0; i < count; ++i) others += holds(i) ? 0 : 1;
-  return others == 0;
 }
 
 // What is asked along the line: its roll, its climb and the way from the feet onward. Loops have copies of their own, which no store can reach.
@@ -118,7 +109,7 @@ void Put(const Line line, const Steps& __restrict steps, Cluster& __restrict clu
     const Onward way = line.way(u, k);
     const Lean lean = line.LeanAt(s);
     cluster.s_m[i] = s;
-    feet.t_m[i] = LeftOf(way, feet.t_m[i]) / lean.left;
+    feet.t_m[i] = LeanT(way, feet.t_m[i], lean);
     feet.tangent_x[i] = way.cosine * x - way.sine * y;
     feet.tangent_y[i] = way.cosine * y + way.sine * x;
     feet.curvature_1pm[i] = k + line.way.rate_1pm2 * u;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include "common/geometry/cubic.hpp"
 #include "common/network/cluster.hpp"
@@ -25,6 +26,14 @@ inline void Range(const Cluster::Numbers& numbers, std::size_t count, double& lo
   for (; i < count; ++i) lows[0] = std::min(lows[0], numbers[i]), highs[0] = std::max(highs[0], numbers[i]);
   low = *std::min_element(lows.begin(), lows.end());
   high = *std::max_element(highs.begin(), highs.end());
+}
+
+// Whether something holds of every number up to count; not a branch each.
+template <class Holds>
+bool All(std::size_t count, const Holds& holds) {
+  std::int64_t others = 0;
+  for (std::size_t i = 0; i < count; ++i) others += holds(i) ? 0 : 1;
+  return others == 0;
 }
 
 // The record of a table that is in force at all points; null for an empty table.

@@ -57,12 +57,15 @@ inline LeanStep NextLeanStep(const Onward& way, double t_m, double curvature_1pm
   const double fall = 1.0 - (curvature_1pm + m_1pm) * left + m * curvature_1pm * ahead;
   return {(ahead + m * left) / fall, fall};
 }
-// The first step, from the foot, with what is known of G'' (all that m' does not change).
+// The first step, from the foot (ahead = 0, left = t), with what is known of G'' (all that m' does not change).
 inline LeanStep FirstLeanStep(double t_m, double curvature_1pm, double rate_1pm2, const Lean& lean) {
-  const LeanStep first = NextLeanStep({0.0, 0.0, 1.0, 0.0}, t_m, curvature_1pm, lean);
-  const double m = lean.back / lean.left;
-  const double bend = rate_1pm2 * t_m + m * curvature_1pm * (1.0 - curvature_1pm * t_m);
-  return {first.step_m + first.step_m * first.step_m * bend / (2.0 * first.fall), first.fall};
+  const double inverse = 1.0 / lean.left, m = lean.back * inverse, m_1pm = (lean.back_1pm - m * lean.left_1pm) * inverse;
+  const double fall = 1.0 - (curvature_1pm + m_1pm) * t_m, inverse_fall = 1.0 / fall;
+  const double step = m * t_m * inverse_fall, bend = rate_1pm2 * t_m + m * curvature_1pm * (1.0 - curvature_1pm * t_m);
+  return {step + 0.5 * step * step * bend * inverse_fall, fall};
 }
+
+// t where the section's left points to the place.
+inline double LeanT(const Onward& way, double t_m, const Lean& lean) { return LeftOf(way, t_m) * (1.0 / lean.left); }
 
 }  // namespace rodeira::network

@@ -187,7 +187,7 @@ std::optional<Road::LeanFoot> Road::FootOnLean(const geometry::AxisPanel& panel,
   const Onward way = onward(u);
   const Eigen::Vector2d& T = foot.at.tangent_W;
   const Eigen::Vector2d N = foot.at.left_W();
-  LeanFoot found{s, LeftOf(way, foot.t_m) / LeanAt(s).left, {}};
+  LeanFoot found{s, LeanT(way, foot.t_m, LeanAt(s)), {}};
   found.at.p_W = foot.at.p_W + way.ahead_m * T + way.left_m * N;
   found.at.tangent_W = {way.cosine * T.x() - way.sine * T.y(), way.cosine * T.y() + way.sine * T.x()};
   found.at.curvature_1pm = k + *rate * u;

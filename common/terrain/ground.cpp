@@ -47,11 +47,11 @@ void Ground::Patch(const GroundPatch& patch, std::span<GroundPoint> points) {
   const Eigen::Vector2d ahead(std::cos(patch.heading_rad), std::sin(patch.heading_rad));
   std::vector<double> left_m;
   for (int column = 0; column < patch.across; ++column) left_m.push_back(Away(patch.width_m, column, patch.across));
-  std::vector<GroundQuery> queries;
-  queries.reserve(patch.size());
+  std::vector<GroundQuery> queries(patch.size());
+  GroundQuery* query = queries.data();
   for (int row = 0; row < patch.along; ++row) {
     const double forward_m = Away(patch.length_m, row, patch.along);
-    for (const double left : left_m) queries.push_back(PointOf(patch, ahead, forward_m, left));
+    for (const double left : left_m) *query++ = PointOf(patch, ahead, forward_m, left);
   }
   Query(queries, points);
 }
