@@ -149,9 +149,11 @@ terrain:
     spacing_m: {number(spacing)}
     west_m: {number(math.floor(low[0] - margin))}
     south_m: {number(math.floor(low[1] - margin))}
+    base_z_m: 195
     below_m: 0.5
     flat_m: 12
     full_m: 350
+    reach_m: 700
     relief:
       - {{wavelength_m: 2300, amplitude_m: 150}}
       - {{wavelength_m: 900, amplitude_m: 55}}

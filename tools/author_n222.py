@@ -18,7 +18,7 @@ VERGE_M, FALL, VERGE_FALL = 1.2, 0.025, 0.08
 EDGE_M = LANE_M + SHOULDER_M + VERGE_M  # of all that is built, from the axis
 SHARP_M = 50.0                          # radius: from here on a bend has a warning and chevrons
 # Of this seed's hills none stands before those who may overtake; tests/common/road/n222_test.cpp looks along every such stretch.
-HILLS = {"seed": 230, "columns": 513, "rows": 513, "spacing_m": 10, "west_m": -2560, "south_m": -2560, "below_m": 0.3, "flat_m": 8, "full_m": 90}
+HILLS = {"seed": 230, "columns": 513, "rows": 513, "spacing_m": 10, "west_m": -2560, "south_m": -2560, "base_z_m": 120, "below_m": 0.3, "flat_m": 5, "full_m": 90, "reach_m": 270}
 REACH_M = 20                            # of cuts and fills: less than to the centre of the sharpest bend, where they would meet themselves
 RELIEF = [(1900, 260), (800, 110), (350, 40), (140, 10), (60, 2)]  # wavelength, amplitude
 
@@ -197,10 +197,14 @@ class Axis:
 class Hills:
     """The terrain that the world file's `generate` makes, before it is cut and filled."""
 
-    def __init__(self, axis):
-        steps = math.ceil(axis.length / 40.0)
-        stations = [axis.length * i / steps for i in range(steps + 1)]
-        self.road = [(*axis.at(s)[:2], height(axis.grades, s)[0]) for s in stations]
+    def __init__(self, road, axis):
+        self.road, begin = [], 0.0
+        for _, length, _, _ in elements(road):
+            steps = math.ceil(length / 40.0)
+            for i in range(steps + 1):
+                s = begin + length * i / steps
+                self.road.append((*axis.at(s)[:2], height(axis.grades, s)[0], length / steps * (0.5 if i in (0, steps) else 1.0)))
+            begin += length
         self.gradients = {}
 
     @staticmethod
@@ -230,16 +234,16 @@ class Hills:
         return south + fv * (north - south)
 
     def at(self, x, y):
-        weights = heights = 0.0
-        nearest = 1e18
-        for px, py, pz in self.road:
+        weights = 4.0 / HILLS["reach_m"] ** 3
+        heights, nearest = weights * HILLS["base_z_m"], 1e18
+        for px, py, pz, length in self.road:
             squared = (x - px) ** 2 + (y - py) ** 2
-            weight = 1.0 / (squared + HILLS["flat_m"] ** 2) ** 2
-            weights, heights, nearest = weights + weight, heights + weight * pz, min(nearest, squared)
+            weight = length * max(0.0, 1.0 - squared / HILLS["reach_m"] ** 2) ** 3 / (squared + HILLS["flat_m"] ** 2) ** 2
+            weights, heights, nearest = weights + weight, heights + weight * (pz - HILLS["below_m"]), min(nearest, squared)
         u = min(1.0, max(0.0, (math.sqrt(nearest) - HILLS["flat_m"]) / (HILLS["full_m"] - HILLS["flat_m"])))
         east, north = x - HILLS["west_m"], y - HILLS["south_m"]
         grown = u * u * (3.0 - 2.0 * u)
-        return heights / weights - HILLS["below_m"] + grown * sum(a * self.noise(i, east, north) for i, (_, a) in enumerate(RELIEF))
+        return heights / weights + grown * sum(a * self.noise(i, east, north) for i, (_, a) in enumerate(RELIEF))
 
 
 def number(value):
@@ -357,7 +361,7 @@ def write(seed, road, length, points):
     box = [(min(p[i] for p in points) + max(p[i] for p in points)) / 2 for i in (0, 1)]
     origin, grades = (round(-box[0]), round(-box[1])), profile(seed, length)
     axis = Axis(road, origin, length, grades)
-    hills = Hills(axis)
+    hills = Hills(road, axis)
     print(f"""# A world inspired by the Portuguese national road 222 between Regua and Pinhao. Invented, not surveyed: only the
 # number of bends a km, their range of radii and the widths are those of the real road. Written by
 # tools/author_n222.py (its seed {seed}); the format is described in docs/formats.md.

@@ -43,6 +43,7 @@ class JunctionSurface {
                   std::vector<Eigen::Vector2d> paved, std::vector<FreeEdge> free_edges);
 
   const std::string& id() const { return id_; }
+  const std::vector<ArmSection>& arms() const { return arms_; }
   const std::vector<Eigen::Vector2d>& outline_W() const { return outline_; }
   const std::vector<Eigen::Vector2d>& paved_W() const { return paved_; }
   const std::vector<FreeEdge>& free_edges() const { return free_edges_; }

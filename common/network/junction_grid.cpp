@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/bytes.hpp"
+
 namespace rodeira::network {
 namespace {
 
@@ -48,6 +50,21 @@ std::optional<JunctionGrid> JunctionGrid::Make(geometry::PlanAxis line, double s
     if (low == high) return std::nullopt;
   }
   return JunctionGrid(std::move(line), start_m, spacing_m, std::move(rows));
+}
+
+base::Digest JunctionGrid::Digest() const {
+  base::ByteWriter out;
+  const auto put = [&out](const auto& numbers) {
+    out.Put(static_cast<std::uint64_t>(numbers.size()));
+    for (const double number : numbers) out.Put(number + 0.0);  // -0 is 0
+  };
+  put(std::array<double, 2>{start_m_, spacing_m_});
+  for (const geometry::PlanElement& element : line_.elements()) {
+    put(std::array<double, 8>{element.s_m, element.length_m, element.start_W.x(), element.start_W.y(), element.heading_rad, element.curvature_start_1pm, element.curvature_end_1pm, element.p_end});
+    put(element.u), put(element.v);
+  }
+  for (const JunctionGridRow& row : rows_) put(std::array<double, 1>{row.centre_m}), put(row.left_m), put(row.right_m);
+  return base::Hash(out.bytes());
 }
 
 JunctionGrid::Spot JunctionGrid::Find(const Eigen::Vector2d& p_W) const {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/base/hash.hpp"
 #include "common/geometry/plan_axis.hpp"
 
 namespace rodeira::network {
@@ -26,6 +27,8 @@ class JunctionGrid {
   // Rows a spacing apart from the line's s `start_m` on. Nothing where two neighbouring rows have no square between them.
   static std::optional<JunctionGrid> Make(geometry::PlanAxis line, double start_m, double spacing_m, std::vector<JunctionGridRow> rows);
 
+  // Of all of its numbers.
+  base::Digest Digest() const;
   // Whether a square is there.
   bool Covers(const Eigen::Vector2d& p_W) const;
   // Beyond its squares it goes on level across their edge.

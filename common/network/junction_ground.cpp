@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "common/base/bytes.hpp"
 #include "common/geometry/plane.hpp"
 #include "common/geometry/polygon.hpp"
 
@@ -40,6 +41,20 @@ JunctionGround::JunctionGround(JunctionGrid grid, std::vector<Eigen::Vector2d> b
   if (boundary_.empty()) return;
   low_ = high_ = boundary_[0];
   for (const Eigen::Vector2d& p : boundary_) low_ = low_.cwiseMin(p), high_ = high_.cwiseMax(p);
+}
+
+base::Digest JunctionGround::Digest() const {
+  base::ByteWriter out;
+  const auto put = [&out](const auto& p) {
+    for (const double number : p) out.Put(number + 0.0);  // -0 is 0
+  };
+  out.Put(grid_.Digest());
+  for (const Eigen::Vector2d& p : boundary_) put(p);
+  for (const JunctionMouth& mouth : mouths_) {
+    for (const Eigen::Vector2d& p : mouth.corners_W) put(p);
+    for (const double t_m : {mouth.first_t_m, mouth.second_t_m}) put(mouth.road->Surface(mouth.s_m, t_m).p_W);
+  }
+  return base::Hash(out.bytes());
 }
 
 bool JunctionGround::Contains(const Eigen::Vector2d& p_W) const {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/base/hash.hpp"
 #include "common/network/junction_grid.hpp"
 #include "common/network/road.hpp"
 
@@ -24,6 +25,10 @@ class JunctionGround {
   // boundary_W: corners, counter-clockwise; empty: only the connecting roads lie on it.
   JunctionGround(JunctionGrid grid, std::vector<Eigen::Vector2d> boundary_W, std::vector<JunctionMouth> mouths);
 
+  const Eigen::Vector2d& low_W() const { return low_; }
+  const Eigen::Vector2d& high_W() const { return high_; }
+  // Of its grid, its boundary and its mouths; the roads that come in have digests of their own.
+  base::Digest Digest() const;
   bool Contains(const Eigen::Vector2d& p_W) const;
   GroundHeight At(const Eigen::Vector2d& p_W) const;
 

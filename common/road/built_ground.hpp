@@ -25,6 +25,7 @@ class BuiltGround {
   BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions, const FrictionTable& friction, SurfaceDetail detail,
               BareTerrain terrain);
 
+  const Junctions& junctions() const { return junctions_; }
   // The same ground with something else on its roads.
   std::shared_ptr<const BuiltGround> With(SurfaceDetail detail) const;
 

@@ -51,7 +51,6 @@ class Earthworks {
     double DistanceFrom(const Eigen::Vector2d& p_W) const { return std::max(0.0, SquareLists::Strip{from_W, to_W, 0.0}.FromWay(p_W) - beside_m); }
   };
   void AddReaches(std::uint32_t road);
-  static double BesideOf(const network::Road& road, const geometry::AxisPanel& panel);
   // Whether an edge with these heights, at least so far away, may hold the ground more tightly than the bounds do already.
   static bool MayTighten(const network::Earthwork& earthwork, const Heights& heights, double distance_m, const Bounds& bounds);
   void FromRoad(const network::Road& road, std::uint32_t panel, const Eigen::Vector2d& p_W, Bounds& bounds) const;
@@ -66,5 +65,8 @@ class Earthworks {
   std::vector<Heights> junction_heights_;           // of all of its edges
   SquareLists near_;                                // reaches_ whose slopes may be there, and behind them junctions
 };
+
+// How far a panel's edges lie from the way between its ends at most.
+double BesideOf(const network::Road& road, const geometry::AxisPanel& panel);
 
 }  // namespace rodeira::road

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <thread>
 
@@ -16,23 +17,28 @@ namespace {
 constexpr double kAxisStep_m = 20.0;
 constexpr double kNetworkStep_m = 40.0;
 
-// The roads' heights at places north of one another, and the distances to them.
+// Heights at places north of one another, and the distances to the nearest point of a road.
 constexpr std::size_t kTogether = 8;
 using Several = std::array<double, kTogether>;
 struct Bases {
   Several z_m, distance_m;
 };
 
-Bases BasesAt(std::span<const Eigen::Vector3d> points, double x_m, const Several& y_m, double softness_m2) {
-  Several weights{}, heights{}, nearest;
+// The points that may reach a column of the grid, with their heights already below the axis; what none reaches has the base's height.
+Bases BasesAt(const HillsSpec& spec, double base_z_m, std::span<const AxisPoint> points, double x_m, const Several& y_m) {
+  const double softness_m2 = spec.flat_m * spec.flat_m, per_reach2 = 1.0 / (spec.reach_m * spec.reach_m), base_weight = 4.0 / (spec.reach_m * spec.reach_m * spec.reach_m);
+  Several weights, heights, nearest;
+  weights.fill(base_weight);
+  heights.fill(base_weight * base_z_m);
   nearest.fill(std::numeric_limits<double>::infinity());
-  for (const Eigen::Vector3d& point : points) {
-    const double dx = x_m - point.x(), z = point.z();
+  for (const AxisPoint& point : points) {
+    const double dx = x_m - point.p_W.x(), z = point.p_W.z() - spec.below_m, length = point.length_m;
     for (std::size_t k = 0; k < kTogether; ++k) {
-      const double dy = y_m[k] - point.y();
+      const double dy = y_m[k] - point.p_W.y();
       const double squared = dx * dx + dy * dy;
       const double soft = squared + softness_m2;
-      const double weight = 1.0 / (soft * soft);
+      const double left = std::max(0.0, 1.0 - squared * per_reach2);
+      const double weight = length * (left * left * left) / (soft * soft);
       weights[k] += weight;
       heights[k] += weight * z;
       nearest[k] = std::min(nearest[k], squared);
@@ -87,46 +93,62 @@ class Noise {
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> AxisPoints(std::span<const Road> roads) {
-  std::vector<Eigen::Vector3d> points;
-  for (const Road& road : roads) {
-    const int steps = static_cast<int>(std::ceil(road.length_m() / kAxisStep_m));
-    for (int i = 0; i <= steps; ++i) points.push_back(road.Evaluate(road.length_m() * i / steps).p_W);
-  }
+namespace {
+
+// Points from one station to another, at most `step_m` apart, that stand for the way between them.
+template <class At>
+void AddPoints(double from_s_m, double to_s_m, double step_m, const At& at, std::vector<AxisPoint>& points) {
+  const int steps = std::max(1, static_cast<int>(std::ceil((to_s_m - from_s_m) / step_m)));
+  const double length_m = (to_s_m - from_s_m) / steps;
+  for (int i = 0; i <= steps; ++i) points.push_back({at(from_s_m + (to_s_m - from_s_m) * i / steps), i == 0 || i == steps ? 0.5 * length_m : length_m});
+}
+
+}  // namespace
+
+std::vector<AxisPoint> AxisPoints(std::span<const Road> roads) {
+  std::vector<AxisPoint> points;
+  for (const Road& road : roads) AddPoints(0.0, road.length_m(), kAxisStep_m, [&](double s_m) { return road.Evaluate(s_m).p_W; }, points);
   return points;
 }
 
-std::vector<Eigen::Vector3d> AxisPoints(const network::Network& network) {
-  std::vector<Eigen::Vector3d> points;
+std::vector<AxisPoint> AxisPoints(const network::Network& network) {
+  std::vector<AxisPoint> points;
   for (const network::Road& road : network.roads()) {
     if (!road.spec().junction.empty()) continue;
-    const int steps = static_cast<int>(std::ceil(road.length_m() / kNetworkStep_m));
-    for (int i = 0; i <= steps; ++i) points.push_back(road.Surface(road.length_m() * i / steps, 0.0).p_W);
+    for (const geometry::PlanElement& element : road.axis().elements()) {
+      const double from_s_m = element.s_m, to_s_m = std::min(element.s_m + element.length_m, road.length_m());
+      if (from_s_m < to_s_m) AddPoints(from_s_m, to_s_m, kNetworkStep_m, [&](double s_m) { return road.Surface(s_m, 0.0).p_W; }, points);
+    }
   }
   return points;
 }
 
-terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const Eigen::Vector3d> axis) {
-  RODEIRA_ASSERT(spec.full_m > spec.flat_m && spec.flat_m > 0.0 && spec.spacing_m > 0.0);
+double BaseOf(std::span<const AxisPoint> axis) {
+  double length_m = 0.0, sum = 0.0;
+  for (const AxisPoint& point : axis) length_m += point.length_m, sum += point.length_m * point.p_W.z();
+  return length_m > 0.0 ? 10.0 * std::round(0.1 * sum / length_m) : 0.0;
+}
+
+terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const AxisPoint> axis) {
+  RODEIRA_ASSERT(spec.full_m > spec.flat_m && spec.flat_m > 0.0 && spec.spacing_m > 0.0 && spec.reach_m >= spec.full_m);
+  const double base_z_m = spec.base_z_m.value_or(BaseOf(axis) - (axis.empty() ? 0.0 : spec.below_m));
   std::vector<Noise> layers;
   for (std::size_t layer = 0; layer < spec.relief.size(); ++layer) layers.emplace_back(spec, layer);
   std::vector<float> heights(static_cast<std::size_t>(spec.columns) * static_cast<std::size_t>(spec.rows));
   const auto fill = [&](int column) {
-    const double east = column * spec.spacing_m;
+    const double east = column * spec.spacing_m, x_m = spec.west_m + east;
+    std::vector<AxisPoint> near;
+    std::copy_if(axis.begin(), axis.end(), std::back_inserter(near), [&](const AxisPoint& point) { return std::fabs(point.p_W.x() - x_m) < spec.reach_m; });
     Bases bases{};
     for (int row = 0; row < spec.rows; ++row) {
       const auto k = static_cast<std::size_t>(row) % kTogether;
-      if (k == 0 && !axis.empty()) {
+      if (k == 0) {
         Several y{};
         for (std::size_t i = 0; i < kTogether; ++i) y[i] = spec.south_m + (row + static_cast<double>(i)) * spec.spacing_m;
-        bases = BasesAt(axis, spec.west_m + east, y, spec.flat_m * spec.flat_m);
+        bases = BasesAt(spec, base_z_m, near, x_m, y);
       }
-      double z = spec.base_z_m, grown = 1.0;
-      if (!axis.empty()) {
-        const double u = std::clamp((bases.distance_m[k] - spec.flat_m) / (spec.full_m - spec.flat_m), 0.0, 1.0);
-        z = bases.z_m[k] - spec.below_m;
-        grown = u * u * (3.0 - 2.0 * u);
-      }
+      const double u = std::clamp((bases.distance_m[k] - spec.flat_m) / (spec.full_m - spec.flat_m), 0.0, 1.0), grown = u * u * (3.0 - 2.0 * u);
+      double z = bases.z_m[k];
       if (grown > 0.0) {
         for (std::size_t layer = 0; layer < layers.size(); ++layer) {
           z += grown * spec.relief[layer].amplitude_m * layers[layer].At(east, row * spec.spacing_m);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -95,7 +96,7 @@ base::Result<SurfaceDetail::Stretch> SurfaceDetail::Place(const network::Road& r
   if (std::find(modes.begin(), modes.end(), crg.mode) == modes.end()) return wrong("mode", crg.mode, modes);
   if (crg.orientation != "same" && crg.orientation != "opposite") return wrong("orientation", crg.orientation, {"same", "opposite"});
   if (crg.purpose != "elevation" && crg.purpose != "friction") return wrong("purpose", crg.purpose, {"elevation", "friction"});
-  Stretch stretch{crg.s_start_m, crg.s_end_m, crg.s_offset_m, nullptr, std::move(file), crg.t_offset_m, crg.z_offset_m, crg.z_scale, crg.orientation == "opposite"};
+  Stretch stretch{crg.s_start_m, crg.s_end_m, crg.s_offset_m, nullptr, std::move(file), 0, crg.t_offset_m, crg.z_offset_m, crg.z_scale, crg.orientation == "opposite"};
   stretch.friction = crg.purpose == "friction";
   if (crg.mode == "attached") return stretch;
   stretch.lay = crg.mode == "attached0" ? Lay::kInstead : Lay::kByItself;
@@ -133,12 +134,15 @@ base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network,
       }
       auto stretch = Place(network.roads()[i], crg, file);
       if (!stretch) return placed(stretch.error());
+      const std::size_t before = numbers.bytes().size();
       PutAll(*file, numbers);
+      stretch.value().source = base::Hash(std::span(numbers.bytes()).subspan(before));
       stretches.push_back(std::move(stretch).value());
     }
     for (const network::Unevenness& uneven : spec.unevenness) {
       stretches.push_back({uneven.s_start_m, uneven.s_end_m, uneven.s_offset_m,
-                           std::make_shared<const surface::Roughness>(surface::RoughnessSpec{uneven.density_m3, uneven.seed}), nullptr});
+                           std::make_shared<const surface::Roughness>(surface::RoughnessSpec{uneven.density_m3, uneven.seed}), nullptr,
+                           base::Hash(fmt::format("{} {}", uneven.density_m3, uneven.seed))});
     }
     if (stretches.empty()) continue;
     detail.roads_.resize(network.roads().size());
@@ -149,6 +153,26 @@ base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network,
   for (const network::Laid& on_road : laid) PutLaid(on_road, numbers);
   if (!numbers.bytes().empty()) detail.digest_ = base::Hash(numbers.bytes());
   return detail;
+}
+
+base::Digest SurfaceDetail::DigestOn(std::uint32_t road, double from_s_m, double to_s_m) const {
+  base::ByteWriter out;
+  const auto put = [&out](double value) { out.Put(value + 0.0); };  // -0 is 0
+  for (const Stretch& stretch : roads_.empty() ? std::vector<Stretch>() : roads_[road]) {
+    if (stretch.begin_m > to_s_m || stretch.end_m < from_s_m) continue;
+    out.Put(stretch.source);
+    for (const double number : {stretch.begin_m, stretch.end_m, stretch.s_offset_m, stretch.t_offset_m, stretch.z_offset_m, stretch.z_scale}) put(number);
+    out.Put(static_cast<std::uint8_t>(stretch.opposite)), out.Put(stretch.lay), out.Put(static_cast<std::uint8_t>(stretch.friction));
+    for (const Eigen::Vector2d& p : {stretch.turn, stretch.from_W, stretch.to_W}) put(p.x()), put(p.y());
+  }
+  if (!laid_.empty()) {
+    network::Laid laid;
+    const auto reaches_in = [&](const auto& lies) { return lies.piece.from_s_m <= to_s_m && lies.piece.to_s_m >= from_s_m; };
+    std::copy_if(laid_[road].patches.begin(), laid_[road].patches.end(), std::back_inserter(laid.patches), reaches_in);
+    std::copy_if(laid_[road].bumps.begin(), laid_[road].bumps.end(), std::back_inserter(laid.bumps), reaches_in);
+    if (!laid.empty()) PutLaid(laid, out);
+  }
+  return out.bytes().empty() ? 0 : base::Hash(out.bytes());
 }
 
 bool SurfaceDetail::IsFine() const {

@@ -40,6 +40,8 @@ class SurfaceDetail {
   bool IsFine() const;
   // Of every number of the measured surfaces, whose places are the network's, and of what is laid. 0: there are none.
   base::Digest digest() const { return digest_; }
+  // Of what lies on a road between two stations, whole where it reaches in: a measured surface's numbers and place, made roughness, patches and bumps. 0: nothing.
+  base::Digest DigestOn(std::uint32_t road, double from_s_m, double to_s_m) const;
   // What stands over the road at (s, t) between its outermost edges, added to the sample. Over the first and last metre of a
   // measured or made stretch, and of all the last half metre to the road's edges, it passes into nothing. A stretch that goes on in
   // a junction passes over the last metre before it into what lies on its way there.
@@ -70,6 +72,7 @@ class SurfaceDetail {
     double s_offset_m;
     std::shared_ptr<const surface::Roughness> made;  // or
     std::shared_ptr<const surface::CrgSurface> measured;
+    base::Digest source = 0;  // of the numbers of its file, or of what it is made from
     double t_offset_m = 0.0, z_offset_m = 0.0, z_scale = 1.0;
     bool opposite = false;
     Lay lay = Lay::kOnTop;

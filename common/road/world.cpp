@@ -121,7 +121,11 @@ std::shared_ptr<const World> World::AsSeen() const {
   return seen;
 }
 
-base::Digest World::measured_digest() const { return detail_ == nullptr ? 0 : detail_->digest(); }
+base::Digest World::DetailDigest(std::uint32_t road, double from_s_m, double to_s_m) const { return detail_ == nullptr ? 0 : detail_->DigestOn(road, from_s_m, to_s_m); }
+
+std::span<const std::shared_ptr<const design::JunctionSurface>> World::junctions() const {
+  return built_ == nullptr ? std::span<const std::shared_ptr<const design::JunctionSurface>>() : std::span(built_->junctions());
+}
 
 SurfacePoint World::At(double x_m, double y_m, double z_hint_m) const {
   if (open_drive()) return NetworkGround(*network_, grounds_, friction_, x_m, y_m, z_hint_m, paint_.get(), detail_.get());

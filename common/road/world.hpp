@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -62,8 +63,10 @@ class World : public std::enable_shared_from_this<World> {
   const terrain::LaidPicture* ground_picture() const { return ground_picture_ ? &*ground_picture_ : nullptr; }
   // What stands on the ground at no road, on SUELO's highest surface there; null: nothing.
   const network::Standing* standing() const { return standing_.get(); }
-  // Of the numbers of the measured surfaces on the roads; 0: there are none.
-  base::Digest measured_digest() const;
+  // Of what lies on a road between two stations, measured or laid by an author, as SurfaceDetail::DigestOn says; 0: nothing.
+  base::Digest DetailDigest(std::uint32_t road, double from_s_m, double to_s_m) const;
+  // The surfaces of the junctions of a network that is built into a terrain.
+  std::span<const std::shared_ptr<const design::JunctionSurface>> junctions() const;
   double Friction(terrain::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
 
   // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. Where surfaces lie over one

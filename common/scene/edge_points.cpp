@@ -18,11 +18,11 @@ constexpr BendRange kEdge = {0.003, 0.02, 2.0};
 
 }  // namespace
 
-void RefineEdges(const road::World& world, const TileKey& tile, std::vector<GridPoint>& edge, bool decks) {
+void RefineEdges(const road::World& world, const TileKey& tile, std::vector<GridPoint>& edge, const std::array<bool, 4>& decks) {
   const auto size = static_cast<std::int32_t>(kTileSteps);
   std::set<GridPoint> points(edge.begin(), edge.end());
   std::vector<road::SurfacePoint> levels;
-  const auto along = [&](const auto& point_at) {  // an edge
+  const auto along = [&](bool deck, const auto& point_at) {  // an edge
     const auto levels_at = [&](const Eigen::Vector2d& p_W, std::size_t most) -> const std::vector<road::SurfacePoint>& {
       LevelsAt(world, p_W, most, levels);
       return levels;
@@ -70,14 +70,14 @@ void RefineEdges(const road::World& world, const TileKey& tile, std::vector<Grid
       places.insert(places.end(), more.begin(), more.end());
       return any;
     };
-    for (std::size_t level = 0; level < (decks || world.grid() == nullptr ? kMostLevels : 1) && refine(level); ++level) {
+    for (std::size_t level = 0; level < (deck || world.grid() == nullptr ? kMostLevels : 1) && refine(level); ++level) {
     }
     for (const std::int32_t k : places) points.insert(point_at(k));
   };
-  along([](std::int32_t k) { return GridPoint{0, k}; });
-  along([](std::int32_t k) { return GridPoint{k, 0}; });
-  along([size](std::int32_t k) { return GridPoint{size, k}; });
-  along([size](std::int32_t k) { return GridPoint{k, size}; });
+  along(decks[0], [](std::int32_t k) { return GridPoint{0, k}; });
+  along(decks[1], [](std::int32_t k) { return GridPoint{k, 0}; });
+  along(decks[2], [size](std::int32_t k) { return GridPoint{size, k}; });
+  along(decks[3], [size](std::int32_t k) { return GridPoint{k, size}; });
   edge.assign(points.begin(), points.end());
 }
 

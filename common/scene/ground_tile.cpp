@@ -19,7 +19,6 @@ namespace rodeira::scene {
 namespace {
 
 constexpr std::array<double, kGroundLevels - 1> kPaintChords_m = {0.001, 0.01, 0.05};
-constexpr double kJunctionBeyond_m = 20.0;  // so far a junction's edge may lie from the ways through it
 
 // Tiles within reach of a road's lines.
 void AddReach(const Line3& line, std::set<TileKey>& tiles) {
@@ -122,37 +121,12 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
     const Line3 border = BorderOf(world.extents());
     AddToTiles({&border, 1}, pieces);
   }
-  for (std::size_t i = 0; i < roads.size(); ++i) {
-    RoadTrace trace;
-    trace.low_W = trace.high_W = lines[i].empty() ? Eigen::Vector2d(1e9, 1e9) : Eigen::Vector2d(lines[i].front().front().head<2>());
-    for (const Line3& line : lines[i]) {
-      for (const Eigen::Vector3d& p : line) {
-        trace.low_W = trace.low_W.cwiseMin(p.head<2>()), trace.high_W = trace.high_W.cwiseMax(p.head<2>());
-        trace.points_W.emplace_back(p.head<2>());
-      }
-    }
-    trace.pieces = PiecesOf(trace.points_W);
-    for (const auto& [key, painted] : paint[i][0]) {  // crossings and arrows may reach beyond the lanes
-      for (const PaintPiece& piece : painted) {
-        for (const Eigen::Vector3d& p : piece.p_W) trace.low_W = trace.low_W.cwiseMin(p.head<2>()), trace.high_W = trace.high_W.cwiseMax(p.head<2>());
-      }
-    }
-    trace.digest = RoadDigest(roads[i], lines[i], paint[i][0]);
-    const network::RoadSpec& spec = roads[i].spec();
-    // Detail comes from files: the world's own hash knows them.
-    if (!spec.crg.empty() || !spec.unevenness.empty()) trace.digest = base::Combine(trace.digest, world.content_hash());
-    double reach_m = 0.0;
-    if (spec.earthwork) reach_m = std::max(spec.earthwork->reach_m, spec.earthwork->blend_m);
-    if (!spec.junction.empty()) reach_m = std::max(reach_m, network::Earthwork().reach_m + kJunctionBeyond_m);
-    slopes_reach_m_ = std::max(slopes_reach_m_, reach_m);
-    if (world.grid() != nullptr) reach_m = std::max(reach_m, 1.5 * std::max(world.grid()->spacing_x_m(), world.grid()->spacing_y_m()) - 1.0);  // cells that the road itself cuts, too
-    if (!world.open_drive()) {
-      land_.slopes.Add(lines[i], reach_m + 1.0);
-      AddDecks(roads[i], land_.decks);
-    }
-    traces_.push_back(std::move(trace));
+  for (std::size_t i = 0; i < roads.size() && !world.open_drive(); ++i) {
+    land_.slopes.Add(lines[i], LandReachOf(world_, roads[i]) + 1.0);
+    AddDecks(roads[i], land_.decks);
   }
-  terrain_digest_ = TerrainDigest(world);
+  sources_ = TileSources(world_, lines);
+  land_digest_ = LandDigest(world);
   tiles_.assign(tiles.begin(), tiles.end());
   std::vector<std::pair<const TileKey, std::vector<partition::GridLine>>*> open;
   for (auto& piece : pieces) open.push_back(&piece);
@@ -162,17 +136,6 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
     edges_.Add(open[i]->first, noded[i]);
     segments_[open[i]->first] = std::move(noded[i]);
   }
-}
-
-std::vector<GroundPlan::TracePiece> GroundPlan::PiecesOf(std::span<const Eigen::Vector2d> points_W) {
-  constexpr std::size_t kPiece = 64;
-  std::vector<TracePiece> pieces;
-  for (std::size_t first = 0; first < points_W.size(); first += kPiece) {
-    TracePiece piece{first, std::min(kPiece, points_W.size() - first), points_W[first], points_W[first]};
-    for (const Eigen::Vector2d& p : points_W.subspan(first, piece.count)) piece.low_W = piece.low_W.cwiseMin(p), piece.high_W = piece.high_W.cwiseMax(p);
-    pieces.push_back(piece);
-  }
-  return pieces;
 }
 
 TileBall GroundPlan::BallOf(const TileKey& key) const {
@@ -206,7 +169,7 @@ GroundPlan::Begun GroundPlan::Begin(const TileKey& key) const {
   const auto found = segments_.find(key);
   const auto finest = found == segments_.end() ? std::span<const partition::GridSegment>() : std::span(found->second);
   Begun begun{key, finest, TileChains(finest, key, world_), IsBare(key), edges_.Of(key), {}, -1};
-  if (!begun.bare) RefineEdges(world_, key, begun.edge, !land_.decks.empty());  // the terrain's triangles have their points there
+  if (!begun.bare) RefineEdges(world_, key, begun.edge, land_.DecksAtEdges(key));  // the terrain's triangles have their points there
   return begun;
 }
 

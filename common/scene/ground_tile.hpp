@@ -13,6 +13,7 @@
 #include "common/scene/things.hpp"
 #include "common/scene/tile_lines.hpp"
 #include "common/scene/tile_plan.hpp"
+#include "common/scene/tile_sources.hpp"
 
 namespace rodeira::scene {
 
@@ -58,23 +59,11 @@ class GroundPlan {
   // The finest level that is drawn as this one is, to the bit: bare land on which nothing stands has fewer levels.
   int FinestAlike(const TileKey& tile, int level) const;
   TileBall BallOf(const TileKey& tile) const;
-  // Of everything that can change a bit of the tile: the roads that are nearest to any of its points, or lie in it, with
-  // their heights, lanes and paint, the terrain, and what stands in it. (A change in a tile's roads changes it; it may change without need.)
+  // Of everything that can change a bit of the tile, and of nothing that lies out of its reach: lines and paint in it, what stands in it, and what SUELO answers from
+  // there (TileSources). It may change without need, but only where something near changes.
   base::Digest SourceDigest(const TileKey& tile) const;
 
  private:
-  // Points of a trace that follow one another, and a box around them.
-  struct TracePiece {
-    std::size_t first = 0, count = 0;
-    Eigen::Vector2d low_W, high_W;
-  };
-  struct RoadTrace {
-    Eigen::Vector2d low_W, high_W;        // a box around it
-    std::vector<Eigen::Vector2d> points_W;
-    std::vector<TracePiece> pieces;
-    base::Digest digest = 0;
-  };
-  static std::vector<TracePiece> PiecesOf(std::span<const Eigen::Vector2d> points_W);
   struct Begun;  // what a tile's levels have in common, and the level that was woven last
   Begun Begin(const TileKey& tile) const;
   GroundLevel LevelOf(Begun& begun, int level) const;
@@ -88,9 +77,8 @@ class GroundPlan {
   std::map<TileKey, std::vector<partition::GridSegment>> segments_;
   Land land_;
   TileEdges edges_;
-  std::vector<RoadTrace> traces_;  // by road
-  base::Digest terrain_digest_ = 0;
-  double slopes_reach_m_ = 0.0;  // from any road
+  TileSources sources_;
+  base::Digest land_digest_ = 0;
   std::array<TilePaint, kGroundLevels - 1> paint_;  // the coarsest level has none
 };
 

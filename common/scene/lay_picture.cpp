@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "common/base/files.hpp"
 #include "common/network/network.hpp"
@@ -52,13 +53,20 @@ std::vector<terrain::LaidPicture> PicturesOf(const road::World& world) {
   return pictures;
 }
 
+base::Digest PictureDigests::Of(const terrain::LaidPicture& picture) {
+  const base::Digest lies = base::Hash(fmt::format("{} {} {} {} {} {}", picture.west_m, picture.south_m, picture.width_m, picture.height_m, picture.repeats,
+                                                   std::filesystem::path(picture.file).extension().string()));
+  const auto [file, fresh] = files_.try_emplace(picture.file, 0);
+  if (fresh) {
+    if (const auto bytes = base::ReadBytes(picture.file)) file->second = base::Hash(std::span(bytes.value()));
+  }
+  return base::Combine(lies, file->second);
+}
+
 base::Digest PicturesDigest(const road::World& world) {
   base::Digest digest = 0;
-  for (const terrain::LaidPicture& picture : PicturesOf(world)) {
-    digest = base::Combine(digest, base::Hash(fmt::format("{} {} {} {} {}", picture.west_m, picture.south_m, picture.width_m, picture.height_m, picture.repeats)));
-    const auto bytes = base::ReadBytes(picture.file);
-    if (bytes) digest = base::Combine(digest, base::Hash(std::span(bytes.value())));
-  }
+  PictureDigests pictures;
+  for (const terrain::LaidPicture& picture : PicturesOf(world)) digest = base::Combine(digest, pictures.Of(picture));
   return digest;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "common/base/hash.hpp"
@@ -20,7 +22,16 @@ void LayPicture(const terrain::LaidPicture& picture, Mesh& mesh);
 std::vector<terrain::LaidPicture> PicturesOf(const road::World& world);
 // The picture of a lane's material; nothing where it has none.
 std::optional<terrain::LaidPicture> PictureOf(const network::LaneMaterial& material);
-// Of how they lie and of the files' bytes; paths are no part of it.
+// Digests of pictures; every file is read once.
+class PictureDigests {
+ public:
+  // Of how it lies, of the file's bytes and of its kind by the file's name; paths are no part of it.
+  base::Digest Of(const terrain::LaidPicture& picture);
+
+ private:
+  std::map<std::string, base::Digest> files_;
+};
+// Of all of a world's.
 base::Digest PicturesDigest(const road::World& world);
 
 }  // namespace rodeira::scene

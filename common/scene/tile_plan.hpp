@@ -51,6 +51,12 @@ struct Land {
 
   // The terrain itself, with all of its posts, is all the ground that a tile without any line has.
   bool IsBare(const TileKey& tile) const { return posts.HoldsAll(tile) && !slopes.InTile(tile); }
+  // Whether a tile, or its neighbour at an edge, may have a bridge: west, south, east, north.
+  std::array<bool, 4> DecksAtEdges(const TileKey& tile) const {
+    const bool own = decks.contains(tile);
+    return {own || decks.contains({tile.column - 1, tile.row}), own || decks.contains({tile.column, tile.row - 1}), own || decks.contains({tile.column + 1, tile.row}),
+            own || decks.contains({tile.column, tile.row + 1})};
+  }
   // Of how many posts the land has one at a level.
   int EveryPost(int level) const { return std::max(1, static_cast<int>(kLandSpacings_m[static_cast<std::size_t>(level)] / posts.spacing_m())); }
 };

@@ -60,7 +60,7 @@ class NetworkTiles final : public DatabaseTiles {
 class TerrainTiles final : public DatabaseTiles {
  public:
   explicit TerrainTiles(const road::World& world)
-      : tiles_(scene::BareLand(world)), source_(base::Combine(base::Combine(base::Hash(scene::kGroundVersion), world.content_hash()), scene::TerrainDigest(world))) {}
+      : tiles_(scene::BareLand(world)), source_(base::Combine(base::Combine(base::Hash(scene::kGroundVersion), world.content_hash()), scene::LandDigest(world))) {}
 
   std::size_t count() const override { return tiles_.size(); }
   TileFiles FilesOf(std::size_t tile) const override {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "common/terrain/bt.hpp"
 #include "tests/common/road/sample_world.hpp"
@@ -17,7 +19,7 @@ HillsSpec Spec() {
   spec.columns = 81, spec.rows = 61;
   spec.west_m = -150.0, spec.south_m = -200.0, spec.spacing_m = 6.0;
   spec.base_z_m = 50.0, spec.below_m = 0.5;
-  spec.flat_m = 10.0, spec.full_m = 60.0;
+  spec.flat_m = 10.0, spec.full_m = 60.0, spec.reach_m = 180.0;
   spec.relief = {{100.0, 30.0}, {40.0, 5.0}};
   return spec;
 }
@@ -58,6 +60,110 @@ TEST(Hills, LieLevelWithTheRoadNearIt) {
   }
   EXPECT_GT(near, 50);
   EXPECT_GT(far, 500);
+}
+
+std::vector<AxisPoint> Straight(double y_m, double z_m) {
+  std::vector<AxisPoint> points;
+  for (double x = -140.0; x <= 300.0; x += 20.0) points.push_back({{x, y_m, z_m}, 20.0});
+  return points;
+}
+
+// The formula that is written in hills.hpp, by another program: in long doubles, and from all points.
+TEST(Hills, WithoutReliefAreWhatTheFormulaSays) {
+  HillsSpec spec = Spec();
+  spec.relief.clear();
+  std::vector<AxisPoint> axis = Straight(-60.0, 62.0), other = Straight(90.0, 31.0);
+  axis.insert(axis.end(), other.begin(), other.end());
+  const auto grid = MakeHills(spec, axis);
+  for (int column = 0; column < spec.columns; ++column) {
+    for (int row = 0; row < spec.rows; ++row) {
+      const long double x = spec.west_m + column * spec.spacing_m, y = spec.south_m + row * spec.spacing_m;
+      long double weights = 4.0L / std::pow(180.0L, 3), heights = weights * 50.0L;
+      for (const AxisPoint& point : axis) {
+        const long double d = std::hypot(x - point.p_W.x(), y - point.p_W.y());
+        if (d >= 180.0L) continue;
+        const long double weight = 20.0L * std::pow(1.0L - d * d / (180.0L * 180.0L), 3) / std::pow(d * d + 100.0L, 2);
+        weights += weight, heights += weight * (point.p_W.z() - 0.5L);
+      }
+      ASSERT_NEAR(grid.Post(column, row), static_cast<double>(heights / weights), 1e-5) << x << " " << y;
+    }
+  }
+}
+
+TEST(Hills, FarFromAPointThatMovesNotABitChanges) {
+  HillsSpec spec = Spec();
+  spec.reach_m = 90.0;
+  std::vector<AxisPoint> axis = Straight(-60.0, 62.0);
+  const auto before = MakeHills(spec, axis);
+  const Eigen::Vector2d old_W = axis[5].p_W.head<2>();
+  axis[5].p_W += Eigen::Vector3d(3.0, 7.0, 4.0);
+  axis.insert(axis.begin(), AxisPoint{{10'000.0, 0.0, 900.0}, 40.0});  // nor does it where a road is far from all of it
+  const auto after = MakeHills(spec, axis);
+  int changed = 0, kept = 0;
+  for (int column = 0; column < spec.columns; ++column) {
+    for (int row = 0; row < spec.rows; ++row) {
+      const Eigen::Vector2d p(spec.west_m + column * spec.spacing_m, spec.south_m + row * spec.spacing_m);
+      const double near_m = std::min((p - old_W).norm(), (p - axis[6].p_W.head<2>()).norm());
+      const bool same = before.Post(column, row) == after.Post(column, row);
+      if (near_m >= spec.reach_m) {
+        EXPECT_TRUE(same) << p.transpose();
+        ++kept;
+      } else {
+        changed += !same;
+      }
+    }
+  }
+  EXPECT_GT(changed, 300);
+  EXPECT_GT(kept, 3000);
+}
+
+// Neither where a road's reach ends nor anywhere else is a kink: over 1 m the slope changes by no more than where the terrain bends to the road, and at the reach's end
+// hardly at all.
+TEST(Hills, PassIntoTheBaseWithoutAKink) {
+  HillsSpec spec = Spec();
+  spec.relief.clear();
+  spec.columns = 2, spec.rows = 401, spec.spacing_m = 1.0, spec.west_m = 80.0, spec.south_m = 0.0;
+  const auto grid = MakeHills(spec, Straight(0.0, 80.0));
+  double most = 0.0, most_at_end = 0.0;
+  for (int row = 1; row + 1 < spec.rows; ++row) {
+    const double bend = std::fabs(double{grid.Post(0, row - 1)} - 2.0 * double{grid.Post(0, row)} + double{grid.Post(0, row + 1)});
+    most = std::max(most, bend);
+    if (row > 174 && row < 186) most_at_end = std::max(most_at_end, bend);
+  }
+  EXPECT_NEAR(grid.Post(0, 0), 79.5, 0.01);
+  EXPECT_NEAR(grid.Post(0, 200), 50.0, 1e-5);
+  EXPECT_LT(most, 0.02);        // 30 m down over some 120: the slope is 1 in 3 at most
+  EXPECT_LT(most_at_end, 0.05 * most);
+}
+
+TEST(Hills, WithoutABaseItIsTheRoadsMeanToTenMetres) {
+  HillsSpec spec = Spec();
+  spec.relief.clear();
+  spec.base_z_m.reset();
+  spec.reach_m = 60.0;
+  std::vector<AxisPoint> axis = Straight(-150.0, 62.0);
+  EXPECT_EQ(BaseOf(axis), 60.0);
+  EXPECT_EQ(BaseOf({}), 0.0);
+  axis.front().p_W.z() = 85.0;  // a road that is changed a little
+  EXPECT_EQ(BaseOf(axis), 60.0);
+  EXPECT_FLOAT_EQ(MakeHills(spec, axis).Post(0, 60), 59.5F);
+}
+
+// Where a plan element changes, the points on those before it stay, to the bit.
+TEST(Hills, PointsFollowFromTheElementTheyLieOn) {
+  const auto points = [](const std::string& last) {
+    const auto world = World::Parse("rodeira: world/2\nname: w\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: 3, y_m: 4, heading_deg: 20}\n"
+                                    "    axis: [line: {length_m: 333}, arc: {length_m: 120, radius_m: 90}, line: {length_m: " + last + "}]\n    z_m: 7\n    section: {template: rural}\n", "w.yaml");
+    EXPECT_TRUE(world.ok()) << world.error().Text();
+    return AxisPoints(*world.value()->network());
+  };
+  const auto shorter = points("100"), longer = points("145");
+  double length_m = 0.0;
+  std::size_t same = 0;
+  for (const AxisPoint& point : longer) length_m += point.length_m;
+  while (same < shorter.size() && shorter[same].p_W == longer[same].p_W && shorter[same].length_m == longer[same].length_m) ++same;
+  EXPECT_NEAR(length_m, 333.0 + 120.0 + 145.0, 1e-9);
+  EXPECT_EQ(same, 10u + 4u);  // in nine pieces and in three
 }
 
 TEST(Hills, LayersAreNoCopiesOfOneAnother) {

@@ -98,6 +98,7 @@ TEST(WorldFile, EveryKindOfMistakeGetsItsSentence) {
       {"spacing_m: 8.5", "spacing_m: wide", "sample.yaml:11: 'terrain.generate.spacing_m' is 'wide'; a number was expected"},
       {"columns: 61", "columns: 1", "'terrain.generate.columns' is 1; a whole number from 2 to 8193 was expected"},
       {"full_m: 40", "full_m: 5", "'full_m' must be greater than 'flat_m'"},
+      {"full_m: 40", "full_m: 40\n    reach_m: 39", "'reach_m' must not be less than 'full_m'"},
       {"  generate:", "  file: x.bt\n  generate:", "'terrain' needs either 'file' or 'generate'"},
       {"start: {road: main", "start: {road: mein", "sample.yaml:20: there is no road 'mein'; did you mean 'main'?"},
       {"lane: -1, s_m: 12.5", "lane: -2, s_m: 12.5", "road 'main' has no lane -2"},
