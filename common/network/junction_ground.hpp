@@ -24,6 +24,7 @@ class JunctionGround {
   // boundary_W: corners, counter-clockwise; empty: only the connecting roads lie on it.
   JunctionGround(JunctionGrid grid, std::vector<Eigen::Vector2d> boundary_W, std::vector<JunctionMouth> mouths);
 
+  const std::vector<Eigen::Vector2d>& boundary_W() const { return boundary_; }
   bool Contains(const Eigen::Vector2d& p_W) const;
   GroundHeight At(const Eigen::Vector2d& p_W) const;
 

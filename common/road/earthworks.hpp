@@ -8,6 +8,7 @@
 
 #include "common/design/junction_surface.hpp"
 #include "common/network/network.hpp"
+#include "common/road/road_edge.hpp"
 #include "common/road/square_lists.hpp"
 #include "common/road/surface_point.hpp"
 
@@ -38,9 +39,7 @@ class Earthworks {
     double z_m;
     Eigen::Vector2d along;
   };
-  struct Heights {
-    double low_m, high_m;
-  };
+  using Heights = EdgeHeights;
   struct Reach {  // of a panel's edges: all of them lie within beside_m of the way from one end to the other
     std::uint32_t road = 0, panel = 0;
     Eigen::Vector2d from_W, to_W;
@@ -51,7 +50,6 @@ class Earthworks {
     double DistanceFrom(const Eigen::Vector2d& p_W) const { return std::max(0.0, SquareLists::Strip{from_W, to_W, 0.0}.FromWay(p_W) - beside_m); }
   };
   void AddReaches(std::uint32_t road);
-  static double BesideOf(const network::Road& road, const geometry::AxisPanel& panel);
   // Whether an edge with these heights, at least so far away, may hold the ground more tightly than the bounds do already.
   static bool MayTighten(const network::Earthwork& earthwork, const Heights& heights, double distance_m, const Bounds& bounds);
   void FromRoad(const network::Road& road, std::uint32_t panel, const Eigen::Vector2d& p_W, Bounds& bounds) const;

@@ -11,7 +11,7 @@
 namespace rodeira::scene {
 
 // Changes whenever the same world is drawn otherwise than before.
-inline constexpr const char* kGroundVersion = "ground 18";
+inline constexpr const char* kGroundVersion = "ground 19";
 
 base::Digest PaintDigest(const TilePaint& paint);
 // Of all of a road that is seen or that heights follow from: its lines, lanes, heights, materials, and its paint.
