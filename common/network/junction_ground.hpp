@@ -29,6 +29,7 @@ class JunctionGround {
   const Eigen::Vector2d& high_W() const { return high_; }
   // Of its grid, its boundary and its mouths; the roads that come in have digests of their own.
   base::Digest Digest() const;
+  const std::vector<Eigen::Vector2d>& boundary_W() const { return boundary_; }
   bool Contains(const Eigen::Vector2d& p_W) const;
   GroundHeight At(const Eigen::Vector2d& p_W) const;
 

@@ -6,8 +6,6 @@
 #include <limits>
 #include <set>
 
-#include "common/road/network_ground.hpp"
-
 namespace rodeira::road {
 namespace {
 

@@ -11,17 +11,7 @@
 namespace rodeira::road {
 namespace {
 
-constexpr double kSteeper = 0.8;  // of the reach: from here on slopes grow steeper, without bound at its end
 constexpr double kSample_m = 1e-3;
-constexpr int kSamples = 16;  // of a panel's edges
-
-// What is added to a bound at a distance, and its slope by the distance.
-inline std::pair<double, double> Steepening(double distance_m, double reach_m) {
-  if (distance_m <= kSteeper * reach_m) return {0.0, 0.0};
-  const double x = (distance_m / reach_m - kSteeper) / (1.0 - kSteeper);
-  const double left = std::max(1.0 - x, 1e-9);
-  return {reach_m * x * x / left, x * (2.0 - x) / (left * left) / (1.0 - kSteeper)};
-}
 
 // The stretches of a panel that stand on the ground.
 template <class Use>
@@ -43,17 +33,6 @@ void Standing(const network::Road& road, double low_m, double high_m, const Use&
     if (to >= high_m) break;
     from = to;
   }
-}
-
-// How far the edges lie from the axis.
-double WidestOf(const network::Road& road) {
-  double widest = 0.0;
-  for (const network::LaneSection& section : road.spec().sections) {
-    double right, left;
-    section.Bounds(road.spec().lane_offset, section.s_m, section.end_s_m, right, left);
-    widest = std::max({widest, -right, left});
-  }
-  return widest;
 }
 
 }  // namespace
@@ -111,21 +90,8 @@ void Earthworks::AddReaches(std::uint32_t road_index) {
     Reach reach;
     reach.road = road_index, reach.panel = i;
     reach.from_W = road.axis().At(panel, -panel.half_m).p_W, reach.to_W = road.axis().At(panel, panel.half_m).p_W;
-    reach.beside_m = BesideOf(road, panel);
-    double low = std::numeric_limits<double>::infinity(), high = -low, most = 0.0;  // the greatest step between two samples
-    std::array<double, 2> last{};
-    for (int k = 0; k <= kSamples; ++k) {
-      const double s = begin + (end - begin) * k / kSamples;
-      double right, left;
-      road.SectionAt(s).Bounds(road.spec().lane_offset, s, s, right, left);
-      const std::array<double, 2> z = {road.Surface(s, right).p_W.z(), road.Surface(s, left).p_W.z()};
-      for (std::size_t side = 0; side < 2; ++side) {
-        low = std::min(low, z[side]), high = std::max(high, z[side]);
-        if (k > 0) most = std::max(most, std::fabs(z[side] - last[side]));
-      }
-      last = z;
-    }
-    reach.heights = {low - most - kSample_m, high + most + kSample_m};
+    reach.beside_m = EdgesBeside(road, panel);
+    reach.heights = HeightsOfEdges(road, begin, end);
     reaches_.push_back(reach);
   }
 }
@@ -154,29 +120,11 @@ void Earthworks::Offer(const network::Earthwork& earthwork, const Edge& edge, co
 
 void Earthworks::FromRoad(const network::Road& road, std::uint32_t panel_index, const Eigen::Vector2d& p_W, Bounds& bounds) const {
   const geometry::AxisPanel& panel = road.axis().panels()[panel_index];
-  const geometry::AxisFoot foot = road.axis().Foot(panel, p_W);
   const double low = std::max(panel.begin_s_m(), 0.0), high = std::min(panel.end_s_m(), road.length_m());
   Standing(road, low, high, [&](double from, double to) {
-    const double found = panel.middle_s_m + foot.u_m;
-    double s = std::clamp(found, from, to), t_found = foot.t_m;
-    const bool beside = s == found && foot.beyond_m == 0.0;
-    if (road.rolled()) (void)road.Settle(p_W, from, to, s, t_found);  // t runs along a slope there: its edges are nearer to the axis than they are wide
-    const network::LaneSection& section = road.SectionAt(s);
-    double outside;
-    const geometry::CubicPoint centre = road.CentreAt(s);
-    network::LaneSpan span = section.At(t_found, centre, s, outside);
-    const double t = t_found + (t_found > centre.value ? -outside : outside);
-    if (road.rolled() && outside > 0.0) {  // the section leans: the nearest point of its edge lies elsewhere
-      (void)road.DistanceToEdge(p_W, from, to, t, s);
-      span = section.At(t, road.CentreAt(s), s, outside);
-    }
-    const geometry::PlanPoint axis = s == found ? foot.at : road.axis().At(panel, s - panel.middle_s_m);
-    const network::SurfaceSample sample = road.Surface(axis, s, t, section, span);
-    Edge edge{sample.p_W.head<2>(), sample.p_W.z(), Eigen::Vector2d::Zero()};
-    if (beside) {  // the height goes along with the road's
-      const double pace = sample.ds_W.head<2>().norm() - axis.curvature_1pm * geometry::Cross(axis.tangent_W, p_W - edge.p_W);
-      if (pace > 0.05) edge.along = sample.ds_W.z() / pace * axis.tangent_W;
-    }
+    const EdgePlace place = PlaceOnEdge(road, panel, {from, to}, p_W);
+    Edge edge{place.sample.p_W.head<2>(), place.sample.p_W.z(), Eigen::Vector2d::Zero()};
+    if (place.pace > 0.0) edge.along = place.sample.ds_W.z() / place.pace * place.axis.tangent_W;  // the height goes along with the road's
     Offer(*road.spec().earthwork, edge, p_W, bounds);
   });
 }

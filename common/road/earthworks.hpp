@@ -8,6 +8,7 @@
 
 #include "common/design/junction_surface.hpp"
 #include "common/network/network.hpp"
+#include "common/road/road_edge.hpp"
 #include "common/road/square_lists.hpp"
 #include "common/road/surface_point.hpp"
 
@@ -38,9 +39,7 @@ class Earthworks {
     double z_m;
     Eigen::Vector2d along;
   };
-  struct Heights {
-    double low_m, high_m;
-  };
+  using Heights = EdgeHeights;
   struct Reach {  // of a panel's edges: all of them lie within beside_m of the way from one end to the other
     std::uint32_t road = 0, panel = 0;
     Eigen::Vector2d from_W, to_W;

@@ -55,37 +55,19 @@ SurfacePoint OnJunction(const network::JunctionGround& ground, const FrictionTab
   return {at.z_m, at.slope_x, at.slope_y, friction[static_cast<std::size_t>(terrain::Surface::kAsphalt)], terrain::Surface::kAsphalt, true};
 }
 
-SurfacePoint OnVerge(const Network& network, const FrictionTable& friction, const Eigen::Vector2d& p, const Place& place) {
-  const network::Road& road = network.roads()[place.lane.road];
-  const network::LaneSection& section = network.Section(place.lane);
-  double outside = 0.0;
-  const geometry::CubicPoint centre = road.CentreAt(place.s_m);
-  const network::LaneSpan span = section.At(place.t_m, centre, place.s_m, outside);
-  const double edge = place.t_m + (place.t_m > centre.value ? -outside : outside);
-  const network::SurfaceSample sample = road.Surface(place.s_m, edge, section, span);
-  SurfacePoint point{sample.p_W.z(),           0.0, 0.0, friction[static_cast<std::size_t>(terrain::Surface::kGrass)],
-                     terrain::Surface::kGrass, true};
-  const geometry::PlanPoint axis = road.axis().Evaluate(place.s_m);
-  const Eigen::Vector2d away = p - sample.p_W.head<2>();
-  const double pace = sample.ds_W.head<2>().norm() - axis.curvature_1pm * geometry::Cross(axis.tangent_W, away);
-  const bool alongside = std::fabs(axis.tangent_W.dot(away)) <= 1e-6 + 1e-9 * away.norm();
-  if (alongside && pace > 0.0) {  // the height goes along with the road's
-    point.slope_x = sample.ds_W.z() / pace * axis.tangent_W.x();
-    point.slope_y = sample.ds_W.z() / pace * axis.tangent_W.y();
-  }
-  return point;
+SurfacePoint OnLand(const PlaneHeight& land, const FrictionTable& friction) {
+  return {land.z_m, land.slope_W.x(), land.slope_W.y(), friction[static_cast<std::size_t>(terrain::Surface::kGrass)], terrain::Surface::kGrass, true};
 }
 
-// What answers at a point: a layer of roads, a junction's own ground, or the verge beside a place; null all of them: nothing is there.
+// What answers at a point: a layer of roads, a junction's own ground, or the land; none of them: nothing is there.
 struct Answer {
   const Layer* layer = nullptr;
   const network::JunctionGround* between = nullptr;
-  std::optional<Place> beside;
+  std::optional<PlaneHeight> land;
 };
 
-// verge_z: how high the verge beside a place lies. The layers hold until the next question of this thread.
-template <class VergeHeight>
-Answer Find(const Network& network, const Eigen::Vector2d& p_W, double z_hint_m, const VergeHeight& verge_z) {
+// The layers hold until the next question of this thread.
+Answer Find(const Network& network, const NetworkLand& land, const Eigen::Vector2d& p_W, double z_hint_m) {
   thread_local std::vector<network::Surfacing> surfaces;
   network.Surfaces(p_W.x(), p_W.y(), surfaces);
   const network::JunctionGround* open = network.GroundAt(p_W);
@@ -102,29 +84,31 @@ Answer Find(const Network& network, const Eigen::Vector2d& p_W, double z_hint_m,
     lowest = &layer;
   }
   if (meant) return {nullptr, open, {}};
-  const auto place = network.Locate(p_W.x(), p_W.y(), std::isfinite(z_hint_m) ? std::optional(z_hint_m) : std::nullopt);
-  if (!place || place->distance_m > kVerge_m) return {lowest, nullptr, {}};
-  if (lowest != nullptr && verge_z(*place) > z_hint_m + terrain::kHintAbove_m) return {lowest, nullptr, {}};
-  return {nullptr, nullptr, place};
+  if (lowest != nullptr) {
+    const auto on_deck = [&](const network::Surfacing* road) { return land.IsOnDeck(road->place.lane.road, road->place.s_m); };
+    if (!std::all_of(lowest->roads.begin(), lowest->roads.end(), on_deck)) return {lowest, nullptr, {}};
+  }
+  const std::optional<PlaneHeight> below = land.At(p_W);
+  if (lowest != nullptr && !(below && below->z_m < lowest->z_m)) return {lowest, nullptr, {}};
+  return {nullptr, nullptr, below};
 }
 
 }  // namespace
 
-SurfacePoint NetworkGround(const Network& network, const LaneGrounds& grounds, const FrictionTable& friction, double x_m, double y_m,
+SurfacePoint NetworkGround(const Network& network, const LaneGrounds& grounds, const NetworkLand& land, const FrictionTable& friction, double x_m, double y_m,
                            double z_hint_m, const MarkPaint* paint, const SurfaceDetail* detail) {
   const Eigen::Vector2d p_W(x_m, y_m);
-  const auto verge = [&](const Place& place) { return OnVerge(network, friction, p_W, place); };
-  const Answer answer = Find(network, p_W, z_hint_m, [&](const Place& place) { return verge(place).z_m; });
+  const Answer answer = Find(network, land, p_W, z_hint_m);
   if (answer.layer != nullptr) return OnLayer({network, grounds, friction, paint, detail}, *answer.layer);
   if (answer.between != nullptr) return OnJunction(*answer.between, friction, p_W);
-  return answer.beside ? verge(*answer.beside) : SurfacePoint{};
+  return answer.land ? OnLand(*answer.land, friction) : SurfacePoint{};
 }
 
-std::optional<Place> NetworkPlace(const Network& network, double x_m, double y_m, double z_hint_m) {
-  const Eigen::Vector2d p_W(x_m, y_m);
-  const Answer answer = Find(network, p_W, z_hint_m, [&](const Place& place) { return OnVerge(network, kUsualFriction, p_W, place).z_m; });
+std::optional<Place> NetworkPlace(const Network& network, const NetworkLand& land, double x_m, double y_m, double z_hint_m) {
+  const Answer answer = Find(network, land, {x_m, y_m}, z_hint_m);
   if (answer.layer != nullptr) return answer.layer->named->place;
-  return answer.between != nullptr ? std::nullopt : answer.beside;
+  if (!answer.land) return std::nullopt;
+  return network.Locate(x_m, y_m, answer.land->z_m);
 }
 
 Extents NetworkExtents(const Network& network) {

@@ -3,22 +3,20 @@
 #include "common/network/network.hpp"
 #include "common/road/lane_grounds.hpp"
 #include "common/road/mark_paint.hpp"
+#include "common/road/network_land.hpp"
 #include "common/road/surface_detail.hpp"
 #include "common/road/world.hpp"
 
 namespace rodeira::road {
 
-// Beyond its lanes a road goes on level across for this far; farther away there is no ground.
-inline constexpr double kVerge_m = 100.0;
-
 // SUELO on an OpenDRIVE network: of the layers of roads (one_ground.hpp) the highest that is not above the hint by more than 0.5 m (without a
-// hint the highest), with the ground and paint (road_mark) of the lane that it is named by; beside all roads a level verge of grass that goes on from the nearest lane's edge.
-SurfacePoint NetworkGround(const network::Network& network, const LaneGrounds& grounds, const FrictionTable& friction, double x_m, double y_m,
+// hint the highest), with the ground and paint (road_mark) of the lane that it is named by; beside all roads, and under their decks, the land, of grass.
+SurfacePoint NetworkGround(const network::Network& network, const LaneGrounds& grounds, const NetworkLand& land, const FrictionTable& friction, double x_m, double y_m,
                            double z_hint_m, const MarkPaint* paint = nullptr, const SurfaceDetail* detail = nullptr);
 
-// The road, lane, s and t of what NetworkGround answers from, or beside which its verge lies. Nothing between the roads of a junction that has
-// a ground of its own, and where there is no ground.
-std::optional<network::Place> NetworkPlace(const network::Network& network, double x_m, double y_m, double z_hint_m);
+// The road, lane, s and t of what NetworkGround answers from, or, on the land, of the road that Network::Locate names at its height. Nothing between the roads of a junction
+// that has a ground of its own, and where there is no ground.
+std::optional<network::Place> NetworkPlace(const network::Network& network, const NetworkLand& land, double x_m, double y_m, double z_hint_m);
 
 // NetworkGround of points close to one another, where they lie on one road alone, at or below what their hints ask for: to the bit what
 // NetworkGround says of each. False, and then nothing is written, where that is not so or not told so quickly. Spans of equal length, of

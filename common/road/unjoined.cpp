@@ -81,6 +81,8 @@ std::vector<double> Across(const network::Road& road, std::uint32_t section, dou
   return across;
 }
 
+bool AtEnd(const network::Road& road, double s) { return std::min(s, road.length_m() - s) <= Network::kClosed_m; }
+
 }  // namespace
 
 std::vector<Overlap> FindOverlaps(const Network& network) {
@@ -101,8 +103,10 @@ std::vector<Overlap> FindOverlaps(const Network& network) {
           const double apart = other.sample.p_W.z() - p.z();
           if (key.road == index || other.place.distance_m > 0.0 || key.lane == 0 || !network::IsDrivable(network.Find(key)->type) || !(std::fabs(apart) < Network::kLevel_m)) continue;
           if (kin.Excused(index, s, key.road, other.place.s_m)) continue;
-          if (index < key.road) found.try_emplace({index, key.road}, Overlap{index, key.road, s, other.place.s_m, apart});
-          else found.try_emplace({key.road, index}, Overlap{key.road, index, other.place.s_m, s, -apart});
+          const bool meet = AtEnd(road, s) && AtEnd(network.roads()[key.road], other.place.s_m);
+          const Overlap overlap = index < key.road ? Overlap{index, key.road, s, other.place.s_m, meet, apart} : Overlap{key.road, index, other.place.s_m, s, meet, -apart};
+          Overlap& first = found.try_emplace({overlap.road, overlap.other}, overlap).first->second;
+          if (first.meet && !meet) first = overlap;
         }
       }
     }
@@ -124,8 +128,8 @@ std::vector<std::string> DescribeOverlaps(const Network& network, bool own) {
   };
   std::vector<std::string> said;
   for (const Overlap& overlap : FindOverlaps(network)) {
-    said.push_back(fmt::format("{} and {} lie on one another, {:.2f} m apart in height, and neither a junction nor a link joins them there", named(overlap.road, overlap.s_m),
-                               named(overlap.other, overlap.other_s_m), std::fabs(overlap.apart_m)));
+    said.push_back(fmt::format("{} and {} {}, {:.2f} m apart in height, and neither a junction nor a link joins them there", named(overlap.road, overlap.s_m),
+                               named(overlap.other, overlap.other_s_m), overlap.meet ? "touch end to end" : "lie on one another", std::fabs(overlap.apart_m)));
   }
   return said;
 }

@@ -12,6 +12,7 @@ namespace rodeira::road {
 struct Overlap {
   std::uint32_t road = 0, other = 0;  // road < other
   double s_m = 0.0, other_s_m = 0.0;
+  bool meet = true;      // nowhere but at an end of each: they only touch
   double apart_m = 0.0;  // how much higher the second one is there
 };
 

@@ -86,6 +86,7 @@ World::World(WorldSpec spec)
   } else if (open_drive()) {
     grounds_ = LaneGrounds(*network_, friction_);
     paint_ = std::make_shared<const MarkPaint>(network_);
+    land_ = std::make_shared<const NetworkLand>(network_);
   } else if (network_ != nullptr) {
     built_ = std::make_shared<const BuiltGround>(network_, spec.junctions, friction_, detail_ == nullptr ? SurfaceDetail() : *detail_, terrain_);
   }
@@ -128,7 +129,7 @@ std::span<const std::shared_ptr<const design::JunctionSurface>> World::junctions
 }
 
 SurfacePoint World::At(double x_m, double y_m, double z_hint_m) const {
-  if (open_drive()) return NetworkGround(*network_, grounds_, friction_, x_m, y_m, z_hint_m, paint_.get(), detail_.get());
+  if (open_drive()) return NetworkGround(*network_, grounds_, *land_, friction_, x_m, y_m, z_hint_m, paint_.get(), detail_.get());
   if (built_ != nullptr) return built_->At(x_m, y_m, z_hint_m);
   SurfacePoint point = TerrainAt(x_m, y_m);
   for (const Road& road : roads_) {

@@ -23,6 +23,7 @@ namespace rodeira::road {
 
 class BuiltGround;
 class MarkPaint;
+class NetworkLand;
 
 // The rectangle in which the ground is known; infinite for a plane.
 struct Extents {
@@ -55,6 +56,8 @@ class World : public std::enable_shared_from_this<World> {
   const std::optional<PlaneSpec>& plane() const { return terrain_.plane; }
   // The world is an OpenDRIVE file: it has no terrain of its own.
   bool open_drive() const { return terrain_.grid == nullptr && !terrain_.plane; }
+  // What lies beside and under such roads; null where the world is none.
+  const NetworkLand* land() const { return land_.get(); }
   Extents extents() const;
   const StartPose& start() const { return start_; }
   terrain::Surface terrain_surface() const { return terrain_.surface; }
@@ -101,6 +104,7 @@ class World : public std::enable_shared_from_this<World> {
   FrictionTable friction_;
   LaneGrounds grounds_;  // of an OpenDRIVE file
   std::shared_ptr<const MarkPaint> paint_;  // the same
+  std::shared_ptr<const NetworkLand> land_;  // the same
   StartPose start_;
   base::Digest content_hash_ = 0;
 };

@@ -130,7 +130,7 @@ std::string DescribeEarth(const World& world, double x_m, double y_m) {
 // The place that SUELO's answer is of; between the roads of a junction and on a world's own ground, the nearest to it.
 std::optional<network::Place> AnsweredFrom(const World& world, double x_m, double y_m, std::optional<double> z_hint_m) {
   std::optional<network::Place> place;
-  if (world.open_drive()) place = NetworkPlace(*world.network(), x_m, y_m, z_hint_m.value_or(std::numeric_limits<double>::quiet_NaN()));
+  if (world.open_drive()) place = NetworkPlace(*world.network(), *world.land(), x_m, y_m, z_hint_m.value_or(std::numeric_limits<double>::quiet_NaN()));
   return place ? place : world.network()->Locate(x_m, y_m, z_hint_m);
 }
 
@@ -144,7 +144,9 @@ std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) 
   WorldReading reading = ReadWorld(file.value());
   if (reading.spec && !reading.spec->roads.empty()) reading.warnings.push_back(fmt::format("{}: {}", world_yaml.string(), kVersion1IsNotWritten));
   // A road of version 1 is one alone.
-  if (reading.spec && reading.spec->roads.empty() && reading.spec->network != nullptr && OpenDriveOf(world_yaml).empty()) {
+  if (const std::filesystem::path named = OpenDriveOf(world_yaml); !named.empty()) {
+    for (std::string& warning : CheckNetwork(named, false).warnings) reading.warnings.push_back(std::move(warning));
+  } else if (reading.spec && reading.spec->roads.empty() && reading.spec->network != nullptr) {
     for (const std::string& overlap : DescribeOverlaps(*reading.spec->network, true)) reading.warnings.push_back(fmt::format("{}: {}", world_yaml.string(), overlap));
   }
   return std::move(reading.warnings);

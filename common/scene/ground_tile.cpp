@@ -8,6 +8,7 @@
 
 #include "common/base/assert.hpp"
 #include "common/partition/noding.hpp"
+#include "common/road/network_land.hpp"
 #include "common/scene/edge_points.hpp"
 #include "common/scene/ground_digest.hpp"
 #include "common/scene/laid_lines.hpp"
@@ -32,18 +33,26 @@ void AddReach(const Line3& line, std::set<TileKey>& tiles) {
 }
 
 // Tiles that a bridge may touch.
-void AddDecks(const network::Road& road, std::set<TileKey>& tiles) {
+// The tiles at a deck.
+void AddDeck(const network::Road& road, double from_s_m, double to_s_m, std::set<TileKey>& tiles) {
   constexpr double kApart_m = 16.0, kWidest_m = 48.0;
-  for (const network::Structure& structure : road.spec().structures) {
-    if (!structure.bridge) continue;
-    const double from_s_m = std::max(structure.s_m, 0.0), to_s_m = std::min(structure.s_m + structure.length_m, road.length_m());
-    for (double s_m = from_s_m; s_m < to_s_m + kApart_m; s_m += kApart_m) {
-      const Eigen::Vector2d p_W = road.Surface(std::min(s_m, to_s_m), 0.0).p_W.head<2>(), reach = Eigen::Vector2d::Constant(kWidest_m);
-      const WorldStep low = ToSteps(p_W - reach), high = ToSteps(p_W + reach);
-      for (std::int64_t column = TileOf(low.x); column <= TileOf(high.x); ++column) {
-        for (std::int64_t row = TileOf(low.y); row <= TileOf(high.y); ++row) tiles.insert({column, row});
-      }
+  for (double s_m = from_s_m; s_m < to_s_m + kApart_m; s_m += kApart_m) {
+    const Eigen::Vector2d p_W = road.Surface(std::min(s_m, to_s_m), 0.0).p_W.head<2>(), reach = Eigen::Vector2d::Constant(kWidest_m);
+    const WorldStep low = ToSteps(p_W - reach), high = ToSteps(p_W + reach);
+    for (std::int64_t column = TileOf(low.x); column <= TileOf(high.x); ++column) {
+      for (std::int64_t row = TileOf(low.y); row <= TileOf(high.y); ++row) tiles.insert({column, row});
     }
+  }
+}
+
+void AddDecks(const road::World& world, std::uint32_t index, std::set<TileKey>& tiles) {
+  const network::Road& road = world.network()->roads()[index];
+  if (world.land() != nullptr) {
+    for (const road::Stretch& deck : world.land()->decks()[index]) AddDeck(road, deck.from_s_m, deck.to_s_m, tiles);
+    return;
+  }
+  for (const network::Structure& structure : road.spec().structures) {
+    if (structure.bridge) AddDeck(road, std::max(structure.s_m, 0.0), std::min(structure.s_m + structure.length_m, road.length_m()), tiles);
   }
 }
 
@@ -96,7 +105,7 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
   ForEachAtOnce(roads.size(), threads, [&](std::size_t i) {
     lines[i] = RoadLinesOf(roads[i], kRoadTolerances[0]);
     AddLaidLines(world_, roads[i], kRoadTolerances[0], lines[i]);
-    AddStructureLines(roads[i], lines[i]);
+    AddStructureLines(roads[i], world.land() != nullptr ? std::span(world.land()->decks()[i]) : std::span<const road::Stretch>(), lines[i]);
     for (std::size_t level = 0; level < paint[i].size(); ++level) PaintRoad(roads[i], kPaintChords_m[level], paint[i][level]);
   });
   for (const network::Placed& placed : network::PlaceFurniture(*world.network()).things) {
@@ -121,9 +130,9 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
     const Line3 border = BorderOf(world.extents());
     AddToTiles({&border, 1}, pieces);
   }
-  for (std::size_t i = 0; i < roads.size() && !world.open_drive(); ++i) {
-    land_.slopes.Add(lines[i], LandReachOf(world_, roads[i]) + 1.0);
-    AddDecks(roads[i], land_.decks);
+  for (std::size_t i = 0; i < roads.size(); ++i) {
+    if (!world.open_drive()) land_.slopes.Add(lines[i], LandReachOf(world_, roads[i]) + 1.0);
+    AddDecks(world, static_cast<std::uint32_t>(i), land_.decks);
   }
   sources_ = TileSources(world_, lines);
   land_digest_ = LandDigest(world);

@@ -5,6 +5,7 @@
 
 #include "common/network/network.hpp"
 #include "common/road/built_ground.hpp"
+#include "common/road/network_land.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -33,12 +34,14 @@ bool IsAlone(const road::World& world, const Eigen::Vector2d& p_W, double z_m) {
 
 // Whether a height is a deck's: there the land below comes up to it where the bridge begins, and is a level of its own however near it is.
 bool IsDeck(const road::World& world, const Eigen::Vector2d& p_W, double z_m) {
-  if (world.network() == nullptr || world.open_drive()) return false;
+  if (world.network() == nullptr) return false;
   thread_local std::vector<network::Surfacing> surfaces;
   world.network()->Surfaces(p_W.x(), p_W.y(), surfaces);
   return std::any_of(surfaces.begin(), surfaces.end(), [&](const network::Surfacing& surfacing) {
     const network::Place& place = surfacing.place;
-    return place.lane.lane != 0 && std::fabs(surfacing.sample.p_W.z() - z_m) < kOnDeck_m && road::IsOnBridge(world.network()->roads()[place.lane.road].spec(), place.s_m);
+    if (place.lane.lane == 0 || !(std::fabs(surfacing.sample.p_W.z() - z_m) < kOnDeck_m)) return false;
+    if (world.land() != nullptr) return world.land()->IsOnDeck(place.lane.road, place.s_m);
+    return road::IsOnBridge(world.network()->roads()[place.lane.road].spec(), place.s_m);
   });
 }
 

@@ -47,7 +47,7 @@ double ThicknessOf(const partition::Triangulation& triangles, const partition::T
 struct Land {
   PostLines posts;
   SlopeSquares slopes;
-  std::set<TileKey> decks;  // where bridges are, in worlds with a terrain
+  std::set<TileKey> decks;  // where bridges are
 
   // The terrain itself, with all of its posts, is all the ground that a tile without any line has.
   bool IsBare(const TileKey& tile) const { return posts.HoldsAll(tile) && !slopes.InTile(tile); }

@@ -23,7 +23,7 @@ constexpr int kSlopeRounds = 100;
 constexpr double kMiddle = 0.7;  // of what the sides may be off: within a triangle both come together
 // Cuts and fills, level by level: less than they may be off, for it is asked at few places.
 constexpr std::array<BendRange, kGroundLevels> kSlopes = {{{0.0023, 0.01, 2.0}, {0.015, 0.02, 2.0}, {0.075, 0.1, 2.0}, {0.375, 0.5, 2.0}}};
-// The land beside OpenDRIVE's roads, in the same way: it steps where the verges of different roads meet, and a step is drawn no steeper than over a
+// The land beside OpenDRIVE's roads, in the same way: it is steep where edges of different heights touch, and a step is drawn no steeper than over a
 // side that is left as it is, four margins long.
 constexpr std::array<BendRange, kGroundLevels> kVerges = {{{0.003, 0.25, 4.0}, {0.015, 0.25, 4.0}, {0.075, 0.5, 4.0}, {0.375, 1.0, 4.0}}};
 constexpr double kBelowStep_m = 0.2;  // below decks, where strips are narrower

@@ -8,6 +8,7 @@
 #include "common/network/junction_ground.hpp"
 #include "common/network/network.hpp"
 #include "common/road/earthworks.hpp"
+#include "common/road/network_land.hpp"
 #include "common/scene/stretch_digest.hpp"
 
 namespace rodeira::scene {
@@ -71,6 +72,14 @@ base::Digest DigestOf(const design::JunctionSurface& junction) {
   return base::Hash(out.bytes());
 }
 
+// Where an OpenDRIVE file's road is a deck follows from the roads below it.
+base::Digest DecksDigest(const road::World& world, std::uint32_t road) {
+  if (world.land() == nullptr) return 0;
+  base::ByteWriter out;
+  for (const road::Stretch& deck : world.land()->decks()[road]) out.Put(deck.from_s_m + 0.0), out.Put(deck.to_s_m + 0.0);
+  return base::Hash(out.bytes());
+}
+
 }  // namespace
 
 double LandReachOf(const road::World& world, const network::Road& road) {
@@ -78,6 +87,7 @@ double LandReachOf(const road::World& world, const network::Road& road) {
   double reach_m = 0.0;
   if (spec.earthwork) reach_m = std::max(spec.earthwork->reach_m, spec.earthwork->blend_m);
   if (!spec.junction.empty()) reach_m = std::max(reach_m, network::Earthwork().reach_m + kJunctionBeyond_m);
+  if (world.land() != nullptr) reach_m = road::kHolds_m;
   if (world.grid() != nullptr) reach_m = std::max(reach_m, 1.5 * std::max(world.grid()->spacing_x_m(), world.grid()->spacing_y_m()) - 1.0);  // cells that the road itself cuts, too
   return reach_m;
 }
@@ -112,7 +122,7 @@ void TileSources::AddStretches(std::uint32_t road_index, PictureDigests& picture
   const auto end = [&] {
     if (!begun) return;
     part.reach_m = reach_m, part.beside = true;
-    part.digest = StretchDigest(*world_, road_index, from_s_m - kBeyond_m, to_s_m + kBeyond_m);
+    part.digest = base::Combine(StretchDigest(*world_, road_index, from_s_m - kBeyond_m, to_s_m + kBeyond_m), DecksDigest(*world_, road_index));
     parts_.push_back(part);
     part.reach_m = 0.0, part.beside = false;
     part.digest = LookDigest(*world_, road_index, from_s_m - kBeyond_m, to_s_m + kBeyond_m, pictures);

@@ -53,6 +53,19 @@ TEST_F(NamedNetwork, IsTheWorldOfItsFile) {
   EXPECT_EQ(OpenDriveOf(folder_->path() / "roads.xodr"), folder_->path() / "roads.xodr");
 }
 
+// A kink of 0.5 mrad behind 50 m, which is closed.
+TEST_F(NamedNetwork, HasTheWarningsOfItsFile) {
+  opendrive::RoadText road;
+  road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50" y="0" hdg="0.0005" length="50"><line/></geometry>)";
+  const auto file = folder_->path() / "roads.xodr";
+  ASSERT_TRUE(base::WriteWhole(file, opendrive::Document(road.Text())).ok());
+  ASSERT_TRUE(With(kNetwork).ok());
+  const auto warnings = CheckNetwork(file, false).warnings;
+  EXPECT_THAT(warnings, testing::ElementsAre(testing::AllOf(HasSubstr("roads.xodr:"), HasSubstr("road 1"), HasSubstr("s 50"))));
+  EXPECT_EQ(WorldWarnings(path_), warnings);
+  EXPECT_TRUE(WorldProblems(path_).empty());
+}
+
 TEST_F(NamedNetwork, SaysWhereTheCarStartsAndHowTheRoadGrips) {
   const auto usual = With(kNetwork);
   const auto placed = With(std::string(kNetwork) + "start: {road: 1, lane: -1, s_m: 30}\nfriction: {asphalt: 0.4}\n");

@@ -192,7 +192,7 @@ TEST(Overlap, DrivingLanesAreNamedAsTheyAreLocated) {
           if (span.width_m() < 2.0) continue;
           const Eigen::Vector3d p = road.Surface(s, span.centre_t_m() + aside).p_W;
           const SurfacePoint at = world->At(p.x(), p.y(), p.z());
-          const auto named = NetworkPlace(network, p.x(), p.y(), p.z()), located = network.Locate(p.x(), p.y(), at.z_m);
+          const auto named = NetworkPlace(network, *world->land(), p.x(), p.y(), p.z()), located = network.Locate(p.x(), p.y(), at.z_m);
           ASSERT_TRUE(at.inside && named && located);
           ++points;
           others += named->lane != located->lane || named->s_m != located->s_m;

@@ -53,6 +53,15 @@ TEST(Overlaps, OfRoadsThatGoOnAreNone) {
   EXPECT_THAT(Of(Crossing(5.0, "  - {id: c, start: {x_m: 200, y_m: 0}, axis: [line: {length_m: 50}], z_m: 0, section: {template: rural}}\n", ", successor: {road: c}")), IsEmpty());
 }
 
+TEST(Overlaps, OfRoadsThatOnlyTouchAreToldSo) {
+  const std::string on = "  - {id: c, start: {x_m: 200, y_m: 0}, axis: [line: {length_m: 50}], z_m: 0, section: {template: rural}}\n";
+  EXPECT_THAT(Of(Crossing(5.0, on)), ElementsAre("road 'a' at s = 200.0 m and road 'c' at s = 0.0 m touch end to end, 0.00 m apart in height, and neither a junction nor a link joins them there"));
+  const std::string over = "  - {id: c, start: {x_m: 199, y_m: 0}, axis: [line: {length_m: 50}], z_m: 0, section: {template: rural}}\n";
+  EXPECT_THAT(Of(Crossing(5.0, over)), ElementsAre(HasSubstr("lie on one another")));
+  const std::string from_the_start = "  - {id: c, start: {x_m: 0, y_m: 0}, axis: [line: {length_m: 50}], z_m: 0, section: {template: rural}}\n";
+  EXPECT_THAT(Of(Crossing(5.0, from_the_start)), ElementsAre(HasSubstr("lie on one another")));
+}
+
 TEST(Overlaps, AreWarningsOfWorldCheckOfBothKindsOfFiles) {
   const front::TemporaryFolder folder;
   const auto yaml = folder.path() / "w.yaml", xodr = folder.path() / "w.xodr";

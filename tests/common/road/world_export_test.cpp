@@ -33,6 +33,7 @@ void ExpectTheSameRoad(const World& world) {
   ASSERT_NE(import.value().network, nullptr);
   const network::Network& network = *import.value().network;
   const LaneGrounds grounds(network, kUsualFriction);
+  const NetworkLand land(import.value().network);
   const Road& road = world.roads()[0];
   const network::Road& again = network.roads()[0];
   EXPECT_NEAR(again.length_m(), road.length_m(), 1e-9);
@@ -41,7 +42,7 @@ void ExpectTheSameRoad(const World& world) {
     const double t = base::RandomUniform({i, 2}, road.section().verge_right_m() + 0.01, road.section().verge_left_m() - 0.01);
     const Eigen::Vector3d p = road.Position(s, t);
     EXPECT_NEAR((again.Surface(s, t).p_W - p).norm(), 0.0, 1e-8) << s << " " << t;
-    const SurfacePoint ours = world.At(p.x(), p.y()), theirs = NetworkGround(network, grounds, kUsualFriction, p.x(), p.y(), p.z());
+    const SurfacePoint ours = world.At(p.x(), p.y()), theirs = NetworkGround(network, grounds, land, kUsualFriction, p.x(), p.y(), p.z());
     EXPECT_NEAR(ours.z_m, theirs.z_m, 1e-8);
     EXPECT_NEAR(ours.slope_x, theirs.slope_x, 1e-8);
     EXPECT_NEAR(ours.slope_y, theirs.slope_y, 1e-8);

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/network/junction_ground.hpp"
+#include "common/network/network.hpp"
+#include "common/road/decks.hpp"
+#include "common/road/one_ground.hpp"
+#include "common/road/square_lists.hpp"
+
+namespace rodeira::road {
+
+// Beside its roads an OpenDRIVE file's ground goes on for this far; farther away there is none.
+inline constexpr double kVerge_m = 100.0;
+// No edge holds the land farther away.
+inline constexpr double kHolds_m = 140.0;
+
+// The land beside the roads of an OpenDRIVE file, which says nothing of it. Every place q of a road's edge, d away from p, holds the land there between
+// z(q) - d / 2 and z(q) + d / 2 (ever less tightly from 112 m on, not at all from 140 m on). The land lies in the middle between the greatest lower and the
+// least upper bound: beside one road level across from it, between roads of different heights a bank of 1 in 2. Where roads stand closer than that the
+// bank is as steep there as it must be for the bounds to meet, so that the land begins at the height of every edge, and is continuous wherever the edges are. Decks
+// (decks.hpp) hold nothing: the land goes through under them.
+// So many bounds of a panel are looked at: of the place across from p, of the two by which the land is held most tightly where the road climbs evenly,
+// and of some that stand still.
+class NetworkLand {
+ public:
+  explicit NetworkLand(std::shared_ptr<const network::Network> network);
+
+  // Nothing where no road that stands on the ground is nearer than kVerge_m.
+  std::optional<PlaneHeight> At(const Eigen::Vector2d& p_W) const;
+
+  // By road.
+  const std::vector<std::vector<Stretch>>& decks() const { return decks_; }
+  bool IsOnDeck(std::uint32_t road, double s_m) const;
+
+ private:
+  struct Bound {  // on either side of a height, by a slope times a distance
+    double z_m = 0.0, distance_m = 0.0;
+    Eigen::Vector2d z_slope_W = Eigen::Vector2d::Zero(), distance_slope_W = Eigen::Vector2d::Zero();
+  };
+  struct Bounds {
+    std::vector<Bound> all;
+    double nearest_m = 0.0;
+    std::size_t low = 0, high = 0;  // of all the tightest for the slope
+
+    void Clear();
+    void Add(const Bound& bound, double nearest_m);
+    double Low() const { return all[low].z_m - kBank * all[low].distance_m; }
+    double High() const { return all[high].z_m + kBank * all[high].distance_m; }
+  };
+  struct Piece {  // of a panel, standing on the ground; or of a junction's boundary
+    std::uint32_t road = 0, panel = 0;
+    const network::JunctionGround* ground = nullptr;
+    Stretch stretch;
+    Eigen::Vector2d from_W, to_W;
+    double beside_m = 0.0;  // its edges lie no farther from the way between these
+    EdgeHeights heights{};
+    double right_reach_m = 0.0, left_reach_m = 0.0;  // of what moves with p: less within a bend than to its middle
+    std::uint32_t first_post = 0, posts = 0;
+
+    double DistanceFrom(const Eigen::Vector2d& p_W) const { return std::max(0.0, SquareLists::Strip{from_W, to_W, 0.0}.FromWay(p_W) - beside_m); }
+  };
+  void AddPieces(std::uint32_t road);
+  void AddPosts(const network::Road& road, const geometry::AxisPanel& panel, Piece& piece);
+  void AddBoundary(const network::JunctionGround& ground);
+  void FromRoad(const Piece& piece, const Eigen::Vector2d& p_W, Bounds& bounds) const;
+  void FromBoundary(const Piece& piece, const Eigen::Vector2d& p_W, Bounds& bounds) const;
+  static void FromPlace(const EdgePlace& place, const Eigen::Vector2d& station_slope_W, double reach_m, const Eigen::Vector2d& p_W, Bounds& bounds);
+  void FromEnd(const EdgePlace& place, const network::Road& road, const Eigen::Vector2d& p_W, Bounds& bounds) const;
+  static void FromPost(const Eigen::Vector3d& post_W, const Eigen::Vector2d& p_W, Bounds& bounds);
+  static PlaneHeight Meet(Bounds& bounds);
+
+  std::shared_ptr<const network::Network> network_;
+  std::vector<std::vector<Stretch>> decks_;
+  std::vector<Piece> pieces_;
+  std::vector<Eigen::Vector3d> posts_W_;  // of pieces' edges, that stand still
+  SquareLists near_;
+};
+
+}  // namespace rodeira::road

@@ -1,0 +1,113 @@
+#include "common/road/road_edge.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "common/geometry/plane.hpp"
+
+namespace rodeira::road {
+namespace {
+
+constexpr double kSteeper = 0.8;  // of the reach
+constexpr double kSample_m = 1e-3;
+constexpr int kSamples = 16;  // of a panel's edges
+constexpr double kLeastPace = 0.05;
+
+// How far the edges lie from the axis.
+double WidestOf(const network::Road& road) {
+  double widest = 0.0;
+  for (const network::LaneSection& section : road.spec().sections) {
+    double right, left;
+    section.Bounds(road.spec().lane_offset, section.s_m, section.end_s_m, right, left);
+    widest = std::max({widest, -right, left});
+  }
+  return widest;
+}
+
+}  // namespace
+
+std::pair<double, double> Steepening(double distance_m, double reach_m) {
+  if (distance_m <= kSteeper * reach_m) return {0.0, 0.0};
+  const double x = (distance_m / reach_m - kSteeper) / (1.0 - kSteeper);
+  const double left = std::max(1.0 - x, 1e-9);
+  return {reach_m * x * x / left, x * (2.0 - x) / (left * left) / (1.0 - kSteeper)};
+}
+
+double EdgesBeside(const network::Road& road, const geometry::AxisPanel& panel) {
+  // A leaning section moves its edges along the road by less than it is wide.
+  if (road.rolled()) return road.axis().Bulge(panel) + 2.0 * WidestOf(road) + 1.0;
+  double widest = 0.0;
+  const std::vector<network::LaneSection>& sections = road.spec().sections;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const double from = i == 0 ? panel.begin_s_m() : std::max(panel.begin_s_m(), sections[i].s_m);
+    const double to = i + 1 == sections.size() ? panel.end_s_m() : std::min(panel.end_s_m(), sections[i].end_s_m);
+    if (from > to) continue;
+    double right, left;
+    sections[i].Bounds(road.spec().lane_offset, from, to, right, left);
+    widest = std::max({widest, std::fabs(right), std::fabs(left)});
+  }
+  return road.axis().Bulge(panel) + widest + kSample_m;
+}
+
+EdgeHeights HeightsOfEdges(const network::Road& road, double from_s_m, double to_s_m) {
+  double low = std::numeric_limits<double>::infinity(), high = -low, most = 0.0;  // the greatest step between two samples
+  std::array<double, 2> last{};
+  for (int k = 0; k <= kSamples; ++k) {
+    const double s = from_s_m + (to_s_m - from_s_m) * k / kSamples;
+    double right, left;
+    road.SectionAt(s).Bounds(road.spec().lane_offset, s, s, right, left);
+    const std::array<double, 2> z = {road.Surface(s, right).p_W.z(), road.Surface(s, left).p_W.z()};
+    for (std::size_t side = 0; side < 2; ++side) {
+      low = std::min(low, z[side]), high = std::max(high, z[side]);
+      if (k > 0) most = std::max(most, std::fabs(z[side] - last[side]));
+    }
+    last = z;
+  }
+  return {low - most - kSample_m, high + most + kSample_m};
+}
+
+EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& panel, const Stretch& stretch, const Eigen::Vector2d& p_W) {
+  const geometry::AxisFoot foot = road.axis().Foot(panel, p_W);
+  const double found = panel.middle_s_m + foot.u_m;
+  EdgePlace place;
+  place.found_s_m = found, place.found_t_m = foot.t_m, place.beyond_m = foot.beyond_m;
+  double s = std::clamp(found, stretch.from_s_m, stretch.to_s_m);
+  place.beside = s == found && foot.beyond_m == 0.0;
+  // On a rolled road t runs along a slope: its edges are nearer to the axis than they are wide.
+  if (road.rolled()) (void)road.Settle(p_W, stretch.from_s_m, stretch.to_s_m, s, place.found_t_m);
+  const network::LaneSection& section = road.SectionAt(s);
+  const geometry::CubicPoint centre = road.CentreAt(s);
+  network::LaneSpan span = section.At(place.found_t_m, centre, s, place.outside_m);
+  place.t_m = place.found_t_m + (place.found_t_m > centre.value ? -place.outside_m : place.outside_m);
+  if (road.rolled() && place.outside_m > 0.0) {  // the section leans: the nearest point of its edge lies elsewhere
+    (void)road.DistanceToEdge(p_W, stretch.from_s_m, stretch.to_s_m, place.t_m, s);
+    double outside_there;
+    span = section.At(place.t_m, road.CentreAt(s), s, outside_there);
+  }
+  place.s_m = s;
+  place.t_slope = place.outside_m > 0.0 ? span.outer_slope : 0.0;
+  place.axis = s == found ? foot.at : road.axis().At(panel, s - panel.middle_s_m);
+  place.sample = road.Surface(place.axis, s, place.t_m, section, span);
+  if (place.beside) {
+    const double pace = place.sample.ds_W.head<2>().norm() - place.axis.curvature_1pm * geometry::Cross(place.axis.tangent_W, p_W - place.sample.p_W.head<2>());
+    if (pace > kLeastPace) place.pace = pace;
+  }
+  return place;
+}
+
+EdgePlace MovedTo(double s_m, const network::Road& road, const geometry::AxisPanel& panel, const EdgePlace& place) {
+  EdgePlace moved = place;
+  moved.s_m = s_m;
+  const network::LaneSection& section = road.SectionAt(s_m);
+  const geometry::CubicPoint centre = road.CentreAt(s_m);
+  const network::LaneSpan span = section.At(place.found_t_m, centre, s_m, moved.outside_m);
+  moved.t_m = place.found_t_m + (place.found_t_m > centre.value ? -moved.outside_m : moved.outside_m);
+  moved.t_slope = moved.outside_m > 0.0 ? span.outer_slope : 0.0;
+  moved.axis = road.axis().At(panel, s_m - panel.middle_s_m);
+  moved.sample = road.Surface(moved.axis, s_m, moved.t_m, section, span);
+  return moved;
+}
+
+}  // namespace rodeira::road

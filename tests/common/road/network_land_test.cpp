@@ -1,0 +1,179 @@
+// The land beside the roads of OpenDRIVE files: banks between roads of different heights, and no step anywhere.
+#include "common/road/network_land.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <vector>
+
+#include "common/base/random.hpp"
+#include "common/road/world.hpp"
+#include "tests/common/opendrive/sample.hpp"
+#include "tests/launch/temporary_folder.hpp"
+
+namespace rodeira::road {
+namespace {
+
+using Eigen::Vector2d;
+using network::Network;
+
+std::shared_ptr<const World> Load(const std::string& roads) {
+  const front::TemporaryFolder folder;
+  return World::Load(folder.Write("land.xodr", opendrive::Document(roads))).value();
+}
+
+// Straight along x from 0 to 100, of two lanes of 3.5 m.
+opendrive::RoadText Along(const char* id, double y_m, double z_m) {
+  opendrive::RoadText road;
+  road.id = id;
+  road.geometry = fmt::format(R"(<geometry s="0" x="0" y="{}" hdg="0" length="100"><line/></geometry>)", y_m);
+  road.elevation = fmt::format(R"(<elevation s="0" a="{}" b="0" c="0" d="0"/>)", z_m);
+  return road;
+}
+
+// Edges at y = 3.5 (z = 6) and 43.5 (z = 0): level, then 12 m of bank in the middle, then level.
+TEST(NetworkLand, BetweenRoadsOfDifferentHeightsABankOfOneInTwoLies) {
+  const auto world = Load(Along("1", 0.0, 6.0).Text() + Along("2", 47.0, 0.0).Text());
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const double x = base::RandomUniform({i, 1}, 5.0, 95.0), away = base::RandomUniform({i, 2}, 0.01, 39.99);
+    const SurfacePoint at = world->At(x, 3.5 + away);
+    EXPECT_NEAR(at.z_m, std::clamp(13.0 - 0.5 * away, 0.0, 6.0), 1e-9) << away;
+    if (std::fabs(away - 14.0) > 1e-3 && std::fabs(away - 26.0) > 1e-3) {
+      EXPECT_NEAR(at.slope_y, away > 14.0 && away < 26.0 ? -0.5 : 0.0, 1e-9) << away;
+    }
+    EXPECT_EQ(at.surface, terrain::Surface::kGrass);
+  }
+}
+
+// 8 m for the same 6 m.
+TEST(NetworkLand, WhereRoadsStandCloserItIsAsSteepAsItMustBe) {
+  const auto world = Load(Along("1", 0.0, 6.0).Text() + Along("2", 15.0, 0.0).Text());
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const double x = base::RandomUniform({i, 1}, 5.0, 95.0), away = base::RandomUniform({i, 2}, 0.01, 7.99);
+    const SurfacePoint at = world->At(x, 3.5 + away);
+    EXPECT_NEAR(at.z_m, 6.0 - 0.75 * away, 1e-9) << away;
+    EXPECT_NEAR(at.slope_y, -0.75, 1e-9) << away;
+  }
+}
+
+// Road 2 crosses road 1 at x = 50, 6 m higher: a deck from where banks of 1 in 2 come down to road 1's edges, y = ±3.5. Under it and beside it lies the
+// land, which rises to the road's height where the deck ends.
+TEST(NetworkLand, GoesThroughUnderADeck) {
+  opendrive::RoadText across = Along("2", 0.0, 6.0);
+  across.geometry = R"(<geometry s="0" x="50" y="-50" hdg="1.5707963267948966" length="100"><line/></geometry>)";
+  const auto world = Load(Along("1", 0.0, 0.0).Text() + across.Text());
+  const auto& deck = world->land()->decks().at(1);
+  ASSERT_EQ(deck.size(), 1u);
+  EXPECT_TRUE(world->land()->decks().at(0).empty());
+  EXPECT_NEAR(deck[0].from_s_m, 50.0 - 3.5 - 12.0, 2.0);
+  EXPECT_NEAR(deck[0].to_s_m, 50.0 + 3.5 + 12.0, 2.0);
+  EXPECT_EQ(world->At(50.0, 5.0).z_m, 6.0);
+  for (double y = 3.6; y < deck[0].to_s_m - 50.0; y += 0.1) {  // between road 1's edge and the deck's end
+    const double from_edge = y - 3.5, from_end = deck[0].to_s_m - 50.0 - y;
+    EXPECT_NEAR(world->At(50.0, y, 0.0).z_m, 0.5 * (std::min(0.5 * from_edge, 6.0 + 0.5 * from_end) + std::max(6.0 - 0.5 * from_end, -0.5 * from_edge)), 1e-9) << y;
+  }
+  EXPECT_NEAR(world->At(58.0, 4.0).z_m, 0.0, 1e-9);
+  EXPECT_NEAR(world->At(50.0, deck[0].to_s_m - 50.0 - 1e-6, 0.5).z_m, 6.0, 1e-3);
+  EXPECT_EQ(world->At(50.0, deck[0].to_s_m - 50.0 + 1e-6, 0.5).z_m, 6.0);
+  EXPECT_EQ(world->At(50.0, 40.0, -20.0).z_m, 6.0);  // on the ground: nothing lies under it
+}
+
+// What lies at a place for who stands on it at a height.
+struct Spot {
+  Vector2d p_W = Vector2d::Zero();
+  SurfacePoint ground;
+  bool land = false;   // no road is over or under it
+};
+
+Spot SpotAt(const World& world, const Vector2d& p_W, double z_m) {
+  thread_local std::vector<network::Surfacing> surfaces;
+  world.network()->Surfaces(p_W.x(), p_W.y(), surfaces);
+  return {p_W, world.At(p_W.x(), p_W.y(), z_m), surfaces.empty() && world.network()->GroundAt(p_W) == nullptr};
+}
+
+struct Step {
+  double height_m = 0.0;
+  Spot from, to;
+};
+
+// The greatest step between two places, by halves down to a micrometre: the slopes at both ends say what the ground may rise by.
+void Seek(const World& world, const Spot& a, const Spot& b, Step& worst) {
+  const Vector2d way = b.p_W - a.p_W;
+  const double rise = b.ground.z_m - a.ground.z_m, begin = a.ground.slope_x * way.x() + a.ground.slope_y * way.y(), end = b.ground.slope_x * way.x() + b.ground.slope_y * way.y();
+  if (std::fabs(rise - 0.5 * (begin + end)) + 0.5 * std::fabs(begin - end) < 5e-4) return;
+  if (way.norm() < 1e-6) {
+    if (std::fabs(rise) > worst.height_m) worst = {std::fabs(rise), a, b};
+    return;
+  }
+  const Spot middle = SpotAt(world, a.p_W + 0.5 * way, a.ground.z_m);
+  Seek(world, a, middle, worst);
+  Seek(world, middle, b, worst);
+}
+
+// Whether the road beside which a step lies has one itself, as high or higher, within 5 m of there: between records of its elevation.
+bool IsTheRoads(const Network& network, const Step& step) {
+  constexpr double kAlong_m = 1e-3;
+  const auto place = network.Locate(step.from.p_W.x(), step.from.p_W.y(), step.from.ground.z_m);
+  const network::Road& road = network.roads()[place->lane.road];
+  double most = 0.0;
+  for (double s = std::max(0.0, place->s_m - 5.0); s + kAlong_m < std::min(road.length_m(), place->s_m + 5.0); s += kAlong_m) {
+    most = std::max(most, std::fabs(road.Surface(s + kAlong_m, 0.0).p_W.z() - road.Surface(s, 0.0).p_W.z()));
+  }
+  return most >= step.height_m;
+}
+
+bool IsOverDeck(const World& world, const Spot& spot) {
+  std::vector<network::Surfacing> surfaces;
+  world.network()->Surfaces(spot.p_W.x(), spot.p_W.y(), surfaces);
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const network::Surfacing& road) { return world.land()->IsOnDeck(road.place.lane.road, road.place.s_m); });
+}
+
+// Straight walks across real files, off their roads and over them. Who comes to a deck from the side goes through under it or stands before it: that is no step. Where the edges of
+// two roads of different heights touch, the land is steep about that point, and one may meet a step of at most that difference.
+TEST(NetworkLand, NoWalkBesideTheRoadsOfARealFileMeetsAStep) {
+  const auto files = opendrive::RealFiles();
+  if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";
+  for (const auto& file : files) {
+    const auto world = World::Load(file).value();
+    const Extents within = world->extents();
+    double walked_m = 0.0;
+    int onto_roads = 0, a_roads = 0;
+    double edge_m = 0.0;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+      const double heading = base::RandomUniform({i, 3}, 0.0, 2.0 * M_PI);
+      const Vector2d from(base::RandomUniform({i, 1}, within.west_m, within.east_m), base::RandomUniform({i, 2}, within.south_m, within.north_m));
+      const Vector2d ahead(std::cos(heading), std::sin(heading));
+      std::optional<Spot> last;
+      for (int k = 0; k < 800; ++k) {
+        const Spot at = SpotAt(*world, from + 0.25 * k * ahead, last ? last->ground.z_m : std::numeric_limits<double>::quiet_NaN());
+        if (!at.ground.inside) break;
+        if (last && (last->land || at.land)) {
+          walked_m += 0.25;
+          Step step;
+          Seek(*world, *last, at, step);
+          if (step.height_m > 1e-3) {
+            if (step.from.land && step.to.land) {
+              ++a_roads;
+              if (!IsTheRoads(*world->network(), step)) ADD_FAILURE() << file.filename() << ": " << step.height_m << " m at (" << fmt::format("{:.6f}, {:.6f}", step.from.p_W.x(), step.from.p_W.y()) << ")";
+            } else if (!IsOverDeck(*world, step.from) && !IsOverDeck(*world, step.to)) {
+              ++onto_roads;
+              if (step.height_m > edge_m) edge_m = step.height_m;
+            }
+          }
+        }
+        last = at;
+      }
+    }
+    EXPECT_LE(onto_roads, 2) << file.filename();
+    EXPECT_LT(edge_m, 0.02) << file.filename();
+    RecordProperty(file.stem().string(), fmt::format("{:.1f} km, {} steps that a road has itself, {} onto roads, worst {:.4f} m", 1e-3 * walked_m, a_roads, onto_roads, edge_m));
+    std::printf("%s: %.1f km, %d steps that a road has itself, %d onto roads, worst %.4f m\n", file.stem().c_str(), 1e-3 * walked_m, a_roads, onto_roads, edge_m);
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::road
