@@ -37,22 +37,6 @@ void Standing(const network::Road& road, double low_m, double high_m, const Use&
 
 }  // namespace
 
-double BesideOf(const network::Road& road, const geometry::AxisPanel& panel) {
-  // A leaning section moves its edges along the road by less than it is wide.
-  if (road.rolled()) return road.axis().Bulge(panel) + 2.0 * WidestOf(road) + 1.0;
-  double widest = 0.0;
-  const std::vector<network::LaneSection>& sections = road.spec().sections;
-  for (std::size_t i = 0; i < sections.size(); ++i) {
-    const double from = i == 0 ? panel.begin_s_m() : std::max(panel.begin_s_m(), sections[i].s_m);
-    const double to = i + 1 == sections.size() ? panel.end_s_m() : std::min(panel.end_s_m(), sections[i].end_s_m);
-    if (from > to) continue;
-    double right, left;
-    sections[i].Bounds(road.spec().lane_offset, from, to, right, left);
-    widest = std::max({widest, std::fabs(right), std::fabs(left)});
-  }
-  return road.axis().Bulge(panel) + widest + kSample_m;
-}
-
 Earthworks::Earthworks(std::shared_ptr<const network::Network> network, std::vector<std::shared_ptr<const design::JunctionSurface>> junctions)
     : network_(std::move(network)), junctions_(std::move(junctions)) {
   for (std::uint32_t road = 0; road < network_->roads().size(); ++road) {

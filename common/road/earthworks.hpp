@@ -65,7 +65,4 @@ class Earthworks {
   SquareLists near_;                                // reaches_ whose slopes may be there, and behind them junctions
 };
 
-// How far a panel's edges lie from the way between its ends at most.
-double BesideOf(const network::Road& road, const geometry::AxisPanel& panel);
-
 }  // namespace rodeira::road
