@@ -9,6 +9,16 @@ namespace {
 constexpr double kNodeStep_m = 1.0;
 constexpr double kSame_m2ps2 = 1e-9;  // a step
 constexpr double kLeastSquared_m2ps2 = 1e-4;
+constexpr double kGravity_mps2 = 9.81;
+constexpr double kLeastShare = 0.25;  // of the comfortable, for a bend on ground that leans outward by itself
+constexpr double kTipShare = 0.6;     // of what tips the car over: springs lean, and wheels meet bumps
+constexpr double kCrawl_mps2 = 0.2;
+constexpr double kAside_m = 0.5;
+
+// The lean across at d: rise over the distance to the left.
+double Bank(const Way& path, double d_m) {
+  return (path.Position(d_m, kAside_m).z() - path.Position(d_m, -kAside_m).z()) / (2.0 * kAside_m);
+}
 
 double AllowedSquared(const Way& path, const SpeedPlanSettings& settings, double d_m) {
   const double limit = path.SpeedLimit_mps(d_m);
@@ -16,7 +26,10 @@ double AllowedSquared(const Way& path, const SpeedPlanSettings& settings, double
   const LaneFrame frame = path.At(d_m);
   const double vertical = std::fabs(path.VerticalCurvature_1pm(d_m));
   const double bend = std::fabs(frame.curvature_1pm);
-  if (bend * squared > settings.lateral_mps2) squared = settings.lateral_mps2 / bend;
+  if (bend * squared > kCrawl_mps2) {
+    const double bank = Bank(path, d_m), most = LateralAllowed(frame.curvature_1pm > 0.0 ? bank : -bank, settings);
+    if (bend * squared > most) squared = most / bend;
+  }
   if (vertical * squared > settings.vertical_mps2) squared = settings.vertical_mps2 / vertical;
   if (frame.grade < -settings.steep_grade) squared = std::min(squared, std::pow(settings.steep_factor * limit, 2));
   return squared;
@@ -30,6 +43,14 @@ SpeedPlan::Allowed Between(const SpeedPlan::Node& a, const SpeedPlan::Node& b, d
 }
 
 }  // namespace
+
+double LateralAllowed(double outward, const SpeedPlanSettings& settings) {
+  if (outward <= 0.0) return std::min(settings.lateral_mps2, std::max(kCrawl_mps2, kTipShare * settings.tips_mps2));
+  const double lean = std::atan(outward);
+  const auto beside = [&](double most_mps2) { return kGravity_mps2 * std::tan(std::atan(most_mps2 / kGravity_mps2) - lean); };
+  const double comfortable = std::max(beside(settings.lateral_mps2), kLeastShare * settings.lateral_mps2);
+  return std::min(settings.lateral_mps2, std::max(kCrawl_mps2, std::min(comfortable, beside(kTipShare * settings.tips_mps2))));
+}
 
 SpeedPlan::SpeedPlan(const Way& path, const SpeedPlanSettings& settings) {
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(path.length_m() / kNodeStep_m)));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "common/geometry/plane.hpp"
 #include "common/lanes/right_of_way.hpp"
 
 namespace rodeira::lanes {
@@ -40,21 +41,34 @@ bool SamePlace(const CurvePoint& a, const CurvePoint& b) {
   return (a.p_W - b.p_W).norm() < kSamePlace_m && a.ahead_W.dot(b.ahead_W) > kSameHeading;
 }
 
+// How far the largest car reaches beside a node towards a point.
+double HalfTowards(const Curve::Node& node, std::size_t index, const Swings& swings, std::uint32_t track, const LargestCar& car, const Eigen::Vector3d& to_W) {
+  const double half = HalfSwath_m(node.curvature_1pm, car);
+  if (track >= swings.size() || swings[track].empty()) return half;
+  const bool left = geometry::Cross(node.along_W.head<2>(), (to_W - node.p_W).head<2>()) > 0.0;
+  return std::max(half, left ? swings[track][index].left_m : swings[track][index].right_m);
+}
+
 }  // namespace
 
-Zones::Zones(const Graph& graph, const LargestCar& car) {
-  const double reach = 2.0 * HalfSwath_m(1.0, car) + kMargin_m + kSpacing_m;
+Zones::Zones(const Graph& graph, const LargestCar& car, const Swings& swings) {
+  double widest = HalfSwath_m(1.0, car);
+  for (const auto& nodes : swings) {
+    for (const Swing& swing : nodes) widest = std::max({widest, swing.left_m, swing.right_m});
+  }
+  const double reach = 2.0 * widest + kMargin_m + kSpacing_m;
   std::vector<NodeKey> near;
   for (std::uint32_t a = 0; a < graph.tracks().size(); ++a) {
     std::map<std::uint32_t, std::vector<Touch>> touches;  // by the other track
-    for (const Curve::Node& node : graph[a].curve.nodes()) {
+    for (std::size_t at = 0; at < graph[a].curve.nodes().size(); ++at) {
+      const Curve::Node& node = graph[a].curve.nodes()[at];
       const Eigen::Vector2d p = node.p_W.head<2>();
       graph.Near(p, reach, near);
       for (const NodeKey& key : near) {
         const Curve& other = graph[key.track].curve;
         const Curve::Node& beside = other.nodes()[key.node];
         if (key.track <= a || std::fabs(beside.p_W.z() - node.p_W.z()) > network::Network::kLevel_m) continue;
-        const double wide = HalfSwath_m(node.curvature_1pm, car) + HalfSwath_m(beside.curvature_1pm, car) + kMargin_m;
+        const double wide = HalfTowards(node, at, swings, a, car, beside.p_W) + HalfTowards(beside, key.node, swings, key.track, car, node.p_W) + kMargin_m;
         if ((beside.p_W.head<2>() - p).norm() > wide + kSpacing_m) continue;
         const Curve::Foot foot = other.FootNear(p, key.node);
         if ((other.At(foot.d_m).p_W.head<2>() - p).norm() < wide) touches[key.track].push_back({node.d_m, foot.d_m});

@@ -61,11 +61,18 @@ class ByTrack {
   std::vector<std::uint32_t> begins_{};
 };
 
+// How far to either side of a track's line cars reach beside one of its nodes that cannot keep to it there.
+struct Swing {
+  double left_m = 0.0, right_m = 0.0;
+};
+// By track and node; nothing of a track, or of all: cars keep to their lines.
+using Swings = std::vector<std::vector<Swing>>;
+
 // All conflict zones of a network's tracks, and for each track those that it leads through, by where they begin.
 class Zones {
  public:
-  // For cars as large as this one.
-  explicit Zones(const Graph& graph, const LargestCar& car = {});
+  // For cars as large as this one: what touches is told from HalfSwath_m of both tracks' curvatures, or a swing to the other one's side that is larger.
+  explicit Zones(const Graph& graph, const LargestCar& car = {}, const Swings& swings = {});
 
   const std::vector<Zone>& zones() const { return zones_; }
   const Zone& operator[](std::uint32_t zone) const { return zones_[zone]; }

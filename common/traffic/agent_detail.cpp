@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/traffic/car_of.hpp"
+#include "common/traffic/hands.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {

@@ -103,19 +103,34 @@ AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id) {
   return TraitsOf(settings, one, id);
 }
 
+namespace {
+
+// Whether somebody of this kind may be on the road.
+bool MayBe(const TrafficSettings& settings, std::size_t k) {
+  return settings.mix.shares[k] > 0.0 || std::count(settings.scripted.begin(), settings.scripted.end(), static_cast<VehicleKind>(k)) > 0 ||
+         std::any_of(settings.demand.flows.begin(), settings.demand.flows.end(), [&](const FlowSettings& flow) { return flow.mix && flow.mix->shares[k] > 0.0; });
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> BodiesOf(const TrafficSettings& settings) {
+  std::vector<std::uint32_t> bodies;
+  std::uint32_t body = 0;
+  for (std::size_t k = 0; k < kKinds.size(); ++k) {
+    for (std::size_t i = 0; i < kKinds[k].bodies.size(); ++i, ++body) {
+      if (MayBe(settings, k)) bodies.push_back(body);
+    }
+  }
+  return bodies;
+}
+
 lanes::LargestCar LargestOf(const TrafficSettings& settings) {
   lanes::LargestCar largest;
-  const auto any = [&](std::size_t k) {
-    return settings.mix.shares[k] > 0.0 || std::count(settings.scripted.begin(), settings.scripted.end(), static_cast<VehicleKind>(k)) > 0 ||
-           std::any_of(settings.demand.flows.begin(), settings.demand.flows.end(), [&](const FlowSettings& flow) { return flow.mix && flow.mix->shares[k] > 0.0; });
-  };
-  for (std::size_t k = 0; k < kKinds.size(); ++k) {
-    if (!any(k)) continue;
-    for (const Body& body : kKinds[k].bodies) {
-      largest.length_m = std::max(largest.length_m, body.length_m);
-      largest.width_m = std::max(largest.width_m, body.width_m);
-      largest.wheelbase_m = std::max(largest.wheelbase_m, body.wheelbase_m);
-    }
+  for (const std::uint32_t body : BodiesOf(settings)) {
+    const AgentTraits traits = TraitsOfBody(body);
+    largest.length_m = std::max(largest.length_m, traits.length_m);
+    largest.width_m = std::max(largest.width_m, traits.width_m);
+    largest.wheelbase_m = std::max(largest.wheelbase_m, traits.wheelbase_m);
   }
   if (settings.physics == Physics::kFull) largest.width_m += kBeside_m;
   return largest;

@@ -1,5 +1,6 @@
 #include "common/traffic/car_of.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -130,6 +131,16 @@ vehicle::BicycleSettings CarOf(const AgentTraits& traits) {
   d.steering_wheel_limit_rad = car.steering.limit_rad;
   d.forward_gears = static_cast<int>(car.powertrain.gearbox.forward.size());
   return car;
+}
+
+double TipsAt_mps2(const TrafficSettings& settings) {
+  double least = settings.speed.tips_mps2;
+  for (const std::uint32_t body : BodiesOf(settings)) {
+    const vehicle::BicycleSettings& car = CarOfBody(body);
+    const double track_m = std::min(car.dimensions.track_front_m, car.dimensions.track_rear_m);
+    least = std::min(least, kGravity_mps2 * track_m / (2.0 * car.body.cg_height_m));
+  }
+  return least;
 }
 
 const vehicle::BicycleSettings& CarOfBody(std::uint32_t body) {

@@ -15,4 +15,7 @@ vehicle::BicycleSettings CarOf(const AgentTraits& traits);
 const vehicle::BicycleSettings& CarOfBody(std::uint32_t body);
 const PlanarCar& PlanarCarOfBody(std::uint32_t body);
 
+// The least g track / (2 height of the centre of mass) of all bodies that there may be any of: so much sideways tips one over on stiff springs.
+double TipsAt_mps2(const TrafficSettings& settings);
+
 }  // namespace rodeira::traffic

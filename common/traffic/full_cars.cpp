@@ -6,15 +6,13 @@
 #include "common/base/assert.hpp"
 #include "common/geometry/angle.hpp"
 #include "common/traffic/car_of.hpp"
+#include "common/traffic/hands.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 constexpr double kStanding_mps = 1e-3;
-constexpr double kRate_radps = 12.0;       // of the hands
-constexpr double kSmoothing_s = 0.04;
-constexpr double kPreview_s = 0.7, kPreviewLeast_m = 3.0;  // way in which a deviation from the path is made good
-constexpr double kSlipFrom_mps = 1.0;      // slower, the motion of the rear axle says nothing of its slip angle
+constexpr double kSlipFrom_mps = 1.0;  // slower, the motion of the rear axle says nothing of its slip angle
 
 // What the driver knows of his car here and now: what its engine gives in the gear that is engaged.
 driver::PedalSettings PedalsOf(const vehicle::BicycleChassis& chassis, const vehicle::Powertrain& powertrain, double speed_mps) {
@@ -53,8 +51,6 @@ base::Status FullCars::Place(std::uint32_t id, std::uint32_t body, const vehicle
   return {};
 }
 
-double SteeredWay_m(double speed_mps) { return std::max(kPreviewLeast_m, kPreview_s * speed_mps); }
-
 Eigen::Vector2d FullCars::RearAxle_W(std::uint32_t id) const {
   const Eigen::Vector3d ahead_W = cars_.car(id).body.q_WG * Eigen::Vector3d::UnitX();
   return (cars_.p_WB_W(id) - 0.5 * cars_.chassis(id).settings.body.wheelbase_m * ahead_W).head<2>();
@@ -69,24 +65,16 @@ double FullCars::PlanSpeed_mps(std::uint32_t id) const {
   return (v.dot(ahead) + half * v.dot(left)) / std::hypot(1.0, half);
 }
 
-// The curvature that the rear axle is to follow: the path's, and what leads back to it, critically damped over the preview's way. The path is kept by the
-// middle between both axles' tracks: in a bend the rear one runs L² κ / 4 inside, the front one as much outside.
 double FullCars::SteeringWheel(std::uint32_t id, const PathAhead& path, double dt_s) const {
   const vehicle::BicycleCar& car = cars_.car(id);
   const vehicle::BicycleSettings& settings = cars_.chassis(id).settings;
-  const double wheelbase = settings.body.wheelbase_m, now = controls_[id].steering_wheel_rad;
   const Eigen::Vector2d ahead = (car.body.q_WG * Eigen::Vector3d::UnitX()).head<2>().normalized(), left(-ahead.y(), ahead.x());
-  const Eigen::Vector3d rear_W = cars_.p_WB_W(id) - 0.5 * wheelbase * (car.body.q_WG * Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d rear_W = cars_.p_WB_W(id) - 0.5 * settings.body.wheelbase_m * (car.body.q_WG * Eigen::Vector3d::UnitX());
   const Eigen::Vector2d v = car.body.VelocityAt(rear_W).head<2>();
   const double slip = std::atan2(v.dot(left), std::max(kSlipFrom_mps, v.dot(ahead)));
   const Eigen::Vector2d path_left(-path.ahead_W.y(), path.ahead_W.x());
-  const double turned = std::atan2(ahead.dot(path_left), ahead.dot(path.ahead_W)) + slip;
-  const double aside = (rear_W.head<2>() - path.rear_W).dot(path_left) - 0.25 * wheelbase * wheelbase * path.curvature_1pm;
-  const double way = SteeredWay_m(v.norm());
-  const double curvature = path.curvature_1pm - 2.0 * turned / way - aside / (way * way);
-  const double wanted = std::clamp(std::atan(wheelbase * curvature) * settings.steering.ratio, -settings.steering.limit_rad, settings.steering.limit_rad);
-  const double move = (wanted - now) * dt_s / (kSmoothing_s + dt_s), most = kRate_radps * dt_s;
-  return now + std::clamp(move, -most, most);
+  const RearBeside rear{std::atan2(ahead.dot(path_left), ahead.dot(path.ahead_W)) + slip, (rear_W.head<2>() - path.rear_W).dot(path_left), path.curvature_1pm, v.norm()};
+  return MovedWheel_rad(settings, rear, controls_[id].steering_wheel_rad, dt_s);
 }
 
 void FullCars::Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path, double dt_s) {

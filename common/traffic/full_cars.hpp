@@ -20,9 +20,6 @@ struct PathAhead {
   double curvature_1pm = 0.0;                          // where the car is when hands and tyres have answered; positive to the left
 };
 
-// The way over which hands make good what the rear axle is off its path: 0.7 s, at least 3 m.
-double SteeredWay_m(double speed_mps);
-
 // Agents' cars with full physics: each a car of vehicle::CarArray (four wheels on SUELO's ground, engine, clutch, gears, differential, brakes, drag),
 // driven by throttle, brake and steering wheel alone.
 class FullCars {

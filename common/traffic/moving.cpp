@@ -3,14 +3,10 @@
 #include <cmath>
 
 #include "common/traffic/car_of.hpp"
+#include "common/traffic/hands.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
-namespace {
-
-constexpr double kAnswer_s = 0.6, kAnswerLeast_m = 2.0;  // way over which a bend is steered for
-
-}  // namespace
 
 // Who cannot stand where it was to begin waits to enter.
 void TrafficModel::StartFull(std::shared_ptr<terrain::Ground> ground) {
@@ -65,7 +61,7 @@ void TrafficModel::DriveFull(std::uint32_t id, double wanted_mps2, double dt_s) 
   PathFrame rear = FrameOf(id, rear_m);
   rear_m += rear.ahead_W.dot(full_->RearAxle_W(id) - rear.p_W.head<2>()) / rear.stretch;
   rear = FrameOf(id, rear_m);
-  const double soon_m = std::min(std::max(kAnswerLeast_m, kAnswer_s * agent.speed_mps), agent.o_m + half - rear_m);
+  const double soon_m = std::min(AnsweredWay_m(agent.speed_mps), agent.o_m + half - rear_m);
   const PathFrame soon = FrameOf(id, rear_m + soon_m);
   const double turns = std::atan2(rear.ahead_W.x() * soon.ahead_W.y() - rear.ahead_W.y() * soon.ahead_W.x(), rear.ahead_W.dot(soon.ahead_W));
   full_->Drive(id, wanted_mps2, {rear.p_W.head<2>(), rear.ahead_W, turns / soon_m}, dt_s);

@@ -6,6 +6,8 @@
 #include "common/base/huge_pages.hpp"
 #include "common/base/random.hpp"
 #include "common/lanes/ring.hpp"
+#include "common/traffic/car_of.hpp"
+#include "common/traffic/swing.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -38,8 +40,10 @@ std::uint32_t TrafficMap::DrawEntry(std::uint64_t draw) const {
 }
 
 TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const TrafficSettings& settings)
-    : network(std::move(of)), graph(*network), zones(graph, LargestOf(settings)), marks(graph), opposites(lanes::Opposites(graph)), no_overtaking(graph) {
-  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) plans.emplace_back(graph, track, settings.speed);
+    : network(std::move(of)), graph(*network), zones(graph, LargestOf(settings), SwingsOf(graph, settings)), marks(graph), opposites(lanes::Opposites(graph)), no_overtaking(graph) {
+  driver::SpeedPlanSettings speed = settings.speed;
+  speed.tips_mps2 = TipsAt_mps2(settings);
+  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) plans.emplace_back(graph, track, speed);
   for (const bool clear : {true, false}) {
     for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
       const bool early = std::any_of(zones.Of(track).begin(), zones.Of(track).end(), [&](const lanes::ZoneSide& side) {

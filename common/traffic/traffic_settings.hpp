@@ -94,6 +94,8 @@ AgentTraits TraitsOf(const TrafficSettings& settings, const VehicleMix& mix, std
 // By its number: of the mix, or of the kind that is said where a scenario lets it appear.
 AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id);
 
+// The bodies that there may be any of, ascending.
+std::vector<std::uint32_t> BodiesOf(const TrafficSettings& settings);
 // The longest, widest and longest between axles of all kinds that there may be any of.
 lanes::LargestCar LargestOf(const TrafficSettings& settings);
 

@@ -7,6 +7,7 @@
 #include "common/lanes/signs.hpp"
 #include "common/lanes/swath.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/opendrive/sample.hpp"
 
 namespace rodeira::lanes {
 namespace {
@@ -75,6 +76,25 @@ TEST(Zones, HoldEveryPlaceWhereCarsOnTwoTracksTouch) {
     }
   }
   EXPECT_GT(touches, 1000u);
+}
+
+// On a straight road a car of one direction that would swing out so far that it reaches one of the other direction makes a zone with it; not one that swings to the kerb.
+TEST(Zones, KnowWhoSwingsOutToTheirSide) {
+  const auto network = opendrive::MustRead(opendrive::Document(opendrive::RoadText().Text()));
+  const Graph graph(*network);
+  ASSERT_EQ(graph.tracks().size(), 2u);
+  const double needs = 3.5 - 0.5 * LargestCar{}.width_m - 0.15;
+  for (std::uint32_t a = 0; a < 2; ++a) {
+    const auto meet = [&](const Swing& swing) {
+      Swings swings(2);
+      swings[a].assign(graph[a].curve.nodes().size(), swing);
+      return !Zones(graph, {}, swings).zones().empty();
+    };
+    EXPECT_FALSE(meet({}));
+    EXPECT_FALSE(meet({needs - 0.05, needs - 0.05}));
+    EXPECT_TRUE(meet({needs + 0.05, 0.0}));  // right-hand traffic: who comes is on the left
+    EXPECT_FALSE(meet({0.0, needs + 0.05}));
+  }
 }
 
 TEST(Zones, LevelsDoNotMeet) {

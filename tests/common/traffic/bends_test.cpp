@@ -64,7 +64,7 @@ TEST(Bends, ATighterBendBehindABendIsComeToSlowly) {
         const Felt felt = DriveOver(world, step_s);
         EXPECT_LT(felt.over_mps, 0.3) << way << " " << lets_go_m << " " << step_s << " " << felt.where;
         EXPECT_LT(felt.lateral_mps2, 2.4) << way << " " << lets_go_m << " " << step_s << " " << felt.where;
-        EXPECT_GT(felt.lateral_mps2, 1.8) << way << " " << lets_go_m;  // it says something
+        EXPECT_GT(felt.lateral_mps2, 0.9 * driver::LateralAllowed(0.025, {})) << way << " " << lets_go_m;  // it says something; the outer lane leans outward by 2.5 %
       }
     }
   }

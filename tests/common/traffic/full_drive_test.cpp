@@ -141,35 +141,41 @@ TEST(FullDrive, SlowOnesAreOvertaken) {
   for (const RingWatch::Crossing& c : watch.crossings) EXPECT_GE(c.spare_s, 2.0) << "car " << c.id;
 }
 
-// On real files, with ground that has no steps but the files' own: nobody touches anybody, no wheel leaves the road, and the foot brakes as a driver's does (before roads
-// that lie over one another were one ground: 9.5 to 16.8 m/s², at steps of up to 21 cm). What does not hold yet is in docs/traffic.md.
-TEST(FullDrive, DrivesTheRealFiles) {
-  struct Run {
-    const char* file;
-    std::uint32_t vehicles;
-    std::uint64_t seed;
-    double duration_s;
-  };
-  constexpr double kFoot_mps2 = 4.0;
+struct Run {
+  std::uint32_t vehicles;
+  std::uint64_t seed;
+  double duration_s, foot_mps2;
+};
+
+// Nobody touches anybody, no wheel leaves the road, and the foot brakes as a driver's does.
+void DriveAFile(const std::string& name, const std::vector<Run>& runs) {
   const auto files = opendrive::RealFiles();
   if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";
-  constexpr const char* kBank = "esmini_straight_500_superelevation_elevation_curve";
-  for (const Run& run : {Run{"carla_Town04", 60, 1, 30.0}, Run{"carla_Town04", 60, 11, 50.0}, Run{kBank, 25, 2, 60.0}, Run{kBank, 25, 3, 60.0}, Run{kBank, 25, 4, 60.0}}) {
-    const auto file = std::find_if(files.begin(), files.end(), [&](const auto& path) { return path.stem() == run.file; });
-    ASSERT_NE(file, files.end()) << run.file;
+  const auto file = std::find_if(files.begin(), files.end(), [&](const auto& path) { return path.stem() == name; });
+  ASSERT_NE(file, files.end()) << name;
+  for (const Run& run : runs) {
     StudySettings settings;
     settings.traffic = Full(run.vehicles);
     settings.traffic.seed = run.seed;
     settings.duration_s = run.duration_s;
     const StudyResult r = RunStudy(settings, road::World::Load(*file).value()).value();
-    const std::string what = fmt::format("{}, seed {}", run.file, run.seed);
+    const std::string what = fmt::format("{} cars, seed {}", run.vehicles, run.seed);
     EXPECT_EQ(r.collisions, 0) << what;
     EXPECT_EQ(r.off_lane, 0) << what;
     EXPECT_EQ(r.wheels_off, 0) << what;
-    EXPECT_LT(r.hardest_mps2, kFoot_mps2) << what;
+    EXPECT_LT(r.hardest_mps2, run.foot_mps2) << what;
     EXPECT_GT(r.driven_km, 10.0) << what;
-    RecordProperty(what, fmt::format("{:.2f} m/s² by the foot, {:.2f} in all, {:.1f} km", r.hardest_mps2, r.hardest_any_mps2, r.driven_km));
+    testing::Test::RecordProperty(what, fmt::format("{:.2f} m/s² by the foot, {:.2f} in all, {:.1f} km", r.hardest_mps2, r.hardest_any_mps2, r.driven_km));
   }
+}
+
+// Lanes here turn on a radius of 2.9 m, which no van can drive, beside oncoming traffic. The foot brakes by 4 m/s² at most, in two minutes of a hundred cars by 4.5; what does not hold is in
+// docs/traffic.md.
+TEST(FullDrive, DrivesARealTown) { DriveAFile("carla_Town04", {{60, 1, 50.0, 4.0}, {60, 11, 50.0, 4.0}, {100, 1, 120.0, 4.5}, {100, 11, 120.0, 4.5}}); }
+
+// Up to 0.55 rad across, outward in its bend for one direction.
+TEST(FullDrive, DrivesOnABank) {
+  DriveAFile("esmini_straight_500_superelevation_elevation_curve", {{25, 1, 60.0, 4.0}, {25, 2, 60.0, 4.0}, {25, 3, 60.0, 4.0}, {25, 4, 60.0, 4.0}, {100, 11, 60.0, 4.0}});
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "common/launch/launch.hpp"
 #include "common/lockstep/in_process.hpp"
 #include "common/road/world.hpp"
@@ -79,6 +82,27 @@ TEST(TrafficAlone, IsTheSameAsInARunOnATrafficMap) {
   for (const char* map : {"maps/town.motors", "maps/lights.motors"}) ExpectTheSame(map, "vehicles: 20", Alone(map, settings, 20.0));
   settings.physics = traffic::Physics::kFull;
   ExpectTheSame("maps/overpass.motors", "vehicles: 20, physics: full", Alone("maps/overpass.motors", settings, 5.0));
+}
+
+// What stands beside a map is driven on, so that what is the same above says something of it: its lights are on and somebody waits at them, its heights are climbed.
+TEST(TrafficAlone, LightsAndHeightsOfATrafficMapAreThere) {
+  traffic::StudySettings study;
+  study.traffic.seed = 5;
+  study.traffic.vehicles = 20;
+  study.duration_s = 20.0;
+  const auto load = [](const char* map) { return road::World::Load(std::filesystem::path(SourceDir()) / "configs/maps" / map).value(); };
+  std::size_t lights = 0, waits = 0;
+  ASSERT_TRUE(traffic::RunStudy(study, load("lights.motors"), [&](const traffic::StudyMoment& moment) {
+    lights = moment.model.colours().size();
+    for (const traffic::AgentPose& pose : moment.model.poses()) waits += pose.speed_mps == 0.0 ? 1 : 0;
+  }).ok());
+  EXPECT_GT(lights, 0u);
+  EXPECT_GT(waits, 0u);
+  double low_m = 1e9, high_m = -1e9;
+  ASSERT_TRUE(traffic::RunStudy(study, load("overpass.motors"), [&](const traffic::StudyMoment& moment) {
+    for (const traffic::AgentPose& pose : moment.model.poses()) low_m = std::min(low_m, pose.p_WB_W.z()), high_m = std::max(high_m, pose.p_WB_W.z());
+  }).ok());
+  EXPECT_GT(high_m - low_m, 4.0);
 }
 
 // Each car's own physics feels the world's ground, which is more than its roads: terrain, measured surfaces.

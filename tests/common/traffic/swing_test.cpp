@@ -1,0 +1,139 @@
+// How far cars with full physics reach beside bends: on a circle in closed form, on maps beside cars of the vehicle library.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/lanes/swath.hpp"
+#include "common/traffic/swing.hpp"
+#include "common/traffic/traffic_model.hpp"
+#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/traffic/ring.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+TrafficSettings Full() {
+  TrafficSettings settings;
+  settings.physics = Physics::kFull;
+  return settings;
+}
+
+// A lane that turns to the right by 75° on a radius of 2.9 m, tighter than a van's wheels turn (3.8 m), as one of Town04 does.
+std::shared_ptr<const network::Network> TightBend() {
+  opendrive::RoadText road;
+  constexpr double kRadius_m = 4.65, kTurn = 1.31;  // the lane's middle is 1.75 m nearer
+  const double arc = kRadius_m * kTurn;
+  const auto piece = [](double s, double x, double y, double heading, double length, const std::string& kind) {
+    return fmt::format("<geometry s=\"{}\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\">{}</geometry>", s, x, y, heading, length, kind);
+  };
+  const double x = 40.0 + kRadius_m * std::sin(kTurn), y = -kRadius_m * (1.0 - std::cos(kTurn));
+  road.length = 80.0 + arc;
+  road.left = "";
+  road.geometry = piece(0.0, 0.0, 0.0, 0.0, 40.0, "<line/>") + piece(40.0, 40.0, 0.0, 0.0, arc, fmt::format("<arc curvature=\"{}\"/>", -1.0 / kRadius_m)) + piece(40.0 + arc, x, y, -kTurn, 40.0, "<line/>");
+  return opendrive::MustRead(opendrive::Document(road.Text()));
+}
+
+// A car that is steered by its front wheels, the mean of whose axles' circles is the line of radius R: its rear axle runs on R - L² / (4 R), tangent to its circle, its
+// outer corner in front on √((ρ + w/2)² + (L + o)²), its inner side beside the rear axle on ρ - w/2.
+TEST(Swing, OnACircleIsThatOfACarSteeredInFront) {
+  const lanes::LargestCar car = LargestOf(Full());
+  for (const double round_m : {45.0, 60.0, 90.0}) {
+    const auto network = Ring(round_m);
+    const lanes::Graph graph(*network);
+    const lanes::Swings swings = SwingsOf(graph, Full());
+    int nodes = 0;
+    for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
+      const auto& line = graph[track].curve.nodes();
+      const double R = 1.0 / std::fabs(line[line.size() / 2].curvature_1pm);
+      const double rear = R - car.wheelbase_m * car.wheelbase_m / (4.0 * R), overhang = 0.5 * (car.length_m - car.wheelbase_m);
+      const double outside = std::hypot(rear + 0.5 * car.width_m, car.wheelbase_m + overhang) - R, inside = R - (rear - 0.5 * car.width_m);
+      ASSERT_EQ(swings[track].size(), line.size());
+      for (std::size_t i = 0; i < line.size(); ++i, ++nodes) {
+        const bool left = line[i].curvature_1pm > 0.0;
+        EXPECT_NEAR(left ? swings[track][i].right_m : swings[track][i].left_m, outside, 0.06) << R << " " << i;
+        EXPECT_NEAR(left ? swings[track][i].left_m : swings[track][i].right_m, inside, 0.06) << R << " " << i;
+      }
+    }
+    EXPECT_GT(nodes, 10);
+  }
+}
+
+// Wherever a car of the vehicle library comes on its way through the maps' bends, no point of its outline is farther out than conflict zones are told; beyond what curvatures say
+// of cars that keep to their lines some are.
+TEST(Swing, HoldsWhatCarsOfTheMapsDo) {
+  int beyond = 0, looks = 0;
+  for (const char* map : {"crossing", "roundabout", "town", "bend"}) {
+    for (const bool heavy : {false, true}) {
+      TrafficSettings settings = Full();
+      settings.vehicles = 25;
+      if (heavy && map == std::string("bend")) continue;  // no lorry gets round it
+      if (heavy) settings.mix.shares = {0.4, 0.2, 0.2, 0.2};
+      TrafficModel model = TrafficModel::Make(settings, map == std::string("bend") ? TightBend() : lanes::MapNetwork(map), {}).value();
+      const lanes::Swings swings = SwingsOf(model.graph(), settings);
+      const lanes::LargestCar largest = LargestOf(settings);
+      for (int step = 0; step < 4000; ++step) {
+        model.Step(0.01, {});
+        if (step % 10 != 0) continue;
+        for (const AgentPose& pose : model.poses()) {
+          const Agent& agent = model.agent(pose.id);
+          const AgentTraits& traits = model.traits(pose.id);
+          const Eigen::Vector3d forward = pose.q_WB * Eigen::Vector3d::UnitX();
+          const Eigen::Vector2d ahead = forward.head<2>().normalized(), left(-ahead.y(), ahead.x());
+          for (const double along : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
+            for (const double side : {-0.5, 0.5}) {
+              const Eigen::Vector2d p = pose.p_WB_W.head<2>() + along * traits.length_m * ahead + side * traits.width_m * left;
+              const double at = agent.o_m + along * traits.length_m;
+              const Piece& piece = PieceAt(agent.path, at);
+              if (piece.offset_m != 0.0 || piece.slope != 0.0 || piece.aside_m != 0.0) continue;
+              const lanes::Curve& curve = model.graph()[piece.track].curve;
+              const auto& nodes = curve.nodes();
+              const auto near = std::min_element(nodes.begin(), nodes.end(), [&](const auto& a, const auto& b) { return (a.p_W.template head<2>() - p).norm() < (b.p_W.template head<2>() - p).norm(); });
+              const auto index = static_cast<std::size_t>(near - nodes.begin());
+              const lanes::Curve::Foot foot = curve.FootNear(p, index);
+              if (foot.d_m <= 0.0 || foot.d_m >= curve.length_m()) continue;
+              const double half = lanes::HalfSwath_m(near->curvature_1pm, largest);
+              double most = half;
+              if (!swings[piece.track].empty()) most = std::max(half, foot.offset_m > 0.0 ? swings[piece.track][index].left_m : swings[piece.track][index].right_m);
+              ++looks;
+              if (std::fabs(foot.offset_m) > half) ++beyond;
+              EXPECT_LE(std::fabs(foot.offset_m), most) << map << ", body " << traits.body << " on track " << piece.track << " at " << foot.d_m << ", " << 0.01 * step << " s";
+            }
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(looks, 100000);
+  EXPECT_GT(beyond, 100);  // it says something
+  RecordProperty("beyond", beyond);
+}
+
+// Straight roads are as wide as before, and who keeps to his line, or knows no zones, has none.
+TEST(Swing, IsNothingOnStraightRoadsNorOfPlanarCars) {
+  for (const std::string& name : lanes::MapNames()) {
+    const auto network = lanes::MapNetwork(name);
+    const lanes::Graph graph(*network);
+    EXPECT_TRUE(SwingsOf(graph, TrafficSettings()).empty());
+    TrafficSettings motors = Full();
+    motors.driver = DriverKind::kMotors;
+    EXPECT_TRUE(SwingsOf(graph, motors).empty());
+    const lanes::LargestCar car = LargestOf(Full());
+    const lanes::Swings swings = SwingsOf(graph, Full());
+    for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
+      const auto& nodes = graph[track].curve.nodes();
+      const bool is_straight = std::all_of(nodes.begin(), nodes.end(), [](const auto& node) { return std::fabs(node.curvature_1pm) < 1e-6; });
+      if (!is_straight || swings[track].empty()) continue;
+      const std::size_t middle = nodes.size() / 2;
+      if (nodes[middle].d_m < 20.0 || graph[track].length_m() - nodes[middle].d_m < 20.0) continue;
+      EXPECT_LE(std::max(swings[track][middle].left_m, swings[track][middle].right_m), 0.5 * car.width_m + 1e-3) << name << " " << track;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::traffic
