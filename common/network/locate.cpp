@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/network/network.hpp"
+#include "common/network/settle.hpp"
 
 namespace rodeira::network {
 namespace {
@@ -77,13 +78,13 @@ Network::Hit Network::TryRoad(const Eigen::Vector2d& p_W, std::uint32_t band_ind
     if (hit.span.lane != nullptr && hit.span.lane->level) on_lean.reset(), s = found, t = foot.t_m;  // its surface lies elsewhere
   }
   if (!on_lean) {
-    if (leans) beyond = road.Settle(p_W, low, high, s, t);
+    if (leans) beyond = SettleOn(road, &panel, p_W, low, high, s, t);
     find_lane();
   }
   hit.claim.past_end = beyond > 0.0;
   if (leans && hit.outside_m > 0.0) {  // t runs along a slope there: what counts is seen from above
     const double edge = t + (t > centre.value ? -hit.outside_m : hit.outside_m);
-    hit.outside_m = road.DistanceToEdge(p_W, low, high, edge, s);
+    hit.outside_m = DistanceToEdgeOn(road, &panel, p_W, low, high, edge, s);
   } else if (beyond > (s <= low ? band.closed_before_m : band.closed_behind_m)) {
     hit.outside_m = std::sqrt(hit.outside_m * hit.outside_m + beyond * beyond);
   }

@@ -7,6 +7,7 @@
 #include "common/geometry/plane.hpp"
 #include "common/network/junction_ground.hpp"
 #include "common/network/lean_foot.hpp"
+#include "common/network/settle.hpp"
 
 namespace rodeira::network {
 namespace {
@@ -195,36 +196,11 @@ std::optional<Road::LeanFoot> Road::FootOnLean(const geometry::AxisPanel& panel,
 }
 
 double Road::Settle(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double& s_m, double& t_m) const {
-  Eigen::Vector2d left = Eigen::Vector2d::Zero();
-  for (int iteration = 0; iteration < 12; ++iteration) {
-    const SurfaceSample at = Surface(s_m, t_m);
-    left = p_W - at.p_W.head<2>();
-    const Eigen::Vector2d ds = at.ds_W.head<2>(), dt = at.dt_W.head<2>();
-    const double area = geometry::Cross(ds, dt);
-    if (!(area > 1e-6)) break;
-    const double next = std::clamp(s_m + geometry::Cross(left, dt) / area, low_s_m, high_s_m);
-    const double s_step = next - s_m;
-    const double t_step = (left - s_step * ds).dot(dt) / dt.squaredNorm();  // the nearest to p on the section there
-    s_m = next;
-    t_m += t_step;
-    if (std::fabs(s_step) + std::fabs(t_step) < 1e-10) {
-      left -= s_step * ds + t_step * dt;
-      break;
-    }
-  }
-  return left.norm() < 1e-9 ? 0.0 : left.norm();
+  return SettleOn(*this, nullptr, p_W, low_s_m, high_s_m, s_m, t_m);
 }
 
 double Road::DistanceToEdge(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double t_m, double& s_m) const {
-  for (int iteration = 0; iteration < 12; ++iteration) {
-    const SurfaceSample at = Surface(s_m, t_m);
-    const Eigen::Vector2d ds = at.ds_W.head<2>();
-    const double next = std::clamp(s_m + (p_W - at.p_W.head<2>()).dot(ds) / ds.squaredNorm(), low_s_m, high_s_m);
-    const bool done = std::fabs(next - s_m) < 1e-9;
-    s_m = next;
-    if (done) break;
-  }
-  return (p_W - Surface(s_m, t_m).p_W.head<2>()).norm();
+  return DistanceToEdgeOn(*this, nullptr, p_W, low_s_m, high_s_m, t_m, s_m);
 }
 
 std::optional<double> Road::SpeedLimitAt(const Lane& lane, double s_m) const {

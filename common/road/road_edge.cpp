@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/geometry/plane.hpp"
+#include "common/network/settle.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -76,13 +77,13 @@ EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& pane
   double s = std::clamp(found, stretch.from_s_m, stretch.to_s_m);
   place.beside = s == found && foot.beyond_m == 0.0;
   // On a rolled road t runs along a slope: its edges are nearer to the axis than they are wide.
-  if (road.rolled()) (void)road.Settle(p_W, stretch.from_s_m, stretch.to_s_m, s, place.found_t_m);
+  if (road.rolled()) (void)network::SettleOn(road, &panel, p_W, stretch.from_s_m, stretch.to_s_m, s, place.found_t_m);
   const network::LaneSection& section = road.SectionAt(s);
   const geometry::CubicPoint centre = road.CentreAt(s);
   network::LaneSpan span = section.At(place.found_t_m, centre, s, place.outside_m);
   place.t_m = place.found_t_m + (place.found_t_m > centre.value ? -place.outside_m : place.outside_m);
   if (road.rolled() && place.outside_m > 0.0) {  // the section leans: the nearest point of its edge lies elsewhere
-    (void)road.DistanceToEdge(p_W, stretch.from_s_m, stretch.to_s_m, place.t_m, s);
+    (void)network::DistanceToEdgeOn(road, &panel, p_W, stretch.from_s_m, stretch.to_s_m, place.t_m, s);
     double outside_there;
     span = section.At(place.t_m, road.CentreAt(s), s, outside_there);
   }
