@@ -16,6 +16,7 @@ constexpr double kPostsOfRadius = 0.1;  // posts in a bend stand so much of its 
 constexpr double kLeastApart_m = 0.5;
 constexpr int kCurvatures = 4;  // samples of a panel's
 constexpr double kSample_m = 1e-3;
+constexpr double kRounding_m = 1e-6;
 constexpr double kStraight_1pm = 1e-7;
 
 // How far from an edge within a bend what moves with p may reach.
@@ -46,8 +47,24 @@ NetworkLand::NetworkLand(std::shared_ptr<const network::Network> network) : netw
   for (const network::Junction& junction : network_->junctions()) {
     if (junction.ground != nullptr) AddBoundary(*junction.ground);
   }
+  for (const Piece& piece : pieces_) {
+    around_.push_back({0.5 * (piece.from_W + piece.to_W), 0.5 * (piece.to_W - piece.from_W).norm() + piece.beside_m + kRounding_m, piece.heights});
+  }
   std::vector<SquareLists::Strip> strips;
-  for (const Piece& piece : pieces_) strips.push_back({piece.from_W, piece.to_W, piece.beside_m + kHolds_m});
+  for (std::size_t first = 0; first < around_.size(); first += kBlock) {
+    const auto some = std::span(around_).subspan(first, std::min<std::size_t>(kBlock, around_.size() - first));
+    Vector2d low_W = some.front().middle_W, high_W = low_W;
+    Around& block = blocks_.emplace_back(some.front());
+    for (const Around& around : some) {
+      low_W = low_W.cwiseMin(around.middle_W), high_W = high_W.cwiseMax(around.middle_W);
+      block.heights = {std::min(block.heights.low_m, around.heights.low_m), std::max(block.heights.high_m, around.heights.high_m)};
+    }
+    block.middle_W = 0.5 * (low_W + high_W), block.radius_m = 0.0;
+    for (const Around& around : some) block.radius_m = std::max(block.radius_m, (around.middle_W - block.middle_W).norm() + around.radius_m);
+    block.radius_m += kRounding_m;
+    strips.push_back({block.middle_W, block.middle_W, block.radius_m + kHolds_m});
+  }
+  near_ = SquareLists(strips);
   near_ = SquareLists(strips);
 }
 
@@ -249,37 +266,52 @@ PlaneHeight NetworkLand::Meet(Bounds& bounds) {
   return {high.z_m + part * step, high.z_slope_W + part * (low.z_slope_W - high.z_slope_W) + step * part_slope};
 }
 
+// Of equally near ones the first. Where a place is asked after one beside it, the last answer is tried first, so that most others are known to be farther away.
+std::uint32_t NetworkLand::NearestPiece(std::span<const std::uint32_t> near, const Vector2d& p_W) const {
+  thread_local std::uint32_t last = 0;
+  std::uint32_t nearest = near.front() * kBlock;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  const auto look_at = [&](std::uint32_t piece) {
+    const double distance_m = pieces_[piece].DistanceFrom(p_W);
+    if (distance_m < nearest_m || (distance_m == nearest_m && piece < nearest)) nearest = piece, nearest_m = distance_m;
+  };
+  if (last < pieces_.size()) look_at(last);
+  EachOf(near, [&](const Around& around) { return around.MayBeWithin(p_W, nearest_m); }, look_at);
+  return last = nearest;
+}
+
 std::optional<PlaneHeight> NetworkLand::At(const Vector2d& p_W) const {
   if (!p_W.allFinite()) return std::nullopt;
   const std::span<const std::uint32_t> near = near_.At(p_W);
   if (near.empty()) return std::nullopt;
-  thread_local std::vector<double> distances;
-  distances.clear();
-  std::size_t nearest = 0;
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    distances.push_back(pieces_[near[i]].DistanceFrom(p_W));
-    if (distances[i] < distances[nearest]) nearest = i;
-  }
   thread_local Bounds bounds;
   bounds.Clear();
-  const auto ask = [&](std::size_t i) {
-    const Piece& piece = pieces_[near[i]];
+  const auto ask = [&](std::uint32_t index) {
+    const Piece& piece = pieces_[index];
     piece.ground != nullptr ? FromBoundary(piece, p_W, bounds) : FromRoad(piece, p_W, bounds);
   };
+  const std::uint32_t nearest = NearestPiece(near, p_W);
   ask(nearest);
   // First only those that may hold the land more tightly.
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    if (i == nearest || distances[i] >= kHolds_m) continue;
-    const EdgeHeights& heights = pieces_[near[i]].heights;
-    const double bank = kBank * (distances[i] + Steepening(distances[i], kHolds_m).first);
-    if (bounds.all.empty() || heights.high_m - bank > bounds.Low() || heights.low_m + bank < bounds.High()) ask(i);
-  }
+  const auto may_tighten = [&](const Around& around) {
+    if (bounds.all.empty()) return around.MayBeWithin(p_W, kHolds_m);
+    const double within_m = std::min(kHolds_m, std::max(around.heights.high_m - bounds.Low(), bounds.High() - around.heights.low_m) / kBank);
+    return within_m > 0.0 && around.MayBeWithin(p_W, within_m);
+  };
+  EachOf(near, may_tighten, [&](std::uint32_t piece) {
+    const double distance_m = pieces_[piece].DistanceFrom(p_W);
+    if (piece == nearest || distance_m >= kHolds_m) return;
+    const EdgeHeights& heights = pieces_[piece].heights;
+    const double bank = kBank * (distance_m + Steepening(distance_m, kHolds_m).first);
+    if (bounds.all.empty() || heights.high_m - bank > bounds.Low() || heights.low_m + bank < bounds.High()) ask(piece);
+  });
   if (!(bounds.nearest_m < kVerge_m)) return std::nullopt;
   if (bounds.Low() > bounds.High()) {
     bounds.Clear();
-    for (std::size_t i = 0; i < near.size(); ++i) {
-      if (distances[i] < kHolds_m) ask(i);
-    }
+    EachOf(near, [&](const Around& around) { return around.MayBeWithin(p_W, kHolds_m); },
+           [&](std::uint32_t piece) {
+             if (pieces_[piece].DistanceFrom(p_W) < kHolds_m) ask(piece);
+           });
   }
   return Meet(bounds);
 }

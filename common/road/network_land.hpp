@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -66,6 +67,29 @@ class NetworkLand {
 
     double DistanceFrom(const Eigen::Vector2d& p_W) const { return std::max(0.0, SquareLists::Strip{from_W, to_W, 0.0}.FromWay(p_W) - beside_m); }
   };
+  struct Around {  // of a piece what tells in few operations that it is too far away: all of it lies within a circle, its edges between two heights
+    Eigen::Vector2d middle_W;
+    double radius_m = 0.0;
+    EdgeHeights heights{};
+
+    bool MayBeWithin(const Eigen::Vector2d& p_W, double distance_m) const {
+      const double reach_m = distance_m + radius_m;
+      return (p_W - middle_W).squaredNorm() <= reach_m * reach_m;
+    }
+  };
+  // tell(piece) for those of which look_at, asked of kBlock neighbours at once and then of each, says so; ascending.
+  static constexpr std::uint32_t kBlock = 8;
+  template <class LookAt, class Tell>
+  void EachOf(std::span<const std::uint32_t> near, const LookAt& look_at, const Tell& tell) const {
+    for (const std::uint32_t block : near) {
+      if (!look_at(blocks_[block])) continue;
+      const auto end = std::min(static_cast<std::uint32_t>(pieces_.size()), (block + 1) * kBlock);
+      for (std::uint32_t piece = block * kBlock; piece < end; ++piece) {
+        if (look_at(around_[piece])) tell(piece);
+      }
+    }
+  }
+  std::uint32_t NearestPiece(std::span<const std::uint32_t> near, const Eigen::Vector2d& p_W) const;
   void AddPieces(std::uint32_t road);
   void AddPosts(const network::Road& road, const geometry::AxisPanel& panel, Piece& piece);
   void AddBoundary(const network::JunctionGround& ground);
@@ -79,8 +103,9 @@ class NetworkLand {
   std::shared_ptr<const network::Network> network_;
   std::vector<std::vector<Stretch>> decks_;
   std::vector<Piece> pieces_;
+  std::vector<Around> around_, blocks_;   // by piece; of kBlock of them
   std::vector<Eigen::Vector3d> posts_W_;  // of pieces' edges, that stand still
-  SquareLists near_;
+  SquareLists near_;                      // of blocks
 };
 
 }  // namespace rodeira::road

@@ -9,7 +9,7 @@
 namespace rodeira::scene {
 
 // Changes whenever the same world is drawn otherwise than before.
-inline constexpr const char* kGroundVersion = "ground 19";
+inline constexpr const char* kGroundVersion = "ground 20";
 
 base::Digest PaintDigest(std::span<const PaintPiece> paint);
 base::Digest PaintDigest(const TilePaint& paint);

@@ -25,7 +25,7 @@ constexpr double kMiddle = 0.7;  // of what the sides may be off: within a trian
 constexpr std::array<BendRange, kGroundLevels> kSlopes = {{{0.0023, 0.01, 2.0}, {0.015, 0.02, 2.0}, {0.075, 0.1, 2.0}, {0.375, 0.5, 2.0}}};
 // The land beside OpenDRIVE's roads, in the same way: it is steep where edges of different heights touch, and a step is drawn no steeper than over a
 // side that is left as it is, four margins long.
-constexpr std::array<BendRange, kGroundLevels> kVerges = {{{0.003, 0.25, 4.0}, {0.015, 0.25, 4.0}, {0.075, 0.5, 4.0}, {0.375, 1.0, 4.0}}};
+constexpr std::array<BendRange, kGroundLevels> kVerges = {{{0.0023, 0.02, 4.0}, {0.015, 0.25, 4.0}, {0.075, 0.5, 4.0}, {0.375, 1.0, 4.0}}};
 constexpr double kBelowStep_m = 0.2;  // below decks, where strips are narrower
 constexpr double kWithin_m = 1e-3;
 constexpr double kBesideLine_m = 0.01;  // beside a deck's edge, whose drawn line is a chord

@@ -60,6 +60,41 @@ TEST(NetworkLand, WhereRoadsStandCloserItIsAsSteepAsItMustBe) {
   }
 }
 
+// Roads beyond its reach, between the others in the file, hold no land here.
+TEST(NetworkLand, WhatIsFarAwayChangesNoBit) {
+  const std::string one = Along("1", 0.0, 6.0).Text(), two = Along("2", 15.0, 0.0).Text(), three = Along("3", 60.0, 3.0).Text();
+  const auto alone = Load(one + two + three);
+  const auto among = Load(one + Along("a", 900.0, -40.0).Text() + two + Along("b", -700.0, 90.0).Text() + Along("c", 1500.0, 5.0).Text() + three);
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    const double x = base::RandomUniform({i, 1}, -60.0, 160.0), y = base::RandomUniform({i, 2}, -60.0, 120.0);
+    const SurfacePoint a = alone->At(x, y), b = among->At(x, y);
+    ASSERT_EQ(a.inside, b.inside) << x << " " << y;
+    EXPECT_EQ(a.z_m, b.z_m) << x << " " << y;
+    EXPECT_EQ(a.slope_x, b.slope_x) << x << " " << y;
+  }
+}
+
+TEST(NetworkLand, WhatWasAskedBeforeChangesNoBit) {
+  const auto files = opendrive::RealFiles();
+  const auto file = std::find_if(files.begin(), files.end(), [](const auto& name) { return name.stem() == "carla_Town04"; });
+  if (file == files.end()) GTEST_SKIP() << "skipped: carla_Town04.xodr is not beside the project";
+  const auto world = World::Load(*file).value();
+  const Extents extents = world->extents();
+  std::vector<Vector2d> places;
+  for (std::uint64_t i = 0; i < 4000; ++i) {  // half of them beside the one before
+    const bool beside = i % 2 == 1;
+    places.push_back(beside ? Vector2d(places.back() + Vector2d(base::RandomUniform({i, 1}, -9.0, 9.0), base::RandomUniform({i, 2}, -9.0, 9.0)))
+                            : Vector2d(base::RandomUniform({i, 1}, extents.west_m, extents.east_m), base::RandomUniform({i, 2}, extents.south_m, extents.north_m)));
+  }
+  std::vector<SurfacePoint> forward;
+  for (const Vector2d& p_W : places) forward.push_back(world->At(p_W.x(), p_W.y()));
+  for (std::size_t i = places.size(); i-- > 0;) {
+    const SurfacePoint again = world->At(places[i].x(), places[i].y());
+    ASSERT_EQ(again.inside, forward[i].inside);
+    EXPECT_EQ(again.z_m, forward[i].z_m) << places[i].transpose();
+  }
+}
+
 // Road 2 crosses road 1 at x = 50, 6 m higher: a deck from where banks of 1 in 2 come down to road 1's edges, y = ±3.5. Under it and beside it lies the
 // land, which rises to the road's height where the deck ends.
 TEST(NetworkLand, GoesThroughUnderADeck) {

@@ -129,8 +129,8 @@ TEST(Ground, LandOfRealFilesIsWhereTheTyresAre) {
       if (off_m > worst_m) worst_m = off_m, where = p;
     }
     EXPECT_EQ(asked, Points()) << name;
-    EXPECT_LE(far, 0.001 * asked) << name << ": worst " << worst_m << " m at " << where.transpose();
-    EXPECT_LE(stepped, 0.005 * asked) << name;
+    EXPECT_LE(far, 0.0002 * asked) << name << ": worst " << worst_m << " m at " << where.transpose();
+    EXPECT_LE(stepped, 0.001 * asked) << name;
     std::printf("%s: %d points of land, %d at steps, %d more than 5 mm from SUELO, worst %.4f m\n", name.c_str(), asked, stepped, far, worst_m);
   }
 }
