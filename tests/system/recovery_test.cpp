@@ -216,7 +216,7 @@ TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
     const pid_t view = Find(struck, "view");
     ASSERT_GT(view, 0);
     ::kill(view, signal);
-    ASSERT_GE(run.WaitFor(signal == SIGKILL ? "node 'view' was killed by signal 9" : "node 'view' was stopped by signal 19", 5s), 0ms);
+    ASSERT_GE(run.WaitFor(signal == SIGKILL ? "node 'view' was killed by signal 9" : "node 'view' was stopped by signal 19", 20s), 0ms);
   }
   ExpectUndisturbed(run.Wait(120s), File(struck + ".mcap"));
   std::size_t pictures = 0;
