@@ -89,8 +89,7 @@ void TrafficModel::FindCrossings(std::uint32_t id) {
       for (; next < lines.size() && stretch.zero_m + lines[next].d_m <= before_m; ++next) {
         const double at = stretch.zero_m + lines[next].d_m;
         const bool light = lines[next].light >= 0;
-        if (at < front - (light ? kOverLine_m : kStopped_m) || at < agent.granted_m || at < stretch.begin_m) continue;
-        if (light && at <= agent.granted_m) continue;
+        if (at < front - (light ? kOverLine_m : kStopped_m) || at <= agent.granted_m || at < stretch.begin_m) continue;  // a STOP line alone is granted once
         if (light) {
           if (passage.any && at > passage.end_m + stand) break;
           passage.lit = true;
