@@ -32,8 +32,7 @@ void AddReach(const Line3& line, std::set<TileKey>& tiles) {
   }
 }
 
-// Tiles that a bridge may touch.
-// The tiles at a deck.
+// Tiles that a deck may touch.
 void AddDeck(const network::Road& road, double from_s_m, double to_s_m, std::set<TileKey>& tiles) {
   constexpr double kApart_m = 16.0, kWidest_m = 48.0;
   for (double s_m = from_s_m; s_m < to_s_m + kApart_m; s_m += kApart_m) {

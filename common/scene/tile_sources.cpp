@@ -132,7 +132,7 @@ void TileSources::AddStretches(std::uint32_t road_index, PictureDigests& picture
   };
   for (const geometry::AxisPanel& panel : axis.panels()) {
     if (panel.begin_s_m() > road.length_m()) break;
-    const double beside_m = road::EdgesBeside(road, panel) + axis.Bulge(panel);
+    const double beside_m = road::EdgesBeside(road, panel);
     const int pieces = std::max(1, static_cast<int>(std::ceil(2.0 * panel.half_m / kStretch_m)));
     for (int i = 0; i < pieces; ++i) {
       const std::array<double, 2> u_m = {panel.half_m * (2.0 * i / pieces - 1.0), panel.half_m * (2.0 * (i + 1) / pieces - 1.0)};
