@@ -68,7 +68,7 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   run->add_option("--lab", options.lab, "laboratory file: the PCs and their network");
   run->add_option("--host", options.host, "start only what belongs to this host of the laboratory");
   run->add_option("--run", options.run, "name of the run: only processes of the same name meet");
-  run->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232));
+  run->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(Between(0, 232));
 }
 
 CLI::App* AddCtl(CLI::App& app, CtlOptions& options) {
@@ -86,9 +86,9 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
     CLI::App* command = world->add_subcommand(name, text);
     command->add_option("WORLD", options.world_file, "world file (.yaml), or OpenDRIVE (.xodr)")->required();
     if (std::string(name) == "query") {
-      command->add_option("X", options.x_m, "metres east")->required();
-      command->add_option("Y", options.y_m, "metres north")->required();
-      command->add_option("Z", options.z_hint_m, "near which height, where surfaces lie over one another");
+      command->add_option("X", options.x_m, "metres east")->required()->check(Finite());
+      command->add_option("Y", options.y_m, "metres north")->required()->check(Finite());
+      command->add_option("Z", options.z_hint_m, "near which height, where surfaces lie over one another")->check(Finite());
       command->add_flag("--earth", options.earth, "X and Y are longitude and latitude (WGS 84, degrees) by the world's projection");
     }
     if (std::string(name) == "build") {
@@ -127,16 +127,16 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
   traffic->require_subcommand(1);
   CLI::App* run = traffic->add_subcommand("run", "drive cars on a map's roads and say what came out");
   run->add_option("MAP", options.map, "world file, OpenDRIVE file (.xodr) or traffic map (.motors)")->required();
-  run->add_option("--vehicles", options.vehicles, "how many there are; where there are flows, at most at a time")->check(CLI::Range(0, 100000));
+  run->add_option("--vehicles", options.vehicles, "how many there are; where there are flows, at most at a time")->check(Between(0, 100000));
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
-  run->add_option("--step", options.step_s, "seconds a step, to 0.1")->check(CLI::Range(0.001, 0.1));
+  run->add_option("--step", options.step_s, "seconds a step, to 0.1")->check(Between(0.001, 0.1));
   run->add_option("--seed", options.seed, "seed of everything that is drawn")->check(WholeNumber());
   run->add_option("--driver", options.driver, "who drives: standard, or motors, as MOTORS' own driver does (with full physics)")->check(OneOf({"standard", "motors"}));
   run->add_option("--physics", options.physics, "how cars move: planar, along their paths, or full, as the driver's car does")->check(OneOf({"planar", "full"}));
   run->add_option("--settings", options.settings, "how they drive: a file of 'rodeira: traffic/1', with the keys of a launch file's traffic");
   run->add_option("--csv", options.csv, "folder for trajectories.csv, lanes.csv, queues.csv, flows.csv, trips.csv");
   run->add_option("--heat", options.heat, "mean speed by the metre as a picture (.svg); flow, density, speed and fuel as a GeoTIFF (.tif)")->check(NewFile());
-  run->add_option("--pixel", options.pixel_m, "metres a pixel of the GeoTIFF")->check(CLI::Range(0.1, 1000.0))->needs("--heat")->capture_default_str();
+  run->add_option("--pixel", options.pixel_m, "metres a pixel of the GeoTIFF")->check(Between(0.1, 1000.0))->needs("--heat")->capture_default_str();
   run->add_option("--fcd", options.fcd, "floating car data for SUMO's tools (.xml)")->check(NewFile());
   run->add_option("--diagram", options.diagram, "trajectories of a lane over time (.svg)")->check(NewFile());
   run->add_option("--lane", options.lane, "which lane, ROAD:LANE; the longest one unless said")->needs("--diagram");
@@ -158,20 +158,20 @@ void AddPolyline(CLI::App& app, PolylineOptions& options) {
     return command;
   };
   CLI::App* join = add("join", "one line after the other", "IN.csv");
-  join->add_option("--within", options.within_m, "metres that an end may lie from the next beginning")->check(CLI::NonNegativeNumber)->capture_default_str();
+  join->add_option("--within", options.within_m, "metres that an end may lie from the next beginning")->check(From0())->capture_default_str();
   join->add_flag("--bridge", options.bridge, "bridge larger gaps by a straight piece");
   join->add_flag("--turn", options.turn, "turn a line round whose end is nearer than its beginning");
   CLI::App* translate = add("translate", "shift", "IN.csv");
-  translate->add_option("--by", options.by_m, "metres east, north and, if wanted, up")->required()->expected(2, 3);
+  translate->add_option("--by", options.by_m, "metres east, north and, if wanted, up")->required()->check(Finite())->expected(2, 3);
   CLI::App* rotate = add("rotate", "turn about a vertical axis", "IN.csv");
-  rotate->add_option("--deg", options.angle_deg, "degrees, from east to north")->required();
-  rotate->add_option("--about", options.about_m, "X Y of the axis; the first point otherwise")->expected(2);
+  rotate->add_option("--deg", options.angle_deg, "degrees, from east to north")->required()->check(Finite());
+  rotate->add_option("--about", options.about_m, "X Y of the axis; the first point otherwise")->check(Finite())->expected(2);
   CLI::App* scale = add("scale", "stretch or shrink", "IN.csv");
   scale->add_option("--by", options.factor, "factor, greater than 0")->required()->check(Above0("a number above 0"));
   scale->add_option("--z-by", options.z_factor, "another factor for the heights")->check(Above0("a number above 0"));
-  scale->add_option("--about", options.about_m, "X Y [Z] that stays; the first point otherwise")->expected(2, 3);
+  scale->add_option("--about", options.about_m, "X Y [Z] that stays; the first point otherwise")->check(Finite())->expected(2, 3);
   CLI::App* offset = add("offset", "the line beside it", "IN.csv");
-  offset->add_option("--left", options.left_m, "metres to the left; negative: to the right")->required();
+  offset->add_option("--left", options.left_m, "metres to the left; negative: to the right")->required()->check(Finite());
   offset->add_flag("--keep-length", options.keep_length, "nodes move by the distance itself along their mitres: bends become narrower");
   offset->add_flag("--despite-faults", options.despite_faults, "write it even where it folds or crosses itself");
 }
@@ -188,7 +188,7 @@ void AddSurface(CLI::App& app, SurfaceOptions& options) {
 void AddDoctor(CLI::App& app, DoctorOptions& options) {
   CLI::App* doctor = app.add_subcommand("doctor", "is this PC ready: packages, GL, DDS, ports, shared memory");
   doctor->add_option("--transport", options.transport, "of the DDS loop-back")->check(OneOf({"shared_memory", "udp"}))->capture_default_str();
-  doctor->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232))->capture_default_str();
+  doctor->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(Between(0, 232))->capture_default_str();
   doctor->add_flag("--quiet", options.quiet, "only what is not well");
   doctor->add_flag("--clean", options.clean, "first remove what dead processes of yours left in /dev/shm");
   doctor->add_option("--answer", options.answer)->group("");  // the second process of the loop-back
@@ -227,7 +227,7 @@ void AddInput(CLI::App& app, InputOptions& options) {
   input->require_subcommand(1);
   CLI::App* setup = input->add_subcommand("setup", "find out what turns and what is pressed, by moving it, and write a wheel file");
   setup->add_option("-o,--out", options.out, "wheel file; otherwise one in the user's configuration, by the device's GUID");
-  setup->add_option("--lock-deg", options.lock_deg, "angle of the car's steering wheel at the device's end, from straight ahead")->check(CLI::Range(10.0, 1800.0));
+  setup->add_option("--lock-deg", options.lock_deg, "angle of the car's steering wheel at the device's end, from straight ahead")->check(Between(10.0, 1800.0));
   setup->callback([&options] { options.asked = true; });
 }
 

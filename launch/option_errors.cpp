@@ -58,6 +58,29 @@ std::string ConversionSentence(const CLI::App& command, const std::string& calle
   return fmt::format("{} of '{}' is '{}'; a {} was expected", name, called, value, whole ? "whole number" : "number");
 }
 
+// A sentence where the text is a number that does not pass; what is no number is left to the conversion.
+template <class Passes>
+std::string WhyNot(const std::string& text, const Passes& passes, const std::string& what) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || passes(value)) return "";
+  return fmt::format("'{}' was found; {} was expected", text, what);
+}
+
+// The parser says "NAME: At least N required but received M", or "at most" and "exactly"; nothing where it says something else.
+std::string CountSentence(const CLI::App& command, const std::string& called, const std::string& said) {
+  const std::size_t colon = said.find(':'), received = said.find("received ");
+  if (colon == std::string::npos || received == std::string::npos) return "";
+  const std::string name = said.substr(0, colon), count = said.substr(received + std::string_view("received ").size());
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_name() != name && !option->check_name(name)) continue;
+    const int least = option->get_items_expected_min(), most = option->get_items_expected_max();
+    const std::string expected = least == most ? fmt::format("{}", least) : most >= CLI::detail::expected_max_vector_size ? fmt::format("{} or more", least) : fmt::format("{} to {}", least, most);
+    return fmt::format("{} of '{}' stands before {} value{}; {} were expected", name, called, count, count == "1" ? "" : "s", expected);
+  }
+  return "";
+}
+
 }  // namespace
 
 CLI::Validator OneOf(std::vector<std::string> words) {
@@ -77,6 +100,18 @@ CLI::Validator Above0(std::string what) {
         return end != text.c_str() && *end == '\0' && value > 0.0 && std::isfinite(value) ? std::string() : fmt::format("'{}' was found; {} was expected", text, what);
       },
       "NUMBER");
+}
+
+CLI::Validator Finite() {
+  return CLI::Validator([](std::string& text) { return WhyNot(text, [](double value) { return std::isfinite(value); }, "a finite number"); }, "NUMBER");
+}
+
+CLI::Validator From0() {
+  return CLI::Validator([](std::string& text) { return WhyNot(text, [](double value) { return std::isfinite(value) && value >= 0.0; }, "a number from 0 on"); }, "NUMBER");
+}
+
+CLI::Validator Between(double low, double high) {
+  return CLI::Validator([=](std::string& text) { return WhyNot(text, [=](double value) { return value >= low && value <= high; }, fmt::format("a number from {} to {}", low, high)); }, "NUMBER");
 }
 
 CLI::Validator WholeNumber() {
@@ -114,6 +149,9 @@ std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem) 
   if (!extras.empty()) return fmt::format("'{}' was not expected by '{}'", extras.front(), reading.name);
   if (dynamic_cast<const CLI::ConversionError*>(&problem) != nullptr) {
     if (const std::string sentence = ConversionSentence(*reading.command, reading.name, problem.what()); !sentence.empty()) return sentence;
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&problem) != nullptr) {
+    if (const std::string sentence = CountSentence(*reading.command, reading.name, problem.what()); !sentence.empty()) return sentence;
   }
   return problem.what();
 }

@@ -11,6 +11,12 @@ namespace rodeira::front {
 CLI::Validator OneOf(std::vector<std::string> words);
 // A finite number above 0; `what` says of which kind ("a positive number of seconds").
 CLI::Validator Above0(std::string what);
+// A finite number, below 0 too; what is no number at all is left to the parser's own conversion, whose sentence names it.
+CLI::Validator Finite();
+// A finite number from 0 on.
+CLI::Validator From0();
+// A number between two others, or one of them.
+CLI::Validator Between(double low, double high);
 // A whole number from 0 to 2^64 - 1, as a seed is.
 CLI::Validator WholeNumber();
 

@@ -38,7 +38,11 @@ std::string NearestName(std::string_view name, std::span<const std::string> cand
   return nearest;
 }
 
-std::string DidYouMean(std::string_view name, const std::vector<std::string>& candidates) {
+std::string DidYouMean(std::string_view name, const std::vector<std::string>& given) {
+  std::vector<std::string> candidates;  // each once, in the order in which they were given
+  for (const std::string& candidate : given) {
+    if (std::find(candidates.begin(), candidates.end(), candidate) == candidates.end()) candidates.push_back(candidate);
+  }
   const std::string nearest = NearestName(name, candidates);
   if (!nearest.empty()) return "; did you mean '" + nearest + "'?";
   if (candidates.empty()) return {};

@@ -67,6 +67,7 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   for (const Node& controller : root.Children("controller")) spec.controllers.push_back(ReadController(controller));
   TellUnread(root);
   TellUnknown(root);
+  CheckStations(root);
   if (readings.empty()) root.Wrong("core.roads", "there is no <road> in the file");
   import.errors = source.errors;
   import.surfaces = std::move(source.surfaces);

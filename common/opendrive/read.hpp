@@ -66,6 +66,9 @@ void TellUnread(const Node& root);
 // A warning for each element, attribute and word that OpenDRIVE does not know, with the nearest that it does; an error for an
 // element that stands twice where it may stand once.
 void TellUnknown(const Node& root);
+// Records and things that begin beside their road or lane section, first widths that leave a lane without any, repeats below 0, ids that stand twice: an
+// error below 0, where a number can have no meaning; otherwise a warning for each kind, at the first.
+void CheckStations(const Node& root);
 // In m/s from the attributes 'max' or 'speed' and 'unit'; infinite: no limit; nothing: not said.
 std::optional<double> ReadSpeed(const Node& speed, const char* attribute);
 

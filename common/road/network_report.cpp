@@ -9,6 +9,7 @@
 #include "common/opendrive/import.hpp"
 #include "common/road/network_world.hpp"
 #include "common/road/unjoined.hpp"
+#include "common/terrain/geographic.hpp"
 
 namespace rodeira::road {
 
@@ -24,6 +25,9 @@ NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict) {
     check.warnings.push_back(opendrive::ToError(warning, file).Text());
   check.table = opendrive::Describe(import.value());
   if (import.value().network == nullptr) return check;
+  if (const std::string& earth = import.value().network->geo_reference(); !earth.empty()) {
+    if (const auto map = terrain::Geographic::Make(earth); !map) check.warnings.push_back(fmt::format("{}: geoReference: {}; nothing can say where on the earth a place is", file.string(), map.error().message));
+  }
   for (const std::string& overlap : DescribeOverlaps(*import.value().network, false)) check.warnings.push_back(fmt::format("{}: {}", file.string(), overlap));
   // What else a world of the file needs: surfaces that it names, laid on its roads.
   if (const auto detail = LoadSurfaces(import.value(), file); !detail) {

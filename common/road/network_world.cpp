@@ -82,11 +82,27 @@ StartPose PoseOn(const network::Network& network, const network::LaneKey& key, d
   return start;
 }
 
-bool IsOpenDrive(const std::filesystem::path& file) {
+namespace {
+
+std::string ExtensionOf(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-  return extension == ".xodr";
+  return extension;
+}
+
+}  // namespace
+
+bool IsOpenDrive(const std::filesystem::path& file) { return ExtensionOf(file) == ".xodr"; }
+
+std::optional<base::Error> WhatWorldsName(const std::filesystem::path& file) {
+  const std::string extension = ExtensionOf(ExtensionOf(file) == ".gz" ? file.stem() : file);
+  const char* what = extension == ".bt" || extension == ".tif" || extension == ".tiff" || extension == ".asc" || extension == ".hgt" ? "an elevation file, which a world file names as 'terrain: {file: …}'"
+                     : extension == ".crg"                                                                                         ? "a measured surface, which a road of a world file names in its 'surfaces: [{crg: …}]'"
+                     : extension == ".csv"                                                                                         ? "a table of points, which a road of a world file names as 'points: {file: …}'"
+                                                                                                                                   : nullptr;
+  if (what == nullptr) return std::nullopt;
+  return base::WrongInput(fmt::format("by its name this is {}; a world (.yaml, .xodr or .motors) was expected", what), file.string());
 }
 
 std::filesystem::path OpenDriveOf(const std::filesystem::path& world_file) {

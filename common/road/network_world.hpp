@@ -16,6 +16,9 @@ namespace rodeira::road {
 
 // By its name: `.xodr`, in letters of either case.
 bool IsOpenDrive(const std::filesystem::path& file);
+// Of a file that by its name is something that world files name (an elevation file, a measured surface, a CSV of a line): a sentence that says under
+// which key. Nothing of others.
+std::optional<base::Error> WhatWorldsName(const std::filesystem::path& file);
 // The OpenDRIVE file whose roads a world is: the file itself, or the `network` of a world file. Empty: of neither kind.
 std::filesystem::path OpenDriveOf(const std::filesystem::path& world_file);
 

@@ -10,7 +10,8 @@
 #include <set>
 #include <utility>
 
-#include "common/road/road_chains.hpp"
+#include "common/road/places_across.hpp"
+#include "common/road/station_names.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -19,9 +20,6 @@ using network::End;
 using network::LaneKey;
 using network::Network;
 
-constexpr double kStep_m = 1.0;
-constexpr double kMostSteps = 1e6;  // of longer roads in longer steps
-constexpr double kInset_m = 0.1;
 constexpr double kMouth_m = 60.0;
 
 // Which roads belong together, and where.
@@ -64,23 +62,6 @@ class Kin {
   std::vector<std::set<std::uint32_t>> junctions_, links_;
 };
 
-// t of the places across a section that are looked at.
-std::vector<double> Across(const network::Road& road, std::uint32_t section, double s) {
-  std::vector<double> across;
-  double right = std::numeric_limits<double>::infinity(), left = -right;
-  for (const auto* side : {&road.spec().sections[section].left, &road.spec().sections[section].right}) {
-    for (const network::Lane& lane : *side) {
-      if (!network::IsDrivable(lane.type)) continue;
-      const network::LaneSpan span = *road.SpanAt(section, lane.id, s);
-      if (span.width_m() < 2.0 * kInset_m) continue;
-      across.push_back(span.centre_t_m());
-      right = std::min({right, span.inner_t_m, span.outer_t_m}), left = std::max({left, span.inner_t_m, span.outer_t_m});
-    }
-  }
-  if (!across.empty()) across.push_back(right + kInset_m), across.push_back(left - kInset_m);
-  return across;
-}
-
 bool AtEnd(const network::Road& road, double s) { return std::min(s, road.length_m() - s) <= Network::kClosed_m; }
 
 }  // namespace
@@ -91,11 +72,9 @@ std::vector<Overlap> FindOverlaps(const Network& network) {
   std::vector<network::Surfacing> surfaces;
   for (std::uint32_t index = 0; index < network.roads().size(); ++index) {
     const network::Road& road = network.roads()[index];
-    const int steps = std::max(1, static_cast<int>(std::min(kMostSteps, std::ceil(road.length_m() / kStep_m))));
-    for (int i = 0; i <= steps; ++i) {
-      const double s = road.length_m() * i / steps;
+    for (const double s : StationsLookedAt(road)) {
       const auto section = static_cast<std::uint32_t>(road.SectionIndex(s));
-      for (const double t : Across(road, section, s)) {
+      for (const double t : PlacesAcross(road, section, s)) {
         const Eigen::Vector3d p = road.Surface(s, t).p_W;
         network.Surfaces(p.x(), p.y(), surfaces);
         for (const network::Surfacing& other : surfaces) {
@@ -117,19 +96,11 @@ std::vector<Overlap> FindOverlaps(const Network& network) {
 }
 
 std::vector<std::string> DescribeOverlaps(const Network& network, bool own) {
-  std::map<std::uint32_t, std::pair<std::string, double>> names;
-  for (const RoadChain& chain : own ? ChainsOf(network) : std::vector<RoadChain>()) {
-    const std::string& id = network.roads()[chain.parts.front().road].id();
-    for (const RoadChain::Part& part : chain.parts) names[part.road] = {id.substr(0, id.find('/')), part.from_s_m};
-  }
-  const auto named = [&](std::uint32_t road, double s) {
-    const auto name = names.find(road);
-    return name == names.end() ? fmt::format("road '{}' at s = {:.1f} m", network.roads()[road].id(), s) : fmt::format("road '{}' at s = {:.1f} m", name->second.first, name->second.second + s);
-  };
+  const StationNames names(network, own);
   std::vector<std::string> said;
   for (const Overlap& overlap : FindOverlaps(network)) {
-    said.push_back(fmt::format("{} and {} {}, {:.2f} m apart in height, and neither a junction nor a link joins them there", named(overlap.road, overlap.s_m),
-                               named(overlap.other, overlap.other_s_m), overlap.meet ? "touch end to end" : "lie on one another", std::fabs(overlap.apart_m)));
+    said.push_back(fmt::format("{} and {} {}, {:.2f} m apart in height, and neither a junction nor a link joins them there", names.At(overlap.road, overlap.s_m),
+                               names.At(overlap.other, overlap.other_s_m), overlap.meet ? "touch end to end" : "lie on one another", std::fabs(overlap.apart_m)));
   }
   return said;
 }

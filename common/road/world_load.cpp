@@ -17,6 +17,7 @@ base::Result<std::shared_ptr<const World>> Build(const base::Result<config::File
 }  // namespace
 
 base::Result<std::shared_ptr<const World>> World::Load(const std::filesystem::path& world_yaml) {
+  if (auto other = WhatWorldsName(world_yaml)) return *std::move(other);
   const bool is_map = IsTrafficMap(world_yaml);
   if (!is_map && !IsOpenDrive(world_yaml)) return Build(config::File::Load(world_yaml));
   auto spec = is_map ? ReadMapWorld(world_yaml) : ReadNetworkWorld(world_yaml);

@@ -11,8 +11,9 @@
 #include "common/road/map_world.hpp"
 #include "common/road/network_ground.hpp"
 #include "common/road/network_world.hpp"
-#include "common/road/unjoined.hpp"
+#include "common/road/passes.hpp"
 #include "common/road/road_chains.hpp"
+#include "common/road/unjoined.hpp"
 #include "common/road/world_reader.hpp"
 #include "common/terrain/geographic.hpp"
 
@@ -147,7 +148,11 @@ std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) 
   if (const std::filesystem::path named = OpenDriveOf(world_yaml); !named.empty()) {
     for (std::string& warning : CheckNetwork(named, false).warnings) reading.warnings.push_back(std::move(warning));
   } else if (reading.spec && reading.spec->roads.empty() && reading.spec->network != nullptr) {
-    for (const std::string& overlap : DescribeOverlaps(*reading.spec->network, true)) reading.warnings.push_back(fmt::format("{}: {}", world_yaml.string(), overlap));
+    const WorldSpec& spec = *reading.spec;
+    const BareTerrain terrain{spec.grid, spec.plane};
+    for (const auto& said : {DescribeOverlaps(*spec.network, true), DescribePasses(*spec.network, terrain)}) {
+      for (const std::string& sentence : said) reading.warnings.push_back(fmt::format("{}: {}", world_yaml.string(), sentence));
+    }
   }
   return std::move(reading.warnings);
 }
@@ -155,6 +160,7 @@ std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) 
 std::string WhyNoTiles(const World& world) { return world.roads().empty() ? "" : kVersion1IsNotWritten; }
 
 std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml) {
+  if (const auto other = WhatWorldsName(world_yaml)) return {*other};
   if (IsOpenDrive(world_yaml)) return CheckNetwork(world_yaml, false).errors;
   if (IsTrafficMap(world_yaml)) {
     const auto spec = ReadMapWorld(world_yaml);

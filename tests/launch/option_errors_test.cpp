@@ -49,6 +49,20 @@ TEST(OptionErrors, SayWhatIsNoNumber) {
   EXPECT_THAT(Refused({"world", "build", "a.yaml", "-o", "b", "--threads", "many"}), HasSubstr("rodeira: --threads of 'rodeira world build' is 'many'; a whole number was expected\n"));
 }
 
+TEST(OptionErrors, SayThatNoNumberIsMeantByNan) {
+  EXPECT_THAT(Refused({"polyline", "translate", "a.csv", "-o", "b.csv", "--by", "nan", "2"}), HasSubstr("rodeira: --by: 'nan' was found; a finite number was expected\n"));
+  EXPECT_THAT(Refused({"polyline", "rotate", "a.csv", "-o", "b.csv", "--deg", "inf"}), HasSubstr("rodeira: --deg: 'inf' was found; a finite number was expected\n"));
+  EXPECT_THAT(Refused({"polyline", "offset", "a.csv", "-o", "b.csv", "--left", "nan"}), HasSubstr("rodeira: --left: 'nan' was found; a finite number was expected\n"));
+  EXPECT_THAT(Refused({"polyline", "join", "a.csv", "b.csv", "-o", "c.csv", "--within", "nan"}), HasSubstr("rodeira: --within: 'nan' was found; a number from 0 on was expected\n"));
+  EXPECT_THAT(Refused({"world", "query", "a.yaml", "nan", "0"}), HasSubstr("rodeira: X: 'nan' was found; a finite number was expected\n"));
+}
+
+TEST(OptionErrors, SayHowManyValuesThereShouldBe) {
+  EXPECT_THAT(Refused({"polyline", "translate", "a.csv", "-o", "b.csv", "--by", "1"}), HasSubstr("rodeira: --by of 'rodeira polyline translate' stands before 1 value; 2 to 3 were expected\n"));
+  EXPECT_THAT(Refused({"polyline", "rotate", "a.csv", "-o", "b.csv", "--deg", "9", "--about", "1"}), HasSubstr("rodeira: --about of 'rodeira polyline rotate' stands before 1 value; 2 were expected\n"));
+  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--step", "0.5"}), HasSubstr("rodeira: --step: '0.5' was found; a number from 0.001 to 0.1 was expected\n"));
+}
+
 // A folder that nobody made is no place to write into: it is more likely mistyped.
 TEST(OptionErrors, NoFolderIsMadeForAFile) {
   const TemporaryFolder folder;

@@ -156,6 +156,7 @@ TEST(Suggest, NamesTheNearest) {
   EXPECT_EQ(NearestName("pedal", std::vector<std::string>{"zebra"}), "");
   EXPECT_EQ(DidYouMean("vehcile", {"traffic", "vehicle"}), "; did you mean 'vehicle'?");
   EXPECT_EQ(DidYouMean("xyz", {"traffic", "vehicle"}), "; known are traffic, vehicle");
+  EXPECT_EQ(DidYouMean("xyz", {"traffic", "vehicle", "traffic"}), "; known are traffic, vehicle");
 }
 
 TEST(Files, AreWrittenWholeOrNotAtAll) {

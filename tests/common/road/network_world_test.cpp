@@ -192,6 +192,18 @@ TEST_F(NetworkWorld, AHeadersOffsetMovesItOnTheEarth) {
   EXPECT_NEAR((back.value() - Eigen::Vector2d(100.0, 0.0)).norm(), 0.0, 1e-3);  // nine digits of a degree
 }
 
+// A file whose geoReference PROJ does not know still loads, as nothing that drives needs it.
+TEST_F(NetworkWorld, AGeoReferenceThatIsNoneIsToldByTheCheck) {
+  const auto with = [](const std::string& earth) {
+    std::string text = Document(RoadText().Text());
+    return text.replace(text.find("revMinor=\"8\"/>"), 14, "revMinor=\"8\"><geoReference>" + earth + "</geoReference></header>");
+  };
+  const auto wrong = Put(with("+proj=nonsense +lat_0=4"));
+  EXPECT_TRUE(World::Load(wrong).ok());
+  EXPECT_THAT(CheckNetwork(wrong, false).warnings, testing::ElementsAre(HasSubstr("geoReference: '+proj=nonsense +lat_0=4' is no coordinate system that PROJ knows")));
+  EXPECT_THAT(CheckNetwork(Put(with("+proj=utm +zone=29 +datum=WGS84")), false).warnings, testing::IsEmpty());
+}
+
 TEST_F(NetworkWorld, IsDescribedCheckedAndDrawn) {
   const auto path = Put(TwoLevels());
   const auto world = World::Load(path).value();

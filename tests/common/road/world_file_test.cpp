@@ -150,6 +150,18 @@ TEST(WorldFile, AllProblemsAreToldInTheOrderOfLines) {
   std::filesystem::remove_all(folder);
 }
 
+// Whoever gives the file that a world names instead of the world is told where it belongs, whatever is in it.
+TEST(WorldFile, WhatAWorldNamesIsToldToBeNone) {
+  for (const auto& [file, key] : {std::pair("hills.bt", "terrain: {file: …}"), std::pair("hills.bt.gz", "terrain: {file: …}"), std::pair("HILLS.TIF", "terrain: {file: …}"), std::pair("road.crg", "surfaces: [{crg: …}]"), std::pair("line.csv", "points: {file: …}")}) {
+    const auto world = World::Load(file);
+    ASSERT_FALSE(world.ok()) << file;
+    EXPECT_EQ(world.error().exit_status(), 2);
+    EXPECT_THAT(world.error().Text(), testing::AllOf(testing::StartsWith(std::string(file) + ": "), HasSubstr(key), HasSubstr("a world (.yaml, .xodr or .motors) was expected")));
+    ASSERT_EQ(WorldProblems(file).size(), 1u);
+    EXPECT_EQ(WorldProblems(file).front().Text(), world.error().Text());
+  }
+}
+
 TEST(WorldFile, WhereTheHeightsOfAFileStandCanBeSaid) {
   const front::TemporaryFolder temporary;
   const std::filesystem::path& folder = temporary.path();
