@@ -151,7 +151,7 @@ void TrafficModel::Arbitrate(double dt_s) {
     ComeToLine(id, dt_s);
   });
   std::fill(reaches_.begin(), reaches_.end(), -1.0);
-  heads_.clear(), order_.clear(), coming_.clear();
+  heads_.clear(), order_.clear(), coming_.clear(), held_up_.clear();
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     Passage& passage = passages_[id];
     if (!agents_[id].on_road) {
@@ -160,6 +160,7 @@ void TrafficModel::Arbitrate(double dt_s) {
     }
     FetchZones(id + kAhead);
     HoldZones(id);
+    if (!agents_[id].grants.empty() && agents_[id].speed_mps < kAtRest_mps) held_up_.push_back(id);
     if (!passage.any) continue;
     coming_.push_back(id);
     if (!passage.due) continue;
@@ -205,39 +206,6 @@ void TrafficModel::Arbitrate(double dt_s) {
     beside_[id] = agent.change.side != 0 || HasBeside(id, agent.path.back().track);
     passes_[id] = agent.overtaking.active() || agent.told_past || (settings_.overtaking.allowed && IsItsTurn(id, step_ns));
   });
-}
-
-// Where the chain of who waits for whom closes, those of it go who are not in one another's way, who has waited longest first (of equals
-// the first), although they would have to yield, or though there is no room behind yet because those who stand there are in the chain.
-void TrafficModel::ResolveDeadlocks() {
-  const auto next = [&](std::uint32_t id) -> std::int64_t {
-    if (agents_[id].speed_mps > kAtRest_mps) return -1;
-    const Passage& passage = passages_[id];
-    if (passage.any && passage.head && passage.due) return passage.waits_for;
-    return ahead_[id].any ? ahead_[id].id : -1;
-  };
-  std::vector<std::uint8_t> seen(agents_.size(), 0);  // 1: on a chain that has been looked at
-  for (const std::uint32_t start : heads_) {
-    if (seen[start] != 0 || !passages_[start].any) continue;
-    std::vector<std::uint32_t> chain;
-    std::int64_t at = start;
-    while (at >= 0 && static_cast<std::size_t>(at) < agents_.size() && seen[static_cast<std::size_t>(at)] == 0) {
-      seen[static_cast<std::size_t>(at)] = 1;
-      chain.push_back(static_cast<std::uint32_t>(at));
-      at = next(static_cast<std::uint32_t>(at));
-    }
-    if (at < 0) continue;
-    const auto closes = std::find(chain.begin(), chain.end(), static_cast<std::uint32_t>(at));
-    if (closes == chain.end()) continue;
-    std::vector<std::uint32_t> circle(closes, chain.end());
-    std::sort(circle.begin(), circle.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return agents_[a].waited_s != agents_[b].waited_s ? agents_[a].waited_s > agents_[b].waited_s : a < b;
-    });
-    for (const std::uint32_t id : circle) {
-      Passage& passage = passages_[id];
-      if (passage.any && passage.head && passage.due && !passage.must_stop && !passage.red && !passage.barred) Grant(id, false);
-    }
-  }
 }
 
 }  // namespace rodeira::traffic

@@ -14,6 +14,7 @@ constexpr double kLine_m = 0.6;          // before the zone the front stops
 constexpr double kFollowing_mps2 = 1.5;  // who is let in behind somebody brakes no harder for it
 constexpr double kYielded_mps2 = 1.0;    // by which others may have to brake, on the average, for who merges before them
 constexpr double kLag_s = 1.0;           // … and so much later than that one they come
+constexpr double kLeast_mps2 = 1e-3;     // who is left less than this at rest does not drive on
 
 }  // namespace
 
@@ -48,14 +49,12 @@ bool TrafficModel::IsFarEnough(std::uint32_t id, const Crossing& crossing, const
   return 2.0 * (comes - may_come) < kYielded_mps2 * clears_s * clears_s;
 }
 
-// What those who hold its zones before it leave it: it stops at the line before each zone or, where ways merge, follows who is nearer
-// to the zone's end, whichever is the less.
-void TrafficModel::YieldInZones(std::uint32_t id) {
-  Agent& agent = agents_[id];
-  const double front = agent.o_m + 0.5 * traits_[id].length_m;
-  double& leaves = leaves_[id] = kFree_mps2;
-  double nearest = 1e9;
-  const std::int64_t eased_for = std::exchange(agent.eased_for, -1);
+// Those who hold its zones before it: tell(id, gap_m, leaves_mps2), the acceleration that each leaves it. It stops at the line before each zone or, where ways merge,
+// follows who is nearer to the zone's end (so far before it; else no gap, below 0), whichever is the less.
+template <class Tell>
+void TrafficModel::EachBefore(std::uint32_t id, const Tell& tell) const {
+  const Agent& agent = agents_[id];
+  const double front = FrontOf(id);
   for (const Stretch& stretch : stretches_[id]) {
     if (agent.grants.empty() || stretch.begin_m > agent.granted_m) break;  // without any nobody goes before it by his number
     if (!stretch.crosses) continue;
@@ -67,20 +66,41 @@ void TrafficModel::YieldInZones(std::uint32_t id) {
       for (const Holder& holder : book_.HoldersOf(part.zone, static_cast<std::size_t>(1 - part.side))) {
         if (holder.id >= agents_.size() || holder.id == id || holder.number >= number) continue;
         const double gap = merges ? MergingGap(id, out, holder) : -1.0;
-        double then = in >= front ? StopAt(id, in - kLine_m) : kFree_mps2;
+        double leaves = in >= front ? StopAt(id, in - kLine_m) : kFree_mps2;
         if (gap > 0.0) {
           const double following = FollowComing(id, holder.id, gap);
-          then = in >= front ? std::max(then, following) : following;
-          if (gap < nearest) nearest = gap, agent.eased_for = holder.id;
+          leaves = in >= front ? std::max(leaves, following) : following;
         }
-        leaves = std::min(leaves, then);
+        tell(holder.id, gap, leaves);
       }
     }
   }
+}
+
+// What those who hold its zones before it leave it.
+void TrafficModel::YieldInZones(std::uint32_t id) {
+  Agent& agent = agents_[id];
+  double& leaves = leaves_[id] = kFree_mps2;
+  double nearest = 1e9;
+  const std::int64_t eased_for = std::exchange(agent.eased_for, -1);
+  EachBefore(id, [&](std::uint32_t other, double gap_m, double leaves_mps2) {
+    if (gap_m > 0.0 && gap_m < nearest) nearest = gap_m, agent.eased_for = other;
+    leaves = std::min(leaves, leaves_mps2);
+  });
   const Ahead& ahead = ahead_[id];
   if (agent.eased_for >= 0 || eased_for < 0 || ahead.id != eased_for) return;
   const Agent& other = agents_[static_cast<std::size_t>(eased_for)];
   if (!driver::AccIsIdm(traits_[id].idm, agent.speed_mps, Desired_mps(id), ahead.gap_m, ahead.speed_mps, other.acceleration_mps2)) agent.eased_for = eased_for;
+}
+
+// Who holds its zones before it and keeps it where it stands; of several the one who lets it drive on least, below 0: nobody does.
+std::int64_t TrafficModel::KeptInZonesBy(std::uint32_t id) const {
+  std::int64_t keeps = -1;
+  double least = kLeast_mps2;
+  EachBefore(id, [&](std::uint32_t other, double, double leaves_mps2) {
+    if (leaves_mps2 < least) least = leaves_mps2, keeps = other;
+  });
+  return keeps;
 }
 
 }  // namespace rodeira::traffic

@@ -15,6 +15,7 @@ constexpr double kNever_m = 1e18;
 constexpr double kRoom_m = 5.0;        // before who stands anywhere else than at a line
 constexpr int kDeepest = 256;           // longer columns count as ending there
 constexpr double kStands_mps = 0.5, kFollows_s = 1.2, kClose_m = 3.0;  // slower, who has no more than so far to close up starts so much later than who is ahead
+constexpr double kShort_m = 0.05;       // so near before a line a front stands at the farthest, and drives on no more (StopAt)
 constexpr double kWaits_s = 3.0;        // within its zones for who leaves it room, at most, as told beforehand
 
 double StopsWithin(double speed_mps) { return std::max(0.0, speed_mps) * speed_mps / (2.0 * kHardest_mps2); }
@@ -62,8 +63,8 @@ void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tel
   }
 }
 
-// How far its front comes whatever others decide: as far as it sees, to the line before zones that are not its own, behind
-// whoever is before it as far as those come. Who is told to brake, and whoever is no agent, may stop at once. In a ring of
+// How far its front comes whatever others decide: as far as it sees, to the line before zones that are not its own (but for the hand's breadth before it at
+// which it may come to rest), behind whoever is before it as far as those come. Who is told to brake, and whoever is no agent, may stop at once. In a ring of
 // followers the one that closes it counts as standing.
 double TrafficModel::ReachOf(std::uint32_t id, int depth) {
   if (reaches_[id] >= 0.0) return reaches_[id];
@@ -74,8 +75,8 @@ double TrafficModel::ReachOf(std::uint32_t id, int depth) {
   if (depth > kDeepest) return 0.0;
   const double front = agent.o_m + 0.5 * traits_[id].length_m;
   double to = front + SightOf(agent);
-  if (passage.any) to = std::min(to, passage.line_m);
-  to = std::min(to, std::max(front, bars_[id]));
+  if (passage.any) to = std::min(to, passage.line_m - kShort_m);
+  to = std::min(to, std::max(front, bars_[id] - kShort_m));
   const double apart = traits_[id].idm.standing_gap_m + kLoose_m;
   EachAhead(id, to + apart, depth, [&](std::int64_t, double, double comes_m) { to = std::min(to, comes_m - apart); });
   return reaches_[id] = std::max(0.0, to - front);

@@ -173,21 +173,36 @@ void TrafficModel::LookAhead() {
 }
 
 // The nearest of: agents on the tracks of the way, and on the lane that it is leaving; what else stands in the way. Or, of agents on tracks
-// that part from the way, as long as they are not clear, the nearest, if he lets it drive on less.
+// that part from the way, as long as they are not clear, the one who lets it drive on least (he need not be the nearest: of two who turn off to different sides one
+// may drive away while the other one stands), if that is less.
 Ahead TrafficModel::FindAhead(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half;
   const double half_width = 0.5 * traits_[id].width_m + settings_.side_margin_m;
   const double aside = agent.path.back().aside_m;  // it drives there, and everywhere between
   Ahead ahead, parting;
-  const auto consider = [&](const Occupant& other, double zero_m, Ahead& nearest) {
-    if (other.id == id || zero_m + other.middle_m() <= agent.o_m + kWithout_m) return;
-    const double gap = zero_m + other.rear_m - front;
-    if (nearest.any && gap >= nearest.gap_m) return;
-    if (agent.overtaking.active() && IsPassed(agent.overtaking, front, other.id, -1, gap)) return;
-    if (any_overtaking_ && agents_[other.id].overtaking.passed == id && !agents_[other.id].overtaking.back) return;  // it is beside
+  double parting_lets = 0.0;
+  const auto lets = [&](const Ahead& other) { return driver::IdmAcceleration(traits_[id].idm, agent.speed_mps, kAnySpeed_mps, other.gap_m, other.speed_mps); };
+  const auto is_before = [&](const Occupant& other, double zero_m) { return other.id != id && zero_m + other.middle_m() > agent.o_m + kWithout_m; };
+  const auto is_beside = [&](const Occupant& other, double gap) {
+    if (agent.overtaking.active() && IsPassed(agent.overtaking, front, other.id, -1, gap)) return true;
+    return any_overtaking_ && agents_[other.id].overtaking.passed == id && !agents_[other.id].overtaking.back;
+  };
+  const auto seen = [&](const Occupant& other, double gap) -> Ahead {
     const double side = 0.5 * traits_[other.id].width_m;
-    nearest = {gap, agents_[other.id].speed_mps, other.id, true, -1, traits_[other.id].length_m, side, -side};
+    return {gap, agents_[other.id].speed_mps, other.id, true, -1, traits_[other.id].length_m, side, -side};
+  };
+  const auto consider = [&](const Occupant& other, double zero_m) {
+    const double gap = zero_m + other.rear_m - front;
+    if (!is_before(other, zero_m) || (ahead.any && gap >= ahead.gap_m) || is_beside(other, gap)) return;
+    ahead = seen(other, gap);
+  };
+  const auto consider_parting = [&](const Occupant& other, double zero_m) {
+    const double gap = zero_m + other.rear_m - front;
+    if (!is_before(other, zero_m) || is_beside(other, gap)) return;
+    const Ahead next = seen(other, gap);
+    const double next_lets = lets(next);
+    if (!parting.any || next_lets < parting_lets) parting = next, parting_lets = next_lets;
   };
   const auto consider_block = [&](const Block& block, double zero_m) {
     const bool comes = block.span.speed_mps < 0.0;  // who comes on the lane beside is looked for otherwise (oncoming.cpp)
@@ -208,24 +223,23 @@ Ahead TrafficModel::FindAhead(std::uint32_t id) const {
       if (ahead.any && stretch.zero_m + other.middle_m() - longest_half_m_ - front >= ahead.gap_m) break;
       // Who comes in from beside has his rear in the zone where the ways merge, which its own line keeps it out of.
       if (from >= 0 && other.from >= 0 && other.from != from) other.rear_m = std::max(other.rear_m, stretch.begin_m - stretch.zero_m);
-      consider(other, stretch.zero_m, ahead);
+      consider(other, stretch.zero_m);
     }
     for (const lanes::Parting& part : PartingsOf(stretch.track)) {
       if (agent.o_m - half > stretch.zero_m + part.out_m) continue;
       for (const Occupant& other : occupants_.On(part.other)) {
-        if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m) consider(other, stretch.zero_m, parting);
+        if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m) consider_parting(other, stretch.zero_m);
       }
     }
     for (const Block& block : BlocksOn(stretch.track)) consider_block(block, stretch.zero_m);
     if (agent.change.side == 0) continue;
     if (const auto old = LaneLeft(id, stretch, front)) {
       const double at = std::max(agent.o_m, stretch.begin_m), zero = at - graph().Across(stretch.track, at - stretch.zero_m, *old);
-      for (const Occupant& other : occupants_.Beyond(*old, agent.o_m - zero)) consider(other, zero, ahead);
+      for (const Occupant& other : occupants_.Beyond(*old, agent.o_m - zero)) consider(other, zero);
       for (const Block& block : BlocksOn(*old)) consider_block(block, zero);
     }
   }
-  const auto lets = [&](const Ahead& other) { return driver::IdmAcceleration(traits_[id].idm, agent.speed_mps, kAnySpeed_mps, other.gap_m, other.speed_mps); };
-  return parting.any && (!ahead.any || lets(parting) < lets(ahead)) ? parting : ahead;
+  return parting.any && (!ahead.any || parting_lets < lets(ahead)) ? parting : ahead;
 }
 
 }  // namespace rodeira::traffic

@@ -226,12 +226,19 @@ class TrafficModel {
   bool Held(std::uint32_t id, const Crossing& crossing);
   bool Yields(std::uint32_t id, const Crossing& crossing);
   bool Grant(std::uint32_t id, bool yields);
+  template <class Tell>
+  void EachBefore(std::uint32_t id, const Tell& tell) const;
   void YieldInZones(std::uint32_t id);
+  std::int64_t KeptInZonesBy(std::uint32_t id) const;
   double MergingGap(std::uint32_t id, double out_m, const Holder& before) const;
   double FollowComing(std::uint32_t id, std::uint32_t leader, double gap_m) const;
   bool MayFollow(std::uint32_t id, const Crossing& crossing, const Holder& holder) const;
   bool IsFarEnough(std::uint32_t id, const Crossing& crossing, const Comer& comer, double comes_s, double clears_s) const;
   void ResolveDeadlocks();
+  std::int64_t WaitsFor(std::uint32_t id) const;
+  std::vector<std::uint32_t> CircleOf(std::uint32_t start, std::vector<std::uint8_t>& seen) const;
+  void OpenCircle(std::vector<std::uint32_t> circle);
+  bool GiveBack(std::uint32_t id);
   bool IsGreen(std::int64_t light) const { return colours_[static_cast<std::size_t>(light)] == network::LightColour::kGreen; }
   double RedAhead(std::uint32_t track, double from_m, double speed_mps) const;
   bool AllGreen(std::uint32_t id, double from_m, double to_m) const;
@@ -368,6 +375,7 @@ class TrafficModel {
   std::vector<std::uint32_t> asked_sides_;                          // … of which he does
   std::vector<std::uint32_t> coming_;                               // agents with zones before them, ascending
   std::vector<std::uint32_t> heads_;                                // of them who must know now, and nobody before them at their line does, ascending
+  std::vector<std::uint32_t> held_up_;                              // agents who hold zones and stand, ascending
   std::vector<std::uint32_t> order_;                                // of them who may ask to be let in, in the order in which they are looked at
   Lists<std::uint32_t> present_;                                    // by track: agents on it while others enter
   std::vector<std::uint8_t> at_entry_;                              // by agent: is on a track where somebody may begin his way

@@ -54,6 +54,7 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed) {
   EXPECT_LT(town.result.worst_step_m, 1e-3 + town.result.hardest_mps2 * settings.step_s * settings.step_s / 8.0) << town.told;
   EXPECT_EQ(town.result.collisions, 0) << town.told;
   EXPECT_EQ(town.result.off_lane, 0) << town.told;
+  EXPECT_EQ(town.result.hurried_steps, 0) << town.told;
   EXPECT_EQ(town.result.on_road + town.result.waiting, town.vehicles);
   EXPECT_GT(town.result.on_road, town.vehicles * 9 / 10);
   exits->End();
@@ -64,7 +65,7 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed) {
   return town;
 }
 
-// 45 vehicles a kilometre: nobody stands longer than 300 s while there is room at the exit, nobody touches anybody, nobody is lost (Drive). So full the
+// 45 vehicles a kilometre: nobody stands longer than 300 s while there is room at the exit, nobody touches anybody or brakes in an emergency, nobody is lost (Drive). So full the
 // flow may fall to a tenth where streets fill one another up in a circle; nothing is asked of it here (docs/traffic.md). RODEIRA_CLOSED_GRID: crossings each way (3; tests/run --endurance takes 10), RODEIRA_CLOSED_GRID_SEED (1).
 TEST(ClosedGrid, AsFullAsItMayBeNobodyIsStuck) {
   const Town town = Drive(static_cast<int>(Count("RODEIRA_CLOSED_GRID", 3)), 45.0, Count("RODEIRA_CLOSED_GRID_SEED", 1));

@@ -8,12 +8,12 @@
 
 namespace rodeira::traffic {
 
-// A model at its beginning with just these agents, by number: on the road where they say so, nobody waits to enter.
-inline void RestoreWith(TrafficModel& model, std::span<const Agent> agents) {
+// A model at its beginning with just these agents, by number: on the road where they say so, nobody waits to enter. Their grants have numbers below `next_grant`.
+inline void RestoreWith(TrafficModel& model, std::span<const Agent> agents, std::uint64_t next_grant = 1) {
   base::StateWriter writer;
   for (const Agent& agent : agents) writer.Put("agent", agent);
   writer.Put("waiting", std::vector<std::uint32_t>{});
-  writer.Put("next_grant", std::uint64_t{1});
+  writer.Put("next_grant", next_grant);
   writer.Put("time_ns", std::int64_t{0});
   writer.Put("ended", std::uint64_t{0});
   writer.Put("missed", std::uint64_t{0});
