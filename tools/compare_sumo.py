@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What SUMO does where docs/traffic.md compares this project's traffic with it: four cars that meet, a closed town, a queue at a light, a turn.
+"""What SUMO does where docs/traffic.md compares this project's traffic with it: four cars that meet, a closed town, a queue at a light, a turn, a roundabout's entry.
 
-    tools/compare_sumo.py [four | town | queue | turn]...     all of them without a word; needs Debian's package `sumo`
+    tools/compare_sumo.py [four | town | queue | turn | roundabout]...     all of them without a word; needs Debian's package `sumo`
 
 Each network is made by netconvert or netgenerate, each number is counted from SUMO's own output, in a folder that is taken away again.
 """
@@ -108,8 +108,33 @@ def turn(folder):
         print(f"turning {name}: {max(abs(a) for a in lateral):.1f} m/s2 sideways, {math.degrees(max(abs(r) for r in rates)):.0f} deg/s, changes of acceleration of {jerk:.0f} m/s3")
 
 
+def roundabout(folder):
+    """A ring of 16 m radius with four arms: of two after each other one sends cars past the next, at which a queue waits; both leave at the one after. Who enters, an hour."""
+    points = [(math.cos(angle), math.sin(angle)) for angle in (0, math.pi / 2, math.pi, 3 * math.pi / 2)]
+    nodes = "".join(f'<node id="r{i}" x="{16 * x:.3f}" y="{16 * y:.3f}" type="priority"/><node id="a{i}" x="{200 * x:.3f}" y="{200 * y:.3f}"/>' for i, (x, y) in enumerate(points))
+    write(folder, "x.nod.xml", f"<nodes>{nodes}</nodes>")
+    edges = []
+    for i in range(4):
+        shape = " ".join(f"{16 * math.cos(math.pi / 2 * (i + k / 8)):.3f},{16 * math.sin(math.pi / 2 * (i + k / 8)):.3f}" for k in range(9))
+        edges.append(f'<edge id="ring{i}" from="r{i}" to="r{(i + 1) % 4}" numLanes="1" speed="8.33" priority="2" shape="{shape}"/>')
+        edges.append(f'<edge id="in{i}" from="a{i}" to="r{i}" numLanes="1" speed="13.89" priority="1"/><edge id="out{i}" from="r{i}" to="a{i}" numLanes="1" speed="13.89" priority="1"/>')
+    write(folder, "x.edg.xml", "<edges>" + "".join(edges) + "<roundabout nodes=\"r0 r1 r2 r3\" edges=\"ring0 ring1 ring2 ring3\"/></edges>")
+    run(folder, "netconvert", "-n", "x.nod.xml", "-e", "x.edg.xml", "--no-turnarounds", "-o", "net.xml")
+    for wish in (0, 200, 400, 600, 800, 1000, 1200):
+        past = f'<flow id="past" route="past" begin="0" end="1200" vehsPerHour="{wish}" departSpeed="max"/>' if wish else ""
+        write(folder, "routes.xml", '<routes><route id="past" edges="in0 ring0 ring1 out2"/><route id="queue" edges="in1 ring1 out2"/>' + past +
+              '<flow id="queue" route="queue" begin="0" end="1200" vehsPerHour="2000" departSpeed="max"/></routes>')
+        sumo(folder, 0.1, 1200, "--tripinfo-output", "trips.xml")
+        count = {"past": 0, "queue": 0}
+        for trip in xml.parse(folder / "trips.xml").getroot():
+            if float(trip.get("arrival")) > 200:
+                count[trip.get("id").split(".")[0]] += 3.6
+        handbook = 1380 * math.exp(-0.00102 * count["past"])
+        print(f"roundabout: {count['past']:.0f} an hour circulate, {count['queue']:.0f} enter (by the handbook {handbook:.0f}: {100 * (count['queue'] / handbook - 1):+.0f} %)")
+
+
 def main():
-    wishes = {"four": four, "town": town, "queue": queue, "turn": turn}
+    wishes = {"four": four, "town": town, "queue": queue, "turn": turn, "roundabout": roundabout}
     asked = sys.argv[1:] or list(wishes)
     for wish in asked:
         if wish not in wishes:
