@@ -12,6 +12,7 @@ constexpr double kGravity_mps2 = 9.81;
 constexpr double kHolding = 0.15;  // of the brake, while standing
 constexpr double kSoon_s = 1.0;    // a change of gear farther away asks for nothing yet
 constexpr double kFree_mps2 = 1e3;
+constexpr double kSpare = 0.9;     // of the jerk: the rest is for a grade that changes meanwhile
 
 // What keeps a rolling car back beside engine and brakes.
 double Resistance_N(const vehicle::BicycleSettings& car, double speed_mps, double grade) {
@@ -166,7 +167,7 @@ double AtMostBeforeChange_mps2(const PlanarCar& car, const Driving& before, doub
   then.gear = before.gear + 1;
   then.throttle = 1.0;
   then.engine_radps = std::max(of.powertrain.engine.idle_radps, fastest_radps * car.Ratio(then.gear) / ratio);
-  return AccelerationOf(car, then, changes_mps, grade) + jerk_mps3 * (changes_mps - speed_mps) / acceleration_mps2;
+  return AccelerationOf(car, then, changes_mps, grade) + kSpare * jerk_mps3 * (changes_mps - speed_mps) / acceleration_mps2;
 }
 
 Driven Drive(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double dt_s) {
