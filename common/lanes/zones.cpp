@@ -17,6 +17,21 @@ constexpr double kSamePlace_m = 1.0;
 constexpr double kSameHeading = 0.95;  // cosine
 constexpr double kFollowing_m = 12.0;  // tracks that follow within this distance are no conflict
 
+// The tracks that a track's end leads to within a way, or those that lead to its beginning.
+void Onward(const Graph& graph, std::uint32_t track, double left_m, std::vector<std::uint32_t>& to) {
+  for (const Link& link : graph[track].next) {
+    to.push_back(link.to);
+    if (const double rest = left_m - graph[link.to].length_m(); rest > 0.0) Onward(graph, link.to, rest, to);
+  }
+}
+
+void Backward(const Graph& graph, std::uint32_t track, double left_m, std::vector<std::uint32_t>& from) {
+  for (const std::uint32_t before : graph[track].before) {
+    from.push_back(before);
+    if (const double rest = left_m - graph[before].length_m(); rest > 0.0) Backward(graph, before, rest, from);
+  }
+}
+
 // Whether `to` is reached from the end of `from` within kFollowing_m.
 bool Follows(const Graph& graph, std::uint32_t from, std::uint32_t to, double left_m) {
   for (const Link& link : graph[from].next) {
@@ -35,6 +50,17 @@ bool Share(const std::vector<Link>& a, const std::vector<Link>& b) {
 
 bool Share(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
   return std::any_of(a.begin(), a.end(), [&](std::uint32_t x) { return std::find(b.begin(), b.end(), x) != b.end(); });
+}
+
+// Whether two tracks that begin in one place are the ends of two ways that come together there, cut into short lane sections, and not the beginnings of two
+// that part: they come from different tracks, and go on into one.
+bool ComeTogether(const Graph& graph, std::uint32_t a, std::uint32_t b) {
+  if (graph[a].before.empty() || graph[b].before.empty()) return false;
+  std::vector<std::uint32_t> from_a, from_b, to_a, to_b;
+  Backward(graph, a, kSamePlace_m, from_a), Backward(graph, b, kSamePlace_m, from_b);
+  if (Share(from_a, from_b)) return false;
+  Onward(graph, a, kFollowing_m, to_a), Onward(graph, b, kFollowing_m, to_b);
+  return Share(to_a, to_b);
 }
 
 bool SamePlace(const CurvePoint& a, const CurvePoint& b) {
@@ -118,7 +144,8 @@ void Zones::Pair(const Graph& graph, std::uint32_t a, std::uint32_t b, const std
     }
     const bool at_start = zone.in_m[0] <= 0.0 && zone.in_m[1] <= 0.0;
     const bool at_end = zone.out_m[0] >= one.length_m() && zone.out_m[1] >= other.length_m();
-    if (at_start && (Share(graph[a].before, graph[b].before) || SamePlace(one.At(0.0), other.At(0.0)))) zone.kind = ZoneKind::kDiverge;
+    if (at_start && (Share(graph[a].before, graph[b].before) || SamePlace(one.At(0.0), other.At(0.0))))
+      zone.kind = ComeTogether(graph, a, b) ? ZoneKind::kMerge : ZoneKind::kDiverge;
     else if (at_end && (Share(graph[a].next, graph[b].next) || SamePlace(one.At(one.length_m()), other.At(other.length_m()))))
       zone.kind = ZoneKind::kMerge;
     zones_.push_back(zone);

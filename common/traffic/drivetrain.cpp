@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kGravity_mps2 = 9.81;
 constexpr double kHolding = 0.15;  // of the brake, while standing
+constexpr double kSoon_s = 1.0;    // a change of gear farther away asks for nothing yet
+constexpr double kFree_mps2 = 1e3;
+constexpr double kSpare = 0.9;     // of the jerk: the rest is for a grade that changes meanwhile
 
 // What keeps a rolling car back beside engine and brakes.
 double Resistance_N(const vehicle::BicycleSettings& car, double speed_mps, double grade) {
@@ -152,6 +155,19 @@ double AccelerationOf(const PlanarCar& car, const Driving& driving, double speed
 
 double FuelFlow_mgps(const PlanarCar& car, const Driving& driving) {
   return FuelFlow_mgps(car, driving, Torques(car.settings().powertrain.engine, driving.engine_radps));
+}
+
+double AtMostBeforeChange_mps2(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double jerk_mps3) {
+  if (acceleration_mps2 <= 0.0 || before.engine_radps <= 0.0 || before.gear >= car.gears()) return kFree_mps2;
+  const vehicle::BicycleSettings& of = car.settings();
+  const double fastest_radps = of.powertrain.engine.resume_radps, ratio = car.Ratio(before.gear);
+  const double changes_mps = fastest_radps / ratio * of.wheel.rolling_radius_m;
+  if (speed_mps > changes_mps || changes_mps > speed_mps + kSoon_s * acceleration_mps2) return kFree_mps2;
+  Driving then;
+  then.gear = before.gear + 1;
+  then.throttle = 1.0;
+  then.engine_radps = std::max(of.powertrain.engine.idle_radps, fastest_radps * car.Ratio(then.gear) / ratio);
+  return AccelerationOf(car, then, changes_mps, grade) + kSpare * jerk_mps3 * (changes_mps - speed_mps) / acceleration_mps2;
 }
 
 Driven Drive(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double dt_s) {

@@ -64,6 +64,10 @@ struct Driven {
 };
 Driven Drive(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double dt_s);
 
+// What may be wanted of a car that has driven so, at this speed and acceleration, that the change into the next gear, which comes where its engine may turn no faster, takes nothing away at once: what that gear
+// gives there, and as much more as nine tenths of `jerk_mps3` take away until then. 1e3 where no such change is near.
+double AtMostBeforeChange_mps2(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double jerk_mps3);
+
 // What all four wheels push back with the pedal to the floor, while they roll.
 double FullBrake_N(const vehicle::BicycleSettings& car);
 

@@ -167,7 +167,7 @@ std::optional<std::uint32_t> TrafficModel::LaneLeft(std::uint32_t id, const Stre
   if (agent.change.side == 0 || stretch.changes || stretch.end_m < agent.change.from_m) return std::nullopt;
   const lanes::Track& track = graph()[stretch.track];
   const auto old = agent.change.side > 0 ? track.right : track.left;
-  if (!old) return std::nullopt;
+  if (!old || odometer_m >= agent.change.to_m) return std::nullopt;  // beyond it a lane that goes on begins a piece without any offset
   std::size_t i = agent.path.size() - 1;
   while (i > 0 && agent.path[i].begin_m > odometer_m) --i;
   if (odometer_m < agent.change.from_m) return old;

@@ -36,7 +36,9 @@ base::Status TrafficModel::PlaceFull(std::uint32_t id) {
 void TrafficModel::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s) {
   Agent& agent = agents_[id];
   const double before = agent.speed_mps;
-  const Driven driven = Drive(PlanarCarOfBody(traits_[id].body), agent.driving, before, wanted_mps2, agent.grade, dt_s);
+  const PlanarCar& car = PlanarCarOfBody(traits_[id].body);
+  const double at_most = AtMostBeforeChange_mps2(car, agent.driving, before, agent.wish_mps2, agent.grade, settings_.smooth.planned_mps3);
+  const Driven driven = Drive(car, agent.driving, before, std::min(wanted_mps2, at_most), agent.grade, dt_s);
   agent.driving = driven.driving;
   const double acceleration = driven.acceleration_mps2;
   double travel = (before + 0.5 * acceleration * dt_s) * dt_s;

@@ -7,6 +7,7 @@
 #include "common/lanes/signs.hpp"
 #include "common/lanes/swath.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/lanes/short_sections.hpp"
 #include "tests/common/opendrive/sample.hpp"
 
 namespace rodeira::lanes {
@@ -105,6 +106,26 @@ TEST(Zones, LevelsDoNotMeet) {
     const double z0 = graph[zone.track[0]].curve.At(0.5 * (zone.in_m[0] + zone.out_m[0])).p_W.z();
     const double z1 = graph[zone.track[1]].curve.At(0.5 * (zone.in_m[1] + zone.out_m[1])).p_W.z();
     EXPECT_LT(std::fabs(z0 - z1), 3.0);
+  }
+}
+
+// Ways that come together are told from ways that part where the last or the first of both are sections of a few decimetres, which begin and end in one place either way.
+TEST(Zones, ShortSectionsAtTheEndOfTwoWaysComeTogetherAndAtTheBeginningPart) {
+  for (const double cut_m : {0.1, 0.2, 0.4}) {
+    const auto network = ShortSections(cut_m);
+    const Graph graph(*network);
+    const Zones zones(graph);
+    int together = 0, part = 0;
+    for (const Zone& zone : zones.zones()) {
+      const auto lane = [&](std::size_t side) { return graph[zone.track[side]].lane.lane; };
+      const auto road = [&](std::size_t side) { return network->roads()[graph[zone.track[side]].lane.road].id(); };
+      if (lane(0) != lane(1) || road(0) != "4" || road(1) != "5") continue;  // they come towards one another, or lead there
+      const std::string told = road(0) + " and " + road(1) + ", tracks " + std::to_string(zone.track[0]) + " and " + std::to_string(zone.track[1]);
+      EXPECT_EQ(zone.kind, lane(0) < 0 ? ZoneKind::kMerge : ZoneKind::kDiverge) << told;
+      ++(lane(0) < 0 ? together : part);
+    }
+    EXPECT_EQ(together, 6) << cut_m;
+    EXPECT_EQ(part, 6) << cut_m;
   }
 }
 

@@ -11,6 +11,7 @@
 #include "common/traffic/study.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/ring.hpp"
+#include "tests/common/traffic/scripted.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -271,6 +272,52 @@ TEST(LaneChange, IsComfortable) {
   EXPECT_LE(lateral, 3.0);
   EXPECT_LE(jerk, 3.0);
   EXPECT_LE(yaw, 200.0 * std::numbers::pi / 180.0);
+}
+
+// Two roads of two lanes to the east, the one going on as the other from x = kJoin_m on.
+constexpr double kJoin_m = 400.0;
+std::shared_ptr<const network::Network> TwoRoads() {
+  const std::string lanes = CircleLane(-1, kLimit_mps, Mark("broken")) + CircleLane(-2, kLimit_mps, Mark("solid"));
+  opendrive::RoadText one, other;
+  one.left = other.left = "";
+  one.right = other.right = lanes;
+  one.length = other.length = kJoin_m;
+  one.geometry = fmt::format("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"{}\"><line/></geometry>", kJoin_m);
+  other.id = "2";
+  other.geometry = fmt::format("<geometry s=\"0\" x=\"{0}\" y=\"0\" hdg=\"0\" length=\"{0}\"><line/></geometry>", kJoin_m);
+  one.link = "<successor elementType=\"road\" elementId=\"2\" contactPoint=\"start\"/>";
+  other.link = "<predecessor elementType=\"road\" elementId=\"1\" contactPoint=\"end\"/>";
+  return opendrive::MustRead(opendrive::Document(one.Text() + other.Text()));
+}
+
+// Who has gone over sees nobody on the lane that he has left, though his rear is not quite there yet, where his front comes onto another road as well: one who crawls there, and appears when he is clear
+// of that lane, is nothing to him. Until now the front's piece of path there began without an offset, and he seemed to be at the beginning of his change again.
+TEST(LaneChange, WhoHasGoneOverIsClearOfTheOldLaneOnTheNextRoadToo) {
+  constexpr double kSpeed_mps = 15.0, kAhead_m = 30.0;
+  int came_onto_it = 0;
+  for (double before_m = 66.0; before_m < 80.0; before_m += 0.5) {
+    TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar}), TwoRoads(), {}).value();
+    Put(model, 0, "1:-2", kJoin_m - before_m, kSpeed_mps);
+    model.CapSpeed(0, kSpeed_mps);
+    Step(model);
+    model.TellToChange(0, 1);
+    Step(model);
+    ASSERT_EQ(model.agent(0).change.side, 1) << before_m;
+    const auto& agent = model.agent(0);
+    const double half_m = 0.5 * model.traits(0).length_m;
+    while (agent.o_m + half_m < agent.change.from_m + 0.8 * (agent.change.to_m - agent.change.from_m)) Step(model);
+    const double s_m = kAhead_m + PoseOf(model, 0)->p_WB_W.x();
+    Put(model, 1, "2:-2", s_m - kJoin_m, 2.0);
+    model.CapSpeed(1, 2.0);
+    for (bool goes_over = true; goes_over;) {
+      Step(model);
+      goes_over = agent.change.side != 0;
+      if (goes_over && agent.o_m + half_m > agent.change.to_m && agent.path.size() > 1 && agent.path.back().begin_m > agent.change.to_m) ++came_onto_it;
+      ASSERT_EQ(model.GapAhead(0), kNobody_m) << before_m << " m before the road's end, at " << PoseOf(model, 0)->p_WB_W.x() << " m";
+      ASSERT_FALSE(model.Hurries(0)) << before_m;
+    }
+  }
+  EXPECT_GT(came_onto_it, 10);
 }
 
 TEST(LaneChange, RestoredInTheMiddleOfAChangeItGoesOnWithTheSameBits) {

@@ -9,6 +9,8 @@
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
 #include "tests/common/lanes/mirrored.hpp"
+#include "tests/common/lanes/short_sections.hpp"
+#include "tests/common/traffic/scripted.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -47,6 +49,33 @@ void TwoQueuesZip(const std::shared_ptr<const network::Network>& network, const 
   EXPECT_EQ(passed.find("rrr"), std::string::npos) << passed;
   EXPECT_LE(hardest_mps2, 3.0);
   testing::Test::RecordProperty("passed_per_h", std::to_string(3600.0 * static_cast<double>(passed.size()) / (kFor_s - kWarm_s)));
+}
+
+// Somebody comes on each of two ways whose last decimetres are lane sections of their own, at all times apart: who is let in behind the other stops at the line or follows him, whichever is the less
+// braking, when the other one's front is on these sections as well. While they were told as ways that part he followed from then on, and braked in an emergency. Returns how often one came in behind the other.
+int ComeTogetherCalmly(double straight_mps, double cut_m) {
+  constexpr double kBend_mps = 4.0, kFrom_m = 220.0, kFor_s = 45.0;
+  int followed = 0;
+  for (double apart_m = -40.0; apart_m <= 40.0; apart_m += 1.0) {
+    TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar}), lanes::ShortSections(cut_m), {}).value();
+    Put(model, 0, "1:-1", kFrom_m + std::min(0.0, apart_m), straight_mps);
+    Put(model, 1, "2:-1", kFrom_m - std::max(0.0, apart_m), kBend_mps);
+    model.CapSpeed(0, straight_mps), model.CapSpeed(1, kBend_mps);
+    bool follows = false;
+    for (int i = 0; i * kStep_s < kFor_s; ++i) {
+      Step(model);
+      for (const AgentPose& pose : model.poses()) {
+        EXPECT_FALSE(model.Hurries(pose.id)) << straight_mps << " m/s, " << apart_m << " m apart: car " << pose.id << " after " << i * kStep_s << " s";
+        follows = follows || model.agent(pose.id).eased_for >= 0;
+      }
+    }
+    followed += follows ? 1 : 0;
+  }
+  return followed;
+}
+
+TEST(Merging, ShortLaneSectionsAtTheEndOfTheWaysChangeNothing) {
+  for (const double straight_mps : {3.0, 4.0, 5.0, 6.0}) EXPECT_GT(ComeTogetherCalmly(straight_mps, 0.2), 20) << straight_mps;
 }
 
 TEST(Merging, TwoQueuesZip) { TwoQueuesZip(lanes::MapNetwork("ramp"), "1:-1", "13:-1"); }

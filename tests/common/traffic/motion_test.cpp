@@ -14,6 +14,8 @@
 #include "tests/common/driver/test_road.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
 #include "tests/common/traffic/identical.hpp"
+#include "tests/common/traffic/ring.hpp"
+#include "tests/common/traffic/scripted.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -100,6 +102,41 @@ TEST(Motion, PlannedDrivingIsSmoothOnTheMaps) {
       EXPECT_LE(feels.emergency_mps3, kEmergency_mps3 * kRounding) << name;
       EXPECT_EQ(feels.hurried, 0) << name << " of " << feels.samples << feels.first;
       EXPECT_GT(feels.planned_mps3, 0.99 * kPlanned_mps3) << name;  // it says something
+    }
+  }
+}
+
+// Who drives with the throttle open until his engine turns as fast as it may, and would have less pull in the next gear all at once, gives way before: lorries and buses uphill, each from rest to
+// as fast as it comes.
+TEST(Motion, AChangeOfGearWithTheThrottleOpenIsPlannedToo) {
+  constexpr double kLong_m = 3000.0;
+  for (const double grade : {0.03, 0.05}) {
+    opendrive::RoadText road;
+    road.length = kLong_m;
+    road.geometry = fmt::format("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"{}\"><line/></geometry>", kLong_m);
+    road.elevation = fmt::format("<elevation s=\"0\" a=\"0\" b=\"{}\" c=\"0\" d=\"0\"/>", grade);
+    road.left = "";
+    road.right = CircleLane(-1, 30.0);
+    for (const double step_s : {0.01, 0.05}) {
+      for (const VehicleKind kind : {VehicleKind::kLorry, VehicleKind::kBus}) {
+        TrafficModel model = TrafficModel::Make(OnlyScripted({kind, kind, kind, kind}), opendrive::MustRead(opendrive::Document(road.Text())), {}).value();
+        for (std::uint32_t id = 0; id < 4; ++id) Put(model, id, "1:-1", 100.0 + 200.0 * id, 0.0);
+        Feels feels(model, step_s);
+        int changes = 0;
+        std::vector<int> gears(4, 1);
+        for (int i = 1; i * step_s <= 60.0; ++i) {
+          model.Step(step_s, {});
+          feels.Look(model, i * step_s);
+          for (const AgentPose& pose : model.poses()) {
+            const Driving& driving = model.agent(pose.id).driving;
+            changes += driving.gear > gears[pose.id] && driving.throttle > 0.98 ? 1 : 0;
+            gears[pose.id] = driving.gear;
+          }
+        }
+        EXPECT_LE(feels.planned_mps3, kPlanned_mps3 * kRounding) << grade << ", " << step_s << " s: " << feels.worst;
+        EXPECT_EQ(feels.hurried, 0) << grade;
+        EXPECT_GT(changes, 0) << grade << " " << static_cast<int>(kind);  // it says something
+      }
     }
   }
 }
