@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "common/base/assert.hpp"
 
@@ -19,6 +20,36 @@ GEOSGeometry* ToGeos(GEOSContextHandle_t geos, const GridLine& line) {
   }
   if (xy.size() < 4) return nullptr;
   return GEOSGeom_createLineString_r(geos, GEOSCoordSeq_copyFromBuffer_r(geos, xy.data(), static_cast<unsigned>(xy.size() / 2), 0, 0));
+}
+
+// The same segments in fewer lines, each of which goes on in another one for as long as one ends there: GEOS draws random numbers for every line.
+std::vector<GridLine> Joined(std::span<const GridLine> lines) {
+  std::map<GridPoint, std::vector<std::size_t>> ending;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!lines[i].empty()) ending[lines[i].front()].push_back(i), ending[lines[i].back()].push_back(i);
+  }
+  std::vector<bool> used(lines.size(), false);
+  const auto go_on = [&](GridLine& line) {
+    for (;;) {
+      std::vector<std::size_t>& here = ending.at(line.back());
+      while (!here.empty() && used[here.back()]) here.pop_back();
+      if (here.empty()) return;
+      const GridLine& next = lines[here.back()];
+      used[here.back()] = true;
+      if (next.front() == line.back()) line.insert(line.end(), next.begin() + 1, next.end());
+      else line.insert(line.end(), next.rbegin() + 1, next.rend());
+    }
+  };
+  std::vector<GridLine> joined;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (used[i] || lines[i].empty()) continue;
+    used[i] = true;
+    GridLine& line = joined.emplace_back(lines[i]);
+    go_on(line);
+    std::reverse(line.begin(), line.end());
+    go_on(line);
+  }
+  return joined;
 }
 
 void AddSegments(GEOSContextHandle_t geos, const GEOSGeometry* line, std::vector<GridSegment>& segments) {
@@ -40,7 +71,7 @@ void AddSegments(GEOSContextHandle_t geos, const GEOSGeometry* line, std::vector
 std::vector<GridSegment> Node(std::span<const GridLine> lines) {
   GEOSContextHandle_t geos = GEOS_init_r();
   std::vector<GEOSGeometry*> parts;
-  for (const GridLine& line : lines) {
+  for (const GridLine& line : Joined(lines)) {
     if (GEOSGeometry* part = ToGeos(geos, line)) parts.push_back(part);
   }
   std::vector<GridSegment> segments;

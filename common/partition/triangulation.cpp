@@ -10,6 +10,7 @@ Triangulation::Triangulation(std::int32_t size) {
   points_ = {{0, 0}, {size, 0}, {size, size}, {0, size}};
   at_ = {0, 0, 0, 1};
   triangles_.resize(2);
+  cut_from_ = {0, 0};
   triangles_[0] = {{0, 1, 2}, {kNone, kNone, 1}, {}};
   triangles_[1] = {{0, 2, 3}, {0, kNone, kNone}, {}};
 }
@@ -67,8 +68,34 @@ std::uint32_t Triangulation::Find(GridPoint p) const {
   return kNone;
 }
 
-std::uint32_t Triangulation::Insert(GridPoint p) {
-  const std::uint32_t at = Find(p);
+std::uint32_t Triangulation::FindWithin(GridPoint p, std::uint32_t near) const {
+  constexpr int kMostSteps = 64;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Triangle& triangle = triangles_[near];
+    bool within = true;
+    std::uint32_t next = kNone;
+    for (std::size_t k = 0; k < 3 && next == kNone; ++k) {
+      const std::int64_t turn = Turn(points_[triangle.corner[k]], points_[triangle.corner[(k + 1) % 3]], p);
+      within = within && turn > 0;
+      if (turn < 0) next = triangle.across[k];
+    }
+    if (next == kNone) return within ? near : kNone;
+    near = next;
+  }
+  return kNone;
+}
+
+std::uint32_t Triangulation::Insert(GridPoint p) { return PutIn(Find(p), p); }
+
+// Within a triangle there is one answer. On a side there are two: then it is the one that is found without `near`.
+std::uint32_t Triangulation::Insert(GridPoint p, std::uint32_t near) {
+  const std::uint32_t within = FindWithin(p, near);
+  if (within == kNone) return Insert(p);
+  last_ = within;
+  return PutIn(within, p);
+}
+
+std::uint32_t Triangulation::PutIn(std::uint32_t at, GridPoint p) {
   const Triangle triangle = triangles_[at];
   for (const std::uint32_t corner : triangle.corner) {
     if (points_[corner] == p) return corner;
@@ -90,6 +117,7 @@ void Triangulation::SplitTriangle(std::uint32_t triangle, std::uint32_t p) {
   const Triangle t = triangles_[triangle];
   const auto first = static_cast<std::uint32_t>(triangles_.size());
   triangles_.resize(triangles_.size() + 2);
+  cut_from_.resize(triangles_.size(), triangle);
   const std::array<std::uint32_t, 3> parts = {triangle, first, first + 1};
   for (std::size_t k = 0; k < 3; ++k) {
     Set(parts[k], {t.corner[k], t.corner[(k + 1) % 3], p}, {t.across[k], parts[(k + 1) % 3], parts[(k + 2) % 3]}, {t.fixed[k], false, false});
@@ -105,6 +133,8 @@ void Triangulation::SplitSide(Side side, std::uint32_t p) {
   const std::uint32_t a = t.corner[k], b = t.corner[(k + 1) % 3], c = t.corner[(k + 2) % 3];
   const auto near = static_cast<std::uint32_t>(triangles_.size()), far = near + 1;
   triangles_.resize(triangles_.size() + (back.triangle == kNone ? 1 : 2));
+  cut_from_.push_back(side.triangle);
+  if (back.triangle != kNone) cut_from_.push_back(back.triangle);
   const std::uint32_t across_a = back.triangle == kNone ? kNone : far, across_b = back.triangle;
   Set(side.triangle, {p, b, c}, {across_b, t.across[(k + 1) % 3], near}, {t.fixed[k], t.fixed[(k + 1) % 3], false});
   Set(near, {a, p, c}, {across_a, side.triangle, t.across[(k + 2) % 3]}, {t.fixed[k], false, t.fixed[(k + 2) % 3]});

@@ -29,6 +29,8 @@ class Triangulation {
   std::span<const Triangle> triangles() const { return triangles_; }
   // A point within the square or on its edge; its number. A point that is there already keeps its own.
   std::uint32_t Insert(GridPoint p);
+  // The same triangles; the point is sought from one of them on, near which it should lie.
+  std::uint32_t Insert(GridPoint p, std::uint32_t near);
   // A side from a to b that stays, in pieces where points lie on it. False where it would cross another fixed side: then
   // a part of it is missing.
   bool Fix(std::uint32_t a, std::uint32_t b);
@@ -38,6 +40,8 @@ class Triangulation {
   std::uint32_t Find(GridPoint p) const;
   // For each triangle the number of its face: faces are parted by fixed sides. Numbered by their first triangles.
   std::vector<std::uint32_t> Faces() const;
+  // The triangle, of a lower number, of which one was cut by a point that was put in. Both are of one face.
+  std::uint32_t CutFrom(std::uint32_t triangle) const { return cut_from_[triangle]; }
 
  private:
   struct Side {
@@ -45,6 +49,9 @@ class Triangulation {
     int k = 0;
   };
   std::int64_t TurnAt(std::uint32_t a, std::uint32_t b, std::uint32_t c) const { return Turn(points_[a], points_[b], points_[c]); }
+  // The triangle that holds p within, sought from another one on; kNone where it lies on a side, or was not found soon.
+  std::uint32_t FindWithin(GridPoint p, std::uint32_t near) const;
+  std::uint32_t PutIn(std::uint32_t triangle, GridPoint p);
   void Set(std::uint32_t triangle, std::array<std::uint32_t, 3> corner, std::array<std::uint32_t, 3> across, std::array<bool, 3> fixed);
   void Meet(std::uint32_t beyond, std::uint32_t before, std::uint32_t now);
   void SplitTriangle(std::uint32_t triangle, std::uint32_t p);
@@ -60,6 +67,7 @@ class Triangulation {
 
   std::vector<GridPoint> points_;
   std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> cut_from_;  // by triangle
   std::vector<std::uint32_t> at_;  // a triangle at each point
   std::vector<Side> stack_;
   mutable std::uint32_t last_ = 0;

@@ -74,7 +74,7 @@ void Earthworks::AddReaches(std::uint32_t road_index) {
     Reach reach;
     reach.road = road_index, reach.panel = i;
     reach.from_W = road.axis().At(panel, -panel.half_m).p_W, reach.to_W = road.axis().At(panel, panel.half_m).p_W;
-    reach.beside_m = EdgesBeside(road, panel);
+    reach.beside_m = EdgesBeside(road, panel).beside_m;
     reach.heights = HeightsOfEdges(road, begin, end);
     reaches_.push_back(reach);
   }

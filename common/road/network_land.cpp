@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/geometry/plane.hpp"
+
 namespace rodeira::road {
 namespace {
 
@@ -18,6 +20,10 @@ constexpr int kCurvatures = 4;  // samples of a panel's
 constexpr double kSample_m = 1e-3;
 constexpr double kRounding_m = 1e-6;
 constexpr double kStraight_1pm = 1e-7;
+constexpr double kHeldSide_m = 8.0;
+constexpr double kSurelyVerge = 0.8;
+
+float Below(double value) { return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity()); }
 
 // How far from an edge within a bend what moves with p may reach.
 double ReachOf(double curvature_1pm, double edge_m) {
@@ -48,7 +54,7 @@ NetworkLand::NetworkLand(std::shared_ptr<const network::Network> network) : netw
     if (junction.ground != nullptr) AddBoundary(*junction.ground);
   }
   for (const Piece& piece : pieces_) {
-    around_.push_back({0.5 * (piece.from_W + piece.to_W), 0.5 * (piece.to_W - piece.from_W).norm() + piece.beside_m + kRounding_m, piece.heights});
+    around_.push_back({0.5 * (piece.from_W + piece.to_W), 0.5 * (piece.to_W - piece.from_W).norm() + piece.edges.beside_m + kRounding_m, piece.heights});
   }
   std::vector<SquareLists::Strip> strips;
   for (std::size_t first = 0; first < around_.size(); first += kBlock) {
@@ -65,7 +71,7 @@ NetworkLand::NetworkLand(std::shared_ptr<const network::Network> network) : netw
     strips.push_back({block.middle_W, block.middle_W, block.radius_m + kHolds_m});
   }
   near_ = SquareLists(strips);
-  near_ = SquareLists(strips);
+  held_ = LazySquares<Held>(near_.grid(), kHeldSide_m);
 }
 
 bool NetworkLand::IsOnDeck(std::uint32_t road, double s_m) const {
@@ -83,7 +89,8 @@ void NetworkLand::AddPieces(std::uint32_t road_index) {
       Piece piece;
       piece.road = road_index, piece.panel = i, piece.stretch = {begin, end};
       piece.from_W = road.axis().At(panel, -panel.half_m).p_W, piece.to_W = road.axis().At(panel, panel.half_m).p_W;
-      piece.beside_m = EdgesBeside(road, panel);
+      piece.edges = EdgesBeside(road, panel);
+      if (piece.from_W != piece.to_W) piece.left_W = geometry::Left((piece.to_W - piece.from_W).normalized());
       piece.heights = HeightsOfEdges(road, begin, end);
       piece.right_reach_m = piece.left_reach_m = kHolds_m;
       for (int k = 0; k <= kCurvatures; ++k) {
@@ -148,20 +155,7 @@ void NetworkLand::AddBoundary(const network::JunctionGround& ground) {
   }
 }
 
-void NetworkLand::Bounds::Clear() {
-  all.clear();
-  low = high = 0;
-  nearest_m = std::numeric_limits<double>::infinity();
-}
-
-void NetworkLand::Bounds::Add(const Bound& bound, double distance_m) {
-  all.push_back(bound);
-  nearest_m = std::min(nearest_m, distance_m);
-  if (bound.z_m - kBank * bound.distance_m > Low()) low = all.size() - 1;
-  if (bound.z_m + kBank * bound.distance_m < High()) high = all.size() - 1;
-}
-
-void NetworkLand::FromPost(const Eigen::Vector3d& post_W, const Vector2d& p_W, Bounds& bounds) {
+void NetworkLand::FromPost(const Eigen::Vector3d& post_W, const Vector2d& p_W, LandBounds& bounds) {
   const Vector2d apart = p_W - post_W.head<2>();
   const double distance = apart.norm();
   if (distance >= kHolds_m) return;
@@ -170,7 +164,7 @@ void NetworkLand::FromPost(const Eigen::Vector3d& post_W, const Vector2d& p_W, B
 }
 
 // Behind the end of a road with kerbs: so that nothing steps there, a lane's end holds the land ever less towards the lane's edges, where posts stand.
-void NetworkLand::FromEnd(const EdgePlace& place, const Road& road, const Vector2d& p_W, Bounds& bounds) const {
+void NetworkLand::FromEnd(const EdgePlace& place, const Road& road, const Vector2d& p_W, LandBounds& bounds) const {
   double outside;
   const network::LaneSpan span = road.SectionAt(place.s_m).At(place.t_m, road.CentreAt(place.s_m), place.s_m, outside);
   const Vector2d apart = p_W - place.sample.p_W.head<2>();
@@ -188,7 +182,7 @@ void NetworkLand::FromEnd(const EdgePlace& place, const Road& road, const Vector
 }
 
 // station_slope_W: how the place's s goes as p moves.
-void NetworkLand::FromPlace(const EdgePlace& place, const Vector2d& station_slope_W, double reach_m, const Vector2d& p_W, Bounds& bounds) {
+void NetworkLand::FromPlace(const EdgePlace& place, const Vector2d& station_slope_W, double reach_m, const Vector2d& p_W, LandBounds& bounds) {
   const Eigen::Vector3d along = place.sample.ds_W + place.t_slope * place.sample.dt_W;
   const Vector2d apart = p_W - place.sample.p_W.head<2>();
   const double distance = apart.norm();
@@ -198,7 +192,7 @@ void NetworkLand::FromPlace(const EdgePlace& place, const Vector2d& station_slop
   bounds.Add({place.sample.p_W.z(), distance + more, along.z() * station_slope_W, (1.0 + more_slope) * (away - away.dot(along.head<2>()) * station_slope_W)}, distance);
 }
 
-void NetworkLand::FromRoad(const Piece& piece, const Vector2d& p_W, Bounds& bounds) const {
+void NetworkLand::FromRoad(const Piece& piece, const Vector2d& p_W, LandBounds& bounds) const {
   const Road& road = network_->roads()[piece.road];
   const geometry::AxisPanel& panel = road.axis().panels()[piece.panel];
   EdgePlace place = PlaceOnEdge(road, panel, piece.stretch, p_W);
@@ -227,10 +221,14 @@ void NetworkLand::FromRoad(const Piece& piece, const Vector2d& p_W, Bounds& boun
     const Vector2d station = found + side * (left ? 1.0 : -1.0) * (place.axis.left_W() - place.t_slope * found);
     FromPlace(MovedTo(s, road, panel, place), station, reach, p_W, bounds);
   }
-  for (const Eigen::Vector3d& post_W : std::span(posts_W_).subspan(piece.first_post, piece.posts)) FromPost(post_W, p_W, bounds);
+  const bool all = bounds.every() || !(bounds.nearest_m() < kVerge_m);
+  for (const Eigen::Vector3d& post_W : std::span(posts_W_).subspan(piece.first_post, piece.posts)) {
+    const double within_m = bounds.TightensWithin(post_W.z(), post_W.z()) + kRounding_m;  // most hold nothing: that is told without a root
+    if (all || (within_m > 0.0 && (p_W - post_W.head<2>()).squaredNorm() <= within_m * within_m)) FromPost(post_W, p_W, bounds);
+  }
 }
 
-void NetworkLand::FromBoundary(const Piece& piece, const Vector2d& p_W, Bounds& bounds) const {
+void NetworkLand::FromBoundary(const Piece& piece, const Vector2d& p_W, LandBounds& bounds) const {
   const Vector2d way = piece.to_W - piece.from_W;
   const double part = std::clamp((p_W - piece.from_W).dot(way) / way.squaredNorm(), 0.0, 1.0);
   const Vector2d at = piece.from_W + part * way, apart = p_W - at;
@@ -238,82 +236,133 @@ void NetworkLand::FromBoundary(const Piece& piece, const Vector2d& p_W, Bounds& 
   if (distance >= kHolds_m) return;
   const network::GroundHeight height = piece.ground->At(at);
   const auto [more, more_slope] = Steepening(distance, kHolds_m);
-  Bound bound{height.z_m, distance + more, Vector2d::Zero(), distance > 0.0 ? Vector2d((1.0 + more_slope) / distance * apart) : Vector2d::Zero()};
+  LandBound bound{height.z_m, distance + more, Vector2d::Zero(), distance > 0.0 ? Vector2d((1.0 + more_slope) / distance * apart) : Vector2d::Zero()};
   if (part > 0.0 && part < 1.0) bound.z_slope_W = way * (way.dot(Vector2d(height.slope_x, height.slope_y)) / way.squaredNorm());
   bounds.Add(bound, distance);
 }
 
-// In the middle of both bounds; where the lower is the greater one, at the least slope by which they meet.
-PlaneHeight NetworkLand::Meet(Bounds& bounds) {
-  double slope = kBank;
-  const auto low_at = [&](const Bound& bound) { return bound.z_m - slope * bound.distance_m; };
-  const auto high_at = [&](const Bound& bound) { return bound.z_m + slope * bound.distance_m; };
-  for (;;) {
-    const Bound &low = bounds.all[bounds.low], &high = bounds.all[bounds.high];
-    const double sum = low.distance_m + high.distance_m;
-    const double steeper = sum > 0.0 ? (low.z_m - high.z_m) / sum : 0.0;  // the edges of two roads touch: a wall
-    if (!(low_at(low) > high_at(high)) || !(steeper > slope)) break;
-    slope = steeper;
-    for (std::size_t i = 0; i < bounds.all.size(); ++i) {
-      if (low_at(bounds.all[i]) > low_at(bounds.all[bounds.low])) bounds.low = i;
-      if (high_at(bounds.all[i]) < high_at(bounds.all[bounds.high])) bounds.high = i;
+// Some pieces are left out, for no point of the square can they be the nearest one nor hold the land tighter than others do. How tightly these hold it everywhere in the
+// square is known of posts, which stand still.
+NetworkLand::Held NetworkLand::MakeHeld(std::span<const std::uint32_t> blocks, const Vector2d& middle_W) const {
+  const double radius_m = held_.radius_m();
+  struct Known {
+    double distance_m;
+    std::uint32_t piece;
+  };
+  thread_local std::vector<Known> known;
+  known.clear();
+  EachOf(blocks, [&](const Around& around) { return around.MayBeWithin(middle_W, kHolds_m + radius_m); },
+         [&](std::uint32_t piece) { known.push_back({pieces_[piece].DistanceFrom(middle_W), piece}); });
+  std::sort(known.begin(), known.end(), [](const Known& a, const Known& b) { return a.distance_m < b.distance_m || (a.distance_m == b.distance_m && a.piece < b.piece); });
+  Held held{middle_W, {}};
+  if (known.empty() || known.front().distance_m - radius_m > kVerge_m) return held;
+  LandBounds bounds;
+  bounds.Clear(false);
+  for (const auto& [distance_m, index] : known) {
+    const Piece& piece = pieces_[index];
+    if (!(distance_m + radius_m < bounds.TightensWithin(piece.heights.low_m, piece.heights.high_m))) continue;
+    for (const Eigen::Vector3d& post_W : std::span(posts_W_).subspan(piece.first_post, piece.posts)) {
+      const double farthest_m = (middle_W - post_W.head<2>()).norm() + radius_m;
+      if (Steepening(farthest_m, kHolds_m).first == 0.0) bounds.Add({post_W.z(), farthest_m}, farthest_m);
     }
   }
-  const Bound &low = bounds.all[bounds.low], &high = bounds.all[bounds.high];
-  if (slope == kBank) return {0.5 * (low_at(low) + high_at(high)), 0.5 * (low.z_slope_W + high.z_slope_W + slope * (high.distance_slope_W - low.distance_slope_W))};
-  const double sum = low.distance_m + high.distance_m, part = high.distance_m / sum, step = low.z_m - high.z_m;
-  const Vector2d part_slope = (low.distance_m * high.distance_slope_W - high.distance_m * low.distance_slope_W) / (sum * sum);
-  return {high.z_m + part * step, high.z_slope_W + part * (low.z_slope_W - high.z_slope_W) + step * part_slope};
+  const double nearest_m = known.front().distance_m + 2.0 * radius_m;
+  // Where the nearest one may be farther than the verge all that are not are looked at.
+  const double told_m = nearest_m < kSurelyVerge * kVerge_m ? nearest_m : std::max(nearest_m, kVerge_m + radius_m);
+  for (const auto& [distance_m, index] : known) {
+    const EdgeHeights& heights = pieces_[index].heights;
+    const double least_m = distance_m - radius_m - kRounding_m;
+    if (distance_m > told_m + kRounding_m && least_m > bounds.TightensWithin(heights.low_m, heights.high_m)) continue;
+    held.pieces.push_back({index, Below(distance_m - kRounding_m), Below(heights.low_m), -Below(-heights.high_m)});
+  }
+  held.pieces.shrink_to_fit();
+  return held;
 }
 
-// Of equally near ones the first. Where a place is asked after one beside it, the last answer is tried first, so that most others are known to be farther away.
-std::uint32_t NetworkLand::NearestPiece(std::span<const std::uint32_t> near, const Vector2d& p_W) const {
-  thread_local std::uint32_t last = 0;
-  std::uint32_t nearest = near.front() * kBlock;
-  double nearest_m = std::numeric_limits<double>::infinity();
-  const auto look_at = [&](std::uint32_t piece) {
-    const double distance_m = pieces_[piece].DistanceFrom(p_W);
-    if (distance_m < nearest_m || (distance_m == nearest_m && piece < nearest)) nearest = piece, nearest_m = distance_m;
-  };
-  if (last < pieces_.size()) look_at(last);
-  EachOf(near, [&](const Around& around) { return around.MayBeWithin(p_W, nearest_m); }, look_at);
-  return last = nearest;
+// Of equally near ones the first.
+std::optional<std::uint32_t> NetworkLand::NearestPiece(const Held& held, const Vector2d& p_W, double off_m) const {
+  std::optional<std::uint32_t> nearest;
+  double nearest_m = kVerge_m;
+  for (const Held::Near& near : held.pieces) {
+    if (static_cast<double>(near.distance_m) - off_m > nearest_m) break;
+    const double distance_m = pieces_[near.piece].DistanceFrom(p_W);
+    if (distance_m < nearest_m || (nearest && distance_m == nearest_m && near.piece < *nearest)) nearest = near.piece, nearest_m = distance_m;
+  }
+  return nearest;
+}
+
+void NetworkLand::Ask(std::uint32_t index, const Vector2d& p_W, LandBounds& bounds) const {
+  const Piece& piece = pieces_[index];
+  bounds.Rank(index + 1);
+  piece.ground != nullptr ? FromBoundary(piece, p_W, bounds) : FromRoad(piece, p_W, bounds);
 }
 
 std::optional<PlaneHeight> NetworkLand::At(const Vector2d& p_W) const {
   if (!p_W.allFinite()) return std::nullopt;
-  const std::span<const std::uint32_t> near = near_.At(p_W);
-  if (near.empty()) return std::nullopt;
-  thread_local Bounds bounds;
-  bounds.Clear();
-  const auto ask = [&](std::uint32_t index) {
-    const Piece& piece = pieces_[index];
-    piece.ground != nullptr ? FromBoundary(piece, p_W, bounds) : FromRoad(piece, p_W, bounds);
-  };
-  const std::uint32_t nearest = NearestPiece(near, p_W);
-  ask(nearest);
-  // First only those that may hold the land more tightly.
-  const auto may_tighten = [&](const Around& around) {
-    if (bounds.all.empty()) return around.MayBeWithin(p_W, kHolds_m);
-    const double within_m = std::min(kHolds_m, std::max(around.heights.high_m - bounds.Low(), bounds.High() - around.heights.low_m) / kBank);
-    return within_m > 0.0 && around.MayBeWithin(p_W, within_m);
-  };
-  EachOf(near, may_tighten, [&](std::uint32_t piece) {
-    const double distance_m = pieces_[piece].DistanceFrom(p_W);
-    if (piece == nearest || distance_m >= kHolds_m) return;
-    const EdgeHeights& heights = pieces_[piece].heights;
-    const double bank = kBank * (distance_m + Steepening(distance_m, kHolds_m).first);
-    if (bounds.all.empty() || heights.high_m - bank > bounds.Low() || heights.low_m + bank < bounds.High()) ask(piece);
-  });
-  if (!(bounds.nearest_m < kVerge_m)) return std::nullopt;
-  if (bounds.Low() > bounds.High()) {
-    bounds.Clear();
-    EachOf(near, [&](const Around& around) { return around.MayBeWithin(p_W, kHolds_m); },
-           [&](std::uint32_t piece) {
-             if (pieces_[piece].DistanceFrom(p_W) < kHolds_m) ask(piece);
-           });
+  const Held* held = held_.At(p_W, [&](std::size_t square, const Vector2d& middle_W) { return MakeHeld(near_.Of(square), middle_W); });
+  if (held == nullptr) return std::nullopt;
+  const double off_m = (p_W - held->middle_W).norm();
+  const std::optional<std::uint32_t> nearest = NearestPiece(*held, p_W, off_m);
+  if (!nearest) return std::nullopt;
+  thread_local LandBounds bounds;
+  bounds.Clear(false);
+  Ask(*nearest, p_W, bounds);
+  bounds.Leads();  // of equally tight bounds those of the nearest piece count
+  for (const Held::Near& near : held->pieces) {
+    const double least_m = static_cast<double>(near.distance_m) - off_m;
+    const bool is_verge = bounds.nearest_m() < kVerge_m;
+    if (is_verge && !(least_m < bounds.TightensWithin(static_cast<double>(near.low_m), static_cast<double>(near.high_m)))) continue;
+    const Piece& piece = pieces_[near.piece];
+    if (is_verge && !(piece.AsideFrom(p_W) < bounds.TightensWithin(piece.heights.low_m, piece.heights.high_m) + kRounding_m)) continue;
+    const double distance_m = piece.DistanceFrom(p_W);
+    if (near.piece == *nearest || distance_m >= kHolds_m) continue;
+    const double more_m = Steepening(distance_m, kHolds_m).first;
+    if ((!is_verge && distance_m < kVerge_m) || distance_m + more_m < bounds.TightensWithin(piece.heights.low_m, piece.heights.high_m)) Ask(near.piece, p_W, bounds);
   }
-  return Meet(bounds);
+  if (!(bounds.nearest_m() < kVerge_m)) return std::nullopt;
+  return bounds.low_m() > bounds.high_m() ? Steep(bounds, p_W) : bounds.Meet();
+}
+
+std::optional<PlaneHeight> NetworkLand::AtBySearch(const Vector2d& p_W) const {
+  const auto farther = [&](const Piece& a, const Piece& b) { return a.DistanceFrom(p_W) < b.DistanceFrom(p_W); };
+  if (pieces_.empty() || !p_W.allFinite()) return std::nullopt;
+  const auto nearest = static_cast<std::uint32_t>(std::min_element(pieces_.begin(), pieces_.end(), farther) - pieces_.begin());
+  LandBounds bounds;
+  const auto ask_all = [&](std::uint32_t but) {
+    for (std::uint32_t piece = 0; piece < pieces_.size(); ++piece) {
+      if (piece != but && pieces_[piece].DistanceFrom(p_W) < kHolds_m) Ask(piece, p_W, bounds);
+    }
+  };
+  bounds.Clear(true);
+  Ask(nearest, p_W, bounds);
+  bounds.Leads();
+  ask_all(nearest);
+  if (!(bounds.nearest_m() < kVerge_m)) return std::nullopt;
+  if (bounds.low_m() > bounds.high_m()) {
+    bounds.Clear(true);
+    ask_all(static_cast<std::uint32_t>(pieces_.size()));
+  }
+  return bounds.Meet();
+}
+
+// Where no land of the slope kBank lies between all bounds all that may matter at a steeper one are looked at: at the least slope by which the tightest two meet, and at
+// any greater one, what is farther than they are and holds the land no tighter does not.
+PlaneHeight NetworkLand::Steep(const LandBounds& tightest, const Vector2d& p_W) const {
+  const LandBound &low = tightest.low(), &high = tightest.high();
+  const double sum = low.distance_m + high.distance_m, slope = sum > 0.0 ? std::max(kBank, (low.z_m - high.z_m) / sum) : kBank;
+  const double low_m = low.z_m - slope * low.distance_m - kRounding_m, high_m = high.z_m + slope * high.distance_m + kRounding_m;
+  const double farther_m = std::max(low.distance_m, high.distance_m) + kRounding_m;
+  const auto within = [&](const EdgeHeights& heights) {
+    return std::min(kHolds_m, std::max({farther_m, tightest.TightensWithin(heights.low_m, heights.high_m) + kRounding_m, (heights.high_m - low_m) / slope, (high_m - heights.low_m) / slope}));
+  };
+  thread_local LandBounds bounds;
+  bounds.Clear(true);
+  EachOf(near_.At(p_W), [&](const Around& around) { return around.MayBeWithin(p_W, within(around.heights)); },
+         [&](std::uint32_t piece) {
+           const double distance_m = pieces_[piece].DistanceFrom(p_W);
+           if (distance_m < kHolds_m && distance_m <= within(pieces_[piece].heights)) Ask(piece, p_W, bounds);
+         });
+  return bounds.Meet();
 }
 
 }  // namespace rodeira::road

@@ -12,6 +12,8 @@
 #include "common/network/junction_ground.hpp"
 #include "common/network/network.hpp"
 #include "common/road/decks.hpp"
+#include "common/road/land_bounds.hpp"
+#include "common/road/lazy_squares.hpp"
 #include "common/road/one_ground.hpp"
 #include "common/road/square_lists.hpp"
 
@@ -35,37 +37,31 @@ class NetworkLand {
 
   // Nothing where no road that stands on the ground is nearer than kVerge_m.
   std::optional<PlaneHeight> At(const Eigen::Vector2d& p_W) const;
+  // The same, to the bit, without any list: every edge is looked at. For tests.
+  std::optional<PlaneHeight> AtBySearch(const Eigen::Vector2d& p_W) const;
 
   // By road.
   const std::vector<std::vector<Stretch>>& decks() const { return decks_; }
   bool IsOnDeck(std::uint32_t road, double s_m) const;
 
  private:
-  struct Bound {  // on either side of a height, by a slope times a distance
-    double z_m = 0.0, distance_m = 0.0;
-    Eigen::Vector2d z_slope_W = Eigen::Vector2d::Zero(), distance_slope_W = Eigen::Vector2d::Zero();
-  };
-  struct Bounds {
-    std::vector<Bound> all;
-    double nearest_m = 0.0;
-    std::size_t low = 0, high = 0;  // of all the tightest for the slope
-
-    void Clear();
-    void Add(const Bound& bound, double nearest_m);
-    double Low() const { return all[low].z_m - kBank * all[low].distance_m; }
-    double High() const { return all[high].z_m + kBank * all[high].distance_m; }
-  };
   struct Piece {  // of a panel, standing on the ground; or of a junction's boundary
     std::uint32_t road = 0, panel = 0;
     const network::JunctionGround* ground = nullptr;
     Stretch stretch;
     Eigen::Vector2d from_W, to_W;
-    double beside_m = 0.0;  // its edges lie no farther from the way between these
+    Eigen::Vector2d left_W = Eigen::Vector2d::Zero();  // of the line through both
+    EdgesAside edges{};  // from the way and the line between these
     EdgeHeights heights{};
     double right_reach_m = 0.0, left_reach_m = 0.0;  // of what moves with p: less within a bend than to its middle
     std::uint32_t first_post = 0, posts = 0;
 
-    double DistanceFrom(const Eigen::Vector2d& p_W) const { return std::max(0.0, SquareLists::Strip{from_W, to_W, 0.0}.FromWay(p_W) - beside_m); }
+    double DistanceFrom(const Eigen::Vector2d& p_W) const { return std::max(0.0, SquareLists::Strip{from_W, to_W, 0.0}.FromWay(p_W) - edges.beside_m); }
+    // The same in fewer operations, and no greater beside its ends; where the road lies on the other side of its axis it is.
+    double AsideFrom(const Eigen::Vector2d& p_W) const {
+      const double aside_m = left_W.dot(p_W - from_W);
+      return std::max(aside_m - edges.left_m, -aside_m - edges.right_m);
+    }
   };
   struct Around {  // of a piece what tells in few operations that it is too far away: all of it lies within a circle, its edges between two heights
     Eigen::Vector2d middle_W;
@@ -89,16 +85,27 @@ class NetworkLand {
       }
     }
   }
-  std::uint32_t NearestPiece(std::span<const std::uint32_t> near, const Eigen::Vector2d& p_W) const;
+  // What may hold the land somewhere in a small square.
+  struct Held {
+    struct Near {  // a piece
+      std::uint32_t piece;
+      float distance_m, low_m, high_m;  // it is no nearer to the square's middle, and lies between these heights
+    };
+    Eigen::Vector2d middle_W;
+    std::vector<Near> pieces;  // by distance
+  };
+  Held MakeHeld(std::span<const std::uint32_t> blocks, const Eigen::Vector2d& middle_W) const;
+  std::optional<std::uint32_t> NearestPiece(const Held& held, const Eigen::Vector2d& p_W, double off_m) const;
+  void Ask(std::uint32_t piece, const Eigen::Vector2d& p_W, LandBounds& bounds) const;
+  PlaneHeight Steep(const LandBounds& tightest, const Eigen::Vector2d& p_W) const;
   void AddPieces(std::uint32_t road);
   void AddPosts(const network::Road& road, const geometry::AxisPanel& panel, Piece& piece);
   void AddBoundary(const network::JunctionGround& ground);
-  void FromRoad(const Piece& piece, const Eigen::Vector2d& p_W, Bounds& bounds) const;
-  void FromBoundary(const Piece& piece, const Eigen::Vector2d& p_W, Bounds& bounds) const;
-  static void FromPlace(const EdgePlace& place, const Eigen::Vector2d& station_slope_W, double reach_m, const Eigen::Vector2d& p_W, Bounds& bounds);
-  void FromEnd(const EdgePlace& place, const network::Road& road, const Eigen::Vector2d& p_W, Bounds& bounds) const;
-  static void FromPost(const Eigen::Vector3d& post_W, const Eigen::Vector2d& p_W, Bounds& bounds);
-  static PlaneHeight Meet(Bounds& bounds);
+  void FromRoad(const Piece& piece, const Eigen::Vector2d& p_W, LandBounds& bounds) const;
+  void FromBoundary(const Piece& piece, const Eigen::Vector2d& p_W, LandBounds& bounds) const;
+  static void FromPlace(const EdgePlace& place, const Eigen::Vector2d& station_slope_W, double reach_m, const Eigen::Vector2d& p_W, LandBounds& bounds);
+  void FromEnd(const EdgePlace& place, const network::Road& road, const Eigen::Vector2d& p_W, LandBounds& bounds) const;
+  static void FromPost(const Eigen::Vector3d& post_W, const Eigen::Vector2d& p_W, LandBounds& bounds);
 
   std::shared_ptr<const network::Network> network_;
   std::vector<std::vector<Stretch>> decks_;
@@ -106,6 +113,7 @@ class NetworkLand {
   std::vector<Around> around_, blocks_;   // by piece; of kBlock of them
   std::vector<Eigen::Vector3d> posts_W_;  // of pieces' edges, that stand still
   SquareLists near_;                      // of blocks
+  LazySquares<Held> held_;
 };
 
 }  // namespace rodeira::road

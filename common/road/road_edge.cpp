@@ -36,10 +36,13 @@ std::pair<double, double> Steepening(double distance_m, double reach_m) {
   return {reach_m * x * x / left, x * (2.0 - x) / (left * left) / (1.0 - kSteeper)};
 }
 
-double EdgesBeside(const network::Road& road, const geometry::AxisPanel& panel) {
+EdgesAside EdgesBeside(const network::Road& road, const geometry::AxisPanel& panel) {
   // A leaning section moves its edges along the road by less than it is wide.
-  if (road.rolled()) return road.axis().Bulge(panel) + 2.0 * WidestOf(road) + 1.0;
-  double widest = 0.0;
+  if (road.rolled()) {
+    const double beside = road.axis().Bulge(panel) + 2.0 * WidestOf(road) + 1.0;
+    return {beside, beside, beside};
+  }
+  double most_right = 0.0, most_left = 0.0;
   const std::vector<network::LaneSection>& sections = road.spec().sections;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const double from = i == 0 ? panel.begin_s_m() : std::max(panel.begin_s_m(), sections[i].s_m);
@@ -47,9 +50,10 @@ double EdgesBeside(const network::Road& road, const geometry::AxisPanel& panel) 
     if (from > to) continue;
     double right, left;
     sections[i].Bounds(road.spec().lane_offset, from, to, right, left);
-    widest = std::max({widest, std::fabs(right), std::fabs(left)});
+    most_right = std::max({most_right, -right, -left}), most_left = std::max({most_left, right, left});
   }
-  return road.axis().Bulge(panel) + widest + kSample_m;
+  const double more = road.axis().Bulge(panel) + kSample_m;
+  return {std::max(most_right, most_left) + more, most_right + more, most_left + more};
 }
 
 EdgeHeights HeightsOfEdges(const network::Road& road, double from_s_m, double to_s_m) {

@@ -13,8 +13,11 @@ namespace rodeira::road {
 // how that changes with the distance.
 std::pair<double, double> Steepening(double distance_m, double reach_m);
 
-// How far a panel's edges lie from the way between its ends at most.
-double EdgesBeside(const network::Road& road, const geometry::AxisPanel& panel);
+// How far a panel's edges lie from the way between its ends at most, and how far from the line through both to either side of it.
+struct EdgesAside {
+  double beside_m, right_m, left_m;
+};
+EdgesAside EdgesBeside(const network::Road& road, const geometry::AxisPanel& panel);
 
 // The lowest and the highest that a road's edges are between two stations, and some room for what lies between the samples.
 struct EdgeHeights {

@@ -25,6 +25,10 @@ class SquareGrid {
 
   std::size_t size() const { return columns_ * rows_; }
   double side_m() const { return side_m_; }
+  // A square's lowest corner.
+  Eigen::Vector2d Corner(std::size_t square) const {
+    return low_W_ + side_m_ * Eigen::Vector2d(static_cast<double>(square % columns_), static_cast<double>(square / columns_));
+  }
   // The square that a point lies in; nothing beside all of them.
   std::optional<std::size_t> At(const Eigen::Vector2d& p_W) const {
     const double column = (p_W.x() - low_W_.x()) / side_m_, row = (p_W.y() - low_W_.y()) / side_m_;

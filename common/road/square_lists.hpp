@@ -33,8 +33,10 @@ class SquareLists {
   std::span<const std::uint32_t> At(const Eigen::Vector2d& p_W) const {
     const auto square = grid_.At(p_W);
     if (!square) return {};
-    return std::span(strips_).subspan(first_[*square], first_[*square + 1] - first_[*square]);
+    return Of(*square);
   }
+  const SquareGrid& grid() const { return grid_; }
+  std::span<const std::uint32_t> Of(std::size_t square) const { return std::span(strips_).subspan(first_[square], first_[square + 1] - first_[square]); }
 
  private:
   SquareGrid grid_;

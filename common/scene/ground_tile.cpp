@@ -163,6 +163,11 @@ int GroundPlan::FinestAlike(const TileKey& key, int level) const {
   return finest;
 }
 
+std::size_t GroundPlan::PiecesIn(const TileKey& key) const {
+  const auto found = segments_.find(key);
+  return found == segments_.end() ? 0 : found->second.size();
+}
+
 struct GroundPlan::Begun {
   TileKey key;
   std::span<const partition::GridSegment> finest;

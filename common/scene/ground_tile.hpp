@@ -59,6 +59,8 @@ class GroundPlan {
   // The finest level that is drawn as this one is, to the bit: bare land on which nothing stands has fewer levels.
   int FinestAlike(const TileKey& tile, int level) const;
   TileBall BallOf(const TileKey& tile) const;
+  // How many pieces of lines are cut into it.
+  std::size_t PiecesIn(const TileKey& tile) const;
   // Of everything that can change a bit of the tile, and of nothing that lies out of its reach: lines and paint in it, what stands in it, and what SUELO answers from
   // there (TileSources). It may change without need, but only where something near changes.
   base::Digest SourceDigest(const TileKey& tile) const;

@@ -1,6 +1,7 @@
 // Paint laid on the ground's triangles.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "common/scene/mark_strips.hpp"
 
@@ -43,6 +44,7 @@ class Buckets {
     for (std::uint32_t i = 0; i < ground.size(); ++i) {
       Eigen::Vector2d low = ground[i].p_W[0].head<2>(), high = low;
       for (const Eigen::Vector3d& p : ground[i].p_W) low = low.cwiseMin(p.head<2>()), high = high.cwiseMax(p.head<2>());
+      boxes_.push_back({low, high});
       ForEach(low, high, [&](std::vector<std::uint32_t>& cell) { cell.push_back(i); });
     }
   }
@@ -54,8 +56,16 @@ class Buckets {
       for (int y = from.y(); y <= to.y(); ++y) visit(cells_[static_cast<std::size_t>(x * kBuckets + y)]);
     }
   }
+  // Whether a triangle may lie in a box.
+  bool MayTouch(std::uint32_t triangle, const Eigen::Vector2d& low, const Eigen::Vector2d& high) const {
+    const Box& box = boxes_[triangle];
+    return (box.low.array() <= high.array()).all() && (box.high.array() >= low.array()).all();
+  }
 
  private:
+  struct Box {
+    Eigen::Vector2d low, high;
+  };
   Eigen::Vector2i Cell(const Eigen::Vector2d& p_W) const {
     const Eigen::Vector2d at = (p_W - south_west_W_) / kBucket_m;
     return {std::clamp(static_cast<int>(std::floor(at.x())), 0, kBuckets - 1), std::clamp(static_cast<int>(std::floor(at.y())), 0, kBuckets - 1)};
@@ -63,6 +73,7 @@ class Buckets {
 
   Eigen::Vector2d south_west_W_;
   std::vector<std::vector<std::uint32_t>> cells_;
+  std::vector<Box> boxes_;  // by triangle
 };
 
 }  // namespace
@@ -79,7 +90,7 @@ Mesh LayPaint(std::span<const PaintPiece> pieces, const TileKey& tile, std::span
     double z = 0.0;
     for (const Eigen::Vector3d& p : piece.p_W) low = low.cwiseMin(p.head<2>()), high = high.cwiseMax(p.head<2>()), z += 0.25 * p.z();
     near.clear();
-    buckets.ForEach(low, high, [&](const std::vector<std::uint32_t>& cell) { near.insert(near.end(), cell.begin(), cell.end()); });
+    buckets.ForEach(low, high, [&](const std::vector<std::uint32_t>& cell) { std::copy_if(cell.begin(), cell.end(), std::back_inserter(near), [&](std::uint32_t i) { return buckets.MayTouch(i, low, high); }); });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::uint32_t i : near) {

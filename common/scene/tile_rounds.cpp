@@ -68,10 +68,16 @@ class Rounds {
  private:
   GridPoint Middle(const Triangulation::Triangle& triangle) const { return MiddleOf(plan_.triangles, triangle); }
 
+  struct Fresh {  // a point that is put in, and the triangle that it is put in for
+    GridPoint p;
+    std::uint32_t near;
+  };
+  std::uint32_t NumberOf(const Triangulation::Triangle& t) const { return static_cast<std::uint32_t>(&t - plan_.triangles.triangles().data()); }
+
   // But those on the tile's edge, where a quarter of a side may lie by rounding: the neighbour does not have them. False where nothing is put in.
-  bool PutIn(std::vector<GridPoint>& fresh) {
-    std::erase_if(fresh, OnEdge);
-    for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
+  bool PutIn(std::vector<Fresh>& fresh) {
+    std::erase_if(fresh, [](const Fresh& one) { return OnEdge(one.p); });
+    for (const Fresh& one : fresh) plan_.triangles.Insert(one.p, one.near);
     if (!fresh.empty()) CarryFaces(plan_);
     return !fresh.empty();
   }
@@ -95,7 +101,7 @@ class Rounds {
 
   // Puts points where a triangle, in its middle or at a quarter of a side, is too far from the ground. False where none is.
   bool MeetGround() {
-    std::vector<GridPoint> fresh;
+    std::vector<Fresh> fresh;
     const auto triangles = plan_.triangles.triangles();
     tried_.resize(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -145,8 +151,8 @@ class Rounds {
   }
 
   static bool IsOff(double middle_z_m, const Corners& c, double tolerance_m) { return std::fabs(middle_z_m - (c.z[0] + c.z[1] + c.z[2]) / 3.0) > tolerance_m; }
-  void CheckMiddle(const Triangulation::Triangle& t, double tolerance_m, const Corners& c, std::vector<GridPoint>& fresh) {
-    if (IsOff(Height(c.middle_W), c, tolerance_m)) fresh.push_back(Middle(t));
+  void CheckMiddle(const Triangulation::Triangle& t, double tolerance_m, const Corners& c, std::vector<Fresh>& fresh) {
+    if (IsOff(Height(c.middle_W), c, tolerance_m)) fresh.push_back({Middle(t), NumberOf(t)});
   }
 
   // Land is followed as roads are, along every side between two of its triangles: toes of slopes and a terrain's own edges run
@@ -154,7 +160,7 @@ class Rounds {
   bool MeetSlopes() {
     const BendRange& slope = Slope();
     const bool within_slopes = !world_.open_drive() && (level_ > 0 || kept_ || world_.grid() == nullptr);
-    std::vector<GridPoint> fresh;
+    std::vector<Fresh> fresh;
     on_kept_.clear();
     const auto triangles = plan_.triangles.triangles();
     followed_.resize(triangles.size());
@@ -168,11 +174,11 @@ class Rounds {
       // What bends within a triangle and crosses none of its sides.
       if (fresh.size() + on_kept_.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < slope.margin_m) continue;
       const road::SurfacePoint middle = world_.At(corners.middle_W.x(), corners.middle_W.y());
-      if (middle.inside && IsOff(middle.z_m, corners, slope.tolerance_m)) fresh.push_back(Middle(triangles[i]));
+      if (middle.inside && IsOff(middle.z_m, corners, slope.tolerance_m)) fresh.push_back({Middle(triangles[i]), i});
     }
     for (const OnKept& on : on_kept_) {
       plan_.triangles.Release(on.a, on.b);
-      fresh.push_back(on.bend);
+      fresh.push_back({on.bend, on.near});
     }
     PutIn(fresh);
     // Sides are kept again once every triangle has its face: those that a side parts from the others may all be new.
@@ -186,7 +192,7 @@ class Rounds {
 
   // What lies below decks is followed as slopes are: where a bridge begins, land comes up to it. False where nothing was put in.
   bool MeetBelow() {
-    std::vector<GridPoint> fresh;
+    std::vector<Fresh> fresh;
     const auto triangles = plan_.triangles.triangles();
     below_.resize(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -198,7 +204,7 @@ class Rounds {
         const Corners corners = CornersOf(triangles[i], plan_.face_of[i], false, level);
         FollowBelow(triangles[i], corners, level, fresh);
         if (fresh.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < kSlopes[level_].margin_m) continue;
-        if (IsOff(LevelAt(corners.middle_W, level).z_m, corners, kSlopes[level_].tolerance_m)) fresh.push_back(Middle(triangles[i]));
+        if (IsOff(LevelAt(corners.middle_W, level).z_m, corners, kSlopes[level_].tolerance_m)) fresh.push_back({Middle(triangles[i]), i});
       }
     }
     return PutIn(fresh);
@@ -208,7 +214,7 @@ class Rounds {
   BendRange Below() const { return BelowRange(level_); }
   road::SurfacePoint LevelAt(const Eigen::Vector2d& p_W, std::size_t level) { return scene::LevelAt(world_, p_W, level, levels_); }
 
-  void FollowBelow(const Triangulation::Triangle& t, const Corners& c, std::size_t level, std::vector<GridPoint>& fresh) {
+  void FollowBelow(const Triangulation::Triangle& t, const Corners& c, std::size_t level, std::vector<Fresh>& fresh) {
     const auto points = plan_.triangles.points();
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t n = (k + 1) % 3;
@@ -216,7 +222,7 @@ class Rounds {
       const auto part = BendBetween([&](const Eigen::Vector2d& p_W) { return LevelAt(p_W, level); }, c.at[k], c.z[k], c.at[n], c.z[n], Below());
       if (!part) continue;
       const GridPoint bend = PartOf(points[t.corner[k]], points[t.corner[n]], *part);
-      fresh.push_back(bend);
+      fresh.push_back({bend, NumberOf(t)});
     }
   }
 
@@ -230,7 +236,7 @@ class Rounds {
     return land_.slopes.Touch(plan_.key, low, high);
   }
 
-  void FollowSides(const Triangulation::Triangle& t, std::uint32_t face, const Corners& c, std::vector<GridPoint>& fresh) {
+  void FollowSides(const Triangulation::Triangle& t, std::uint32_t face, const Corners& c, std::vector<Fresh>& fresh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t n = (k + 1) % 3;
       if (t.across[k] == kNone) continue;
@@ -251,14 +257,14 @@ class Rounds {
       const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + *part * (to - from))); };
       const GridPoint bend{between(p.x, q.x), between(p.y, q.y)};
       if (OnEdge(bend)) continue;  // nor is its kept side cut
-      if (kept) on_kept_.push_back({bend, t.corner[k], t.corner[n]});
-      else fresh.push_back(bend);
+      if (kept) on_kept_.push_back({bend, t.corner[k], t.corner[n], NumberOf(t)});
+      else fresh.push_back({bend, NumberOf(t)});
     }
   }
 
   // An S, as two vertical curves make it, is met in its middle: its quarters are looked at too.
   template <class Know>
-  void CheckSides(const Triangulation::Triangle& t, double longer_m, const Know& know, std::vector<GridPoint>& fresh) {
+  void CheckSides(const Triangulation::Triangle& t, double longer_m, const Know& know, std::vector<Fresh>& fresh) {
     const auto points = plan_.triangles.points();
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t n = (k + 1) % 3;
@@ -270,7 +276,7 @@ class Rounds {
         const double part = 0.25 * quarter;
         const double z = HeightWithin(c.at[k] + part * (c.at[n] - c.at[k]), c.middle_W);
         if (std::fabs(z - (c.z[k] + part * (c.z[n] - c.z[k]))) <= RoadTolerance()) continue;
-        fresh.push_back({p.x + (q.x - p.x) * quarter / 4, p.y + (q.y - p.y) * quarter / 4});
+        fresh.push_back({{p.x + (q.x - p.x) * quarter / 4, p.y + (q.y - p.y) * quarter / 4}, NumberOf(t)});
         if (quarter == 2) break;
       }
     }
@@ -286,6 +292,7 @@ class Rounds {
   struct OnKept {
     GridPoint bend;
     std::uint32_t a, b;  // the ends of the side that is kept
+    std::uint32_t near;  // its triangle
   };
   std::vector<OnKept> on_kept_;
   struct Known {
@@ -311,12 +318,7 @@ GridPoint MiddleOf(const Triangulation& triangles, const Triangulation::Triangle
 }
 
 void CarryFaces(TilePlan& plan) {
-  const std::vector<std::uint32_t> now = plan.triangles.Faces();
-  const std::size_t count = *std::max_element(now.begin(), now.end()) + 1;
-  std::vector<std::uint32_t> before(count, 0);
-  for (std::size_t i = plan.face_of.size(); i-- > 0;) before[now[i]] = plan.face_of[i];
-  plan.face_of.resize(now.size());
-  for (std::size_t i = 0; i < now.size(); ++i) plan.face_of[i] = before[now[i]];
+  for (std::size_t i = plan.face_of.size(); i < plan.triangles.triangles().size(); ++i) plan.face_of.push_back(plan.face_of[plan.triangles.CutFrom(static_cast<std::uint32_t>(i))]);
 }
 
 void MeetTheGround(const road::World& world, const Land& land, int level, const Followed& followed, TilePlan& plan) {

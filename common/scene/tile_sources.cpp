@@ -132,7 +132,7 @@ void TileSources::AddStretches(std::uint32_t road_index, PictureDigests& picture
   };
   for (const geometry::AxisPanel& panel : axis.panels()) {
     if (panel.begin_s_m() > road.length_m()) break;
-    const double beside_m = road::EdgesBeside(road, panel);
+    const double beside_m = road::EdgesBeside(road, panel).beside_m;
     const int pieces = std::max(1, static_cast<int>(std::ceil(2.0 * panel.half_m / kStretch_m)));
     for (int i = 0; i < pieces; ++i) {
       const std::array<double, 2> u_m = {panel.half_m * (2.0 * i / pieces - 1.0), panel.half_m * (2.0 * (i + 1) / pieces - 1.0)};
@@ -180,13 +180,18 @@ base::Digest TileSources::Posts(const TileKey& tile, bool& solid) const {
 
 std::array<double, TileSources::kCells * TileSources::kCells> TileSources::NearestWithin(const TileKey& tile) const {
   std::array<double, kCells * kCells> nearest;
+  const Points* last = nullptr;  // that were the nearest to the cell before: of this one, too, or nearly so, and others are soon known to be farther
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     const Cell cell = CellOf(tile, i, kCells);
     nearest[i] = 1e9;
-    for (const Points& points : points_) {
-      if (cell.LeastFarthest(points.low_W, points.high_W) > nearest[i]) continue;
-      for (const Vector2d& p : points.at_W) nearest[i] = std::min(nearest[i], cell.Farthest(p));
-    }
+    const auto look_at = [&](const Points& points) {
+      if (cell.LeastFarthest(points.low_W, points.high_W) > nearest[i]) return;
+      for (const Vector2d& p : points.at_W) {
+        if (const double farthest = cell.Farthest(p); farthest < nearest[i]) nearest[i] = farthest, last = &points;
+      }
+    };
+    if (last != nullptr) look_at(*last);
+    for (const Points& points : points_) look_at(points);
   }
   return nearest;
 }

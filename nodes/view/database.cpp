@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <sstream>
 #include <vector>
 
@@ -200,7 +201,12 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
   std::mutex mutex;  // of the four below
   base::Status status;
   std::size_t done = 0;
-  scene::ForEachAtOnce(count, options.threads, [&](std::size_t i) {
+  // The longest pieces of work first, so that at the end no thread waits long for another one.
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tiles->WorkOf(a) > tiles->WorkOf(b); });
+  scene::ForEachAtOnce(count, options.threads, [&](std::size_t k) {
+    const std::size_t i = order[k];
     const base::Digest source = tiles->SourceOf(i);
     const TileFiles& names = placed[i] = tiles->FilesOf(i);
     const bool fresh = IsFresh(options.folder, before, names, source);

@@ -31,6 +31,7 @@ class NetworkTiles final : public DatabaseTiles {
     return files;
   }
   base::Digest SourceOf(std::size_t tile) const override { return plan_.SourceDigest(plan_.tiles()[tile]); }
+  std::size_t WorkOf(std::size_t tile) const override { return plan_.PiecesIn(plan_.tiles()[tile]); }
   std::vector<scene::GroundLevel> Make(std::size_t tile) const override {
     const scene::TileKey& key = plan_.tiles()[tile];
     scene::GroundTile made = plan_.Build(key);

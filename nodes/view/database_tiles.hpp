@@ -32,6 +32,8 @@ class DatabaseTiles {
   virtual TileFiles FilesOf(std::size_t tile) const = 0;
   // Of all that can change a bit of the tile.
   virtual base::Digest SourceOf(std::size_t tile) const = 0;
+  // About how long it takes to make, beside others.
+  virtual std::size_t WorkOf(std::size_t) const { return 0; }
   // Makes a tile: its levels in the order of its files.
   virtual std::vector<scene::GroundLevel> Make(std::size_t tile) const = 0;
   // One of them alone: of so manieth file.

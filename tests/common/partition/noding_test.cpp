@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "common/base/random.hpp"
@@ -20,6 +21,22 @@ TEST(Noding, WhatLiesTwiceComesOnce) {
   const std::vector<GridSegment> expected = {{{0, 0}, {4, 0}}, {{4, 0}, {10, 0}}, {{10, 0}, {20, 0}}};
   EXPECT_EQ(Node(lines), expected);
   EXPECT_TRUE(Node({}).empty());
+}
+
+// The same lines cut into single segments, in another order and some the other way round.
+TEST(Noding, HowLinesAreCutChangesNothing) {
+  for (std::uint64_t seed = 30; seed < 36; ++seed) {
+    const double most = seed % 2 == 0 ? 60.0 : 2.0e6;
+    std::vector<GridLine> lines, pieces;
+    for (std::uint64_t n = 0; n < 40; ++n) {
+      GridLine line = n % 4 == 0 && n > 0 ? GridLine{lines.back().back()} : GridLine{};  // some begin where others end
+      while (line.size() < 5) line.push_back({static_cast<std::int32_t>(base::RandomUniform({seed, n, line.size(), 0}, 0.0, most)), static_cast<std::int32_t>(base::RandomUniform({seed, n, line.size(), 1}, 0.0, most))});
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) pieces.push_back(i % 2 == 0 ? GridLine{line[i], line[i + 1]} : GridLine{line[i + 1], line[i]});
+      lines.push_back(line);
+    }
+    std::sort(pieces.begin(), pieces.end());
+    EXPECT_EQ(Node(lines), Node(pieces)) << "seed " << seed;
+  }
 }
 
 // By the definition: no two segments share more than an end.

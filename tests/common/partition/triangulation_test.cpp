@@ -121,6 +121,32 @@ TEST(Triangulation, NodedLinesBecomeSides) {
   }
 }
 
+// What a point is sought from changes nothing; and each new triangle is of the face of the one that it was cut from.
+TEST(Triangulation, WhereAPointIsSoughtFromChangesNothing) {
+  const std::vector<GridLine> lines = {{{1000, 1000}, {kSize - 1000, 900}, {kSize - 2000, kSize - 500}, {1000, 1000}}, {{0, kSize / 2}, {kSize, kSize / 2}}};
+  Triangulation plain(kSize), sought(kSize);
+  for (Triangulation* t : {&plain, &sought}) {
+    for (const GridSegment& segment : Node(lines)) {
+      const std::uint32_t a = t->Insert(segment.a), b = t->Insert(segment.b);
+      ASSERT_TRUE(t->Fix(a, b));
+    }
+  }
+  std::vector<std::uint32_t> face_of = sought.Faces();
+  for (std::uint64_t n = 0; n < 2000; ++n) {
+    GridPoint p{Draw(77, n, 0, kSize), Draw(77, n, 1, kSize)};
+    if (n % 5 == 0) p.y = kSize / 2;  // on a side
+    if (n % 7 == 0) p = plain.points()[static_cast<std::size_t>(Draw(77, n, 2, static_cast<std::int32_t>(plain.points().size()) - 1))];  // there already
+    const auto near = static_cast<std::uint32_t>(Draw(77, n, 3, static_cast<std::int32_t>(sought.triangles().size()) - 1));
+    ASSERT_EQ(plain.Insert(p), sought.Insert(p, near)) << n;
+    for (std::size_t i = face_of.size(); i < sought.triangles().size(); ++i) face_of.push_back(face_of[sought.CutFrom(static_cast<std::uint32_t>(i))]);
+  }
+  ASSERT_EQ(plain.triangles().size(), sought.triangles().size());
+  for (std::size_t i = 0; i < plain.triangles().size(); ++i) ASSERT_EQ(plain.triangles()[i].corner, sought.triangles()[i].corner) << i;
+  const std::vector<std::uint32_t> faces = sought.Faces();
+  std::map<std::uint32_t, std::uint32_t> same;
+  for (std::size_t i = 0; i < faces.size(); ++i) ASSERT_EQ(same.try_emplace(faces[i], face_of[i]).first->second, face_of[i]) << i;
+}
+
 TEST(Triangulation, FindsWhereAPointLies) {
   Triangulation t(kSize);
   for (std::uint64_t n = 0; n < 300; ++n) t.Insert({Draw(3, n, 0, kSize), Draw(3, n, 1, kSize)});

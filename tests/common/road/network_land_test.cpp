@@ -60,6 +60,19 @@ TEST(NetworkLand, WhereRoadsStandCloserItIsAsSteepAsItMustBe) {
   }
 }
 
+// Around the origin lie edges 5 m away at 10 m and at 0 m, which meet by a slope of 1 at 5 m, one 2 m away at 8 m, and one 0.6 m away at 4.5 m. The third lets them meet by 8 / 7
+// at 5.71 m, and only by such a slope the fourth holds anything: it and the third meet by 3.5 / 2.6.
+TEST(NetworkLand, WhatIsNearerCountsWhereASlopeIsSteeperThanTheFirstTwoAsk) {
+  const auto road = [](const char* id, double x_m, double y_m, double heading_rad, double z_m) {
+    opendrive::RoadText text = Along(id, 0.0, z_m);
+    text.length = 8.0;
+    text.geometry = fmt::format(R"(<geometry s="0" x="{}" y="{}" hdg="{}" length="8"><line/></geometry>)", x_m, y_m, heading_rad);
+    return text.Text();
+  };
+  const auto world = Load(road("1", -4.0, 8.5, 0.0, 10.0) + road("2", -4.0, -8.5, 0.0, 0.0) + road("3", 5.5, -4.0, 0.5 * M_PI, 8.0) + road("4", -4.1, -4.0, 0.5 * M_PI, 4.5));
+  EXPECT_NEAR(world->At(0.0, 0.0).z_m, 4.5 + 0.6 * 3.5 / 2.6, 1e-9);
+}
+
 // Roads beyond its reach, between the others in the file, hold no land here.
 TEST(NetworkLand, WhatIsFarAwayChangesNoBit) {
   const std::string one = Along("1", 0.0, 6.0).Text(), two = Along("2", 15.0, 0.0).Text(), three = Along("3", 60.0, 3.0).Text();
@@ -92,6 +105,37 @@ TEST(NetworkLand, WhatWasAskedBeforeChangesNoBit) {
     const SurfacePoint again = world->At(places[i].x(), places[i].y());
     ASSERT_EQ(again.inside, forward[i].inside);
     EXPECT_EQ(again.z_m, forward[i].z_m) << places[i].transpose();
+  }
+}
+
+// By every edge of the file. The places lie anywhere, and close to roads, where edges of different heights touch.
+TEST(NetworkLand, ListsLeaveNothingOutThatChangesABit) {
+  const auto files = opendrive::RealFiles();
+  if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";
+  for (const auto& file : files) {
+    const auto world = World::Load(file).value();
+    const NetworkLand& land = *world->land();
+    const Extents extents = world->extents();
+    const auto roads = world->network()->roads();
+    std::size_t held = 0, steep = 0;
+    for (std::uint64_t i = 0; i < 6000; ++i) {
+      Vector2d p_W(base::RandomUniform({i, 1}, extents.west_m, extents.east_m), base::RandomUniform({i, 2}, extents.south_m, extents.north_m));
+      if (i % 2 == 1) {
+        const network::Road& road = roads[static_cast<std::size_t>(base::RandomUniform({i, 3}, 0.0, static_cast<double>(roads.size())))];
+        p_W = road.Surface(base::RandomUniform({i, 4}, 0.0, road.length_m()), 0.0).p_W.head<2>() + Vector2d(base::RandomUniform({i, 5}, -25.0, 25.0), base::RandomUniform({i, 6}, -25.0, 25.0));
+      }
+      thread_local std::vector<network::Surfacing> surfaces;
+      world->network()->Surfaces(p_W.x(), p_W.y(), surfaces);
+      if (!surfaces.empty()) continue;  // there it is no land
+      const auto at = land.At(p_W), searched = land.AtBySearch(p_W);
+      ASSERT_EQ(at.has_value(), searched.has_value()) << file.filename() << " " << p_W.transpose();
+      if (!at) continue;
+      ++held, steep += at->slope_W.norm() > 0.6;
+      ASSERT_EQ(at->z_m, searched->z_m) << file.filename() << " " << p_W.transpose();
+      ASSERT_EQ(at->slope_W, searched->slope_W) << file.filename() << " " << p_W.transpose();
+    }
+    EXPECT_GT(held, 300u) << file.filename();
+    std::printf("%s: %zu places of land, %zu of them steep\n", file.stem().c_str(), held, steep);
   }
 }
 
