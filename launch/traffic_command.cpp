@@ -15,6 +15,7 @@
 #include "common/traffic/map_demand.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
+#include "common/traffic/tight_bends.hpp"
 #include "launch/traffic_files.hpp"
 
 namespace rodeira::front {
@@ -66,7 +67,7 @@ void Describe(const TrafficOptions& options, const traffic::StudyResult& r, doub
   fmt::print("fuel             {:.3f} l, {:.2f} l/100 km\n", litres, r.driven_km > 0.0 ? 100.0 * litres / r.driven_km : 0.0);
   fmt::print("standing         {:.1f} % of the time, at most {:.1f} s (car {}), with room ahead {:.1f} s (car {})\n",
              r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, r.longest_stand_s, r.longest_stand_id, r.longest_with_room_s, r.longest_with_room_id);
-  fmt::print("hardest braking  {:.2f} m/s2 by the foot, {:.2f} m/s2 in all\n", r.hardest_mps2, r.hardest_any_mps2);
+  fmt::print("hardest braking  {:.2f} m/s2 with a foot on the brake, which asks it for {:.2f} m/s2 at most; {:.2f} m/s2 in all\n", r.hardest_mps2, r.foot_mps2, r.hardest_any_mps2);
   fmt::print("emergencies      {} steps of a vehicle\n", r.hurried_steps);
   fmt::print("collisions       {}\n", r.collisions);
   fmt::print("beside its lane  {} times, a wheel off the road {} times, looked at every 0.1 s\n", r.off_lane, r.wheels_off);
@@ -104,6 +105,10 @@ int TrafficRun(const TrafficOptions& options) {
   if (!opened) return Complain(opened.error());
   TrafficFiles files = std::move(opened).value();
   if (files.wants_cells()) settings.cell_m = kCell_m;
+  if (!options.quiet && settings.traffic.physics == traffic::Physics::kFull) {
+    const lanes::Graph graph(*network);
+    for (const traffic::TightBend& bend : traffic::TightBendsOf(graph, settings.traffic)) fmt::print(stderr, "rodeira: warning: {}: {}\n", options.map, traffic::Text(bend, graph));
+  }
   const bool terminal = !options.quiet && ::isatty(STDERR_FILENO) == 1;
   const auto begin = Clock::now();
   bool shown = false;

@@ -7,7 +7,6 @@ namespace rodeira::driver {
 namespace {
 
 constexpr double kGravity_mps2 = 9.81;
-constexpr double kStanding_mps = 0.25;   // slower than this and not wanting to go: stands
 constexpr double kGo_mps2 = 0.25;        // wanting at least this to leave
 constexpr double kRolling_mps = 0.03;
 constexpr double kGentle_1ps = 0.5;
@@ -20,7 +19,7 @@ double Toward(double now, double wanted, double most) { return now + std::clamp(
 
 void Pedals::Step(const PedalSettings& settings, double wanted_mps2, double speed_mps, double grade, double dt_s) {
   if (standing_ && wanted_mps2 > kGo_mps2) standing_ = false;
-  if (!standing_ && wanted_mps2 < kGo_mps2 && std::fabs(speed_mps) < kStanding_mps) standing_ = true;
+  if (!standing_ && wanted_mps2 < kGo_mps2 && std::fabs(speed_mps) < kEnds_mps) standing_ = true;
   const double climb = kGravity_mps2 * grade / std::sqrt(1.0 + grade * grade);
   if (standing_) {
     reference_mps_ = 0.0;
@@ -43,7 +42,7 @@ void Pedals::Step(const PedalSettings& settings, double wanted_mps2, double spee
   const double brake = std::clamp((-needed - settings.coasting_mps2) / settings.full_brake_mps2, 0.0, 1.0);
   throttle_ = Toward(throttle_, throttle, settings.throttle_rate_1ps * dt_s);
   // On a hill the brake is let go as the engine takes over.
-  const double kept = climb > 0.0 && speed_mps < kStanding_mps ? 1.5 * (climb - throttle_ * available) / settings.full_brake_mps2 : 0.0;
+  const double kept = climb > 0.0 && speed_mps < kEnds_mps ? 1.5 * (climb - throttle_ * available) / settings.full_brake_mps2 : 0.0;
   brake_ = Toward(brake_, std::max(brake, kept), settings.brake_rate_1ps * dt_s);
   if (brake_ > 0.0 && throttle == 0.0) throttle_ = 0.0;
 }

@@ -22,6 +22,8 @@ struct PedalSettings {
 // what the speed does. Holds with the brake while standing.
 class Pedals {
  public:
+  static constexpr double kEnds_mps = 0.25;  // slower than this, and not wanted to go, the foot ends the stop by itself and holds
+
   // One step. `wanted_mps2` along the car, `speed_mps` forward, `grade` uphill positive.
   void Step(const PedalSettings& settings, double wanted_mps2, double speed_mps, double grade, double dt_s);
   // Goes on with the pedals as they are, of a car that may be moving.
@@ -30,6 +32,10 @@ class Pedals {
   void TakeOver(double throttle, double brake, double speed_mps);
   double throttle() const { return throttle_; }
   double brake() const { return brake_; }
+  // The speed that the wanted accelerations have led to, which the foot keeps to; 0 while it holds the car.
+  double reference_mps() const { return reference_mps_; }
+  // Whether the foot holds the car, or lets it roll out its last hand's breadth, whatever is wanted.
+  bool holds() const { return standing_; }
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);

@@ -65,7 +65,7 @@ std::vector<AgentDetail> TrafficModel::Details() {
       const double sees_m = std::min(agent.o_m + 0.5 * traits_[id].length_m + sight_m, last.end_m);
       detail.look_ahead_W = graph()[last.track].curve.At(sees_m - last.zero_m).p_W.head<2>();
       Path path = agent.path;
-      const double at = rear_m + SteeredWay_m(agent.speed_mps);
+      const double at = rear_m + SteeredWay_m(2.0 * HalfBase(id), agent.speed_mps);
       Choice choice{agent.links, agent.leg};
       while (true) {
         const lanes::Track& track = graph()[path.back().track];

@@ -12,23 +12,31 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kStanding_mps = 1e-3;
+constexpr double kAsFast = 1.05;       // an engine that turns faster than this share of what its wheels ask for slips
+constexpr double kSlows_mps2 = -0.3;
 constexpr double kSlipFrom_mps = 1.0;  // slower, the motion of the rear axle says nothing of its slip angle
 
 // What the driver knows of his car here and now: what its engine gives in the gear that is engaged.
-driver::PedalSettings PedalsOf(const vehicle::BicycleChassis& chassis, const vehicle::Powertrain& powertrain, double speed_mps) {
+driver::PedalSettings PedalsOf(const vehicle::BicycleChassis& chassis, const vehicle::Powertrain& powertrain, double speed_mps, double wanted_mps2) {
   const vehicle::BicycleSettings& car = chassis.settings;
   const vehicle::PowertrainSettings& p = car.powertrain;
   const double m = car.body.mass_kg, radius = car.wheel.rolling_radius_m;
   const double ratio = vehicle::TotalRatio(p.gearbox, std::max(1, powertrain.gear()));
-  const double turns = std::max({p.engine.idle_radps, p.automatic.bite_radps, ratio * speed_mps / radius});
-  const double drag_Nm = vehicle::DragTorque(p.engine, turns), full_Nm = vehicle::FullLoadTorque(p.engine, turns);
+  const double radps = std::max({p.engine.idle_radps, p.automatic.bite_radps, ratio * speed_mps / radius});
+  const double drag_Nm = vehicle::DragTorque(p.engine, radps), full_Nm = vehicle::FullLoadTorque(p.engine, radps);
   const double engine_mps2 = p.gearbox.efficiency * ratio / (radius * m);  // of one newton metre
   driver::PedalSettings feet;
   feet.power_Wpkg = 1e6;
   feet.most_mps2 = engine_mps2 * (full_Nm + drag_Nm);
   feet.full_brake_mps2 = FullBrake_N(car) / m;
   feet.coasting_mps2 = 0.0;  // it is in the next: the throttle begins to push where it has overcome the engine's drag
-  feet.rolling_mps2 = 9.81 * car.wheel.rolling_resistance + engine_mps2 * drag_Nm;
+  // Who slows down with the clutch pressed has no drag of the engine, nor who does so while the engine, not yet as slow as the wheels, still pushes through a clutch that slips.
+  const bool pushes = powertrain.engine().speed_radps() > kAsFast * ratio * speed_mps / radius;
+  const double held = pushes ? 0.0 : 1.0 - powertrain.clutch(), drags = wanted_mps2 < 0.0 ? held : 1.0;
+  // What turns with the wheels is to be sped up and slowed down as well: in a lorry's first gear the engine weighs as much as the lorry.
+  const double turning_kgm2 = vehicle::kWheels * car.wheel.inertia_kgm2 + held * ratio * ratio * p.engine.inertia_kgm2;
+  const double turning_mps2 = wanted_mps2 * turning_kgm2 / (radius * radius * m);
+  feet.rolling_mps2 = 9.81 * car.wheel.rolling_resistance + drags * engine_mps2 * drag_Nm + turning_mps2;
   feet.air_1pm = 0.5 * car.body.air_density_kgpm3 * car.body.drag_area_m2 / m;
   return feet;
 }
@@ -82,9 +90,12 @@ void FullCars::Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path
   const Eigen::Vector3d ahead_W = car.body.q_WG * Eigen::Vector3d::UnitX();
   const double speed = PlanSpeed_mps(id), grade = ahead_W.z() / std::max(1e-3, std::hypot(ahead_W.x(), ahead_W.y()));
   vehicle::Controls& controls = controls_[id];
-  feet_[id].Step(PedalsOf(cars_.chassis(id), car.powertrain, speed), wanted_mps2, speed, grade, dt_s);
-  controls.throttle = feet_[id].throttle();
-  controls.brake = feet_[id].brake();
+  // Who slows down does not first make good the speed that his engine was too weak to come to.
+  driver::Pedals& foot = feet_[id];
+  if (wanted_mps2 < kSlows_mps2 && !foot.holds() && foot.throttle() > 0.0 && foot.reference_mps() > speed) foot.TakeOver(foot.throttle(), foot.brake(), speed);
+  foot.Step(PedalsOf(cars_.chassis(id), car.powertrain, speed, wanted_mps2), wanted_mps2, speed, grade, dt_s);
+  controls.throttle = foot.throttle();
+  controls.brake = foot.brake();
   controls.steering_wheel_rad = SteeringWheel(id, path, dt_s);
 }
 

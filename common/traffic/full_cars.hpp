@@ -15,8 +15,8 @@ namespace rodeira::traffic {
 
 // Where an agent's path leads, as its driver sees it.
 struct PathAhead {
-  Eigen::Vector2d rear_W = Eigen::Vector2d::Zero();   // the path's point beside the middle of the rear axle
-  Eigen::Vector2d ahead_W = Eigen::Vector2d::UnitX();  // its direction there, unit
+  Eigen::Vector2d rear_W = Eigen::Vector2d::Zero();   // the point beside the middle of the rear axle of the line that it is to keep (RearLine_m)
+  Eigen::Vector2d ahead_W = Eigen::Vector2d::UnitX();  // the path's direction, unit
   double curvature_1pm = 0.0;                          // where the car is when hands and tyres have answered; positive to the left
 };
 
@@ -40,6 +40,7 @@ class FullCars {
 
   const vehicle::CarArray& cars() const { return cars_; }
   const vehicle::Controls& controls(std::uint32_t id) const { return controls_[id]; }
+  const driver::Pedals& foot(std::uint32_t id) const { return feet_[id]; }
   // Of its middle, in the plane, along the way on which its wheels roll, heading + atan(½ tan δ): less than its motion where it slides, and
   // below 0 where it rolls back. At less than a millimetre a second it stands.
   double PlanSpeed_mps(std::uint32_t id) const;

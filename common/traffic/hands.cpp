@@ -13,17 +13,16 @@ constexpr double kAnswer_s = 0.6, kAnswerLeast_m = 2.0;
 
 }  // namespace
 
-double SteeredWay_m(double speed_mps) { return std::max(kPreviewLeast_m, kPreview_s * speed_mps); }
+double RearLine_m(double wheelbase_m, double length_m, double turns_rad) { return 0.25 * wheelbase_m * wheelbase_m * turns_rad / length_m; }
+
+double SteeredWay_m(double wheelbase_m, double speed_mps) { return std::max({kPreviewLeast_m, wheelbase_m, kPreview_s * speed_mps}); }
 
 double AnsweredWay_m(double speed_mps) { return std::max(kAnswerLeast_m, kAnswer_s * speed_mps); }
 
-// The curvature that the rear axle is to follow: the path's, and what leads back to it. The path is kept by the middle between both axles' tracks: in a bend
-// the rear one runs L² κ / 4 inside, the front one as much outside.
+// The curvature that the rear axle is to follow: the path's, and what leads back to its line.
 double MovedWheel_rad(const vehicle::BicycleSettings& car, const RearBeside& rear, double now_rad, double dt_s) {
-  const double wheelbase = car.body.wheelbase_m;
-  const double aside = rear.aside_m - 0.25 * wheelbase * wheelbase * rear.curvature_1pm;
-  const double way = SteeredWay_m(rear.speed_mps);
-  const double curvature = rear.curvature_1pm - 2.0 * rear.turned_rad / way - aside / (way * way);
+  const double wheelbase = car.body.wheelbase_m, way = SteeredWay_m(wheelbase, rear.speed_mps);
+  const double curvature = rear.curvature_1pm - 2.0 * rear.turned_rad / way - rear.aside_m / (way * way);
   const double wanted = std::clamp(std::atan(wheelbase * curvature) * car.steering.ratio, -car.steering.limit_rad, car.steering.limit_rad);
   const double move = (wanted - now_rad) * dt_s / (kSmoothing_s + dt_s), most = kRate_radps * dt_s;
   return now_rad + std::clamp(move, -most, most);

@@ -7,6 +7,12 @@
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
+namespace {
+
+// From one direction to another, positive to the left.
+double TurnOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to) { return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to)); }
+
+}  // namespace
 
 // Who cannot stand where it was to begin waits to enter.
 void TrafficModel::StartFull(std::shared_ptr<terrain::Ground> ground) {
@@ -57,7 +63,6 @@ void TrafficModel::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s)
 
 void TrafficModel::DriveFull(std::uint32_t id, double wanted_mps2, double dt_s) {
   Agent& agent = agents_[id];
-  agent.wish_mps2 = agent.speed_mps > 0.0 ? wanted_mps2 : std::max(0.0, wanted_mps2);
   const double half = 0.5 * traits_[id].length_m;
   double rear_m = agent.o_m - HalfBase(id);
   PathFrame rear = FrameOf(id, rear_m);
@@ -65,8 +70,11 @@ void TrafficModel::DriveFull(std::uint32_t id, double wanted_mps2, double dt_s) 
   rear = FrameOf(id, rear_m);
   const double soon_m = std::min(AnsweredWay_m(agent.speed_mps), agent.o_m + half - rear_m);
   const PathFrame soon = FrameOf(id, rear_m + soon_m);
-  const double turns = std::atan2(rear.ahead_W.x() * soon.ahead_W.y() - rear.ahead_W.y() * soon.ahead_W.x(), rear.ahead_W.dot(soon.ahead_W));
-  full_->Drive(id, wanted_mps2, {rear.p_W.head<2>(), rear.ahead_W, turns / soon_m}, dt_s);
+  const double aside = RearLine_m(traits_[id].wheelbase_m, traits_[id].length_m, TurnOf(FrameOf(id, agent.o_m - half).ahead_W, FrameOf(id, agent.o_m + half).ahead_W));
+  const Eigen::Vector2d left(-rear.ahead_W.y(), rear.ahead_W.x());
+  full_->Drive(id, wanted_mps2, {rear.p_W.head<2>() + aside * left, rear.ahead_W, TurnOf(rear.ahead_W, soon.ahead_W) / soon_m}, dt_s);
+  const bool stands = agent.speed_mps <= 0.0 || full_->foot(id).holds();  // whatever is wanted below 0
+  agent.wish_mps2 = stands ? std::max(0.0, wanted_mps2) : wanted_mps2;
 }
 
 // Where its path has brought it, after the physics' step.

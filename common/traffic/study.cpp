@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "common/traffic/car_of.hpp"
 #include "common/traffic/road_network.hpp"
 
 namespace rodeira::traffic {
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::size_t kIncidents = 20;
 constexpr double kStanding_mps = 0.05;
+constexpr double kMoves_mps = 0.5;
 constexpr double kHard_mps2 = 3.0;
 constexpr double kOnLane_m = 1e-3;
 constexpr double kWidest_m = 4.0, kHalfTyre_m = 0.1;
@@ -50,6 +52,9 @@ class Watcher {
       if (model.agent(pose.id).driving.brake <= 0.0) continue;  // a hill that the engine is too weak for
       if (pose.acceleration_mps2 < -kHard_mps2 && before_[k].acceleration_mps2 >= -kHard_mps2) Tell("brakes at {:.2f} m/s2", pose, -pose.acceleration_mps2);
       result_.hardest_mps2 = std::max(result_.hardest_mps2, -pose.acceleration_mps2);
+      if (pose.speed_mps < kMoves_mps) continue;
+      const vehicle::BicycleSettings& car = CarOfBody(model.traits(pose.id).body);
+      result_.foot_mps2 = std::max(result_.foot_mps2, model.agent(pose.id).driving.brake * FullBrake_N(car) / car.body.mass_kg);
     }
     if (result_.steps == 0) result_.began = static_cast<std::int64_t>(model.poses().size());
     else result_.entered += static_cast<std::int64_t>(model.poses().size() - same), result_.left += static_cast<std::int64_t>(before_.size() - same);

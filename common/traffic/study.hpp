@@ -34,7 +34,8 @@ struct StudyResult {
   std::int64_t off_lane = 0;         // times that a middle was looked at beside every drivable lane
   std::int64_t wheels_off = 0;       // times that a wheel was looked at beside everything that is there for vehicles, shoulders among it
   double worst_step_m = 0.0;         // |distance between two poses - mean speed · step|, in plan
-  double hardest_mps2 = 0.0;         // deceleration with a foot on the brake
+  double hardest_mps2 = 0.0;         // deceleration with a foot on the brake, whatever else slows the car down
+  double foot_mps2 = 0.0;            // what a foot asks of the brake: its share of what the brake can, faster than 0.5 m/s (who stands is held by it)
   double planned_jerk_mps3 = 0.0;    // largest change of acceleration from one step to the next, but …
   double emergency_jerk_mps3 = 0.0;  // … in an emergency
   std::int64_t hurried_steps = 0;    // steps that somebody drove in an emergency (TrafficModel::Hurries), each vehicle's counted

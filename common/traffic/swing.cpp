@@ -123,7 +123,10 @@ class Swinger {
       const PathFrame soon = FrameAt(graph_, path, rear_m + soon_m);
       const Eigen::Vector2d left(-beside.ahead_W.y(), beside.ahead_W.x());
       const double turns = std::atan2(soon.ahead_W.dot(left), soon.ahead_W.dot(beside.ahead_W));
-      const RearBeside place{std::atan2(ahead.dot(left), ahead.dot(beside.ahead_W)), (rear - beside.p_W.head<2>()).dot(left), turns / soon_m, speed};
+      const double half = 0.5 * (car_->dimensions.front_m + car_->dimensions.rear_m);
+      const Eigen::Vector2d last = FrameAt(graph_, path, o - half).ahead_W, first = FrameAt(graph_, path, o + half).ahead_W;
+      const double aside = RearLine_m(wheelbase, 2.0 * half, std::atan2(last.x() * first.y() - last.y() * first.x(), last.dot(first)));
+      const RearBeside place{std::atan2(ahead.dot(left), ahead.dot(beside.ahead_W)), (rear - beside.p_W.head<2>()).dot(left) - aside, turns / soon_m, speed};
       wheel = MovedWheel_rad(*car_, place, wheel, kStep_s);
       const double tangent = std::tan(wheel / car_->steering.ratio), rolls_m = speed * kStep_s / std::hypot(1.0, 0.5 * tangent);
       const double turned = rolls_m * tangent / wheelbase;

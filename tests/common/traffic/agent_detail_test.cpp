@@ -39,7 +39,7 @@ TEST_P(AgentDetails, LieOnTheCircleAsFarAheadAsItsDriverSteersAndLooks) {
     const Eigen::Vector2d ahead = (pose.q_WB * Eigen::Vector3d::UnitX()).head<2>(), rear_W = pose.p_WB_W.head<2>() - 0.5 * traits.wheelbase_m * ahead;
     const Eigen::Vector2d centre_W(0.0, kRadius_m);
     ASSERT_NEAR((detail.target_W - centre_W).norm(), kLane_m, 0.02);
-    ASSERT_NEAR(Arc_m(TurnOf(rear_W), TurnOf(detail.target_W)), std::max(3.0, 0.7 * v), 0.1) << i;
+    ASSERT_NEAR(Arc_m(TurnOf(rear_W), TurnOf(detail.target_W)), std::max({3.0, traits.wheelbase_m, 0.7 * v}), 0.1) << i;
     ASSERT_NEAR(std::remainder(detail.path_heading_rad - TurnOf(rear_W), 2.0 * std::numbers::pi), 0.0, 0.003) << i;
     const double sight_m = std::min(200.0, v * v / 3.0 + 3.0 * v + 60.0);
     ASSERT_NEAR((detail.look_ahead_W - centre_W).norm(), kLane_m, 0.02);

@@ -5,9 +5,9 @@
 namespace rodeira::traffic {
 
 // Simulated seconds of each run; RODEIRA_TRAFFIC_FOR makes it longer (tests/run --endurance).
-inline double Duration() {
+inline double Duration(double otherwise_s = 120.0) {
   const char* text = std::getenv("RODEIRA_TRAFFIC_FOR");
-  return text == nullptr ? 120.0 : std::strtod(text, nullptr);
+  return text == nullptr ? otherwise_s : std::strtod(text, nullptr);
 }
 
 }  // namespace rodeira::traffic

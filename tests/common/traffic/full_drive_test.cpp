@@ -165,7 +165,7 @@ void DriveAFile(const std::string& name, const std::vector<Run>& runs) {
     EXPECT_EQ(r.wheels_off, 0) << what;
     EXPECT_LT(r.hardest_mps2, run.foot_mps2) << what;
     EXPECT_GT(r.driven_km, 10.0) << what;
-    testing::Test::RecordProperty(what, fmt::format("{:.2f} m/s² by the foot, {:.2f} in all, {:.1f} km", r.hardest_mps2, r.hardest_any_mps2, r.driven_km));
+    testing::Test::RecordProperty(what, fmt::format("{:.2f} m/s² with a foot on the brake, {:.2f} asked by it, {:.2f} in all, {} steps in an emergency, {:.1f} km", r.hardest_mps2, r.foot_mps2, r.hardest_any_mps2, r.hurried_steps, r.driven_km));
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/lanes/swath.hpp"
 #include "common/traffic/swing.hpp"
+#include "common/traffic/tight_bends.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
 #include "tests/common/opendrive/sample.hpp"
@@ -24,7 +25,7 @@ TrafficSettings Full() {
 }
 
 // A lane that turns to the right by 75° on a radius of 2.9 m, tighter than a van's wheels turn (3.8 m), as one of Town04 does.
-std::shared_ptr<const network::Network> TightBend() {
+std::shared_ptr<const network::Network> BendOf29() {
   opendrive::RoadText road;
   constexpr double kRadius_m = 4.65, kTurn = 1.31;  // the lane's middle is 1.75 m nearer
   const double arc = kRadius_m * kTurn;
@@ -73,7 +74,7 @@ TEST(Swing, HoldsWhatCarsOfTheMapsDo) {
       settings.vehicles = 25;
       if (heavy && map == std::string("bend")) continue;  // no lorry gets round it
       if (heavy) settings.mix.shares = {0.4, 0.2, 0.2, 0.2};
-      TrafficModel model = TrafficModel::Make(settings, map == std::string("bend") ? TightBend() : lanes::MapNetwork(map), {}).value();
+      TrafficModel model = TrafficModel::Make(settings, map == std::string("bend") ? BendOf29() : lanes::MapNetwork(map), {}).value();
       const lanes::Swings swings = SwingsOf(model.graph(), settings);
       const lanes::LargestCar largest = LargestOf(settings);
       for (int step = 0; step < 4000; ++step) {
@@ -133,6 +134,31 @@ TEST(Swing, IsNothingOnStraightRoadsNorOfPlanarCars) {
       EXPECT_LE(std::max(swings[track][middle].left_m, swings[track][middle].right_m), 0.5 * car.width_m + 1e-3) << name << " " << track;
     }
   }
+}
+
+// A circle of 10.4 m radius on a lane of 3.5 m: a bus's tyres are 2.5 / 2 + 5.3² / (4 R) from the line; nothing of vans, of planar buses, or where there is room.
+TEST(TightBends, AreThoseOfTheClosedForm) {
+  TrafficSettings settings = Full();
+  settings.mix.shares = {0.0, 0.5, 0.0, 0.5};
+  const auto network = Ring(54.0);
+  const lanes::Graph graph(*network);
+  const auto bends = TightBendsOf(graph, settings);
+  ASSERT_EQ(bends.size(), 1u);
+  const auto& nodes = graph[bends[0].track].curve.nodes();
+  const double radius = 1.0 / std::fabs(nodes[nodes.size() / 2].curvature_1pm);
+  EXPECT_NEAR(bends[0].radius_m, radius, 1e-2);
+  EXPECT_NEAR(bends[0].off_m, 1.25 + 5.3 * 5.3 / (4.0 * radius) - 1.75, 1e-3);
+  EXPECT_TRUE(bends[0].turns);
+  EXPECT_NE(Text(bends[0], graph).find("a bus of 10.5 m"), std::string::npos);
+  settings.physics = Physics::kPlanar;
+  EXPECT_TRUE(TightBendsOf(graph, settings).empty());
+  const auto wide = Ring(200.0);
+  EXPECT_TRUE(TightBendsOf(lanes::Graph(*wide), Full()).empty());
+  const auto tight = BendOf29();
+  const lanes::Graph bend(*tight);
+  const auto vans = TightBendsOf(bend, Full());
+  ASSERT_FALSE(vans.empty());
+  EXPECT_FALSE(vans.back().turns);  // on 2.9 m no van's wheels turn
 }
 
 }  // namespace

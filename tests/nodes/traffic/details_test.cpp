@@ -1,6 +1,7 @@
 // What the traffic says of its drivers and engines.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -72,7 +73,7 @@ TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
       }
       const double heading = static_cast<double>(a.heading_rad());
       const double ahead_x = static_cast<double>(d.target_x_m()) - a.position_x_m(), ahead_y = static_cast<double>(d.target_y_m()) - a.position_y_m();
-      const double steers = std::max(3.0, 0.7 * a.speed_mps()) - 0.5 * static_cast<double>(a.wheelbase_m());
+      const double steers = std::max({3.0, static_cast<double>(a.wheelbase_m()), 0.7 * a.speed_mps()}) - 0.5 * static_cast<double>(a.wheelbase_m());
       EXPECT_NEAR(std::hypot(ahead_x, ahead_y), steers, 0.05 * steers + 0.3) << "on bends the chord is shorter";
       EXPECT_GT(std::cos(heading) * ahead_x + std::sin(heading) * ahead_y, 0.0);
       EXPECT_GT(std::cos(static_cast<double>(d.path_heading_rad()) - heading), 0.9) << "the car follows it";
