@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "common/base/files.hpp"
-#include "common/lanes/lights.hpp"
 #include "common/map/lane_map.hpp"
 #include "common/map/map_network.hpp"
 #include "common/map/map_plot.hpp"
 #include "common/map/map_report.hpp"
 #include "common/map/world_files.hpp"
+#include "common/traffic/map_lights.hpp"
 
 namespace rodeira::front {
 namespace {
@@ -26,16 +26,12 @@ int Complain(const base::Error& error) {
 
 // What only a network of the map shows: a shape that no road can have, lights that are green together where ways cross.
 std::optional<map::Finding> CheckDriven(const map::MapFile& file, const map::Heights& companion, const std::string& path) {
-  const auto wrong = [](map::Element element, std::size_t line, const base::Error& error) { return map::Finding{map::Severity::kError, element, 0, 0, line, error.message}; };
+  const auto wrong = [](const base::Error& error) { return map::Finding{map::Severity::kError, map::Element::kMap, 0, 0, 0, error.message}; };
   const auto made = map::MakeLaneMap(file, companion, path);
-  if (!made) return wrong(map::Element::kMap, 0, made.error());
+  if (!made) return wrong(made.error());
   const auto network = map::ToNetwork(made.value(), path);
-  if (!network) return wrong(map::Element::kMap, 0, network.error());
-  const lanes::Graph graph(*network.value());
-  const auto status = lanes::CheckLights(graph, lanes::Zones(graph));
-  if (status) return std::nullopt;
-  const bool known = !companion.lights.empty() && !companion.lights.front().phases.empty();
-  return wrong(map::Element::kLights, known ? map::LineOf(companion.lights.front().phases.front().place) : 0, status.error());
+  if (!network) return wrong(network.error());
+  return traffic::LightsTogether(made.value(), companion, *network.value());
 }
 
 int Check(const std::string& path) {
@@ -75,6 +71,9 @@ int Convert(const MapOptions& options) {
   const auto companion = map::LoadHeightsOf(options.file);
   if (companion && !companion.value().flows.empty()) {
     fmt::print(stderr, "rodeira: warning: the flows beside {} are not in it: a world has none; a file of traffic settings takes them (`flows`)\n", from.filename().string());
+  }
+  if (!map::BeginsAndEndsAtItsEdge(made.value())) {
+    fmt::print(stderr, "rodeira: warning: vehicles begin or end elsewhere than at the edge of {}; OpenDRIVE has no word for that: it stands in userData, which other programs pass over\n", from.filename().string());
   }
   const map::OpenDrive& drive = written.value();
   fmt::print("wrote {}{}: {} roads in {} pieces, {} junctions; off by at most {:.2f} mm (middle), {:.2f} mm (borders), {:.2f} mm (height)\n", options.out,

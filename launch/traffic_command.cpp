@@ -10,9 +10,12 @@
 #include <utility>
 
 #include "common/map/heights.hpp"
+#include "common/map/lane_map.hpp"
+#include "common/map/map_network.hpp"
 #include "common/road/map_world.hpp"
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/map_demand.hpp"
+#include "common/traffic/map_lights.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
 #include "common/traffic/tight_bends.hpp"
@@ -59,6 +62,20 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
   return settings;
 }
 
+// With the line of its companion where a traffic map's lights are green together.
+base::Status CheckLightsOfMap(const std::string& path) {
+  const auto companion = map::LoadHeightsOf(path);
+  if (!companion) return companion.error();
+  if (companion.value().lights.empty()) return {};
+  const auto made = map::LoadLaneMap(path);
+  if (!made) return made.error();
+  const auto network = map::ToNetwork(made.value(), path);
+  if (!network) return network.error();
+  const auto wrong = traffic::LightsTogether(made.value(), companion.value(), *network.value());
+  if (wrong) return base::WrongInput(wrong->Text(), wrong->Place(path));
+  return {};
+}
+
 void Describe(const TrafficOptions& options, const traffic::StudyResult& r, double wall_s) {
   fmt::print("vehicles         {} on the road, {} waiting to enter, {} trips ended\n", r.on_road, r.waiting, r.arrivals);
   fmt::print("entered, left    {} came onto the road, {} left it; {} were there at the beginning\n", r.entered, r.left, r.began);
@@ -94,6 +111,9 @@ int TrafficRun(const TrafficOptions& options) {
   const auto world = road::World::Load(options.map);
   if (!world) return Complain(world.error());
   const auto network = traffic::NetworkOf(world.value());
+  if (road::IsTrafficMap(options.map)) {
+    if (const auto lit = CheckLightsOfMap(options.map); !lit) return Complain(lit.error());
+  }
   auto how = HowTrafficIs(options);
   if (!how) return Complain(how.error());
   traffic::StudySettings settings;

@@ -69,6 +69,7 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
   }
   if (!options.csv.empty()) {
     std::error_code problem;
+    if (std::filesystem::exists(options.csv, problem) && !std::filesystem::is_directory(options.csv, problem)) return base::WrongInput("a file is there; a folder was expected", "--csv " + options.csv);
     std::filesystem::create_directories(options.csv, problem);
     files.trajectories_.open(files.InFolder("trajectories.csv"));
     if (problem || !files.trajectories_) return base::Failed("the folder cannot be written to", options.csv);

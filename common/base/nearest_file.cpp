@@ -26,7 +26,9 @@ std::string NearestFile(const std::filesystem::path& path) {
 
 std::string NoSuchFile(const std::filesystem::path& path) {
   std::error_code problem;
-  return std::filesystem::exists(path, problem) ? "" : "there is no such file" + NearestFile(path);
+  if (std::filesystem::exists(path, problem)) return "";
+  if (!std::filesystem::is_symlink(path, problem)) return "there is no such file" + NearestFile(path);
+  return fmt::format("this is a link to '{}', which is not there", std::filesystem::read_symlink(path, problem).string());
 }
 
 }  // namespace rodeira::base

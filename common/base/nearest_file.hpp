@@ -9,7 +9,7 @@ namespace rodeira::base {
 // extension) or of the same stem, lies in the same folder; otherwise nothing.
 std::string NearestFile(const std::filesystem::path& path);
 
-// "there is no such file; did you mean ...?" where there is none, otherwise nothing.
+// "there is no such file; did you mean ...?" where there is none, or what a link to nothing names; otherwise nothing.
 std::string NoSuchFile(const std::filesystem::path& path);
 
 }  // namespace rodeira::base

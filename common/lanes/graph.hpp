@@ -28,7 +28,7 @@ struct Track {
   std::vector<std::uint32_t> before;  // tracks that lead here; ascending
   std::optional<std::uint32_t> left, right;  // beside it in the same direction
   std::int32_t junction = -1;                // index into Network::junctions() for a connecting road's lane
-  bool entry = false;  // traffic may enter the network here
+  bool entry = false;  // traffic may enter the network here, at its beginning
   bool left_hand = false;
 
   double length_m() const { return curve.length_m(); }
@@ -44,7 +44,7 @@ struct NodeKey {
 
 // The drivable lanes of a network as a directed graph. Lanes of both directions are driven on the side of the road's rule.
 // A lane that narrows to an end beside another one goes on into that one, and one that opens beside another is entered from
-// where that one is. Immutable; the network must outlive it.
+// where that one is. A lane on which the network lets vehicles end goes on into nothing, whatever its file links it to. Immutable; the network must outlive it.
 class Graph {
  public:
   explicit Graph(const network::Network& network);
@@ -53,6 +53,8 @@ class Graph {
   const std::vector<Track>& tracks() const { return tracks_; }
   const Track& operator[](std::uint32_t track) const { return tracks_[track]; }
   std::optional<std::uint32_t> Find(const network::LaneKey& lane) const;
+  // Whether the network says itself where vehicles begin; then those are the entries, all of them and no others.
+  bool says_entries() const { return says_entries_; }
   // The limit at d, within what a car may drive where the network says none (50 km/h) or is without limit (130 km/h).
   double SpeedLimit_mps(std::uint32_t track, double d_m) const;
 
@@ -85,6 +87,7 @@ class Graph {
   const network::Network* network_;
   std::vector<Track> tracks_;
   std::vector<Cell> cells_;  // ascending
+  bool says_entries_ = false;
 };
 
 }  // namespace rodeira::lanes

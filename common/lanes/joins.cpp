@@ -1,4 +1,4 @@
-// How tracks go on where the file's lanes meet, where they end beside others, and where traffic may enter.
+// How tracks go on where the file's lanes meet, where they end beside others, where vehicles are gone, and where traffic may enter.
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +16,7 @@ constexpr double kLongEnough_m = 40.0;  // of a track that is entered in the mid
 }  // namespace
 
 void Graph::AddLink(std::uint32_t from, std::uint32_t to, double to_d_m, bool joins) {
+  if (network_->Find(tracks_[from].lane)->traffic_ends) return;
   auto& next = tracks_[from].next;
   if (std::any_of(next.begin(), next.end(), [&](const Link& link) { return link.to == to; })) return;
   const Curve& here = tracks_[from].curve;
@@ -62,9 +63,14 @@ void Graph::LinkEndingLanes() {
   for (const Wanted& link : wanted) AddLink(link.from, link.to, 0.0, true);
 }
 
-// Where the network is open, traffic enters at its edge: where nothing leads to a road's lane. A closed one is entered on
+// Where the network says it, traffic enters there. Where it says nothing and is open, traffic enters at its edge: where nothing leads to a road's lane. A closed one is entered on
 // any lane outside of junctions that is long enough.
 void Graph::FindEntries() {
+  for (Track& track : tracks_) {
+    track.entry = network_->Find(track.lane)->traffic_begins;
+    says_entries_ = says_entries_ || track.entry;
+  }
+  if (says_entries_) return;
   bool any = false;
   for (Track& track : tracks_) {
     const network::RoadSpec& road = network_->roads()[track.lane.road].spec();

@@ -88,7 +88,7 @@ std::optional<LightPlace> LightFor(const Graph& graph, std::uint32_t track, doub
   }
 }
 
-base::Status CheckLights(const Graph& graph, const Zones& zones) {
+std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& zones) {
   for (const Zone& zone : zones.zones()) {
     if (zone.kind == ZoneKind::kDiverge) continue;
     const auto a = LightFor(graph, zone.track[0], zone.in_m[0]), b = LightFor(graph, zone.track[1], zone.in_m[1]);
@@ -98,11 +98,16 @@ base::Status CheckLights(const Graph& graph, const Zones& zones) {
     const Eigen::Vector2d from_a = graph[a->track].curve.At(a->d_m).ahead_W, from_b = graph[b->track].curve.At(b->d_m).ahead_W;
     const double turned = std::fabs(std::atan2(geometry::Cross(from_a, from_b), from_a.dot(from_b)));
     if (turned < kAlike_rad || turned > kHeadOn_rad) continue;
-    return base::WrongInput("the lights " + Named(graph, *a) + " and " + Named(graph, *b) +
+    return GreenTogether{{a->controller, b->controller}, "the lights " + Named(graph, *a) + " and " + Named(graph, *b) +
                             " are green or amber together, and their ways " +
-                            (zone.kind == ZoneKind::kMerge ? "merge" : "cross") + "; phases that do not meet were expected",
-                            "network '" + graph.network().name() + "'");
+                            (zone.kind == ZoneKind::kMerge ? "merge" : "cross") + "; phases that do not meet were expected"};
   }
+  return std::nullopt;
+}
+
+base::Status CheckLights(const Graph& graph, const Zones& zones) {
+  const auto together = FindGreenTogether(graph, zones);
+  if (together) return base::WrongInput(together->sentence, "network '" + graph.network().name() + "'");
   return {};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,14 @@ std::vector<LightPlace> LightsOf(const Graph& graph, std::uint32_t track);
 // The light that holds at d of a track: the last one before it, or, going back over tracks that are the only way here,
 // within 60 m.
 std::optional<LightPlace> LightFor(const Graph& graph, std::uint32_t track, double d_m);
+
+// Two lights that are green or amber together although their ways cross or merge.
+struct GreenTogether {
+  std::array<std::uint32_t, 2> controllers{};  // indices into the network's
+  std::string sentence;                        // names both
+};
+// The first such two; nothing where there are none.
+std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& zones);
 
 // Wrong input where two lights are green or amber together whose ways come from different sides and cross or merge. Who turns
 // across the way of those who come towards him may be green with them: he yields. The two are named.

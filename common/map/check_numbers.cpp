@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <set>
 
 #include "common/map/check_rules.hpp"
@@ -93,6 +94,25 @@ void CheckSigns(const MapFile& map, const Heights& heights, Findings& findings) 
   }
 }
 
+// Who goes first at a lane's end is said once; a STOP flag of a connection is a sign, too.
+void CheckPriorities(const MapFile& map, const Heights& heights, Findings& findings) {
+  std::map<std::int32_t, const LaneSign*> first;
+  for (const LaneSign& sign : heights.signs) {
+    if (sign.kind == SignKind::kSpeedLimit) continue;
+    const LaneSign& before = *first.emplace(sign.lane, &sign).first->second;
+    if (before.kind != sign.kind) {
+      findings.Add(Severity::kWarning, sign, fmt::format("'{}', but it has '{}' already, in line {}; one of 'stop', 'give_way' and 'priority' a lane was expected", NameOf(sign.kind), NameOf(before.kind), before.line));
+    }
+  }
+  for (const auto& line : map.connections) {
+    const auto sign = first.find(line.value.from);
+    if (line.value.stop && sign != first.end() && sign->second->kind != SignKind::kStop) {
+      findings.Add(Severity::kWarning, *sign->second, fmt::format("'{}', but its connection to lane {} has a STOP flag", NameOf(sign->second->kind), line.value.to));
+      first.erase(sign);
+    }
+  }
+}
+
 }  // namespace
 
 void CheckNumbers(const MapFile& map, const Heights& heights, Findings& findings) {
@@ -113,6 +133,7 @@ void CheckNumbers(const MapFile& map, const Heights& heights, Findings& findings
   }
   CheckLights(map, heights, findings);
   CheckSigns(map, heights, findings);
+  CheckPriorities(map, heights, findings);
   for (const CurveHeights& one : heights.curves) {
     if (!curves.Find(one.curve)) findings.Add(Severity::kError, one, "the map has no such curve");
   }

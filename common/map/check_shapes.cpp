@@ -60,6 +60,12 @@ Worst Sample(const LaneShape& shape) {
   return worst;
 }
 
+// What makes two borders that run against each other run alike.
+std::string Turned(const Lane& lane) {
+  if (lane.left.inverted == lane.right.inverted) return lane.left.inverted ? "one must not be inverted" : "one must be inverted";
+  return fmt::format("curve {} is inverted and must not be, or curve {} must be too", lane.left.inverted ? lane.left.curve : lane.right.curve, lane.left.inverted ? lane.right.curve : lane.left.curve);
+}
+
 // False: there is no lane to speak of, and how it meets others says nothing.
 bool CheckLane(const Line<Lane>& line, const LaneShape& shape, Findings& findings) {
   const auto refuse = [&](std::string sentence) {
@@ -70,8 +76,7 @@ bool CheckLane(const Line<Lane>& line, const LaneShape& shape, Findings& finding
   const auto head = [](const Border& border) { return border.plan.Tangent(0.0); };
   // Borders of a hairpin may have runs of little meaning, but their beginnings point the same way.
   if (run(shape.left()).dot(run(shape.right())) < 0.0 && head(shape.left()).dot(head(shape.right())) < 0.0) {
-    return refuse(fmt::format("its curves {} and {} run against each other; one must be inverted", line.value.left.curve,
-                              line.value.right.curve));
+    return refuse(fmt::format("its curves {} and {} run against each other; {}", line.value.left.curve, line.value.right.curve, Turned(line.value)));
   }
   if (shape.length_m() < kShortest_m) return refuse("it has no length");
   const Worst worst = Sample(shape);
@@ -118,6 +123,8 @@ void CheckPicture(const MapFile& map, Findings& findings) {
                                                       picture->width_px, picture->height_px));
   } else if (!picture->ends) {
     findings.AddToMap(Severity::kError, fmt::format("the {} bytes behind the line 'i' end before the {} picture does", map.picture.size(), picture->kind));
+  } else if (!picture->fits) {
+    findings.AddToMap(Severity::kError, fmt::format("the {} bytes behind the line 'i' are too few for a {} picture of {} by {} pixels", map.picture.size(), picture->kind, picture->width_px, picture->height_px));
   }
 }
 

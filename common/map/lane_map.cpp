@@ -64,6 +64,12 @@ base::Result<LaneMap> MakeLaneMap(const MapFile& file, const Heights& heights, c
   return map;
 }
 
+bool BeginsAndEndsAtItsEdge(const LaneMap& map) {
+  return std::all_of(map.lanes.begin(), map.lanes.end(), [](const MapLane& lane) {
+    return (lane.mode == LaneMode::kStart) == lane.arriving.empty() && (lane.mode == LaneMode::kEnd) == lane.onward.empty();
+  });
+}
+
 base::Result<LaneMap> LoadLaneMap(const std::filesystem::path& path) {
   const auto file = LoadMap(path);
   if (!file) return file.error();

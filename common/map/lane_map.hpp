@@ -76,6 +76,9 @@ struct LaneMap {
   double picture_height_m = 0.0;
 };
 
+// Whether vehicles begin on every lane that no connection leads to, end on every lane that none leaves, and nowhere else: what any network says by itself.
+bool BeginsAndEndsAtItsEdge(const LaneMap& map);
+
 // Wrong input with the first error of CheckMap; warnings do not hinder. `name` stands for the file in messages.
 base::Result<LaneMap> MakeLaneMap(const MapFile& file, const Heights& heights, const std::string& name);
 // Reads the file and its companion with the heights.

@@ -21,7 +21,7 @@ void SetCubic(pugi::xml_node node, const Cubic1& c, const char* suffix = "") {
 
 class Writer {
  public:
-  Writer(const LaneMap& map, const std::string& name, Junctions kind) : map_(map), kind_(kind), plan_(PlanRoads(map, kind)) {
+  Writer(const LaneMap& map, const std::string& name, Junctions kind) : map_(map), kind_(kind), tells_modes_(kind == Junctions::kDirect || !BeginsAndEndsAtItsEdge(map)), plan_(PlanRoads(map, kind)) {
     if (kind == Junctions::kCommon) bounds_.length_m = kLength_m;
     root_ = document_.append_child("OpenDRIVE");
     pugi::xml_node header = root_.append_child("header");
@@ -163,12 +163,12 @@ class Writer {
       }
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      WriteSection(lanes, parts[i], i > 0 || plan.before.road != kNoRoad, i + 1 < parts.size() || plan.behind.road != kNoRoad);
+      WriteSection(lanes, parts[i], i > 0 || plan.before.road != kNoRoad, i + 1 < parts.size() || plan.behind.road != kNoRoad, i == plan.own);
     }
   }
 
-  // linked_*: the lane goes on there, and no junction decides into which.
-  void WriteSection(pugi::xml_node lanes, const FittedPart& part, bool linked_before, bool linked_behind) const {
+  // linked_*: the lane goes on there, and no junction decides into which. own: the road is this lane's.
+  void WriteSection(pugi::xml_node lanes, const FittedPart& part, bool linked_before, bool linked_behind, bool own) const {
     const MapLane& lane = map_.lanes[part.part.lane];
     pugi::xml_node section = lanes.append_child("laneSection");
     Set(section, "s", part.s_m);
@@ -191,6 +191,11 @@ class Writer {
     }
     WriteMark(right, lane.right_type);
     WriteSpeeds(right, part.part);
+    if (own && tells_modes_ && lane.mode != LaneMode::kNone) {  // OpenDRIVE has no word for it
+      pugi::xml_node data = right.append_child("userData");
+      Set(data, "code", "rodeira:traffic");
+      Set(data, "value", lane.mode == LaneMode::kStart ? "begins" : "ends");
+    }
   }
 
   // Limits that hold on the part: the last one before it, and those along it.
@@ -229,6 +234,7 @@ class Writer {
 
   const LaneMap& map_;
   Junctions kind_;
+  bool tells_modes_;  // where vehicles begin and end
   FitBounds bounds_;
   RoadPlan plan_;
   OpenDrive drive_;

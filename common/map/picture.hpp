@@ -10,6 +10,7 @@ struct PictureInfo {
   std::string_view kind;  // "PNG" or "JPEG"
   int width_px = 0;       // both at least 1
   int height_px = 0;
+  bool fits = true;       // so many pixels can be packed into so few bytes
   bool ends = true;       // what every such file ends with is there: the chunk IEND, the marker EOI
 };
 

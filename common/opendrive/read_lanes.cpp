@@ -108,6 +108,18 @@ void ReadLinks(const Node& node, Lane& lane) {
   for (const Node& link : node.Child("link").Children("successor")) lane.successors.push_back(link.Integer("id"));
 }
 
+constexpr const char* kTraffic = "rodeira:traffic";  // whether vehicles begin on the lane, or end there
+
+void ReadTraffic(const Node& node, Lane& lane) {
+  for (const Node& data : node.Children("userData")) {
+    if (data.Text("code", "") != kTraffic) continue;
+    const std::string what = data.Text("value", "");
+    if (what == "begins") lane.traffic_begins = true;
+    else if (what == "ends") lane.traffic_ends = true;
+    else data.Wrong("rodeira.traffic", fmt::format("of the lane's traffic '{}' was found; 'begins' or 'ends' was expected", what));
+  }
+}
+
 Lane ReadLane(const Node& node, const Around& around) {
   const double section_s_m = around.section_s_m;
   Lane lane;
@@ -137,6 +149,7 @@ Lane ReadLane(const Node& node, const Around& around) {
   });
   lane.materials = ReadRecords<network::LaneMaterial>(node, "material", section_s_m, ReadMaterial);
   lane.access = ReadAccesses(node, section_s_m);
+  ReadTraffic(node, lane);
   ReadLinks(node, lane);
   if (lane.id == 0 && (!lane.width.empty() || !lane.border.empty())) {
     node.Wrong("road.lane.center_lane_no_width", "the centre lane has a width; none was expected");

@@ -103,6 +103,9 @@ std::string LaneText(const network::Lane& lane, const network::LaneSection& sect
   for (const auto& height : lane.heights) {
     text += fmt::format("<height sOffset=\"{}\" inner=\"{}\" outer=\"{}\"/>\n", height.s_m - section.s_m, height.inner_m, height.outer_m);
   }
+  // OpenDRIVE cannot say where vehicles begin and end.
+  if (lane.traffic_begins) text += "<userData code=\"rodeira:traffic\" value=\"begins\"/>\n";
+  if (lane.traffic_ends) text += "<userData code=\"rodeira:traffic\" value=\"ends\"/>\n";
   return text + "</lane>\n";
 }
 

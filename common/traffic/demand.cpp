@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "common/base/suggest.hpp"
 
@@ -80,10 +81,15 @@ base::Result<Demand> Demand::Make(const lanes::Graph& graph, const lanes::EdgeMa
     demand.flows_.push_back(flow);
   }
   if (!settings.turns.empty()) demand.shares_.resize(graph.tracks().size());
+  std::map<std::uint32_t, const TurnSettings*> told;  // by the track at whose end they turn
   for (const TurnSettings& turn : settings.turns) {
     auto tracks = TracksOf(graph, turn.lane, turn.place);
     if (!tracks) return tracks.error();
     const std::uint32_t last = tracks.value().back();
+    if (const auto [before, is_first] = told.emplace(last, &turn); !is_first) {
+      return base::WrongInput(fmt::format("the lane '{}' has turns already, as '{}'{}; one item a lane was expected", turn.lane, before->second->lane,
+                                          before->second->place.empty() ? "" : " in " + before->second->place), turn.place);
+    }
     auto shares = SharesOf(graph, last, turn);
     if (!shares) return shares.error();
     demand.shares_[last] = std::move(shares).value();

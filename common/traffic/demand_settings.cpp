@@ -1,17 +1,47 @@
 #include "common/traffic/demand_settings.hpp"
 
+#include <fmt/format.h>
+
+#include "common/base/suggest.hpp"
+
 namespace rodeira::traffic {
 namespace {
 
 constexpr double kMostAnHour = 1e5;
 constexpr double kLongest_s = 1e9;
 
+const std::vector<std::string> kRates{"vehicles_per_h", "by_hour", "every_s"};
+constexpr const char* kOneRate = "one of 'vehicles_per_h', 'by_hour' and 'every_s' was expected";
+
+// "'a', 'b' and 'c'"
+std::string Listed(const std::vector<std::string>& keys) {
+  std::string text;
+  for (std::size_t i = 0; i < keys.size(); ++i) text += (i == 0 ? "'" : i + 1 == keys.size() ? " and '" : ", '") + keys[i] + "'";
+  return text;
+}
+
+// A flow says in one way how many come.
+void CheckRates(const config::Map& map) {
+  std::vector<std::string> found;
+  for (const std::string& key : kRates) {
+    if (map.Has(key)) found.push_back(key);
+  }
+  if (found.size() == 1) return;
+  for (const std::string& key : found) map.LeaveToOthers(key);
+  if (found.size() > 1) return map.Problem(found[1], fmt::format("{} were found; {}", Listed(found), kOneRate));
+  const std::vector<std::string> keys = map.Keys();
+  for (const std::string& key : keys) {
+    const std::string meant = base::NearestName(key, kRates);
+    if (!meant.empty()) return map.Problem(key, fmt::format("'{}' was found; {}; did you mean '{}'?", key, kOneRate, meant));
+  }
+  map.Problem("", keys.empty() ? kOneRate : fmt::format("{} {} found; {}", Listed(keys), keys.size() == 1 ? "was" : "were", kOneRate));
+}
+
 void ReadRate(const config::Map& map, FlowSettings& flow) {
-  const int ways = (map.Has("vehicles_per_h") ? 1 : 0) + (map.Has("by_hour") ? 1 : 0) + (map.Has("every_s") ? 1 : 0);
-  if (ways != 1) map.Problem("", "one of 'vehicles_per_h', 'by_hour' and 'every_s' was expected");
+  CheckRates(map);
   if (map.Has("every_s")) {
     const std::vector<double> gaps = map.Numbers("every_s", {0.1, 1e6});
-    if (gaps.size() != 2 || gaps[0] > gaps[1]) map.Problem("every_s", "the shortest and the longest gap, [3, 8], were expected");
+    if (gaps.size() != 2 || gaps[0] > gaps[1]) map.Problem("every_s", fmt::format("[{}] was found; the shortest and the longest gap, as [3, 8], were expected", fmt::join(gaps, ", ")));
     else flow.least_gap_s = gaps[0], flow.most_gap_s = gaps[1];
     flow.arrivals = Arrivals::kUniform;
     return;

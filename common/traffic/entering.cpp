@@ -13,6 +13,7 @@ constexpr std::uint64_t kDrawLane = 102;
 constexpr double kGentle_mps2 = 0.8;     // an entering car needs no harder braking than this
 constexpr double kEnteringShare = 0.95;  // of the speed it wants
 constexpr double kEnteringBrake = 0.9;   // share of its comfortable braking before the first line
+constexpr double kStand_m = 2.0;         // beside its length, between zones that it enters before
 constexpr double kUntouched_m = 0.4;     // between who enters by MOTORS' rule and who is ahead, at least
 
 }  // namespace
@@ -53,10 +54,10 @@ void TrafficModel::Enter() {
   if (waiting_.empty()) return;
   present_.Clear();
   expected_.assign(graph().tracks().size(), 0);
-  const bool among_others = std::any_of(waiting_.begin(), waiting_.end(), [&](std::uint32_t id) { return !graph()[agents_[id].entry].before.empty(); });
+  const bool among_others = std::any_of(waiting_.begin(), waiting_.end(), [&](std::uint32_t id) { return IsAmongOthers(agents_[id].entry); });
   const auto appear = [&](std::uint32_t id) {
     for (const Piece& piece : agents_[id].path) {
-      if (map_->enters[piece.track]) present_.Add(piece.track, id);
+      if (map_->watched[piece.track]) present_.Add(piece.track, id);
     }
     if (!among_others) return;
     const double front = agents_[id].o_m + 0.5 * traits_[id].length_m, sight = SightOf(agents_[id]);
@@ -78,18 +79,53 @@ void TrafficModel::Enter() {
   waiting_ = std::move(left);
 }
 
+// Whether somebody may come to a track's beginning, or to that of one that parts from it.
+bool TrafficModel::IsAmongOthers(std::uint32_t track) const {
+  const auto partings = zones().PartingsOf(track);
+  return !graph()[track].before.empty() || std::any_of(partings.begin(), partings.end(), [&](const lanes::Parting& part) { return !graph()[part.other].before.empty(); });
+}
+
+// Whether somebody is on his way to a track's beginning, or to that of one that parts from it, or is not clear of it yet on such a one.
+bool TrafficModel::IsExpected(std::uint32_t track, double gap_m) const {
+  if (IsAmongOthers(track) && expected_[track] != 0) return true;
+  for (const lanes::Parting& part : zones().PartingsOf(track)) {
+    if (expected_[part.other] != 0) return true;
+    for (const std::uint32_t other : present_.Of(part.other)) {
+      for (const Piece& piece : agents_[other].path) {
+        if (piece.track == part.other && agents_[other].o_m - 0.5 * traits_[other].length_m - piece.zero_m < part.other_out_m + gap_m) return true;
+      }
+    }
+  }
+  return false;
+}
+
+// The conflict zones at its beginning, up to the next place where it can stand: its own from now on. False where another one holds any of them.
+bool TrafficModel::TakeFirstZones(std::uint32_t id) {
+  Agent& agent = agents_[id];
+  const double stand = traits_[id].length_m + kStand_m;
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.begin_m > agent.granted_m + stand) break;
+    for (const lanes::ZoneSide& part : zones().ConflictsOf(stretch.track)) {
+      if (stretch.zero_m + part.in_m > agent.granted_m + stand) break;
+      if (!book_.HoldersOf(part.zone, static_cast<std::size_t>(1 - part.side)).empty()) return false;
+      agent.granted_m = std::max(agent.granted_m, stretch.zero_m + part.out_m);
+    }
+  }
+  return true;
+}
+
 // With its rear bumper at the lane's beginning, at its own speed or at that of the car ahead, once the gap bears it.
 bool TrafficModel::TryEnter(std::uint32_t id) {
   Agent& agent = agents_[id];
   const AgentTraits& traits = traits_[id];
   const double half = 0.5 * traits.length_m;
-  const lanes::Track& track = graph()[agent.entry];
   const bool as_motors = settings_.enters == EnterRule::kFree;
   const double free_m = std::max(settings_.free_m, traits.length_m + kUntouched_m);  // of the lane, by that rule
   for (const Block& block : blocks_[agent.entry]) {
     if (block.span.rear_m < (as_motors ? free_m : traits.length_m + traits.idm.standing_gap_m) && block.span.front_m > 0.0) return false;
   }
-  if (!track.before.empty() && expected_[agent.entry] != 0) return false;  // in the middle of the network: nobody may be on the way there
+  const bool looks = settings_.driver != DriverKind::kMotors;  // beyond the lane that it enters
+  if (looks && IsExpected(agent.entry, traits.idm.standing_gap_m)) return false;
   Agent entering = agent;
   entering.on_road = true;
   entering.o_m = half;
@@ -102,15 +138,7 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
   FindStretches(id, settings_.sight_m);
   const double limit = map_->plans[agent.entry].limit_mps * traits.speed_factor;
   double speed = kEnteringShare * std::min(Allowed(id, agents_[id].o_m).speed_mps * traits.speed_factor, traits.top_mps);
-  // Conflict zones right at the beginning must be free, and are its own from now on.
-  for (const lanes::ZoneSide& part : zones().Of(agent.entry)) {
-    const lanes::Zone& zone = zones()[part.zone];
-    const auto mine = static_cast<std::size_t>(part.side), theirs = 1 - mine;
-    if (zone.kind == lanes::ZoneKind::kDiverge) continue;
-    if (zone.in_m[mine] > traits.length_m + 2.0 && zone.in_m[mine] > agent.granted_m + traits.length_m + 2.0) break;
-    if (!book_.HoldersOf(part.zone, theirs).empty()) return wait();
-    agent.granted_m = std::max(agent.granted_m, zone.out_m[mine]);
-  }
+  if (looks && !TakeFirstZones(id)) return wait();
   speed = std::min(speed, AtMostForLine(id));
   if (people_) speed = std::min(speed, AtMostForPeople(id));
   if (speed < 0.0) return wait();
@@ -131,11 +159,13 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
     if (!as_motors && !safe(speed)) return wait();
   }
   agent.speed_mps = speed;
+  missed_now_[id] = Follow(id);  // its front may be beyond a short lane already
   if (full_ && !PlaceFull(id)) return wait();
   if (agent.granted_m > 0.0) {
     agent.grants = {{agent.granted_m, next_grant_++, false}};
     HoldZones(id);
   }
+  missed_ += missed_now_[id];
   return true;
 }
 

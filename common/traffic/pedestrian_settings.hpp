@@ -20,6 +20,7 @@ struct PedestrianSettings {
   double per_h = 0.0;  // that come to each crossing, from both sides together
   double slowest_mps = 1.2, fastest_mps = 1.5;
   std::vector<CrossingFlow> at;  // crossings with another number
+  std::string place;             // file and line, for what is wrong with them
 };
 
 // Reads `per_hour`, `slowest_mps`, `fastest_mps` and `at`. Problems stay in the file's collection.

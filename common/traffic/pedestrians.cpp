@@ -73,7 +73,7 @@ base::Result<Pedestrians> Pedestrians::Make(const lanes::Graph& graph, const lan
   Pedestrians made(settings, seed);
   made.crossings_ = std::make_shared<const std::vector<lanes::FootCrossing>>(lanes::FindFootCrossings(graph, car));
   if (settings.per_h > 0.0 && made.crossings_->empty()) {
-    return base::WrongInput("the network '" + graph.network().name() + "' has no crossing for people on foot; one ('crossing' of a road's markings, OpenDRIVE's 'crosswalk' or signal 293), or no 'pedestrians', was expected");
+    return base::WrongInput("the network '" + graph.network().name() + "' has no crossing for people on foot; one ('crossing' of a road's markings, OpenDRIVE's 'crosswalk' or signal 293), or no 'pedestrians', was expected", settings.place);
   }
   auto of_track = std::make_shared<std::vector<std::vector<OnTrack>>>(graph.tracks().size());
   for (std::uint32_t c = 0; c < made.crossings().size(); ++c) {

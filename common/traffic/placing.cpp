@@ -19,13 +19,13 @@ constexpr double kNarrow_m = 2.0;
 
 }  // namespace
 
-// Spread evenly over the lanes outside of junctions, jittered, clear of conflict zones and of each other, no faster than lets
+// Spread evenly over the lanes outside of junctions that somebody could have come to, jittered, clear of conflict zones and of each other, no faster than lets
 // them stop before whatever is ahead.
 void TrafficModel::PlaceAll(std::span<const driver::Footprint> others) {
   std::vector<std::uint32_t> tracks;
   double total = 0.0;
   for (std::uint32_t track = 0; track < graph().tracks().size(); ++track) {
-    if (graph()[track].junction >= 0) continue;
+    if (graph()[track].junction >= 0 || !map_->reached[track]) continue;
     tracks.push_back(track);
     total += graph()[track].length_m();
   }

@@ -27,6 +27,27 @@ std::uint64_t KeyOf(const lanes::Graph& graph, std::uint32_t track) {
   return base::RandomBits({key, lane.section, static_cast<std::uint64_t>(static_cast<std::int64_t>(lane.lane))});
 }
 
+std::vector<bool> ReachedOf(const lanes::Graph& graph) {
+  std::vector<bool> reached(graph.tracks().size(), !graph.says_entries());
+  std::vector<std::uint32_t> open;
+  const auto reach = [&](std::uint32_t track) {
+    if (!reached[track]) open.push_back(track);
+    reached[track] = true;
+  };
+  for (std::uint32_t track = 0; track < reached.size(); ++track) {
+    if (graph[track].entry) reach(track);
+  }
+  while (!open.empty()) {
+    const lanes::Track& track = graph[open.back()];
+    open.pop_back();
+    for (const lanes::Link& link : track.next) reach(link.to);
+    for (const auto& beside : {track.left, track.right}) {
+      if (beside) reach(*beside);
+    }
+  }
+  return reached;
+}
+
 }  // namespace
 
 std::uint32_t TrafficMap::DrawEntry(std::uint64_t draw) const {
@@ -49,7 +70,7 @@ TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const Traffic
       const bool early = std::any_of(zones.Of(track).begin(), zones.Of(track).end(), [&](const lanes::ZoneSide& side) {
         return zones[side.zone].in_m[static_cast<std::size_t>(side.side)] < kEntryClear_m;
       });
-      if (graph[track].entry && !(clear && early)) entries.push_back(track);
+      if (graph[track].entry && !(clear && early && !graph.says_entries())) entries.push_back(track);
     }
     if (!entries.empty()) break;
   }
@@ -57,7 +78,16 @@ TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const Traffic
   base::PreferHugePages(plans);
   for (const lanes::Zone& zone : zones.zones()) zips.push_back(Zips(graph, zone));
   enters.resize(graph.tracks().size());
-  for (std::uint32_t track = 0; track < enters.size(); ++track) enters[track] = graph[track].entry;
+  watched.resize(graph.tracks().size());
+  for (std::uint32_t track = 0; track < enters.size(); ++track) {
+    if (graph[track].entry) LetEnter(track);
+  }
+  reached = ReachedOf(graph);
+}
+
+void TrafficMap::LetEnter(std::uint32_t track) {
+  enters[track] = watched[track] = true;
+  for (const lanes::Parting& part : zones.PartingsOf(track)) watched[part.other] = true;
 }
 
 }  // namespace rodeira::traffic

@@ -82,7 +82,7 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
   if (!demand) return demand.error();
   map->demand = std::move(demand).value();
   for (const Demand::Flow& flow : map->demand.flows()) {
-    if (flow.track >= 0) map->enters[static_cast<std::size_t>(flow.track)] = true;
+    if (flow.track >= 0) map->LetEnter(static_cast<std::uint32_t>(flow.track));
   }
   TrafficModel model(settings, map);
   if (settings.vehicles > 0 && model.map_->entries.empty()) {
@@ -174,7 +174,7 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
       agents_[id].grade = as_below ? below_[id].grade : GradeOf(moved_[id].q_WB);
     }
     const auto& path = agents_[id].path;
-    at_entry_[id] = std::any_of(path.begin(), path.end(), [&](const Piece& piece) { return map_->enters[piece.track]; });
+    at_entry_[id] = std::any_of(path.begin(), path.end(), [&](const Piece& piece) { return map_->watched[piece.track]; });
   });
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     missed_ += missed_now_[id];

@@ -315,6 +315,9 @@ class TrafficModel {
   void AppearAll();
   void Enter();
   bool TryEnter(std::uint32_t id);
+  bool IsAmongOthers(std::uint32_t track) const;
+  bool IsExpected(std::uint32_t track, double gap_m) const;
+  bool TakeFirstZones(std::uint32_t id);
   void FindColours();
   void FindPoses();
   const lanes::Curve::Straight* StraightBelow(std::uint32_t id) const;

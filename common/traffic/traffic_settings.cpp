@@ -1,5 +1,7 @@
 #include "common/traffic/traffic_settings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace rodeira::traffic {
@@ -20,7 +22,9 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.variety = map.Number("variety", {0.0, 0.5}, t.variety);
   t.speed_factor_low = map.Number("speed_factor_low", {0.2, 2.0}, t.speed_factor_low);
   t.speed_factor_high = map.Number("speed_factor_high", {0.2, 2.0}, t.speed_factor_high);
-  if (t.speed_factor_high < t.speed_factor_low) map.Problem("speed_factor_high", "'speed_factor_high' is below 'speed_factor_low'");
+  if (t.speed_factor_high < t.speed_factor_low) {
+    map.Problem(map.Has("speed_factor_high") ? "speed_factor_high" : "speed_factor_low", fmt::format("'speed_factor_high' is {}, below 'speed_factor_low', which is {}", t.speed_factor_high, t.speed_factor_low));
+  }
   t.side_margin_m = map.Number("side_margin_m", {0.0, 2.0}, t.side_margin_m);
   t.sight_m = map.Number("sight_m", {20.0, 2000.0}, t.sight_m);
   const config::Map follow = map.OptionalChild("following");

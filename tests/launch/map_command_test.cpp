@@ -1,9 +1,11 @@
 // `rodeira map` as a user sees it: what is printed, what is written, the exit status.
 #include "launch/map_command.hpp"
+#include "launch/traffic_command.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "common/base/files.hpp"
@@ -64,6 +66,21 @@ TEST(MapCommand, SaysThatFlowsStayBehind) {
   EXPECT_EQ(said.errors, "rodeira: warning: the flows beside a.motors are not in it: a world has none; a file of traffic settings takes them (`flows`)\n");
 }
 
+// OpenDRIVE has no word for where vehicles begin and end: another program does not read it.
+TEST(MapCommand, SaysThatModesElsewhereThanAtTheEdgeAreItsOwn) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "a.motors", out = folder.path() / "a.xodr";
+  std::string text = base::ReadText(kCrossing).value();
+  const std::string lane = "l,13,20,False,0,21,False,0,";
+  ASSERT_NE(text.find(lane + "0"), std::string::npos);
+  text[text.find(lane) + lane.size()] = '1';
+  ASSERT_TRUE(base::WriteWhole(file, text).ok());
+  const Said said = Asked({"convert", file, out});
+  EXPECT_EQ(said.status, 0);
+  EXPECT_EQ(said.errors, "rodeira: warning: vehicles begin or end elsewhere than at the edge of a.motors; OpenDRIVE has no word for that: it stands in userData, which other programs pass over\n");
+  EXPECT_THAT(base::ReadText(out).value(), HasSubstr("<userData code=\"rodeira:traffic\" value=\"begins\""));
+}
+
 // What the check lets pass can be driven: a bend that no road has, and lights that are green together, are found by it too.
 TEST(MapCommand, FindsWhatCannotBeDriven) {
   const TemporaryFolder folder;
@@ -82,6 +99,16 @@ TEST(MapCommand, FindsWhatCannotBeDriven) {
   EXPECT_EQ(said.status, 2);
   EXPECT_THAT(said.errors, testing::ContainsRegex("a[.]motors[.]yaml:[0-9]+: lights: the lights .* and .* are green or amber together"));
   EXPECT_THAT(said.out, HasSubstr("found        1 errors"));
+  // … in the second phase: there it is said, also to who wants to drive.
+  ASSERT_TRUE(base::WriteWhole(beside, good.substr(0, good.find("lights:")) + "lights:\n  - phases:\n      - {green: [], for_s: 10}\n      - {green: [" + lanes + "], for_s: 20}\n").ok());
+  const auto line = std::count(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(good.find("lights:")), '\n') + 4;
+  const std::string there = "a.motors.yaml:" + std::to_string(line) + ": lights: the lights ";
+  EXPECT_THAT(Asked({"check", file, ""}).errors, HasSubstr(there));
+  TrafficOptions drive;
+  drive.map = file;
+  const Said driven = SaidBy(TrafficRun, drive);
+  EXPECT_EQ(driven.status, 2);
+  EXPECT_THAT(driven.errors, HasSubstr(there));
   // A lane that turns on the spot: nobody finds its errors at the place of another file.
   std::string sharp = map::kGoodLines;
   sharp.replace(sharp.find("p,5,30,1,1.5,34,1,1.5,38.5,1,6,38.5,1,10"), 40, "p,5,30,1,1.5,30.1,1,1.5,29,1,1.5,29,1,2");

@@ -71,5 +71,12 @@ TEST_F(TrafficCommand, AFlowOnALaneThatIsNotThereIsRefused) {
   EXPECT_EQ(said.out, "");
 }
 
+TEST_F(TrafficCommand, AFileWhereTablesShouldGoIsNamed) {
+  options_.csv = options_.map;
+  const Said said = Asked(options_);
+  EXPECT_EQ(said.status, 2);
+  EXPECT_EQ(said.errors, "rodeira: --csv " + options_.map + ": a file is there; a folder was expected\n");
+}
+
 }  // namespace
 }  // namespace rodeira::front

@@ -196,6 +196,8 @@ TEST(Files, AMissingFileIsSaidWithTheNearestBesideIt) {
   EXPECT_EQ(ReadText(in("dmeo.yaml")).error().message, "there is no such file; did you mean 'demo.yaml'?");
   EXPECT_EQ(ReadText(in("something else.yaml")).error().message, "there is no such file");
   EXPECT_EQ(ReadText("/no/such/dmeo.yaml").error().message, "there is no such file");
+  std::filesystem::create_symlink("moved.yaml", in("link.yaml"));
+  EXPECT_EQ(ReadText(in("link.yaml")).error().message, "this is a link to 'moved.yaml', which is not there");
 }
 
 TEST(Mathematics, TheDigestIsTheSameTwice) { EXPECT_EQ(MathematicsDigest(), MathematicsDigest()); }

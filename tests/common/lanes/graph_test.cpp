@@ -30,7 +30,24 @@ TEST(LaneGraph, HasTheMapsLanesAndConnections) {
     }
     EXPECT_EQ(links, map.connections.size()) << name;
     EXPECT_EQ(entries, map.start_lanes.size()) << name;
+    EXPECT_TRUE(graph.says_entries()) << name;
   }
+}
+
+// A network's lanes may say where vehicles begin and end: then its edge is no entry, and a lane on which they end goes on into nothing.
+TEST(LaneGraph, BeginsAndEndsWhereItsLanesSay) {
+  opendrive::RoadText road;
+  const auto lane = [](const std::string& more) { return "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>" + more + "</lane>"; };
+  const auto says = [](const char* what) { return fmt::format("<userData code=\"rodeira:traffic\" value=\"{}\"/>", what); };
+  road.left = "";
+  road.right = lane(says("begins") + says("ends"));
+  const auto network = opendrive::MustRead(opendrive::Document(road.Text()));
+  EXPECT_TRUE(network->Find({0, 0, -1})->traffic_begins);
+  EXPECT_TRUE(network->Find({0, 0, -1})->traffic_ends);
+  road.right = lane(says("sleeps"));
+  const auto wrong = opendrive::Read(opendrive::Document(road.Text()), "w.xodr").value();
+  ASSERT_EQ(wrong.errors.size(), 1u);
+  EXPECT_EQ(wrong.errors.front().message, "of the lane's traffic 'sleeps' was found; 'begins' or 'ends' was expected");
 }
 
 // Whoever goes over a link stays where it is.

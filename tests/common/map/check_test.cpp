@@ -103,6 +103,12 @@ TEST(Check, Lanes) {
               ElementsAre("E x.motors:7 lane 1: curve 1 is on both of its sides", "W x.motors:2 curve 2: no lane uses it"));
   EXPECT_THAT(Found(With("l,2,3,True", "l,2,3,False")),
               ElementsAre("E x.motors:8 lane 2: its curves 3 and 4 run against each other; one must be inverted"));
+  EXPECT_THAT(Found(With("l,1,1,False,3,2,False", "l,1,1,True,3,2,False")),
+              testing::Contains("E x.motors:7 lane 1: its curves 1 and 2 run against each other; curve 1 is inverted and must not be, or curve 2 must be too"));
+  EXPECT_THAT(Found(With("l,1,1,False,3,2,False", "l,1,1,False,3,2,True")),
+              testing::Contains("E x.motors:7 lane 1: its curves 1 and 2 run against each other; curve 2 is inverted and must not be, or curve 1 must be too"));
+  EXPECT_THAT(Found(With("l,2,3,True,3,4,False", "l,2,3,True,3,4,True")),
+              testing::Contains("E x.motors:8 lane 2: its curves 3 and 4 run against each other; one must not be inverted"));
   EXPECT_THAT(
       Found(With("l,1,1,False,3,2,False", "l,1,2,False,3,1,False")),
       ElementsAre("E x.motors:7 lane 1: its left curve 2 lies to the right of its right curve 1; exchange them, or invert both"));
@@ -143,6 +149,31 @@ TEST(Check, Picture) {
   huge[GoodMap().size() + 16] = 0x7f;
   EXPECT_THAT(Found(huge),
               ElementsAre("E x.motors map: the picture has 2130706434 by 1 pixels; up to 16384 each way can be shown"));
+}
+
+// A file that says more pixels than its bytes can hold, however well they are packed.
+TEST(Check, APictureHoldsItsPixels) {
+  const auto png = [](int side, std::size_t bytes) {
+    std::string file = kPng2x1;
+    for (const std::size_t at : {18u, 22u}) file[at] = static_cast<char>(side / 256), file[at + 1] = static_cast<char>(side % 256);
+    return file.insert(file.size() - 12, std::string(bytes - file.size(), '\0'));
+  };
+  EXPECT_THAT(Found(GoodMap() + png(16000, 100)), ElementsAre("E x.motors map: the 100 bytes behind the line 'i' are too few for a PNG picture of 16000 by 16000 pixels"));
+  const std::size_t least = (16000u * (1 + 3 * 16000u) + 1031) / 1032;  // one colour everywhere, of three bytes a pixel
+  EXPECT_THAT(Found(GoodMap() + png(16000, least)), IsEmpty());
+  EXPECT_THAT(Found(GoodMap() + png(16000, least - 1)).size(), 1u);
+  const std::string jpeg = "\xff\xd8\xff\xc0\0\x0b\x08\x3e\x80\x3e\x80\x01\xff\xd9"s;
+  EXPECT_THAT(Found(GoodMap() + jpeg), ElementsAre("E x.motors map: the 14 bytes behind the line 'i' are too few for a JPEG picture of 16000 by 16000 pixels"));
+  EXPECT_THAT(Found(GoodMap() + jpeg.substr(0, 12) + std::string(500'000 - 14, '\0') + "\xff\xd9"), IsEmpty());  // 2000 by 2000 blocks of a bit
+}
+
+TEST(Check, WhoGoesFirstIsSaidOnce) {
+  const auto signs = [](const std::string& kinds) { return "rodeira: motors/1\nsigns:\n" + kinds; };
+  EXPECT_THAT(Found(GoodMap(), signs("  - {lane: 2, kind: stop}\n  - {lane: 2, kind: priority}\n  - {lane: 2, kind: give_way}\n")),
+              ElementsAre("W x.motors.yaml:4 sign of lane 2: 'priority', but it has 'stop' already, in line 3; one of 'stop', 'give_way' and 'priority' a lane was expected",
+                          "W x.motors.yaml:5 sign of lane 2: 'give_way', but it has 'stop' already, in line 3; one of 'stop', 'give_way' and 'priority' a lane was expected"));
+  EXPECT_THAT(Found(GoodMap(), signs("  - {lane: 1, kind: priority}\n")), ElementsAre("W x.motors.yaml:3 sign of lane 1: 'priority', but its connection to lane 3 has a STOP flag"));
+  EXPECT_THAT(Found(GoodMap(), signs("  - {lane: 1, kind: stop}\n  - {lane: 1, kind: speed_limit, limit_kmh: 30}\n  - {lane: 2, kind: give_way}\n")), IsEmpty());
 }
 
 TEST(Check, Heights) {

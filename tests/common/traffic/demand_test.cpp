@@ -22,6 +22,14 @@ std::string RefusedBy(const std::string& map, const std::string& yaml) {
   return model.error().Text();
 }
 
+// A road that a map's lane goes on into.
+std::string WayOnFrom(const std::string& map, const std::string& road) {
+  const auto network = lanes::MapNetwork(map);
+  const lanes::Graph graph(*network);
+  const auto& next = graph[*graph.Find({*network->FindRoad(road), 0, -1})].next;
+  return network->roads()[graph[next.front().to].lane.road].id();
+}
+
 std::string RefusedSettings(const std::string& yaml) {
   auto file = config::File::Parse(yaml, "t.yaml").value();
   (void)ReadTraffic(file.root(), 1);
@@ -236,8 +244,23 @@ TEST(Demand, WhatIsWrongIsSaid) {
   EXPECT_NE(RefusedBy("town", there).find("no way leads from there to '" + starts[1] + "'"), std::string::npos) << RefusedBy("town", there);
   const std::string between = "routes: {back: [\"" + starts[0] + "\", \"" + starts[1] + "\"]}\n" + flow(starts[0] + ":-1", ", route: back");
   EXPECT_NE(RefusedBy("town", between).find("no way leads from '" + starts[0] + "' on to '" + starts[1] + "'"), std::string::npos) << RefusedBy("town", between);
-  EXPECT_NE(RefusedSettings("flows:\n  - {lane: a}\n").find("one of 'vehicles_per_h', 'by_hour' and 'every_s'"), std::string::npos);
-  EXPECT_NE(RefusedSettings("flows:\n  - {lane: a, every_s: [8, 3]}\n").find("shortest"), std::string::npos);
+  const std::string way = WayOnFrom("ramp", "1");
+  const auto twice = [&](const std::string& second) {
+    return RefusedBy("ramp", "turns:\n  - {lane: \"1:-1\", shares: {\"" + way + "\": 1}}\n  - {lane: \"" + second + "\", shares: {\"" + way + "\": 1}}\n" + flow("1:-1"));
+  };
+  for (const std::string second : {"1:-1", "1"}) EXPECT_EQ(twice(second), "t.yaml:4: the lane '" + second + "' has turns already, as '1:-1' in t.yaml:3; one item a lane was expected");
+  const std::string one_of = "one of 'vehicles_per_h', 'by_hour' and 'every_s' was expected";
+  EXPECT_EQ(RefusedSettings("flows:\n  - {lane: a}\n"), "t.yaml:2: 'lane' was found; " + one_of);
+  EXPECT_EQ(RefusedSettings("flows:\n  - {lane: a, rate: 4}\n"), "t.yaml:2: 'lane' and 'rate' were found; " + one_of);
+  EXPECT_EQ(RefusedSettings("flows:\n  - lane: a\n    vehicles_per_hour: 400\n"), "t.yaml:3: 'vehicles_per_hour' was found; " + one_of + "; did you mean 'vehicles_per_h'?");
+  EXPECT_EQ(RefusedSettings("flows:\n  - lane: a\n    vehicles_per_h: 400\n    by_hour: [4]\n"), "t.yaml:4: 'vehicles_per_h' and 'by_hour' were found; " + one_of);
+  EXPECT_EQ(RefusedSettings("flows:\n  - {every_s: [3, 8], by_hour: [4], vehicles_per_h: 1}\n"), "t.yaml:2: 'vehicles_per_h', 'by_hour' and 'every_s' were found; " + one_of);
+  EXPECT_EQ(RefusedSettings("flows:\n  - {lane: a, every_s: [8, 3]}\n"), "t.yaml:2: [8, 3] was found; the shortest and the longest gap, as [3, 8], were expected");
+  EXPECT_EQ(RefusedSettings("vehicles: 3\nspeed_factor_low: 1.5\n"), "t.yaml:2: 'speed_factor_high' is 1, below 'speed_factor_low', which is 1.5");
+  EXPECT_EQ(RefusedSettings("speed_factor_low: 0.9\nspeed_factor_high: 0.8\n"), "t.yaml:2: 'speed_factor_high' is 0.8, below 'speed_factor_low', which is 0.9");
+  EXPECT_EQ(RefusedSettings("pedestrians:\n  per_hour: 3\n  slowest_mps: 2\n"), "t.yaml:3: 'fastest_mps' is 1.5, below 'slowest_mps', which is 2");
+  const std::string nowhere = RefusedBy("ramp", "vehicles: 3\npedestrians: {per_hour: 60}\n");
+  EXPECT_EQ(nowhere.find("t.yaml:3: the network '"), 0u) << nowhere;
   EXPECT_NE(RefusedSettings("flows:\n  - {lane: a, vehicles_per_h: -3}\n").find("t.yaml:2"), std::string::npos);
   EXPECT_NE(RefusedSettings("flows:\n  - {lane: a, vehicles_per_h: 3, rout: b}\n").find("rout"), std::string::npos);
   EXPECT_NE(RefusedSettings("mix: {car: 0}\n").find("no kind of vehicle"), std::string::npos);

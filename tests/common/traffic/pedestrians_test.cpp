@@ -339,7 +339,7 @@ std::string Problem(const std::string& text) {
 TEST(Pedestrians, WrongSettingsAreNamed) {
   EXPECT_EQ(Problem("vehicles: 2\npedestrians: {per_hour: 100, at: [{road: '1', s_m: 190, per_hour: 20}]}\n"), "");
   EXPECT_NE(Problem("pedestrians: {per_hour: -1}\n").find("t.yaml:2"), std::string::npos);
-  EXPECT_NE(Problem("pedestrians: {slowest_mps: 2, fastest_mps: 1}\n").find("'fastest_mps' is below 'slowest_mps'"), std::string::npos);
+  EXPECT_NE(Problem("pedestrians: {slowest_mps: 2, fastest_mps: 1}\n").find("'fastest_mps' is 1, below 'slowest_mps', which is 2"), std::string::npos);
   EXPECT_NE(Problem("pedestrians: {per_hours: 10}\n").find("per_hour"), std::string::npos);
   EXPECT_NE(Problem("vehicles: 2\npedestrians:\n  at:\n    - {road: main, s_m: 1, per_hour: 5}\n").find("the road 'main' has no crossing"), std::string::npos);
   const auto none = TrafficModel::Make(WithPeople(2, 100.0), lanes::MapNetwork("crossing"), {});

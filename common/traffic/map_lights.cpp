@@ -1,0 +1,40 @@
+#include "common/traffic/map_lights.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "common/lanes/lights.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+bool IsGreen(const lights::Phase& phase, const std::string& name) { return std::find(phase.green.begin(), phase.green.end(), name) != phase.green.end(); }
+
+// The phase in which both are green; where amber meets green, or they have different plans, the first in which the second one is.
+const lights::Phase* PhaseOf(const map::Heights& companion, const std::array<std::string, 2>& names) {
+  const lights::Phase* found = nullptr;
+  for (const lights::LightPlan& plan : companion.lights) {
+    for (const lights::Phase& phase : plan.phases) {
+      if (!IsGreen(phase, names[1])) continue;
+      if (IsGreen(phase, names[0])) return &phase;
+      if (found == nullptr) found = &phase;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<map::Finding> LightsTogether(const map::LaneMap& map, const map::Heights& companion, const network::Network& network) {
+  if (map.lights.empty()) return std::nullopt;
+  const lanes::Graph graph(network);
+  const auto together = lanes::FindGreenTogether(graph, lanes::Zones(graph));
+  if (!together) return std::nullopt;
+  std::array<std::string, 2> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = std::to_string(map.lanes[map.lights[together->controllers[i]].lane].id);  // a light, a controller
+  const lights::Phase* phase = PhaseOf(companion, names);
+  return map::Finding{map::Severity::kError, map::Element::kLights, 0, 0, phase == nullptr ? 0 : map::LineOf(phase->place), together->sentence};
+}
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <optional>
+
+#include "common/map/check.hpp"
+#include "common/map/lane_map.hpp"
+#include "common/network/network.hpp"
+
+namespace rodeira::traffic {
+
+// The first lights of a traffic map that are green or amber together where their ways cross or merge (lanes::CheckLights), at the phase of its companion in
+// which they are; nothing where there are none. `network` is the map's (map::ToNetwork).
+std::optional<map::Finding> LightsTogether(const map::LaneMap& map, const map::Heights& companion, const network::Network& network);
+
+}  // namespace rodeira::traffic
