@@ -29,8 +29,10 @@ class ClosedGrid {
     RODEIRA_ASSERT(heights.ok());
     const auto file = map::ParseMap(grid.text_ + grid.lanes_ + grid.connections_ + "s,10\ni\n", "grid.motors");
     RODEIRA_ASSERT(file.ok());
-    const auto lanes = map::MakeLaneMap(file.value(), lit ? heights.value() : map::Heights(), "grid");
+    auto lanes = map::MakeLaneMap(file.value(), lit ? heights.value() : map::Heights(), "grid");
     RODEIRA_ASSERT(lanes.ok());
+    // A map's file has a start and an end lane, and there vehicles would come and go.
+    for (map::MapLane& lane : lanes.value().lanes) lane.mode = map::LaneMode::kNone;
     const auto network = map::ToNetwork(lanes.value(), "grid");
     RODEIRA_ASSERT(network.ok());
     return network.value();
@@ -64,7 +66,7 @@ class ClosedGrid {
   }
   int Lane(const Pose& a, const Pose& b) {
     const int left = Curve(a.Moved(0.0, 0.5 * kLane_m), b.Moved(0.0, 0.5 * kLane_m)), right = Curve(a.Moved(0.0, -0.5 * kLane_m), b.Moved(0.0, -0.5 * kLane_m));
-    ++count_;  // a map has a start and an end lane; here they have ways on like any other
+    ++count_;
     lanes_ += fmt::format("l,{},{},False,0,{},False,0,{}\n", count_, left, right, count_ <= 2 ? count_ : 0);
     return count_;
   }
