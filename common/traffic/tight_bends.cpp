@@ -55,9 +55,10 @@ std::vector<TightBend> TightBendsOf(const lanes::Graph& graph, const TrafficSett
 std::string Text(const TightBend& bend, const lanes::Graph& graph) {
   const AgentTraits traits = TraitsOfBody(bend.body);
   const network::LaneKey& lane = graph[bend.track].lane;
-  return fmt::format("{} lane{} too narrow in {} bends for the wheels of a {} of {:.1f} m{}; the worst: road '{}', lane {}, {:.1f} m on, radius {:.1f} m, {:.2f} m wide: {:.2f} m off to either side", bend.lanes,
-                     bend.lanes == 1 ? " is" : "s are", bend.lanes == 1 ? "its" : "their", kNames[static_cast<std::size_t>(traits.kind)], traits.length_m, bend.turns ? "" : ", which do not turn so far",
-                     graph.network().roads()[lane.road].id(), lane.lane, bend.d_m, bend.radius_m, bend.width_m, bend.off_m);
+  const std::string off = bend.off_m > kHand_m ? fmt::format(": {:.2f} m off to either side", bend.off_m) : std::string();
+  return fmt::format("{} lane{} too {} in {} bends for the wheels of a {} of {:.1f} m; the worst: road '{}', lane {}, {:.1f} m on, radius {:.1f} m{}, {:.2f} m wide{}", bend.lanes, bend.lanes == 1 ? " is" : "s are",
+                     bend.turns ? "narrow" : "narrow or too tight", bend.lanes == 1 ? "its" : "their", kNames[static_cast<std::size_t>(traits.kind)], traits.length_m, graph.network().roads()[lane.road].id(), lane.lane,
+                     bend.d_m, bend.radius_m, bend.turns ? "" : ", to which they do not turn", bend.width_m, off);
 }
 
 }  // namespace rodeira::traffic
