@@ -39,6 +39,16 @@ TEST(LazySquares, APointIsWithinItsSquare) {
   EXPECT_NEAR(static_cast<double>(all.size()), 800.0 * 700.0 / 64.0, 800.0);
 }
 
+// A file may say that its roads reach across the solar system.
+TEST(LazySquares, OfASquareThatIsFarTooLargeThereAreFew) {
+  const SquareGrid grid(Vector2d(-1e15, -1e15), Vector2d(1e15, 1e15), 70.0);
+  const LazySquares<Made> squares(grid, 8.0);
+  std::set<const Made*> all;
+  for (double x = -9.9e14; x < 1e15; x += 1e11) all.insert(squares.At({x, 0.0}, Make));
+  EXPECT_EQ(all.count(nullptr), 0u);
+  EXPECT_LE(squares.radius_m(), grid.side_m());
+}
+
 TEST(LazySquares, ThreadsThatComeTogetherGetTheSame) {
   const SquareGrid grid(Vector2d(0.0, 0.0), Vector2d(400.0, 400.0), 70.0);
   const LazySquares<Made> squares(grid, 8.0);
