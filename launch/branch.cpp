@@ -222,10 +222,11 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   settings.next_command = wish.next_command;
   settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
   const lockstep::RunOutcome ran = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
-  if (!ran.ok) return changed.value().Named(base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault)));
   const auto stopped = [&] { return wish.stop_requested && wish.stop_requested(); };
+  const bool stopped_at_once = !ran.ok && ran.last_step < wish.at && stopped();  // a fault of nobody: no step was driven yet
+  if (!ran.ok && !stopped_at_once) return changed.value().Named(base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault)));
   // What a person has driven cannot be driven again: it is kept.
-  if (stopped() && outcome.live.empty()) {
+  if (stopped_at_once || (stopped() && outcome.live.empty())) {
     return base::Failed(fmt::format("interrupted at step {}; no branch was written", std::max(ran.last_step, wish.at)), wish.parent);
   }
   outcome.last_step = ran.last_step;

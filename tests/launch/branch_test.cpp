@@ -57,6 +57,25 @@ TEST_F(BranchTest, ABranchWithoutAChangeIsItsParent) {
   EXPECT_EQ(end.at("missing"), "0");
 }
 
+// Whoever stops it is told that he has, also where no step was driven yet.
+TEST_F(BranchTest, WhoStopsItAtOnceIsToldSo) {
+  const std::string file = Drive();
+  for (const lockstep::Step at : {0, 1500}) {
+    BranchWish wish{file, at, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
+    bool is_branching = false;  // the parent has been computed up to there, and the operator is asked for the first time
+    wish.next_command = [&] {
+      is_branching = true;
+      return std::optional<lockstep::Asked>();
+    };
+    wish.stop_requested = [&] { return is_branching; };
+    const auto outcome = Branch(wish);
+    ASSERT_FALSE(outcome.ok());
+    EXPECT_EQ(outcome.error().exit_status(), 1);
+    EXPECT_THAT(outcome.error().Text(), HasSubstr("interrupted at step ")) << at;
+    EXPECT_FALSE(std::filesystem::exists(wish.recording));
+  }
+}
+
 // What the parent's clock and operator said up to there, and the branch's own from there on.
 TEST_F(BranchTest, ABranchHasMarksAndWallTimesOfBothItsLives) {
   const std::string file = Drive();
