@@ -17,29 +17,35 @@ constexpr double kSamePlace_m = 1.0;
 constexpr double kSameHeading = 0.95;  // cosine
 constexpr double kFollowing_m = 12.0;  // tracks that follow within this distance are no conflict
 
+// Tracks and how much of a way was left where each was come to at best: rings of short lanes are gone round no second time.
+using Reached = std::map<std::uint32_t, double>;
+bool IsNearer(Reached& reached, std::uint32_t track, double left_m) {
+  const auto [at, is_new] = reached.try_emplace(track, left_m);
+  if (!is_new && at->second >= left_m) return false;
+  at->second = left_m;
+  return true;
+}
+
 // The tracks that a track's end leads to within a way, or those that lead to its beginning.
-void Onward(const Graph& graph, std::uint32_t track, double left_m, std::vector<std::uint32_t>& to) {
+void Onward(const Graph& graph, std::uint32_t track, double left_m, Reached& to) {
   for (const Link& link : graph[track].next) {
-    to.push_back(link.to);
+    if (!IsNearer(to, link.to, left_m)) continue;
     if (const double rest = left_m - graph[link.to].length_m(); rest > 0.0) Onward(graph, link.to, rest, to);
   }
 }
 
-void Backward(const Graph& graph, std::uint32_t track, double left_m, std::vector<std::uint32_t>& from) {
+void Backward(const Graph& graph, std::uint32_t track, double left_m, Reached& from) {
   for (const std::uint32_t before : graph[track].before) {
-    from.push_back(before);
+    if (!IsNearer(from, before, left_m)) continue;
     if (const double rest = left_m - graph[before].length_m(); rest > 0.0) Backward(graph, before, rest, from);
   }
 }
 
-// Whether `to` is reached from the end of `from` within kFollowing_m.
+// Whether `to` is reached from the end of `from` within a way.
 bool Follows(const Graph& graph, std::uint32_t from, std::uint32_t to, double left_m) {
-  for (const Link& link : graph[from].next) {
-    if (link.to == to) return true;
-    const double rest = left_m - graph[link.to].length_m();
-    if (rest > 0.0 && Follows(graph, link.to, to, rest)) return true;
-  }
-  return false;
+  Reached reached;
+  Onward(graph, from, left_m, reached);
+  return reached.contains(to);
 }
 
 bool Share(const std::vector<Link>& a, const std::vector<Link>& b) {
@@ -52,15 +58,19 @@ bool Share(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>
   return std::any_of(a.begin(), a.end(), [&](std::uint32_t x) { return std::find(b.begin(), b.end(), x) != b.end(); });
 }
 
+bool Meet(const Reached& a, const Reached& b) {
+  return std::any_of(a.begin(), a.end(), [&](const auto& one) { return b.contains(one.first); });
+}
+
 // Whether two tracks that begin in one place are the ends of two ways that come together there, cut into short lane sections, and not the beginnings of two
 // that part: they come from different tracks, and go on into one.
 bool ComeTogether(const Graph& graph, std::uint32_t a, std::uint32_t b) {
   if (graph[a].before.empty() || graph[b].before.empty()) return false;
-  std::vector<std::uint32_t> from_a, from_b, to_a, to_b;
+  Reached from_a, from_b, to_a, to_b;
   Backward(graph, a, kSamePlace_m, from_a), Backward(graph, b, kSamePlace_m, from_b);
-  if (Share(from_a, from_b)) return false;
+  if (Meet(from_a, from_b)) return false;
   Onward(graph, a, kFollowing_m, to_a), Onward(graph, b, kFollowing_m, to_b);
-  return Share(to_a, to_b);
+  return Meet(to_a, to_b);
 }
 
 bool SamePlace(const CurvePoint& a, const CurvePoint& b) {
