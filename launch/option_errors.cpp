@@ -76,7 +76,7 @@ std::string CountSentence(const CLI::App& command, const std::string& called, co
     if (option->get_name() != name && !option->check_name(name)) continue;
     const int least = option->get_items_expected_min(), most = option->get_items_expected_max();
     const std::string expected = least == most ? fmt::format("{}", least) : most >= CLI::detail::expected_max_vector_size ? fmt::format("{} or more", least) : fmt::format("{} to {}", least, most);
-    return fmt::format("{} of '{}' stands before {} value{}; {} were expected", name, called, count, count == "1" ? "" : "s", expected);
+    return fmt::format("{} of '{}' has {} value{}; {} were expected", name, called, count, count == "1" ? "" : "s", expected);
   }
   return "";
 }

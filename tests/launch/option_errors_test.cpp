@@ -58,8 +58,8 @@ TEST(OptionErrors, SayThatNoNumberIsMeantByNan) {
 }
 
 TEST(OptionErrors, SayHowManyValuesThereShouldBe) {
-  EXPECT_THAT(Refused({"polyline", "translate", "a.csv", "-o", "b.csv", "--by", "1"}), HasSubstr("rodeira: --by of 'rodeira polyline translate' stands before 1 value; 2 to 3 were expected\n"));
-  EXPECT_THAT(Refused({"polyline", "rotate", "a.csv", "-o", "b.csv", "--deg", "9", "--about", "1"}), HasSubstr("rodeira: --about of 'rodeira polyline rotate' stands before 1 value; 2 were expected\n"));
+  EXPECT_THAT(Refused({"polyline", "translate", "a.csv", "-o", "b.csv", "--by", "1"}), HasSubstr("rodeira: --by of 'rodeira polyline translate' has 1 value; 2 to 3 were expected\n"));
+  EXPECT_THAT(Refused({"polyline", "rotate", "a.csv", "-o", "b.csv", "--deg", "9", "--about", "1"}), HasSubstr("rodeira: --about of 'rodeira polyline rotate' has 1 value; 2 were expected\n"));
   EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--step", "0.5"}), HasSubstr("rodeira: --step: '0.5' was found; a number from 0.001 to 0.1 was expected\n"));
 }
 
