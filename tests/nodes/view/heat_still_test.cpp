@@ -42,6 +42,18 @@ class HeatStill : public DriverStill {
     const double x = raster.west_m + kSquare_m * (static_cast<double>(column) + 0.5), y = raster.south_m + kSquare_m * (static_cast<double>(row) + 0.5);
     return {x, y, world_->At(x, y).z_m};
   }
+  // Whether its eight neighbours look as this pixel does: at the edge of a line or a car how much of a pixel is whose may differ between two shaders of one graphics card.
+  static bool OfOneKind(const Image& image, int column_px, int row_px) {
+    const std::uint8_t* here = image.At(column_px, row_px);
+    for (int y = row_px - 1; y <= row_px + 1; ++y) {
+      for (int x = column_px - 1; x <= column_px + 1; ++x) {
+        for (int k = 0; k < 3; ++k) {
+          if (std::abs(image.At(x, y)[k] - here[k]) > 12) return false;
+        }
+      }
+    }
+    return true;
+  }
   // Pixel by pixel at the squares' middles: 0.3 of what was seen and 0.7 of the scale's colour.
   template <class Share>
   void ExpectBlended(const Image& before, const Image& heat, Share share, double kept) const {
@@ -49,12 +61,12 @@ class HeatStill : public DriverStill {
     int asked = 0;
     for (std::size_t row = 4; row < 10; ++row) {  // below the legend
       for (std::size_t column = 4; column < 12; ++column) {
-        if (row == 8 && column > 5 && column < 11) continue;  // the car
         const auto at = camera.Project(Middle(picture_.heat->raster, column, row), before.width_px, before.height_px);
+        if (!OfOneKind(before, static_cast<int>(at->x()), static_cast<int>(at->y()))) continue;
         const std::uint8_t *was = before.At(static_cast<int>(at->x()), static_cast<int>(at->y())), *is = heat.At(static_cast<int>(at->x()), static_cast<int>(at->y()));
         const scene::Colour colour = scene::HeatColour(share(column, row));
         const double parts[3] = {static_cast<double>(colour.red), static_cast<double>(colour.green), static_cast<double>(colour.blue)};
-        for (int k = 0; k < 3; ++k) EXPECT_NEAR(is[k], kept * was[k] + (1.0 - kept) * parts[k], 4.0) << column << ", " << row << ", part " << k;
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(is[k], kept * was[k] + (1.0 - kept) * parts[k], 2.0) << column << ", " << row << ", part " << k;
         ++asked;
       }
     }
