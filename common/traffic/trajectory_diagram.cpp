@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "common/traffic/xml_text.hpp"
 
@@ -17,6 +18,15 @@ constexpr std::array<const char*, 5> kShades = {"#b2182b", "#ef8a62", "#d9c24c",
 
 int ShadeAt(double speed_mps, double limit_mps) {
   return std::clamp(static_cast<int>(speed_mps / limit_mps * static_cast<double>(kShades.size())), 0, static_cast<int>(kShades.size()) - 1);
+}
+
+void Legend(std::string& svg) {
+  double x = kLeft_px;
+  for (const char* shade : kShades) {
+    fmt::format_to(std::back_inserter(svg), "<rect x='{:.0f}' y='26' width='20' height='8' fill='{}'/>", x, shade);
+    x += 20.0;
+  }
+  fmt::format_to(std::back_inserter(svg), "<text x='{:.0f}' y='34'>speed, from standing to the limit</text>\n", x + 8.0);
 }
 
 }  // namespace
@@ -35,11 +45,14 @@ std::string TrajectoryDiagram::ToSvg(const lanes::Graph& graph, const std::strin
   const double length = graph[track_].length_m(), limit = graph.SpeedLimit_mps(track_, 0.5 * length);
   const auto x = [&](double t) { return kLeft_px + kWide_px * t / std::max(last_s_, 1e-9); };
   const auto y = [&](double d) { return kTop_px + kHigh_px * (1.0 - d / length); };
+  std::set<std::uint32_t> here;
+  for (const auto& [who, points] : ways_) here.insert(who.first);
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} {1:.0f}' font-family='sans-serif' font-size='12'>\n"
-      "<rect width='{0:.0f}' height='{1:.0f}' fill='white'/>\n<text x='{2}' y='20' font-size='14'>{3}</text>\n"
+      "<rect width='{0:.0f}' height='{1:.0f}' fill='white'/>\n<text x='{2}' y='20' font-size='14'>{3}, {7} of them here</text>\n"
       "<rect x='{2}' y='{4}' width='{5}' height='{6}' fill='none' stroke='#bbb'/>\n",
-      kLeft_px + kWide_px + 20.0, kTop_px + kHigh_px + 40.0, kLeft_px, XmlText(title), kTop_px, kWide_px, kHigh_px);
+      kLeft_px + kWide_px + 20.0, kTop_px + kHigh_px + 40.0, kLeft_px, XmlText(title), kTop_px, kWide_px, kHigh_px, here.size());
+  Legend(svg);
   for (int k = 0; k <= 4; ++k) {
     fmt::format_to(std::back_inserter(svg), "<text x='{:.0f}' y='{:.0f}' text-anchor='middle'>{:.5g} s</text><text x='{:.0f}' y='{:.0f}' text-anchor='end'>{:.4g} m</text>\n",
                    x(0.25 * k * last_s_), kTop_px + kHigh_px + 18.0, 0.25 * k * last_s_, kLeft_px - 6.0, y(0.25 * k * length) + 4.0, 0.25 * k * length);

@@ -6,9 +6,12 @@
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/traffic/study.hpp"
 #include "tests/common/lanes/closed_grid.hpp"
+#include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/exit_room.hpp"
 
 namespace rodeira::traffic {
@@ -23,6 +26,7 @@ struct Town {
   std::uint32_t vehicles = 0;
   StudyResult result;
   std::array<double, 3> driven_m{};  // in each ten minutes
+  std::vector<std::pair<double, double>> kmh;  // mean speed of all over each minute, at its end
   double longest_with_exit_s = 0.0;  // of standing first at a line with room at the exit (ExitRoom)
   std::string told;
 };
@@ -38,12 +42,17 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed) {
   town.vehicles = settings.traffic.vehicles;
   std::array<double, 3> until_m{};
   constexpr double kLook_s = 0.5;
+  double before_m = 0.0;
   std::optional<ExitRoom> exits;
   town.result = RunStudy(settings, lanes::ClosedGrid::Make(count), [&](const StudyMoment& moment) {
     if (!exits) exits.emplace(moment.model.graph(), moment.model.vehicles(), kLook_s);
     if (std::fabs(std::remainder(moment.time_s, kLook_s)) < 1e-6) exits->Look(moment.model);
     double driven_m = 0.0;
     for (std::uint32_t id = 0; id < moment.model.vehicles(); ++id) driven_m += moment.model.agent(id).driven_m;
+    if (std::fabs(std::remainder(moment.time_s, 60.0)) < 1e-6 && moment.time_s > 1.0) {
+      town.kmh.emplace_back(moment.time_s / 60.0, 3.6 * (driven_m - before_m) / (60.0 * moment.model.vehicles()));
+      before_m = driven_m;
+    }
     for (std::size_t third = 0; third < 3; ++third) {
       if (moment.time_s <= 600.0 * static_cast<double>(third + 1)) until_m[third] = driven_m;
     }
@@ -82,6 +91,23 @@ TEST(ClosedGrid, LessFullItGoesOn) {
     const Town town = Drive(3, 40.0, seed);
     EXPECT_GT(town.driven_m[2], 0.5 * town.driven_m[0]) << "seed " << seed;
   }
+}
+
+// The picture of docs/traffic.md: how fast everybody goes in the mean, minute by minute, the fuller the slower.
+TEST(ClosedGrid, TheFullerTheSlower) {
+  const std::array<std::pair<double, const char*>, 4> towns = {{{15.0, "#2c8040"}, {30.0, "#1f5f8b"}, {40.0, "#d89030"}, {45.0, "#b03020"}}};
+  std::vector<PlotCurve> curves;
+  double before = 1e9;
+  for (const auto& [vehicles_pkm, colour] : towns) {
+    const Town town = Drive(3, vehicles_pkm, 1);
+    ASSERT_EQ(town.kmh.size(), 30u);
+    double mean = 0.0;
+    for (const auto& [minute, kmh] : town.kmh) mean += kmh / 30.0;
+    EXPECT_LT(mean, before) << vehicles_pkm;
+    before = mean;
+    curves.push_back({fmt::format("{:g} vehicles a kilometre of lane", vehicles_pkm), colour, town.kmh, true});
+  }
+  EXPECT_TRUE(WritePicture("traffic_closed_town.svg", PlotSvg("A closed town of 3 × 3 crossings", "minutes", "mean speed of all, km/h", 5.0, 5.0, curves)));
 }
 
 }  // namespace

@@ -8,10 +8,14 @@
 #include <cstdlib>
 #include <numeric>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "common/base/random.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/restored.hpp"
 #include "tests/tree.hpp"
@@ -35,6 +39,7 @@ struct Meeting {
 
 struct Outcome {
   std::array<double, 4> out_s{};  // when each has left the crossing; -1: not within two minutes
+  std::array<std::vector<std::pair<double, double>>, 4> ways;  // seconds, and metres that each has driven
   double hardest_mps2 = 0.0;
   bool touched = false;
 };
@@ -85,6 +90,7 @@ class FourCars : public testing::Test {
         const Agent& agent = model_->agent(pose.id);
         if (left[pose.id] || agent.trip != TripFor(pose.id, meeting.turn[pose.id])) continue;
         outcome.hardest_mps2 = std::max(outcome.hardest_mps2, -pose.acceleration_mps2);
+        outcome.ways[pose.id].emplace_back(i * step_s, agent.driven_m);
         const double out_m = agent.path.back().begin_m + 0.5 * model_->traits(pose.id).length_m;
         if (agent.links == 2 && agent.o_m > out_m) {  // between two steps by the speed
           left[pose.id] = true;
@@ -191,6 +197,26 @@ TEST_F(FourCars, AllPassAndTheStepDoesNotMatter) {
   }
   RecordProperty("hardest_mps2", std::to_string(hardest_mps2_));
   RecordProperty("last_s", std::to_string(last_s_));
+}
+
+// The picture of docs/traffic.md: all four go straight on and would be there in the same moment.
+TEST_F(FourCars, WhoComeInTheSameMomentPassOneAfterTheOther) {
+  const Outcome fine = Run({{1, 1, 1, 1}, {}}, {true, true, true, true}, 0.01), coarse = Run({{1, 1, 1, 1}, {}}, {true, true, true, true}, 0.1);
+  std::vector<PlotCurve> curves;
+  const std::array<const char*, 4> colours = {"#b03020", "#1f5f8b", "#2c8040", "#8050a0"};
+  std::vector<double> out_s(fine.out_s.begin(), fine.out_s.end());
+  for (std::size_t id = 0; id < 4; ++id) {
+    EXPECT_NEAR(fine.out_s[id], coarse.out_s[id], 0.5);
+    PlotCurve steps{"", colours[id], {}, false};
+    for (std::size_t i = 9; i < coarse.ways[id].size(); i += 10) steps.points.push_back(coarse.ways[id][i]);
+    curves.push_back({fmt::format("car {}", id + 1), colours[id], fine.ways[id], true});
+    curves.push_back(std::move(steps));
+  }
+  curves.push_back({"lines: steps of 0.01 s; dots: steps of 0.1 s", "#404040", {}, true});
+  std::sort(out_s.begin(), out_s.end());
+  EXPECT_GT(out_s[0], 0.0);
+  EXPECT_GT(out_s[3], out_s[0] + 2.0);
+  EXPECT_TRUE(WritePicture("traffic_four_cars.svg", PlotSvg("Four cars, each with another one on its right", "s", "driven, m", 5.0, 25.0, curves)));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "common/vehicle/bicycle_model.hpp"
 #include "tests/common/driver/test_road.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/duration.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
@@ -96,6 +97,7 @@ TEST(FullPhysics, RestoredItGoesOnWithTheSameBits) {
 
 // Through pedals, engine and tyres the gap of the IDM's equilibrium, (s0 + v T) / sqrt(1 - (v/v0)^4), behind a car of constant speed.
 TEST(FullPhysics, KeepsTheEquilibriumGapWithin5Centimetres) {
+  PlotCurve measured{"measured: engine, clutch, gears, brakes, tyres", "#b03020", {}, false}, theory{"(s0 + v T) / sqrt(1 - (v/v0)^4)", "#1f5f8b", {}, true};
   for (const double speed_mps : {5.0, 9.0, 13.0}) {
     TrafficSettings settings = Identical(10, 1.3);
     settings.physics = Physics::kFull;
@@ -108,10 +110,13 @@ TEST(FullPhysics, KeepsTheEquilibriumGapWithin5Centimetres) {
       if (model.GapAhead(id) > 40.0) continue;
       EXPECT_NEAR(model.agent(id).speed_mps, model.agent(0).speed_mps, 0.02) << id << " at " << speed_mps;
       EXPECT_NEAR(model.GapAhead(id), driver::IdmEquilibriumGap(settings.idm, model.agent(id).speed_mps, kRingLimit_mps), 0.05) << id << " at " << speed_mps;
+      measured.points.emplace_back(model.agent(id).speed_mps, model.GapAhead(id));
       ++compared;
     }
     EXPECT_GE(compared, 7) << speed_mps;
   }
+  for (double v = 0.0; v <= 14.0; v += 0.1) theory.points.emplace_back(v, driver::IdmEquilibriumGap(Identical(10, 1.3).idm, v, kRingLimit_mps));
+  EXPECT_TRUE(WritePicture("traffic_gap.svg", PlotSvg("How far behind one another, through the powertrain", "speed, m/s", "gap, m", 2.0, 5.0, {measured, theory})));
 }
 
 // The same uphill and downhill, two cars one behind the other.

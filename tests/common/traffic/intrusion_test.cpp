@@ -13,6 +13,7 @@
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
 #include "tests/common/opendrive/sample.hpp"
+#include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 
@@ -100,16 +101,20 @@ TEST(Intrusion, NobodyIsHitWhoCouldBeAvoided) {
     driving.push_back(std::move(model));
   }
   std::uint64_t sufficed = 0, hopeless = 0;
+  PlotCurve could{"half a second and 0.8 g suffice: nobody is hit", "#1f5f8b", {}, false}, hit{"hit all the same", "#b03020", {}, false}, beyond{"they do not suffice", "#b8b8b8", {}, false};
   for (std::uint64_t number = 0; number < count; ++number) {
     TrafficModel model = driving[number % driving.size()];
     const AgentTraits& traits = model.traits(0);
     const AgentPose start = model.poses()[0];
     const Intruder intruder = Intruder::Draw(number, start.p_WB_W.x() + 0.5 * traits.length_m, start.speed_mps);
+    const std::pair<double, double> drawn(start.speed_mps, intruder.x_m - 2.2 - start.p_WB_W.x() - 0.5 * traits.length_m);
     if (!Suffices(intruder, start.p_WB_W.x(), start.speed_mps, traits)) {
       ++hopeless;
+      beyond.points.push_back(drawn);
       continue;
     }
     ++sufficed;
+    could.points.push_back(drawn);
     for (double t = 0.0; t < kFor_s && model.on_road() == 1; t += kStep_s) {
       const std::vector<driver::Footprint> others{intruder.At(t)};
       model.Step(kStep_s, others);
@@ -117,9 +122,11 @@ TEST(Intrusion, NobodyIsHitWhoCouldBeAvoided) {
       const AgentPose& pose = model.poses()[0];
       const bool touches = driver::Overlap(FootprintOf(pose, traits), intruder.At(t + kStep_s));
       EXPECT_FALSE(touches && pose.speed_mps > 0.05) << "intruder " << number << " of kind " << intruder.kind << " at " << t << " s, " << start.speed_mps << " m/s";
+      if (touches && pose.speed_mps > 0.05) hit.points.push_back(drawn);
       if (touches) break;
     }
   }
+  EXPECT_TRUE(WritePicture("traffic_intrusions.svg", PlotSvg("Who gets in the way", "speed of the car, m/s", "how far ahead, m", 5.0, 25.0, {beyond, could, hit})));
   RecordProperty("sufficed", std::to_string(sufficed));
   EXPECT_GT(sufficed, count / 2);
   EXPECT_GT(hopeless, count / 50);

@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "common/base/files.hpp"
 #include "common/driver/lane_path.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/driver/test_road.hpp"
@@ -128,8 +125,6 @@ TEST(Queue, ItsFlowDoesNotDependOnTheStep) {
     coarse = Discharge(1.0, step_s);
     EXPECT_NEAR(coarse.Flow_ph(), fine.Flow_ph(), 0.02 * fine.Flow_ph()) << step_s;
   }
-  const char* folder = std::getenv("RODEIRA_PICTURES");
-  if (folder == nullptr) return;
   const double end_s = fine.passes_s.back();
   const std::string svg = PlotSvg("A queue that starts", "since the way is free, s", "behind the car before, s", 5.0, 0.5,
                                   {{"steps of 0.1 s", "#d89030", Headways(coarse.passes_s)},
@@ -137,7 +132,7 @@ TEST(Queue, ItsFlowDoesNotDependOnTheStep) {
                                    {"the IDM integrated apart", "#1f5f8b", Headways(fine.idm_s), true},
                                    {"between 1750 an hour", "#707070", {{0.0, 3600.0 / kLeast_ph}, {end_s, 3600.0 / kLeast_ph}}, true},
                                    {"and 1950 is asked", "#707070", {{0.0, 3600.0 / kMost_ph}, {end_s, 3600.0 / kMost_ph}}, true}});
-  EXPECT_TRUE(base::WriteWhole(std::filesystem::path(folder) / "traffic_saturation.svg", svg).ok());
+  EXPECT_TRUE(WritePicture("traffic_saturation.svg", svg));
 }
 
 }  // namespace

@@ -7,11 +7,9 @@
 #include <complex>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <numbers>
 #include <optional>
 
-#include "common/base/files.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/identical.hpp"
@@ -166,10 +164,8 @@ TEST(Ring, TableOfTheBoundaryThroughThePowertrain) {
     fmt::print("| {} | {:+.4f} | {:.3f} |\n", acceleration, growth, spread.points.back().second);
     std::fflush(stdout);
   }
-  const char* folder = std::getenv("RODEIRA_PICTURES");
-  if (folder == nullptr) return;
   const std::string svg = PlotSvg("Sugiyama's ring through the powertrain: 22 cars, 230 m", "acceleration of the drivers, m/s²", "spread of the speeds", 0.5, 0.25, {spread});
-  EXPECT_TRUE(base::WriteWhole(std::filesystem::path(folder) / "traffic_ring_boundary.svg", svg).ok());
+  EXPECT_TRUE(WritePicture("traffic_ring_boundary.svg", svg));
 }
 
 }  // namespace
