@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -87,21 +88,15 @@ bool Suffices(const Intruder& intruder, double x_m, double speed_mps, const Agen
   return true;
 }
 
-// RODEIRA_INTRUSIONS: how many (400; tests/run --endurance traffic takes 10 000).
-TEST(Intrusion, NobodyIsHitWhoCouldBeAvoided) {
-  const char* wish = std::getenv("RODEIRA_INTRUSIONS");
-  const std::uint64_t count = wish == nullptr ? 400 : std::strtoull(wish, nullptr, 10);
-  const auto network = Straight();
-  std::vector<TrafficModel> driving;  // by speed
-  for (const double cap : {6.0, 10.0, 14.0, 19.0, 25.0, 31.0, 36.0}) {
-    TrafficModel model = TrafficModel::Make(Identical(1, 1.4), network, {}).value();
-    model.CapSpeed(0, cap);
-    for (int i = 0; i < 500; ++i) model.Step(kStep_s, {});
-    ASSERT_EQ(model.on_road(), 1u);
-    driving.push_back(std::move(model));
-  }
+// What became of so many drawn intrusions: whether half a second and 0.8 g sufficed, and whether somebody was driven into all the same.
+struct Intruded {
   std::uint64_t sufficed = 0, hopeless = 0;
   PlotCurve could{"half a second and 0.8 g suffice: nobody is hit", "#1f5f8b", {}, false}, hit{"hit all the same", "#b03020", {}, false}, beyond{"they do not suffice", "#b8b8b8", {}, false};
+};
+
+// One after another before each of these in turn, each the only one on its road.
+Intruded Intrude(const std::vector<TrafficModel>& driving, std::uint64_t count, double step_s) {
+  Intruded told;
   for (std::uint64_t number = 0; number < count; ++number) {
     TrafficModel model = driving[number % driving.size()];
     const AgentTraits& traits = model.traits(0);
@@ -109,27 +104,83 @@ TEST(Intrusion, NobodyIsHitWhoCouldBeAvoided) {
     const Intruder intruder = Intruder::Draw(number, start.p_WB_W.x() + 0.5 * traits.length_m, start.speed_mps);
     const std::pair<double, double> drawn(start.speed_mps, intruder.x_m - 2.2 - start.p_WB_W.x() - 0.5 * traits.length_m);
     if (!Suffices(intruder, start.p_WB_W.x(), start.speed_mps, traits)) {
-      ++hopeless;
-      beyond.points.push_back(drawn);
+      ++told.hopeless;
+      told.beyond.points.push_back(drawn);
       continue;
     }
-    ++sufficed;
-    could.points.push_back(drawn);
-    for (double t = 0.0; t < kFor_s && model.on_road() == 1; t += kStep_s) {
+    ++told.sufficed;
+    told.could.points.push_back(drawn);
+    for (double t = 0.0; t < kFor_s && model.on_road() == 1; t += step_s) {
       const std::vector<driver::Footprint> others{intruder.At(t)};
-      model.Step(kStep_s, others);
+      model.Step(step_s, others);
       if (model.on_road() == 0) break;
       const AgentPose& pose = model.poses()[0];
-      const bool touches = driver::Overlap(FootprintOf(pose, traits), intruder.At(t + kStep_s));
-      EXPECT_FALSE(touches && pose.speed_mps > 0.05) << "intruder " << number << " of kind " << intruder.kind << " at " << t << " s, " << start.speed_mps << " m/s";
-      if (touches && pose.speed_mps > 0.05) hit.points.push_back(drawn);
+      const bool touches = driver::Overlap(FootprintOf(pose, traits), intruder.At(t + step_s)), hits = touches && pose.speed_mps > 0.05;
+      EXPECT_FALSE(hits) << "intruder " << number << " of kind " << intruder.kind << " at " << t << " s, " << start.speed_mps << " m/s, " << pose.speed_mps << " m/s when it touches, a car of kind "
+                         << static_cast<int>(traits.kind);
+      if (hits) told.hit.points.push_back(drawn);
       if (touches) break;
     }
   }
-  EXPECT_TRUE(WritePicture("traffic_intrusions.svg", PlotSvg("Who gets in the way", "speed of the car, m/s", "how far ahead, m", 5.0, 25.0, {beyond, could, hit})));
-  RecordProperty("sufficed", std::to_string(sufficed));
-  EXPECT_GT(sufficed, count / 2);
-  EXPECT_GT(hopeless, count / 50);
+  EXPECT_GT(told.sufficed, count / 2);
+  EXPECT_GT(told.hopeless, count / 50);
+  return told;
+}
+
+// RODEIRA_INTRUSIONS: how many (400; tests/run --endurance traffic takes 10 000).
+std::uint64_t Intrusions() {
+  const char* wish = std::getenv("RODEIRA_INTRUSIONS");
+  return wish == nullptr ? 400 : std::strtoull(wish, nullptr, 10);
+}
+
+// Alone on that road, as fast as `cap_mps` or the driver wishes, ten seconds after it came.
+TrafficModel Alone(const TrafficSettings& settings, const std::shared_ptr<const network::Network>& network, double cap_mps, double step_s) {
+  TrafficModel model = TrafficModel::Make(settings, network, {}).value();
+  model.CapSpeed(0, cap_mps);
+  for (double t = 0.0; t < 10.0; t += step_s) model.Step(step_s, {});
+  EXPECT_EQ(model.on_road(), 1u);
+  return model;
+}
+
+constexpr std::array<double, 7> kCaps_mps = {6.0, 10.0, 14.0, 19.0, 25.0, 31.0, 36.0};
+
+TEST(Intrusion, NobodyIsHitWhoCouldBeAvoided) {
+  const auto network = Straight();
+  std::vector<TrafficModel> driving;  // by speed
+  for (const double cap : kCaps_mps) driving.push_back(Alone(Identical(1, 1.4), network, cap, kStep_s));
+  const Intruded told = Intrude(driving, Intrusions(), kStep_s);
+  EXPECT_TRUE(WritePicture("traffic_intrusions.svg", PlotSvg("Who gets in the way", "speed of the car, m/s", "how far ahead, m", 5.0, 25.0, {told.beyond, told.could, told.hit})));
+  RecordProperty("sufficed", std::to_string(told.sufficed));
+}
+
+// The same before drivers who differ, of cars, vans, lorries and buses.
+TEST(Intrusion, NorByDriversOfAllKinds) {
+  const auto network = Straight();
+  std::vector<TrafficModel> driving;
+  std::array<int, 4> kinds{};
+  for (std::uint64_t seed = 1; seed <= 28; ++seed) {
+    TrafficSettings settings;
+    settings.vehicles = 1;
+    settings.seed = seed;
+    settings.mix.shares = {0.25, 0.25, 0.25, 0.25};
+    driving.push_back(Alone(settings, network, kCaps_mps[seed % kCaps_mps.size()], kStep_s));
+    ++kinds[static_cast<std::size_t>(driving.back().traits(0).kind)];
+  }
+  for (const int kind : kinds) EXPECT_GE(kind, 3);
+  Intrude(driving, Intrusions(), kStep_s);
+}
+
+// The same with full physics: pedals, tyres, and wheels that may slide.
+TEST(Intrusion, NorWithFullPhysics) {
+  constexpr double kFine_s = 0.01;
+  const auto network = Straight();
+  std::vector<TrafficModel> driving;
+  for (const double cap : kCaps_mps) {
+    TrafficSettings settings = Identical(1, 1.4);
+    settings.physics = Physics::kFull;
+    driving.push_back(Alone(settings, network, cap, kFine_s));
+  }
+  Intrude(driving, Intrusions() / 4, kFine_s);
 }
 
 // Every two agents that touch.
