@@ -12,6 +12,7 @@
 #include "common/scenario/event.hpp"
 #include "common/traffic/place_orders.hpp"
 #include "common/traffic/road_network.hpp"
+#include "common/traffic/tight_bends.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -306,6 +307,9 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
   const driver::Footprint clear = traffic::KeptClear(*world.value());
   auto model = traffic::TrafficModel::Make(settings, std::move(world).value(), {&clear, 1});
   if (!model) return model.error();
+  for (const traffic::TightBend& bend : traffic::TightBendsOf(model.value().graph(), settings)) {
+    fmt::print(stderr, "rodeira: node '{}': warning: {}\n", context.spec().name, traffic::Text(bend, model.value().graph()));
+  }
   lockstep::SourceIndex stream = 0;
   for (const lockstep::SourceIndex output : context.spec().outputs) {
     if (context.roster().source(output).topic == topics::kTrafficState) stream = output;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
+#include <utility>
 
 #include "common/launch/launch.hpp"
 #include "common/lockstep/in_process.hpp"
@@ -65,6 +67,20 @@ void ExpectTheSame(const std::string& world, const std::string& config, const st
   EXPECT_TRUE(outcome.ok) << outcome.fault;
   EXPECT_EQ(samples, alone.size());
   EXPECT_GT(agents, 10u);
+}
+
+// Of lanes that are too narrow for a bus in their bends a run tells as `rodeira traffic run` does, and of none where cars go along the path exactly.
+TEST(TrafficAlone, ARunTellsOfLanesThatAreTooNarrow) {
+  for (const auto& [physics, told] : {std::pair{"full", true}, std::pair{"planar", false}}) {
+    const std::string text = fmt::format("rodeira: launch/1\nworld: ../configs/maps/crossing.motors\nnodes:\n  road: {{kind: road}}\n  others: {{kind: traffic, config: {{physics: {}, vehicles: 3, mix: {{bus: 1}}}}}}\n", physics);
+    auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/alone.yaml");
+    ASSERT_TRUE(launch.ok()) << launch.error().Text();
+    testing::internal::CaptureStderr();
+    const auto nodes = front::LocalNodes::Make(launch.value());
+    const std::string said = testing::internal::GetCapturedStderr();
+    ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
+    EXPECT_EQ(said.find("rodeira: node 'others': warning: ") != std::string::npos && said.find("a bus of 10.5 m") != std::string::npos, told) << said;
+  }
 }
 
 TEST(TrafficAlone, IsTheSameAsInARun) {
