@@ -256,14 +256,24 @@ bool IsTheRoads(const Network& network, const Step& step) {
   return most >= step.height_m;
 }
 
+// Whether the road at a step is met past one of its ends: a road goes on over a gap of up to 5 cm, and the land does not know of that. Where it ends with a kerb beside grass it steps there.
+bool IsPastAnEnd(const Network& network, const Step& step) {
+  const Spot& on_road = step.from.land ? step.to : step.from;
+  std::vector<network::Surfacing> surfaces;
+  network.Surfaces(on_road.p_W.x(), on_road.p_W.y(), surfaces);
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const network::Surfacing& at) {
+    const double length_m = network.roads()[at.place.lane.road].length_m();
+    return at.place.s_m < 1e-6 || at.place.s_m > length_m - 1e-6;
+  });
+}
+
 bool IsOverDeck(const World& world, const Spot& spot) {
   std::vector<network::Surfacing> surfaces;
   world.network()->Surfaces(spot.p_W.x(), spot.p_W.y(), surfaces);
   return std::any_of(surfaces.begin(), surfaces.end(), [&](const network::Surfacing& road) { return world.land()->IsOnDeck(road.place.lane.road, road.place.s_m); });
 }
 
-// Straight walks across real files, off their roads and over them. Who comes to a deck from the side goes through under it or stands before it: that is no step. Where the edges of
-// two roads of different heights touch, the land is steep about that point, and one may meet a step of at most that difference.
+// Straight walks across real files, off their roads and over them. Who comes to a deck from the side goes through under it or stands before it: that is no step.
 TEST(NetworkLand, NoWalkBesideTheRoadsOfARealFileMeetsAStep) {
   const auto files = opendrive::RealFiles();
   if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";
@@ -291,14 +301,17 @@ TEST(NetworkLand, NoWalkBesideTheRoadsOfARealFileMeetsAStep) {
               if (!IsTheRoads(*world->network(), step)) ADD_FAILURE() << file.filename() << ": " << step.height_m << " m at (" << fmt::format("{:.6f}, {:.6f}", step.from.p_W.x(), step.from.p_W.y()) << ")";
             } else if (!IsOverDeck(*world, step.from) && !IsOverDeck(*world, step.to)) {
               ++onto_roads;
-              if (step.height_m > edge_m) edge_m = step.height_m;
+              edge_m = std::max(edge_m, step.height_m);
+              if (!IsPastAnEnd(*world->network(), step)) ADD_FAILURE() << file.filename() << ": " << step.height_m << " m onto a road at (" << fmt::format("{:.6f}, {:.6f}", step.from.p_W.x(), step.from.p_W.y()) << ")";
             }
           }
         }
         last = at;
       }
     }
-    EXPECT_LE(onto_roads, 2) << file.filename();
+    if (file.stem() != "esmini_multi_intersections") {  // there road 202 begins with a kerb beside grass
+      EXPECT_EQ(onto_roads, 0) << file.filename();
+    }
     EXPECT_LT(edge_m, 0.02) << file.filename();
     RecordProperty(file.stem().string(), fmt::format("{:.1f} km, {} steps that a road has itself, {} onto roads, worst {:.4f} m", 1e-3 * walked_m, a_roads, onto_roads, edge_m));
     std::printf("%s: %.1f km, %d steps that a road has itself, %d onto roads, worst %.4f m\n", file.stem().c_str(), 1e-3 * walked_m, a_roads, onto_roads, edge_m);
