@@ -31,7 +31,7 @@ constexpr double kWithin_m = 1e-3;
 constexpr double kBesideLine_m = 0.01;  // beside a deck's edge, whose drawn line is a chord
 constexpr std::size_t kMostOnLine = 500;
 // In the middle of thinner triangles nothing is put: on roads, and on land.
-constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.05, 0.5, 1.5, 4.0}, kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
+constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.02, 0.5, 1.5, 4.0}, kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
 
 // Points on a tile's edge are its neighbour's too, and settled before.
 bool OnEdge(const GridPoint& p) { return p.x == 0 || p.y == 0 || p.x == kTileSteps || p.y == kTileSteps; }
