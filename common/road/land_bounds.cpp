@@ -27,8 +27,10 @@ PlaneHeight LandBounds::Meet() const {
       if (high_at(bound) < high_at(high)) high = bound;
     }
   }
-  if (slope == kBank) return {0.5 * (low_at(low) + high_at(high)), 0.5 * (low.z_slope_W + high.z_slope_W + slope * (high.distance_slope_W - low.distance_slope_W))};
-  const double sum = low.distance_m + high.distance_m, part = high.distance_m / sum, step = low.z_m - high.z_m;
+  const double sum = low.distance_m + high.distance_m;
+  // Both edges at the point itself, as on roads that lie over one another: no slope meets both.
+  if (slope == kBank || !(sum > 0.0)) return {0.5 * (low_at(low) + high_at(high)), 0.5 * (low.z_slope_W + high.z_slope_W + slope * (high.distance_slope_W - low.distance_slope_W))};
+  const double part = high.distance_m / sum, step = low.z_m - high.z_m;
   const Vector2d part_slope = (low.distance_m * high.distance_slope_W - high.distance_m * low.distance_slope_W) / (sum * sum);
   return {high.z_m + part * step, high.z_slope_W + part * (low.z_slope_W - high.z_slope_W) + step * part_slope};
 }

@@ -35,7 +35,8 @@ class LandBounds {
   bool every() const { return every_; }
   // What lies between two heights can hold the land tighter only where it is nearer than this. Not positive: nowhere.
   double TightensWithin(double lowest_m, double highest_m) const { return std::max(highest_m - low_m_, high_m_ - lowest_m) / kBank; }
-  // In the middle of both; where the lower is the greater one, at the least slope by which all that were kept meet.
+  // In the middle of both; where the lower is the greater one, at the least slope by which all that were kept meet. On roads that lie over one another none does: then in the middle
+  // between their heights.
   PlaneHeight Meet() const;
 
  private:

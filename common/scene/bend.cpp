@@ -7,7 +7,6 @@ namespace rodeira::scene {
 namespace {
 
 constexpr double kInside_m = 0.02;  // tangents are asked so far from the ends, which may lie on an edge themselves
-constexpr double kShort_m = 1.0;    // shorter ways are asked in their middle alone
 constexpr double kSameSlope = 1e-6;
 
 }  // namespace
@@ -22,12 +21,17 @@ std::optional<double> BendBetween(const GroundAt& ground, const Eigen::Vector2d&
     return there.inside ? std::fabs(there.z_m - (a_z_m + part * (b_z_m - a_z_m))) : 0.0;
   };
   double worst_m = off(0.5), worst_part = 0.5;
-  if (worst_m <= range.tolerance_m && length_m > kShort_m) {  // an S is straight in its middle
+  const auto look_at = [&](double part) {
+    if (const double m = off(part); m > worst_m) worst_m = m, worst_part = part;
+  };
+  if (worst_m <= range.tolerance_m && length_m > range.short_m) {  // an S is straight in its middle
     const int parts = std::max(straight_ends ? 2 : 4, 2 * static_cast<int>(std::ceil(0.5 * length_m / range.step_m)));
     for (int k = 1; k < parts; ++k) {
-      const double part = static_cast<double>(k) / parts;
-      if (const double m = 2 * k == parts ? 0.0 : off(part); m > worst_m) worst_m = m, worst_part = part;
+      if (2 * k != parts) look_at(static_cast<double>(k) / parts);
     }
+  }
+  if (worst_m <= range.tolerance_m && range.ends_m > 0.0 && length_m > 4.0 * range.ends_m) {
+    for (const double part : {range.ends_m / length_m, 1.0 - range.ends_m / length_m}) look_at(part);
   }
   if (worst_m <= range.tolerance_m) return std::nullopt;
   const Eigen::Vector2d along = (b_W - a_W) / length_m;

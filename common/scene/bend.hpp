@@ -13,6 +13,8 @@ struct BendRange {
   double tolerance_m = 0.003;  // so far from straight the ground may be
   double margin_m = 0.1;       // to either end; a way of less than four of these is left as it is
   double step_m = 2.0;         // of a long way no piece without a question is longer: a strip of a cut may end within a few metres
+  double short_m = 1.0;      // a shorter way is asked in its middle alone: where one straight piece meets another near an end it is up to twice as far off there
+  double ends_m = 0.0;       // so far from both ends it is asked, too: strips of cuts beside a road may be this narrow; 0: it is not
 };
 
 // The ground that is followed, or one of its levels.

@@ -103,6 +103,7 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
   std::vector<std::array<TilePaint, kGroundLevels - 1>> paint(roads.size());
   ForEachAtOnce(roads.size(), threads, [&](std::size_t i) {
     lines[i] = RoadLinesOf(roads[i], kRoadTolerances[0]);
+    MeetMeasured(world_, roads[i], kRoadTolerances[0], lines[i]);
     AddLaidLines(world_, roads[i], kRoadTolerances[0], lines[i]);
     AddStructureLines(roads[i], world.land() != nullptr ? std::span(world.land()->decks()[i]) : std::span<const road::Stretch>(), lines[i]);
     for (std::size_t level = 0; level < paint[i].size(); ++level) PaintRoad(roads[i], kPaintChords_m[level], paint[i][level]);

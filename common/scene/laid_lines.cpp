@@ -12,6 +12,9 @@ namespace {
 constexpr double kStep_m = 0.25;      // within a bump two lines are never farther apart, along it
 constexpr double kLongest_m = 8.0;    // beside a patch
 constexpr double kShortest_m = 0.02;  // where a height has a kink nothing is gained by going on
+constexpr double kMeasuredStep_m = 0.5;  // what is seen of measured surfaces has no waves shorter than some 2 m
+constexpr double kOfTolerance = 0.8;     // between two places that are asked it may be farther off
+constexpr double kHint_m = 0.3;          // what is farther away is another road's
 constexpr int kAcross = 6;            // parts of a bump across, at least
 
 // Values between two, so close that what they stand for is straight enough from each to the next: `off` says how far it is
@@ -95,6 +98,36 @@ void AddLaidLines(const road::World& world, const network::Road& road, const Tol
   if (world.open_drive()) return;  // there they are only seen, as what they are
   for (const network::Object& object : road.spec().objects) {
     if (IsLaid(object)) Piece(world, road, object, tolerance).AddTo(lines);
+  }
+}
+
+void MeetMeasured(const road::World& world, const network::Road& road, const Tolerance& tolerance, std::vector<Line3>& lines) {
+  const auto is_measured = [](const network::Road& one) { return !one.spec().crg.empty(); };
+  const auto roads = world.network()->roads();
+  if (!is_measured(road) && (road.spec().junction.empty() || std::none_of(roads.begin(), roads.end(), is_measured))) return;
+  const auto meet = [&](Eigen::Vector3d p) {
+    if (const road::SurfacePoint ground = world.At(p.x(), p.y(), p.z() + kHint_m); ground.inside && std::fabs(ground.z_m - p.z()) < kHint_m) p.z() = ground.z_m;
+    return p;
+  };
+  for (Line3& line : lines) {
+    Line3 met = {meet(line.front())};
+    const std::function<void(const Eigen::Vector3d&, const Eigen::Vector3d&)> divide = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      const double length_m = (b - a).head<2>().norm();
+      const int parts = std::max(4, static_cast<int>(std::ceil(length_m / kMeasuredStep_m)));
+      bool off = false;
+      for (int k = 1; k < parts && !off && length_m > 2.0 * kShortest_m; ++k) {
+        const Eigen::Vector3d p = a + static_cast<double>(k) / parts * (b - a);
+        off = std::fabs(meet(p).z() - p.z()) > kOfTolerance * tolerance.height_m;
+      }
+      if (!off) {
+        met.push_back(b);
+        return;
+      }
+      const Eigen::Vector3d middle = meet(0.5 * (a + b));
+      divide(a, middle), divide(middle, b);
+    };
+    for (std::size_t i = 1; i < line.size(); ++i) divide(met.back(), meet(line[i]));
+    line = std::move(met);
   }
 }
 

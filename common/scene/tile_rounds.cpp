@@ -22,7 +22,7 @@ constexpr int kRounds = 100;
 constexpr int kSlopeRounds = 100;
 constexpr double kMiddle = 0.7;  // of what the sides may be off: within a triangle both come together
 // Cuts and fills, level by level: less than they may be off, for it is asked at few places.
-constexpr std::array<BendRange, kGroundLevels> kSlopes = {{{0.0023, 0.01, 2.0}, {0.015, 0.02, 2.0}, {0.075, 0.1, 2.0}, {0.375, 0.5, 2.0}}};
+constexpr std::array<BendRange, kGroundLevels> kSlopes = {{{0.0019, 0.01, 2.0, 0.25, 0.02}, {0.015, 0.02, 2.0}, {0.075, 0.1, 2.0}, {0.375, 0.5, 2.0}}};
 // The land beside OpenDRIVE's roads, in the same way: it is steep where edges of different heights touch, and a step is drawn no steeper than over a
 // side that is left as it is, four margins long.
 constexpr std::array<BendRange, kGroundLevels> kVerges = {{{0.0023, 0.02, 4.0}, {0.015, 0.25, 4.0}, {0.075, 0.5, 4.0}, {0.375, 1.0, 4.0}}};
@@ -31,12 +31,12 @@ constexpr double kWithin_m = 1e-3;
 constexpr double kBesideLine_m = 0.01;  // beside a deck's edge, whose drawn line is a chord
 constexpr std::size_t kMostOnLine = 500;
 // In the middle of thinner triangles nothing is put: on roads, and on land.
-constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.15, 0.5, 1.5, 4.0}, kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
+constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.02, 0.5, 1.5, 4.0}, kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
 
 // Points on a tile's edge are its neighbour's too, and settled before.
 bool OnEdge(const GridPoint& p) { return p.x == 0 || p.y == 0 || p.x == kTileSteps || p.y == kTileSteps; }
 
-BendRange BelowRange(std::size_t level) { return {kSlopes[level].tolerance_m, kSlopes[level].margin_m, kBelowStep_m}; }
+BendRange BelowRange(std::size_t level) { return {kSlopes[level].tolerance_m, kSlopes[level].margin_m, kBelowStep_m, kSlopes[level].short_m}; }
 
 road::SurfacePoint LevelAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t level, std::vector<road::SurfacePoint>& levels) {
   LevelsAt(world, p_W, level + 1, levels);
@@ -164,6 +164,7 @@ class Rounds {
     on_kept_.clear();
     const auto triangles = plan_.triangles.triangles();
     followed_.resize(triangles.size());
+    FindBesideRoad();
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
       if (followed_[i] == triangles[i].corner) continue;
       followed_[i] = triangles[i].corner;
@@ -188,6 +189,16 @@ class Rounds {
       plan_.triangles.Fix(at, on.b);
     }
     return !fresh.empty();
+  }
+
+  // The points on roads' edges.
+  void FindBesideRoad() {
+    beside_road_.assign(plan_.triangles.points().size(), false);
+    const auto triangles = plan_.triangles.triangles();
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+      if (plan_.faces[plan_.face_of[i]].land) continue;
+      for (const std::uint32_t corner : triangles[i].corner) beside_road_[corner] = true;
+    }
   }
 
   // What lies below decks is followed as slopes are: where a bridge begins, land comes up to it. False where nothing was put in.
@@ -251,7 +262,9 @@ class Rounds {
       const Eigen::Vector2d way = c.at[n] - c.at[k];
       const double rise_m = c.z[n] - c.z[k];
       const bool straight_ends = std::fabs(c.slope[k].dot(way) - rise_m) <= Slope().tolerance_m && std::fabs(c.slope[n].dot(way) - rise_m) <= Slope().tolerance_m;
-      const auto part = BendBetween(highest_, p_W, c.z[k], q_W, c.z[n], Slope(), straight_ends);
+      BendRange range = Slope();
+      if (!beside_road_[t.corner[k]] && !beside_road_[t.corner[n]]) range.ends_m = 0.0;
+      const auto part = BendBetween(highest_, p_W, c.z[k], q_W, c.z[n], range, straight_ends);
       const GridPoint p = plan_.triangles.points()[t.corner[k]], q = plan_.triangles.points()[t.corner[n]];
       if (!part) continue;
       const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + *part * (to - from))); };
@@ -295,6 +308,7 @@ class Rounds {
     std::uint32_t near;  // its triangle
   };
   std::vector<OnKept> on_kept_;
+  std::vector<bool> beside_road_;  // by point
   struct Known {
     std::uint32_t face;
     std::uint32_t level;

@@ -179,19 +179,23 @@ base::Digest TileSources::Posts(const TileKey& tile, bool& solid) const {
 }
 
 std::array<double, TileSources::kCells * TileSources::kCells> TileSources::NearestWithin(const TileKey& tile) const {
+  constexpr double kAnywhere_m = 1e9;
+  const auto look_at = [](const Cell& cell, const Points& points, double& nearest_m) {
+    if (cell.LeastFarthest(points.low_W, points.high_W) > nearest_m) return;
+    for (const Vector2d& p : points.at_W) nearest_m = std::min(nearest_m, cell.Farthest(p));
+  };
+  const Cell whole{tile.south_west_W(), kTile_m};
+  double within_m = kAnywhere_m;  // some point is no farther from any place of the tile
+  for (const Points& points : points_) look_at(whole, points, within_m);
+  std::vector<const Points*> near;
+  for (const Points& points : points_) {
+    if (whole.Nearest(points.low_W, points.high_W) <= within_m) near.push_back(&points);
+  }
   std::array<double, kCells * kCells> nearest;
-  const Points* last = nullptr;  // that were the nearest to the cell before: of this one, too, or nearly so, and others are soon known to be farther
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     const Cell cell = CellOf(tile, i, kCells);
-    nearest[i] = 1e9;
-    const auto look_at = [&](const Points& points) {
-      if (cell.LeastFarthest(points.low_W, points.high_W) > nearest[i]) return;
-      for (const Vector2d& p : points.at_W) {
-        if (const double farthest = cell.Farthest(p); farthest < nearest[i]) nearest[i] = farthest, last = &points;
-      }
-    };
-    if (last != nullptr) look_at(*last);
-    for (const Points& points : points_) look_at(points);
+    nearest[i] = kAnywhere_m;
+    for (const Points* points : near) look_at(cell, *points, nearest[i]);
   }
   return nearest;
 }
@@ -200,8 +204,10 @@ base::Digest TileSources::DigestOf(const TileKey& tile) const {
   bool solid = false;
   base::Digest digest = Posts(tile, solid);
   const auto nearest = solid ? std::array<double, kCells * kCells>{} : NearestWithin(tile);
+  const double farthest_m = *std::max_element(nearest.begin(), nearest.end());
   const Cell whole{tile.south_west_W(), kTile_m};
   const auto may_be_nearest = [&](const Part& part) {
+    if (whole.Nearest(part.low_W, part.high_W) > farthest_m + kMargin_m) return false;
     for (std::size_t i = 0; i < nearest.size(); ++i) {
       if (CellOf(tile, i, kCells).Nearest(part.low_W, part.high_W) <= nearest[i] + kMargin_m) return true;
     }

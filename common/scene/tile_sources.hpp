@@ -44,7 +44,7 @@ class TileSources {
   void AddJunctions();
   // The terrain's posts that make the tile's ground; solid: there is ground everywhere in it.
   base::Digest Posts(const TileKey& tile, bool& solid) const;
-  static constexpr int kCells = 4;  // along a tile's side
+  static constexpr int kCells = 8;  // along a tile's side
   // For each cell of the tile: none of its places is farther from its nearest road.
   std::array<double, kCells * kCells> NearestWithin(const TileKey& tile) const;
 

@@ -139,6 +139,57 @@ TEST(NetworkLand, ListsLeaveNothingOutThatChangesABit) {
   }
 }
 
+// Whether the road's lines lie over themselves near a station, where it bends faster than its lanes are wide: there a place has two heights of one road.
+bool FoldsNear(const network::Road& road, double s_m) {
+  for (double s = std::max(0.0, s_m - 8.0); s <= std::min(road.length_m(), s_m + 8.0); s += 0.1) {
+    double right, left;
+    road.SectionAt(s).Bounds(road.spec().lane_offset, s, s, right, left);
+    const double curvature = road.axis().Evaluate(s).curvature_1pm;
+    if (std::max(curvature * left, curvature * right) > 0.95) return true;
+  }
+  return false;
+}
+
+// Where roads lie over one another both edges are at the point itself, at different heights: no slope meets both. Where two elements of a line meet by a kink (a milliradian at most)
+// the panels before and after it share a strip of some millimetres within the bend.
+TEST(NetworkLand, OnRoadsItLiesBetweenTheirHeights) {
+  constexpr double kKink_m = 1e-4;
+  const auto files = opendrive::RealFiles();
+  if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";
+  for (const auto& file : files) {
+    const auto world = World::Load(file).value();
+    const NetworkLand& land = *world->land();
+    const auto roads = world->network()->roads();
+    std::size_t asked = 0, apart = 0, folds = 0;
+    for (std::uint64_t i = 0; i < 40'000; ++i) {
+      const network::Road& road = roads[static_cast<std::size_t>(base::RandomUniform({i, 1}, 0.0, static_cast<double>(roads.size())))];
+      const double s = base::RandomUniform({i, 2}, 0.0, road.length_m());
+      double right, left;
+      road.SectionAt(s).Bounds(road.spec().lane_offset, s, s, right, left);
+      const Vector2d p_W = road.Surface(s, base::RandomUniform({i, 3}, right, left)).p_W.head<2>();
+      const auto at = land.At(p_W);
+      if (!at) continue;  // a deck, and nothing near it
+      ASSERT_TRUE(std::isfinite(at->z_m) && at->slope_W.allFinite()) << file.filename() << " " << road.spec().id << " s " << s;
+      thread_local std::vector<network::Surfacing> surfaces;
+      world->network()->Surfaces(p_W.x(), p_W.y(), surfaces);
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (const network::Surfacing& at_road : surfaces) {
+        const auto& place = at_road.place;
+        if (land.IsOnDeck(place.lane.road, place.s_m)) continue;
+        low = std::min(low, at_road.sample.p_W.z()), high = std::max(high, at_road.sample.p_W.z());
+      }
+      if (!(low <= high)) continue;
+      ++asked, apart += high - low > 1e-3;
+      if (at->z_m >= low - kKink_m && at->z_m <= high + kKink_m) continue;
+      ASSERT_TRUE(std::any_of(surfaces.begin(), surfaces.end(), [&](const auto& other) { return FoldsNear(roads[other.place.lane.road], other.place.s_m); }))
+          << file.filename() << " " << road.spec().id << " s " << s << ": " << at->z_m << " is not between " << low << " and " << high;
+      ++folds;
+    }
+    EXPECT_GT(asked, 30'000u) << file.filename();
+    std::printf("%s: %zu places on roads, %zu of them at different heights, %zu where one road lies over itself\n", file.stem().c_str(), asked, apart, folds);
+  }
+}
+
 // Road 2 crosses road 1 at x = 50, 6 m higher: a deck from where banks of 1 in 2 come down to road 1's edges, y = ±3.5. Under it and beside it lies the
 // land, which rises to the road's height where the deck ends.
 TEST(NetworkLand, GoesThroughUnderADeck) {
@@ -205,14 +256,24 @@ bool IsTheRoads(const Network& network, const Step& step) {
   return most >= step.height_m;
 }
 
+// Whether the road at a step is met past one of its ends: a road goes on over a gap of up to 5 cm, and the land does not know of that. Where it ends with a kerb beside grass it steps there.
+bool IsPastAnEnd(const Network& network, const Step& step) {
+  const Spot& on_road = step.from.land ? step.to : step.from;
+  std::vector<network::Surfacing> surfaces;
+  network.Surfaces(on_road.p_W.x(), on_road.p_W.y(), surfaces);
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const network::Surfacing& at) {
+    const double length_m = network.roads()[at.place.lane.road].length_m();
+    return at.place.s_m < 1e-6 || at.place.s_m > length_m - 1e-6;
+  });
+}
+
 bool IsOverDeck(const World& world, const Spot& spot) {
   std::vector<network::Surfacing> surfaces;
   world.network()->Surfaces(spot.p_W.x(), spot.p_W.y(), surfaces);
   return std::any_of(surfaces.begin(), surfaces.end(), [&](const network::Surfacing& road) { return world.land()->IsOnDeck(road.place.lane.road, road.place.s_m); });
 }
 
-// Straight walks across real files, off their roads and over them. Who comes to a deck from the side goes through under it or stands before it: that is no step. Where the edges of
-// two roads of different heights touch, the land is steep about that point, and one may meet a step of at most that difference.
+// Straight walks across real files, off their roads and over them. Who comes to a deck from the side goes through under it or stands before it: that is no step.
 TEST(NetworkLand, NoWalkBesideTheRoadsOfARealFileMeetsAStep) {
   const auto files = opendrive::RealFiles();
   if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";
@@ -240,14 +301,17 @@ TEST(NetworkLand, NoWalkBesideTheRoadsOfARealFileMeetsAStep) {
               if (!IsTheRoads(*world->network(), step)) ADD_FAILURE() << file.filename() << ": " << step.height_m << " m at (" << fmt::format("{:.6f}, {:.6f}", step.from.p_W.x(), step.from.p_W.y()) << ")";
             } else if (!IsOverDeck(*world, step.from) && !IsOverDeck(*world, step.to)) {
               ++onto_roads;
-              if (step.height_m > edge_m) edge_m = step.height_m;
+              edge_m = std::max(edge_m, step.height_m);
+              if (!IsPastAnEnd(*world->network(), step)) ADD_FAILURE() << file.filename() << ": " << step.height_m << " m onto a road at (" << fmt::format("{:.6f}, {:.6f}", step.from.p_W.x(), step.from.p_W.y()) << ")";
             }
           }
         }
         last = at;
       }
     }
-    EXPECT_LE(onto_roads, 2) << file.filename();
+    if (file.stem() != "esmini_multi_intersections") {  // there road 202 begins with a kerb beside grass
+      EXPECT_EQ(onto_roads, 0) << file.filename();
+    }
     EXPECT_LT(edge_m, 0.02) << file.filename();
     RecordProperty(file.stem().string(), fmt::format("{:.1f} km, {} steps that a road has itself, {} onto roads, worst {:.4f} m", 1e-3 * walked_m, a_roads, onto_roads, edge_m));
     std::printf("%s: %.1f km, %d steps that a road has itself, %d onto roads, worst %.4f m\n", file.stem().c_str(), 1e-3 * walked_m, a_roads, onto_roads, edge_m);

@@ -8,14 +8,17 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <set>
 
+#include "common/base/random.hpp"
 #include "common/network/marking.hpp"
 #include "common/network/placing.hpp"
 #include "common/road/road_chains.hpp"
 #include "common/road/world.hpp"
 #include "common/road/world_report.hpp"
+#include "tests/common/opendrive/sample.hpp"
 #include "tests/launch/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
@@ -258,6 +261,32 @@ TEST_P(WorldsOfTheProject, LoadAndHaveGroundUnderTheirLanes) {
 
 INSTANTIATE_TEST_SUITE_P(All, WorldsOfTheProject, testing::Values("haste.yaml", "motorway.yaml", "flat.yaml", "n222.yaml"),
                          [](const auto& file) { return std::string(file.param).substr(0, std::string(file.param).find('.')); });
+
+// Of the project's own and of files of others: whatever the hint, there is ground on every place of a road.
+TEST(Worlds, EveryPlaceOfARoadHasAHeight) {
+  std::vector<std::filesystem::path> files = opendrive::RealFiles();
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SourceDir()) / "configs/worlds")) {
+    if (entry.path().extension() == ".yaml" && entry.path().stem() != "crater") files.push_back(entry.path());  // its elevation is not in the tree
+  }
+  std::sort(files.begin(), files.end());
+  for (const auto& file : files) {
+    const auto world = World::Load(file);
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    if (world.value()->network() == nullptr) continue;
+    const auto roads = world.value()->network()->roads();
+    for (std::uint64_t i = 0; i < 10'000 && !roads.empty(); ++i) {
+      const network::Road& road = roads[static_cast<std::size_t>(base::RandomUniform({i, 1}, 0.0, static_cast<double>(roads.size())))];
+      const double s = base::RandomUniform({i, 2}, 0.0, road.length_m());
+      double right, left;
+      road.SectionAt(s).Bounds(road.spec().lane_offset, s, s, right, left);
+      const Eigen::Vector3d p_W = road.Surface(s, base::RandomUniform({i, 3}, right, left)).p_W;
+      for (const double hint_m : {std::numeric_limits<double>::quiet_NaN(), p_W.z(), p_W.z() - 5.0, -1000.0}) {
+        const SurfacePoint at = world.value()->At(p_W.x(), p_W.y(), hint_m);
+        ASSERT_TRUE(at.inside && std::isfinite(at.z_m) && std::isfinite(at.slope_x) && std::isfinite(at.slope_y)) << file.filename() << " " << road.spec().id << " s " << s << " hint " << hint_m;
+      }
+    }
+  }
+}
 
 }  // namespace
 }  // namespace rodeira::road

@@ -1,4 +1,4 @@
-// The levels of the drawn ground against what is asked of each: 1 mm in plan (5 mm from SUELO in height) at the finest, 2, 10 and 50 cm at the others, on
+// The levels of the drawn ground against what is asked of each: 1 mm in plan and 3 mm in height at the finest, 2, 10 and 50 cm at the others, on
 // roads, verges, cuts and fills.
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace rodeira::scene {
 namespace {
 
 // As the numbers are asked, whatever the code takes.
-constexpr std::array<Asked, 4> kAsked = {{{0, 0.005, 0.003}, {1, 0.02, 0.02}, {2, 0.10, 0.10}, {3, 0.50, 0.50}}};
+constexpr std::array<Asked, 4> kAsked = {{{0, 0.003, 0.003}, {1, 0.02, 0.02}, {2, 0.10, 0.10}, {3, 0.50, 0.50}}};
 constexpr std::array<double, 4> kInPlan_m = {0.001, 0.02, 0.10, 0.50};
 
 enum class Kind { kRoad, kVerge, kSlope, kLand };

@@ -27,7 +27,7 @@ inline std::array<Eigen::Vector3d, 3> CornersOf(const Mesh& mesh, std::size_t tr
 
 // Real files whose ground is looked at as a whole, RODEIRA_GROUND_FILES (2) of them.
 inline std::vector<std::string> RealGrounds() {
-  std::vector<std::string> names{"esmini_curves_elevation", "esmini_fabriksgatan", "esmini_e6mini", "esmini_highway_exit", "carla_Town04"};
+  std::vector<std::string> names{"esmini_curves_elevation", "esmini_fabriksgatan", "esmini_e6mini", "esmini_highway_exit", "carla_Town04", "esmini_multi_intersections", "esmini_tunnels", "asamqc_positive_v18", "asamqc_lane_gap_issue119"};
   names.resize(std::min<std::size_t>(names.size(), Setting("RODEIRA_GROUND_FILES", 2)));
   return names;
 }
