@@ -14,7 +14,8 @@ constexpr double kLine_m = 0.6;          // before the zone the front stops
 constexpr double kFollowing_mps2 = 1.5;  // who is let in behind somebody brakes no harder for it
 constexpr double kYielded_mps2 = 1.0;    // by which others may have to brake, on the average, for who merges before them
 constexpr double kLag_s = 1.0;           // … and so much later than that one they come
-constexpr double kLeast_mps2 = 1e-3;     // who is left less than this at rest does not drive on
+constexpr double kLeast_mps2 = 1e-3;     // who is left less than this at rest does not drive on …
+constexpr double kFoot_mps2 = 0.25;      // … and with pedals who is left less than his foot starts by (driver::Pedals)
 
 }  // namespace
 
@@ -24,10 +25,10 @@ double TrafficModel::MergingGap(std::uint32_t id, double out_m, const Holder& be
   return to_end - (before.out_m - agents_[before.id].o_m + 0.5 * traits_[before.id].length_m);
 }
 
-// The acceleration with which it follows another agent that has come in, or comes in, before it.
+// The acceleration with which it follows another agent that has come in, or comes in, before it: by what that one's driver wants, since what his car does while he changes gear is over at once.
 double TrafficModel::FollowComing(std::uint32_t id, std::uint32_t leader, double gap_m) const {
   const Agent& other = agents_[leader];
-  return driver::AccAcceleration(traits_[id].idm, agents_[id].speed_mps, Desired_mps(id), gap_m, other.speed_mps, other.acceleration_mps2);
+  return driver::AccAcceleration(traits_[id].idm, agents_[id].speed_mps, Desired_mps(id), gap_m, other.speed_mps, other.wish_mps2);
 }
 
 // Where two ways merge it may come behind who is nearer to the end of the zone, as behind a leader, if it need not brake much for that.
@@ -90,13 +91,13 @@ void TrafficModel::YieldInZones(std::uint32_t id) {
   const Ahead& ahead = ahead_[id];
   if (agent.eased_for >= 0 || eased_for < 0 || ahead.id != eased_for) return;
   const Agent& other = agents_[static_cast<std::size_t>(eased_for)];
-  if (!driver::AccIsIdm(traits_[id].idm, agent.speed_mps, Desired_mps(id), ahead.gap_m, ahead.speed_mps, other.acceleration_mps2)) agent.eased_for = eased_for;
+  if (!driver::AccIsIdm(traits_[id].idm, agent.speed_mps, Desired_mps(id), ahead.gap_m, ahead.speed_mps, other.wish_mps2)) agent.eased_for = eased_for;
 }
 
 // Who holds its zones before it and keeps it where it stands; of several the one who lets it drive on least, below 0: nobody does.
 std::int64_t TrafficModel::KeptInZonesBy(std::uint32_t id) const {
   std::int64_t keeps = -1;
-  double least = kLeast_mps2;
+  double least = full_ ? kFoot_mps2 : kLeast_mps2;
   EachBefore(id, [&](std::uint32_t other, double, double leaves_mps2) {
     if (leaves_mps2 < least) least = leaves_mps2, keeps = other;
   });

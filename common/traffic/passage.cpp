@@ -16,6 +16,7 @@ constexpr double kEarly_m = 4.0;
 constexpr double kStopped_m = 2.0;      // at most so far before a STOP line
 constexpr double kLoose_m = 0.5;        // more than its standing gap that a queueing car leaves
 constexpr double kOverLine_m = 0.3;     // a front so far beyond a light's line has passed it
+constexpr double kFarther_m = 20.0;     // than where it would stand behind the zones that it knows it looks for the next ones
 
 }  // namespace
 
@@ -53,12 +54,19 @@ bool TrafficModel::KeepPassage(std::uint32_t id) {
   return true;
 }
 
+// Who must know now looks on to where it would stand, however slowly it drives: where zones are longer than it sees, the next ones may begin where those end, and
+// who has taken the first ones alone would stand in them.
 void TrafficModel::FindPassage(std::uint32_t id) {
   if (!KeepPassage(id)) FindCrossings(id);
-  Passage& passage = passages_[id];
+  const Passage& passage = passages_[id];
   if (!passage.any) return;
   const double to_line = passage.line_m - FrontOf(id), v = agents_[id].speed_mps;
-  passage.due = to_line < v * v / (2.0 * traits_[id].idm.braking_mps2) + kReaction_s * v + kEarly_m;
+  const bool due = to_line < v * v / (2.0 * traits_[id].idm.braking_mps2) + kReaction_s * v + kEarly_m;
+  while (due && !SeesTo(id, passage.room_m)) {
+    FindStretches(id, passage.room_m - FrontOf(id) + kFarther_m);
+    FindCrossings(id);
+  }
+  passages_[id].due = due;
 }
 
 void TrafficModel::FindCrossings(std::uint32_t id) {

@@ -67,6 +67,12 @@ Stretch TrafficModel::StretchOn(std::uint32_t track, double zero_m, double begin
   return {track, zero_m, begin_m, end_m, changes, !on.next.empty(), on.left || on.right, !plan.lines.empty(), !zones().ConflictsOf(track).empty(), plan.one_limit ? plan.limit_mps : -1.0, plan.plan.At(begin_m - zero_m).speed_mps};
 }
 
+// Whether its stretches go as far as that, or to the end of its way.
+bool TrafficModel::SeesTo(std::uint32_t id, double odometer_m) const {
+  const Stretch& last = stretches_[id].back();
+  return last.end_m >= odometer_m || !last.goes_on;
+}
+
 // From the piece under the rear bumper to `range` beyond the front one.
 void TrafficModel::FindStretches(std::uint32_t id, double range_m) {
   const Agent& agent = agents_[id];

@@ -108,6 +108,8 @@ class Swinger {
     std::vector<double> squared;
     for (double at = 0.0; at <= end_m + half_base; at += kPlan_m) squared.push_back(PlannedSquared(path, at));
     for (std::size_t i = squared.size(); i-- > 1;) squared[i - 1] = std::min(squared[i - 1], squared[i] + 2.0 * kPlannedBraking_mps2 * kPlan_m);
+    const double liveliest = settings_.idm.acceleration_mps2 * (1.0 + settings_.variety);  // nobody leaves a bend faster than so
+    for (std::size_t i = 1; i < squared.size(); ++i) squared[i] = std::min(squared[i], squared[i - 1] + 2.0 * liveliest * kPlan_m);
     Eigen::Vector2d rear = FrameAt(graph_, path, 0.0).p_W.head<2>();
     const Eigen::Vector2d along = FrameAt(graph_, path, 2.0 * half_base).p_W.head<2>() - rear;
     double heading = std::atan2(along.y(), along.x()), wheel = 0.0, next_look_m = graph_[path.front().track].before.empty() ? o : o + kSettles_m;

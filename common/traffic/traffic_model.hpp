@@ -144,6 +144,7 @@ class TrafficModel {
   void FindStretches(std::uint32_t id, double range_m);
   Stretch StretchOn(std::uint32_t track, double zero_m, double begin_m, double end_m, bool changes) const;
   bool KeepStretches(std::uint32_t id, double far_m);
+  bool SeesTo(std::uint32_t id, double odometer_m) const;
   void LookBelow(std::uint32_t id);
   PathFrame FrameOf(std::uint32_t id, double odometer_m) const;  // of its path
   double LengthOf(std::uint32_t id, std::uint32_t track) const { return below_[id].track == track ? below_[id].length_m : graph()[track].length_m(); }

@@ -173,6 +173,24 @@ void DriveAFile(const std::string& name, const std::vector<Run>& runs) {
 // docs/traffic.md.
 TEST(FullDrive, DrivesARealTown) { DriveAFile("carla_Town04", {{60, 1, 50.0, 4.0}, {60, 11, 50.0, 4.0}, {100, 1, 120.0, 4.5}, {100, 11, 120.0, 4.5}}); }
 
+// Lorries and buses among them, which cannot pass one another in its bends: nobody stands in the way of somebody who stands in his. (Two did from 30 s on.)
+TEST(FullDrive, LongBodiesGoOnInARealTown) {
+  const auto file = lanes::RealFolder() / "carla_Town04.xodr";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real files are not beside the project";
+  StudySettings settings;
+  settings.traffic = Full(100);
+  settings.traffic.mix.shares = {0.6, 0.1, 0.2, 0.1};
+  settings.duration_s = 120.0;
+  const StudyResult r = RunStudy(settings, opendrive::LoadNetwork(file).value()).value();
+  std::string what = fmt::format("{:.1f} km, {:.1f} s at rest with room ahead, {} wheels off, {:.2f} m/s² with a foot on the brake", r.driven_km, r.longest_with_room_s, r.wheels_off, r.hardest_mps2);
+  RecordProperty("drive", what);
+  for (const std::string& incident : r.incidents) what += "\n  " + incident;
+  EXPECT_EQ(r.collisions, 0) << what;
+  EXPECT_EQ(r.off_lane, 0) << what;
+  EXPECT_EQ(r.hurried_steps, 0) << what;
+  EXPECT_LT(r.longest_with_room_s, 75.0) << what;
+}
+
 // Up to 0.55 rad across, outward in its bend for one direction.
 TEST(FullDrive, DrivesOnABank) {
   DriveAFile("esmini_straight_500_superelevation_elevation_curve", {{25, 1, 60.0, 4.0}, {25, 2, 60.0, 4.0}, {25, 3, 60.0, 4.0}, {25, 4, 60.0, 4.0}, {100, 11, 60.0, 4.0}});

@@ -63,8 +63,9 @@ void Feels(const std::string& name, const StudyResult& r) {
 
 // Nobody touches anybody, leaves the lanes, or the road with a wheel, moves otherwise than its speed says, brakes in an emergency or is stuck. Half an hour is looked at every tenth of a
 // second, two minutes at every second step.
-void Behaves(const std::string& name, const NetworkPointer& network, std::uint32_t vehicles, std::uint64_t seed) {
+void Behaves(const std::string& name, const NetworkPointer& network, std::uint32_t vehicles, std::uint64_t seed, const VehicleMix& mix = {}) {
   StudySettings settings;
+  settings.traffic.mix = mix;
   settings.traffic.vehicles = vehicles;
   settings.traffic.seed = seed;
   settings.duration_s = Duration();
@@ -101,6 +102,14 @@ TEST(NetworkTraffic, DrivesTheRealFiles) {
     const bool large = file.filename() == "carla_Town04.xodr";
     Behaves(file.filename(), opendrive::LoadNetwork(file).value(), large ? 100 : 25, 1);
   }
+}
+
+// The same with lorries and buses among cars.
+TEST(NetworkTraffic, DrivesWithLorriesAndBuses) {
+  const VehicleMix mix{{0.6, 0.1, 0.2, 0.1}};
+  for (const std::string& name : lanes::MapNames()) Behaves(name, lanes::MapNetwork(name), name == "town" ? 60 : 25, 1, mix);
+  const auto file = lanes::RealFolder() / "carla_Town04.xodr";
+  if (std::filesystem::exists(file)) Behaves(file.filename(), opendrive::LoadNetwork(file).value(), 100, 1, mix);
 }
 
 // Lanes that several ways lead to: who follows is looked for on all of them, whoever else is found first on another.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,22 @@ std::shared_ptr<const network::Network> BendOf29() {
   road.length = 80.0 + arc;
   road.left = "";
   road.geometry = piece(0.0, 0.0, 0.0, 0.0, 40.0, "<line/>") + piece(40.0, 40.0, 0.0, 0.0, arc, fmt::format("<arc curvature=\"{}\"/>", -1.0 / kRadius_m)) + piece(40.0 + arc, x, y, -kTurn, 40.0, "<line/>");
+  return opendrive::MustRead(opendrive::Document(road.Text()));
+}
+
+constexpr double kStraight_m = 60.0;
+
+// A lane that turns to the right by 90° on this radius, between straight ones.
+std::shared_ptr<const network::Network> BendOf(double radius_m) {
+  opendrive::RoadText road;
+  const double middle_m = radius_m + 1.75, turn = 0.5 * std::numbers::pi, arc = middle_m * turn;
+  const auto piece = [](double s, double x, double y, double heading, double length, const std::string& kind) {
+    return fmt::format("<geometry s=\"{}\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\">{}</geometry>", s, x, y, heading, length, kind);
+  };
+  road.length = 2.0 * kStraight_m + arc;
+  road.left = "";
+  road.geometry = piece(0.0, 0.0, 0.0, 0.0, kStraight_m, "<line/>") + piece(kStraight_m, kStraight_m, 0.0, 0.0, arc, fmt::format("<arc curvature=\"{}\"/>", -1.0 / middle_m)) +
+                  piece(kStraight_m + arc, kStraight_m + middle_m, -middle_m, -turn, kStraight_m, "<line/>");
   return opendrive::MustRead(opendrive::Document(road.Text()));
 }
 
@@ -112,6 +129,28 @@ TEST(Swing, HoldsWhatCarsOfTheMapsDo) {
   EXPECT_GT(looks, 100000);
   EXPECT_GT(beyond, 100);  // it says something
   RecordProperty("beyond", beyond);
+}
+
+// Who leaves a tight bend gains speed as drivers do while his hands turn back: 15 m behind it a bus is on its line, and zones are hardly wider for it.
+TEST(Swing, WhoLeavesABendGainsSpeedAsDriversDo) {
+  TrafficSettings settings = Full();
+  settings.mix.shares = {0.5, 0.0, 0.0, 0.5};
+  const double half_m = 0.5 * LargestOf(settings).width_m;
+  for (const double radius_m : {7.0, 9.0, 12.0, 16.0}) {
+    const auto network = BendOf(radius_m);
+    const lanes::Graph graph(*network);
+    const lanes::Swings swings = SwingsOf(graph, settings);
+    ASSERT_EQ(swings.size(), 1u);
+    double in_bend_m = 0.0, behind_m = 0.0;
+    const auto& nodes = graph[0].curve.nodes();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const double after_m = nodes[i].d_m - (graph[0].length_m() - kStraight_m), out_m = std::max(swings[0][i].left_m, swings[0][i].right_m);
+      double& most_m = after_m > 15.0 ? behind_m : in_bend_m;
+      most_m = std::max(most_m, out_m);
+    }
+    EXPECT_GT(in_bend_m, half_m + 1.0) << radius_m;
+    EXPECT_LT(behind_m, half_m + 0.15) << radius_m;
+  }
 }
 
 // Straight roads are as wide as before, and who keeps to his line, or knows no zones, has none.
