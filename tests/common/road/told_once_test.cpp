@@ -57,6 +57,7 @@ TEST_F(ToldOnce, AMisspeltElementOfAnAxisIsReadAsTheOneThatWasMeant) {
   EXPECT_THAT(Problems(OnAPlane("lin: {length_m: 200}")), ElementsAre("w.yaml:6: 'lin' is no element of an axis; did you mean 'line'?"));
   EXPECT_THAT(Problems(OnAPlane("clothiod: {length_m: 150, radius_end_m: 100}, arc: {radius_m: 100, length_m: 50}")), ElementsAre("w.yaml:6: 'clothiod' is no element of an axis; did you mean 'clothoid'?"));
   EXPECT_THAT(Problems(OnAPlane("lin: {length_m: 100}")), ElementsAre("w.yaml:6: 'lin' is no element of an axis; did you mean 'line'?", "w.yaml:9: 'roads[0].markings[0].s_m' is 120; a number from 0 to 100 was expected"));
+  EXPECT_THAT(Problems(OnAPlane("{from: {x_m: 0, y_m: 0, heading_deg: 0}, lin: {length_m: 200}}")), ElementsAre("w.yaml:6: 'lin' is no element of an axis; did you mean 'line'?"));
   EXPECT_THAT(Problems(OnAPlane("{lin: {length_m: 100}}, {ark: {radius_m: 100, length_m: 60}}")),
               ElementsAre("w.yaml:6: 'lin' is no element of an axis; did you mean 'line'?", "w.yaml:6: 'ark' is no element of an axis; did you mean 'arc'?"));
 }
