@@ -14,7 +14,13 @@ endif()
 
 # The same bits on every machine (law L7): no contraction, no value-changing optimisation, no -march.
 add_compile_options(-ffp-contract=off -fno-fast-math)
-if(RODEIRA_SANITIZE STREQUAL "thread")
+if(RODEIRA_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "RODEIRA_FUZZ needs clang: configure with CC=clang CXX=clang++")
+  endif()
+  add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=address,undefined)
+elseif(RODEIRA_SANITIZE STREQUAL "thread")
   add_compile_options(-fsanitize=thread -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=thread)
 elseif(RODEIRA_SANITIZE)
@@ -23,6 +29,9 @@ elseif(RODEIRA_SANITIZE)
 endif()
 set(RODEIRA_WARNINGS -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wsuggest-override
                      -Wdouble-promotion -Wimplicit-fallthrough -Wunused -Werror)
+if(RODEIRA_FUZZ)
+  set(RODEIRA_WARNINGS "")  # those are kept for GCC, which builds what is shipped
+endif()
 if(RODEIRA_SANITIZE)
   # GCC 12 sees writes into nothing in fmt's headers, and reads of nothing in its own <regex>, where it instruments them.
   list(APPEND RODEIRA_WARNINGS -Wno-stringop-overflow -Wno-maybe-uninitialized)

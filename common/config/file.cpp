@@ -130,7 +130,8 @@ std::vector<base::Error> File::Problems() const {
       known.insert(asked.hoped.begin(), asked.hoped.end());
       known.erase(key);  // it may stand there, but what is wrong elsewhere kept it from being read
       const Meant meant = MeantBy(key, known);
-      if (!meant.key.empty()) std::erase_if(all, [&](const auto& problem) { return problem.missing == Sub(asked.path, meant.key); });
+      const std::string missing = Sub(asked.path, meant.key);
+      if (!meant.key.empty()) std::erase_if(all, [&](const auto& problem) { return problem.missing == missing; });
       (meant.key.empty() ? strange : misspelt).push_back({LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
     }
   }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/suggest.hpp"
+#include "common/design/element_name.hpp"
 #include "common/design/points.hpp"
 #include "common/geometry/angle.hpp"
 #include "common/geometry/plane.hpp"
@@ -49,11 +49,13 @@ double ReadClothoidLength(const Map& map, double change_1pm) {
 // Length and curvatures of one item.
 PlanElement ReadElement(const Map& item) {
   PlanElement element;
-  element.length_m = 1.0;
-  if (item.Has("line")) {
-    element.length_m = item.Child("line").Number("length_m", kLength_m);
-  } else if (item.Has("arc")) {
-    const Map arc = item.Child("arc");
+  const ElementName name = ReadElementName(item);
+  if (name.kind.empty()) {
+    element.length_m = kLength_m.high;  // so that nothing that stands along it seems to stand behind the road's end
+  } else if (name.kind == "line") {
+    element.length_m = item.Child(name.key).Number("length_m", kLength_m);
+  } else if (name.kind == "arc") {
+    const Map arc = item.Child(name.key);
     element.curvature_start_1pm = element.curvature_end_1pm = ReadCurvature(arc, "radius_m");
     if (arc.Has("turn_deg")) {
       const double turn = arc.Number("turn_deg", {0.001, 3600.0}) * geometry::kPi / 180.0;
@@ -64,18 +66,14 @@ PlanElement ReadElement(const Map& item) {
     } else {
       element.length_m = arc.Number("length_m", kLength_m);
     }
-  } else if (item.Has("clothoid")) {
-    const Map clothoid = item.Child("clothoid");
+  } else {
+    const Map clothoid = item.Child(name.key);
     if (clothoid.Has("radius_start_m")) element.curvature_start_1pm = ReadCurvature(clothoid, "radius_start_m");
     if (clothoid.Has("radius_end_m")) element.curvature_end_1pm = ReadCurvature(clothoid, "radius_end_m");
     if (!clothoid.Has("radius_start_m") && !clothoid.Has("radius_end_m")) {
       clothoid.Problem("", "a clothoid needs 'radius_start_m' or 'radius_end_m'; one left out is a straight end");
     }
     element.length_m = ReadClothoidLength(clothoid, element.curvature_end_1pm - element.curvature_start_1pm);
-  } else {
-    const std::vector<std::string> keys = item.Keys();
-    const std::string found = keys.empty() ? "" : keys.front();
-    item.Problem(found, fmt::format("'{}' is no element of an axis{}", found, base::DidYouMean(found, {"line", "arc", "clothoid"})));
   }
   return element;
 }
@@ -113,7 +111,7 @@ void ReadElements(const Map& road, const geometry::PlanPoint& start, AxisReading
     element.heading_rad = end.heading_rad;
     if (item.Has("from")) ReadPlace(item, end, i == 0, element, axis);
     const double jump = element.curvature_start_1pm - end.curvature_1pm;
-    if (i > 0 && std::fabs(jump) > 1e-6) {
+    if (i > 0 && std::fabs(jump) > 1e-6 && element.length_m < kLength_m.high) {
       axis.warnings.push_back(fmt::format("{}: the curvature jumps by {:.5f} 1/m at s = {:.3f} m", items.Place(i), jump, s));
     }
     end = geometry::PlanAxis::End(element);

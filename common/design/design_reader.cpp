@@ -154,6 +154,17 @@ void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& de
   layout.network.roads = std::move(roads);
 }
 
+// The lanes that a car could start on instead.
+std::string DrivenLanes(const network::RoadSpec& spec) {
+  std::string lanes;
+  for (const auto* side : {&spec.sections[0].right, &spec.sections[0].left}) {
+    for (const network::Lane& lane : *side) {
+      if (network::IsDrivable(lane.type)) lanes += fmt::format("{}{}", lanes.empty() ? "; driven on are " : ", ", lane.id);
+    }
+  }
+  return lanes;
+}
+
 std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const std::vector<RoadDesign>& designs, const Layout& layout) {
   std::vector<std::string> ids;
   std::optional<std::size_t> road;
@@ -176,6 +187,10 @@ std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const
   const network::Lane* found = spec.sections[0].Find(lane);
   if (found == nullptr || lane == 0) {
     map.Problem("lane", fmt::format("road '{}' has no lane {}", spec.id, lane));
+    return std::nullopt;
+  }
+  if (!network::IsDrivable(found->type)) {
+    map.Problem(wish.lane ? "lane" : "", fmt::format("lane {} of road '{}' is one of the type '{}': nobody drives there{}", lane, spec.id, network::LaneTypeName(found->type), DrivenLanes(spec)));
     return std::nullopt;
   }
   const bool against = found->direction < 0;

@@ -84,6 +84,7 @@ void ReadSign(const Map& item, const Context& context, double length_m, network:
   const double rotation = ReadRotation(item), height = item.Number("z_m", {-50.0, 50.0}, 2.0);
   const double size = item.Number("height_m", {0.1, 10.0}, kind->height_m);
   const std::string text = item.Text("text", "");
+  if (text.empty() && (name == "town" || name == "end_of_town")) warnings.push_back(fmt::format("{}: the sign '{}' names no town: its 'text' is what stands on it", item.Place("type"), name));
   if (stand.repeated && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost) return item.Problem("every_m", "more than 100 000 signs; fewer were expected");
   const Beside beside(item, spec, -0.3, right_side);
   const std::vector<double> stations = StationsOf(stand);

@@ -147,6 +147,7 @@ class Builder {
       controller.id = fmt::format("{}-{}", wish.id, name);
       controller.name = fmt::format("{}: {}", wish.name, name);
       controller.times = lights::TimesOf(*wish.lights, name);
+      controller.place = lights::PlaceOf(*wish.lights, name);
       for (const Arm& arm : arms) {
         if (designs_[wish.meetings[arm.meeting].road].spec.id != name) continue;
         if (const auto id = PutLight(specs_[arm.piece], arm.end)) controller.controls.push_back({*id, "0"});

@@ -48,13 +48,17 @@ std::optional<Meeting> ReadMeeting(const Map& item, const std::vector<RoadDesign
 void ReadLights(const Map& item, const std::vector<RoadDesign>& designs, JunctionWish& junction) {
   const Map map = item.Child("lights");
   junction.lights = lights::ReadLightPlan(map);
+  if (junction.lights->phases.empty()) return;
   const std::vector<std::string> names = junction.lights->Names();
   std::vector<std::string> roads;
   for (const Meeting& meeting : junction.meetings) roads.push_back(designs[meeting.road].spec.id);
+  bool all_known = true;  // or who is green in no phase may be who is misspelt
   for (const std::string& name : names) {
-    if (std::find(roads.begin(), roads.end(), name) == roads.end())
-      map.Problem("phases", fmt::format("no road '{}' meets junction '{}'{}", name, junction.id, base::DidYouMean(name, roads)));
+    if (std::find(roads.begin(), roads.end(), name) != roads.end()) continue;
+    map.Problem("phases", fmt::format("no road '{}' meets junction '{}'{}", name, junction.id, base::DidYouMean(name, roads)));
+    all_known = false;
   }
+  if (!all_known) return;
   for (const std::string& road : roads) {
     if (std::find(names.begin(), names.end(), road) == names.end())
       map.Problem("phases", fmt::format("road '{}' is green in no phase of junction '{}'", road, junction.id));

@@ -107,8 +107,10 @@ std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& 
 
 base::Status CheckLights(const Graph& graph, const Zones& zones) {
   const auto together = FindGreenTogether(graph, zones);
-  if (together) return base::WrongInput(together->sentence, "network '" + graph.network().name() + "'");
-  return {};
+  if (!together) return {};
+  // At the later of the two: it is green although the other one is.
+  const std::string& place = graph.network().controllers()[std::max(together->controllers[0], together->controllers[1])].place;
+  return base::WrongInput(together->sentence, place.empty() ? "network '" + graph.network().name() + "'" : place);
 }
 
 }  // namespace rodeira::lanes

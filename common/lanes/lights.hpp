@@ -45,7 +45,8 @@ struct GreenTogether {
 std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& zones);
 
 // Wrong input where two lights are green or amber together whose ways come from different sides and cross or merge. Who turns
-// across the way of those who come towards him may be green with them: he yields. The two are named.
+// across the way of those who come towards him may be green with them: he yields. The two are named, with the line of the later one's
+// green where that is known.
 base::Status CheckLights(const Graph& graph, const Zones& zones);
 
 }  // namespace rodeira::lanes

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <tuple>
 
 #include "common/geometry/angle.hpp"
 #include "common/geometry/plane.hpp"
@@ -26,15 +28,31 @@ double Turn(const Curve& curve) {
   return turn;
 }
 
-// The side whose connecting road the junction names as higher than the other's, or -1.
-int NamedFirst(const Graph& graph, const Zone& zone) {
-  const Track &a = graph[zone.track[0]], &b = graph[zone.track[1]];
-  if (a.junction < 0 || a.junction != b.junction) return -1;
-  const auto& id_a = graph.network().roads()[a.lane.road].id();
-  const auto& id_b = graph.network().roads()[b.lane.road].id();
-  for (const auto& priority : graph.network().junctions()[static_cast<std::size_t>(a.junction)].priorities) {
+// What a junction says of two of its roads: the side that is higher, or -1.
+int NamedBy(const network::Junction& junction, const std::string& id_a, const std::string& id_b) {
+  for (const auto& priority : junction.priorities) {
     if (priority.high == id_a && priority.low == id_b) return 0;
     if (priority.high == id_b && priority.low == id_a) return 1;
+  }
+  return -1;
+}
+
+// The side whose road a junction names as higher than the other's, or -1. Past a junction in the middle of a road that road goes first, if the junction does not say otherwise.
+int NamedFirst(const Graph& graph, const Zone& zone) {
+  const Track &a = graph[zone.track[0]], &b = graph[zone.track[1]];
+  const auto junctions = graph.network().junctions();
+  const auto& id_a = graph.network().roads()[a.lane.road].id();
+  const auto& id_b = graph.network().roads()[b.lane.road].id();
+  if (a.junction >= 0 && a.junction == b.junction) return NamedBy(junctions[static_cast<std::size_t>(a.junction)], id_a, id_b);
+  for (const auto& [in, id, first] : {std::tuple(a.junction, id_b, 1), std::tuple(b.junction, id_a, 0)}) {
+    if (in < 0 || junctions[static_cast<std::size_t>(in)].main_road != id) continue;
+    const int named = NamedBy(junctions[static_cast<std::size_t>(in)], id_a, id_b);
+    return named >= 0 ? named : first;
+  }
+  if (a.junction >= 0 || b.junction >= 0) return -1;
+  for (const network::Junction& junction : junctions) {  // of roads that cross and do not meet
+    if (junction.type != "crossing") continue;
+    if (const int named = NamedBy(junction, id_a, id_b); named >= 0) return named;
   }
   return -1;
 }

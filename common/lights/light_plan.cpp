@@ -62,12 +62,19 @@ LightPlan ReadLightPlan(const config::Map& map) {
     }
     plan.phases.push_back(std::move(phase));
   }
-  if (plan.phases.empty()) map.Problem("phases", "there is no phase; one or more were expected");
+  if (plan.phases.empty() && map.Has("phases")) map.Problem("phases", "there is no phase; one or more were expected");
   for (const std::string& name : plan.Names()) {
     if (Begins(plan, name) > 1)
       map.Problem("phases", fmt::format("'{}' becomes green more than once in a cycle; put its phases one after the other", name));
   }
   return plan;
+}
+
+std::string PlaceOf(const LightPlan& plan, std::string_view name) {
+  for (const Phase& phase : plan.phases) {
+    if (IsGreen(phase, name)) return phase.place;
+  }
+  return "";
 }
 
 std::optional<network::LightTimes> TimesOf(const LightPlan& plan, std::string_view name) {

@@ -34,6 +34,9 @@ struct LightPlan {
 // waits, and is green again in one cycle is a problem, as is a red with amber longer than amber and red for all.
 LightPlan ReadLightPlan(const config::Map& map);
 
+// Where the first phase in which a name is green is written down, "file:line"; empty where it is in no phase.
+std::string PlaceOf(const LightPlan& plan, std::string_view name);
+
 // When a name is green; nothing where it is in no phase.
 std::optional<network::LightTimes> TimesOf(const LightPlan& plan, std::string_view name);
 

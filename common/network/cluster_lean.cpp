@@ -44,6 +44,8 @@ struct Along {
 
   Lean LeanAt(double s_m) const { return LeanOf(roll(s_m), climb(s_m)); }
 };
+template <class RollOf, class ClimbOf, class WayOf>
+Along(RollOf, ClimbOf, WayOf) -> Along<RollOf, ClimbOf, WayOf>;  // clang, with which readers are fuzzed, finds it for aggregates from 17 on
 
 // How far points have come from their feet, by the last step and in all, and -G' there.
 struct Steps {

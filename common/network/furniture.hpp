@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -39,7 +40,15 @@ struct Signal {
   std::vector<std::string> depends_on;  // ids of signals
   std::string priority;                 // what it means for who may go first, whatever its country calls it: stop, yield, priorityRoad …; empty: not said
   std::variant<std::monostate, SeenAtRoad, SeenInWorld> seen;
+  // Of a sign or a display on a board: the board's signal. Its own place is the board's, and the middle of its lower edge lies so far to the left of the
+  // board's, as its reader sees it, and over the board's lower edge.
+  std::string board;
+  double board_left_m = 0.0, board_up_m = 0.0;
 };
+
+// Boards hold signs and displays: a signal of one of these types is no sign itself.
+inline constexpr std::string_view kStaticBoard = "staticBoard", kDisplay = "vmsBoard", kMixedBoard = "multiBoard";
+inline bool IsBoard(const Signal& signal) { return signal.type == kStaticBoard || signal.type == kDisplay || signal.type == kMixedBoard; }
 
 // A signal that stands at another road and is for this one.
 struct SignalReference {

@@ -24,12 +24,13 @@ struct JunctionConnection {
 };
 
 struct JunctionPriority {
-  std::string high, low;  // ids of connecting roads
+  std::string high, low;  // ids of connecting roads; where roads cross, or meet in the middle of one, of those
 };
 
 struct Junction {
   std::string id, name;
   std::string type = "default";  // default, direct, virtual, crossing
+  std::string main_road;           // of a virtual junction: the road whose middle it lies at; empty: none
   std::vector<JunctionConnection> connections;
   std::vector<JunctionPriority> priorities;
   std::vector<std::string> controllers;
@@ -48,6 +49,7 @@ struct Controller {
   std::string id, name;
   std::vector<ControllerEntry> controls;
   std::optional<LightTimes> times;
+  std::string place;  // "file:line" where its green is written down; empty: not known
 };
 
 }  // namespace rodeira::network

@@ -13,6 +13,14 @@ void AddOnce(std::vector<LaneEnd>& ends, const LaneEnd& end) {
 
 }  // namespace
 
+std::uint32_t SectionMet(const RoadLink& link, const RoadSpec& other) {
+  const auto count = static_cast<std::uint32_t>(other.sections.size());
+  if (!link.s_m) return link.contact == End::kStart ? 0 : count - 1;
+  std::uint32_t behind = 0;
+  while (behind + 1 < count && other.sections[behind].s_m < *link.s_m) ++behind;
+  return link.contact == End::kStart || behind == 0 ? behind : behind - 1;
+}
+
 // A link is known from both sides, whichever of them the file says it from.
 void Network::Join(const LaneEnd& a, const LaneEnd& b) {
   Ends& of_a = ends_[Number(a.lane)];
@@ -37,8 +45,7 @@ void Network::LinkEnd(const LaneKey& lane, const std::vector<int>& targets, bool
   if (!link || link->junction) return;
   const auto other = FindRoad(link->id);
   if (!other) return;
-  const std::uint32_t section =
-      link->contact == End::kStart ? 0 : static_cast<std::uint32_t>(roads()[*other].spec().sections.size()) - 1;
+  const std::uint32_t section = SectionMet(*link, roads()[*other].spec());
   for (const int id : targets) {
     const LaneKey target{*other, section, id};
     if (id != 0 && Find(target) != nullptr) Join({lane, here}, {target, link->contact});
@@ -55,15 +62,22 @@ void Network::LinkJunctions() {
         const auto last = static_cast<std::uint32_t>(roads()[road].spec().sections.size()) - 1;
         return LaneKey{road, end == End::kStart ? 0u : last, lane};
       };
-      // At which end the incoming road meets the junction.
       const RoadSpec& road = roads()[*incoming].spec();
+      const RoadSpec& way = roads()[*connecting].spec();
+      const std::optional<RoadLink>& back = connection.contact == End::kStart ? way.predecessor : way.successor;
+      if (back && back->s_m && back->id == road.id) {  // in its middle
+        for (const JunctionLaneLink& link : connection.lane_links) {
+          const LaneKey from{*incoming, SectionMet(*back, road), link.from}, to = end_key(*connecting, connection.contact, link.to);
+          if (link.from != 0 && link.to != 0 && Find(from) != nullptr && Find(to) != nullptr) Join({from, back->contact}, {to, connection.contact});
+        }
+        continue;
+      }
+      // At which end the incoming road meets the junction.
       const auto meets = [&](const std::optional<RoadLink>& link) { return link && link->junction && link->id == junction.id; };
       std::vector<End> ends;
       if (meets(road.successor)) ends.push_back(End::kEnd);
       if (meets(road.predecessor)) ends.push_back(End::kStart);
       if (ends.size() == 2) {  // both: the one that the connecting road names
-        const RoadSpec& way = roads()[*connecting].spec();
-        const std::optional<RoadLink>& back = connection.contact == End::kStart ? way.predecessor : way.successor;
         if (back && !back->junction && back->id == road.id) ends = {back->contact};
       }
       for (const End end : ends) {

@@ -25,7 +25,7 @@ Placed PlaceSignal(const Network& network, std::uint32_t index, const Signal& si
   const Road& road = network.roads()[index];
   placed.s_m = signal.s_m, placed.t_m = signal.t_m, placed.z_offset_m = signal.z_offset_m;
   placed.width_m = signal.width_m, placed.height_m = signal.height_m;
-  placed.both_sides = signal.orientation != "+" && signal.orientation != "-";
+  placed.both_sides = signal.orientation != "+" && signal.orientation != "-" && signal.board.empty() && !IsBoard(signal);  // a board is read from before it
   const double facing_rad = signal.orientation == "-" ? 0.0 : geometry::kPi;
   Stand(road, signal.h_offset_rad + facing_rad, placed);
   if (const auto* seen = std::get_if<SeenAtRoad>(&signal.seen)) {
@@ -39,6 +39,14 @@ Placed PlaceSignal(const Network& network, std::uint32_t index, const Signal& si
     placed.z_W_m = in_world->z_m;
     placed.heading_rad = in_world->heading_rad + geometry::kPi;
   }
+  return placed;
+}
+
+// A sign on a board is higher than the board by its place on it; how far it lies beside the board's middle is the reader's to add: the board stands on one foot.
+Placed PlaceOnBoard(const Network& network, std::uint32_t index, const Signal& signal) {
+  Placed placed = PlaceSignal(network, index, signal);
+  placed.z_offset_m += signal.board_up_m;
+  if (placed.z_W_m) *placed.z_W_m += signal.board_up_m;
   return placed;
 }
 
@@ -162,7 +170,7 @@ Furniture PlaceFurniture(const Network& network) {
   Furniture furniture;
   for (std::uint32_t index = 0; index < network.roads().size(); ++index) {
     const Road& road = network.roads()[index];
-    for (const Signal& signal : road.spec().signals) furniture.things.push_back(PlaceSignal(network, index, signal));
+    for (const Signal& signal : road.spec().signals) furniture.things.push_back(PlaceOnBoard(network, index, signal));
     for (const Object& object : road.spec().objects) {
       for (const Repeat& repeat : object.repeats) {
         if (repeat.distance_m > 0.0) PlaceRow(road, object, repeat, index, furniture.things);

@@ -16,7 +16,7 @@ struct Placed {
   std::uint32_t road = 0;
   const Signal* signal = nullptr;  // one of these two is not null; both live as long as what they are from
   const Object* object = nullptr;
-  double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0;
+  double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0;  // of a sign on a board: of the board's foot, and of the sign over it
   Eigen::Vector3d foot_W = Eigen::Vector3d::Zero();  // on the road's surface at (s, t), without the offset
   // Of its x axis, from east to north; it stands upright. An object's x axis points along the road, turned by its own heading;
   // a signal's is where its face looks: against the traffic that it is for (for both: against s), turned by its own offset.

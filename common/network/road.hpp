@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,9 @@ struct RoadLink {
   bool junction = false;
   std::string id;          // of the road or junction
   End contact = End::kStart;  // the other road's end that is met
+  // Where the other road is met in its middle, as by an entry to a yard: the station, at which one of its lane sections begins. `contact` is then the end that is met of a lane
+  // section there: of the one that begins there its start, of the one before it its end.
+  std::optional<double> s_m = std::nullopt;
 };
 
 struct RoadType {
@@ -57,6 +61,9 @@ struct RoadSpec {
   std::vector<Unevenness> unevenness;
   std::optional<Earthwork> earthwork;  // none: the verge goes on level
 };
+
+// The lane section of the other road whose end a link meets. It has at least one.
+std::uint32_t SectionMet(const RoadLink& link, const RoadSpec& other);
 
 // A point of the road's surface and how it moves with s and with t: the upward normal is their cross product.
 struct SurfaceSample {

@@ -50,8 +50,7 @@ struct Checker {
     if (!link || link->junction) return std::nullopt;
     const auto other = network.FindRoad(link->id);
     if (!other) return std::nullopt;
-    const auto last = static_cast<std::uint32_t>(network.roads()[*other].spec().sections.size()) - 1;
-    return Target{*other, link->contact == End::kStart ? 0u : last, link->contact};
+    return Target{*other, network::SectionMet(*link, network.roads()[*other].spec()), link->contact};
   }
 
   void Links(const LaneKey& key, End end) const {
@@ -70,6 +69,8 @@ struct Checker {
         continue;
       }
       if (id == 0) continue;
+      const auto& own_link = end == End::kEnd ? network.roads()[key.road].spec().successor : network.roads()[key.road].spec().predecessor;
+      if (target->road != key.road && own_link && own_link->s_m) continue;  // in its middle the other road goes on as if nothing were there
       // In a junction the other road's lane does not say where it goes.
       const auto& road_link = target->end == End::kEnd ? network.roads()[target->road].spec().successor
                                                        : network.roads()[target->road].spec().predecessor;
@@ -133,7 +134,7 @@ struct Checker {
           }
           const auto has = [&](const network::LaneSection& on) { return on.Find(link.from) != nullptr; };
           const auto& from = network.roads()[*incoming].spec().sections;
-          if (has(from.front()) || has(from.back())) continue;
+          if (std::any_of(from.begin(), from.end(), has)) continue;
           findings.errors.push_back(
               At({*incoming, 0, link.from}, End::kStart, "junctions.connection.lane_link",
                  fmt::format("connection {} of junction {} comes from this lane, which the road does not have", connection.id,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/base/suggest.hpp"
+#include "common/geometry/angle.hpp"
 #include "common/network/meeting.hpp"
 #include "common/opendrive/checks.hpp"
 
@@ -109,7 +110,9 @@ struct Checker {
         const auto& link = LinkOf(road, end);
         if (!link) continue;
         const auto known = link->junction ? network.FindJunction(link->id) : network.FindRoad(link->id);
-        if (!known) {
+        if (known && link->s_m) {
+          Middle(i, end, *known, *link);
+        } else if (!known) {
           findings.errors.push_back(At(i, "road.linkage.id",
                                        fmt::format("the road's {} goes on into {} {}, which is not in the file", Name(end),
                                                    link->junction ? "junction" : "road", link->id),
@@ -126,6 +129,16 @@ struct Checker {
     }
   }
 
+  // A connecting road that meets another one's middle points along it there; where its lanes lie is told with the lanes.
+  void Middle(std::size_t index, End end, std::size_t other_index, const network::RoadLink& link) const {
+    const Road &road = network.roads()[index], &other = network.roads()[other_index];
+    const double s = StationOf(road, end);
+    const double turned = (end == End::kStart) == (link.contact == End::kEnd) ? 0.0 : geometry::kPi;
+    const double kink = std::fabs(geometry::WrapAngle(road.axis().Evaluate(s).heading_rad - other.axis().Evaluate(*link.s_m).heading_rad - turned));
+    if (kink <= tolerance.kink_rad) return;
+    findings.warnings.push_back(At(index, "junctions.virtual.heading_equal_mainroad", fmt::format("a kink of {:.4g} rad to road {} at its s = {} m; the same heading was expected", kink, other.id(), *link.s_m), s));
+  }
+
   void Ambiguous() const {
     // Who, outside of junctions, goes on into which end.
     std::map<std::pair<std::uint32_t, End>, std::vector<std::size_t>> claims;
@@ -134,7 +147,7 @@ struct Checker {
       if (!road.spec().junction.empty()) continue;
       for (const End end : {End::kStart, End::kEnd}) {
         const auto& link = LinkOf(road, end);
-        const auto other = link && !link->junction ? network.FindRoad(link->id) : std::nullopt;
+        const auto other = link && !link->junction && !link->s_m ? network.FindRoad(link->id) : std::nullopt;
         if (other && network.roads()[*other].spec().junction.empty()) claims[{*other, link->contact}].push_back(i);
       }
     }

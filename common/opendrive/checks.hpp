@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +39,12 @@ void TellCurvatureJumps(const network::Network& network, std::span<const RoadLin
 void CheckSurfaces(const network::Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance, Findings& findings);
 // Junctions with a boundary and heights of their own: the ground of each, laid under its connecting roads too.
 void LayJunctionGrounds(std::span<const JunctionReading> junctions, const Tolerance& tolerance, network::NetworkSpec& spec, Findings& findings);
+// Roads that are met in their middle by connecting roads get lane sections that begin there; `not_of`: but for these connecting roads.
+void CutAtMiddles(std::vector<RoadReading>& roads, const std::set<std::string, std::less<>>& not_of, Findings& findings);
+// The roads that are paths across others for people on foot (crossPath).
+std::set<std::string, std::less<>> PathsOnFoot(std::span<const RoadReading> roads, std::span<const JunctionReading> junctions);
+// Junctions' objects become those of the road beside which they lie, and paths across become crossings; roads that are such paths, and have nothing standing at them, are taken out.
+void LayJunctionThings(std::span<const JunctionReading> junctions, const std::set<std::string, std::less<>>& on_foot, network::NetworkSpec& spec, std::vector<RoadLines>& lines, Findings& findings);
 // Roads and junctions: that what is linked exists, is meant by both sides, meets, and is not ambiguous.
 void CheckRoadLinks(const network::Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance,
                     Findings& findings);

@@ -76,6 +76,8 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   if (!import.errors.empty()) return import;
 
   Findings findings;
+  const auto on_foot = PathsOnFoot(readings, junctions);
+  CutAtMiddles(readings, on_foot, findings);
   for (const RoadReading& road : readings) {
     CheckPlan(road, tolerance, findings);
     CheckBorders(road, tolerance, findings);
@@ -88,6 +90,7 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   }
   for (const JunctionReading& junction : junctions) spec.junctions.push_back(junction.junction);
   LayJunctionGrounds(junctions, tolerance, spec, findings);
+  LayJunctionThings(junctions, on_foot, spec, lines, findings);
   TakeTurns(spec);
   import.network = std::make_shared<const network::Network>(std::move(spec));
   CheckRoadLinks(*import.network, lines, tolerance, findings);

@@ -14,8 +14,8 @@ struct Row {
 // Of ASAM OpenDRIVE 1.4 to 1.8, and what 1.1 to 1.3 wrote that is still met. `parent/element` where the name has other
 // meanings under other parents.
 constexpr Row kRows[] = {
-    {"OpenDRIVE", "header road controller junction junctionGroup station", "", "header"},
-    {"header", "geoReference offset license", "revMajor revMinor name version date north south east west vendor", "geoReference offset license"},
+    {"OpenDRIVE", "header road controller junction junctionGroup station vmsGroup", "", "header"},
+    {"header", "geoReference offset license defaultRegulations", "revMajor revMinor name version date north south east west vendor", "geoReference offset license defaultRegulations"},
     {"header/offset", "", "x y z hdg", ""},
     {"license", "", "name resource spdxid text", ""},
     {"road", "link type planView elevationProfile lateralProfile lanes objects signals surface railroad", "name length id junction rule",
@@ -92,6 +92,12 @@ constexpr Row kRows[] = {
     {"signals", "signal signalReference", "", ""},
     {"signal", "validity dependency reference positionRoad positionInertial semantics staticBoard vmsBoard",
      "s t id name dynamic orientation zOffset country countryRevision type subtype value unit height width length text hOffset pitch roll temporary", "positionRoad positionInertial"},
+    {"staticBoard", "sign", "", ""},
+    {"sign", "validity dependency signalDependency reference semantics",
+     "v z id name dynamic orientation country countryRevision type subtype value unit height width length text hOffset pitch roll s t zOffset", ""},
+    {"vmsBoard", "displayArea", "displayType displayWidth displayHeight v z material", ""},
+    {"displayArea", "validity signalDependency", "index v z width height", ""},
+    {"sign/validity", "", "fromLane toLane layer", ""},
     {"signal/validity", "", "fromLane toLane layer", ""},
     {"dependency", "", "id type", ""},
     {"positionRoad", "", "roadId s t zOffset hOffset pitch roll", ""},
@@ -112,6 +118,10 @@ constexpr Row kRows[] = {
     {"laneLink", "", "from to overlapZone fromLayer toLayer", ""},
     {"priority", "", "high low", ""},
     {"junction/controller", "", "id type sequence", ""},
+    {"crossPath", "startLaneLink endLaneLink", "crossingRoad id roadAtStart roadAtEnd", "startLaneLink endLaneLink"},
+    {"startLaneLink", "", "s from to", ""},
+    {"endLaneLink", "", "s from to", ""},
+    {"roadSection", "", "id roadId sStart sEnd", ""},
     {"boundary", "segment", "", ""},
 };
 

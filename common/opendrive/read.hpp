@@ -36,10 +36,24 @@ struct BoundarySegment {
   double transition_m = 0.0;
 };
 
+// An object beside a junction's own line: its s and t, and those of its corners, are the line's.
+struct JunctionObject {
+  network::Object object;
+  std::size_t line = 0;
+};
+
+// A road that people on foot cross others by.
+struct CrossPath {
+  std::string id, road;
+  std::size_t line = 0;
+};
+
 struct JunctionReading {
   network::Junction junction;
   std::size_t line = 0;
   std::vector<BoundarySegment> boundary;
+  std::vector<JunctionObject> objects;
+  std::vector<CrossPath> cross_paths;
   bool has_grid = false;
   std::vector<geometry::PlanElement> elements;  // of its reference line
   double grid_start_m = 0.0, grid_spacing_m = 0.0;
@@ -54,6 +68,7 @@ void ReadLateral(const Node& road, network::LateralProfile& lateral);
 void ReadLanes(const Node& road, network::RoadSpec& spec, RoadLines& lines);
 network::RoadMark ReadMark(const Node& mark, double section_s_m);
 void ReadSignals(const Node& road, network::RoadSpec& spec);
+network::Object ReadObject(const Node& node);
 void ReadObjects(const Node& road, network::RoadSpec& spec);
 void ReadSurface(const Node& road, network::RoadSpec& spec);
 JunctionReading ReadJunction(const Node& junction);

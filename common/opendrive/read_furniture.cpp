@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "common/base/suggest.hpp"
 #include "common/network/sign_kinds.hpp"
@@ -22,7 +24,7 @@ std::vector<network::LaneValidity> ReadValidity(const Node& node) {
 void CheckSign(const Node& node, const network::Signal& signal) {
   constexpr double kFlat_m = 0.05;  // what is no higher is paint
   const bool painted = signal.type == "1000003" || (signal.height_m > 0.0 && signal.height_m <= kFlat_m);
-  if (signal.dynamic || painted || signal.type.empty() || signal.type == "-1") return;
+  if (signal.dynamic || painted || signal.type.empty() || signal.type == "-1" || network::IsBoard(signal)) return;
   const auto kind = network::SignKindOf(signal);
   if (kind && (*kind != "speed_limit" || !network::SignNumberOf(signal).empty())) return;
   const std::string what = kind ? "says no limit" : fmt::format("is none that is known (type '{}', subtype '{}', country '{}')", signal.type, signal.subtype, signal.country);
@@ -39,14 +41,10 @@ void ReadSeen(const Node& node, network::Signal& signal) {
   }
 }
 
-network::Signal ReadSignal(const Node& node) {
-  network::Signal signal;
+// What a signal says of itself, wherever it stands.
+void ReadSign(const Node& node, network::Signal& signal) {
   signal.id = node.Text("id");
   signal.name = node.Text("name", "");
-  signal.s_m = node.Number("s");
-  signal.t_m = node.Number("t");
-  signal.z_offset_m = node.Number("zOffset", 0.0);
-  signal.orientation = node.Text("orientation", "none");
   signal.dynamic = node.Flag("dynamic", false);
   signal.country = node.Text("country", "");
   signal.type = node.Text("type", "-1");
@@ -56,17 +54,71 @@ network::Signal ReadSignal(const Node& node) {
   if (node.Has("value") && !node.Text("value", "").empty()) signal.value = node.Number("value");
   signal.height_m = node.Number("height", 0.0);
   signal.width_m = node.Number("width", 0.0);
-  signal.h_offset_rad = node.Number("hOffset", 0.0);
-  signal.pitch_rad = node.Number("pitch", 0.0);
-  signal.roll_rad = node.Number("roll", 0.0);
-  signal.validity = ReadValidity(node);
-  for (const Node& dependency : node.Children("dependency")) signal.depends_on.push_back(dependency.Text("id"));
+  if (auto validity = ReadValidity(node); !validity.empty()) signal.validity = std::move(validity);
+  std::vector<std::string> depends_on;
+  for (const char* name : {"dependency", "signalDependency"}) {
+    for (const Node& dependency : node.Children(name)) depends_on.push_back(dependency.Text("id"));
+  }
+  if (!depends_on.empty()) signal.depends_on = std::move(depends_on);
   for (const Node& semantics : node.Children("semantics")) {
     for (const Node& priority : semantics.Children("priority")) signal.priority = priority.Text("type", "");
   }
+}
+
+network::Signal ReadSignal(const Node& node) {
+  network::Signal signal;
+  ReadSign(node, signal);
+  signal.s_m = node.Number("s");
+  signal.t_m = node.Number("t");
+  signal.z_offset_m = node.Number("zOffset", 0.0);
+  signal.orientation = node.Text("orientation", "none");
+  signal.h_offset_rad = node.Number("hOffset", 0.0);
+  signal.pitch_rad = node.Number("pitch", 0.0);
+  signal.roll_rad = node.Number("roll", 0.0);
   ReadSeen(node, signal);
-  CheckSign(node, signal);
   return signal;
+}
+
+constexpr double kUsualSign_m = 0.6;  // on a board, where a file says no measures
+
+// What lies on a board has the board's place, and for whom it is unless it says so itself.
+network::Signal OnBoard(const Node& node, const network::Signal& board) {
+  network::Signal sign;
+  sign.s_m = board.s_m, sign.t_m = board.t_m, sign.z_offset_m = board.z_offset_m;
+  sign.orientation = board.orientation, sign.h_offset_rad = board.h_offset_rad, sign.pitch_rad = board.pitch_rad, sign.roll_rad = board.roll_rad;
+  sign.seen = board.seen, sign.validity = board.validity, sign.depends_on = board.depends_on;
+  sign.board = board.id, sign.board_left_m = node.Number("v", 0.0), sign.board_up_m = node.Number("z", 0.0);
+  return sign;
+}
+
+// A signal's boards: each sign and each display on them as a signal of its own. A board without measures is as large as what is on it.
+std::vector<network::Signal> ReadBoards(const Node& node, network::Signal& signal) {
+  std::vector<network::Signal> on;
+  for (const Node& board : node.Children("staticBoard")) {
+    for (const Node& each : board.Children("sign")) {
+      network::Signal sign = OnBoard(each, signal);
+      ReadSign(each, sign);
+      CheckSign(each, sign);
+      on.push_back(std::move(sign));
+    }
+  }
+  const std::vector<Node> displays = node.Children("vmsBoard");
+  for (std::size_t i = 0; i < displays.size(); ++i) {
+    network::Signal display = OnBoard(displays[i], signal);
+    display.id = fmt::format("{}/{}", signal.id, i + 1);
+    display.type = network::kDisplay;
+    display.dynamic = true;
+    display.width_m = displays[i].Number("displayWidth", 0.0), display.height_m = displays[i].Number("displayHeight", 0.0);
+    const bool whole = signal.type == network::kDisplay && displays.size() == 1;  // the signal is the display
+    if (!whole) on.push_back(std::move(display));
+    else if (!(signal.width_m > 0.0 && signal.height_m > 0.0)) signal.width_m = display.width_m, signal.height_m = display.height_m;
+  }
+  if (on.empty() || (signal.width_m > 0.0 && signal.height_m > 0.0)) return on;
+  for (const network::Signal& each : on) {
+    signal.width_m = std::max(signal.width_m, 2.0 * std::fabs(each.board_left_m) + (each.width_m > 0.0 ? each.width_m : kUsualSign_m));
+    signal.height_m = std::max(signal.height_m, each.board_up_m + (each.height_m > 0.0 ? each.height_m : kUsualSign_m));
+  }
+  return on;
 }
 
 network::Repeat ReadRepeat(const Node& node) {
@@ -219,6 +271,8 @@ void CheckType(const Node& node, const network::Object& object) {
                              node.line(), source.where.road, source.where.lane, source.where.s_m});
 }
 
+}  // namespace
+
 network::Object ReadObject(const Node& node) {
   network::Object object;
   object.id = node.Text("id", "");
@@ -258,6 +312,8 @@ network::Object ReadObject(const Node& node) {
   return object;
 }
 
+namespace {
+
 // Everything is said with the s at which it stands.
 template <class Read>
 void Each(const Node& parent, const char* element, const Read& read) {
@@ -272,7 +328,15 @@ void Each(const Node& parent, const char* element, const Read& read) {
 
 void ReadSignals(const Node& road, network::RoadSpec& spec) {
   const Node list = road.Child("signals");
-  Each(list, "signal", [&](const Node& node) { spec.signals.push_back(ReadSignal(node)); });
+  Each(list, "signal", [&](const Node& node) {
+    network::Signal signal = ReadSignal(node);
+    std::vector<network::Signal> on_it = ReadBoards(node, signal);
+    // A board by another name is one all the same, or what is on it would hang in the air.
+    if (!on_it.empty() && !network::IsBoard(signal)) signal.type = network::kStaticBoard;
+    CheckSign(node, signal);
+    spec.signals.push_back(std::move(signal));
+    spec.signals.insert(spec.signals.end(), std::make_move_iterator(on_it.begin()), std::make_move_iterator(on_it.end()));
+  });
   Each(list, "signalReference", [&](const Node& node) {
     spec.signal_references.push_back(
         {node.Number("s"), node.Number("t"), node.Text("id"), node.Text("orientation", "none"), ReadValidity(node)});

@@ -79,8 +79,14 @@ void ReadGrid(const Node& junction, JunctionReading& reading) {
     grid.Wrong("junctions.elevation_grid.perpendicular_vectors", "the junction has heights across a reference line, but no <planView> that would be it");
     return;
   }
-  RoadLines lines;
-  reading.elements = ReadPlanView(junction, lines);
+}
+
+// Objects beside the junction's own line (an example of the standard has no <objects> about them), and paths on foot.
+void ReadThings(const Node& junction, JunctionReading& reading) {
+  for (const Node& parent : {junction.Child("objects"), junction}) {
+    for (const Node& node : parent.Children("object")) reading.objects.push_back({ReadObject(node), node.line()});
+  }
+  for (const Node& node : junction.Children("crossPath")) reading.cross_paths.push_back({node.Text("id", ""), node.Text("crossingRoad"), node.line()});
 }
 
 }  // namespace
@@ -108,7 +114,11 @@ JunctionReading ReadJunction(const Node& junction) {
   std::stable_sort(controllers.begin(), controllers.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (auto& [sequence, id] : controllers) read.controllers.push_back(std::move(id));
   for (const Node& segment : junction.Child("boundary").Children("segment")) reading.boundary.push_back(ReadSegment(segment));
+  read.main_road = junction.Text("mainRoad", "");
+  RoadLines lines;
+  if (junction.Child("planView")) reading.elements = ReadPlanView(junction, lines);
   ReadGrid(junction, reading);
+  ReadThings(junction, reading);
   return reading;
 }
 

@@ -47,6 +47,7 @@ void ReadKind(const Node& geometry, PlanElement& element) {
 
 std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
   std::vector<PlanElement> elements;
+  const std::size_t before = road.source().errors.size();
   for (const Node& geometry : road.Child("planView").Children("geometry")) {
     Within within(geometry.source());
     PlanElement element;
@@ -75,7 +76,7 @@ std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
     elements.push_back(element);
     lines.elements.push_back(geometry.line());
   }
-  if (elements.empty()) road.Wrong("road.geometry.one_element", "the road has no plan view");
+  if (elements.empty() && road.source().errors.size() == before) road.Wrong("road.geometry.one_element", "the road has no plan view");
   return elements;
 }
 

@@ -7,8 +7,17 @@
 namespace rodeira::opendrive {
 namespace {
 
-std::optional<network::RoadLink> ReadLink(const Node& link) {
-  if (!link || link.Has("elementS")) return std::nullopt;  // the middle of a road (a virtual junction's main one) is no end to go on from
+// In the middle of a road (a virtual junction's main one) the link says how this road's s runs beside that one's: with "+" it begins where a lane section ends, or ends where one
+// begins.
+void ReadMiddle(const Node& link, bool at_start, network::RoadLink& read) {
+  read.s_m = link.Number("elementS");
+  const std::string way = link.Text("elementDir", "+");
+  if (way != "+" && way != "-") link.Wrong("road.linkage.element_dir", fmt::format("elementDir is '{}'; + or - was expected", way));
+  read.contact = (way == "-") == at_start ? network::End::kStart : network::End::kEnd;
+}
+
+std::optional<network::RoadLink> ReadLink(const Node& link, bool at_start) {
+  if (!link) return std::nullopt;
   network::RoadLink read;
   const std::string type = link.Text("elementType", "road");
   read.junction = type == "junction";
@@ -16,7 +25,9 @@ std::optional<network::RoadLink> ReadLink(const Node& link) {
     link.Wrong("road.linkage.element_type", fmt::format("elementType is '{}'; road or junction was expected", type));
   }
   read.id = link.Text("elementId");
-  if (!read.junction) read.contact = ReadContact(link, "contactPoint");
+  if (read.junction) return read;
+  if (link.Has("elementS")) ReadMiddle(link, at_start, read);
+  else read.contact = ReadContact(link, "contactPoint");
   return read;
 }
 
@@ -42,10 +53,11 @@ RoadReading ReadRoad(const Node& road) {
   const std::string rule = road.Text("rule", "RHT");
   if (rule != "RHT" && rule != "LHT") road.Wrong("road.rule", fmt::format("rule is '{}'; RHT or LHT was expected", rule));
   spec.left_hand = rule == "LHT";
+  const std::size_t before = road.source().errors.size();
   spec.length_m = road.Number("length");
-  if (!(spec.length_m > 0.0)) road.Wrong("road.length", fmt::format("the road is {} m long", spec.length_m));
-  spec.predecessor = ReadLink(road.Child("link").Child("predecessor"));
-  spec.successor = ReadLink(road.Child("link").Child("successor"));
+  if (road.source().errors.size() == before && !(spec.length_m > 0.0)) road.Wrong("road.length", fmt::format("the road is {} m long", spec.length_m));
+  spec.predecessor = ReadLink(road.Child("link").Child("predecessor"), true);
+  spec.successor = ReadLink(road.Child("link").Child("successor"), false);
   for (const Node& type : road.Children("type")) {
     const Node speed = type.Child("speed");
     spec.types.push_back({type.Number("s"), type.Text("type", "unknown"), type.Text("country", ""),

@@ -63,7 +63,7 @@ void CheckStretch(const Node& node, const network::CrgSurface& crg, double lengt
 
 void ReadSurface(const Node& road, network::RoadSpec& spec) {
   const Node surface = road.Child("surface");
-  const double length_m = road.Number("length");
+  const double length_m = spec.length_m;
   for (const Node& node : surface.Children("CRG")) {
     network::CrgSurface crg;
     crg.file = node.Text("file");

@@ -26,6 +26,8 @@ bool LeadsInto(const network::RoadSpec& road, const std::string& junction) {
 // Whether both have to do with one junction.
 bool AreOfOne(const network::RoadSpec& a, const network::RoadSpec& b) {
   const auto through = [&](const std::optional<network::RoadLink>& link) { return link && link->junction && LeadsInto(b, link->id); };
+  const auto meets = [](const std::optional<network::RoadLink>& link, const network::RoadSpec& middle_of) { return link && link->s_m && link->id == middle_of.id; };
+  if (meets(a.predecessor, b) || meets(a.successor, b) || meets(b.predecessor, a) || meets(b.successor, a)) return true;
   return (!a.junction.empty() && LeadsInto(b, a.junction)) || through(a.predecessor) || through(a.successor);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/base/suggest.hpp"
+#include "common/design/element_name.hpp"
 #include "common/design/profile_reader.hpp"
 #include "common/geometry/angle.hpp"
 
@@ -34,14 +35,17 @@ double ReadCurvature(const Map& map, std::string_view key) {
 
 geometry::PlanPiece ReadPiece(const Map& item) {
   geometry::PlanPiece piece{1.0, 0.0, 0.0};
-  if (item.Has("line")) {
-    piece.length_m = item.Child("line").Number("length_m", kElementLength_m);
-  } else if (item.Has("arc")) {
-    const Map arc = item.Child("arc");
+  const design::ElementName name = design::ReadElementName(item);
+  if (name.kind.empty()) {
+    piece.length_m = kElementLength_m.high;  // so that nothing that stands along it seems to stand behind the road's end
+  } else if (name.kind == "line") {
+    piece.length_m = item.Child(name.key).Number("length_m", kElementLength_m);
+  } else if (name.kind == "arc") {
+    const Map arc = item.Child(name.key);
     piece.length_m = arc.Number("length_m", kElementLength_m);
     piece.curvature_start_1pm = piece.curvature_end_1pm = ReadCurvature(arc, "radius_m");
-  } else if (item.Has("clothoid")) {
-    const Map clothoid = item.Child("clothoid");
+  } else {
+    const Map clothoid = item.Child(name.key);
     piece.length_m = clothoid.Number("length_m", kElementLength_m);
     // A radius left out is a straight end.
     if (clothoid.Has("radius_start_m")) piece.curvature_start_1pm = ReadCurvature(clothoid, "radius_start_m");
@@ -49,10 +53,6 @@ geometry::PlanPiece ReadPiece(const Map& item) {
     if (!clothoid.Has("radius_start_m") && !clothoid.Has("radius_end_m")) {
       clothoid.Problem("length_m", "a clothoid needs 'radius_start_m' or 'radius_end_m'; one left out is a straight end");
     }
-  } else {
-    const std::vector<std::string> keys = item.Keys();
-    const std::string found = keys.empty() ? "" : keys.front();
-    item.Problem(found, fmt::format("'{}' is no element of an axis{}", found, base::DidYouMean(found, {"line", "arc", "clothoid"})));
   }
   return piece;
 }

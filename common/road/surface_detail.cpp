@@ -208,8 +208,8 @@ void SurfaceDetail::FindWays(const network::Network& network) {
       at.left_slope = at.right_slope = 0.0;  // they stay as they are there
       return at;
     };
-    const auto before = spec.predecessor ? network.FindRoad(spec.predecessor->id) : std::nullopt;
-    const auto behind = spec.successor ? network.FindRoad(spec.successor->id) : std::nullopt;
+    const auto before = spec.predecessor && !spec.predecessor->s_m ? network.FindRoad(spec.predecessor->id) : std::nullopt;
+    const auto behind = spec.successor && !spec.successor->s_m ? network.FindRoad(spec.successor->id) : std::nullopt;
     if (before && !roads_[*before].empty()) ways_[*before].out = edges(0.0);
     if (behind && !roads_[*behind].empty()) ways_[*behind].in = edges(way.length_m());
   }

@@ -211,6 +211,10 @@ bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
       return false;
     }
     keys.spec.grid = std::move(grid).value();
+    if (const auto missing = terrain::MissingProjection(*keys.elevation_file)) {
+      reading.warnings.push_back(fmt::format("{}: '{}' says that its coordinates are those of '{}', which is not there: {}", keys.elevation_place, keys.elevation_file->filename().string(), missing->filename().string(),
+                                             keys.spec.grid->projection_wkt().empty() ? "nothing can say where on the earth it lies" : "they are taken for those of the UTM zone that it names"));
+    }
   } else if (keys.hills) {
     keys.spec.grid = std::make_shared<const terrain::ElevationGrid>(MakeHills(*keys.hills, axis));
   }
@@ -233,7 +237,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   if (keys.elevation_file && !PutTerrain(keys, std::span<const Road>(), reading)) return reading;
   const std::string projection = keys.hills ? keys.hills->projection_wkt : keys.spec.grid != nullptr ? keys.spec.grid->projection_wkt() : "";
   design::Design design = design::ReadDesign(file, keys.spec.friction, keys.spec.name, projection, keys.start, root.OptionalChild("start"), TerrainOf(keys));
-  reading.warnings = std::move(design.warnings);
+  std::move(design.warnings.begin(), design.warnings.end(), std::back_inserter(reading.warnings));
   reading.missing = std::move(keys.missing);
   std::move(design.missing.begin(), design.missing.end(), std::back_inserter(reading.missing));
   reading.problems = file.Problems();

@@ -19,7 +19,7 @@ Shape ShapeOf(std::string_view kind) {
   if (kind == "stop") return Shape::kOctagon;
   if (kind == "give_way") return Shape::kTriangleDown;
   if (kind == "priority_road" || kind == "end_of_priority_road") return Shape::kDiamond;
-  for (const std::string_view square : {"town", "end_of_town", "motorway", "end_of_motorway", "crossing", "parking", "chevron_left", "chevron_right", "plate"}) {
+  for (const std::string_view square : {"town", "end_of_town", "motorway", "end_of_motorway", "crossing", "parking", "chevron_left", "chevron_right", "plate", "board", "display"}) {
     if (kind == square) return Shape::kRectangle;
   }
   for (const std::string_view round : {"roundabout", "no_vehicles", "no_entry", "speed_limit", "no_overtaking", "end_of_speed_limit", "end_of_no_overtaking", "end_of_restrictions"}) {
@@ -55,6 +55,7 @@ std::pair<std::string, std::string> Split(std::string_view face) {
 }  // namespace
 
 std::string FaceOf(const network::Signal& signal, bool bends_left) {
+  if (network::IsBoard(signal)) return signal.type == network::kDisplay ? "display" : "board";
   const auto kind = network::SignKindOf(signal);
   if (!kind) return "plate";
   if (*kind == "chevron") return bends_left ? "chevron_left" : "chevron_right";
@@ -69,7 +70,7 @@ std::string FaceOf(const network::Signal& signal, bool bends_left) {
 
 const std::vector<std::string>& FaceKinds() {
   static const std::vector<std::string> kinds = [] {
-    std::vector<std::string> names = {"chevron_left", "chevron_right", "plate"};
+    std::vector<std::string> names = {"board", "chevron_left", "chevron_right", "display", "plate"};
     for (const std::string_view kind : network::SignKindNames()) {
       if (kind != "chevron") names.emplace_back(kind);
     }

@@ -12,8 +12,8 @@
 namespace rodeira::scene {
 
 // The name of a signal's face: a kind, and what is written on it, "speed_limit 50", "town Bouça". Signals with the numbers of the
-// German catalogue (StVO; most OpenDRIVE files use them, for the country "OpenDRIVE" too) have one of ours; every other one
-// "plate", which is grey; what is only paint on the road an empty name. bends_left: where a chevron points.
+// German catalogue (StVO; most OpenDRIVE files use them, for the country "OpenDRIVE" too) have one of ours; a board
+// "board", which is white, a display "display", which is dark; every other one "plate", which is grey; what is only paint on the road an empty name. bends_left: where a chevron points.
 std::string FaceOf(const network::Signal& signal, bool bends_left);
 
 // The kinds that have a picture of their own, in alphabetical order.

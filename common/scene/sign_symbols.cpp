@@ -169,6 +169,8 @@ void DrawRectangle(Canvas& canvas, const std::string& kind, const std::string& t
     }
     return;
   }
+  if (kind == "board") return ground(kBlack, kWhite, 0.03);
+  if (kind == "display") return ground(Colour::Of(0x3a3d40), Colour::Of(0x101112), 0.05);  // switched off
   if (kind == "plate") return ground(Colour::Of(0x85898b), Colour::Of(0xa4a7a8), 0.06);
   ground(kWhite, kBlue, 0.07);
   if (kind == "crossing") Walker(canvas);

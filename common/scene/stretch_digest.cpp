@@ -118,6 +118,7 @@ void PutEarthworks(Stretch& out, const RoadSpec& spec) {
 void PutEnd(Stretch& out, const road::World& world, const std::optional<network::RoadLink>& link) {
   out.PutAll(link.has_value(), link && link->junction);
   if (link && world.open_drive()) out.PutAll(link->id, static_cast<int>(link->contact));
+  if (link && link->s_m) out.Put(*link->s_m);
 }
 
 }  // namespace

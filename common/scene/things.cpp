@@ -18,6 +18,8 @@ constexpr double kPiece_m = 4.0;   // of rails, at most
 constexpr double kChord_m = 0.02;  // how far a rail's piece may leave its bend
 constexpr std::size_t kMostLevels = 4;
 
+constexpr double kBeforeBoard_m = 0.01;
+
 // SUELO's ground nearest to a height; that height itself where there is none.
 double GroundAt(const road::World& world, const Vector3d& p_W) {
   thread_local std::vector<road::SurfacePoint> levels;
@@ -63,6 +65,8 @@ void Things::AddThing(const road::World& world, const network::Placed& placed) {
   const network::Road& road = world.network()->roads()[placed.road];
   Thing thing = ThingAt(placed, {placed.foot_W.x(), placed.foot_W.y(), GroundAt(world, placed.foot_W)});
   if (placed.z_W_m) thing.above_m = *placed.z_W_m - thing.stand.foot_W.z();
+  // x looks to the reader, whose left lies on the side of -y; the sign lies a little before its board.
+  if (placed.signal != nullptr && !placed.signal->board.empty()) thing.stand.foot_W = thing.stand.ToWorld({kBeforeBoard_m, -placed.signal->board_left_m, 0.0});
   if (placed.signal != nullptr) AddSignal(road, placed, std::move(thing));
   else AddObject(&road, placed, std::move(thing));
 }

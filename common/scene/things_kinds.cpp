@@ -75,8 +75,8 @@ ThingKind KindOf(const network::Object& object) {
 
 void Things::AddSignal(const network::Road& road, const network::Placed& placed, Thing thing) {
   thing.both_sides = placed.both_sides;
-  thing.on_post = placed.z_offset_m < kOverhead_m || !OverLane(road, placed.s_m, placed.t_m);
-  if (placed.signal->dynamic) {
+  thing.on_post = placed.signal->board.empty() && (placed.z_offset_m < kOverhead_m || !OverLane(road, placed.s_m, placed.t_m));
+  if (placed.signal->dynamic && !network::IsBoard(*placed.signal)) {
     thing.kind = ThingKind::kTrafficLight;
     thing.signal = placed.signal->id;
     if (!(thing.height_m > 0.1)) thing.height_m = kHousing_m;

@@ -167,6 +167,17 @@ base::Result<std::optional<BtHeader>> CheckedHeader(const FileStart& start, cons
 
 }  // namespace
 
+std::optional<fs::path> MissingProjection(const fs::path& path) {
+  const QuietGdal quiet;
+  const auto start = ReadStart(path);
+  if (!start) return std::nullopt;
+  const auto header = CheckedHeader(start.value(), path);
+  if (!header || !header.value() || !header.value()->external_projection) return std::nullopt;
+  const fs::path beside = ProjectionBeside(path, start.value().gzipped);
+  std::error_code problem;
+  return fs::exists(beside, problem) ? std::nullopt : std::optional(beside);
+}
+
 base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path& path, Registration registration) {
   const QuietGdal quiet;
   const auto start = ReadStart(path);

@@ -61,9 +61,13 @@ base::Result<Projection> MetricProjection(const OGRSpatialReference& reference) 
   return projection;
 }
 
-base::Result<Projection> ReadProjection(const std::filesystem::path& path, bool gzipped, GDALDataset& dataset) {
+std::filesystem::path ProjectionBeside(const std::filesystem::path& path, bool gzipped) {
   std::filesystem::path beside = gzipped ? std::filesystem::path(path).replace_extension() : path;
-  beside.replace_extension(".prj");
+  return beside.replace_extension(".prj");
+}
+
+base::Result<Projection> ReadProjection(const std::filesystem::path& path, bool gzipped, GDALDataset& dataset) {
+  const std::filesystem::path beside = ProjectionBeside(path, gzipped);
   std::error_code problem;
   if (std::filesystem::exists(beside, problem)) {
     const auto text = base::ReadText(beside, 1u << 20);

@@ -21,6 +21,9 @@ struct Projection {
 // Wrong input where the coordinates are degrees.
 base::Result<Projection> MetricProjection(const OGRSpatialReference& reference);
 
+// What the .prj of a file is called.
+std::filesystem::path ProjectionBeside(const std::filesystem::path& path, bool gzipped);
+
 // The .prj beside the file (trusted before everything else), or what GDAL found in the file, or nothing. Degrees are none of its errors.
 base::Result<Projection> ReadProjection(const std::filesystem::path& path, bool gzipped, GDALDataset& dataset);
 

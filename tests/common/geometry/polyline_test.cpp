@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "common/base/random.hpp"
@@ -165,6 +166,22 @@ RC_GTEST_PROP(Offset, KeepsItsDistanceFromEverySegmentAndHasItsWayBack, (std::ui
       }
     }
     RC_ASSERT(Distance(Offset(offset.line, -left).line, line) < 1e-9);
+  }
+}
+
+// The strip between the lines on both sides faces up: left and right of each node, right and left of the next run counter-clockwise seen from above, by either rule, in bends to both sides.
+RC_GTEST_PROP(Offset, TheStripBetweenBothSidesFacesUp, (std::uint64_t seed)) {
+  const Polyline line = Wavy(seed);
+  for (const Mitre mitre : {Mitre::kKeepWidth, Mitre::kKeepLength}) {
+    const OffsetLine left = Offset(line, 3.5, mitre), right = Offset(line, -3.5, mitre);
+    RC_ASSERT(left.faults.empty() && right.faults.empty());
+    for (std::size_t i = 0; i + 1 < line.points_W.size(); ++i) {
+      const std::array<Eigen::Vector2d, 4> p = {left.line.points_W[i].head<2>(), right.line.points_W[i].head<2>(), right.line.points_W[i + 1].head<2>(), left.line.points_W[i + 1].head<2>()};
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Eigen::Vector2d a = p[(k + 1) % 4] - p[k], b = p[(k + 2) % 4] - p[(k + 1) % 4];
+        RC_ASSERT(a.x() * b.y() - a.y() * b.x() > 0.0);
+      }
+    }
   }
 }
 

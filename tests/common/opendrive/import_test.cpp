@@ -366,20 +366,21 @@ TEST(OpenDrive, FramesAndSkeletonsThatCannotBeAreTold) {
   EXPECT_TRUE(import.network->roads()[0].spec().objects[0].skeleton.empty());
 }
 
-// An entry that leaves the middle of a main road: nothing of its beginning is joined to the main road's, and that is told.
-TEST(OpenDrive, AVirtualJunctionLeavesItsMainRoadWhole) {
-  RoadText main, entry;
-  entry.id = "2", entry.length = 20.0, entry.attributes = "junction=\"5\"";
-  entry.geometry = R"(<geometry s="0" x="50" y="0" hdg="0" length="20"><arc curvature="-0.05"/></geometry>)";
-  entry.link = R"(<predecessor elementType="road" elementId="1" elementS="50.0" elementDir="+"/>)";
-  entry.left = "";
-  entry.right = R"(<lane id="-1" type="driving"><link><predecessor id="-1"/></link><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
-  const Import import = MustImport(Document(main.Text() + entry.Text() + R"(<junction id="5" type="virtual" mainRoad="1" sStart="50" sEnd="50" orientation="-"><connection id="0" incomingRoad="1" connectingRoad="2" contactPoint="start"><laneLink from="-1" to="-1"/></connection></junction>)"));
-  std::vector<std::string> said;
-  for (const Finding& warning : import.warnings) said.push_back(warning.Text());
-  EXPECT_THAT(said, testing::UnorderedElementsAre("not_read: the attribute 'elementS' of <predecessor> is not read", "not_read: the attribute 'mainRoad' of <junction> is not read"));
-  EXPECT_TRUE(import.network->AtStart({1, 0, -1}).empty());
-  EXPECT_TRUE(import.network->AtStart({0, 0, -1}).empty() && import.network->AtEnd({0, 0, -1}).empty());
+// A length that is no number, or none, is one sentence.
+TEST(OpenDrive, ALengthThatIsNoneIsToldOnce) {
+  const auto errors_of = [](const std::string& from, const std::string& to) {
+    std::string text = Document(RoadText().Text());
+    text.replace(text.find(from), from.size(), to);
+    const auto import = Read(text, "sample.xodr");
+    std::vector<std::string> said;
+    for (const Finding& error : import.value().errors) said.push_back(error.Text());
+    return said;
+  };
+  const std::string road = "<road id=\"1\" length=\"100\"", element = "hdg=\"0\" length=\"100\"";
+  EXPECT_THAT(errors_of(road, "<road id=\"1\" length=\"abc\""), testing::ElementsAre("xml.attribute: road 1: attribute 'length' of <road> is 'abc'; a number was expected"));
+  EXPECT_THAT(errors_of(road, "<road id=\"1\""), testing::ElementsAre("xml.attribute: road 1: <road> has no attribute 'length'"));
+  EXPECT_THAT(errors_of(road, "<road id=\"1\" length=\"-5\""), testing::ElementsAre("road.length: road 1: the road is -5 m long"));
+  EXPECT_THAT(errors_of(element, "hdg=\"0\" length=\"-1\""), testing::ElementsAre("road.geometry.length: road 1, s 0: an element is -1 m long"));
 }
 
 // What is passed over is said once a kind, at the first, with how often.

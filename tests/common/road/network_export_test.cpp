@@ -1,5 +1,5 @@
 // The project's worlds of version 2 as OpenDRIVE: read again by the strict rules they hold the same roads, lanes, ways, lines, signs and
-// objects, and SUMO's netconvert finds all of their edges.
+// objects, and SUMO's netconvert finds all of their edges, lanes and ways.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -22,6 +24,7 @@
 #include "common/road/world_export.hpp"
 #include "common/terrain/geographic.hpp"
 #include "tests/launch/temporary_folder.hpp"
+#include "tests/setting.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::road {
@@ -316,6 +319,89 @@ void ExpectEveryEdge(const std::filesystem::path& folder, const Network& network
   EXPECT_GE(found, at_least);
 }
 
+// A lane as SUMO names it: its edge, and how many lanes of it lie farther right.
+struct SumoLane {
+  std::string edge;
+  std::size_t index = 0;
+  auto operator<=>(const SumoLane&) const = default;
+};
+
+SumoLane SumoNameOf(const Network& network, const std::vector<std::string>& ids, const LaneKey& key) {
+  const network::LaneSection& section = network.Section(key);
+  SumoLane lane{std::string(key.lane > 0 ? "" : "-") + ids[key.road], 0};
+  for (const network::Lane& other : key.lane > 0 ? section.left : section.right) lane.index += network::IsDrivable(other.type) && std::abs(other.id) > std::abs(key.lane) ? 1 : 0;
+  return lane;
+}
+
+std::string AttributeOf(const std::string& element, const std::string& name) {
+  const std::size_t at = element.find(" " + name + "=\"");
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + name.size() + 3;
+  return element.substr(begin, element.find('"', begin) - begin);
+}
+
+// An edge's road and side: a road that is closed in itself is cut by SUMO into ID#0, ID#1 ….
+std::string Uncut(const std::string& edge) { return edge.substr(0, edge.find('#')); }
+
+// Each edge of what ExpectEveryEdge wrote has the lanes of its side and no others, as wide as they are.
+void ExpectEveryLane(const std::filesystem::path& folder, const Network& network, const std::vector<std::string>& ids) {
+  std::map<SumoLane, double> theirs;
+  std::istringstream lines(base::ReadText(folder / "it.net.xml").value());
+  for (std::string line; std::getline(lines, line);) {
+    const std::string id = AttributeOf(line, "id");
+    const std::size_t low = id.rfind('_');
+    if (line.find("<lane ") == std::string::npos || id.starts_with(":") || low == std::string::npos) continue;
+    const std::string width = AttributeOf(line, "width");
+    theirs[{Uncut(id.substr(0, low)), std::stoul(id.substr(low + 1))}] = width.empty() ? 3.2 : std::stod(width);  // SUMO's usual one is not written
+  }
+  std::size_t compared = 0;
+  for (const LaneKey& key : network.Lanes()) {
+    if (!network.roads()[key.road].spec().junction.empty() || key.section != 0 || !network::IsDrivable(network.Find(key)->type)) continue;
+    const SumoLane name = SumoNameOf(network, ids, key);
+    ASSERT_TRUE(theirs.contains(name)) << name.edge << " " << name.index;
+    const double width = network.Span(key, 0.0)->width_m();
+    const bool constant = std::fabs(network.Span(key, 0.5 * network.roads()[key.road].length_m())->width_m() - width) < 1e-9 && std::fabs(network.Span(key, network.roads()[key.road].length_m())->width_m() - width) < 1e-9;
+    if (constant) {
+      EXPECT_NEAR(theirs[name], width, 0.005) << name.edge << " " << name.index;
+    }
+    ++compared;
+  }
+  EXPECT_EQ(compared, theirs.size());
+}
+
+// Who can go where: through junctions and from road to road. SUMO adds that one may turn round at the end of an edge.
+void ExpectEveryWay(const std::filesystem::path& folder, const Network& network, const std::vector<std::string>& ids) {
+  using Way = std::pair<SumoLane, SumoLane>;
+  std::set<Way> ours, theirs;
+  const auto along = [](const LaneKey& key) { return key.lane < 0; };
+  for (const LaneKey& key : network.Lanes()) {
+    if (!network::IsDrivable(network.Find(key)->type)) continue;
+    const auto from = along(key) ? network.AtStart(key) : network.AtEnd(key), to = along(key) ? network.AtEnd(key) : network.AtStart(key);
+    const bool way = !network.roads()[key.road].spec().junction.empty();
+    for (const network::LaneEnd& next : to) {
+      const bool next_way = !network.roads()[next.lane.road].spec().junction.empty();
+      if (next_way || next.lane.road == key.road) continue;
+      if (!way) ours.insert({SumoNameOf(network, ids, key), SumoNameOf(network, ids, next.lane)});
+      for (const network::LaneEnd& before : from) {
+        if (way) ours.insert({SumoNameOf(network, ids, before.lane), SumoNameOf(network, ids, next.lane)});
+      }
+    }
+  }
+  std::istringstream lines(base::ReadText(folder / "it.con.xml").value());
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("<connection ") == std::string::npos) continue;
+    const std::string from = Uncut(AttributeOf(line, "from")), to = Uncut(AttributeOf(line, "to"));
+    if (from == to || "-" + from == to || from == "-" + to) continue;
+    theirs.insert({{from, std::stoul(AttributeOf(line, "fromLane"))}, {to, std::stoul(AttributeOf(line, "toLane"))}});
+  }
+  const auto text = [](const std::set<Way>& ways) {
+    std::vector<std::string> said;
+    for (const auto& [from, to] : ways) said.push_back(fmt::format("{} {} to {} {}", from.edge, from.index, to.edge, to.index));
+    return said;
+  };
+  EXPECT_THAT(text(theirs), testing::ElementsAreArray(text(ours)));
+}
+
 std::vector<std::string> IdsOf(const Network& network) {
   std::vector<std::string> ids;
   for (const network::Road& road : network.roads()) ids.push_back(road.id());
@@ -327,6 +413,46 @@ bool HasNetconvert() { return std::system("command -v netconvert > /dev/null 2>&
 TEST_P(NetworkExport, NetconvertFindsEveryEdgeWithItsLength) {
   if (!HasNetconvert()) GTEST_SKIP() << "SUMO's netconvert is not installed";
   ExpectEveryEdge(folder_.path(), ours(), IdsOf(ours()), std::string(GetParam()) == "ring.yaml" ? 1 : 2);
+  ExpectEveryLane(folder_.path(), ours(), IdsOf(ours()));
+  ExpectEveryWay(folder_.path(), ours(), IdsOf(ours()));
+}
+
+// Within a junction the exported file's ground is made of its ways, the world's is one surface: SUELO of both, at places on the lanes of its ways. They lie up to 12.0 mm apart (docs/roads.md), which is not the
+// millimetre that is wanted; the bound holds that it becomes no more.
+constexpr double kMeasuredApart_m = 0.0125;
+
+TEST_P(NetworkExport, JunctionsHaveTheWorldsGroundNearly) {
+  if (ours().junctions().empty()) GTEST_SKIP() << "no junction";
+  const auto again = World::Load(file_);
+  ASSERT_TRUE(again.ok()) << again.error().Text();
+  for (std::size_t j = 0; j < ours().junctions().size(); ++j) {
+    const network::Junction& junction = ours().junctions()[j];
+    std::vector<std::uint32_t> ways;
+    for (std::uint32_t r = 0; r < ours().roads().size(); ++r) {
+      if (ours().roads()[r].spec().junction == junction.id) ways.push_back(r);
+    }
+    ASSERT_FALSE(ways.empty());
+    double worst_m = 0.0, worst_x = 0.0, worst_y = 0.0;
+    const int points = static_cast<int>(Setting("RODEIRA_JUNCTION_POINTS", 10'000));
+    for (int i = 0; i < points; ++i) {
+      const auto draw = [&](std::uint64_t what) { return base::RandomUniform({static_cast<std::uint64_t>(j), static_cast<std::uint64_t>(i), what}); };
+      const network::Road& way = ours().roads()[ways[static_cast<std::size_t>(draw(1) * static_cast<double>(ways.size()))]];
+      const double s = draw(2) * way.length_m();
+      const network::LaneSection& section = way.SectionAt(s);
+      double low = 0.0, high = 0.0;  // over the lanes that are driven on
+      for (const auto* side : {&section.left, &section.right}) {
+        for (const network::Lane& lane : *side) {
+          const auto span = section.Span(lane.id, way.CentreAt(s), s);
+          if (network::IsDrivable(lane.type)) low = std::min({low, span->inner_t_m, span->outer_t_m}), high = std::max({high, span->inner_t_m, span->outer_t_m});
+        }
+      }
+      const Eigen::Vector3d p = way.Surface(s, low + draw(3) * (high - low)).p_W;
+      const SurfacePoint a = world_->At(p.x(), p.y(), p.z()), b = again.value()->At(p.x(), p.y(), p.z());
+      ASSERT_TRUE(a.inside && b.inside);
+      if (const double apart = std::fabs(a.z_m - b.z_m); apart > worst_m) worst_m = apart, worst_x = p.x(), worst_y = p.y();
+    }
+    EXPECT_LT(worst_m, kMeasuredApart_m) << junction.id << " at (" << worst_x << ", " << worst_y << ")";
+  }
 }
 
 TEST_P(NetworkExport, GeoReferenceIsAProjStringOfTheSamePlaces) {

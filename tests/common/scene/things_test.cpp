@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "common/scene/models.hpp"
 #include "tests/common/scene/ground_worlds.hpp"
@@ -95,6 +97,32 @@ TEST(Things, APlateStandsAtItsPlaceAndReadsFromLeftToRightForItsTraffic) {
     }
   }
   EXPECT_EQ(faces, 1);
+}
+
+// A board of two signs and a display for those who drive to the east: it stands on its posts, what is on it lies a centimetre before it, to the left or right as its readers see it, on no post of its own.
+TEST(Things, SignsLieOnTheirBoardAndADisplayIsNoTrafficLight) {
+  const auto world = WorldWith(R"(<signals><signal id="a" s="50" t="-5" zOffset="2" orientation="+" dynamic="yes" type="multiBoard" subtype="-1" width="2" height="1.5">
+    <staticBoard><sign id="l" country="DE" type="274" subtype="-1" value="70" unit="km/h" v="0.5" z="0.2" width="0.6" height="0.6"/><sign id="r" country="DE" type="206" subtype="-1" v="-0.5" z="0.3" width="0.6" height="0.6"/></staticBoard>
+    <vmsBoard displayType="text" v="0" z="1" displayWidth="1.8" displayHeight="0.4"/></signal></signals>)");
+  ASSERT_NE(world, nullptr);
+  const Things things(*world);
+  std::map<std::string, Thing> by_face;
+  for (const auto& [key, tile] : things.tiles()) {
+    for (const Thing& thing : tile.things) by_face.emplace(thing.face, thing);
+  }
+  ASSERT_EQ(by_face.size(), 4u);
+  for (const auto& [face, thing] : by_face) {
+    EXPECT_EQ(thing.kind, ThingKind::kSign) << face;
+    EXPECT_EQ(thing.on_post, face == "board") << face;
+    EXPECT_FALSE(thing.both_sides);
+  }
+  EXPECT_NEAR(by_face.at("board").stand.foot_W.y(), 15.0, 1e-9);
+  EXPECT_NEAR(by_face.at("speed_limit 70").stand.foot_W.y(), 15.5, 1e-9);  // their left is the north
+  EXPECT_NEAR(by_face.at("stop").stand.foot_W.y(), 14.5, 1e-9);
+  EXPECT_NEAR(by_face.at("stop").stand.foot_W.x(), by_face.at("board").stand.foot_W.x() - 0.01, 1e-9);
+  EXPECT_NEAR(by_face.at("stop").above_m, 2.3, 1e-9);
+  EXPECT_NEAR(by_face.at("display").above_m, 3.0, 1e-9);
+  EXPECT_NEAR(by_face.at("display").width_m, 1.8, 1e-9);
 }
 
 TEST(Things, ASignSeenInTheWorldHangsAtItsHeight) {

@@ -1,0 +1,19 @@
+// Traffic maps: what is read is written again to the byte, checked, and driven where the check finds no fault in it.
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "common/map/check.hpp"
+#include "common/map/lane_map.hpp"
+#include "common/map/map_file.hpp"
+#include "common/map/map_network.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rodeira::map;
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  const auto file = ParseMap(bytes, "fuzz.motors");
+  if (!file) return 0;
+  (void)CheckMap(file.value(), {});
+  if (const auto made = MakeLaneMap(file.value(), {}, "fuzz.motors")) (void)ToNetwork(made.value(), "fuzz.motors");
+  return 0;
+}
