@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "common/base/files.hpp"
+#include "common/lanes/lights.hpp"
+#include "common/lanes/zones.hpp"
 #include "common/road/logical_files.hpp"
 #include "common/road/map_world.hpp"
 #include "common/road/measured_files.hpp"
@@ -31,11 +33,23 @@ int Complain(const base::Error& error) {
   return error.exit_status();
 }
 
+// Lights that are green together where their ways cross, which a run that has traffic refuses. What cannot be read is told elsewhere.
+int CheckLights(const std::string& world_file) {
+  const auto world = road::World::Load(world_file);
+  if (!world || world.value()->network() == nullptr) return 0;
+  const auto controllers = world.value()->network()->controllers();
+  if (std::none_of(controllers.begin(), controllers.end(), [](const network::Controller& controller) { return controller.times.has_value(); })) return 0;
+  const lanes::Graph graph(*world.value()->network());
+  const auto status = lanes::CheckLights(graph, lanes::Zones(graph));
+  return status ? 0 : Complain(status.error());
+}
+
 int CheckOpenDrive(const WorldOptions& options) {
   const road::NetworkCheck check = road::CheckNetwork(options.world_file, options.strict);
   for (const std::string& warning : check.warnings) fmt::print(stderr, "rodeira: warning: {}\n", warning);
   for (const base::Error& error : check.errors) fmt::print(stderr, "rodeira: {}\n", error.Text());
   if (!check.errors.empty()) return check.errors.front().exit_status();
+  if (const int status = CheckLights(options.world_file); status != 0) return status;
   fmt::print("{}{}: no error found\n", check.table, options.world_file);
   return 0;
 }
@@ -72,6 +86,7 @@ int Check(const WorldOptions& options) {
   const auto problems = road::WorldProblems(options.world_file);
   for (const base::Error& problem : problems) fmt::print(stderr, "rodeira: {}\n", problem.Text());
   if (!problems.empty()) return problems.front().exit_status();
+  if (const int status = CheckLights(options.world_file); status != 0) return status;
   fmt::print("{}: no problem found\n", options.world_file);
   return 0;
 }

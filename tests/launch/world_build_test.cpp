@@ -5,6 +5,7 @@
 #include <pty.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -321,6 +322,23 @@ TEST(WorldBuild, ABuiltFoldersTilesAreCheckedToo) {
   EXPECT_EQ(Asked("check", out).status, 0);
   ASSERT_TRUE(base::WriteWhole(manifest, list).ok());
   EXPECT_THAT(Asked("check", out).errors, testing::StartsWith("rodeira: " + manifest.string() + ": it was written from a world whose content hash is '"));
+}
+
+// What the traffic of a run would refuse, the check says before: lights that are green together where their ways cross, with the line of the phases.
+TEST(WorldCheck, TellsOfLightsThatAreGreenTogether) {
+  const TemporaryFolder folder;
+  std::string text = base::ReadText(fs::path(SourceDir()) / "configs/worlds/lights.yaml").value();
+  const std::string right = "green: [cross], for_s: 25";
+  const std::size_t at = text.find(right);
+  ASSERT_NE(at, std::string::npos);
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  text.replace(at, right.size(), "green: [cross, main], for_s: 25");
+  ASSERT_TRUE(base::WriteWhole(folder.path() / "lights.yaml", text).ok());
+  const Said said = Asked("check", folder.path() / "lights.yaml");
+  EXPECT_EQ(said.status, 2);
+  EXPECT_EQ(said.out, "");
+  EXPECT_THAT(said.errors, HasSubstr((folder.path() / "lights.yaml").string() + ":" + std::to_string(line) + ": the lights 'centre: main'"));
+  EXPECT_EQ(Asked("check", fs::path(SourceDir()) / "configs/worlds/lights.yaml").status, 0);
 }
 
 // On a plane too the world file comes along: bumps and patches stand nowhere else.
