@@ -49,8 +49,8 @@ bool TrafficModel::TakesRoom(const Crossing& crossing) const {
   return zone.kind == lanes::ZoneKind::kMerge && map_->plans[zone.track[0]].turn != kRing && map_->plans[zone.track[1]].turn != kRing;
 }
 
-// Whether somebody keeps it out of the zone: who is in it, or has been granted it, and is not surely out before it comes.
-bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
+// Whether somebody keeps it out of the zone: who is in it, or has been granted it, and is not surely out before it comes; and, where that is `heeded`, who has waited longer.
+bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing, bool heeded) {
   const auto zone = static_cast<std::size_t>(crossing.zone);
   const auto mine = static_cast<std::size_t>(crossing.side), theirs = 1 - mine;
   const Agent& agent = agents_[id];
@@ -69,7 +69,12 @@ bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing) {
     passages_[id].waits_for = holder.id == agents_.size() ? -1 : static_cast<std::int64_t>(holder.id);
     return true;
   }
-  return (book_.IsAwaited(zone, mine) && !Urgent(id)) || book_.RoomWanted_s(zone, mine) > agent.waited_s;
+  if (!heeded) return false;
+  if (const ZoneBook::Wish wish = book_.RoomWanted(zone, mine); wish.waited_s > agent.waited_s) {
+    passages_[id].waits_for = static_cast<std::int64_t>(wish.id);
+    return true;
+  }
+  return book_.IsAwaited(zone, mine) && !Urgent(id);
 }
 
 // Whether somebody who goes first is about to come to the zone before this one is out of it. Where lanes zip, it is the other side's turn as long as
@@ -105,11 +110,11 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
   return false;
 }
 
-// Grants the passage unless somebody is in its way: holds one of the zones or, where the agent has to yield, comes to one.
+// Grants the passage unless somebody is in its way: holds one of the zones or, where the agent has to yield, comes to one or has waited longer.
 bool TrafficModel::Grant(std::uint32_t id, bool yields) {
   Passage& passage = passages_[id];
   for (const Crossing& crossing : passage.crossings) {
-    if (crossing.zone >= 0 && Held(id, crossing)) return false;
+    if (crossing.zone >= 0 && Held(id, crossing, yields)) return false;
   }
   for (const Crossing& crossing : passage.crossings) {
     if (yields && crossing.zone >= 0 && Yields(id, crossing)) return false;
@@ -192,7 +197,7 @@ void TrafficModel::Arbitrate(double dt_s) {
       if (crossing.zone < 0 || !(passage.able || (comes_free && TakesRoom(crossing)))) continue;
       const auto zone = static_cast<std::size_t>(crossing.zone), theirs = static_cast<std::size_t>(1 - crossing.side);
       if (passage.able) book_.Await(zone, theirs);
-      else book_.WantRoom(zone, theirs, agents_[id].waited_s);
+      else book_.WantRoom(zone, theirs, {agents_[id].waited_s, id});
     }
   }
   for (const std::uint32_t id : order_) {  // … and now who had to yield to such as cannot come yet

@@ -224,7 +224,7 @@ class TrafficModel {
   void OthersAtZones();
   bool RoomBehind(std::uint32_t id, const Crossing& crossing, const Holder& holder);
   bool TakesRoom(const Crossing& crossing) const;
-  bool Held(std::uint32_t id, const Crossing& crossing);
+  bool Held(std::uint32_t id, const Crossing& crossing, bool heeded);
   bool Yields(std::uint32_t id, const Crossing& crossing);
   bool Grant(std::uint32_t id, bool yields);
   template <class Tell>

@@ -1,14 +1,12 @@
 #include "common/traffic/zone_book.hpp"
 
-#include <algorithm>
-
 namespace rodeira::traffic {
 
-ZoneBook::ZoneBook(std::size_t zones) : holders_(2 * zones), comers_(2 * zones), awaited_(2 * zones), room_for_s_(2 * zones) {}
+ZoneBook::ZoneBook(std::size_t zones) : holders_(2 * zones), comers_(2 * zones), awaited_(2 * zones), room_for_(2 * zones) {}
 
 void ZoneBook::Clear() {
   holders_.Clear(), comers_.Clear();
-  for (const std::size_t side : urged_) awaited_[side] = 0, room_for_s_[side] = 0.0;
+  for (const std::size_t side : urged_) awaited_[side] = 0, room_for_[side] = {};
   urged_.clear();
 }
 
@@ -17,9 +15,9 @@ void ZoneBook::Await(std::size_t zone, std::size_t side) {
   urged_.push_back(Side(zone, side));
 }
 
-void ZoneBook::WantRoom(std::size_t zone, std::size_t side, double waited_s) {
-  double& wanted = room_for_s_[Side(zone, side)];
-  wanted = std::max(wanted, waited_s);
+void ZoneBook::WantRoom(std::size_t zone, std::size_t side, const Wish& wish) {
+  Wish& wanted = room_for_[Side(zone, side)];
+  if (wish.waited_s > wanted.waited_s) wanted = wish;
   urged_.push_back(Side(zone, side));
 }
 

@@ -191,6 +191,22 @@ TEST(FullDrive, LongBodiesGoOnInARealTown) {
   EXPECT_LT(r.longest_with_room_s, 75.0) << what;
 }
 
+// Somebody who has waited long for room at a merge keeps it, and who is kept out for that counts as waiting for him, so that a chain of them that closes is opened: here the room was missing since those who stood there waited, one for
+// another, for the one who was kept out (123.6 s to the end of this drive, and 643 s of a quarter of an hour; 76.1 s since).
+TEST(FullDrive, WhoIsKeptOutForWhoWaitsForRoomWaitsForHim) {
+  const auto file = lanes::RealFolder() / "carla_Town04.xodr";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real files are not beside the project";
+  StudySettings settings;
+  settings.traffic = Full(100);
+  settings.traffic.seed = 2;
+  settings.traffic.mix.shares = {0.6, 0.1, 0.2, 0.1};
+  settings.duration_s = 380.0;
+  const StudyResult r = RunStudy(settings, opendrive::LoadNetwork(file).value()).value();
+  EXPECT_EQ(r.collisions, 0);
+  EXPECT_EQ(r.hurried_steps, 0);
+  EXPECT_LT(r.longest_with_room_s, 100.0) << "car " << r.longest_with_room_id;
+}
+
 // Up to 0.55 rad across, outward in its bend for one direction.
 TEST(FullDrive, DrivesOnABank) {
   DriveAFile("esmini_straight_500_superelevation_elevation_curve", {{25, 1, 60.0, 4.0}, {25, 2, 60.0, 4.0}, {25, 3, 60.0, 4.0}, {25, 4, 60.0, 4.0}, {100, 11, 60.0, 4.0}});
