@@ -17,15 +17,32 @@
 namespace rodeira::base {
 namespace {
 
+// What has no size before it is read: a pipe, a shell's <(…).
+template <class Buffer>
+Result<Buffer> ReadStream(std::ifstream& in, const std::filesystem::path& path, std::size_t limit_bytes) {
+  constexpr std::size_t kChunk = 1 << 16;
+  Buffer buffer;
+  while (in) {
+    const std::size_t held = buffer.size();
+    buffer.resize(held + kChunk);
+    in.read(reinterpret_cast<char*>(buffer.data() + held), kChunk);
+    buffer.resize(held + static_cast<std::size_t>(in.gcount()));
+    if (buffer.size() > limit_bytes) return WrongInput(fmt::format("more than the {} bytes that were expected at most came", limit_bytes), path.string());
+  }
+  if (in.bad()) return Failed("the file cannot be read to its end", path.string());
+  return buffer;
+}
+
 template <class Buffer>
 Result<Buffer> ReadInto(const std::filesystem::path& path, std::size_t limit_bytes) {
   std::error_code problem;
   const auto status = std::filesystem::status(path, problem);
   if (!std::filesystem::exists(status)) return WrongInput(NoSuchFile(path), path.string());
   if (std::filesystem::is_directory(status)) return WrongInput("this is a folder, a file was expected", path.string());
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  std::ifstream in(path, std::ios::binary);
   if (!in) return WrongInput(fmt::format("the file cannot be opened: {}", std::strerror(errno)), path.string());
-  const auto size = static_cast<std::size_t>(in.tellg());
+  if (!std::filesystem::is_regular_file(status)) return ReadStream<Buffer>(in, path, limit_bytes);
+  const auto size = static_cast<std::size_t>(in.seekg(0, std::ios::end).tellg());
   if (size > limit_bytes) {
     return WrongInput(fmt::format("the file has {} bytes, at most {} were expected", size, limit_bytes), path.string());
   }

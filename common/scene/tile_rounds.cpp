@@ -262,17 +262,32 @@ class Rounds {
       const Eigen::Vector2d way = c.at[n] - c.at[k];
       const double rise_m = c.z[n] - c.z[k];
       const bool straight_ends = std::fabs(c.slope[k].dot(way) - rise_m) <= Slope().tolerance_m && std::fabs(c.slope[n].dot(way) - rise_m) <= Slope().tolerance_m;
+      if (!ends && KnownStraight(t.corner[k], t.corner[n])) continue;
       BendRange range = Slope();
       if (!beside_road_[t.corner[k]] && !beside_road_[t.corner[n]]) range.ends_m = 0.0;
       const auto part = BendBetween(highest_, p_W, c.z[k], q_W, c.z[n], range, straight_ends);
-      const GridPoint p = plan_.triangles.points()[t.corner[k]], q = plan_.triangles.points()[t.corner[n]];
+      if (!part && !ends) SetStraight(t.corner[k], t.corner[n]);
       if (!part) continue;
+      const GridPoint p = plan_.triangles.points()[t.corner[k]], q = plan_.triangles.points()[t.corner[n]];
       const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + *part * (to - from))); };
       const GridPoint bend{between(p.x, q.x), between(p.y, q.y)};
       if (OnEdge(bend)) continue;  // nor is its kept side cut
       if (kept) on_kept_.push_back({bend, t.corner[k], t.corner[n], NumberOf(t)});
       else fresh.push_back({bend, NumberOf(t)});
     }
+  }
+
+  // Between two points of one face the ground is the same whichever triangle asks, and a side outlives its triangles.
+  bool KnownStraight(std::uint32_t a, std::uint32_t b) const {
+    for (std::uint32_t i = a < first_straight_.size() ? first_straight_[a] : kNone; i != kNone; i = straight_[i].next) {
+      if (straight_[i].to == b) return true;
+    }
+    return false;
+  }
+  void SetStraight(std::uint32_t a, std::uint32_t b) {
+    if (first_straight_.size() < plan_.triangles.points().size()) first_straight_.resize(plan_.triangles.points().size(), kNone);
+    straight_.push_back({b, first_straight_[a]});
+    first_straight_[a] = static_cast<std::uint32_t>(straight_.size() - 1);
   }
 
   // An S, as two vertical curves make it, is met in its middle: its quarters are looked at too.
@@ -317,6 +332,11 @@ class Rounds {
   };
   std::vector<Known> known_;
   std::vector<std::uint32_t> first_known_;  // by point
+  struct Straight {  // a side of the land along which nothing bends
+    std::uint32_t to, next;  // its other end; of the same point
+  };
+  std::vector<Straight> straight_;
+  std::vector<std::uint32_t> first_straight_;  // by point
   std::vector<road::SurfacePoint> levels_;
 };
 

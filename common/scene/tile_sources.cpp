@@ -178,32 +178,40 @@ base::Digest TileSources::Posts(const TileKey& tile, bool& solid) const {
   return digest;
 }
 
-std::array<double, TileSources::kCells * TileSources::kCells> TileSources::NearestWithin(const TileKey& tile) const {
-  constexpr double kAnywhere_m = 1e9;
-  const auto look_at = [](const Cell& cell, const Points& points, double& nearest_m) {
-    if (cell.LeastFarthest(points.low_W, points.high_W) > nearest_m) return;
-    for (const Vector2d& p : points.at_W) nearest_m = std::min(nearest_m, cell.Farthest(p));
-  };
-  const Cell whole{tile.south_west_W(), kTile_m};
-  double within_m = kAnywhere_m;  // some point is no farther from any place of the tile
-  for (const Points& points : points_) look_at(whole, points, within_m);
+// A square's places are looked at for its quarters only where they are near enough to it.
+void TileSources::NearestIn(const TileKey& tile, const CellBlock& block, double within_m, std::span<const Points* const> may_be, Nearest& nearest) const {
+  const Cell cell{tile.south_west_W() + kTile_m / kCells * Vector2d(block.column, block.row), kTile_m / kCells * block.cells};
+  for (const Points* points : may_be) {  // some place of theirs is no farther from any of the square
+    if (cell.LeastFarthest(points->low_W, points->high_W) > within_m) continue;
+    for (const Vector2d& p : points->at_W) within_m = std::min(within_m, cell.Farthest(p));
+  }
+  if (block.cells == 1) {
+    nearest[static_cast<std::size_t>(block.column * kCells + block.row)] = within_m;
+    return;
+  }
   std::vector<const Points*> near;
-  for (const Points& points : points_) {
-    if (whole.Nearest(points.low_W, points.high_W) <= within_m) near.push_back(&points);
+  for (const Points* points : may_be) {
+    if (cell.Nearest(points->low_W, points->high_W) <= within_m) near.push_back(points);
   }
-  std::array<double, kCells * kCells> nearest;
-  for (std::size_t i = 0; i < nearest.size(); ++i) {
-    const Cell cell = CellOf(tile, i, kCells);
-    nearest[i] = kAnywhere_m;
-    for (const Points* points : near) look_at(cell, *points, nearest[i]);
+  const int half = block.cells / 2;
+  for (const int column : {0, half}) {
+    for (const int row : {0, half}) NearestIn(tile, {block.column + column, block.row + row, half}, within_m, near, nearest);
   }
+}
+
+TileSources::Nearest TileSources::NearestWithin(const TileKey& tile) const {
+  constexpr double kAnywhere_m = 1e9;
+  std::vector<const Points*> all;
+  for (const Points& points : points_) all.push_back(&points);
+  Nearest nearest{};
+  NearestIn(tile, {0, 0, kCells}, kAnywhere_m, all, nearest);
   return nearest;
 }
 
 base::Digest TileSources::DigestOf(const TileKey& tile) const {
   bool solid = false;
   base::Digest digest = Posts(tile, solid);
-  const auto nearest = solid ? std::array<double, kCells * kCells>{} : NearestWithin(tile);
+  const Nearest nearest = solid ? Nearest{} : NearestWithin(tile);
   const double farthest_m = *std::max_element(nearest.begin(), nearest.end());
   const Cell whole{tile.south_west_W(), kTile_m};
   const auto may_be_nearest = [&](const Part& part) {

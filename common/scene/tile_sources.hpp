@@ -44,9 +44,15 @@ class TileSources {
   void AddJunctions();
   // The terrain's posts that make the tile's ground; solid: there is ground everywhere in it.
   base::Digest Posts(const TileKey& tile, bool& solid) const;
-  static constexpr int kCells = 8;  // along a tile's side
+  static constexpr int kCells = 8;  // along a tile's side, a power of two
+  using Nearest = std::array<double, kCells * kCells>;
+  struct CellBlock {  // a square of so many cells along a side, from one on
+    int column, row, cells;
+  };
   // For each cell of the tile: none of its places is farther from its nearest road.
-  std::array<double, kCells * kCells> NearestWithin(const TileKey& tile) const;
+  Nearest NearestWithin(const TileKey& tile) const;
+  // Of the block's cells. within_m: no place of the block is farther from its nearest road; may_be: all that may be the nearest to one.
+  void NearestIn(const TileKey& tile, const CellBlock& block, double within_m, std::span<const Points* const> may_be, Nearest& nearest) const;
 
   const road::World* world_ = nullptr;
   std::vector<Part> parts_;  // in the order of the roads, then of the junctions

@@ -176,6 +176,22 @@ TEST(Files, AreWrittenWholeOrNotAtAll) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Files, WhatComesThroughAPipeIsReadToItsEnd) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const std::string text(20000, 'x');  // less than a pipe holds
+  const auto send = [&] { ASSERT_EQ(::write(ends[1], text.data(), text.size()), static_cast<ssize_t>(text.size())); };
+  const std::string path = "/dev/fd/" + std::to_string(ends[0]);
+  send(), send();
+  int other[2];
+  ASSERT_EQ(::pipe(other), 0);
+  ASSERT_EQ(::write(other[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  ::close(ends[1]), ::close(other[1]);
+  EXPECT_EQ(ReadText(path).value(), text + text);
+  EXPECT_EQ(ReadText("/dev/fd/" + std::to_string(other[0]), 10).error().message, "more than the 10 bytes that were expected at most came");
+  ::close(ends[0]), ::close(other[0]);
+}
+
 TEST(Printable, WhatATerminalWouldObeyBecomesVisible) {
   EXPECT_EQ(Printable("Régua to Pinhão, 3 µs …"), "Régua to Pinhão, 3 µs …");
   EXPECT_EQ(Printable("a\nb\tc\x1b[31m\x7f"), "a\\nb\\tc\\x1b[31m\\x7f");
