@@ -135,6 +135,8 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
   run->add_option("--physics", options.physics, "how cars move: planar, along their paths, or full, as the driver's car does")->check(OneOf({"planar", "full"}));
   run->add_option("--settings", options.settings, "how they drive: a file of 'rodeira: traffic/1', with the keys of a launch file's traffic");
   run->add_option("--csv", options.csv, "folder for trajectories.csv, lanes.csv, queues.csv, flows.csv, trips.csv");
+  run->add_option("--every", options.every_s, "seconds a row of intervals.csv, in that folder: flow, speed, queue of every lane over time")->check(Positive);
+  run->add_option("--warm", options.warm_s, "seconds at the beginning that tables and heat leave out")->check(From0())->capture_default_str();
   run->add_option("--heat", options.heat, "mean speed by the metre as a picture (.svg); flow, density, speed and fuel as a GeoTIFF (.tif)")->check(NewFile());
   run->add_option("--pixel", options.pixel_m, "metres a pixel of the GeoTIFF")->check(Between(0.1, 1000.0))->needs("--heat")->capture_default_str();
   run->add_option("--fcd", options.fcd, "floating car data for SUMO's tools (.xml)")->check(NewFile());

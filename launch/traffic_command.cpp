@@ -10,8 +10,6 @@
 #include <utility>
 
 #include "common/map/heights.hpp"
-#include "common/map/lane_map.hpp"
-#include "common/map/map_network.hpp"
 #include "common/road/map_world.hpp"
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/map_demand.hpp"
@@ -62,28 +60,15 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
   return settings;
 }
 
-// With the line of its companion where a traffic map's lights are green together.
-base::Status CheckLightsOfMap(const std::string& path) {
-  const auto companion = map::LoadHeightsOf(path);
-  if (!companion) return companion.error();
-  if (companion.value().lights.empty()) return {};
-  const auto made = map::LoadLaneMap(path);
-  if (!made) return made.error();
-  const auto network = map::ToNetwork(made.value(), path);
-  if (!network) return network.error();
-  const auto wrong = traffic::LightsTogether(made.value(), companion.value(), *network.value());
-  if (wrong) return base::WrongInput(wrong->Text(), wrong->Place(path));
-  return {};
-}
-
 void Describe(const TrafficOptions& options, const traffic::StudyResult& r, double wall_s) {
   fmt::print("vehicles         {} on the road, {} waiting to enter, {} trips ended\n", r.on_road, r.waiting, r.arrivals);
   fmt::print("entered, left    {} came onto the road, {} left it; {} were there at the beginning\n", r.entered, r.left, r.began);
   fmt::print("driven           {:.3f} km at {:.2f} m/s in the mean\n", r.driven_km, r.mean_speed_mps());
   const double litres = r.fuel_mg / traffic::kFuelDensity_mgpl;
   fmt::print("fuel             {:.3f} l, {:.2f} l/100 km\n", litres, r.driven_km > 0.0 ? 100.0 * litres / r.driven_km : 0.0);
-  fmt::print("standing         {:.1f} % of the time, at most {:.1f} s (car {}), with room ahead {:.1f} s (car {})\n",
-             r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, r.longest_stand_s, r.longest_stand_id, r.longest_with_room_s, r.longest_with_room_id);
+  const auto who = [](double time_s, std::uint32_t id) { return time_s > 0.0 ? fmt::format("{:.1f} s (car {})", time_s, id) : std::string("0.0 s"); };
+  fmt::print("standing         {:.1f} % of the time, at most {}, with room ahead {}\n", r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, who(r.longest_stand_s, r.longest_stand_id),
+             who(r.longest_with_room_s, r.longest_with_room_id));
   fmt::print("hardest braking  {:.2f} m/s2 with a foot on the brake, which asks it for {:.2f} m/s2 at most; {:.2f} m/s2 in all\n", r.hardest_mps2, r.foot_mps2, r.hardest_any_mps2);
   fmt::print("emergencies      {} steps of a vehicle\n", r.hurried_steps);
   fmt::print("collisions       {}\n", r.collisions);
@@ -112,7 +97,7 @@ int TrafficRun(const TrafficOptions& options) {
   if (!world) return Complain(world.error());
   const auto network = traffic::NetworkOf(world.value());
   if (road::IsTrafficMap(options.map)) {
-    if (const auto lit = CheckLightsOfMap(options.map); !lit) return Complain(lit.error());
+    if (const auto lit = traffic::CheckLightsOfMap(options.map); !lit) return Complain(lit.error());
   }
   auto how = HowTrafficIs(options);
   if (!how) return Complain(how.error());
@@ -125,6 +110,7 @@ int TrafficRun(const TrafficOptions& options) {
   if (!opened) return Complain(opened.error());
   TrafficFiles files = std::move(opened).value();
   if (files.wants_cells()) settings.cell_m = kCell_m;
+  settings.warm_s = options.warm_s, settings.every_s = options.every_s;
   if (!options.quiet && settings.traffic.physics == traffic::Physics::kFull) {
     const lanes::Graph graph(*network);
     for (const traffic::TightBend& bend : traffic::TightBendsOf(graph, settings.traffic)) fmt::print(stderr, "rodeira: warning: {}: {}\n", options.map, traffic::Text(bend, graph));

@@ -6,7 +6,7 @@
 
 namespace rodeira::front {
 
-// `rodeira traffic run MAP --vehicles N --for S [--driver standard|motors] [--physics planar|full] [--settings FILE] [--csv DIR] [--heat FILE [--pixel M]] [--fcd FILE] [--diagram FILE --lane ROAD:LANE]`
+// `rodeira traffic run MAP --vehicles N --for S [--driver standard|motors] [--physics planar|full] [--settings FILE] [--csv DIR [--every S]] [--warm S] [--heat FILE [--pixel M]] [--fcd FILE] [--diagram FILE --lane ROAD:LANE]`
 struct TrafficOptions {
   bool asked = false;
   std::string map;  // a world file, .xodr or .motors
@@ -18,6 +18,8 @@ struct TrafficOptions {
   std::string physics;  // planar or full; empty: as the settings say
   std::string settings;  // a file of `rodeira: traffic/1`; empty: as usual
   std::string csv;  // folder; empty: no tables
+  double warm_s = 0.0;   // tables and heat leave out so much of the beginning
+  double every_s = 0.0;  // rows of intervals.csv; 0: no such table
   std::string heat;     // .svg or .tif; empty: none
   double pixel_m = 1.0;  // of heat.tif
   std::string fcd;      // .xml; empty: none

@@ -53,8 +53,13 @@ std::string TrafficFiles::InFolder(const char* name) const { return (std::filesy
 
 base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, const network::Network& network) {
   TrafficFiles files(options);
+  if (!(options.warm_s < options.duration_s)) return base::WrongInput(fmt::format("{} s are left out of {} s; less was expected", options.warm_s, options.duration_s), "--warm");
+  if (options.every_s > 0.0 && options.csv.empty()) return base::WrongInput("a table every so many seconds was asked for, and no folder for it; --csv FOLDER was expected", "--every");
+  if (options.every_s > 0.0 && options.every_s < options.step_s) return base::WrongInput(fmt::format("{} s were given; at least the step of {} s was expected", options.every_s, options.step_s), "--every");
   if (!options.heat.empty() && !EndsOn(options.heat, ".svg") && !EndsOn(options.heat, ".tif"))
     return base::WrongInput(fmt::format("'{}' was found; a file on .svg or .tif was expected", options.heat), "--heat");
+  if (options.pixel_m != 1.0 && !EndsOn(options.heat, ".tif")) return base::WrongInput(fmt::format("a pixel of {} m was given for '{}'; a file on .tif was expected", options.pixel_m, options.heat), "--pixel");
+  if (!options.fcd.empty() && !EndsOn(options.fcd, ".xml")) return base::WrongInput(fmt::format("'{}' was found; a file on .xml was expected", options.fcd), "--fcd");
   if (!options.diagram.empty()) {
     const auto track = FindTrack(lanes::Graph(network), options.lane);
     if (!track) return track.error();
@@ -117,6 +122,9 @@ base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Networ
     if (auto status = text(InFolder("lanes.csv"), traffic::LaneTable(graph, *result.lanes)); !status) return status.error();
     if (auto status = text(InFolder("queues.csv"), traffic::QueueTable(graph, *result.lanes)); !status) return status.error();
     if (auto status = text(InFolder("flows.csv"), traffic::FlowTable(graph, *result.lanes)); !status) return status.error();
+    if (result.intervals) {
+      if (auto status = text(InFolder("intervals.csv"), traffic::IntervalTable(graph, *result.intervals)); !status) return status.error();
+    }
     if (auto status = text(InFolder("trips.csv"), traffic::TripTable(graph, *result.lanes)); !status) return status.error();
   }
   if (fcd_.is_open()) {

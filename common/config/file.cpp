@@ -10,6 +10,8 @@
 namespace rodeira::config {
 namespace {
 
+constexpr std::size_t kSlip = 5;  // 's_m' is as near to 't_m' as any other
+
 // 'mass_kg' where 'mass_t' was given: the same quantity in another unit.
 bool DifferOnlyByUnit(const std::string& a, const std::string& b) {
   static const std::set<std::string, std::less<>> kUnits = {
@@ -130,6 +132,8 @@ std::vector<base::Error> File::Problems() const {
       known.insert(asked.hoped.begin(), asked.hoped.end());
       known.erase(key);  // it may stand there, but what is wrong elsewhere kept it from being read
       const Meant meant = MeantBy(key, known);
+      // Where the mapping is wrong itself whoever reads it may have stopped before this key; only what is long enough to be a slip of the pen is told.
+      if (asked.wrong && (meant.key.empty() || key.size() < kSlip)) continue;
       const std::string missing = Sub(asked.path, meant.key);
       if (!meant.key.empty()) std::erase_if(all, [&](const auto& problem) { return problem.missing == missing; });
       (meant.key.empty() ? strange : misspelt).push_back({LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});

@@ -31,6 +31,7 @@ std::string Map::Place(std::string_view key) const {
 }
 
 void Map::Problem(std::string_view key, std::string message) const {
+  if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].wrong = true;
   context_->Add(node_->present ? LineOfKey(node_->node, key) : 0, std::move(message));
 }
 

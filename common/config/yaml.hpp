@@ -42,6 +42,7 @@ struct Context {
     std::string path;
     std::set<std::string, std::less<>> keys;
     std::set<std::string, std::less<>> hoped;  // those that may stand there
+    bool wrong = false;  // something in it is, and perhaps the rest was not read for that
   };
   std::map<std::pair<int, std::string>, Asked> asked;
 

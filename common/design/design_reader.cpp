@@ -1,3 +1,4 @@
+#include "common/design/behind_end.hpp"
 #include "common/design/design_reader.hpp"
 
 #include <fmt/format.h>
@@ -325,6 +326,8 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
   if (!sound()) return design;
   JoinRoads(links, designs, layout, design.warnings);
   design.laid = LayOn(designs, layout);
+  for (const Piece& piece : layout.pieces) design.road_places.push_back(designs[piece.design].map.Place());
+  for (const RoadDesign& road : designs) WarnBehindEnd(road.map, road.spec.length_m, design.warnings);
   for (std::size_t i = 0; i < roads.size(); ++i) CheckFits(i, designs[i], roads[i], layout.pieces, terrain_is_at);
   if (start_map.Has("x_m") == false) design.start = FindStart(start, start_map, designs, layout);
   if (!sound()) return design;

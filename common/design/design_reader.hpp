@@ -36,6 +36,7 @@ struct Design {
   network::Standing standing;  // what stands at no road
   std::optional<StartPlace> start;
   std::vector<std::string> warnings;
+  std::vector<std::string> road_places;  // "file:line" where the network's roads are said; those that lead through junctions, which come last, are not among them
   std::vector<base::Error> missing;   // pictures: wrong, but the world can be driven without them
   std::vector<base::Error> problems;  // of included files; those of the file itself are with it
 };

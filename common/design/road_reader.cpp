@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/base/suggest.hpp"
+#include "common/config/either.hpp"
 #include "common/design/axis_reader.hpp"
 #include "common/design/furniture_reader.hpp"
 #include "common/design/laid_reader.hpp"
@@ -83,6 +84,7 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
   const std::optional<double> met = ReadPlacing(map, before, design.elements);
   const double length = LengthOf(design.elements);
   spec.length_m = length;
+  (void)config::SaysTwice(map, "vertical", "z_m");
   if (map.Has("vertical")) {
     if (axis.elevation) map.Problem("vertical", "the points of this road have heights; without them 'vertical' counts");
     std::vector<geometry::GradePoint> grades = ReadGrades(map);

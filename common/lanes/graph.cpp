@@ -27,6 +27,7 @@ std::optional<bool> Along(const network::Network& network, const LaneKey& key) {
 
 Graph::Graph(const network::Network& network) : network_(&network) {
   AddTracks();
+  AddAllFeet();
   LinkLanes();
   LinkEndingLanes();
   for (Track& track : tracks_) {
@@ -50,14 +51,7 @@ void Graph::AddTracks() {
     if (const auto junction = network_->FindJunction(road.junction)) track.junction = static_cast<std::int32_t>(*junction);
     tracks_.push_back(std::move(track));
   }
-  for (Track& track : tracks_) {
-    const auto beside = [&](const std::optional<LaneKey>& lane) -> std::optional<std::uint32_t> {
-      const auto other = lane ? Find(*lane) : std::nullopt;
-      return other && tracks_[*other].along == track.along ? other : std::nullopt;
-    };
-    track.left = beside(track.along ? network_->Left(track.lane) : network_->Right(track.lane));
-    track.right = beside(track.along ? network_->Right(track.lane) : network_->Left(track.lane));
-  }
+  for (Track& track : tracks_) track.left = BesideOf(track, true, true), track.right = BesideOf(track, false, true);
 }
 
 std::optional<std::uint32_t> Graph::Find(const LaneKey& lane) const {
@@ -82,11 +76,6 @@ double Graph::SpeedLimit_mps(std::uint32_t track, double d_m) const {
   const Track& t = tracks_[track];
   const auto limit = network_->roads()[t.lane.road].SpeedLimitAt(*network_->Find(t.lane), t.curve.StationAt(d_m));
   return limit ? std::clamp(*limit, 1.0, kNoLimit_mps) : kUnsaid_mps;
-}
-
-double Graph::Across(std::uint32_t track, double d_m, std::uint32_t beside) const {
-  const Curve& curve = tracks_[track].curve;
-  return tracks_[beside].curve.AtStation(curve.StationAt(d_m)) + d_m - std::clamp(d_m, 0.0, curve.length_m());
 }
 
 void Graph::BuildGrid() {

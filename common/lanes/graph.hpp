@@ -26,7 +26,7 @@ struct Track {
   Curve curve;
   std::vector<Link> next;             // ascending by `to`
   std::vector<std::uint32_t> before;  // tracks that lead here; ascending
-  std::optional<std::uint32_t> left, right;  // beside it in the same direction
+  std::optional<std::uint32_t> left, right;  // beside it in the same direction, on its own road or on one that shares that side
   std::int32_t junction = -1;                // index into Network::junctions() for a connecting road's lane
   bool entry = false;  // traffic may enter the network here, at its beginning
   bool left_hand = false;
@@ -58,8 +58,11 @@ class Graph {
   // The limit at d, within what a car may drive where the network says none (50 km/h) or is without limit (130 km/h).
   double SpeedLimit_mps(std::uint32_t track, double d_m) const;
 
-  // The distance along a track of the same lane section that lies beside `d_m` of this one; beyond the ends as far as there.
+  // The distance along a track beside it, of the same lane section or of a road that shares a side, that lies beside `d_m` of this one; beyond the ends as far as there.
   double Across(std::uint32_t track, double d_m, std::uint32_t beside) const;
+
+  // The track whose traffic comes towards this one's beside it on the left (in left-hand traffic: on the right).
+  std::optional<std::uint32_t> Oncoming(std::uint32_t track) const;
 
   // Every node within radius of (x, y), by track and node.
   void Near(const Eigen::Vector2d& p_W, double radius_m, std::vector<NodeKey>& nodes) const;
@@ -73,6 +76,9 @@ class Graph {
 
  private:
   void AddTracks();
+  std::optional<std::uint32_t> BesideOf(const Track& track, bool left, bool same_way) const;
+  void AddAllFeet();
+  void AddFeet(std::uint32_t track, std::uint32_t beside, bool same_way);
   void LinkLanes();
   void LinkEndingLanes();
   void AddLink(std::uint32_t from, std::uint32_t to, double to_d_m, bool joins);
@@ -84,8 +90,16 @@ class Graph {
     NodeKey node;
     auto operator<=>(const Cell&) const = default;
   };
+  // Where a track of another road lies beside one, at its beginning and every so many metres.
+  struct Feet {
+    std::uint32_t track, beside;
+    double apart_m;
+    bool same_way;
+    std::vector<double> d_m;
+  };
   const network::Network* network_;
   std::vector<Track> tracks_;
+  std::vector<Feet> feet_;   // by track, then beside
   std::vector<Cell> cells_;  // ascending
   bool says_entries_ = false;
 };

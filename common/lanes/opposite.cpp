@@ -18,10 +18,8 @@ std::vector<std::int64_t> Opposites(const Graph& graph) {
   for (std::uint32_t i = 0; i < opposites.size(); ++i) {
     const Track& track = graph[i];
     if (!IsOnlyOne(track)) continue;
-    const bool up = track.along != track.left_hand;  // lane ids grow to the left of the road
-    const auto beside = up ? graph.network().Left(track.lane) : graph.network().Right(track.lane);
-    const auto other = beside ? graph.Find(*beside) : std::nullopt;
-    if (other && graph[*other].along != track.along && IsOnlyOne(graph[*other])) opposites[i] = *other;
+    const auto other = graph.Oncoming(i);
+    if (other && IsOnlyOne(graph[*other])) opposites[i] = *other;
   }
   return opposites;
 }

@@ -11,7 +11,8 @@ namespace rodeira::map {
 namespace {
 
 constexpr std::string_view kFirst = "rodeira: motors/1\n";
-constexpr std::array<std::string_view, 4> kParts = {"heights_m", "lights", "signs", "flows_vehph"};
+constexpr std::size_t kRule = 0, kHeights = 1;  // of the parts
+constexpr std::array<std::string_view, 5> kParts = {"rule", "heights_m", "lights", "signs", "flows_vehph"};
 
 std::string HeightLine(const CurveHeights& one) { return fmt::format("  {}: [{}]\n", one.curve, fmt::join(one.z_m, ", ")); }
 
@@ -44,12 +45,13 @@ std::string SignText(const LaneSign& sign) {
 
 // One part, its key first; empty where there is nothing to say.
 std::string PartText(const Heights& heights, std::size_t part) {
+  if (part == kRule) return heights.left_hand ? "rule: left\n" : "";
   std::string text;
-  if (part == 0) {
+  if (part == kHeights) {
     for (const CurveHeights& one : heights.curves) text += HeightLine(one);
-  } else if (part == 1) {
-    for (const lights::LightPlan& plan : heights.lights) text += LightText(plan);
   } else if (part == 2) {
+    for (const lights::LightPlan& plan : heights.lights) text += LightText(plan);
+  } else if (part == 3) {
     for (const LaneSign& sign : heights.signs) text += SignText(sign);
   } else {
     for (const LaneFlow& flow : heights.flows) text += fmt::format("  {}: {}\n", flow.lane, flow.vehph);
@@ -116,7 +118,7 @@ std::string WithLineEnd(std::string_view text) {
 std::string Renewed(const Block& block, const Heights& heights, const Heights& loaded, std::size_t part) {
   std::vector<std::string> kept_lines;
   std::vector<CurveHeights> kept;
-  if (part == 0) {
+  if (part == kHeights) {
     for (const CurveHeights& one : loaded.curves) {
       for (const std::string_view line : block.lines) {
         const std::string start = fmt::format("{}:", one.curve);
@@ -135,7 +137,7 @@ std::string Renewed(const Block& block, const Heights& heights, const Heights& l
   };
   std::string below;
   std::vector<std::string_view> used;
-  if (part == 0 && !heights.curves.empty()) {
+  if (part == kHeights && !heights.curves.empty()) {
     below = "heights_m:\n";
     for (const CurveHeights& one : heights.curves) {
       const std::string* line = kept_line(one);

@@ -18,10 +18,11 @@ bool Stops(const LaneMap& map, const MapLane& lane) {
 // A lane's places on its own road.
 class LaneOnRoad {
  public:
-  LaneOnRoad(const LaneMap& map, const PlannedRoad& plan) : part_(plan.parts[plan.own]), lane_(map.lanes[part_.lane]) {
+  LaneOnRoad(const LaneMap& map, const PlannedRoad& plan) : part_(plan.parts[plan.own]), lane_(map.lanes[part_.lane]), left_hand_(map.left_hand) {
     for (std::size_t i = 0; i < plan.own; ++i) before_m_ += plan.parts[i].length_m();
   }
   const MapLane& lane() const { return lane_; }
+  bool is_left_hand() const { return left_hand_; }
   double length_m() const { return lane_.shape.length_m(); }
   LanePoint At(double s_m) const { return lane_.shape.At(Held(s_m)); }
   // What lies on a part that another road has stands at this one's end.
@@ -32,6 +33,7 @@ class LaneOnRoad {
 
   const RoadPart& part_;
   const MapLane& lane_;
+  bool left_hand_;
   double before_m_ = 0.0;
 };
 
@@ -39,7 +41,7 @@ pugi::xml_node WriteSignal(pugi::xml_node signals, const LaneOnRoad& lane, doubl
   const bool light = std::string_view(name) == "light";
   pugi::xml_node signal = signals.append_child("signal");
   Set(signal, "s", lane.StationOf(s_m));
-  Set(signal, "t", lane.At(s_m).right_m - 0.6);
+  Set(signal, "t", lane.is_left_hand() ? lane.At(s_m).left_m + 0.6 : lane.At(s_m).right_m - 0.6);
   Set(signal, "id", id);
   Set(signal, "name", name);
   Set(signal, "dynamic", light ? "yes" : "no");

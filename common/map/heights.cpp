@@ -75,6 +75,7 @@ base::Result<Heights> Read(config::File& file) {
   const config::List lights = root.OptionalItems("lights"), signs = root.OptionalItems("signs");
   for (std::size_t i = 0; i < lights.size(); ++i) heights.lights.push_back(lights::ReadLightPlan(lights.At(i)));
   for (std::size_t i = 0; i < signs.size(); ++i) heights.signs.push_back(ReadSign(signs.At(i)));
+  heights.left_hand = root.Choice("rule", {"right", "left"}, "right") == "left";
   ReadCurves(root.OptionalChild("heights_m"), heights);
   ReadFlows(root.OptionalChild("flows_vehph"), heights);
   if (const base::Status status = file.Finish(); !status) return status.error();

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "common/map/picture.hpp"
 
@@ -29,11 +32,37 @@ Border BorderOf(const LaneSide& side, const Curve& curve, const Heights& heights
   return border;
 }
 
+namespace {
+
+// Two lanes and no more have the curve for a side, one to its left and one to its right.
+void FindNeighbours(const MapFile& file, LaneMap& map) {
+  struct Use {
+    std::size_t lane;
+    bool is_left;      // the lane's left side
+    bool to_the_right;  // of the curve lies the lane
+  };
+  std::map<std::int32_t, std::vector<Use>> uses;  // by curve
+  for (std::size_t i = 0; i < file.lanes.size(); ++i) {
+    const Lane& lane = file.lanes[i].value;
+    uses[lane.left.curve].push_back({i, true, !lane.left.inverted});
+    uses[lane.right.curve].push_back({i, false, lane.right.inverted});
+  }
+  for (const auto& [curve, of] : uses) {
+    if (of.size() != 2 || of[0].lane == of[1].lane || of[0].to_the_right == of[1].to_the_right) continue;
+    for (const auto& [own, other] : {std::pair(of[0], of[1]), std::pair(of[1], of[0])}) {
+      (own.is_left ? map.lanes[own.lane].left : map.lanes[own.lane].right) = other.lane;
+    }
+  }
+}
+
+}  // namespace
+
 base::Result<LaneMap> MakeLaneMap(const MapFile& file, const Heights& heights, const std::string& name) {
   for (const Finding& finding : CheckMap(file, heights)) {
     if (finding.severity == Severity::kError) return base::WrongInput(finding.Text(), finding.Place(name));
   }
   LaneMap map;
+  map.left_hand = heights.left_hand;
   const NumberIndex curves(file.curves);
   const NumberIndex lanes(file.lanes);
   for (const auto& [lane, text, number] : file.lanes) {
@@ -44,6 +73,7 @@ base::Result<LaneMap> MakeLaneMap(const MapFile& file, const Heights& heights, c
     const LaneShape shape(BorderOf(lane.left, left, heights), BorderOf(lane.right, right, heights));
     map.lanes.push_back({lane.id, lane.mode, lane.left.type, lane.right.type, shape, {}, {}});
   }
+  FindNeighbours(file, map);
   for (const auto& [connection, text, number] : file.connections) {
     const std::size_t from = *lanes.Find(connection.from), to = *lanes.Find(connection.to);
     map.lanes[from].onward.push_back(map.connections.size());

@@ -40,6 +40,7 @@ struct MapLane {
   LaneShape shape;
   std::vector<std::size_t> onward;  // connections that leave it, in the file's order
   std::vector<std::size_t> arriving;
+  std::optional<std::size_t> left{}, right{};  // the lane beside, which has the same curve for a side and lies across it; nothing where several do
 };
 
 struct MapConnection {
@@ -70,6 +71,7 @@ struct LaneMap {
   std::vector<std::size_t> start_lanes;
   std::vector<std::size_t> end_lanes;
   std::vector<MapLight> lights;  // at most one a lane
+  bool left_hand = false;
   std::vector<MapSign> signs;    // in the file's order; STOP of connections stands there
   // The picture on the ground, centred on the origin; no size where there is none that can be read.
   double picture_width_m = 0.0;

@@ -21,7 +21,7 @@ void SetCubic(pugi::xml_node node, const Cubic1& c, const char* suffix = "") {
 
 class Writer {
  public:
-  Writer(const LaneMap& map, const std::string& name, Junctions kind) : map_(map), kind_(kind), tells_modes_(kind == Junctions::kDirect || !BeginsAndEndsAtItsEdge(map)), plan_(PlanRoads(map, kind)) {
+  Writer(const LaneMap& map, const std::string& name, Junctions kind) : map_(map), kind_(kind), tells_modes_(kind == Junctions::kDirect || !BeginsAndEndsAtItsEdge(map)), own_(map.left_hand ? "1" : "-1"), plan_(PlanRoads(map, kind)) {
     if (kind == Junctions::kCommon) bounds_.length_m = kLength_m;
     root_ = document_.append_child("OpenDRIVE");
     pugi::xml_node header = root_.append_child("header");
@@ -83,7 +83,7 @@ class Writer {
     Set(road, "length", parts.back().s_m + parts.back().part.length_m());
     Set(road, "id", fmt::format("{}", plan.id));
     Set(road, "junction", plan.junction == kNoJunction ? "-1" : fmt::format("{}", plan.junction + 1));
-    Set(road, "rule", "RHT");
+    Set(road, "rule", map_.left_hand ? "LHT" : "RHT");
     pugi::xml_node link = road.append_child("link");
     WriteLink(link, "predecessor", plan.before);
     WriteLink(link, "successor", plan.behind);
@@ -159,7 +159,9 @@ class Writer {
       for (const DrivePiece& piece : part.pieces) {
         pugi::xml_node offset = lanes.append_child("laneOffset");
         Set(offset, "s", piece.s_m);
-        SetCubic(offset, piece.left);
+        Cubic1 inner = piece.left;  // in left-hand traffic lanes lie to the left of the centre: it is the right border
+        for (std::size_t i = 0; map_.left_hand && i < inner.size(); ++i) inner[i] -= piece.width[i];
+        SetCubic(offset, inner);
       }
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -179,23 +181,39 @@ class Writer {
       Set(node, "level", "false");
       return node;
     };
-    WriteMark(append("center", "0", "none"), lane.left_type);
-    pugi::xml_node right = append("right", "-1", "driving");
-    pugi::xml_node link = right.append_child("link");
-    if (linked_before) Set(link.append_child("predecessor"), "id", "-1");
-    if (linked_behind) Set(link.append_child("successor"), "id", "-1");
+    // A section's sides stand from the left to the right.
+    pugi::xml_node own_lane;
+    if (map_.left_hand) own_lane = append("left", own_, "driving");
+    WriteMark(append("center", "0", "none"), map_.left_hand ? lane.right_type : lane.left_type);
+    if (!map_.left_hand) own_lane = append("right", own_, "driving");
+    pugi::xml_node link = own_lane.append_child("link");
+    if (linked_before) Set(link.append_child("predecessor"), "id", own_);
+    if (linked_behind) Set(link.append_child("successor"), "id", own_);
     for (const DrivePiece& piece : part.pieces) {
-      pugi::xml_node width = right.append_child("width");
+      pugi::xml_node width = own_lane.append_child("width");
       Set(width, "sOffset", piece.s_m - part.s_m);
       SetCubic(width, piece.width);
     }
-    WriteMark(right, lane.right_type);
-    WriteSpeeds(right, part.part);
+    WriteMark(own_lane, map_.left_hand ? lane.left_type : lane.right_type);
+    WriteSpeeds(own_lane, part.part);
+    if (own) WriteNeighbours(own_lane, part.part.lane);
     if (own && tells_modes_ && lane.mode != LaneMode::kNone) {  // OpenDRIVE has no word for it
-      pugi::xml_node data = right.append_child("userData");
+      pugi::xml_node data = own_lane.append_child("userData");
       Set(data, "code", "rodeira:traffic");
       Set(data, "value", lane.mode == LaneMode::kStart ? "begins" : "ends");
     }
+  }
+
+  // Lanes beside on roads of their own, outside of junctions. OpenDRIVE has no word for them either.
+  void WriteNeighbours(pugi::xml_node node, std::size_t lane) const {
+    const auto is_own_road = [&](std::size_t of) { return plan_.roads[of].parts.size() == 1 && plan_.roads[of].junction == kNoJunction; };
+    const auto write = [&](const char* code, const std::optional<std::size_t>& beside) {
+      if (!beside || !is_own_road(lane) || !is_own_road(*beside)) return;
+      pugi::xml_node data = node.append_child("userData");
+      Set(data, "code", code);
+      Set(data, "value", fmt::format("{} {}", own_, plan_.roads[*beside].id));
+    };
+    write("rodeira:left", map_.lanes[lane].left), write("rodeira:right", map_.lanes[lane].right);
   }
 
   // Limits that hold on the part: the last one before it, and those along it.
@@ -227,14 +245,15 @@ class Writer {
       Set(connection, kind_ == Junctions::kDirect ? "linkedRoad" : "connectingRoad", fmt::format("{}", plan_.roads[way.to].id));
       Set(connection, "contactPoint", "start");
       pugi::xml_node link = connection.append_child("laneLink");
-      Set(link, "from", "-1");
-      Set(link, "to", "-1");
+      Set(link, "from", own_);
+      Set(link, "to", own_);
     }
   }
 
   const LaneMap& map_;
   Junctions kind_;
   bool tells_modes_;  // where vehicles begin and end
+  const char* own_;   // the lane's number on its road
   FitBounds bounds_;
   RoadPlan plan_;
   OpenDrive drive_;

@@ -20,7 +20,7 @@ struct OpenDrive {
 };
 
 // Every lane is a road with the lane's number as its id: its reference line is the lane's middle as paramPoly3 by distance,
-// lane -1 reaches from border to border (laneOffset, width). Where a lane has one successor that has no other predecessor, the
+// lane -1 (of a map of left-hand traffic lane 1) reaches from border to border (laneOffset, width). Where a lane has one successor that has no other predecessor, the
 // roads are linked; everywhere else a junction links them. Of common junctions the lanes that lie in them are connecting roads; where none
 // does, the last or first 5 m of a lane are (a third of it at most), and its own road ends there. STOP is a signal of type 206, other signs are 205, 301 and
 // 274, which is the lane's speed from there on too. The pieces are cut until

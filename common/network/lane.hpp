@@ -73,6 +73,14 @@ struct LaneAccess {
   std::vector<std::string> restrictions;
 };
 
+// A lane of a road, by names.
+struct LaneName {
+  std::string road;
+  int lane = 0;
+
+  bool operator==(const LaneName&) const = default;
+};
+
 struct Lane {
   int id = 0;  // positive to the left of the centre, negative to its right, counted outward; 0: the centre itself
   LaneType type = LaneType::kNone;
@@ -80,6 +88,8 @@ struct Lane {
   // What a network's file says of its traffic: vehicles begin where the lane's traffic comes onto it, and are gone where it leaves it. Where no lane of a network
   // is one to begin on they come in at its edge.
   bool traffic_begins = false, traffic_ends = false;
+  // Seen along s, the lane of another road that shares this side with it from end to end, as neighbours of a traffic map do. It counts where that one says so too.
+  std::optional<LaneName> left_beside, right_beside;
   int direction = 1;   // of traffic: +1 along s, -1 against it, 0 both
   geometry::CubicTable width;   // over s; empty where the lane has a border instead
   geometry::CubicTable border;  // t of the outer edge over s, wherever the centre lane lies; it counts where there is no width

@@ -79,6 +79,23 @@ std::optional<LaneKey> Network::Right(const LaneKey& key) const {
   return Find(beside) == nullptr ? std::nullopt : std::optional(beside);
 }
 
+std::optional<Network::Sharing> Network::SharingOf(const LaneKey& key, std::optional<LaneName> Lane::* side) const {
+  const std::optional<LaneName>& name = Find(key)->*side;
+  const auto road = name ? FindRoad(name->road) : std::nullopt;
+  if (!road) return std::nullopt;
+  const LaneName own{roads()[key.road].id(), key.lane};
+  const auto& sections = roads()[*road].spec().sections;
+  for (std::uint32_t section = 0; section < sections.size(); ++section) {
+    const LaneKey other{*road, section, name->lane};
+    const Lane* lane = Find(other);
+    if (lane == nullptr || lane->id == 0 || other == key) continue;
+    for (const auto back : {&Lane::left_beside, &Lane::right_beside}) {
+      if (lane->*back == own) return Sharing{other, back != side};
+    }
+  }
+  return std::nullopt;
+}
+
 std::vector<LaneKey> Network::Lanes() const {
   std::vector<LaneKey> lanes;
   for (std::uint32_t road = 0; road < roads().size(); ++road) {

@@ -146,6 +146,13 @@ class Network {
   // The lane beside on the left and right as seen along s. The centre is passed over.
   std::optional<LaneKey> Left(const LaneKey& key) const;
   std::optional<LaneKey> Right(const LaneKey& key) const;
+  // A lane of another road that shares this one's side, and whether its road's s runs the same way; nothing where only one of both says so.
+  struct Sharing {
+    LaneKey lane;
+    bool same_way = true;
+  };
+  std::optional<Sharing> SharingLeft(const LaneKey& key) const { return SharingOf(key, &Lane::left_beside); }
+  std::optional<Sharing> SharingRight(const LaneKey& key) const { return SharingOf(key, &Lane::right_beside); }
   // The corners of a box that holds every road's surface.
   std::pair<Eigen::Vector2d, Eigen::Vector2d> Bounds() const { return {index_.low_W(), index_.high_W()}; }
   // A lane's number, the centres' too: dense, below LaneNumbers().
@@ -165,6 +172,7 @@ class Network {
   SurfaceSample SurfaceAt(const Hit& hit) const;
   void SetHeight(std::optional<double> z_m, Hit& hit) const;
   std::optional<Place> Choose(std::vector<Hit>& hits, bool known_height) const;
+  std::optional<Sharing> SharingOf(const LaneKey& key, std::optional<LaneName> Lane::* side) const;
   void Link();
   void LinkEnd(const LaneKey& lane, const std::vector<int>& targets, bool at_end);
   void LinkJunctions();

@@ -86,6 +86,21 @@ struct Checker {
     }
   }
 
+  // What a lane says of its neighbours on other roads.
+  void Beside(const LaneKey& key) const {
+    const Lane& lane = *network.Find(key);
+    for (const bool left : {true, false}) {
+      const auto& name = left ? lane.left_beside : lane.right_beside;
+      if (!name || (left ? network.SharingLeft(key) : network.SharingRight(key))) continue;
+      const auto road = network.FindRoad(name->road);
+      const auto has = [&](const network::LaneSection& on) { return on.Find(name->lane) != nullptr; };
+      const bool is_there = road && std::any_of(network.roads()[*road].spec().sections.begin(), network.roads()[*road].spec().sections.end(), has);
+      findings.warnings.push_back(At(key, End::kStart, "rodeira.beside",
+                                     fmt::format("beside it on the {} is said to be lane {} of road {}, which {}: nobody changes over", left ? "left" : "right", name->lane, name->road,
+                                                 is_there ? "does not say so" : "is not in the file")));
+    }
+  }
+
   // Where two lanes meet, edge meets edge.
   void Gap(const LaneKey& key, End end, const LaneEnd& other) const {
     const Lane &lane = *network.Find(key), &met = *network.Find(other.lane);
@@ -153,6 +168,7 @@ void CheckLaneLinks(const Network& network, std::span<const RoadLines> lines, co
   const bool ground_is_wrong = std::any_of(findings.errors.begin(), findings.errors.end(), [](const Finding& error) { return error.rule.starts_with("junctions.elevation_grid") || error.rule.starts_with("junctions.boundary"); });
   const Checker checker{network, lines, tolerance, findings, ground_is_wrong};
   for (const LaneKey& key : network.Lanes()) {
+    checker.Beside(key);
     for (const End end : {End::kStart, End::kEnd}) {
       checker.Links(key, end);
       for (const LaneEnd& other : end == End::kEnd ? network.AtEnd(key) : network.AtStart(key)) {

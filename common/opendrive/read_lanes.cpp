@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <limits>
 
@@ -108,6 +109,7 @@ void ReadLinks(const Node& node, Lane& lane) {
   for (const Node& link : node.Child("link").Children("successor")) lane.successors.push_back(link.Integer("id"));
 }
 
+constexpr const char *kLeft = "rodeira:left", *kRight = "rodeira:right";  // a neighbour on another road
 constexpr const char* kTraffic = "rodeira:traffic";  // whether vehicles begin on the lane, or end there
 
 void ReadTraffic(const Node& node, Lane& lane) {
@@ -117,6 +119,24 @@ void ReadTraffic(const Node& node, Lane& lane) {
     if (what == "begins") lane.traffic_begins = true;
     else if (what == "ends") lane.traffic_ends = true;
     else data.Wrong("rodeira.traffic", fmt::format("of the lane's traffic '{}' was found; 'begins' or 'ends' was expected", what));
+  }
+}
+
+// On which side another road's lane lies beside this one: "-1 12", lane and road.
+void ReadBeside(const Node& node, Lane& lane) {
+  for (const Node& data : node.Children("userData")) {
+    const std::string code = data.Text("code", "");
+    if (code != kLeft && code != kRight) continue;
+    const std::string what = data.Text("value", "");
+    network::LaneName name;
+    const auto [end, problem] = std::from_chars(what.data(), what.data() + what.size(), name.lane);
+    const auto blank = static_cast<std::size_t>(end - what.data());
+    if (problem != std::errc() || name.lane == 0 || blank + 1 >= what.size() || what[blank] != ' ') {
+      data.Wrong("rodeira.beside", fmt::format("as the lane beside '{}' was found; a lane and its road ('-1 12') were expected", what));
+      continue;
+    }
+    name.road = what.substr(blank + 1);
+    (code == kLeft ? lane.left_beside : lane.right_beside) = name;
   }
 }
 
@@ -150,6 +170,7 @@ Lane ReadLane(const Node& node, const Around& around) {
   lane.materials = ReadRecords<network::LaneMaterial>(node, "material", section_s_m, ReadMaterial);
   lane.access = ReadAccesses(node, section_s_m);
   ReadTraffic(node, lane);
+  ReadBeside(node, lane);
   ReadLinks(node, lane);
   if (lane.id == 0 && (!lane.width.empty() || !lane.border.empty())) {
     node.Wrong("road.lane.center_lane_no_width", "the centre lane has a width; none was expected");

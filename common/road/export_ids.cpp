@@ -63,6 +63,14 @@ void EachId(network::RoadSpec& spec, const Do& each) {
   for (network::Object& object : spec.objects) each(object.id);
   for (network::ObjectReference& other : spec.object_references) each(other.id);
   for (network::Structure& structure : spec.structures) each(structure.id);
+  for (network::LaneSection& section : spec.sections) {
+    for (auto* lanes : {&section.left, &section.right}) {
+      for (network::Lane& lane : *lanes) {
+        if (lane.left_beside) each(lane.left_beside->road);
+        if (lane.right_beside) each(lane.right_beside->road);
+      }
+    }
+  }
 }
 
 template <class Do>

@@ -106,6 +106,10 @@ std::string LaneText(const network::Lane& lane, const network::LaneSection& sect
   // OpenDRIVE cannot say where vehicles begin and end.
   if (lane.traffic_begins) text += "<userData code=\"rodeira:traffic\" value=\"begins\"/>\n";
   if (lane.traffic_ends) text += "<userData code=\"rodeira:traffic\" value=\"ends\"/>\n";
+  const auto beside = [&text](const char* code, const std::optional<network::LaneName>& name) {
+    if (name) text += fmt::format("<userData code=\"{}\" value=\"{} {}\"/>\n", code, name->lane, Escaped(name->road));
+  };
+  beside("rodeira:left", lane.left_beside), beside("rodeira:right", lane.right_beside);
   return text + "</lane>\n";
 }
 

@@ -28,7 +28,7 @@ NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict) {
   if (const std::string& earth = import.value().network->geo_reference(); !earth.empty()) {
     if (const auto map = terrain::Geographic::Make(earth); !map) check.warnings.push_back(fmt::format("{}: geoReference: {}; nothing can say where on the earth a place is", file.string(), map.error().message));
   }
-  for (const std::string& overlap : DescribeOverlaps(*import.value().network, false)) check.warnings.push_back(fmt::format("{}: {}", file.string(), overlap));
+  for (const OfRoad& overlap : DescribeOverlaps(*import.value().network, false)) check.warnings.push_back(fmt::format("{}: {}", file.string(), overlap.text));
   // What else a world of the file needs: surfaces that it names, laid on its roads.
   if (const auto detail = LoadSurfaces(import.value(), file); !detail) {
     check.errors.push_back(detail.error());

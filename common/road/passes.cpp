@@ -10,7 +10,6 @@
 
 #include "common/road/built_ground.hpp"
 #include "common/road/places_across.hpp"
-#include "common/road/station_names.hpp"
 #include "common/terrain/ground.hpp"
 
 namespace rodeira::road {
@@ -33,7 +32,7 @@ std::vector<Pass> FindPasses(const network::Network& network) {
         for (const network::Surfacing& other : surfaces) {
           const network::LaneKey& key = other.place.lane;
           const double apart = p.z() - other.sample.p_W.z();
-          if (key.road == index || other.place.distance_m > 0.0 || key.lane == 0 || !network::IsDrivable(network.Find(key)->type) || apart < network::Network::kLevel_m) continue;
+          if (other.place.distance_m > 0.0 || key.lane == 0 || !network::IsDrivable(network.Find(key)->type) || apart < network::Network::kLevel_m) continue;
           if (IsExempt(network.roads()[key.road].spec(), other.place.s_m)) continue;
           found.try_emplace({index, key.road}, Pass{index, key.road, s, other.place.s_m, apart});
         }
@@ -68,16 +67,16 @@ std::vector<OpenTunnel> FindOpenTunnels(const network::Network& network, const B
   return open;
 }
 
-std::vector<std::string> DescribePasses(const network::Network& network, const BareTerrain& terrain) {
+std::vector<OfRoad> DescribePasses(const network::Network& network, const BareTerrain& terrain) {
   const StationNames names(network, true);
-  std::vector<std::string> said;
+  std::vector<OfRoad> said;
   for (const Pass& pass : FindPasses(network)) {
-    said.push_back(fmt::format("{} lies {:.1f} m over {}, and neither has the upper one `bridges` there nor the lower one `tunnels`: the ground rises from the one to the other", names.At(pass.over, pass.over_s_m),
-                               pass.apart_m, names.At(pass.under, pass.under_s_m)));
+    said.push_back({pass.over, fmt::format("{} lies {:.1f} m over {}, and neither has the upper one `bridges` there nor the lower one `tunnels`: the ground rises from the one to the other", names.At(pass.over, pass.over_s_m),
+                                           pass.apart_m, pass.over == pass.under ? fmt::format("itself at s = {:.1f} m", names.StationOf(pass.under, pass.under_s_m)) : names.At(pass.under, pass.under_s_m))});
   }
   for (const OpenTunnel& tunnel : FindOpenTunnels(network, terrain)) {
-    said.push_back(fmt::format("the tunnel of {} from s = {:.1f} to {:.1f} m has the terrain only {:.2f} m over its road at s = {:.1f} m: what drives there drives on the terrain; a hill of some metres over all of it was expected",
-                               names.Road(tunnel.road), names.StationOf(tunnel.road, tunnel.from_s_m), names.StationOf(tunnel.road, tunnel.to_s_m), tunnel.hill_m, names.StationOf(tunnel.road, tunnel.s_m)));
+    said.push_back({tunnel.road, fmt::format("the tunnel of {} from s = {:.1f} to {:.1f} m has the terrain only {:.2f} m over its road at s = {:.1f} m: what drives there drives on the terrain; a hill of some metres over all of it was expected",
+                                             names.Road(tunnel.road), names.StationOf(tunnel.road, tunnel.from_s_m), names.StationOf(tunnel.road, tunnel.to_s_m), tunnel.hill_m, names.StationOf(tunnel.road, tunnel.s_m))});
   }
   return said;
 }

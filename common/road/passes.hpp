@@ -5,10 +5,11 @@
 
 #include "common/network/network.hpp"
 #include "common/road/bare_terrain.hpp"
+#include "common/road/station_names.hpp"
 
 namespace rodeira::road {
 
-// Two roads of a world file of which one passes over the other, more than Network::kLevel_m higher, where neither a bridge carries the upper one
+// Two roads of a world file, or two stretches of one, of which one passes over the other, more than Network::kLevel_m higher, where neither a bridge carries the upper one
 // nor a tunnel leads the lower one under the ground: the ground rises from one to the other.
 struct Pass {
   std::uint32_t over = 0, under = 0;
@@ -29,6 +30,6 @@ struct OpenTunnel {
 std::vector<OpenTunnel> FindOpenTunnels(const network::Network& network, const BareTerrain& terrain);
 
 // A sentence for each of both, for `world check`.
-std::vector<std::string> DescribePasses(const network::Network& network, const BareTerrain& terrain);
+std::vector<OfRoad> DescribePasses(const network::Network& network, const BareTerrain& terrain);
 
 }  // namespace rodeira::road

@@ -8,6 +8,12 @@
 
 namespace rodeira::road {
 
+// A sentence about a road, and which.
+struct OfRoad {
+  std::uint32_t road = 0;
+  std::string text;
+};
+
 // How places of a network's roads are called in sentences: parts of a road between junctions by their road, with its stations, where `own` says that
 // the network is a world file's; otherwise by the road's id.
 class StationNames {

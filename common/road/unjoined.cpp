@@ -95,12 +95,12 @@ std::vector<Overlap> FindOverlaps(const Network& network) {
   return overlaps;
 }
 
-std::vector<std::string> DescribeOverlaps(const Network& network, bool own) {
+std::vector<OfRoad> DescribeOverlaps(const Network& network, bool own) {
   const StationNames names(network, own);
-  std::vector<std::string> said;
+  std::vector<OfRoad> said;
   for (const Overlap& overlap : FindOverlaps(network)) {
-    said.push_back(fmt::format("{} and {} {}, {:.2f} m apart in height, and neither a junction nor a link joins them there", names.At(overlap.road, overlap.s_m),
-                               names.At(overlap.other, overlap.other_s_m), overlap.meet ? "touch end to end" : "lie on one another", std::fabs(overlap.apart_m)));
+    said.push_back({overlap.road, fmt::format("{} and {} {}, {:.2f} m apart in height, and neither a junction nor a link joins them there", names.At(overlap.road, overlap.s_m),
+                                              names.At(overlap.other, overlap.other_s_m), overlap.meet ? "touch end to end" : "lie on one another", std::fabs(overlap.apart_m))});
   }
   return said;
 }

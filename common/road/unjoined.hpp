@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/network/network.hpp"
+#include "common/road/station_names.hpp"
 
 namespace rodeira::road {
 
@@ -22,6 +23,6 @@ struct Overlap {
 std::vector<Overlap> FindOverlaps(const network::Network& network);
 
 // A sentence for each. Parts of a road between junctions are named by their road, with its stations, where `own` says that the network is a world file's.
-std::vector<std::string> DescribeOverlaps(const network::Network& network, bool own);
+std::vector<OfRoad> DescribeOverlaps(const network::Network& network, bool own);
 
 }  // namespace rodeira::road

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/base/suggest.hpp"
+#include "common/config/either.hpp"
 #include "common/design/design_reader.hpp"
 #include "common/geometry/angle.hpp"
 #include "common/road/named_network.hpp"
@@ -85,6 +86,9 @@ void ReadPlane(const Map& map, WorldSpec& spec) {
 
 // On a road: its index, lane and s, from which the rest follows once the road stands. Elsewhere: the pose itself.
 void ReadStart(const Map& map, const std::vector<RoadSpec>& roads, StartPose& start) {
+  for (const char* place : {"x_m", "y_m"}) {
+    if (config::SaysTwice(map, "road", place) || config::SaysTwice(map, "s_m", place)) return;
+  }
   const auto radians = [](double degrees) { return geometry::WrapAngle(degrees * geometry::kPi / 180.0); };
   if (!map.Has("road") && (roads.empty() || map.Has("x_m") || map.Has("y_m"))) {
     start.x_m = map.Number("x_m", {-1e8, 1e8});
@@ -238,6 +242,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   const std::string projection = keys.hills ? keys.hills->projection_wkt : keys.spec.grid != nullptr ? keys.spec.grid->projection_wkt() : "";
   design::Design design = design::ReadDesign(file, keys.spec.friction, keys.spec.name, projection, keys.start, root.OptionalChild("start"), TerrainOf(keys));
   std::move(design.warnings.begin(), design.warnings.end(), std::back_inserter(reading.warnings));
+  reading.road_places = std::move(design.road_places);
   reading.missing = std::move(keys.missing);
   std::move(design.missing.begin(), design.missing.end(), std::back_inserter(reading.missing));
   reading.problems = file.Problems();

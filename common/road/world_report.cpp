@@ -151,7 +151,9 @@ std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) 
     const WorldSpec& spec = *reading.spec;
     const BareTerrain terrain{spec.grid, spec.plane};
     for (const auto& said : {DescribeOverlaps(*spec.network, true), DescribePasses(*spec.network, terrain)}) {
-      for (const std::string& sentence : said) reading.warnings.push_back(fmt::format("{}: {}", world_yaml.string(), sentence));
+      for (const OfRoad& sentence : said) {
+        reading.warnings.push_back(fmt::format("{}: {}", sentence.road < reading.road_places.size() ? reading.road_places[sentence.road] : world_yaml.string(), sentence.text));
+      }
     }
   }
   return std::move(reading.warnings);

@@ -97,7 +97,7 @@ Scenario ReadScenario(const config::Map& root, const Timing& timing) {
       map.Problem("at_s",
                   fmt::format(kDescends, SecondsText(*step, timing), SecondsText(scenario.scheduled.back().step, timing)));
     }
-    scenario.scheduled.push_back({*step, std::move(event)});
+    scenario.scheduled.push_back({*step, std::move(event), map.Place()});
   }
   return scenario;
 }

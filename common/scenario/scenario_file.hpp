@@ -22,6 +22,7 @@ struct Timing {
 struct ScheduledEvent {
   std::int64_t step = 0;
   Event event;
+  std::string place;  // file:line
 };
 
 // Once, when the driver's car passes a station of a road, in either direction.

@@ -44,8 +44,8 @@ base::Status TrafficModel::CheckPlace(std::uint32_t id, std::uint32_t track, dou
   return {};
 }
 
-base::Result<bool> TrafficModel::LetAppear(std::uint32_t id, const std::string& lane, double s_m, double speed_mps) {
-  RODEIRA_ASSERT(speed_mps >= 0.0);
+// Where it would: the track and d on it.
+base::Result<std::pair<std::uint32_t, double>> TrafficModel::PlaceToAppear(std::uint32_t id, const std::string& lane, double s_m) const {
   if (id < settings_.vehicles || id >= agents_.size()) {
     if (settings_.scripted.empty()) return base::WrongInput(fmt::format("agent {} cannot appear: the traffic's settings have no 'scripted' vehicles, as in 'scripted: [car]'", id));
     return base::WrongInput(fmt::format("agent {} cannot appear; one of the traffic's 'scripted' was expected, {} to {}", id, settings_.vehicles, agents_.size() - 1));
@@ -63,8 +63,20 @@ base::Result<bool> TrafficModel::LetAppear(std::uint32_t id, const std::string& 
   if (!there) return base::WrongInput(fmt::format("the station {} m is not on the lane '{}', which lies from {:.2f} to {:.2f} m", s_m, lane, from, to));
   const double d = graph()[*there].curve.AtStation(s_m);
   if (const auto status = CheckPlace(id, *there, d); !status) return status.error();
+  return std::pair(*there, d);
+}
+
+base::Status TrafficModel::CheckAppear(std::uint32_t id, const std::string& lane, double s_m) const {
+  const auto place = PlaceToAppear(id, lane, s_m);
+  return place ? base::Status() : place.error();
+}
+
+base::Result<bool> TrafficModel::LetAppear(std::uint32_t id, const std::string& lane, double s_m, double speed_mps) {
+  RODEIRA_ASSERT(speed_mps >= 0.0);
+  const auto place = PlaceToAppear(id, lane, s_m);
+  if (!place) return place.error();
   if (agents_[id].on_road || agents_[id].is_struck || IsAppearing(id)) return false;
-  appearing_.push_back({id, *there, d, speed_mps});
+  appearing_.push_back({id, place.value().first, place.value().second, speed_mps});
   return true;
 }
 

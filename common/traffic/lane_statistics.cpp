@@ -14,6 +14,8 @@ constexpr double kQueuing_mps = 5.0 / 3.6;
 constexpr double kSoon_m = 0.3;       // before the end of its cell somebody may leave it in the next step
 constexpr std::uint32_t kAhead = 16;  // vehicles whose memory is on its way while one is told: their cells lie anywhere
 
+double FreeTime_s(double way_m, double free_mps) { return free_mps > 0.0 ? way_m / free_mps : 0.0; }
+
 }  // namespace
 
 LaneStatistics::LaneStatistics(const TrafficModel& model, double cell_m) : seen_(model.vehicles()), fuel_mg_(model.vehicles(), 0.0), now_(model.vehicles()) {
@@ -46,6 +48,7 @@ void LaneStatistics::Pour(Seen& seen) const {
   if (seen.sum.time_s <= 0.0) return;
   LaneCell& cell = cells_[seen.cell];
   cell.distance_m += seen.sum.distance_m, cell.time_s += seen.sum.time_s, cell.fuel_mg += seen.sum.fuel_mg;
+  seen.free_s += FreeTime_s(seen.sum.distance_m, free_mps_[seen.cell]);
   seen.sum = {};
 }
 
@@ -91,6 +94,7 @@ void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double f
       cells[cell].distance_m += share * sum.distance_m;
       cells[cell].time_s += share * sum.time_s;
       cells[cell].fuel_mg += share * sum.fuel_mg;
+      seen.free_s += FreeTime_s(share * sum.distance_m, free_mps_[first + cell]);
       seen.cell = static_cast<std::uint32_t>(first + cell);
       seen.until_m = std::min({last ? sure_m : path[i + 1].begin_m, cell + 1 >= count ? sure_m : path[i].zero_m + static_cast<double>(cell + 1) * length, sure_m});
       at = std::max(at, to);
@@ -134,12 +138,14 @@ void LaneStatistics::Add(const TrafficModel& model, double dt_s) {
       Pour(seen);
       LaneTrip& trip = now_[id];
       ++counts_[trip.to].out;
+      trip.free_s = seen.free_s;
       if (trip.entered_s >= 0.0) trip.took_s = watched_s_ - trip.entered_s, trips_.push_back(trip);
     }
     if (agent.on_road && !same) {
       ++entered_, ++there_;
       const std::uint32_t track = PieceAt(agent.path, agent.o_m).track;
-      now_[id] = {id, model.traits(id).kind, track, track, watched_s_, 0.0, 0.0};
+      now_[id] = {id, model.traits(id).kind, track, track, watched_s_, 0.0, 0.0, 0.0, agent.flow};
+      seen.free_s = 0.0;
       ++counts_[track].in;
     }
     if (same) {

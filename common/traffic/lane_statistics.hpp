@@ -29,6 +29,8 @@ struct LaneTrip {
   double entered_s = -1.0;         // since the watching began; below 0: was there then
   double took_s = 0.0;             // until it left
   double fuel_mg = 0.0;
+  double free_s = 0.0;             // what the same way takes at the free speed of each place (TrafficModel::FreeSpeed_mps)
+  std::int32_t flow = -1;          // it belongs to, of the settings' in their order; below 0: none
 };
 
 struct LaneCount {
@@ -63,6 +65,8 @@ class LaneStatistics {
 
   // Of a track, over all looks: the longest and the mean queue, vehicles.
   std::int64_t LongestQueue(std::uint32_t track) const { return queues_[track].longest; }
+  // Of a track, at the last look.
+  std::int64_t QueueNow(std::uint32_t track) const { return queues_[track].now; }
   double MeanQueue(std::uint32_t track) const { return looks_ > 0 ? static_cast<double>(queues_[track].sum) / static_cast<double>(looks_) : 0.0; }
 
   // Since the beginning: who came, who left; and who is there. began + entered - left = there, always.
@@ -83,6 +87,7 @@ class LaneStatistics {
     double o_m = 0.0;
     double until_m = kNowhere_m;  // odometer up to which it is in its cell, whatever it does …
     LaneCell sum;                 // … and what it has done there since the cell was told
+    double free_s = 0.0;          // of its trip, up to that cell
     std::uint32_t trip = 0;
     std::uint32_t cell = 0;       // of all cells, the one that it was seen in last
     bool on_road = false;

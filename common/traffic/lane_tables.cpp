@@ -85,13 +85,30 @@ std::string FlowTable(const lanes::Graph& graph, const LaneStatistics& statistic
   return table;
 }
 
+std::string IntervalTable(const lanes::Graph& graph, const LaneIntervals& intervals) {
+  std::string table = "from_s,to_s,road,section,lane,in,out,flow_vehph,density_vehpkm,speed_mps,queue_longest,queue_mean\n";
+  for (const LaneIntervals::Interval& interval : intervals.all()) {
+    const double watched = interval.to_s - interval.from_s;
+    for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
+      const LaneIntervals::Track& of = interval.tracks[track];
+      const LaneCell sum{of.distance_m, of.time_s, 0.0};
+      const double length = graph[track].length_m();
+      fmt::format_to(std::back_inserter(table), "{:.2f},{:.2f},{},{},{},{},{},{:.3f},{:.3f},{},{},{:.4f}\n", interval.from_s, interval.to_s, RoadCell(graph, track), graph[track].lane.section,
+                     graph[track].lane.lane, of.in, of.out, 3600.0 * sum.Flow_vehps(length, watched), 1000.0 * sum.Density_vehpm(length, watched),
+                     of.time_s > 0.0 ? fmt::format("{:.3f}", sum.Speed_mps()) : "", of.queue_longest,
+                     interval.looks > 0 ? static_cast<double>(of.queue_sum) / static_cast<double>(interval.looks) : 0.0);
+    }
+  }
+  return table;
+}
+
 std::string TripTable(const lanes::Graph& graph, const LaneStatistics& statistics) {
   constexpr std::array<const char*, 4> kKinds = {"car", "van", "lorry", "bus"};
   const auto place = [&](std::uint32_t track) { return base::CsvCell(fmt::format("{}:{}", RoadOf(graph, track), graph[track].lane.lane)); };
-  std::string table = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml\n";
+  std::string table = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml,delay_s,flow\n";
   for (const LaneTrip& trip : statistics.trips()) {
-    fmt::format_to(std::back_inserter(table), "{},{},{},{},{:.2f},{:.2f},{:.3f}\n", trip.id, kKinds[static_cast<std::size_t>(trip.kind)], place(trip.from), place(trip.to), trip.entered_s,
-                   trip.took_s, 1e3 * trip.fuel_mg / kFuelDensity_mgpl);
+    fmt::format_to(std::back_inserter(table), "{},{},{},{},{:.2f},{:.2f},{:.3f},{:.2f},{}\n", trip.id, kKinds[static_cast<std::size_t>(trip.kind)], place(trip.from), place(trip.to), trip.entered_s,
+                   trip.took_s, 1e3 * trip.fuel_mg / kFuelDensity_mgpl, trip.took_s - trip.free_s, trip.flow < 0 ? "" : std::to_string(trip.flow + 1));
   }
   return table;
 }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "common/base/result.hpp"
+#include "common/traffic/lane_intervals.hpp"
 #include "common/traffic/lane_statistics.hpp"
 
 namespace rodeira::traffic {
@@ -17,7 +18,11 @@ std::string QueueTable(const lanes::Graph& graph, const LaneStatistics& statisti
 // A row a lane: road, section, lane, began, in, out, there (LaneCount).
 std::string FlowTable(const lanes::Graph& graph, const LaneStatistics& statistics);
 
-// A row a trip, in the order of their ends: vehicle, kind, from and to (ROAD:LANE), entered_s, travel_time_s, fuel_ml.
+// A row a stretch of time and lane: from_s, to_s, road, section, lane, in, out, flow_vehph, density_vehpkm, speed_mps (empty where nobody was), queue_longest, queue_mean.
+std::string IntervalTable(const lanes::Graph& graph, const LaneIntervals& intervals);
+
+// A row a trip, in the order of their ends: vehicle, kind, from and to (ROAD:LANE), entered_s (since the watching began), travel_time_s, fuel_ml, delay_s (beyond what its way takes at the free
+// speed of each place), flow (its number among the settings', from 1 on; empty: none).
 std::string TripTable(const lanes::Graph& graph, const LaneStatistics& statistics);
 
 // The network seen from above, coloured by mean speed over the limit there (red: standing, green: as fast as may be; grey: nobody was there),

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "common/lanes/lights.hpp"
+#include "common/map/heights.hpp"
+#include "common/map/map_network.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -35,6 +37,19 @@ std::optional<map::Finding> LightsTogether(const map::LaneMap& map, const map::H
   for (std::size_t i = 0; i < names.size(); ++i) names[i] = std::to_string(map.lanes[map.lights[together->controllers[i]].lane].id);  // a light, a controller
   const lights::Phase* phase = PhaseOf(companion, names);
   return map::Finding{map::Severity::kError, map::Element::kLights, 0, 0, phase == nullptr ? 0 : map::LineOf(phase->place), together->sentence};
+}
+
+base::Status CheckLightsOfMap(const std::filesystem::path& path) {
+  const auto companion = map::LoadHeightsOf(path);
+  if (!companion) return companion.error();
+  if (companion.value().lights.empty()) return {};
+  const auto made = map::LoadLaneMap(path);
+  if (!made) return made.error();
+  const auto network = map::ToNetwork(made.value(), path.string());
+  if (!network) return network.error();
+  const auto wrong = LightsTogether(made.value(), companion.value(), *network.value());
+  if (wrong) return base::WrongInput(wrong->Text(), wrong->Place(path.string()));
+  return {};
 }
 
 }  // namespace rodeira::traffic

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
+#include "common/base/result.hpp"
 #include "common/map/check.hpp"
 #include "common/map/lane_map.hpp"
 #include "common/network/network.hpp"
@@ -11,5 +13,8 @@ namespace rodeira::traffic {
 // The first lights of a traffic map that are green or amber together where their ways cross or merge (lanes::CheckLights), at the phase of its companion in
 // which they are; nothing where there are none. `network` is the map's (map::ToNetwork).
 std::optional<map::Finding> LightsTogether(const map::LaneMap& map, const map::Heights& companion, const network::Network& network);
+
+// The same of a map's file and its companion: Wrong input with the companion's line.
+base::Status CheckLightsOfMap(const std::filesystem::path& path);
 
 }  // namespace rodeira::traffic

@@ -1,11 +1,14 @@
 #include "common/traffic/pedestrians.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "common/base/assert.hpp"
 #include "common/base/random.hpp"
+#include "common/base/suggest.hpp"
 #include "common/geometry/angle.hpp"
 #include "common/traffic/arrivals.hpp"
 
@@ -69,6 +72,13 @@ void Pedestrians::Count::Restore(base::StateReader& reader) {
   reader.Get("let_go", let_go);
 }
 
+std::string WithoutCrossing(const network::Network& network, std::string_view road) {
+  if (network.FindRoad(road)) return fmt::format("the road '{}' has no crossing for people on foot", road);
+  std::vector<std::string> ids;
+  for (const network::Road& other : network.roads()) ids.push_back(other.id());
+  return fmt::format("there is no road '{}'{}", road, base::DidYouMean(road, ids));
+}
+
 base::Result<Pedestrians> Pedestrians::Make(const lanes::Graph& graph, const lanes::LargestCar& car, const PedestrianSettings& settings, std::uint64_t seed) {
   Pedestrians made(settings, seed);
   made.crossings_ = std::make_shared<const std::vector<lanes::FootCrossing>>(lanes::FindFootCrossings(graph, car));
@@ -83,7 +93,7 @@ base::Result<Pedestrians> Pedestrians::Make(const lanes::Graph& graph, const lan
   made.per_h_.assign(made.crossings().size(), settings.per_h);
   for (const CrossingFlow& flow : settings.at) {
     const auto crossing = made.Nearest(graph.network(), flow.road, flow.s_m);
-    if (!crossing) return base::WrongInput("the road '" + flow.road + "' has no crossing for people on foot", flow.place);
+    if (!crossing) return base::WrongInput(WithoutCrossing(graph.network(), flow.road), flow.place);
     made.per_h_[*crossing] = flow.per_h;
   }
   made.counts_.resize(made.crossings().size());

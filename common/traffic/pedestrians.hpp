@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct PersonPose {
   double height_m = 1.75;
   std::uint32_t colour_rgb = 0x808080;
 };
+
+// Why nobody on foot crosses a road: it is not there, or has no crossing.
+std::string WithoutCrossing(const network::Network& network, std::string_view road);
 
 // People on foot at a network's crossings: they arrive by Poisson flows, wait at the kerb until they are let go, cross straight at a speed of
 // their own, keeping to the right and behind one another, and are gone. Who is hit stays where he is. What cars do is told from outside. A

@@ -205,21 +205,41 @@ base::Result<StudyResult> Study(const StudySettings& settings, base::Result<Traf
   const auto steps = static_cast<std::int64_t>(std::llround(settings.duration_s / settings.step_s));
   const auto every = std::max<std::int64_t>(1, std::llround(settings.watch_s / settings.step_s));
   std::optional<LaneStatistics> lanes;
-  if (settings.cell_m > 0.0) lanes.emplace(model, settings.cell_m);
+  std::optional<LaneIntervals> intervals;
+  const auto steps_of = [&](double time_s) { return static_cast<std::int64_t>(std::llround(time_s / settings.step_s)); };
+  const std::int64_t warm = steps_of(settings.warm_s), interval = settings.every_s > 0.0 ? std::max<std::int64_t>(1, steps_of(settings.every_s)) : 0;
+  const auto begin = [&] {
+    lanes.emplace(model, settings.cell_m);
+    if (interval > 0) intervals.emplace(*lanes, model.graph().tracks().size(), settings.warm_s);
+  };
+  if (settings.cell_m > 0.0 && warm == 0) begin();
   for (std::int64_t k = 0; k <= steps; ++k) {
     if (k > 0) {
+      if (settings.cell_m > 0.0 && !lanes && k > warm) begin();
       model.Step(settings.step_s, {});
       if (lanes) lanes->Add(model, settings.step_s);
     }
     watcher.Compare(model, static_cast<double>(k) * settings.step_s);
-    if (k % every != 0) continue;
+    const auto note = [&] {
+      if (intervals && k > warm && (k - warm) % interval == 0) intervals->Note(*lanes);
+    };
+    if (k % every != 0) {
+      note();
+      continue;
+    }
     watcher.Look(model);
-    if (lanes) lanes->LookAtQueues(model);
+    if (lanes) {
+      lanes->LookAtQueues(model);
+      if (intervals) intervals->LookAtQueues(*lanes);
+    }
+    note();
     if (watch) watch({static_cast<double>(k) * settings.step_s, model});
   }
+  if (intervals && steps > warm && (steps - warm) % interval != 0) intervals->Note(*lanes);
   StudyResult result = watcher.result();
   result.steps = steps;
   result.lanes = std::move(lanes);
+  result.intervals = std::move(intervals);
   result.on_road = model.on_road();
   result.waiting = model.waiting();
   for (std::uint32_t id = 0; id < model.vehicles(); ++id) result.arrivals += model.agent(id).trip;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/traffic/lane_intervals.hpp"
 #include "common/traffic/lane_statistics.hpp"
 
 namespace rodeira::traffic {
@@ -18,6 +19,8 @@ struct StudySettings {
   double watch_s = 0.1;  // how often contacts, lanes and speeds are looked at; a multiple of the step
   bool feels = false;    // whether it is told what somebody in the car feels: jerk, lateral and yaw acceleration
   double cell_m = 0.0;   // length of the cells of lanes that are summed up in; 0: none
+  double warm_s = 0.0;   // lanes, trips and queues are watched from then on: roads that begin empty fill first
+  double every_s = 0.0;  // the lanes' sums are noted so often, too; 0: they are not
 };
 
 // What came out of a run of the model alone. Everything is counted from the published poses.
@@ -48,6 +51,7 @@ struct StudyResult {
   std::size_t on_road = 0, waiting = 0;
   std::vector<std::string> incidents;  // the first ones, as sentences
   std::optional<LaneStatistics> lanes;
+  std::optional<LaneIntervals> intervals;
 
   double mean_speed_mps() const { return vehicle_s > 0.0 ? 1000.0 * driven_km / vehicle_s : 0.0; }
 };

@@ -63,6 +63,8 @@ class TrafficModel {
   // before what is ahead: in this step's end, or the first one in which there is room for it. Wrong input with a sentence where there can never be room; false
   // where it is on the road already, or waits to be.
   base::Result<bool> LetAppear(std::uint32_t id, const std::string& lane, double s_m, double speed_mps);
+  // Whether it ever could; Wrong input as LetAppear's.
+  base::Status CheckAppear(std::uint32_t id, const std::string& lane, double s_m) const;
   bool IsAppearing(std::uint32_t id) const;
   // An impulse on an agent's body, N s, at a point, both in W: from then on it drives no more, but slides on locked wheels and stays
   // where it comes to rest, an obstacle to all others. A push that would change its speed by less than 1 mm/s is nothing to it
@@ -98,6 +100,7 @@ class TrafficModel {
   // One more comes to the crossing of a road nearest to a station, from the road's left or right, at once. Wrong input where there
   // is none, or the settings have no `pedestrians`.
   base::Status CallPedestrian(std::string_view road, double s_m, bool from_left);
+  base::Status CheckCall(std::string_view road, double s_m) const;  // whether somebody can be called there
   // Who has been hit, by his number, stays where he is.
   void HitPedestrian(std::uint32_t id);
   // From its front bumper to who is ahead, as it was seen in the last step; 1e9 where nobody is in sight.
@@ -310,6 +313,7 @@ class TrafficModel {
     double d_m = 0.0, speed_mps = 0.0;
   };
   base::Status CheckPlace(std::uint32_t id, std::uint32_t track, double d_m) const;
+  base::Result<std::pair<std::uint32_t, double>> PlaceToAppear(std::uint32_t id, const std::string& lane, double s_m) const;
   bool IsClearFor(const Appearing& next) const;
   bool IsTakenUp(std::uint32_t id) const;
   bool TryAppear(const Appearing& next);

@@ -179,10 +179,14 @@ double TrafficModel::AtMostForPeople(std::uint32_t id) const {
   return speed;
 }
 
-base::Status TrafficModel::CallPedestrian(std::string_view road, double s_m, bool from_left) {
+base::Status TrafficModel::CheckCall(std::string_view road, double s_m) const {
   if (!people_) return base::WrongInput("the traffic has no people on foot; 'pedestrians' in its settings was expected (its 'per_hour' may be 0)");
+  return people_->Nearest(*map_->network, road, s_m) ? base::Status() : base::WrongInput(WithoutCrossing(*map_->network, road));
+}
+
+base::Status TrafficModel::CallPedestrian(std::string_view road, double s_m, bool from_left) {
+  if (const auto status = CheckCall(road, s_m); !status) return status;
   const auto crossing = people_->Nearest(*map_->network, road, s_m);
-  if (!crossing) return base::WrongInput("the road '" + std::string(road) + "' has no crossing for people on foot");
   const network::Road& at = map_->network->roads()[people_->crossings()[*crossing].road];
   const double heading = at.axis().Evaluate(std::clamp(people_->crossings()[*crossing].s_m, 0.0, at.length_m())).heading_rad;
   const Eigen::Vector2d left(-std::sin(heading), std::cos(heading));

@@ -4,12 +4,16 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "common/map/heights.hpp"
+#include "common/road/map_world.hpp"
 #include "common/scenario/event.hpp"
+#include "common/traffic/map_lights.hpp"
 #include "common/traffic/place_orders.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/tight_bends.hpp"
@@ -17,6 +21,7 @@
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
+#include "nodes/traffic/event_check.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -171,6 +176,7 @@ class TrafficNode final : public lockstep::Node {
     for (const msg::ScenarioEvent& event : events.value().events()) {
       if (!event.name().starts_with("traffic.")) continue;
       const std::string where = fmt::format("event '{}' at step {}", event.name(), sample.valid());
+      if (auto status = CheckAgainst(model_, {event.name(), event.argument(), event.value()}); !status) return base::WrongInput(status.error().message, where);
       if (event.name() == scenario::kTrafficPedestrian) {
         if (auto status = Call(event.argument(), where); !status) return status;
         continue;
@@ -179,27 +185,14 @@ class TrafficNode final : public lockstep::Node {
         if (auto status = LetAppear(event.argument(), event.value(), where); !status) return status;
         continue;
       }
-      const auto kind = OrderOf(event.name());
-      if (!kind) return base::WrongInput("the traffic does not know this event", where);
-      if (!traffic::IsSound(*kind, event.value())) return base::WrongInput(fmt::format("its value is {}; one that the traffic can obey was expected", event.value()), where);
-      if (auto status = Tell(event.argument(), *kind, event.value(), where); !status) return status;
+      if (auto status = Tell(event.argument(), *OrderOf(event.name()), event.value(), where); !status) return status;
     }
     return {};
-  }
-  static std::optional<traffic::OrderKind> OrderOf(std::string_view name) {
-    using traffic::OrderKind;
-    if (name == scenario::kTrafficBrake) return OrderKind::kBrake;
-    if (name == scenario::kTrafficSpeed) return OrderKind::kSpeed;
-    if (name == scenario::kTrafficRelease) return OrderKind::kRelease;
-    if (name == scenario::kTrafficOvertake) return OrderKind::kOvertake;
-    if (name == scenario::kTrafficChangeLane) return OrderKind::kChangeLane;
-    return std::nullopt;
   }
   // That there is no room for it, or that it is there, is no mistake of the scenario's, but a person should know.
   base::Status LetAppear(const std::string& argument, double speed_mps, const std::string& where) {
     const auto choice = scenario::ParseAgentOnLane(argument);
     if (!choice) return base::WrongInput(choice.error().message, where);
-    if (!(speed_mps >= 0.0)) return base::WrongInput(fmt::format("its speed is {}; at least 0 was expected", speed_mps), where);
     const auto told = model_.LetAppear(choice.value().id, choice.value().at->road, choice.value().at->s_m, speed_mps);
     if (!told) return base::WrongInput(told.error().message, where);
     if (told.value()) told_to_appear_.emplace_back(choice.value().id, where);
@@ -222,10 +215,9 @@ class TrafficNode final : public lockstep::Node {
   base::Status Tell(const std::string& argument, traffic::OrderKind kind, double value, const std::string& where) {
     const auto choice = scenario::ParseAgent(argument);
     if (!choice) return base::WrongInput(choice.error().message, where);
-    const auto agents = Meant(choice.value(), where);
-    if (!agents) return agents.error();
+    const std::vector<std::uint32_t> agents = Meant(choice.value(), where);
     if (!choice.value().at) {
-      for (const std::uint32_t id : agents.value()) traffic::Obey(model_, id, kind, value);
+      for (const std::uint32_t id : agents) traffic::Obey(model_, id, kind, value);
       return {};
     }
     auto order = traffic::PlaceOrders::At(model_, choice.value().at->road, choice.value().at->s_m);
@@ -234,17 +226,16 @@ class TrafficNode final : public lockstep::Node {
     using Whom = traffic::PlaceOrder::Whom;
     using Kind = scenario::AgentChoice::Kind;
     order.value().whom = choice.value().kind == Kind::kAll ? Whom::kAll : choice.value().kind == Kind::kNext ? Whom::kNext : Whom::kOne;
-    if (order.value().whom == Whom::kOne && agents.value().empty()) return {};  // nobody was ahead
-    if (order.value().whom == Whom::kOne) order.value().id = agents.value().front();
+    if (order.value().whom == Whom::kOne && agents.empty()) return {};  // nobody was ahead
+    if (order.value().whom == Whom::kOne) order.value().id = agents.front();
     orders_.Add(order.value());
     return {};
   }
   // Nobody ahead is no mistake of the scenario's, but a person should know.
-  base::Result<std::vector<std::uint32_t>> Meant(const scenario::AgentChoice& choice, const std::string& where) const {
+  std::vector<std::uint32_t> Meant(const scenario::AgentChoice& choice, const std::string& where) const {
     std::vector<std::uint32_t> agents;
     switch (choice.kind) {
       case scenario::AgentChoice::Kind::kOne:
-        if (choice.id >= model_.vehicles()) return base::WrongInput(fmt::format("there is no agent {}; there are {}, from 0 on", choice.id, model_.vehicles()), where);
         agents.push_back(choice.id);
         break;
       case scenario::AgentChoice::Kind::kAll:
@@ -304,9 +295,17 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
   auto world = road::World::Load(context.launch().world());
   if (!world) return world.error();
   context.set_world_hash(world.value()->content_hash());
+  if (const std::filesystem::path map = context.launch().world(); road::IsTrafficMap(map)) {
+    if (auto status = traffic::CheckLightsOfMap(map); !status) return status.error();
+    const auto companion = map::LoadHeightsOf(map);
+    if (companion && !companion.value().flows.empty() && settings.demand.flows.empty()) {
+      fmt::print(stderr, "rodeira: node '{}': warning: {}.yaml: 'flows_vehph' are for 'rodeira traffic run' and the editor; in a run the traffic's own 'flows' say who comes\n", context.spec().name, map.string());
+    }
+  }
   const driver::Footprint clear = traffic::KeptClear(*world.value());
   auto model = traffic::TrafficModel::Make(settings, std::move(world).value(), {&clear, 1});
   if (!model) return model.error();
+  if (auto status = CheckScenarios(context, model.value()); !status) return status.error();
   for (const traffic::TightBend& bend : traffic::TightBendsOf(model.value().graph(), settings)) {
     fmt::print(stderr, "rodeira: node '{}': warning: {}\n", context.spec().name, traffic::Text(bend, model.value().graph()));
   }

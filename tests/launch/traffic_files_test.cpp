@@ -64,7 +64,8 @@ Rows Table(const std::filesystem::path& file, const std::string& header) {
 double Number(const std::map<std::string, std::string>& row, const std::string& key) { return std::stod(row.at(key)); }
 
 const char* const kLanes = "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm,free_mps";
-const char* const kTrips = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml";
+const char* const kTrips = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml,delay_s,flow";
+const char* const kIntervals = "from_s,to_s,road,section,lane,in,out,flow_vehph,density_vehpkm,speed_mps,queue_longest,queue_mean";
 
 // Ten cars for a minute and a half on the ramp's map, whose name is one that XML has to spell otherwise.
 class TrafficFilesTest : public testing::Test {
@@ -180,6 +181,9 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   for (const auto& row : trips) {
     EXPECT_GT(Number(row, "travel_time_s"), 1.0);
     EXPECT_GT(Number(row, "fuel_ml"), 0.1);
+    EXPECT_GT(Number(row, "delay_s"), -0.05 * Number(row, "travel_time_s"));  // nobody is faster than the free speeds of his way, but where they change within a metre
+    EXPECT_LT(Number(row, "delay_s"), 0.5 * Number(row, "travel_time_s"));
+    EXPECT_EQ(row.at("flow"), "");
     EXPECT_TRUE(row.at("kind") == "car" || row.at("kind") == "van") << row.at("kind");
     int found = 0;
     for (const auto& [key, way] : ways) {  // its first row is at most half a second after it entered, its last one as long before it left
@@ -191,6 +195,52 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
     }
     EXPECT_EQ(found, 1) << row.at("vehicle") << " at " << row.at("entered_s");
   }
+}
+
+// The stretches of time follow one another from where the tables begin to the end, the last one shorter, and together they are the whole tables.
+TEST_F(TrafficFilesTest, IntervalsAddUpToTheTables) {
+  options_.csv = In("out");
+  options_.duration_s = 150.0, options_.warm_s = 30.0, options_.every_s = 50.0;
+  const Said said = Asked(options_);
+  ASSERT_EQ(said.status, 0) << said.errors;
+  std::set<std::pair<std::string, std::string>> times;
+  std::map<std::string, double> in, out, way_m, longest;
+  for (const auto& row : Table(In("out") + "/intervals.csv", kIntervals)) {
+    times.emplace(row.at("from_s"), row.at("to_s"));
+    const std::string& road = row.at("road");
+    in[road] += Number(row, "in"), out[road] += Number(row, "out");
+    way_m[road] += Number(row, "flow_vehph") / 3600.0 * (Number(row, "to_s") - Number(row, "from_s"));  // a metre of lane
+    longest[road] = std::max(longest[road], Number(row, "queue_longest"));
+    EXPECT_LE(Number(row, "queue_mean"), Number(row, "queue_longest"));
+    EXPECT_EQ(row.at("speed_mps").empty(), row.at("density_vehpkm") == "0.000");
+  }
+  EXPECT_THAT(times, testing::ElementsAre(testing::Pair("130.00", "150.00"), testing::Pair("30.00", "80.00"), testing::Pair("80.00", "130.00")));
+  for (const auto& row : Table(In("out") + "/flows.csv", "road,section,lane,began,in,out,there")) {
+    EXPECT_EQ(in[row.at("road")], Number(row, "in")) << row.at("road");
+    EXPECT_EQ(out[row.at("road")], Number(row, "out")) << row.at("road");
+  }
+  for (const auto& row : Table(In("out") + "/queues.csv", "road,lane,length_m,queue_longest,queue_mean")) EXPECT_EQ(longest[row.at("road")], Number(row, "queue_longest")) << row.at("road");
+  std::map<std::string, double> vehicles;  // m driven, by lanes.csv, over the lane's length
+  std::map<std::string, double> length_m;
+  for (const auto& row : Table(In("out") + "/lanes.csv", kLanes)) {
+    vehicles[row.at("road")] += Number(row, "flow_vehph") / 3600.0 * 120.0 * Number(row, "length_m");
+    length_m[row.at("road")] += Number(row, "length_m");
+  }
+  for (const auto& [road, sum] : vehicles) EXPECT_NEAR(way_m[road], sum / length_m[road], 1e-3 * way_m[road] + 1e-3) << road;
+  for (const auto& row : Table(In("out") + "/trips.csv", kTrips)) EXPECT_LE(Number(row, "entered_s") + Number(row, "travel_time_s"), 120.0 + 1e-6);
+}
+
+TEST_F(TrafficFilesTest, WrongWishesForTimesAreRefused) {
+  options_.warm_s = 90.0;
+  EXPECT_THAT(Asked(options_).errors, HasSubstr("--warm: 90 s are left out of 90 s; less was expected"));
+  options_.warm_s = 0.0, options_.every_s = 10.0;
+  EXPECT_THAT(Asked(options_).errors, HasSubstr("--every: a table every so many seconds was asked for, and no folder for it"));
+  options_.every_s = 0.0, options_.fcd = In("cars.csv");
+  const Said said = Asked(options_);
+  EXPECT_EQ(said.status, 2);
+  EXPECT_THAT(said.errors, HasSubstr("a file on .xml was expected"));
+  options_.fcd.clear(), options_.heat = In("a.svg"), options_.pixel_m = 2.0;
+  EXPECT_THAT(Asked(options_).errors, HasSubstr("--pixel: a pixel of 2 m was given"));
 }
 
 TEST_F(TrafficFilesTest, PicturesAreWholeAndNameTheMap) {

@@ -33,13 +33,16 @@ struct Driven {
 class ScriptedTraffic : public testing::Test {
  protected:
   // On the level straight: the driver's car, the traffic, a scenario of these events.
-  Driven Drive(const std::string& traffic, const std::string& events, Step last) {
+  base::Result<launch::Launch> LaunchOf(const std::string& traffic, const std::string& events) {
     EXPECT_TRUE(base::WriteWhole(folder_.path() / "story.yaml", "rodeira: scenario/1\nevents:\n" + events).ok());
     const std::string text = "rodeira: launch/1\nworld: level.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
         "  driver: {kind: input, config: {source: script, script: standing.csv}}\n  ego: {kind: vehicle, config: {vehicle: ../../configs/vehicles/default.yaml}}\n"
         "  others: {kind: traffic, config: " + traffic + "}\n  story: {kind: scenario, config: {scenario: \"" + (folder_.path() / "story.yaml").string() + "\"}}\n";
+    return launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "tests/data/scripted_test.yaml");
+  }
+  Driven Drive(const std::string& traffic, const std::string& events, Step last) {
     Driven run;
-    auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "tests/data/scripted_test.yaml");
+    auto launch = LaunchOf(traffic, events);
     EXPECT_TRUE(launch.ok()) << launch.error().Text();
     if (!launch) return run;
     auto nodes = front::LocalNodes::Make(launch.value());
@@ -122,16 +125,26 @@ TEST_F(ScriptedTraffic, TheExampleDoesWhatItSays) {
   EXPECT_GT(least_mps[30], 10.0);
 }
 
-// What cannot be obeyed ends the run with a sentence that names the event and its step.
-TEST_F(ScriptedTraffic, WhatCannotBeObeyedIsNamed) {
-  const auto fault = [&](const std::string& event) {
-    const Driven run = Drive("{vehicles: 3, scripted: [car]}", "  - {at_s: 0.5, " + event + "}\n", 1000);
-    EXPECT_FALSE(run.ok);
-    return run.fault;
+// What the traffic can never do is wrong input before the first step, with its line in the scenario, however late it would act.
+TEST_F(ScriptedTraffic, WhatCannotBeObeyedIsNamedBeforeTheRun) {
+  const auto refused = [&](const std::string& event) -> std::string {
+    auto launch = LaunchOf("{vehicles: 3, scripted: [car]}", "  - {at_s: 1, name: traffic.release, agent: all}\n  - {" + event + "}\n");
+    EXPECT_TRUE(launch.ok()) << launch.error().Text();
+    const auto nodes = front::LocalNodes::Make(launch.value());
+    if (nodes.ok()) return "";
+    EXPECT_EQ(nodes.error().code, base::ErrorCode::kWrongInput);
+    return nodes.error().Text();
   };
-  EXPECT_NE(fault("name: traffic.appear, agent: 1, at: {lane: \"main:-1\", s_m: 500}, speed_mps: 3").find("event 'traffic.appear' at step 500: agent 1 cannot appear; one of the traffic's 'scripted' was expected, 3 to 3"), std::string::npos);
-  EXPECT_NE(fault("name: traffic.appear, agent: 3, at: {lane: \"main:-2\", s_m: 500}, speed_mps: 3").find("'main:-2' was found"), std::string::npos);
-  EXPECT_NE(fault("name: traffic.overtake, agent: 9").find("there is no agent 9; there are 4, from 0 on"), std::string::npos);
+  const std::string line = (folder_.path() / "story.yaml").string() + ":4: ";
+  EXPECT_EQ(refused("at_s: 7200, name: traffic.appear, agent: 1, at: {lane: \"main:-1\", s_m: 500}, speed_mps: 3"),
+            line + "'traffic.appear': agent 1 cannot appear; one of the traffic's 'scripted' was expected, 3 to 3");
+  EXPECT_NE(refused("at_s: 7200, name: traffic.appear, agent: 3, at: {lane: \"main:-2\", s_m: 500}, speed_mps: 3").find("'main:-2' was found"), std::string::npos);
+  EXPECT_NE(refused("at_s: 7200, name: traffic.appear, agent: 3, at: {lane: \"main:-1\", s_m: 5e6}, speed_mps: 3").find("the station 5000000 m is not on the lane 'main:-1'"), std::string::npos);
+  EXPECT_EQ(refused("at_s: 7200, name: traffic.overtake, agent: 9"), line + "'traffic.overtake': there is no agent 9; there are 4, from 0 on");
+  EXPECT_NE(refused("when: {road: main, passes_m: 200}, name: traffic.overtake, agent: 9").find("there is no agent 9"), std::string::npos);
+  EXPECT_NE(refused("at_s: 7200, name: traffic.brake, agent: next, at: {road: mian, s_m: 200}, deceleration_mps2: 3").find("did you mean 'main'?"), std::string::npos);
+  EXPECT_NE(refused("at_s: 7200, name: traffic.pedestrian, at: {road: main, s_m: 200}").find("the traffic has no people on foot"), std::string::npos);
+  EXPECT_EQ(refused("at_s: 7200, name: traffic.appear, agent: 3, at: {lane: \"main:-1\", s_m: 500}, speed_mps: 3"), "");
 }
 
 // The driver's car is placed before a car of the traffic. That is in the sample of the step behind the event; the traffic sees it when it is next activated, and the
