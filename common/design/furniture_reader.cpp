@@ -181,6 +181,10 @@ void ReadStructures(const Map& road, const char* key, bool bridge, double length
     structure.s_m = item.Number("from_s_m", {0.0, length_m});
     structure.length_m = item.Number("to_s_m", {0.0, length_m}) - structure.s_m;
     if (!(structure.length_m > 0.0)) item.Problem("to_s_m", "'to_s_m' must lie behind 'from_s_m'");
+    for (const network::Structure& other : spec.structures) {
+      const double from = std::max(structure.s_m, other.s_m), to = std::min(structure.s_m + structure.length_m, other.s_m + other.length_m);
+      if (from < to) item.Problem("from_s_m", fmt::format("from s = {} to {} m there is a {} already", from, to, other.bridge ? "bridge" : "tunnel"));
+    }
     spec.structures.push_back(std::move(structure));
   }
 }

@@ -17,7 +17,7 @@ using config::Map;
 
 constexpr double kMeets_m = 0.5;
 constexpr double kFlattest_rad = 0.6;  // between the directions of two roads
-constexpr double kSteepFit = 0.12;
+constexpr double kSteepFit = 0.12, kSteepestFit = 0.5;
 
 // Nothing where the road is not there. Without roads, because something is wrong with one of them, the rest is looked at all the same.
 std::optional<Meeting> ReadMeeting(const Map& item, const std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads) {
@@ -94,7 +94,7 @@ void CheckMeets(const JunctionWish& junction, const std::vector<network::Road>& 
     }
     const double sine = std::fabs(geometry::Cross(at.tangent_W, there.tangent_W));
     if (sine < std::sin(kFlattest_rad)) {
-      items.Problem(i, fmt::format("road '{}' meets road '{}' at an angle of {:.1f} degrees; at least {:.1f} was expected", roads[other.road].id(),
+      items.Problem(i, fmt::format("road '{}' meets road '{}' at an angle of {:.1f} degrees; at least {:.1f} was expected (slip roads, forks and merges are what OpenDRIVE files and traffic maps have)", roads[other.road].id(),
                                    roads[first.road].id(), std::asin(sine) * 57.29577951308232, kFlattest_rad * 57.29577951308232));
     }
   }
@@ -163,11 +163,10 @@ void FitHeights(const std::vector<JunctionWish>& junctions, std::vector<RoadDesi
                                      : Hermite{minor.s_m, far, z.value, slope, there.value, there.slope};
         spec.elevation = WithHermite(spec.elevation, piece);
         const double steepest = 1.5 * std::fabs(z.value - there.value) / fit + 0.25 * (std::fabs(slope) + std::fabs(there.slope));
-        if (steepest > kSteepFit) {
-          warnings.push_back(fmt::format("{}: road '{}' changes its height by {:.2f} m within {:.1f} m to meet road '{}': up to {:.0f} % steep",
-                                         junction.map.Place("roads"), spec.id, z.value - there.value, fit, roads[first.road].id(),
-                                         100.0 * steepest));
-        }
+        if (!(steepest > kSteepFit)) continue;
+        const std::string told = fmt::format("road '{}' changes its height by {:.2f} m within {:.1f} m to meet road '{}': up to {:.0f} % steep", spec.id, z.value - there.value, fit, roads[first.road].id(), 100.0 * steepest);
+        if (steepest > kSteepestFit) junction.map.Problem("roads", fmt::format("{}; at most {:.0f} % was expected", told, 100.0 * kSteepestFit));
+        else warnings.push_back(fmt::format("{}: {}", junction.map.Place("roads"), told));
       }
     }
   }

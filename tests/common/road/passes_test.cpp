@@ -38,7 +38,7 @@ std::string Crossing(double over_m, const std::string& low, const std::string& h
 
 // Of the places looked at every metre of `high`, whose lanes lie 3.5 m to either side, those at s = 97 m are the first over a lane of `low`, which begins at y = -3.5 m.
 TEST(Passes, ARoadOverAnotherWithoutABridgeIsToldWithBothStations) {
-  EXPECT_THAT(Said(Crossing(6.0, "", "")), ElementsAre(AllOf(HasSubstr("w.yaml: road 'high' at s = 97.0 m lies 6.0 m over road 'low' at s = 1"), HasSubstr("neither has the upper one `bridges`"))));
+  EXPECT_THAT(Said(Crossing(6.0, "", "")), ElementsAre(AllOf(HasSubstr("w.yaml:6: road 'high' at s = 97.0 m lies 6.0 m over road 'low' at s = 1"), HasSubstr("neither has the upper one `bridges`"))));
 }
 
 TEST(Passes, UnderABridgeOrInATunnelIsNone) {
@@ -56,10 +56,20 @@ TEST(Passes, ATunnelWithoutAHillIsToldWithItsStations) {
   const auto world = [](double z_m) {
     return fmt::format("rodeira: world/2\nname: t\nground: {{kind: plane, z_m: {}}}\nroads:\n  - {{id: a, axis: [line: {{length_m: 300}}], z_m: 0, section: {{template: rural}}, tunnels: [{{from_s_m: 100, to_s_m: 200}}]}}\n", z_m);
   };
-  EXPECT_THAT(Said(world(0.0)), ElementsAre(AllOf(HasSubstr("w.yaml: the tunnel of road 'a' from s = 100.0 to 200.0 m has the terrain only 0.04 m over its road at s = 100.0 m"), HasSubstr("a hill of some metres"))));
+  EXPECT_THAT(Said(world(0.0)), ElementsAre(AllOf(HasSubstr("w.yaml:5: the tunnel of road 'a' from s = 100.0 to 200.0 m has the terrain only 0.04 m over its road at s = 100.0 m"), HasSubstr("a hill of some metres"))));
   EXPECT_THAT(Said(world(-0.2)), IsEmpty());  // in the open
   EXPECT_THAT(Said(world(0.3)), ElementsAre(HasSubstr("has the terrain only 0.34 m over its road")));
   EXPECT_THAT(Said(world(3.0)), IsEmpty());
+}
+
+// A loop of three quarters of a circle of 100 m radius, which comes back over itself: east along y = 0 from x = -200 to 100, round to the left, and south along x = 0.
+// The lower stretch has its lanes at y = -3.5 to 3.5, so that the upper one, 8 m above it, which passes y = 100 at s = 300 + 471.2 m, is over it from s = 771.2 + 96.5 m on.
+TEST(Passes, ARoadOverItselfIsToldToo) {
+  const std::string text = "rodeira: world/2\nname: loop\nground: {kind: plane}\nroads:\n  - id: loop\n    start: {x_m: -200, y_m: 0, heading_deg: 0}\n"
+                           "    axis: [line: {length_m: 300}, arc: {turn_deg: 270, radius_m: 100}, line: {length_m: 300}]\n"
+                           "    vertical: [{s_m: 0, z_m: 0}, {s_m: 300, z_m: 0, parabola_m: 60}, {s_m: 740, z_m: 8, parabola_m: 60}, {s_m: 1071, z_m: 8}]\n    section: {template: rural}\n";
+  EXPECT_THAT(Said(text), ElementsAre(AllOf(HasSubstr("w.yaml:5: road 'loop' at s = 868.0 m lies 8.0 m over itself at s = 19"), HasSubstr("neither has the upper one `bridges`"))));
+  EXPECT_THAT(Said(text + "    bridges: [{from_s_m: 840, to_s_m: 900}]\n"), IsEmpty());
 }
 
 // The project's own worlds pass over one another by bridges, and have hills over their tunnels.

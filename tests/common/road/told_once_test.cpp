@@ -52,6 +52,34 @@ std::string OnAPlane(const std::string& axis, const std::string& more = "") {
   return "rodeira: world/2\nname: w\nground: {kind: plane, z_m: 0}\nroads:\n  - id: main\n    axis: [" + axis + "]\n    z_m: 0\n    section: {template: rural}\n    markings: [{type: crossing, s_m: 120}]\n" + more;
 }
 
+// Where a mapping is wrong, what it was not read for is no unknown key; what is misspelt beside it still is.
+TEST_F(ToldOnce, NoKeyIsUnknownThatWasNotReadForAnotherMistake) {
+  EXPECT_THAT(Problems(OnAPlane("line: {length_m: 200}", "    signs: [{type: bend_left, every_m: 0, from_s_m: 10, to_s_m: 90, t_m: 5}]\n")),
+              ElementsAre(testing::HasSubstr("w.yaml:10: 'roads[0].signs[0].every_m' is 0; a number")));
+  EXPECT_THAT(Problems(OnAPlane("{clothoid: {length_m: 60, a_m: 80, radius_end_m: 100}}, line: {length_m: 200}")), testing::SizeIs(1));
+  EXPECT_THAT(Problems(OnAPlane("line: {length_m: 200}", "start: {road: main, lane: -1, s_m: 20, x_m: 3}\n")), ElementsAre("w.yaml:10: 'road' and 'x_m' say the same in two ways; one of both was expected"));
+  EXPECT_THAT(Problems(OnAPlane("line: {length_m: 200}", "    vertical: [{s_m: 0, z_m: 0}, {s_m: 200, z_m: 4}]\n")), ElementsAre("w.yaml:7: 'vertical' and 'z_m' say the same in two ways; one of both was expected"));
+  EXPECT_THAT(Problems(OnAPlane("line: {length_m: 200}", "    signs: [{type: bend_left, s_m: 20, side: left, t_m: 5}]\n")), ElementsAre("w.yaml:10: 't_m' and 'side' say the same in two ways; one of both was expected"));
+  EXPECT_THAT(Problems(OnAPlane("line: {length_m: 200}", "    objects: [{type: tree, s_m: 20, every_m: -1, beside_n: 4}]\n")), testing::Contains(testing::HasSubstr("unknown key 'roads[0].objects[0].beside_n'; did you mean 'beside_m'?")));
+}
+
+TEST_F(ToldOnce, ListsWithPointsBehindTheRoadsEnd) {
+  const auto on = [this](const std::string& more) { return Warnings(OnAPlane("line: {length_m: 200}", more)); };
+  EXPECT_THAT(on("    superelevation: [{s_m: 0, slope: 0}, {s_m: 200, slope: 0.02}]\n"), IsEmpty());
+  EXPECT_THAT(on("    superelevation: [{s_m: 0, slope: 0}, {s_m: 2000, slope: 0.02}]\n"), ElementsAre("w.yaml:10: 'superelevation' has a point at s = 2000 m; road 'main' is 200.0 m long"));
+  EXPECT_THAT(on("    speed_limits: [{s_m: 0, speed_kmh: 80},\n                   {s_m: 900, speed_kmh: 50}]\n"), ElementsAre("w.yaml:11: 'speed_limits' has a point at s = 900 m; road 'main' is 200.0 m long"));
+  const auto graded = [this](const char* end) {
+    return Warnings("rodeira: world/2\nname: w\nground: {kind: plane, z_m: 0}\nroads:\n  - id: main\n    axis: [line: {length_m: 200}]\n    vertical: [{s_m: 0, z_m: 0}, {s_m: " + std::string(end) +
+                    ", z_m: 1}]\n    section: {lanes: [{id: -1, widths: [{s_m: 0, width_m: 3}, {s_m: 400, width_m: 4}]}]}\n");
+  };
+  EXPECT_THAT(graded("290"), ElementsAre("w.yaml:8: 'widths' has a point at s = 400 m; road 'main' is 200.0 m long"));
+  EXPECT_THAT(graded("2000"), ElementsAre("w.yaml:7: 'vertical' has a point at s = 2000 m; road 'main' is 200.0 m long", "w.yaml:8: 'widths' has a point at s = 400 m; road 'main' is 200.0 m long"));
+}
+
+TEST_F(ToldOnce, ABridgeAndATunnelAtOnePlace) {
+  EXPECT_THAT(Problems(OnAPlane("line: {length_m: 200}", "    bridges: [{from_s_m: 20, to_s_m: 60}]\n    tunnels: [{from_s_m: 50, to_s_m: 90}]\n")), ElementsAre("w.yaml:11: from s = 50 to 60 m there is a bridge already"));
+}
+
 TEST_F(ToldOnce, AMisspeltElementOfAnAxisIsReadAsTheOneThatWasMeant) {
   EXPECT_THAT(Problems(OnAPlane("line: {length_m: 200}")), IsEmpty());
   EXPECT_THAT(Problems(OnAPlane("lin: {length_m: 200}")), ElementsAre("w.yaml:6: 'lin' is no element of an axis; did you mean 'line'?"));

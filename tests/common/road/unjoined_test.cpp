@@ -30,7 +30,9 @@ std::string Crossing(double over_m, const std::string& more = "", const std::str
 std::vector<std::string> Of(const std::string& text) {
   const auto world = World::Parse(text, "made.yaml");
   EXPECT_TRUE(world.ok()) << world.error().Text();
-  return DescribeOverlaps(*world.value()->network(), true);
+  std::vector<std::string> said;
+  for (const OfRoad& told : DescribeOverlaps(*world.value()->network(), true)) said.push_back(told.text);
+  return said;
 }
 
 // The lanes of b lie between x = 146.5 and 153.5; of the places looked at every metre s = 147 m is the first, there in the middle of the left lane, y = 1.75 m.
