@@ -22,6 +22,7 @@ struct PedalSettings {
 // what the speed does. Holds with the brake while standing.
 class Pedals {
  public:
+  static constexpr double kGoes_mps2 = 0.25;  // the foot lets a car that it holds go only where more than this is wanted
   static constexpr double kEnds_mps = 0.25;  // slower than this, and not wanted to go, the foot ends the stop by itself and holds
 
   // One step. `wanted_mps2` along the car, `speed_mps` forward, `grade` uphill positive.

@@ -77,6 +77,12 @@ bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing, bool heeded)
   return book_.IsAwaited(zone, mine) && !Urgent(id);
 }
 
+// The same of any of its zones.
+bool TrafficModel::IsHeld(std::uint32_t id, bool heeded) {
+  const auto& crossings = passages_[id].crossings;
+  return std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& crossing) { return crossing.zone >= 0 && Held(id, crossing, heeded); });
+}
+
 // Whether somebody who goes first is about to come to the zone before this one is out of it. Where lanes zip, it is the other side's turn as long as
 // who was let in last is from this one.
 bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
@@ -113,9 +119,7 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
 // Grants the passage unless somebody is in its way: holds one of the zones or, where the agent has to yield, comes to one or has waited longer.
 bool TrafficModel::Grant(std::uint32_t id, bool yields) {
   Passage& passage = passages_[id];
-  for (const Crossing& crossing : passage.crossings) {
-    if (crossing.zone >= 0 && Held(id, crossing, yields)) return false;
-  }
+  if (IsHeld(id, yields)) return false;
   for (const Crossing& crossing : passage.crossings) {
     if (yields && crossing.zone >= 0 && Yields(id, crossing)) return false;
   }

@@ -1,5 +1,7 @@
 // What becomes of a chain of who waits for whom that closes.
 #include <algorithm>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "common/traffic/traffic_model.hpp"
@@ -9,6 +11,7 @@ namespace {
 
 constexpr double kAtRest_mps = 0.05;
 constexpr double kClose_m = 1.0;     // more than its standing gap from who is ahead: it stands for him
+constexpr double kLoose_m = 0.5;     // more than its standing gap that a queueing car leaves (room.cpp)
 constexpr double kOverLine_m = 0.3;  // a front so far beyond where a zone begins still waits before it (claims.cpp)
 
 }  // namespace
@@ -62,20 +65,93 @@ bool TrafficModel::GiveBack(std::uint32_t id) {
   return true;
 }
 
-// Those of the circle go who are not in one another's way, who has waited longest first (of equals the first), although they would have to yield, or though there is no room behind
-// yet because those who stand there are in the circle. Where nobody can, since somebody has been let in who stands behind one of them, he waits outside: first he who
-// has come up to somebody ahead, of several he who was let in last.
-void TrafficModel::OpenCircle(std::vector<std::uint32_t> circle) {
-  const std::uint32_t first = circle.front();
-  std::sort(circle.begin(), circle.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return agents_[a].waited_s != agents_[b].waited_s ? agents_[a].waited_s > agents_[b].waited_s : a < b;
-  });
-  bool goes = false;
+// Whether it waits at a line and might be let in now.
+bool TrafficModel::IsAtLine(std::uint32_t id) const {
+  const Passage& passage = passages_[id];
+  return passage.any && passage.head && passage.due && !passage.must_stop && !passage.red && !passage.barred;
+}
+
+// Whether one of them keeps another one out of a zone.
+bool TrafficModel::AreInOneAnothersWay(std::span<const std::uint32_t> some) const {
+  std::vector<std::size_t> sides;
+  for (const std::uint32_t id : some) {
+    for (const Crossing& crossing : passages_[id].crossings) {
+      if (crossing.zone >= 0) sides.push_back(ZoneBook::Side(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side)));
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  return std::any_of(sides.begin(), sides.end(), [&](std::size_t side) { return side % 2 == 0 && std::binary_search(sides.begin(), sides.end(), side + 1); });
+}
+
+// Lets those of the circle in, each of whom waits for the next one, who are not in anybody's way, although they would have to yield, and whether anybody was. First those for whom there is room, who has waited longest
+// first (of equals the first). Then who has none since those who stand there wait, one behind another, for one who goes now. Where nobody has any all of them go at once or, if one cannot, one who comes to stand in nobody's way of them: who went in
+// else though those before him stay where they are would stand in the zones, in the way of everybody else, and for good where they wait for one whom he is in the way of.
+bool TrafficModel::LetIn(const std::vector<std::uint32_t>& circle) {
+  struct AtLine {
+    std::uint32_t id = 0;
+    std::size_t next = 0;  // of those at a line whom those before it wait for
+    bool goes = false;
+  };
+  std::vector<AtLine> lines;
   for (const std::uint32_t id : circle) {
     const Passage& passage = passages_[id];
-    if (passage.any && passage.head && passage.due && !passage.must_stop && !passage.red && !passage.barred) goes = Grant(id, false) || goes;
+    if (passage.any && passage.head && passage.due) lines.push_back({id, lines.size() + 1});
   }
-  if (goes) return;
+  if (lines.empty()) return false;
+  lines.back().next = 0;
+  std::vector<std::size_t> order(lines.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const double waited_a = agents_[lines[a].id].waited_s, waited_b = agents_[lines[b].id].waited_s;
+    return waited_a != waited_b ? waited_a > waited_b : lines[a].id < lines[b].id;
+  });
+  bool any = false;
+  const auto let_in = [&](AtLine& line) {
+    line.goes = IsAtLine(line.id) && Grant(line.id, false);
+    any = any || line.goes;
+    return line.goes;
+  };
+  for (const std::size_t i : order) {
+    if (passages_[lines[i].id].able) let_in(lines[i]);
+  }
+  std::vector<std::uint8_t> tried(lines.size(), 0);
+  for (bool more = any; more;) {
+    more = false;
+    for (const std::size_t i : order) {
+      if (tried[i] != 0 || lines[i].goes || passages_[lines[i].id].able || !lines[lines[i].next].goes) continue;
+      tried[i] = 1;
+      more = let_in(lines[i]) || more;
+    }
+  }
+  if (any) return true;
+  std::vector<std::uint32_t> all;
+  bool free = true;
+  for (const AtLine& line : lines) {
+    all.push_back(line.id);
+    free = free && IsAtLine(line.id) && !passages_[line.id].able && !IsHeld(line.id);
+  }
+  if (free && !AreInOneAnothersWay(all)) {
+    for (const std::size_t i : order) let_in(lines[i]);
+    return any;
+  }
+  for (const std::size_t i : order) {  // … or one who comes to stand in nobody's way of them
+    const Passage& passage = passages_[lines[i].id];
+    const double rear = passage.end_m + kLoose_m - passage.lacks_m;  // behind who stands there
+    const auto keeps_out = [&](const Crossing& mine) {
+      return mine.zone >= 0 && mine.out_m > rear && std::any_of(all.begin(), all.end(), [&](std::uint32_t other) {
+        const auto& theirs = passages_[other].crossings;
+        return other != lines[i].id && std::any_of(theirs.begin(), theirs.end(), [&](const Crossing& their) { return their.zone == mine.zone && their.side != mine.side; });
+      });
+    };
+    if (!passage.able && std::none_of(passage.crossings.begin(), passage.crossings.end(), keeps_out) && let_in(lines[i])) return true;
+  }
+  return false;
+}
+
+// Where nobody of the circle can be let in, since somebody has been who stands behind one of them, he waits outside: first he who has come up to somebody ahead, of several he who was let in last.
+void TrafficModel::OpenCircle(std::vector<std::uint32_t> circle) {
+  if (LetIn(circle)) return;
+  const std::uint32_t first = circle.front();
   std::vector<std::uint8_t> seen(agents_.size(), 0);
   if (CircleOf(first, seen).size() != circle.size()) return;  // who keeps them out is not one of them
   const auto is_behind = [&](std::uint32_t id) { return WaitsFor(id) == ahead_[id].id; };

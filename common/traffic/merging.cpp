@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/driver/acc.hpp"
+#include "common/driver/pedals.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/traffic/travel_time.hpp"
 
@@ -14,8 +15,7 @@ constexpr double kLine_m = 0.6;          // before the zone the front stops
 constexpr double kFollowing_mps2 = 1.5;  // who is let in behind somebody brakes no harder for it
 constexpr double kYielded_mps2 = 1.0;    // by which others may have to brake, on the average, for who merges before them
 constexpr double kLag_s = 1.0;           // … and so much later than that one they come
-constexpr double kLeast_mps2 = 1e-3;     // who is left less than this at rest does not drive on …
-constexpr double kFoot_mps2 = 0.25;      // … and with pedals who is left less than his foot starts by (driver::Pedals)
+constexpr double kLeast_mps2 = 1e-3;     // who is left less than this at rest does not drive on; with pedals who is left less than his foot lets go by
 
 }  // namespace
 
@@ -97,7 +97,7 @@ void TrafficModel::YieldInZones(std::uint32_t id) {
 // Who holds its zones before it and keeps it where it stands; of several the one who lets it drive on least, below 0: nobody does.
 std::int64_t TrafficModel::KeptInZonesBy(std::uint32_t id) const {
   std::int64_t keeps = -1;
-  double least = full_ ? kFoot_mps2 : kLeast_mps2;
+  double least = full_ ? driver::Pedals::kGoes_mps2 : kLeast_mps2;
   EachBefore(id, [&](std::uint32_t other, double, double leaves_mps2) {
     if (leaves_mps2 < least) least = leaves_mps2, keeps = other;
   });

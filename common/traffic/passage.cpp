@@ -48,7 +48,7 @@ double TrafficModel::KnowAllowedAt(std::uint32_t id, double odometer_m, std::siz
 bool TrafficModel::KeepPassage(std::uint32_t id) {
   Passage& passage = passages_[id];
   if (passage.key.way != ways_[id] || passage.key.granted_m != agents_[id].granted_m || FrontOf(id) > passage.key.until_m) return false;
-  passage.due = passage.head = passage.able = passage.must_stop = passage.lit = passage.red = passage.barred = false;
+  passage.due = passage.head = passage.able = passage.taken = passage.must_stop = passage.lit = passage.red = passage.barred = false;
   passage.lacks_m = passage.arrives_s = passage.delay_s = passage.later_s = 0.0;
   passage.waits_for = -1;
   return true;

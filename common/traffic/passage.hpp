@@ -27,6 +27,7 @@ struct Passage {
   bool due = false;        // it must know now whether it may go on
   bool head = false;       // nobody stands between it and the line who waits himself (this, and the next: of whom must know, and of whom others ask about)
   bool able = false;       // there is room for it behind the zones
+  bool taken = false;      // somebody is where it would stand behind them, or on the way there, now; of whom must know
   bool must_stop = false;  // a STOP sign
   bool lit = false;        // there is a light in it
   bool red = false;        // … that shows something else than green

@@ -113,6 +113,7 @@ void TrafficModel::FindRoom(std::uint32_t id) {
   const double to = passage.room_m;
   double nearest = kNever_m;
   EachAhead(id, to, 0, [&](std::int64_t other, double rear_m, double comes_m) {
+    passage.taken = true;
     if (comes_m < to) {
       passage.able = false;
       passage.lacks_m = std::max(passage.lacks_m, to - comes_m);
@@ -130,7 +131,7 @@ bool TrafficModel::RoomAhead(std::uint32_t id) const {
   const Passage& passage = passages_[id];
   const double front = agents_[id].o_m + 0.5 * traits_[id].length_m;
   const bool at_line = passage.any && passage.line_m < front + kRoom_m;
-  return ahead_[id].gap_m > (at_line ? passage.room_m - front : kRoom_m);
+  return at_line ? !passage.taken && ahead_[id].gap_m > passage.room_m - front : ahead_[id].gap_m > kRoom_m;
 }
 
 }  // namespace rodeira::traffic

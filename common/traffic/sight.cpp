@@ -1,6 +1,7 @@
 // Who is where on the tracks, and who is ahead of whom.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -178,16 +179,16 @@ void TrafficModel::LookAhead() {
   EachDriving([&](std::uint32_t id) { ahead_[id] = FindAhead(id); });
 }
 
-// The nearest of: agents on the tracks of the way, and on the lane that it is leaving; what else stands in the way. Or, of agents on tracks
-// that part from the way, as long as they are not clear, the one who lets it drive on least (he need not be the nearest: of two who turn off to different sides one
-// may drive away while the other one stands), if that is less.
+// The nearest of agents on the tracks of the way and what else stands in it. Or, of those on the lane that it is leaving, and of agents on tracks that part from the way, as long as they
+// are not clear, the one who lets it drive on least (he need not be the nearest: of two who turn off to different sides one may drive away while the other one stands, and who drives away on the
+// new lane may be nearer than a queue on the old one), if that is less.
 Ahead TrafficModel::FindAhead(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half;
   const double half_width = 0.5 * traits_[id].width_m + settings_.side_margin_m;
   const double aside = agent.path.back().aside_m;  // it drives there, and everywhere between
-  Ahead ahead, parting;
-  double parting_lets = 0.0;
+  Ahead ahead, apart;
+  double apart_lets = 0.0;
   const auto lets = [&](const Ahead& other) { return driver::IdmAcceleration(traits_[id].idm, agent.speed_mps, kAnySpeed_mps, other.gap_m, other.speed_mps); };
   const auto is_before = [&](const Occupant& other, double zero_m) { return other.id != id && zero_m + other.middle_m() > agent.o_m + kWithout_m; };
   const auto is_beside = [&](const Occupant& other, double gap) {
@@ -203,28 +204,27 @@ Ahead TrafficModel::FindAhead(std::uint32_t id) const {
     if (!is_before(other, zero_m) || (ahead.any && gap >= ahead.gap_m) || is_beside(other, gap)) return;
     ahead = seen(other, gap);
   };
-  const auto consider_parting = [&](const Occupant& other, double zero_m) {
-    const double gap = zero_m + other.rear_m - front;
-    if (!is_before(other, zero_m) || is_beside(other, gap)) return;
-    const Ahead next = seen(other, gap);
+  const auto consider_apart = [&](const Ahead& next) {
     const double next_lets = lets(next);
-    if (!parting.any || next_lets < parting_lets) parting = next, parting_lets = next_lets;
+    if (!apart.any || next_lets < apart_lets) apart = next, apart_lets = next_lets;
   };
-  const auto consider_block = [&](const Block& block, double zero_m) {
+  const auto consider_beside_way = [&](const Occupant& other, double zero_m) {
+    const double gap = zero_m + other.rear_m - front;
+    if (is_before(other, zero_m) && !is_beside(other, gap)) consider_apart(seen(other, gap));
+  };
+  const auto seen_block = [&](const Block& block, double zero_m) -> std::optional<Ahead> {
     const bool comes = block.span.speed_mps < 0.0;  // who comes on the lane beside is looked for otherwise (oncoming.cpp)
     const double left = half_width + (comes ? 0.0 : std::max(0.0, aside)), right = -half_width + (comes ? 0.0 : std::min(0.0, aside));
-    if (zero_m + block.middle_m <= agent.o_m || block.span.right_m > left || block.span.left_m < right) return;
+    if (zero_m + block.middle_m <= agent.o_m || block.span.right_m > left || block.span.left_m < right) return std::nullopt;
     const double gap = zero_m + block.span.rear_m - front;
-    if (agent.overtaking.active() && IsPassed(agent.overtaking, front, -1, block.body, gap)) return;
-    if (gap < settings_.sight_m && (!ahead.any || gap < ahead.gap_m)) {
-      ahead = {gap, block.span.speed_mps, -1, true, block.body, block.span.front_m - block.span.rear_m, block.span.left_m, block.span.right_m};
-    }
+    if (gap >= settings_.sight_m || (agent.overtaking.active() && IsPassed(agent.overtaking, front, -1, block.body, gap))) return std::nullopt;
+    return Ahead{gap, block.span.speed_mps, -1, true, block.body, block.span.front_m - block.span.rear_m, block.span.left_m, block.span.right_m};
   };
   std::int64_t before = -1;  // the track by which its own way comes
   for (const Stretch& stretch : stretches_[id]) {
     const std::int64_t from = std::exchange(before, stretch.track);
     if (stretch.end_m < agent.o_m || (stretch.changes && agent.change.side == 0)) continue;
-    if (ahead.any && stretch.begin_m > front + ahead.gap_m + 10.0) break;
+    if (ahead.any && agent.change.side == 0 && stretch.begin_m > front + ahead.gap_m + 10.0) break;
     for (Occupant other : occupants_.Beyond(stretch.track, agent.o_m - stretch.zero_m)) {
       if (ahead.any && stretch.zero_m + other.middle_m() - longest_half_m_ - front >= ahead.gap_m) break;
       // Who comes in from beside has his rear in the zone where the ways merge, which its own line keeps it out of.
@@ -234,18 +234,22 @@ Ahead TrafficModel::FindAhead(std::uint32_t id) const {
     for (const lanes::Parting& part : PartingsOf(stretch.track)) {
       if (agent.o_m - half > stretch.zero_m + part.out_m) continue;
       for (const Occupant& other : occupants_.On(part.other)) {
-        if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m) consider_parting(other, stretch.zero_m);
+        if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m) consider_beside_way(other, stretch.zero_m);
       }
     }
-    for (const Block& block : BlocksOn(stretch.track)) consider_block(block, stretch.zero_m);
+    for (const Block& block : BlocksOn(stretch.track)) {
+      if (const auto next = seen_block(block, stretch.zero_m); next && (!ahead.any || next->gap_m < ahead.gap_m)) ahead = *next;
+    }
     if (agent.change.side == 0) continue;
     if (const auto old = LaneLeft(id, stretch, front)) {
       const double at = std::max(agent.o_m, stretch.begin_m), zero = at - graph().Across(stretch.track, at - stretch.zero_m, *old);
-      for (const Occupant& other : occupants_.Beyond(*old, agent.o_m - zero)) consider(other, zero);
-      for (const Block& block : BlocksOn(*old)) consider_block(block, zero);
+      for (const Occupant& other : occupants_.Beyond(*old, agent.o_m - zero)) consider_beside_way(other, zero);
+      for (const Block& block : BlocksOn(*old)) {
+        if (const auto next = seen_block(block, zero)) consider_apart(*next);
+      }
     }
   }
-  return parting.any && (!ahead.any || parting_lets < lets(ahead)) ? parting : ahead;
+  return apart.any && (!ahead.any || apart_lets < lets(ahead)) ? apart : ahead;
 }
 
 }  // namespace rodeira::traffic

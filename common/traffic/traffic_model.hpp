@@ -228,6 +228,7 @@ class TrafficModel {
   bool RoomBehind(std::uint32_t id, const Crossing& crossing, const Holder& holder);
   bool TakesRoom(const Crossing& crossing) const;
   bool Held(std::uint32_t id, const Crossing& crossing, bool heeded);
+  bool IsHeld(std::uint32_t id, bool heeded = false);
   bool Yields(std::uint32_t id, const Crossing& crossing);
   bool Grant(std::uint32_t id, bool yields);
   template <class Tell>
@@ -241,6 +242,9 @@ class TrafficModel {
   void ResolveDeadlocks();
   std::int64_t WaitsFor(std::uint32_t id) const;
   std::vector<std::uint32_t> CircleOf(std::uint32_t start, std::vector<std::uint8_t>& seen) const;
+  bool IsAtLine(std::uint32_t id) const;
+  bool AreInOneAnothersWay(std::span<const std::uint32_t> some) const;
+  bool LetIn(const std::vector<std::uint32_t>& circle);
   void OpenCircle(std::vector<std::uint32_t> circle);
   bool GiveBack(std::uint32_t id);
   bool IsGreen(std::int64_t light) const { return colours_[static_cast<std::size_t>(light)] == network::LightColour::kGreen; }

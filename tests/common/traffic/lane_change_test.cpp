@@ -320,6 +320,36 @@ TEST(LaneChange, WhoHasGoneOverIsClearOfTheOldLaneOnTheNextRoadToo) {
   EXPECT_GT(came_onto_it, 10);
 }
 
+// Who leaves a lane on which somebody stands brakes for that one until he is clear of him, though somebody nearer drives away before him on the new lane: nobody comes into an emergency. Until now the nearer one of both
+// alone was seen, and who stood when he had become the nearer one.
+TEST(LaneChange, WhoStandsOnTheOldLaneIsSeenBeyondWhoDrivesAwayOnTheNewOne) {
+  constexpr double kSpeed_mps = 12.0, kAway_mps = 14.0;
+  int hidden = 0;
+  for (double stands_m = 70.0; stands_m < 120.0; stands_m += 2.0) {
+    for (const double away_m : {25.0, 35.0, 45.0}) {
+      TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar, kCar}), TwoLaneRing(), {}).value();
+      Put(model, 0, "1:-2", 400.0, kSpeed_mps);
+      Put(model, 1, "1:-1", 400.0 + away_m, kAway_mps);
+      Put(model, 2, "1:-2", 400.0 + stands_m, 0.0);
+      model.CapSpeed(1, kAway_mps);
+      model.Brake(2, 2.0);
+      Step(model);
+      ASSERT_EQ(model.on_road(), 3u) << stands_m;
+      model.TellToChange(0, 1);
+      for (int i = 0; i * kStep_s < 20.0 && (i == 0 || model.agent(0).change.side != 0); ++i) {
+        Step(model);
+        if (i == 0) {
+          ASSERT_EQ(model.agent(0).change.side, 1) << stands_m << " " << away_m;
+        }
+        ASSERT_FALSE(model.Hurries(0)) << "who stands is " << stands_m << " m ahead, who drives away " << away_m << " m, after " << i * kStep_s << " s";
+        if (i == 0 && model.GapAhead(0) > away_m) ++hidden;
+      }
+      EXPECT_EQ(model.agent(0).change.side, 0) << stands_m << " " << away_m;
+    }
+  }
+  EXPECT_GT(hidden, 10);  // who lets it drive on less is farther away
+}
+
 TEST(LaneChange, RestoredInTheMiddleOfAChangeItGoesOnWithTheSameBits) {
   const auto network = TwoLaneRing();
   TrafficModel a = TrafficModel::Make(Drivers(40), network, {}).value();

@@ -9,6 +9,7 @@
 #include "common/traffic/study.hpp"
 #include "tests/common/lanes/lane_networks.hpp"
 #include "tests/common/opendrive/sample.hpp"
+#include "tests/common/traffic/scripted.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -70,6 +71,29 @@ TEST(NarrowStreets, AreTakenTogether) {
     EXPECT_GT(r.arrivals, 15) << length_m;
     EXPECT_EQ(r.collisions, 0) << length_m;
     EXPECT_EQ(r.hurried_steps, 0) << length_m;
+  }
+}
+
+// Who stands at his line before a street has room ahead as long as nobody stands where he would behind it, however far that is away; whoever comes against him makes no difference.
+TEST(NarrowStreets, HaveRoomBehindThemWhereNobodyStands) {
+  constexpr double kStreet_m = 150.0, kFor_s = 40.0;
+  for (const bool taken : {true, false}) {  // too narrow beside a bus, though none comes
+    TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar, VehicleKind::kBus}), InARow({{kOutside_m, kWide_m, kNarrow_m}, {kStreet_m}, {kOutside_m, kNarrow_m, kWide_m}}), {}).value();
+    // In the way of the first one at the street's far end, on its own lane or, against it, on the other one.
+    if (taken) Put(model, 1, "2:-1", 30.0, 0.0);
+    else Put(model, 1, "2:1", kTaper_m + 15.0, 8.0);
+    Put(model, 0, "0:-1", 180.0, 8.0);
+    if (taken) model.Brake(1, 2.0);
+    int stood = 0;
+    for (int i = 0; i * kStep_s < kFor_s; ++i) {
+      Step(model);
+      const AgentPose* pose = PoseOf(model, 0);
+      ASSERT_NE(pose, nullptr);
+      if (pose->speed_mps > 0.0 || pose->road != 0) continue;
+      ++stood;
+      ASSERT_EQ(model.RoomAhead(0), !taken) << i * kStep_s;
+    }
+    EXPECT_GT(stood, 100) << taken;
   }
 }
 
