@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/opendrive/checks.hpp"
+#include "common/opendrive/cubic_extremes.hpp"
 
 namespace rodeira::opendrive {
 namespace {
@@ -25,26 +26,6 @@ Cubic From(const CubicTable& table, double s_m) {
 
 // a + sign b, of cubics that begin at the same place.
 Cubic Sum(const Cubic& a, double sign, const Cubic& b) { return {a.from, a.a + sign * b.a, a.b + sign * b.b, a.c + sign * b.c, a.d + sign * b.d}; }
-
-struct Least {
-  double value = 0.0, s_m = 0.0;
-};
-
-// Exact but for rounding: at an end, or where the derivative b + 2 c u + 3 d u^2 is 0.
-Least LeastOf(const Cubic& cubic, double from_m, double to_m) {
-  Least least{cubic.Value(from_m), from_m};
-  const auto offer = [&](double s) {
-    if (s > from_m && s <= to_m && cubic.Value(s) < least.value) least = {cubic.Value(s), s};
-  };
-  offer(to_m);
-  const double root = cubic.c * cubic.c - 3.0 * cubic.b * cubic.d;
-  if (root >= 0.0) {
-    const double q = -(cubic.c + std::copysign(std::sqrt(root), cubic.c));
-    if (cubic.d != 0.0) offer(cubic.from + q / (3.0 * cubic.d));
-    if (q != 0.0) offer(cubic.from + cubic.b / q);
-  }
-  return least;
-}
 
 // Where between two stations a record of the lanes' edges begins.
 std::set<double> Begins(const CubicTable& centre, const std::vector<Lane>& lanes, double from_m, double to_m) {
@@ -69,7 +50,7 @@ void CheckBorders(const RoadReading& road, const Tolerance& tolerance, Findings&
       if (std::none_of(side->begin(), side->end(), [](const Lane& lane) { return lane.bordered(); })) continue;
       const double sign = side == &sections[i].left ? 1.0 : -1.0;
       const std::set<double> begins = Begins(road.spec.lane_offset, *side, sections[i].s_m, end_m);
-      std::vector<Least> worst(side->size());
+      std::vector<Extreme> worst(side->size());
       for (auto begin = begins.begin(); begin != begins.end(); ++begin) {
         const double to_m = std::next(begin) == begins.end() ? std::max(end_m, *begin) : *std::next(begin);
         Cubic inner = From(road.spec.lane_offset, *begin);
@@ -77,7 +58,7 @@ void CheckBorders(const RoadReading& road, const Tolerance& tolerance, Findings&
           const Lane& lane = (*side)[k];
           const Cubic outer = lane.bordered() ? From(lane.border, *begin) : Sum(inner, sign, From(lane.width, *begin));
           const Cubic width = sign > 0.0 ? Sum(outer, -1.0, inner) : Sum(inner, -1.0, outer);
-          const Least least = LeastOf(width, *begin, to_m);
+          const Extreme least = LeastOf(width, *begin, to_m);
           if (lane.bordered() && least.value < worst[k].value) worst[k] = least;
           inner = outer;
         }
@@ -88,7 +69,7 @@ void CheckBorders(const RoadReading& road, const Tolerance& tolerance, Findings&
         const Finding finding{"road.lane.border.overlap_with_inner_lanes",
                               fmt::format("the lane's border lies {:.4g} m within the edge of the lane inside of it; {}", within_m,
                                           within_m > most_m ? fmt::format("at most {:.3g} m was expected", most_m) : "the lane is read as 0 m wide there"),
-                              road.lines.sections[i], road.spec.id, (*side)[k].id, worst[k].s_m};
+                              road.lines.sections[i], road.spec.id, (*side)[k].id, worst[k].at};
         (within_m > most_m ? findings.errors : findings.warnings).push_back(finding);
       }
     }

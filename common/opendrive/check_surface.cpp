@@ -7,6 +7,7 @@
 #include <set>
 
 #include "common/opendrive/checks.hpp"
+#include "common/opendrive/measures.hpp"
 
 namespace rodeira::opendrive {
 namespace {
@@ -78,6 +79,38 @@ struct Checker {
       JudgeStep(At(index, "road.lateral.contact_point", fmt::format("bank or cross-section jump: the road's surface by {:.4g} m at t {:.4g}; {}", most, most_t, StepWords(most, StepMost(tolerance, LaneGap(tolerance)))), s), most, StepMost(tolerance, LaneGap(tolerance)),
                 findings);
     }
+  }
+
+  // Bank and cross-section together, at lanes' edges and where a shape has records.
+  void Heights(std::size_t index) const {
+    const Road& road = network.roads()[index];
+    if (road.flat() || road.spec().ground != nullptr) return;
+    const double steps = std::clamp(std::ceil(road.length_m()), 1.0, 1e6);
+    double most = 0.0, most_s = 0.0, most_t = 0.0;
+    const auto ask = [&](double s, double axis_z, double t) {
+      const double above = road.Surface(s, t).p_W.z() - axis_z;
+      if (!(std::fabs(above) <= std::fabs(most))) most = above, most_s = s, most_t = t;
+    };
+    for (double i = 0.0; i <= steps; i += 1.0) {
+      const double s = road.length_m() * i / steps, axis_z = road.spec().elevation.Value(s);
+      const auto number = static_cast<std::uint32_t>(road.SectionIndex(s));
+      const LaneSection& section = road.spec().sections[number];
+      double right = 0.0, left = 0.0;
+      for (const auto* side : {&section.left, &section.right}) {
+        for (const Lane& lane : *side) {
+          const double t = road.SpanAt(number, lane.id, s)->outer_t_m;
+          ask(s, axis_z, t);
+          right = std::min(right, t), left = std::max(left, t);
+        }
+      }
+      for (const network::Shape& shape : road.spec().lateral.shapes) {
+        for (const auto& record : shape.height.records()) {
+          if (record.from > right && record.from < left) ask(s, axis_z, record.from);
+        }
+      }
+    }
+    if (std::fabs(most) <= kAboveLine_m) return;
+    findings.errors.push_back(At(index, "road.lateral.height", fmt::format("the road's surface lies {:.6g} m above its line at t {:.4g}; at most {:.6g} m was expected", most, most_t, kAboveLine_m), most_s));
   }
 
   struct Fold {
@@ -154,6 +187,7 @@ void CheckSurfaces(const Network& network, std::span<const RoadLines> lines, con
   for (std::size_t i = 0; i < network.roads().size(); ++i) {
     checker.Elevation(i);
     checker.Across(i);
+    checker.Heights(i);
     checker.Folds(i);
     checker.Widths(i);
   }

@@ -68,6 +68,7 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   TellUnread(root);
   TellUnknown(root);
   CheckStations(root);
+  CheckMeasures(root);
   if (readings.empty()) root.Wrong("core.roads", "there is no <road> in the file");
   import.errors = source.errors;
   import.surfaces = std::move(source.surfaces);

@@ -84,6 +84,8 @@ void TellUnknown(const Node& root);
 // Records and things that begin beside their road or lane section, first widths that leave a lane without any, repeats below 0, ids that stand twice: an
 // error below 0, where a number can have no meaning; otherwise a warning for each kind, at the first.
 void CheckStations(const Node& root);
+// Measures beyond those of measures.hpp, wherever a record of them is in force: an error for each.
+void CheckMeasures(const Node& root);
 // In m/s from the attributes 'max' or 'speed' and 'unit'; infinite: no limit; nothing: not said.
 std::optional<double> ReadSpeed(const Node& speed, const char* attribute);
 

@@ -6,6 +6,7 @@
 
 #include "common/base/suggest.hpp"
 #include "common/network/sign_kinds.hpp"
+#include "common/opendrive/measures.hpp"
 #include "common/opendrive/read.hpp"
 
 namespace rodeira::opendrive {
@@ -121,6 +122,11 @@ std::vector<network::Signal> ReadBoards(const Node& node, network::Signal& signa
   return on;
 }
 
+void WarnOf(const Node& node, std::string_view rule, std::string message) {
+  const Source::Where& where = node.source().where;
+  node.source().warnings.push_back({std::string(rule), std::move(message), node.line(), where.road, where.lane, where.s_m});
+}
+
 network::Repeat ReadRepeat(const Node& node) {
   network::Repeat repeat;
   repeat.s_m = node.Number("s");
@@ -139,6 +145,10 @@ network::Repeat ReadRepeat(const Node& node) {
   repeat.radius_start_m = node.Number("radiusStart", 0.0);
   repeat.radius_end_m = node.Number("radiusEnd", 0.0);
   repeat.straight = node.Flag("detachFromReferenceLine", false);
+  if (repeat.distance_m > 0.0 && repeat.distance_m < kShortestDistance_m) {
+    WarnOf(node, "road.object.repeat.distance", fmt::format("<repeat> has a distance of {:.6g} m; 0 or at least {:.6g} m was expected: it goes on without gaps", repeat.distance_m, kShortestDistance_m));
+    repeat.distance_m = 0.0;
+  }
   return repeat;
 }
 
@@ -188,11 +198,6 @@ void ReadMarks(const Node& node, network::Object& object) {
       else object.marks.push_back(std::move(mark));
     }
   }
-}
-
-void WarnOf(const Node& node, std::string_view rule, std::string message) {
-  const Source::Where& where = node.source().where;
-  node.source().warnings.push_back({std::string(rule), std::move(message), node.line(), where.road, where.lane, where.s_m});
 }
 
 // A frame that has no outline, no width or not enough corners is no error: it is said, and not drawn.

@@ -6,13 +6,14 @@
 #include <limits>
 #include <utility>
 
+#include "common/opendrive/measures.hpp"
 #include "common/opendrive/read.hpp"
 
 namespace rodeira::opendrive {
 namespace {
 
-// Numbers between blanks.
-std::vector<double> ReadNumbers(const Node& node, const char* attribute) {
+// Heights between blanks.
+std::vector<double> ReadHeights(const Node& node, const char* attribute) {
   const std::string text = node.Text(attribute, "");
   std::vector<double> numbers;
   for (const char *at = text.data(), *end = at + text.size(); at != end;) {
@@ -22,8 +23,12 @@ std::vector<double> ReadNumbers(const Node& node, const char* attribute) {
     }
     double number = 0.0;
     const auto [next, error] = std::from_chars(at, end, number);
-    if (error != std::errc() || !std::isfinite(number) || std::fabs(number) > network::Network::kFarthest_m) {
+    if (error != std::errc() || !std::isfinite(number)) {
       node.Wrong("xml.attribute", fmt::format("attribute '{}' of <{}> is '{}'; numbers were expected", attribute, node.name(), text));
+      return {};
+    }
+    if (std::fabs(number) > kHighest_m) {
+      node.Wrong("junctions.elevation_grid.height", fmt::format("attribute '{}' of <{}> has a height of {:.6g} m; at most {:.6g} m was expected", attribute, node.name(), number, kHighest_m));
       return {};
     }
     numbers.push_back(number);
@@ -71,9 +76,9 @@ void ReadGrid(const Node& junction, JunctionReading& reading) {
   reading.grid_start_m = grid.Number("sStart", 0.0);
   reading.grid_spacing_m = grid.Number("gridSpacing");
   for (const Node& node : grid.Children("elevation")) {
-    const std::vector<double> centre = ReadNumbers(node, "center");
+    const std::vector<double> centre = ReadHeights(node, "center");
     if (centre.size() != 1) node.Wrong("xml.attribute", fmt::format("attribute 'center' of <elevation> holds {} numbers; one was expected", centre.size()));
-    reading.grid_rows.push_back({centre.empty() ? 0.0 : centre[0], ReadNumbers(node, "left"), ReadNumbers(node, "right")});
+    reading.grid_rows.push_back({centre.empty() ? 0.0 : centre[0], ReadHeights(node, "left"), ReadHeights(node, "right")});
   }
   if (!junction.Child("planView")) {
     grid.Wrong("junctions.elevation_grid.perpendicular_vectors", "the junction has heights across a reference line, but no <planView> that would be it");

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/geometry/angle.hpp"
+#include "common/opendrive/measures.hpp"
 #include "common/opendrive/read.hpp"
 
 namespace rodeira::opendrive {
@@ -70,7 +72,10 @@ std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
                      fmt::format("a <geometry> of s {:.6g} stands behind one of s {:.6g}; ascending order was expected",
                                  element.s_m, elements.back().s_m));
     }
-    if (!geometry::PlanAxis::Make({element})) {
+    const double turned_rad = 0.5 * std::fabs(element.curvature_start_1pm + element.curvature_end_1pm) * element.length_m;
+    if (element.kind == PlanElement::Kind::kClothoid && turned_rad > 2.0 * geometry::kPi * kMostTurns) {
+      geometry.Wrong("road.geometry.shape", fmt::format("this element turns {:.4g} times; at most {:.4g} were expected", turned_rad / (2.0 * geometry::kPi), kMostTurns));
+    } else if (!geometry::PlanAxis::Make({element})) {
       geometry.Wrong("road.geometry.shape", "this element stands still somewhere, or turns or is longer than any road");
     }
     elements.push_back(element);

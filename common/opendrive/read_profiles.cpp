@@ -80,13 +80,6 @@ void ReadProfiles(const Node& road, network::RoadSpec& spec) {
   spec.elevation = ReadCubics(road.Child("elevationProfile").Children("elevation"), "s", 0.0, "road.elevation.elem_asc_order");
   spec.superelevation =
       ReadCubics(road.Child("lateralProfile").Children("superelevation"), "s", 0.0, "road.lateral.superelevation.elem_asc_order");
-  for (const geometry::Cubic& record : spec.superelevation.records()) {
-    if (std::abs(record.a) > 1.5) {
-      Within within(road.source());
-      road.source().where.s_m = record.from;
-      road.Wrong("road.lateral.superelevation", fmt::format("the superelevation is {:.3g} rad", record.a));
-    }
-  }
   ReadLateral(road, spec.lateral);
 }
 

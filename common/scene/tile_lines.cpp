@@ -1,6 +1,7 @@
 #include "common/scene/tile_lines.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rodeira::scene {
 namespace {
@@ -18,7 +19,7 @@ std::int64_t Crossing(std::int64_t ax, std::int64_t ay, std::int64_t bx, std::in
   return ay + static_cast<std::int64_t>(whole);
 }
 
-// The first tile edge strictly between two coordinates, going from the first one; false where there is none.
+// The lowest tile edge strictly between two coordinates; false where there is none.
 bool EdgeBetween(std::int64_t from, std::int64_t to, std::int64_t& edge) {
   const std::int64_t low = std::min(from, to), high = std::max(from, to);
   edge = (TileOf(low) + 1) * kTileSteps;
@@ -30,18 +31,31 @@ class Cutter {
  public:
   explicit Cutter(TileLines& tiles) : tiles_(tiles) {}
 
+  // Piece by piece, in the order of the way from a to b: however many tiles it passes.
   void Segment(const WorldStep& a, const WorldStep& b) {
-    std::int64_t edge = 0;
-    if (EdgeBetween(a.x, b.x, edge)) {
-      const WorldStep p{edge, Crossing(a.x, a.y, b.x, b.y, edge)};
-      Segment(a, p);
-      return Segment(p, b);
+    left_.assign(1, {a, b});
+    while (!left_.empty()) {
+      const auto [from, to] = left_.back();
+      left_.pop_back();
+      std::int64_t edge = 0;
+      if (EdgeBetween(from.x, to.x, edge)) {
+        CutAt({edge, Crossing(from.x, from.y, to.x, to.y, edge)}, from, to);
+      } else if (EdgeBetween(from.y, to.y, edge)) {
+        CutAt({Crossing(from.y, from.x, to.y, to.x, edge), edge}, from, to);
+      } else {
+        Whole(from, to);
+      }
     }
-    if (EdgeBetween(a.y, b.y, edge)) {
-      const WorldStep p{Crossing(a.y, a.x, b.y, b.x, edge), edge};
-      Segment(a, p);
-      return Segment(p, b);
-    }
+  }
+
+ private:
+  void CutAt(const WorldStep& p, const WorldStep& from, const WorldStep& to) {
+    left_.push_back({p, to});
+    left_.push_back({from, p});  // is gone along first
+  }
+
+  // Within one tile.
+  void Whole(const WorldStep& a, const WorldStep& b) {
     const std::int64_t column = TileOf(std::min(a.x, b.x)), row = TileOf(std::min(a.y, b.y));
     Put({column, row}, a, b);
     const bool on_west = a.x == b.x && a.x == column * kTileSteps, on_south = a.y == b.y && a.y == row * kTileSteps;
@@ -49,7 +63,6 @@ class Cutter {
     if (on_south) Put({column, row - 1}, a, b);
   }
 
- private:
   void Put(const TileKey& key, const WorldStep& a, const WorldStep& b) {
     std::vector<GridLine>& lines = tiles_[key];
     const GridPoint from = InTile(key, a), to = InTile(key, b);
@@ -62,6 +75,7 @@ class Cutter {
   }
 
   TileLines& tiles_;
+  std::vector<std::pair<WorldStep, WorldStep>> left_;  // to be cut, the first piece of the way last
   std::map<TileKey, std::size_t> open_;  // the line that is being gone along
 };
 
