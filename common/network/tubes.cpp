@@ -105,7 +105,7 @@ class TubeOfRoad {
     for (const double share : {0.0, 0.5, 1.0}) {
       const Vector3d foot = edge_W[0] + share * (edge_W[1] - edge_W[0]);
       const Vector2d out = side * (piece.LeftAt(0) + share * (piece.LeftAt(1) - piece.LeftAt(0)));
-      const Vector2d p = foot.head<2>() + 0.5 * kTubeWall_m * out;
+      const Vector2d p = foot.head<2>() + (0.5 * kTubeWall_m - kTubeInside_m) * out;
       network_.Surfaces(p.x(), p.y(), surfaces);
       if (std::any_of(surfaces.begin(), surfaces.end(), [&](const Surfacing& other) {
             const double height = other.sample.p_W.z() - foot.z();

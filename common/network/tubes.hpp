@@ -10,8 +10,10 @@
 // What stands around a road in a tunnel: walls along the edges of its outermost lanes, and a ceiling.
 namespace rodeira::network {
 
-inline constexpr double kTubeWall_m = 0.4;      // thickness of a wall, outward from the road's edge
-inline constexpr double kTubeClear_m = 4.5;     // over every place of the road, at least
+inline constexpr double kTubeWall_m = 0.4;      // thickness of a wall
+inline constexpr double kTubeInside_m = 0.06;   // so far its face stands within the road's edge: the hill's own step, where it is drawn, lies behind it
+inline constexpr double kTubeOutside_m = kTubeWall_m - kTubeInside_m;
+inline constexpr double kTubeClear_m = 4.55;    // over the road at the ends of pieces: 4.5 m between them and under lamps, too
 inline constexpr double kTubeCeiling_m = 0.15;  // thickness of the ceiling
 inline constexpr double kPortalWing_m = 1.0;    // so far a portal stands beside the road's edges
 inline constexpr double kPortalDeep_m = 0.5;    // and out of the tunnel, along the road

@@ -161,8 +161,9 @@ void ObstacleMap::AddTube(const network::TubePiece& piece) {
       const Eigen::Vector2d left = piece.LeftAt(end);
       return edge[end] + side * out_m * Vector3d(left.x(), left.y(), 0.0);
     };
+    constexpr double wall_m = 0.5 * network::kTubeWall_m - network::kTubeInside_m;
     const double height = std::min(piece.ceiling_m[0], piece.ceiling_m[1]);
-    AddWall(piece.structure->id, beside(0, 0.5 * network::kTubeWall_m), beside(1, 0.5 * network::kTubeWall_m), network::kTubeWall_m, height);
+    AddWall(piece.structure->id, beside(0, wall_m), beside(1, wall_m), network::kTubeWall_m, height);
     for (const std::size_t end : {0, 1}) {
       if (!piece.portal[end]) continue;
       const Vector3d middle = beside(end, 0.5 * network::kPortalWing_m), along = (edge[end] - edge[1 - end]).normalized();  // out of the tunnel
