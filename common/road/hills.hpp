@@ -41,7 +41,8 @@ struct AxisPoint {
   double length_m = 0.0;
 };
 
-// Points of the roads' axes, at most 20 m apart, on a network 40 m (and none of its junctions' ways). Those of a network's road follow from each of its plan
+// Points of the roads' axes, at most 20 m apart, on a network 40 m (and none of its junctions' ways, nor where a bridge carries a road or a tunnel leads
+// it through a hill: there the terrain does not follow it). Those of a network's road follow from each of its plan
 // elements alone: where one changes, the points on the others stay.
 std::vector<AxisPoint> AxisPoints(std::span<const Road> roads);
 std::vector<AxisPoint> AxisPoints(const network::Network& network);
