@@ -127,11 +127,11 @@ std::vector<AxisPoint> AxisPoints(std::span<const Road> roads) {
   return points;
 }
 
-std::vector<AxisPoint> AxisPoints(const network::Network& network) {
+std::vector<AxisPoint> AxisPoints(const network::Network& network, bool structures) {
   std::vector<AxisPoint> points;
   for (const network::Road& road : network.roads()) {
     if (!road.spec().junction.empty()) continue;
-    const std::vector<Stretch> standing = StandingOn(road, StructuresOf(road));
+    const std::vector<Stretch> standing = StandingOn(road, structures ? std::vector<Stretch>() : StructuresOf(road));
     for (const geometry::PlanElement& element : road.axis().elements()) {
       const double from_s_m = element.s_m, to_s_m = std::min(element.s_m + element.length_m, road.length_m());
       for (const Stretch& stretch : standing) {
