@@ -16,13 +16,6 @@ bool IsInTunnel(const network::RoadSpec& road, double s_m) {
                      [s_m](const network::Structure& structure) { return !structure.bridge && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m; });
 }
 
-// A surface over or under a point.
-struct Layer {
-  double z_m;
-  const network::Surfacing* road;              // or
-  const design::JunctionSurface* junction;     // or the ground
-};
-
 }  // namespace
 
 bool IsExempt(const network::RoadSpec& road, double s_m) {
@@ -45,7 +38,8 @@ BuiltGround::BuiltGround(std::shared_ptr<const network::Network> network, Juncti
       terrain_(std::move(terrain)),
       grounds_(*network_, friction),
       paint_(*network_),
-      earthworks_(network_, junctions_) {
+      earthworks_(network_, junctions_),
+      tunnel_sides_(network_) {
   std::set<std::string> made;
   std::vector<Squares::Box> boxes;
   for (const auto& junction : junctions_) {
@@ -141,6 +135,16 @@ void BuiltGround::KeepTunnels(std::span<const network::Surfacing> surfaces, cons
   }
 }
 
+std::optional<SurfacePoint> BuiltGround::FloorBeside(const Eigen::Vector2d& p_W, std::span<const Layer> layers) const {
+  const std::optional<TunnelSides::Floor> floor = tunnel_sides_.At(p_W);
+  if (!floor) return std::nullopt;
+  const auto covers = [&](const Layer& layer) { return layer.z_m > floor->z_m; };
+  const auto takes_its_place = [&](const Layer& layer) { return layer.ground == nullptr && std::fabs(layer.z_m - floor->z_m) < network::Network::kLevel_m; };
+  if (std::none_of(layers.begin(), layers.end(), covers) || std::any_of(layers.begin(), layers.end(), takes_its_place)) return std::nullopt;
+  constexpr terrain::Surface kFloor = terrain::Surface::kConcrete;
+  return SurfacePoint{floor->z_m, floor->slope_W.x(), floor->slope_W.y(), friction_[static_cast<std::size_t>(kFloor)], kFloor, true};
+}
+
 SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
   const Eigen::Vector2d p(x_m, y_m);
   thread_local std::vector<network::Surfacing> surfaces;
@@ -149,13 +153,13 @@ SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
   const auto first = junction_squares_.MayHold(p) ? std::find_if(junctions_.begin(), junctions_.end(), in_junction) : junctions_.end();
   const auto exempt = [&](const network::Place& place) { return IsExempt(network_->roads()[place.lane.road].spec(), place.s_m); };
   const auto answers = [&](const network::Place& place) { return !in_junction_[place.lane.road] && place.lane.lane != 0; };
-  if (first == junctions_.end() && surfaces.size() == 1 && answers(surfaces[0].place) && !exempt(surfaces[0].place)) {
+  if (first == junctions_.end() && surfaces.size() == 1 && answers(surfaces[0].place) && !exempt(surfaces[0].place) && !tunnel_sides_.MayHold(p)) {
     return OnRoad(surfaces[0]);  // nothing else is here, and the hint has nothing to choose
   }
   thread_local std::vector<Layer> layers;
   layers.clear();
   for (auto junction = first; junction != junctions_.end(); ++junction) {
-    if (junction == first || in_junction(*junction)) layers.push_back({(*junction)->At(p).z_m, nullptr, junction->get()});
+    if (junction == first || in_junction(*junction)) layers.push_back({(*junction)->At(p).z_m, nullptr, junction->get(), nullptr});
   }
   bool covered = !layers.empty();  // by what stands on the ground
   for (const network::Surfacing& surfacing : surfaces) {
@@ -168,7 +172,7 @@ SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
       continue;
     }
     covered = covered || !above;
-    layers.push_back({surfacing.sample.p_W.z(), &surfacing, nullptr});
+    layers.push_back({surfacing.sample.p_W.z(), &surfacing, nullptr, nullptr});
   }
   SurfacePoint ground;
   if (!covered) {
@@ -177,9 +181,11 @@ SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
       const SurfacePoint bare = ground;
       earthworks_.Shape(p, ground);
       if (ground.z_m < bare.z_m) KeepTunnels(surfaces, bare, ground);
-      layers.push_back({ground.z_m, nullptr, nullptr});
+      layers.push_back({ground.z_m, nullptr, nullptr, &ground});
     }
   }
+  const std::optional<SurfacePoint> floor = FloorBeside(p, layers);
+  if (floor) layers.push_back({floor->z_m, nullptr, nullptr, &*floor});
   if (layers.empty()) return {};
   std::stable_sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.z_m > b.z_m; });
   const Layer* chosen = &layers.back();
@@ -189,7 +195,7 @@ SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
     break;
   }
   if (chosen->road != nullptr) return OnRoad(*chosen->road);
-  return chosen->junction != nullptr ? OnJunction(*chosen->junction, p, surfaces) : ground;
+  return chosen->junction != nullptr ? OnJunction(*chosen->junction, p, surfaces) : *chosen->ground;
 }
 
 }  // namespace rodeira::road

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,12 +14,14 @@
 #include "common/road/squares.hpp"
 #include "common/road/surface_detail.hpp"
 #include "common/road/surface_point.hpp"
+#include "common/road/tunnel_sides.hpp"
 
 namespace rodeira::road {
 
 // SUELO of a network that is built into a terrain: road surfaces, junctions, and the terrain, cut and filled to meet them.
 // Where several lie over one another, the highest that is not more than 0.5 m above the hint answers, without a hint the
-// highest. The ground itself is under bridges and over tunnels; elsewhere a road takes its place.
+// highest. The ground itself is under bridges and over tunnels; elsewhere a road takes its place. Under the hill beside a tunnel's road lies its floor,
+// for some metres.
 class BuiltGround {
  public:
   using Junctions = std::vector<std::shared_ptr<const design::JunctionSurface>>;
@@ -36,10 +39,20 @@ class BuiltGround {
   bool Together(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) const;
 
  private:
+  // A surface over or under a point.
+  struct Layer {
+    double z_m;
+    const network::Surfacing* road;           // or
+    const design::JunctionSurface* junction;  // or
+    const SurfacePoint* ground;               // the terrain, or the floor beside a tunnel
+  };
+
   bool OneRoadAlone(const network::Cluster& cluster) const;
   SurfacePoint OnRoad(const network::Surfacing& surfacing) const;
   SurfacePoint OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W, std::span<const network::Surfacing> surfaces) const;
   void KeepTunnels(std::span<const network::Surfacing> surfaces, const SurfacePoint& bare, SurfacePoint& ground) const;
+  // The floor beside a tunnel at a place, under what lies higher there. Nothing where another road lies on its level.
+  std::optional<SurfacePoint> FloorBeside(const Eigen::Vector2d& p_W, std::span<const Layer> layers) const;
   void LayOnJunction(std::span<const network::Surfacing> surfaces, SurfacePoint& point) const;
 
   std::shared_ptr<const network::Network> network_;
@@ -50,6 +63,7 @@ class BuiltGround {
   LaneGrounds grounds_;
   Paint paint_;
   Earthworks earthworks_;
+  TunnelSides tunnel_sides_;
   Squares junction_squares_;
   std::vector<bool> in_junction_;  // by road: its surface is a junction's
 };

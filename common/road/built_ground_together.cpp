@@ -8,7 +8,7 @@
 
 namespace rodeira::road {
 
-// Whether no junction is near, no bridge or tunnel, and nothing stands on the road or in its place.
+// Whether no junction is near, no bridge or tunnel of this or another road, and nothing stands on the road or in its place.
 bool BuiltGround::OneRoadAlone(const network::Cluster& cluster) const {
   if (in_junction_[cluster.road] || detail_.On(cluster.road, cluster.low_s_m, cluster.high_s_m)) return false;
   const auto near = [&](const network::Structure& structure) {
@@ -18,6 +18,7 @@ bool BuiltGround::OneRoadAlone(const network::Cluster& cluster) const {
   if (std::any_of(structures.begin(), structures.end(), near)) return false;
   constexpr double kNear_m = 1e-3;
   const Eigen::Vector2d first(cluster.feet.x_m[0], cluster.feet.y_m[0]);
+  if (tunnel_sides_.MayHold(first)) return false;
   const double reach = std::sqrt(2.0) * network::BandIndex::kWidest_m + kNear_m;
   return std::none_of(junctions_.begin(), junctions_.end(), [&](const auto& junction) {
     return ((junction->low_W() - first).array() <= reach).all() && ((first - junction->high_W()).array() <= reach).all();

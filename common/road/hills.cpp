@@ -10,6 +10,7 @@
 #include "common/base/assert.hpp"
 #include "common/base/crew.hpp"
 #include "common/base/random.hpp"
+#include "common/road/decks.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -103,6 +104,21 @@ void AddPoints(double from_s_m, double to_s_m, double step_m, const At& at, std:
   for (int i = 0; i <= steps; ++i) points.push_back({at(from_s_m + (to_s_m - from_s_m) * i / steps), i == 0 || i == steps ? 0.5 * length_m : length_m});
 }
 
+// Where a road is carried by bridges or runs in tunnels, ascending and apart.
+std::vector<Stretch> StructuresOf(const network::Road& road) {
+  std::vector<Stretch> all, apart;
+  for (const network::Structure& structure : road.spec().structures) {
+    const Stretch stretch{std::max(structure.s_m, 0.0), std::min(structure.s_m + structure.length_m, road.length_m())};
+    if (stretch.from_s_m < stretch.to_s_m) all.push_back(stretch);
+  }
+  std::sort(all.begin(), all.end(), [](const Stretch& a, const Stretch& b) { return a.from_s_m < b.from_s_m; });
+  for (const Stretch& stretch : all) {
+    if (apart.empty() || stretch.from_s_m > apart.back().to_s_m) apart.push_back(stretch);
+    else apart.back().to_s_m = std::max(apart.back().to_s_m, stretch.to_s_m);
+  }
+  return apart;
+}
+
 }  // namespace
 
 std::vector<AxisPoint> AxisPoints(std::span<const Road> roads) {
@@ -111,13 +127,17 @@ std::vector<AxisPoint> AxisPoints(std::span<const Road> roads) {
   return points;
 }
 
-std::vector<AxisPoint> AxisPoints(const network::Network& network) {
+std::vector<AxisPoint> AxisPoints(const network::Network& network, bool structures) {
   std::vector<AxisPoint> points;
   for (const network::Road& road : network.roads()) {
     if (!road.spec().junction.empty()) continue;
+    const std::vector<Stretch> standing = StandingOn(road, structures ? std::vector<Stretch>() : StructuresOf(road));
     for (const geometry::PlanElement& element : road.axis().elements()) {
       const double from_s_m = element.s_m, to_s_m = std::min(element.s_m + element.length_m, road.length_m());
-      if (from_s_m < to_s_m) AddPoints(from_s_m, to_s_m, kNetworkStep_m, [&](double s_m) { return road.Surface(s_m, 0.0).p_W; }, points);
+      for (const Stretch& stretch : standing) {
+        const double begin = std::max(from_s_m, stretch.from_s_m), end = std::min(to_s_m, stretch.to_s_m);
+        if (begin < end) AddPoints(begin, end, kNetworkStep_m, [&](double s_m) { return road.Surface(s_m, 0.0).p_W; }, points);
+      }
     }
   }
   return points;

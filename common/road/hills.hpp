@@ -31,6 +31,7 @@ struct HillsSpec {
   double flat_m = 0.0;             // up to this distance from a road's axis the terrain lies level with the road
   double full_m = 0.0;             // from this distance on the hills have their full height
   double reach_m = 0.0;            // from this distance on a road changes nothing, to the bit; at least full_m
+  bool follow_structures = true;   // they follow roads where bridges carry them and in tunnels, too
   std::vector<Relief> relief;
   std::string projection_wkt;
 };
@@ -41,10 +42,11 @@ struct AxisPoint {
   double length_m = 0.0;
 };
 
-// Points of the roads' axes, at most 20 m apart, on a network 40 m (and none of its junctions' ways). Those of a network's road follow from each of its plan
+// Points of the roads' axes, at most 20 m apart, on a network 40 m (and none of its junctions' ways, nor, without `structures`, where a bridge carries
+// a road or a tunnel leads it through a hill). Those of a network's road follow from each of its plan
 // elements alone: where one changes, the points on the others stay.
 std::vector<AxisPoint> AxisPoints(std::span<const Road> roads);
-std::vector<AxisPoint> AxisPoints(const network::Network& network);
+std::vector<AxisPoint> AxisPoints(const network::Network& network, bool structures = true);
 
 // The middle height where none is said: the mean of the axes' heights, to whole 10 m, so that it stays where a road is changed a little; 0 without any road.
 double BaseOf(std::span<const AxisPoint> axis);

@@ -51,6 +51,7 @@ HillsSpec ReadHills(const Map& map) {
   hills.full_m = map.Number("full_m", {0.2, 100'000.0}, 200.0);
   if (hills.full_m <= hills.flat_m) map.Problem("full_m", "'full_m' must be greater than 'flat_m': the hills grow between them");
   hills.reach_m = map.Number("reach_m", {0.2, 1e6}, 3.0 * hills.full_m);
+  hills.follow_structures = map.Flag("follow_structures", true);
   if (hills.reach_m < hills.full_m) map.Problem("reach_m", "'reach_m' must not be less than 'full_m': up to there the hills grow with the distance from the roads");
   const List relief = map.Items("relief");
   for (std::size_t i = 0; i < relief.size(); ++i) {
@@ -255,7 +256,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
     // What is drawn of roads and their things is drawn of things alone, too: they stand beside no road.
     if (keys.spec.network == nullptr) keys.spec.network = design.network = std::make_shared<const network::Network>(network::NetworkSpec{keys.spec.name, projection, {}, {}, {}, {}});
   }
-  if (keys.hills && !PutTerrain(keys, design.network == nullptr ? std::vector<AxisPoint>() : AxisPoints(*design.network), reading)) return reading;
+  if (keys.hills && !PutTerrain(keys, design.network == nullptr ? std::vector<AxisPoint>() : AxisPoints(*design.network, keys.hills->follow_structures), reading)) return reading;
   if (design.start) keys.spec.start = PoseOn(*design.network, {design.start->road, 0, design.start->lane}, design.start->s_m);
   else PutStart(root, {}, keys.spec, keys.spec.start);
   if (design.network != nullptr) {

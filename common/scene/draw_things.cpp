@@ -8,6 +8,7 @@
 #include "common/scene/sign_face.hpp"
 #include "common/scene/things.hpp"
 #include "common/scene/trees.hpp"
+#include "common/scene/tubes.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -197,12 +198,15 @@ std::vector<PlacedModel> ModelsOf(const Things::Tile& tile, int level) {
 
 DrawnThings DrawThings(const Things::Tile& tile, const TileKey& key, int level) {
   const Vector2d middle = key.south_west_W() + Vector2d::Constant(0.5 * kTile_m);
-  const double z = !tile.things.empty() ? tile.things.front().stand.foot_W.z() : !tile.rails.empty() ? tile.rails.front().foot_W[0].z() : 0.0;
+  const double z = !tile.things.empty() ? tile.things.front().stand.foot_W.z() : !tile.rails.empty() ? tile.rails.front().foot_W[0].z() : !tile.tubes.empty() ? tile.tubes.front().right_W[0].z() : 0.0;
   Drawing drawing;
   drawing.origin_W = drawing.solid.origin_W = OriginNear({middle.x(), middle.y(), z});
   drawing.solid.material = Material::kMatt;
   for (const Thing& thing : tile.things) AddThing(thing, level, drawing);
   for (const RailPiece& piece : tile.rails) AddRail(piece, level, drawing);
+  Mesh lamps;
+  lamps.material = Material::kLamp, lamps.origin_W = drawing.origin_W;
+  for (const network::TubePiece& piece : tile.tubes) AddTube(piece, level, drawing.solid, lamps);
   DrawnThings drawn;
   std::vector<Repeated> few;
   for (auto& [model, repeated] : drawing.repeated) {
@@ -213,6 +217,7 @@ DrawnThings DrawThings(const Things::Tile& tile, const TileKey& key, int level) 
     else drawn.meshes.push_back(std::move(mesh));
   }
   if (!drawing.solid.triangles.empty()) drawn.meshes.insert(drawn.meshes.begin(), std::move(drawing.solid));
+  if (!lamps.triangles.empty()) drawn.meshes.push_back(std::move(lamps));
   for (auto& [name, mesh] : drawing.faces) drawn.meshes.push_back(std::move(mesh));
   return drawn;
 }

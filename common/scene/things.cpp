@@ -43,6 +43,9 @@ Things::Things(const road::World& world, ModelIsThere is_there) : is_there_(std:
   const network::Furniture furniture = network::PlaceFurniture(*world.network());
   for (const network::Placed& placed : furniture.things) AddThing(world, placed);
   for (const network::PlacedRun& run : furniture.runs) AddRun(world, run);
+  for (const network::TubePiece& piece : network::PlaceTubes(*world.network())) {
+    tiles_[TileAt(0.25 * (piece.right_W[0] + piece.right_W[1] + piece.left_W[0] + piece.left_W[1]).head<2>())].tubes.push_back(piece);
+  }
   if (world.standing() != nullptr) AddStanding(world, *world.standing());
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/base/hash.hpp"
 #include "common/network/placing.hpp"
+#include "common/network/tubes.hpp"
 #include "common/road/world.hpp"
 #include "common/scene/mesh.hpp"
 #include "common/scene/repeated.hpp"
@@ -51,7 +52,7 @@ struct RailPiece {
 // Whether the file of a model can be read; without one: each can.
 using ModelIsThere = std::function<bool(const std::string& file)>;
 
-// What stands at a network's roads, and at none, by the tiles in which it stands. Pure functions of the world.
+// What stands at a network's roads and around them in tunnels, and at none, by the tiles in which it stands. Pure functions of the world.
 // Feet are on SUELO's ground, on the level nearest to the road's own surface at (s, t), which counts itself where SUELO
 // knows no ground: what stands is seen to stand on what is drawn. Objects without any height (markings, parking places) and
 // signals that are only paint are left out.
@@ -64,6 +65,7 @@ class Things {
   struct Tile {
     std::vector<Thing> things;
     std::vector<RailPiece> rails;
+    std::vector<network::TubePiece> tubes;
   };
   const std::map<TileKey, Tile>& tiles() const { return tiles_; }
   // Of everything that stands in a tile; 0 where nothing does.
@@ -102,7 +104,7 @@ struct DrawnThings {
 inline constexpr std::size_t kFewestPlaces = 8;
 
 // A tile's things at a level of detail: at level 0 and 1 everything, simpler at 1; at 2 trees,
-// houses and rails as plain as can be; at 3 only houses and what else is large.
+// houses and rails as plain as can be; at 3 only houses and what else is large. Tunnels are tubes at all of them.
 DrawnThings DrawThings(const Things::Tile& tile, const TileKey& key, int level);
 
 }  // namespace rodeira::scene

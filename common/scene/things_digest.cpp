@@ -38,6 +38,12 @@ base::Digest Things::DigestOf(const TileKey& key) const {
       fmt::format_to(std::back_inserter(text), "{} {} {} {} {}\n", piece.left_W[k].x(), piece.left_W[k].y(), piece.height_m[k], piece.width_m[k], piece.wall);
     }
   }
+  for (const network::TubePiece& piece : found->second.tubes) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      put(piece.right_W[end]), put(piece.left_W[end]);
+      fmt::format_to(std::back_inserter(text), "tube {} {} {} {}\n", piece.ceiling_m[end], piece.portal[end], piece.right_wall, piece.left_wall);
+    }
+  }
   return base::Hash(text);
 }
 

@@ -1,6 +1,7 @@
 #include "nodes/vehicle/obstacle_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace rodeira::nodes {
@@ -46,6 +47,7 @@ ObstacleMap::ObstacleMap(const road::World& world, double reach_m) : reach_m_(re
     if (placed.object != nullptr) AddThing(world, placed);
   }
   for (const network::PlacedRun& run : furniture.runs) AddRun(world, run);
+  for (const network::TubePiece& piece : network::PlaceTubes(*world.network())) AddTube(piece);
   if (world.standing() != nullptr) AddStanding(world, *world.standing());
 }
 
@@ -148,6 +150,25 @@ void ObstacleMap::AddRun(const road::World& world, const network::PlacedRun& run
     const double width = mix(run.width_start_m, run.width_end_m), height = mix(run.height_start_m, run.height_end_m);
     if (i > 0 && (height >= kLow_m || IsBody(*run.object))) AddWall(run.object->id, last, foot, width > 0.0 ? width : 0.3, height);
     last = foot;
+  }
+}
+
+void ObstacleMap::AddTube(const network::TubePiece& piece) {
+  for (const double side : {-1.0, 1.0}) {
+    if (!(side < 0.0 ? piece.right_wall : piece.left_wall)) continue;
+    const std::array<Vector3d, 2>& edge = side < 0.0 ? piece.right_W : piece.left_W;
+    const auto beside = [&](std::size_t end, double out_m) -> Vector3d {
+      const Eigen::Vector2d left = piece.LeftAt(end);
+      return edge[end] + side * out_m * Vector3d(left.x(), left.y(), 0.0);
+    };
+    constexpr double wall_m = 0.5 * network::kTubeWall_m - network::kTubeInside_m;
+    const double height = std::min(piece.ceiling_m[0], piece.ceiling_m[1]);
+    AddWall(piece.structure->id, beside(0, wall_m), beside(1, wall_m), network::kTubeWall_m, height);
+    for (const std::size_t end : {0, 1}) {
+      if (!piece.portal[end]) continue;
+      const Vector3d middle = beside(end, 0.5 * network::kPortalWing_m), along = (edge[end] - edge[1 - end]).normalized();  // out of the tunnel
+      AddWall(piece.structure->id, middle, middle + network::kPortalDeep_m * along, network::kPortalWing_m, height);
+    }
   }
 }
 

@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "common/network/placing.hpp"
+#include "common/network/tubes.hpp"
 #include "common/road/world.hpp"
 #include "common/vehicle/collision_space.hpp"
 
 namespace rodeira::nodes {
 
-// What stands in a world and stops a car, as boxes: barriers, walls and rails, poles and lamps, trunks of trees, buildings, obstacles.
+// What stands in a world and stops a car, as boxes: barriers, walls and rails, poles and lamps, trunks of trees, buildings, obstacles, the walls and
+// portals of tunnels.
 // Bushes, delineators, signs and all that is lower than 0.3 m are driven over. What stands on the ground reaches from 1 m below it to at
 // least 2 m above, so that no car is lifted over a rail. A pure function of the world.
 class ObstacleMap {
@@ -25,7 +27,7 @@ class ObstacleMap {
 
   // Their ids are their numbers.
   std::span<const vehicle::Obstacle> all() const { return obstacles_; }
-  // The object's id in the roads' file.
+  // The object's or the tunnel's id in the roads' file.
   const std::string& NameOf(std::size_t number) const { return names_[number]; }
   // Numbers, ascending, of all that a car whose B is at p_W may touch, and some around.
   std::span<const std::uint32_t> Near(const Eigen::Vector3d& p_W) const;
@@ -37,6 +39,8 @@ class ObstacleMap {
   void AddThing(const road::World& world, const network::Placed& placed);
   void AddSkeleton(const network::Placed& placed, const Eigen::Vector3d& foot_W, const network::Road* road);
   void AddRun(const road::World& world, const network::PlacedRun& run);
+  // Its walls, and beside a mouth the portal.
+  void AddTube(const network::TubePiece& piece);
   void AddStanding(const road::World& world, const network::Standing& standing);
   // A thing whose foot is known; what stands at no road has no outline.
   void AddBody(const network::Placed& placed, const Eigen::Vector3d& foot_W, const network::Road* road);

@@ -30,15 +30,23 @@ class Edges {
     for (const network::Road& road : network.roads()) {
       if (!road.spec().earthwork) continue;
       EXPECT_LE(road.spec().earthwork->reach_m, kSquare_m);
-      const int count = static_cast<int>(road.length_m() / kEvery_m) + 1;
-      for (int k = 0; k <= count; ++k) {
-        const double s = std::min(k * kEvery_m, road.length_m());
-        if (IsExempt(road.spec(), s)) continue;
+      const auto add = [&](double s) {
         double right, left;
         road.SectionAt(s).Bounds(road.spec().lane_offset, s, s, right, left);
         for (const double t : {right, left}) {
           const Eigen::Vector3d p = road.Surface(s, t).p_W;
           squares_[Square(p.head<2>())].push_back({p, *road.spec().earthwork});
+        }
+      };
+      const int count = static_cast<int>(road.length_m() / kEvery_m) + 1;
+      for (int k = 0; k <= count; ++k) {
+        const double s = std::min(k * kEvery_m, road.length_m());
+        if (!IsExempt(road.spec(), s)) add(s);
+      }
+      // Under a bridge's end the ground hangs on the very end of what stands before it.
+      for (const network::Structure& structure : road.spec().structures) {
+        for (const double s : {structure.s_m, structure.s_m + structure.length_m}) {
+          if (s > 0.0 && s < road.length_m()) add(s);
         }
       }
     }

@@ -166,6 +166,43 @@ TEST(Hills, PointsFollowFromTheElementTheyLieOn) {
   EXPECT_EQ(same, 10u + 4u);  // in nine pieces and in three
 }
 
+// A road of 1000 m, 25 m over the base, on a bridge over its middle 400 m, and one 20 m below it in a tunnel there: farther than their reach from where they stand on the ground
+// the terrain is the base's, so that a valley lies under the bridge and a hill over the tunnel; where the structures begin it meets the road without a step.
+TEST(Hills, FollowARoadOnABridgeOrInATunnelOnlyWhereTheyAreToldTo) {
+  for (const auto& [kind, z_m] : {std::pair("bridges", 25.0), std::pair("tunnels", -20.0)}) {
+    const auto text = [&](const std::string& structures, const std::string& follow) {
+      return "rodeira: world/2\nname: w\nterrain:\n  surface: grass\n  generate: {seed: 7, columns: 121, rows: 101, spacing_m: 10, west_m: -600, south_m: -500, base_z_m: 0, flat_m: 5, full_m: 20, reach_m: 60, relief: [], follow_structures: " + follow + "}\n"
+             "roads:\n  - id: a\n    start: {x_m: -500, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 1000}]\n    z_m: " + std::to_string(z_m) + "\n    section: {template: rural}\n" + structures;
+    };
+    const auto world = World::Parse(text(std::string("    ") + kind + ": [{from_s_m: 300, to_s_m: 600}, {from_s_m: 550, to_s_m: 700}]\n", "false"), "w.yaml");
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    double length_m = 0.0;
+    for (const AxisPoint& point : AxisPoints(*world.value()->network(), false)) {
+      length_m += point.length_m;
+      EXPECT_TRUE(point.p_W.x() <= -200.0 + 1e-9 || point.p_W.x() >= 200.0 - 1e-9) << point.p_W.x();
+    }
+    EXPECT_NEAR(length_m, 600.0, 1e-9);
+    for (const double x : {-130.0, 0.0, 130.0}) EXPECT_EQ(world.value()->TerrainAt(x, 0.0).z_m, 0.0) << kind << " " << x;
+    for (const double x : {-400.0, -250.0, 250.0, 400.0}) EXPECT_NEAR(world.value()->TerrainAt(x, 0.0).z_m, z_m, 1.5) << kind << " " << x;
+    for (const double end : {-1.0, 1.0}) {  // into the valley under the bridge, up over the tunnel's mouth from its roof
+      const auto ground_at = [&](double x) { return world.value()->MakeGround()->Layers(end * x, 1.0); };
+      double last = ground_at(210.0).front().z_m;
+      EXPECT_NEAR(last, z_m, 0.2);
+      for (double x = 209.95; x > 150.0; x -= 0.05) {
+        const auto layers = ground_at(x);
+        const double z = kind[0] == 'b' ? layers.back().z_m : layers.front().z_m;
+        const bool portal = kind[0] == 't' && last < z_m + 0.2 && z > z_m + 4.0;
+        EXPECT_TRUE(portal ? std::fabs(x - 200.0) < 0.06 : std::fabs(z - last) < 0.15) << kind << " " << end * x << ": " << last << " to " << z;
+        last = z;
+      }
+      EXPECT_NEAR(last, 0.0, 3.0);
+    }
+    const auto followed = World::Parse(text(std::string("    ") + kind + ": [{from_s_m: 300, to_s_m: 700}]\n", "true"), "w.yaml"), without = World::Parse(text("", "false"), "w.yaml");
+    EXPECT_NEAR(followed.value()->TerrainAt(0.0, 0.0).z_m, z_m, 1.5) << "as it says";
+    EXPECT_EQ(terrain::BtBytes(*without.value()->grid()), terrain::BtBytes(*followed.value()->grid())) << "nothing to leave out";
+  }
+}
+
 TEST(Hills, LayersAreNoCopiesOfOneAnother) {
   HillsSpec one = Spec(), two = Spec();
   one.relief = {{100.0, 20.0}};
