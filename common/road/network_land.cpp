@@ -273,7 +273,12 @@ NetworkLand::Held NetworkLand::MakeHeld(std::span<const std::uint32_t> blocks, c
     const EdgeHeights& heights = pieces_[index].heights;
     const double least_m = distance_m - radius_m - kRounding_m;
     if (distance_m > told_m + kRounding_m && least_m > bounds.TightensWithin(heights.low_m, heights.high_m)) continue;
-    held.pieces.push_back({index, Below(distance_m - kRounding_m), Below(heights.low_m), -Below(-heights.high_m)});
+    const float low_m = Below(heights.low_m), high_m = -Below(-heights.high_m);
+    held.pieces.push_back({index, Below(distance_m - kRounding_m), low_m, high_m, low_m, high_m});
+  }
+  for (std::size_t i = held.pieces.size(); i-- > 1;) {
+    Held::Near &near = held.pieces[i - 1], &behind = held.pieces[i];
+    near.rest_low_m = std::min(near.rest_low_m, behind.rest_low_m), near.rest_high_m = std::max(near.rest_high_m, behind.rest_high_m);
   }
   held.pieces.shrink_to_fit();
   return held;
@@ -311,6 +316,7 @@ std::optional<PlaneHeight> NetworkLand::At(const Vector2d& p_W) const {
   for (const Held::Near& near : held->pieces) {
     const double least_m = static_cast<double>(near.distance_m) - off_m;
     const bool is_verge = bounds.nearest_m() < kVerge_m;
+    if (is_verge && !(least_m < bounds.TightensWithin(static_cast<double>(near.rest_low_m), static_cast<double>(near.rest_high_m)))) break;  // nor is any behind it nearer
     if (is_verge && !(least_m < bounds.TightensWithin(static_cast<double>(near.low_m), static_cast<double>(near.high_m)))) continue;
     const Piece& piece = pieces_[near.piece];
     if (is_verge && !(piece.AsideFrom(p_W) < bounds.TightensWithin(piece.heights.low_m, piece.heights.high_m) + kRounding_m)) continue;

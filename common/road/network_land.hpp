@@ -89,7 +89,8 @@ class NetworkLand {
   struct Held {
     struct Near {  // a piece
       std::uint32_t piece;
-      float distance_m, low_m, high_m;  // it is no nearer to the square's middle, and lies between these heights
+      float distance_m, low_m, high_m;  // it is no nearer to the square's middle, and lies between these heights …
+      float rest_low_m, rest_high_m;    // … and it and all behind it between these
     };
     Eigen::Vector2d middle_W;
     std::vector<Near> pieces;  // by distance
