@@ -170,6 +170,9 @@ void TrafficModel::Arbitrate(double dt_s) {
     FetchZones(id + kAhead);
     HoldZones(id);
     if (!agents_[id].grants.empty() && agents_[id].speed_mps < kAtRest_mps) held_up_.push_back(id);
+  }
+  for (std::uint32_t id = 0; id < agents_.size(); ++id) {  // how far who is ahead comes depends on who holds his zones
+    Passage& passage = passages_[id];
     if (!passage.any) continue;
     coming_.push_back(id);
     if (!passage.due) continue;

@@ -15,6 +15,8 @@ constexpr double kLine_m = 0.6;          // before the zone the front stops
 constexpr double kFollowing_mps2 = 1.5;  // who is let in behind somebody brakes no harder for it
 constexpr double kYielded_mps2 = 1.0;    // by which others may have to brake, on the average, for who merges before them
 constexpr double kLag_s = 1.0;           // … and so much later than that one they come
+constexpr double kShort_m = 0.05;        // so near before a line a front stands at the farthest (room.cpp)
+constexpr double kLoose_m = 0.5;         // more than its standing gap that a queueing car leaves (room.cpp)
 constexpr double kLeast_mps2 = 1e-3;     // who is left less than this at rest does not drive on; with pedals who is left less than his foot lets go by
 
 }  // namespace
@@ -50,8 +52,7 @@ bool TrafficModel::IsFarEnough(std::uint32_t id, const Crossing& crossing, const
   return 2.0 * (comes - may_come) < kYielded_mps2 * clears_s * clears_s;
 }
 
-// Those who hold its zones before it: tell(id, gap_m, leaves_mps2), the acceleration that each leaves it. It stops at the line before each zone or, where ways merge,
-// follows who is nearer to the zone's end (so far before it; else no gap, below 0), whichever is the less.
+// Those who hold its zones before it, and which: tell(holder, in_m, out_m, whether ways merge there), in its own odometer.
 template <class Tell>
 void TrafficModel::EachBefore(std::uint32_t id, const Tell& tell) const {
   const Agent& agent = agents_[id];
@@ -65,17 +66,44 @@ void TrafficModel::EachBefore(std::uint32_t id, const Tell& tell) const {
       if (in >= agent.granted_m || (merges ? out : in) < front) continue;
       const std::uint64_t number = agent.GrantOf(out).number;
       for (const Holder& holder : book_.HoldersOf(part.zone, static_cast<std::size_t>(1 - part.side))) {
-        if (holder.id >= agents_.size() || holder.id == id || holder.number >= number) continue;
-        const double gap = merges ? MergingGap(id, out, holder) : -1.0;
-        double leaves = in >= front ? StopAt(id, in - kLine_m) : kFree_mps2;
-        if (gap > 0.0) {
-          const double following = FollowComing(id, holder.id, gap);
-          leaves = in >= front ? std::max(leaves, following) : following;
-        }
-        tell(holder.id, gap, leaves);
+        if (holder.id < agents_.size() && holder.id != id && holder.number < number) tell(holder, in, out, merges);
       }
     }
   }
+}
+
+// What those leave it: tell(id, gap_m, leaves_mps2), the acceleration that each leaves it. It stops at the line before each zone or, where ways merge,
+// follows who is nearer to the zone's end (so far before it; else no gap, below 0), whichever is the less.
+template <class Tell>
+void TrafficModel::EachLeaves(std::uint32_t id, const Tell& tell) const {
+  const double front = FrontOf(id);
+  EachBefore(id, [&](const Holder& holder, double in, double out, bool merges) {
+    const double gap = merges ? MergingGap(id, out, holder) : -1.0;
+    double leaves = in >= front ? StopAt(id, in - kLine_m) : kFree_mps2;
+    if (gap > 0.0) {
+      const double following = FollowComing(id, holder.id, gap);
+      leaves = in >= front ? std::max(leaves, following) : following;
+    }
+    tell(holder.id, gap, leaves);
+  });
+}
+
+// How far its front surely comes, `to_m` at most, for those: to the line before a zone that somebody does not surely leave or, where ways merge, behind him as far as he comes, whichever is the farther. Whom nothing keeps as far as he sees, and who has room
+// behind his zones, leaves them.
+double TrafficModel::ReachBehindThose(std::uint32_t id, double to_m, int depth) {
+  const double front = FrontOf(id), apart = traits_[id].idm.standing_gap_m + kLoose_m;
+  EachBefore(id, [&](const Holder& holder, double in, double out, bool merges) {
+    const double line = in >= front ? in - kLine_m - kShort_m : front;
+    if (line >= to_m) return;
+    const double comes = ReachOf(holder.id, depth + 1);
+    if (merges) {
+      const double gap = MergingGap(id, out, holder);
+      if (in >= front || gap > 0.0) to_m = std::min(to_m, std::max(line, front + gap + comes - apart));
+    } else if (comes < holder.out_m - FrontOf(holder.id) + traits_[holder.id].length_m && !(holder.sure && comes > SightOf(agents_[holder.id]) - kShort_m)) {
+      to_m = line;
+    }
+  });
+  return to_m;
 }
 
 // What those who hold its zones before it leave it.
@@ -84,7 +112,7 @@ void TrafficModel::YieldInZones(std::uint32_t id) {
   double& leaves = leaves_[id] = kFree_mps2;
   double nearest = 1e9;
   const std::int64_t eased_for = std::exchange(agent.eased_for, -1);
-  EachBefore(id, [&](std::uint32_t other, double gap_m, double leaves_mps2) {
+  EachLeaves(id, [&](std::uint32_t other, double gap_m, double leaves_mps2) {
     if (gap_m > 0.0 && gap_m < nearest) nearest = gap_m, agent.eased_for = other;
     leaves = std::min(leaves, leaves_mps2);
   });
@@ -98,7 +126,7 @@ void TrafficModel::YieldInZones(std::uint32_t id) {
 std::int64_t TrafficModel::KeptInZonesBy(std::uint32_t id) const {
   std::int64_t keeps = -1;
   double least = full_ ? driver::Pedals::kGoes_mps2 : kLeast_mps2;
-  EachBefore(id, [&](std::uint32_t other, double, double leaves_mps2) {
+  EachLeaves(id, [&](std::uint32_t other, double, double leaves_mps2) {
     if (leaves_mps2 < least) least = leaves_mps2, keeps = other;
   });
   return keeps;

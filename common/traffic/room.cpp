@@ -64,7 +64,7 @@ void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tel
 }
 
 // How far its front comes whatever others decide: as far as it sees, to the line before zones that are not its own (but for the hand's breadth before it at
-// which it may come to rest), behind whoever is before it as far as those come. Who is told to brake, and whoever is no agent, may stop at once. In a ring of
+// which it may come to rest), behind whoever is before it as far as those come, and as far as those let it who hold its own zones before it. Who is told to brake, and whoever is no agent, may stop at once. In a ring of
 // followers the one that closes it counts as standing.
 double TrafficModel::ReachOf(std::uint32_t id, int depth) {
   if (reaches_[id] >= 0.0) return reaches_[id];
@@ -79,6 +79,7 @@ double TrafficModel::ReachOf(std::uint32_t id, int depth) {
   to = std::min(to, std::max(front, bars_[id] - kShort_m));
   const double apart = traits_[id].idm.standing_gap_m + kLoose_m;
   EachAhead(id, to + apart, depth, [&](std::int64_t, double, double comes_m) { to = std::min(to, comes_m - apart); });
+  to = ReachBehindThose(id, to, depth);
   return reaches_[id] = std::max(0.0, to - front);
 }
 

@@ -215,6 +215,7 @@ class TrafficModel {
   template <class Tell>
   void EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell);
   double ReachOf(std::uint32_t id, int depth);
+  double ReachBehindThose(std::uint32_t id, double to_m, int depth);
   void FindRoom(std::uint32_t id);
   bool LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) const;
   void TellComing(std::uint32_t id);
@@ -233,6 +234,8 @@ class TrafficModel {
   bool Grant(std::uint32_t id, bool yields);
   template <class Tell>
   void EachBefore(std::uint32_t id, const Tell& tell) const;
+  template <class Tell>
+  void EachLeaves(std::uint32_t id, const Tell& tell) const;
   void YieldInZones(std::uint32_t id);
   std::int64_t KeptInZonesBy(std::uint32_t id) const;
   double MergingGap(std::uint32_t id, double out_m, const Holder& before) const;

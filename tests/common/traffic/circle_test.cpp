@@ -1,4 +1,4 @@
-// Streets as full as can be, whose chains of who waits for whom close: who goes, so that all of them go on.
+// Streets as full as can be, whose chains of who waits for whom close: who goes, so that all of them go on, and who is not counted on to go, so that none closes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -135,6 +135,24 @@ class Streets {
     if (agent.o_m - 0.5 * Length(id) > end) agent.path.erase(agent.path.begin());
   }
 
+  // With his front so far from a street's beginning: he stands for good.
+  void PutForGood(std::uint32_t id, std::uint32_t street, double front_m) {
+    Agent& agent = agents[id];
+    agent.on_road = true;
+    agent.o_m = front_m - 0.5 * Length(id);
+    agent.path = {{street, 0.0, 0.0, 0.0, 0.0, 1.0}};
+    agent.brake_mps2 = 3.0;
+    all_.push_back(id);
+  }
+
+  // The zones of the way at its street's end are his own.
+  void Let(std::uint32_t id, std::uint32_t street, std::uint32_t way, std::uint64_t number) {
+    double out = 0.0;
+    for (const lanes::ZoneSide& part : model->zones().ConflictsOf(way)) out = std::max(out, LengthOf(street) + part.out_m);
+    agents[id].granted_m = out;
+    agents[id].grants.push_back({out, number, true, -1.0});
+  }
+
   // Cars one behind another, backwards from a place, as long as the last one's rear stays beyond `to_m`, of whom those who are on the street yet take another way; the first one, and where the last one's rear is.
   struct Queue {
     std::uint32_t first = 0;
@@ -233,6 +251,73 @@ TEST(Circle, WhoHasNoRoomGoesOnlyWhereThoseBeforeHimGo) {
   }
   EXPECT_GT(in_s, 0.0);
   EXPECT_GT(bus_s, 0.0);
+}
+
+// A junction that a street from the west passes straight on to the east, one from the north to the south just before that, and one from the south to the right into the east; what follows in the east.
+std::string Crossed(const std::vector<opendrive::RoadText>& east, const std::vector<Through>& onward) {
+  std::vector<opendrive::RoadText> roads = {Road("west", {{-115.0, 0.0, 0.0, 100.0, 0.0}}, To("1")), Road("north", {{15.0, 165.0, -0.5 * kPi, 150.0, 0.0}}, To("1")), Road("south", {{0.0, -115.0, 0.5 * kPi, 100.0, 0.0}}, To("1")),
+                                            Road("away", {{15.0, -15.0, -0.5 * kPi, 200.0, 0.0}}, From("1"))};
+  roads.insert(roads.end(), east.begin(), east.end());
+  std::vector<Through> ways = {{"1", "straight", "west", "east", {-15.0, 0.0, 0.0, 30.0, 0.0}}, {"1", "across", "north", "away", {15.0, 15.0, -0.5 * kPi, 30.0, 0.0}},
+                               {"1", "right", "south", "east", {0.0, -15.0, 0.5 * kPi, 7.5 * kPi, -1.0 / 15.0}}};
+  ways.insert(ways.end(), onward.begin(), onward.end());
+  return Text(roads, ways);
+}
+
+// One comes from the north, and gets away: nobody comes to stand in his way. `stays` is still on his way then.
+void PassesAcross(Streets& at, std::uint64_t next_grant, std::uint32_t stays) {
+  constexpr double kFor_s = 90.0;
+  const std::uint32_t across = at.Next(VehicleKind::kCar), away = at.Track("away"), stood = PieceAt(at.agents[stays].path, at.agents[stays].o_m).track;
+  at.Put(across, at.Track("north"), 40.0, at.Track("across"));
+  RestoreWith(*at.model, at.agents, next_grant);
+  double away_s = -1.0;
+  for (int i = 1; i * kStep_s < kFor_s && away_s < 0.0; ++i) {
+    at.model->Step(kStep_s, {});
+    ASSERT_FALSE(at.AnyTouch()) << i * kStep_s;
+    if (at.On(across) == away) away_s = i * kStep_s;
+  }
+  EXPECT_GT(away_s, 0.0);
+  EXPECT_EQ(at.On(stays), stood);
+}
+
+// Two of whom the first one follows a bus that merges in before him: the room that the bus takes up is not there for the second one, although the bus is not on their way yet when he asks.
+TEST(Circle, WhoMergesInBeforeWhoIsAheadTakesHisRoom) {
+  constexpr double kStreet_m = 80.0, kRoom_m = 24.0;
+  Streets at(Crossed({Road("east", {{15.0, 0.0, 0.0, kStreet_m, 0.0}}, From("1")), Road("before", {{-1.0, 115.0, -0.5 * kPi, 100.0, 0.0}}, To("1")), Road("aside", {{-1.0, -15.0, -0.5 * kPi, 100.0, 0.0}}, From("1"))},
+                     {{"1", "early", "before", "aside", {-1.0, 15.0, -0.5 * kPi, 30.0, 0.0}}}));  // who comes from the west waits before that way
+  const std::uint32_t west = at.Track("west"), south = at.Track("south"), straight = at.Track("straight");
+  const std::uint32_t stands = at.Next(VehicleKind::kCar);
+  at.PutForGood(stands, at.Track("east"), kRoom_m + at.Length(stands));
+  const std::uint32_t bus = at.Next(VehicleKind::kBus);
+  at.Put(bus, south, at.LineOf(south, at.Track("right")), at.Track("right"));
+  at.agents[bus].waited_s = 60.0;
+  at.agents[bus].cap_mps = 2.0;
+  const std::uint32_t first = at.Next(VehicleKind::kCar);
+  at.Put(first, west, at.LineOf(west, straight), straight);
+  const std::uint32_t second = at.Next(VehicleKind::kCar);
+  at.Put(second, west, at.LineOf(west, straight) - at.Length(first) - kGap_m, straight);
+  PassesAcross(at, 1, second);
+}
+
+// Who has been let in behind somebody who stands in his way, with nowhere to go, is not counted on to go.
+TEST(Circle, WhoIsKeptInHisZonesIsNotCountedOn) {
+  constexpr double kStreet_m = 5.0, kEast_m = 15.0 + kStreet_m, kUp_m = kEast_m + 4.0;
+  Streets at(Crossed({Road("east", {{15.0, 0.0, 0.0, kStreet_m, 0.0}}, From("1") + To("2")), Road("beyond", {{kEast_m + 30.0, 0.0, 0.0, 200.0, 0.0}}, From("2")), Road("below", {{kUp_m, -115.0, 0.5 * kPi, 100.0, 0.0}}, To("2")),
+                      Road("above", {{kUp_m, 15.0, 0.5 * kPi, 100.0, 0.0}}, From("2"))},
+                     {{"2", "on", "east", "beyond", {kEast_m, 0.0, 0.0, 30.0, 0.0}}, {"2", "up", "below", "above", {kUp_m, -15.0, 0.5 * kPi, 30.0, 0.0}}}));
+  const std::uint32_t east = at.Track("east"), west = at.Track("west"), below = at.Track("below"), on = at.Track("on"), up = at.Track("up");
+  const std::uint32_t in_the_way = at.Next(VehicleKind::kCar);
+  const double rear = 12.0;  // from where the way up begins, in the way of who goes on
+  at.Put(in_the_way, below, at.LengthOf(below) + rear + at.Length(in_the_way), up);
+  at.Let(in_the_way, below, up, 1);
+  const std::uint32_t stands = at.Next(VehicleKind::kCar);
+  at.PutForGood(stands, up, rear + at.Length(in_the_way) + kGap_m + at.Length(stands));
+  const std::uint32_t kept = at.Next(VehicleKind::kCar);
+  at.Put(kept, east, at.LineOf(east, on), on);
+  at.Let(kept, east, on, 2);
+  const std::uint32_t comes = at.Next(VehicleKind::kCar);
+  at.Put(comes, west, at.LineOf(west, at.Track("straight")), at.Track("straight"));
+  PassesAcross(at, 3, comes);
 }
 
 }  // namespace
