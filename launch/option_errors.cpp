@@ -137,6 +137,9 @@ CLI::Validator NewFile() {
 
 std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem) {
   const Reading reading = Deepest(app);
+  // A word before the command that was read: 'trafic run' is not 'run'.
+  const std::vector<std::string> before = app.remaining(false);
+  if (reading.command != &app && !before.empty() && before.front().front() != '-') return fmt::format("'{}' is no command of '{}'{}", before.front(), app.get_name(), base::DidYouMean(before.front(), CommandsOf(app)));
   const std::vector<std::string> extras = reading.command->remaining(true);
   const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& word) { return word.size() > 1 && word.front() == '-'; });
   if (option != extras.end()) {

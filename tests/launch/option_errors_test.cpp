@@ -27,6 +27,7 @@ std::string Refused(std::vector<std::string> words) {
 
 TEST(OptionErrors, NameTheCommandThatWasMeant) {
   EXPECT_THAT(Refused({"wrold", "check", "a.yaml"}), HasSubstr("rodeira: 'wrold' is no command of 'rodeira'; did you mean 'world'?\n"));
+  EXPECT_THAT(Refused({"trafic", "run", "a.motors"}), HasSubstr("rodeira: 'trafic' is no command of 'rodeira'; did you mean 'traffic'?\n"));
   EXPECT_THAT(Refused({"world", "chekc", "a.yaml"}), HasSubstr("rodeira: 'chekc' is no command of 'rodeira world'; did you mean 'check'?\n"));
   EXPECT_THAT(Refused({"map"}), HasSubstr("rodeira: 'rodeira map' needs a command; known are check, convert\n"));
 }

@@ -194,7 +194,7 @@ TEST(TrafficFiles, ScenariosChangedByStructure) {
     if (!scenario) return scenario.error();
     std::optional<base::Error> refused;
     traffic::TrafficModel model = start;
-    for (const auto& [step, event] : scenario.value().scheduled) {
+    for (const auto& [step, event, place] : scenario.value().scheduled) {
       EXPECT_NE(scenario::FindEventKind(event.name), nullptr) << event.name;
       if (event.name != scenario::kTrafficAppear) continue;
       const auto choice = scenario::ParseAgentOnLane(event.argument).value();
