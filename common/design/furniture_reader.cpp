@@ -19,6 +19,8 @@ namespace {
 using config::List;
 using config::Map;
 
+constexpr double kNearest_m = 0.1;  // of what is repeated
+
 // Where something stands: once, or from a station to another every so often.
 struct Stand {
   double s_m, from_s_m, every_m, to_s_m;
@@ -32,7 +34,7 @@ Stand ReadStand(const Map& item, double length_m) {
     return stand;
   }
   if (item.Has("s_m")) item.Problem("s_m", "what is repeated has 'from_s_m', 'every_m' and 'to_s_m' instead of 's_m'");
-  stand.every_m = item.Number("every_m", {0.1, 1e6});
+  stand.every_m = item.Number("every_m", {kNearest_m, 1e6});
   stand.from_s_m = stand.s_m = item.Number("from_s_m", {0.0, length_m}, 0.0);
   stand.to_s_m = item.Number("to_s_m", {0.0, length_m}, length_m);
   if (stand.to_s_m < stand.from_s_m) item.Problem("to_s_m", "'to_s_m' must not lie before 'from_s_m'");
@@ -85,7 +87,7 @@ void ReadSign(const Map& item, const Context& context, double length_m, network:
   const double size = item.Number("height_m", {0.1, 10.0}, kind->height_m);
   const std::string text = item.Text("text", "");
   if (text.empty() && (name == "town" || name == "end_of_town")) warnings.push_back(fmt::format("{}: the sign '{}' names no town: its 'text' is what stands on it", item.Place("type"), name));
-  if (stand.repeated && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost) return item.Problem("every_m", "more than 100 000 signs; fewer were expected");
+  if (stand.repeated && stand.every_m >= kNearest_m && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost) return item.Problem("every_m", "more than 100 000 signs; fewer were expected");
   const Beside beside(item, spec, -0.3, right_side);
   const std::vector<double> stations = StationsOf(stand);
   if (height < kOverhead_m) WarnOnLanes(item, fmt::format("the sign '{}'", name), spec, stations, beside, 0.0, warnings);
@@ -149,7 +151,7 @@ void ReadObject(const Map& item, double length_m, network::RoadSpec& spec, std::
   } else {
     stand = ReadStand(item, length_m);
     sound = !stand.repeated || (stand.to_s_m >= stand.from_s_m && stand.every_m > 0.0);
-    if (sound && stand.repeated && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost) return item.Problem("every_m", "more than 100 000 objects; fewer were expected");
+    if (sound && stand.repeated && stand.every_m >= kNearest_m && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost) return item.Problem("every_m", "more than 100 000 objects; fewer were expected");
   }
   const Beside beside(item, spec, continuous ? -0.5 : 4.0, true);
   object.s_m = stand.s_m;
@@ -183,7 +185,7 @@ void ReadStructures(const Map& road, const char* key, bool bridge, double length
     if (!(structure.length_m > 0.0)) item.Problem("to_s_m", "'to_s_m' must lie behind 'from_s_m'");
     for (const network::Structure& other : spec.structures) {
       const double from = std::max(structure.s_m, other.s_m), to = std::min(structure.s_m + structure.length_m, other.s_m + other.length_m);
-      if (from < to) item.Problem("from_s_m", fmt::format("from s = {} to {} m there is a {} already", from, to, other.bridge ? "bridge" : "tunnel"));
+      if (other.bridge != bridge && from < to) item.Problem("from_s_m", fmt::format("from s = {} to {} m there is a {} already", from, to, other.bridge ? "bridge" : "tunnel"));
     }
     spec.structures.push_back(std::move(structure));
   }

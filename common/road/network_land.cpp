@@ -92,6 +92,7 @@ void NetworkLand::AddPieces(std::uint32_t road_index) {
       piece.edges = EdgesBeside(road, panel);
       if (piece.from_W != piece.to_W) piece.left_W = geometry::Left((piece.to_W - piece.from_W).normalized());
       piece.heights = HeightsOfEdges(road, begin, end);
+      piece.steady = SteadyEdgesOf(road, piece.stretch);
       piece.right_reach_m = piece.left_reach_m = kHolds_m;
       for (int k = 0; k <= kCurvatures; ++k) {
         const double s = begin + (end - begin) * k / kCurvatures, curvature = road.axis().At(panel, s - panel.middle_s_m).curvature_1pm;
@@ -195,7 +196,7 @@ void NetworkLand::FromPlace(const EdgePlace& place, const Vector2d& station_slop
 void NetworkLand::FromRoad(const Piece& piece, const Vector2d& p_W, LandBounds& bounds) const {
   const Road& road = network_->roads()[piece.road];
   const geometry::AxisPanel& panel = road.axis().panels()[piece.panel];
-  EdgePlace place = PlaceOnEdge(road, panel, piece.stretch, p_W);
+  EdgePlace place = PlaceOnEdge(road, panel, piece.stretch, p_W, piece.steady);
   const bool left = place.found_t_m > road.CentreAt(place.s_m).value;
   const double reach = left ? piece.left_reach_m : piece.right_reach_m;
   const Vector2d slope = place.pace > 0.0 ? Vector2d(place.axis.tangent_W / place.pace) : Vector2d::Zero();
@@ -219,7 +220,7 @@ void NetworkLand::FromRoad(const Piece& piece, const Vector2d& p_W, LandBounds& 
     if (!(s > piece.stretch.from_s_m && s < piece.stretch.to_s_m)) continue;  // posts stand at the ends
     const Vector2d found = place.beside ? slope : place.axis.tangent_W;
     const Vector2d station = found + side * (left ? 1.0 : -1.0) * (place.axis.left_W() - place.t_slope * found);
-    FromPlace(MovedTo(s, road, panel, place), station, reach, p_W, bounds);
+    FromPlace(MovedTo(s, road, panel, place, piece.steady), station, reach, p_W, bounds);
   }
   const bool all = bounds.every() || !(bounds.nearest_m() < kVerge_m);
   for (const Eigen::Vector3d& post_W : std::span(posts_W_).subspan(piece.first_post, piece.posts)) {

@@ -53,6 +53,7 @@ class NetworkLand {
     Eigen::Vector2d left_W = Eigen::Vector2d::Zero();  // of the line through both
     EdgesAside edges{};  // from the way and the line between these
     EdgeHeights heights{};
+    SteadyEdges steady;
     double right_reach_m = 0.0, left_reach_m = 0.0;  // of what moves with p: less within a bend than to its middle
     std::uint32_t first_post = 0, posts = 0;
 

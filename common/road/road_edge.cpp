@@ -27,7 +27,49 @@ double WidestOf(const network::Road& road) {
   return widest;
 }
 
+bool IsConstant(const geometry::CubicTable& table) {
+  const auto& records = table.records();
+  return std::all_of(records.begin(), records.end(), [&](const geometry::Cubic& one) { return one.b == 0.0 && one.c == 0.0 && one.d == 0.0 && one.a == records.front().a; });
+}
+
+network::LaneSpan SpanAt(const network::LaneSection& section, const SteadyEdges& steady, double t_m, const geometry::CubicPoint& centre, double s_m, double& outside_m) {
+  if (steady.section == &section) {
+    if (const network::LaneSpan* beyond = steady.Beyond(t_m, outside_m)) return *beyond;
+  }
+  return section.At(t_m, centre, s_m, outside_m);
+}
+
 }  // namespace
+
+const network::LaneSpan* SteadyEdges::Beyond(double t_m, double& outside_m) const {
+  if (t_m >= centre_t_m && t_m > left_t_m) {
+    outside_m = t_m - left_t_m;
+    return &left;
+  }
+  if (t_m < centre_t_m && t_m < right_t_m) {
+    outside_m = right_t_m - t_m;
+    return &right;
+  }
+  return nullptr;
+}
+
+SteadyEdges SteadyEdgesOf(const network::Road& road, const Stretch& stretch) {
+  constexpr double kFar_m = 1e6;
+  const network::LaneSection& section = road.SectionAt(stretch.from_s_m);
+  if (&section != &road.SectionAt(stretch.to_s_m) || !IsConstant(road.spec().lane_offset)) return {};
+  for (const auto* lanes : {&section.left, &section.right}) {
+    for (const network::Lane& lane : *lanes) {
+      if (lane.bordered() || !IsConstant(lane.width) || (!lane.width.records().empty() && lane.width.records().front().a < 0.0)) return {};
+    }
+  }
+  SteadyEdges steady;
+  const geometry::CubicPoint centre = road.CentreAt(stretch.from_s_m);
+  double outside;
+  steady.section = &section, steady.centre_t_m = centre.value;
+  steady.left = section.At(kFar_m, centre, stretch.from_s_m, outside), steady.right = section.At(-kFar_m, centre, stretch.from_s_m, outside);
+  steady.left_t_m = section.left.empty() ? centre.value : steady.left.outer_t_m, steady.right_t_m = section.right.empty() ? centre.value : steady.right.outer_t_m;
+  return steady;
+}
 
 std::pair<double, double> Steepening(double distance_m, double reach_m) {
   if (distance_m <= kSteeper * reach_m) return {0.0, 0.0};
@@ -73,7 +115,7 @@ EdgeHeights HeightsOfEdges(const network::Road& road, double from_s_m, double to
   return {low - most - kSample_m, high + most + kSample_m};
 }
 
-EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& panel, const Stretch& stretch, const Eigen::Vector2d& p_W) {
+EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& panel, const Stretch& stretch, const Eigen::Vector2d& p_W, const SteadyEdges& steady) {
   const geometry::AxisFoot foot = road.axis().Foot(panel, p_W);
   const double found = panel.middle_s_m + foot.u_m;
   EdgePlace place;
@@ -84,7 +126,7 @@ EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& pane
   if (road.rolled()) (void)network::SettleOn(road, &panel, p_W, stretch.from_s_m, stretch.to_s_m, s, place.found_t_m);
   const network::LaneSection& section = road.SectionAt(s);
   const geometry::CubicPoint centre = road.CentreAt(s);
-  network::LaneSpan span = section.At(place.found_t_m, centre, s, place.outside_m);
+  network::LaneSpan span = SpanAt(section, steady, place.found_t_m, centre, s, place.outside_m);
   place.t_m = place.found_t_m + (place.found_t_m > centre.value ? -place.outside_m : place.outside_m);
   if (road.rolled() && place.outside_m > 0.0) {  // the section leans: the nearest point of its edge lies elsewhere
     (void)network::DistanceToEdgeOn(road, &panel, p_W, stretch.from_s_m, stretch.to_s_m, place.t_m, s);
@@ -102,12 +144,12 @@ EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& pane
   return place;
 }
 
-EdgePlace MovedTo(double s_m, const network::Road& road, const geometry::AxisPanel& panel, const EdgePlace& place) {
+EdgePlace MovedTo(double s_m, const network::Road& road, const geometry::AxisPanel& panel, const EdgePlace& place, const SteadyEdges& steady) {
   EdgePlace moved = place;
   moved.s_m = s_m;
   const network::LaneSection& section = road.SectionAt(s_m);
   const geometry::CubicPoint centre = road.CentreAt(s_m);
-  const network::LaneSpan span = section.At(place.found_t_m, centre, s_m, moved.outside_m);
+  const network::LaneSpan span = SpanAt(section, steady, place.found_t_m, centre, s_m, moved.outside_m);
   moved.t_m = place.found_t_m + (place.found_t_m > centre.value ? -moved.outside_m : moved.outside_m);
   moved.t_slope = moved.outside_m > 0.0 ? span.outer_slope : 0.0;
   moved.axis = road.axis().At(panel, s_m - panel.middle_s_m);

@@ -30,6 +30,17 @@ struct Stretch {
   double from_s_m = 0.0, to_s_m = 0.0;
 };
 
+// The outermost edges of a stretch along which no lane's edge moves: what LaneSection::At says beyond them, to the bit, without asking lane by lane.
+struct SteadyEdges {
+  const network::LaneSection* section = nullptr;  // null: some edge moves
+  network::LaneSpan right, left;                  // of the outermost lanes
+  double centre_t_m = 0.0, right_t_m = 0.0, left_t_m = 0.0;
+
+  // Nothing within the edges. outside_m: as LaneSection::At's.
+  const network::LaneSpan* Beyond(double t_m, double& outside_m) const;
+};
+SteadyEdges SteadyEdgesOf(const network::Road& road, const Stretch& stretch);
+
 // The place on a stretch of a panel that lies across the road from a point, or at the stretch's nearer end: on the edge of the point's side, or as far
 // aside as the point where that is between the edges.
 struct EdgePlace {
@@ -44,8 +55,8 @@ struct EdgePlace {
   geometry::PlanPoint axis;
   network::SurfaceSample sample;
 };
-EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& panel, const Stretch& stretch, const Eigen::Vector2d& p_W);
+EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& panel, const Stretch& stretch, const Eigen::Vector2d& p_W, const SteadyEdges& steady = {});
 // The same place moved along the road to another station of the panel.
-EdgePlace MovedTo(double s_m, const network::Road& road, const geometry::AxisPanel& panel, const EdgePlace& place);
+EdgePlace MovedTo(double s_m, const network::Road& road, const geometry::AxisPanel& panel, const EdgePlace& place, const SteadyEdges& steady = {});
 
 }  // namespace rodeira::road

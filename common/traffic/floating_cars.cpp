@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-// From the right edge of its direction.
+// Of its road, from the right edge of its direction.
 int IndexOf(const lanes::Graph& graph, std::uint32_t track) {
   int index = 0;
-  for (auto right = graph[track].right; right; right = graph[*right].right) ++index;
+  for (auto right = graph[track].right; right && graph[*right].lane.road == graph[track].lane.road; right = graph[*right].right) ++index;
   return index;
 }
 

@@ -29,6 +29,7 @@ const fs::path kRoot = SourceDir();
 // Where the keys that a reader asks for stand in a world file: below these mappings and lists, or (with a '.' behind) in them themselves. Lists' numbers are left out; what an author names is '*'.
 const std::map<std::string, std::vector<std::string>> kPlaces = {
     {"design/axis_reader.cpp", {"roads.", "roads.start", "roads.axis", "roads.points"}},
+    {"design/behind_end.cpp", {"roads.", "roads.section"}},
     {"design/beside.cpp", {"roads.signs", "roads.objects"}},
     {"design/context.cpp", {"materials"}},
     {"design/design_reader.cpp", {".", "roads.predecessor", "roads.successor", "start"}},

@@ -15,9 +15,11 @@ namespace rodeira::road {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 // What is said of a world file with this text.
 std::vector<std::string> Said(const std::string& text) {
@@ -63,20 +65,21 @@ TEST(Passes, ATunnelWithoutAHillIsToldWithItsStations) {
 }
 
 // A loop of three quarters of a circle of 100 m radius, which comes back over itself: east along y = 0 from x = -200 to 100, round to the left, and south along x = 0.
-// The lower stretch has its lanes at y = -3.5 to 3.5, so that the upper one, 8 m above it, which passes y = 100 at s = 300 + 471.2 m, is over it from s = 771.2 + 96.5 m on.
+// The lower stretch has its lanes at y = -3.5 to 3.5, so that the upper one, 8 m above it, which passes y = 100 at s = 300 + 471.24 m, is over it from s = 867.74 m on; of the
+// places looked at every 0.9993 m s = 868.4 m is the first behind that.
 TEST(Passes, ARoadOverItselfIsToldToo) {
   const std::string text = "rodeira: world/2\nname: loop\nground: {kind: plane}\nroads:\n  - id: loop\n    start: {x_m: -200, y_m: 0, heading_deg: 0}\n"
                            "    axis: [line: {length_m: 300}, arc: {turn_deg: 270, radius_m: 100}, line: {length_m: 300}]\n"
                            "    vertical: [{s_m: 0, z_m: 0}, {s_m: 300, z_m: 0, parabola_m: 60}, {s_m: 740, z_m: 8, parabola_m: 60}, {s_m: 1071, z_m: 8}]\n    section: {template: rural}\n";
-  EXPECT_THAT(Said(text), ElementsAre(AllOf(HasSubstr("w.yaml:5: road 'loop' at s = 868.0 m lies 8.0 m over itself at s = 19"), HasSubstr("neither has the upper one `bridges`"))));
-  EXPECT_THAT(Said(text + "    bridges: [{from_s_m: 840, to_s_m: 900}]\n"), IsEmpty());
+  EXPECT_THAT(Said(text), Contains(AllOf(HasSubstr("w.yaml:5: road 'loop' at s = 868.4 m lies 8.0 m over itself at s = 20"), HasSubstr("neither has the upper one `bridges`"))));
+  EXPECT_THAT(Said(text + "    bridges: [{from_s_m: 840, to_s_m: 900}]\n"), Not(Contains(HasSubstr("over itself"))));
 }
 
 // The project's own worlds pass over one another by bridges, and have hills over their tunnels.
 TEST(Passes, TheProjectsWorldsHaveNone) {
   for (const char* world : {"haste", "motorway", "n222", "example/world"}) {
     const auto file = std::filesystem::path(SourceDir()) / "configs/worlds" / (std::string(world) + ".yaml");
-    for (const std::string& said : WorldWarnings(file)) EXPECT_THAT(said, testing::Not(testing::AnyOf(HasSubstr("neither has the upper one"), HasSubstr("the tunnel of road")))) << said;
+    for (const std::string& said : WorldWarnings(file)) EXPECT_THAT(said, Not(testing::AnyOf(HasSubstr("neither has the upper one"), HasSubstr("the tunnel of road")))) << said;
   }
 }
 

@@ -60,7 +60,7 @@ TEST_F(ToldOnce, NoKeyIsUnknownThatWasNotReadForAnotherMistake) {
   EXPECT_THAT(Problems(OnAPlane("line: {length_m: 200}", "start: {road: main, lane: -1, s_m: 20, x_m: 3}\n")), ElementsAre("w.yaml:10: 'road' and 'x_m' say the same in two ways; one of both was expected"));
   EXPECT_THAT(Problems(OnAPlane("line: {length_m: 200}", "    vertical: [{s_m: 0, z_m: 0}, {s_m: 200, z_m: 4}]\n")), ElementsAre("w.yaml:7: 'vertical' and 'z_m' say the same in two ways; one of both was expected"));
   EXPECT_THAT(Problems(OnAPlane("line: {length_m: 200}", "    signs: [{type: bend_left, s_m: 20, side: left, t_m: 5}]\n")), ElementsAre("w.yaml:10: 't_m' and 'side' say the same in two ways; one of both was expected"));
-  EXPECT_THAT(Problems(OnAPlane("line: {length_m: 200}", "    objects: [{type: tree, s_m: 20, every_m: -1, beside_n: 4}]\n")), testing::Contains(testing::HasSubstr("unknown key 'roads[0].objects[0].beside_n'; did you mean 'beside_m'?")));
+  EXPECT_THAT(Problems(OnAPlane("line: {length_m: 200}", "    objects: [{type: tree, s_m: 20, every_m: -1, besid_m: 4}]\n")), testing::Contains(testing::HasSubstr("unknown key 'roads[0].objects[0].besid_m'; did you mean 'beside_m'?")));
 }
 
 TEST_F(ToldOnce, ListsWithPointsBehindTheRoadsEnd) {

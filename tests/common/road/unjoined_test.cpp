@@ -68,7 +68,7 @@ TEST(Overlaps, AreWarningsOfWorldCheckOfBothKindsOfFiles) {
   const front::TemporaryFolder folder;
   const auto yaml = folder.path() / "w.yaml", xodr = folder.path() / "w.xodr";
   ASSERT_TRUE(base::WriteWhole(yaml, Crossing(0.0)).ok());
-  EXPECT_THAT(WorldWarnings(yaml), ElementsAre(HasSubstr("w.yaml: road 'a' at s = 147.0 m and road 'b' at s = 51.8 m lie on one another")));
+  EXPECT_THAT(WorldWarnings(yaml), ElementsAre(HasSubstr("w.yaml:5: road 'a' at s = 147.0 m and road 'b' at s = 51.8 m lie on one another")));
   const auto road = [](const char* id, const char* geometry) {
     return fmt::format("<road id=\"{}\" length=\"100\" junction=\"-1\"><planView>{}</planView><lanes><laneSection s=\"0\"><center><lane id=\"0\" type=\"none\"/></center><right><lane id=\"-1\" type=\"driving\">"
                        "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>",

@@ -341,7 +341,8 @@ TEST(Pedestrians, WrongSettingsAreNamed) {
   EXPECT_NE(Problem("pedestrians: {per_hour: -1}\n").find("t.yaml:2"), std::string::npos);
   EXPECT_NE(Problem("pedestrians: {slowest_mps: 2, fastest_mps: 1}\n").find("'fastest_mps' is 1, below 'slowest_mps', which is 2"), std::string::npos);
   EXPECT_NE(Problem("pedestrians: {per_hours: 10}\n").find("per_hour"), std::string::npos);
-  EXPECT_NE(Problem("vehicles: 2\npedestrians:\n  at:\n    - {road: main, s_m: 1, per_hour: 5}\n").find("the road 'main' has no crossing"), std::string::npos);
+  EXPECT_NE(Problem("vehicles: 2\npedestrians:\n  at:\n    - {road: main, s_m: 1, per_hour: 5}\n").find("there is no road 'main'"), std::string::npos);
+  EXPECT_EQ(WithoutCrossing(*Street(), "1"), "the road '1' has no crossing for people on foot");
   const auto none = TrafficModel::Make(WithPeople(2, 100.0), lanes::MapNetwork("crossing"), {});
   ASSERT_FALSE(none.ok());
   EXPECT_NE(none.error().Text().find("has no crossing for people on foot"), std::string::npos) << none.error().Text();

@@ -275,15 +275,15 @@ TEST_F(Scenario, WhatCannotBeIsRefusedAtTheStart) {
             std::string::npos);
 }
 
-TEST_F(Scenario, AnAgentThatIsNotThereFailsTheRunWithASentence) {
-  const Driven run = Drive(LaunchOf(Text(File("  - {at_s: 1, name: traffic.brake, agent: 20, deceleration_mps2: 3}\n"))), 2000);
-  EXPECT_FALSE(run.outcome.ok);
-  EXPECT_NE(run.outcome.fault.find("event 'traffic.brake' at step 1000: there is no agent 20; there are 20, from 0 on"),
-            std::string::npos)
-      << run.outcome.fault;
-  const Driven nowhere = Drive(LaunchOf(Text(File("  - {at_s: 1, name: traffic.brake, agent: next, at: {road: n22, s_m: 3}, deceleration_mps2: 3}\n"))), 2000);
-  EXPECT_FALSE(nowhere.outcome.ok);
-  EXPECT_NE(nowhere.outcome.fault.find("event 'traffic.brake' at step 1000: there is no road 'n22'; did you mean 'n222'?"), std::string::npos) << nowhere.outcome.fault;
+TEST_F(Scenario, AnAgentThatIsNotThereIsRefusedWithItsLine) {
+  const auto refused = [this](const std::string& event) {
+    const auto nodes = front::LocalNodes::Make(LaunchOf(Text(File("  - " + event + "\n"))));
+    EXPECT_FALSE(nodes.ok());
+    return nodes.ok() ? "" : nodes.error().Text();
+  };
+  const std::string place = "node 'others': " + (folder_ / "scenario.yaml").string() + ":3: 'traffic.brake': ";
+  EXPECT_EQ(refused("{at_s: 1, name: traffic.brake, agent: 20, deceleration_mps2: 3}"), place + "there is no agent 20; there are 20, from 0 on");
+  EXPECT_EQ(refused("{at_s: 1, name: traffic.brake, agent: next, at: {road: n22, s_m: 3}, deceleration_mps2: 3}"), place + "there is no road 'n22'; did you mean 'n222'?");
 }
 
 }  // namespace

@@ -135,7 +135,7 @@ TEST_F(ScriptedTraffic, WhatCannotBeObeyedIsNamedBeforeTheRun) {
     EXPECT_EQ(nodes.error().code, base::ErrorCode::kWrongInput);
     return nodes.error().Text();
   };
-  const std::string line = (folder_.path() / "story.yaml").string() + ":4: ";
+  const std::string line = "node 'others': " + (folder_.path() / "story.yaml").string() + ":4: ";
   EXPECT_EQ(refused("at_s: 7200, name: traffic.appear, agent: 1, at: {lane: \"main:-1\", s_m: 500}, speed_mps: 3"),
             line + "'traffic.appear': agent 1 cannot appear; one of the traffic's 'scripted' was expected, 3 to 3");
   EXPECT_NE(refused("at_s: 7200, name: traffic.appear, agent: 3, at: {lane: \"main:-2\", s_m: 500}, speed_mps: 3").find("'main:-2' was found"), std::string::npos);
@@ -143,7 +143,7 @@ TEST_F(ScriptedTraffic, WhatCannotBeObeyedIsNamedBeforeTheRun) {
   EXPECT_EQ(refused("at_s: 7200, name: traffic.overtake, agent: 9"), line + "'traffic.overtake': there is no agent 9; there are 4, from 0 on");
   EXPECT_NE(refused("when: {road: main, passes_m: 200}, name: traffic.overtake, agent: 9").find("there is no agent 9"), std::string::npos);
   EXPECT_NE(refused("at_s: 7200, name: traffic.brake, agent: next, at: {road: mian, s_m: 200}, deceleration_mps2: 3").find("did you mean 'main'?"), std::string::npos);
-  EXPECT_NE(refused("at_s: 7200, name: traffic.pedestrian, at: {road: main, s_m: 200}").find("the traffic has no people on foot"), std::string::npos);
+  EXPECT_NE(refused("at_s: 7200, name: traffic.pedestrian, crossing: main 200").find("the traffic has no people on foot"), std::string::npos);
   EXPECT_EQ(refused("at_s: 7200, name: traffic.appear, agent: 3, at: {lane: \"main:-1\", s_m: 500}, speed_mps: 3"), "");
 }
 
