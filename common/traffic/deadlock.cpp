@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "common/traffic/queueing.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
@@ -11,7 +12,6 @@ namespace {
 
 constexpr double kAtRest_mps = 0.05;
 constexpr double kClose_m = 1.0;     // more than its standing gap from who is ahead: it stands for him
-constexpr double kLoose_m = 0.5;     // more than its standing gap that a queueing car leaves (room.cpp)
 constexpr double kOverLine_m = 0.3;  // a front so far beyond where a zone begins still waits before it (claims.cpp)
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "common/driver/acc.hpp"
 #include "common/driver/pedals.hpp"
+#include "common/traffic/queueing.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/traffic/travel_time.hpp"
 
@@ -15,8 +16,6 @@ constexpr double kLine_m = 0.6;          // before the zone the front stops
 constexpr double kFollowing_mps2 = 1.5;  // who is let in behind somebody brakes no harder for it
 constexpr double kYielded_mps2 = 1.0;    // by which others may have to brake, on the average, for who merges before them
 constexpr double kLag_s = 1.0;           // … and so much later than that one they come
-constexpr double kShort_m = 0.05;        // so near before a line a front stands at the farthest (room.cpp)
-constexpr double kLoose_m = 0.5;         // more than its standing gap that a queueing car leaves (room.cpp)
 constexpr double kLeast_mps2 = 1e-3;     // who is left less than this at rest does not drive on; with pedals who is left less than his foot lets go by
 
 }  // namespace

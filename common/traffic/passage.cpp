@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "common/traffic/queueing.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/traffic/travel_time.hpp"
 
@@ -14,7 +15,6 @@ constexpr double kStand_m = 2.5;        // more than its length a car needs to s
 constexpr double kReaction_s = 1.0;
 constexpr double kEarly_m = 4.0;
 constexpr double kStopped_m = 2.0;      // at most so far before a STOP line
-constexpr double kLoose_m = 0.5;        // more than its standing gap that a queueing car leaves
 constexpr double kOverLine_m = 0.3;     // a front so far beyond a light's line has passed it
 constexpr double kFarther_m = 20.0;     // than where it would stand behind the zones that it knows it looks for the next ones
 

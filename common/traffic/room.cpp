@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/traffic/queueing.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/traffic/travel_time.hpp"
 
@@ -10,12 +11,10 @@ namespace {
 
 constexpr double kHardest_mps2 = 3.0;  // braking by which it is told where a vehicle could stand that may stop
 constexpr double kSameLine_m = 1.2;    // lines nearer to one another than this are one
-constexpr double kLoose_m = 0.5;       // more than its standing gap that a queueing car leaves
 constexpr double kNever_m = 1e18;
 constexpr double kRoom_m = 5.0;        // before who stands anywhere else than at a line
 constexpr int kDeepest = 256;           // longer columns count as ending there
 constexpr double kStands_mps = 0.5, kFollows_s = 1.2, kClose_m = 3.0;  // slower, who has no more than so far to close up starts so much later than who is ahead
-constexpr double kShort_m = 0.05;       // so near before a line a front stands at the farthest, and drives on no more (StopAt)
 constexpr double kWaits_s = 3.0;        // within its zones for who leaves it room, at most, as told beforehand
 
 double StopsWithin(double speed_mps) { return std::max(0.0, speed_mps) * speed_mps / (2.0 * kHardest_mps2); }
