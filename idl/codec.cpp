@@ -6,7 +6,7 @@
 
 #include <exception>
 
-#include "common/base/assert.hpp"
+#include "common/core/base/assert.hpp"
 
 namespace rodeira::idl::detail {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <string>
 
-#include "common/base/bytes.hpp"
-#include "common/base/result.hpp"
+#include "common/core/base/bytes.hpp"
+#include "common/core/base/result.hpp"
 
 namespace eprosima::fastcdr {
 class Cdr;

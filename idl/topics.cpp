@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/base/assert.hpp"
+#include "common/core/base/assert.hpp"
 
 namespace rodeira::idl {
 

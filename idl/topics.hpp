@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/base/hash.hpp"
+#include "common/core/base/hash.hpp"
 
 namespace rodeira::idl {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "common/road/world.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira {

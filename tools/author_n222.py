@@ -5,7 +5,7 @@ Nothing of it is surveyed. What is taken from the real road between Regua and Pi
 of 30 to 200 m, a carriageway of at least 5.50 m, paved shoulders of 0.50 m. The rest is drawn from a seed. The axis is
 accepted where it stays within the terrain and keeps clear of itself; `rodeira world check` has the last word.
 
-What stands beside the road follows from it and from the hills, which are computed here as `common/road/hills.cpp` does: guard
+What stands beside the road follows from it and from the hills, which are computed here as `common/world/road/hills.cpp` does: guard
 rails where the land falls away, chevrons and warnings at the sharp bends, rows of vines, olives and trees where there is room.
 """
 import bisect
@@ -17,7 +17,7 @@ GENERAL_HEADING_DEG = 20.0
 VERGE_M, FALL, VERGE_FALL = 1.2, 0.025, 0.08
 EDGE_M = LANE_M + SHOULDER_M + VERGE_M  # of all that is built, from the axis
 SHARP_M = 50.0                          # radius: from here on a bend has a warning and chevrons
-# Of this seed's hills none stands before those who may overtake; tests/common/road/n222_test.cpp looks along every such stretch.
+# Of this seed's hills none stands before those who may overtake; tests/common/world/road/n222_test.cpp looks along every such stretch.
 HILLS = {"seed": 230, "columns": 513, "rows": 513, "spacing_m": 10, "west_m": -2560, "south_m": -2560, "base_z_m": 120, "below_m": 0.3, "flat_m": 5, "full_m": 90, "reach_m": 270}
 REACH_M = 20                            # of cuts and fills: less than to the centre of the sharpest bend, where they would meet themselves
 RELIEF = [(1900, 260), (800, 110), (350, 40), (140, 10), (60, 2)]  # wavelength, amplitude

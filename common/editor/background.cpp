@@ -12,9 +12,9 @@
 #include <optional>
 #include <thread>
 
-#include "common/base/files.hpp"
-#include "common/map/map_file.hpp"
-#include "common/map/picture.hpp"
+#include "common/core/base/files.hpp"
+#include "common/world/traffic_map/map_file.hpp"
+#include "common/world/traffic_map/picture.hpp"
 
 namespace rodeira::editor {
 namespace {

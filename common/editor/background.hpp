@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/base/result.hpp"
+#include "common/core/base/result.hpp"
 #include "common/editor/pyramid.hpp"
 
 namespace rodeira::editor {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/result.hpp"
+#include "common/core/base/result.hpp"
 #include "common/editor/edit.hpp"
 #include "common/editor/selection.hpp"
 

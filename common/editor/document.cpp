@@ -1,6 +1,6 @@
 #include "common/editor/document.hpp"
 
-#include "common/map/companion_text.hpp"
+#include "common/world/traffic_map/companion_text.hpp"
 
 namespace rodeira::editor {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "common/map/heights.hpp"
-#include "common/map/lane_map.hpp"
-#include "common/map/map_file.hpp"
+#include "common/world/traffic_map/heights.hpp"
+#include "common/world/traffic_map/lane_map.hpp"
+#include "common/world/traffic_map/map_file.hpp"
 
 namespace rodeira::editor {
 

@@ -1,7 +1,7 @@
 #include "common/editor/edit.hpp"
 
-#include "common/base/assert.hpp"
-#include "common/map/companion_text.hpp"
+#include "common/core/base/assert.hpp"
+#include "common/world/traffic_map/companion_text.hpp"
 
 namespace rodeira::editor {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "common/map/lane_map.hpp"
-#include "common/map/world_files.hpp"
+#include "common/world/traffic_map/lane_map.hpp"
+#include "common/world/traffic_map/world_files.hpp"
 
 namespace rodeira::editor {
 

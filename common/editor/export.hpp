@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "common/base/result.hpp"
+#include "common/core/base/result.hpp"
 #include "common/editor/document.hpp"
 
 namespace rodeira::editor {

@@ -1,6 +1,6 @@
 #include "common/editor/history.hpp"
 
-#include "common/base/assert.hpp"
+#include "common/core/base/assert.hpp"
 
 namespace rodeira::editor {
 

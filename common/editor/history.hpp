@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/result.hpp"
+#include "common/core/base/result.hpp"
 #include "common/editor/edit.hpp"
 
 namespace rodeira::editor {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/map/cubic.hpp"
+#include "common/world/traffic_map/cubic.hpp"
 
 namespace rodeira::editor {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/map/map_network.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 #include "common/traffic/map_demand.hpp"
 
 namespace rodeira::editor {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/result.hpp"
+#include "common/core/base/result.hpp"
 #include "common/editor/document.hpp"
 #include "common/traffic/lane_statistics.hpp"
 #include "common/traffic/traffic_model.hpp"

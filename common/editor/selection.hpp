@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/editor/document.hpp"
-#include "common/map/check.hpp"
+#include "common/world/traffic_map/check.hpp"
 
 namespace rodeira::editor {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "common/editor/commands.hpp"
-#include "common/map/check.hpp"
+#include "common/world/traffic_map/check.hpp"
 
 namespace rodeira::editor {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <system_error>
 
-#include "common/base/files.hpp"
-#include "common/map/companion_text.hpp"
+#include "common/core/base/files.hpp"
+#include "common/world/traffic_map/companion_text.hpp"
 
 namespace rodeira::editor {
 namespace {

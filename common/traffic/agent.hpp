@@ -5,10 +5,10 @@
 #include <boost/container/small_vector.hpp>
 #include <cstdint>
 
-#include "common/base/assert.hpp"
-#include "common/base/state.hpp"
-#include "common/driver/footprint.hpp"
-#include "common/lanes/graph.hpp"
+#include "common/core/base/assert.hpp"
+#include "common/core/base/state.hpp"
+#include "common/driving/driver/footprint.hpp"
+#include "common/world/lanes/graph.hpp"
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/overtaking.hpp"
 #include "common/traffic/struck.hpp"

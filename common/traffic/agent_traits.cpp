@@ -3,8 +3,8 @@
 #include <array>
 #include <span>
 
-#include "common/base/assert.hpp"
-#include "common/base/random.hpp"
+#include "common/core/base/assert.hpp"
+#include "common/core/base/random.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
 namespace rodeira::traffic {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/base/assert.hpp"
+#include "common/core/base/assert.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {

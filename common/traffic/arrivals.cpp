@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 
 namespace rodeira::traffic {
 namespace {

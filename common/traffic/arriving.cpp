@@ -1,5 +1,5 @@
 // How vehicles of flows arrive.
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 #include "common/traffic/arrivals.hpp"
 #include "common/traffic/traffic_model.hpp"
 

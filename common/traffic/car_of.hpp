@@ -2,7 +2,7 @@
 
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/traffic_settings.hpp"
-#include "common/vehicle/bicycle_settings.hpp"
+#include "common/vehicle/dynamics/bicycle_settings.hpp"
 
 namespace rodeira::traffic {
 

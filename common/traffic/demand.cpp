@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "common/base/suggest.hpp"
+#include "common/core/base/suggest.hpp"
 
 namespace rodeira::traffic {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "common/base/result.hpp"
-#include "common/lanes/edge_marks.hpp"
-#include "common/lanes/graph.hpp"
+#include "common/core/base/result.hpp"
+#include "common/world/lanes/edge_marks.hpp"
+#include "common/world/lanes/graph.hpp"
 #include "common/traffic/demand_settings.hpp"
 
 namespace rodeira::traffic {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "common/base/suggest.hpp"
+#include "common/core/base/suggest.hpp"
 
 namespace rodeira::traffic {
 namespace {

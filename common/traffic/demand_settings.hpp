@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/config/config.hpp"
+#include "common/core/config/config.hpp"
 #include "common/traffic/vehicle_mix.hpp"
 
 namespace rodeira::traffic {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/vehicle/vehicle_state.hpp"
+#include "common/vehicle/dynamics/vehicle_state.hpp"
 
 namespace rodeira::traffic {
 namespace {

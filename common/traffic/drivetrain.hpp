@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 
-#include "common/vehicle/bicycle_settings.hpp"
+#include "common/vehicle/dynamics/bicycle_settings.hpp"
 
 namespace rodeira::traffic {
 
@@ -25,7 +25,7 @@ struct Torques {
   double Net(double throttle) const { return throttle * (full_Nm + drag_Nm) - drag_Nm; }
 };
 
-// The planar car: the powertrain of common/vehicle in its steady state, through which pedals move a body along its path. What is asked of it in every step
+// The planar car: the powertrain of common/vehicle/dynamics in its steady state, through which pedals move a body along its path. What is asked of it in every step
 // is found once; the settings must outlive it.
 class PlanarCar {
  public:

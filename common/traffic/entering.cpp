@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/assert.hpp"
-#include "common/geometry/angle.hpp"
+#include "common/core/base/assert.hpp"
+#include "common/core/geometry/angle.hpp"
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/hands.hpp"
 

@@ -4,12 +4,12 @@
 #include <memory>
 #include <vector>
 
-#include "common/base/crew.hpp"
-#include "common/base/result.hpp"
-#include "common/base/state.hpp"
-#include "common/driver/pedals.hpp"
+#include "common/core/base/crew.hpp"
+#include "common/core/base/result.hpp"
+#include "common/core/base/state.hpp"
+#include "common/driving/driver/pedals.hpp"
 #include "common/traffic/agent.hpp"
-#include "common/vehicle/car_array.hpp"
+#include "common/vehicle/dynamics/car_array.hpp"
 
 namespace rodeira::traffic {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/vehicle/bicycle_settings.hpp"
+#include "common/vehicle/dynamics/bicycle_settings.hpp"
 
 namespace rodeira::traffic {
 

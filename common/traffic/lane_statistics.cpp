@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "common/base/assert.hpp"
-#include "common/base/huge_pages.hpp"
+#include "common/core/base/assert.hpp"
+#include "common/core/base/huge_pages.hpp"
 
 namespace rodeira::traffic {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "common/base/csv_cell.hpp"
+#include "common/core/base/csv_cell.hpp"
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/xml_text.hpp"
 

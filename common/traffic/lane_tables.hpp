@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "common/base/result.hpp"
+#include "common/core/base/result.hpp"
 #include "common/traffic/lane_intervals.hpp"
 #include "common/traffic/lane_statistics.hpp"
 

@@ -1,7 +1,7 @@
 // What agents make of traffic lights.
 #include <algorithm>
 
-#include "common/driver/smooth.hpp"
+#include "common/driving/driver/smooth.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "common/map/heights.hpp"
+#include "common/world/traffic_map/heights.hpp"
 #include "common/traffic/demand_settings.hpp"
 
 namespace rodeira::traffic {

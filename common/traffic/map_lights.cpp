@@ -4,9 +4,9 @@
 #include <array>
 #include <string>
 
-#include "common/lanes/lights.hpp"
-#include "common/map/heights.hpp"
-#include "common/map/map_network.hpp"
+#include "common/world/lanes/lights.hpp"
+#include "common/world/traffic_map/heights.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 
 namespace rodeira::traffic {
 namespace {

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "common/base/result.hpp"
-#include "common/map/check.hpp"
-#include "common/map/lane_map.hpp"
-#include "common/network/network.hpp"
+#include "common/core/base/result.hpp"
+#include "common/world/traffic_map/check.hpp"
+#include "common/world/traffic_map/lane_map.hpp"
+#include "common/world/network/network.hpp"
 
 namespace rodeira::traffic {
 

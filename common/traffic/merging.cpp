@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "common/driver/acc.hpp"
-#include "common/driver/pedals.hpp"
+#include "common/driving/driver/acc.hpp"
+#include "common/driving/driver/pedals.hpp"
 #include "common/traffic/queueing.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/traffic/travel_time.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <span>
 
-#include "common/geometry/plane.hpp"
+#include "common/core/geometry/plane.hpp"
 
 namespace rodeira::traffic {
 namespace {

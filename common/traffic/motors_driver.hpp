@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "common/base/state.hpp"
-#include "common/vehicle/controls.hpp"
+#include "common/core/base/state.hpp"
+#include "common/vehicle/dynamics/controls.hpp"
 
 // The driver of MOTORS (Patras 2021, chapter 4 and appendix A.35 to A.90): its laws as its code has them, its constants of a frame taken at 50 Hz.
 namespace rodeira::traffic {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/random.hpp"
-#include "common/geometry/plane.hpp"
+#include "common/core/base/random.hpp"
+#include "common/core/geometry/plane.hpp"
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/motors_looks.hpp"
 #include "common/traffic/each_driving.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "common/network/network.hpp"
+#include "common/world/network/network.hpp"
 #include "common/traffic/motors_driver.hpp"
 
 namespace rodeira::traffic {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "common/base/state.hpp"
+#include "common/core/base/state.hpp"
 
 namespace rodeira::traffic {
 

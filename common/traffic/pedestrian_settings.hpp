@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config/config.hpp"
+#include "common/core/config/config.hpp"
 
 namespace rodeira::traffic {
 

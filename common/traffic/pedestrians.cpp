@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "common/base/assert.hpp"
-#include "common/base/random.hpp"
-#include "common/base/suggest.hpp"
-#include "common/geometry/angle.hpp"
+#include "common/core/base/assert.hpp"
+#include "common/core/base/random.hpp"
+#include "common/core/base/suggest.hpp"
+#include "common/core/geometry/angle.hpp"
 #include "common/traffic/arrivals.hpp"
 
 namespace rodeira::traffic {

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "common/base/result.hpp"
-#include "common/base/state.hpp"
-#include "common/driver/footprint.hpp"
-#include "common/lanes/foot_crossings.hpp"
+#include "common/core/base/result.hpp"
+#include "common/core/base/state.hpp"
+#include "common/driving/driver/footprint.hpp"
+#include "common/world/lanes/foot_crossings.hpp"
 #include "common/traffic/pedestrian_settings.hpp"
 
 namespace rodeira::traffic {

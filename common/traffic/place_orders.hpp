@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "common/base/result.hpp"
-#include "common/base/state.hpp"
+#include "common/core/base/result.hpp"
+#include "common/core/base/state.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "common/driver/footprint.hpp"
-#include "common/road/world.hpp"
+#include "common/driving/driver/footprint.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::traffic {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "common/lanes/swath.hpp"
+#include "common/world/lanes/swath.hpp"
 #include "common/traffic/each_driving.hpp"
 #include "common/traffic/traffic_model.hpp"
 

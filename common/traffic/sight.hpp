@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "common/driver/speed_plan.hpp"
-#include "common/driver/way.hpp"
-#include "common/lanes/curve.hpp"
+#include "common/driving/driver/speed_plan.hpp"
+#include "common/driving/driver/way.hpp"
+#include "common/world/lanes/curve.hpp"
 #include "common/traffic/agent.hpp"
 
 namespace rodeira::traffic {

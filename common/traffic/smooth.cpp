@@ -1,5 +1,5 @@
 // How an agent comes from one acceleration to the next.
-#include "common/driver/smooth.hpp"
+#include "common/driving/driver/smooth.hpp"
 
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <span>
 
-#include "common/geometry/angle.hpp"
-#include "common/geometry/plane.hpp"
+#include "common/core/geometry/angle.hpp"
+#include "common/core/geometry/plane.hpp"
 
 namespace rodeira::traffic {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "common/base/state.hpp"
+#include "common/core/base/state.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
 namespace rodeira::traffic {

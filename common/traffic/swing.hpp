@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/lanes/zones.hpp"
+#include "common/world/lanes/zones.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
 namespace rodeira::traffic {

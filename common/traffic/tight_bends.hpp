@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/lanes/graph.hpp"
+#include "common/world/lanes/graph.hpp"
 #include "common/traffic/traffic_settings.hpp"
 
 namespace rodeira::traffic {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/lanes/ring.hpp"
+#include "common/world/lanes/ring.hpp"
 
 namespace rodeira::traffic {
 namespace {

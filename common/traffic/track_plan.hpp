@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "common/driver/speed_plan.hpp"
-#include "common/driver/way.hpp"
-#include "common/lanes/graph.hpp"
-#include "common/lanes/lights.hpp"
-#include "common/lanes/signs.hpp"
+#include "common/driving/driver/speed_plan.hpp"
+#include "common/driving/driver/way.hpp"
+#include "common/world/lanes/graph.hpp"
+#include "common/world/lanes/lights.hpp"
+#include "common/world/lanes/signs.hpp"
 
 namespace rodeira::traffic {
 

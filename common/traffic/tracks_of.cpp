@@ -5,7 +5,7 @@
 #include <charconv>
 #include <utility>
 
-#include "common/base/suggest.hpp"
+#include "common/core/base/suggest.hpp"
 #include "common/traffic/demand.hpp"
 
 namespace rodeira::traffic {

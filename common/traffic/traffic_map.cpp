@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/base/huge_pages.hpp"
-#include "common/base/random.hpp"
-#include "common/lanes/ring.hpp"
+#include "common/core/base/huge_pages.hpp"
+#include "common/core/base/random.hpp"
+#include "common/world/lanes/ring.hpp"
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/swing.hpp"
 

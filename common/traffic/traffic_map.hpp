@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "common/lanes/edge_marks.hpp"
-#include "common/lanes/opposite.hpp"
-#include "common/lanes/zones.hpp"
+#include "common/world/lanes/edge_marks.hpp"
+#include "common/world/lanes/opposite.hpp"
+#include "common/world/lanes/zones.hpp"
 #include "common/traffic/demand.hpp"
 #include "common/traffic/track_plan.hpp"
 #include "common/traffic/traffic_settings.hpp"

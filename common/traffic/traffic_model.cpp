@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/assert.hpp"
-#include "common/base/huge_pages.hpp"
-#include "common/base/random.hpp"
+#include "common/core/base/assert.hpp"
+#include "common/core/base/huge_pages.hpp"
+#include "common/core/base/random.hpp"
 #include "common/traffic/each_driving.hpp"
 #include "common/traffic/road_network.hpp"
 

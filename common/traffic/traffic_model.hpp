@@ -10,12 +10,12 @@
 #include <string_view>
 #include <vector>
 
-#include "common/base/crew.hpp"
-#include "common/base/result.hpp"
-#include "common/base/state.hpp"
-#include "common/driver/footprint.hpp"
-#include "common/lanes/zones.hpp"
-#include "common/road/world.hpp"
+#include "common/core/base/crew.hpp"
+#include "common/core/base/result.hpp"
+#include "common/core/base/state.hpp"
+#include "common/driving/driver/footprint.hpp"
+#include "common/world/lanes/zones.hpp"
+#include "common/world/road/world.hpp"
 #include "common/traffic/agent.hpp"
 #include "common/traffic/agent_detail.hpp"
 #include "common/traffic/demand.hpp"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/geometry/angle.hpp"
+#include "common/core/geometry/angle.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {

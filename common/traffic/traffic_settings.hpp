@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "common/base/result.hpp"
-#include "common/config/config.hpp"
-#include "common/driver/idm.hpp"
-#include "common/driver/mobil.hpp"
-#include "common/driver/smooth.hpp"
-#include "common/driver/speed_plan.hpp"
-#include "common/lanes/swath.hpp"
+#include "common/core/base/result.hpp"
+#include "common/core/config/config.hpp"
+#include "common/driving/driver/idm.hpp"
+#include "common/driving/driver/mobil.hpp"
+#include "common/driving/driver/smooth.hpp"
+#include "common/driving/driver/speed_plan.hpp"
+#include "common/world/lanes/swath.hpp"
 #include "common/traffic/demand_settings.hpp"
 #include "common/traffic/overtaking.hpp"
 #include "common/traffic/pedestrian_settings.hpp"

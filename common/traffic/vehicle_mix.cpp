@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/base/suggest.hpp"
+#include "common/core/base/suggest.hpp"
 
 namespace rodeira::traffic {
 namespace {

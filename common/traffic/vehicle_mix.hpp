@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/config/config.hpp"
+#include "common/core/config/config.hpp"
 
 namespace rodeira::traffic {
 

@@ -1,3 +1,3 @@
-#include "common/dds/run.hpp"
+#include "common/runtime/dds/run.hpp"
 
 int main(int argc, char** argv) { return rodeira::dds::RunClock(argc, argv); }

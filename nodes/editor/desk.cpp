@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "common/base/user_folders.hpp"
+#include "common/core/base/user_folders.hpp"
 #include "nodes/editor/panels.hpp"
 
 namespace rodeira::desk {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "common/window/window.hpp"
+#include "common/view/window/window.hpp"
 #include "nodes/editor/canvas.hpp"
 #include "nodes/editor/work.hpp"
 

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "common/editor/lane_tools.hpp"
-#include "common/map/border_paint.hpp"
-#include "common/map/lane_shape.hpp"
-#include "common/scene/stencils.hpp"
+#include "common/world/traffic_map/border_paint.hpp"
+#include "common/world/traffic_map/lane_shape.hpp"
+#include "common/view/scene/road_markings/stencils.hpp"
 
 namespace rodeira::desk {
 namespace {

@@ -1,7 +1,7 @@
 // Traffic on the map, and the heat map that it leaves.
 #include <SDL_opengl.h>
 
-#include "common/scene/heat_map.hpp"
+#include "common/view/scene/heat_map/heat_map.hpp"
 #include "nodes/editor/map_painter.hpp"
 
 namespace rodeira::desk {

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "common/base/assert.hpp"
-#include "common/base/random.hpp"
+#include "common/core/base/assert.hpp"
+#include "common/core/base/random.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"

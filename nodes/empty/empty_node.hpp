@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "common/launch/node_context.hpp"
+#include "common/runtime/launch/node_context.hpp"
 
 namespace rodeira::nodes {
 

@@ -4,10 +4,10 @@
 #include <map>
 #include <utility>
 
-#include "common/driver/autopilot.hpp"
-#include "common/driver/lights_ahead.hpp"
-#include "common/driver/way_from_start.hpp"
-#include "common/road/world.hpp"
+#include "common/driving/driver/autopilot.hpp"
+#include "common/driving/driver/lights_ahead.hpp"
+#include "common/driving/driver/way_from_start.hpp"
+#include "common/world/road/world.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"

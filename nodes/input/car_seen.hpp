@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "common/base/result.hpp"
-#include "common/lockstep/inbox.hpp"
+#include "common/core/base/result.hpp"
+#include "common/runtime/lockstep/inbox.hpp"
 #include "idl/messages.hpp"
 
 namespace rodeira::nodes {

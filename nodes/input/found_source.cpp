@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/hands/plain_wheel.hpp"
-#include "common/hands/wheel_setup.hpp"
+#include "common/vehicle/input_devices/plain_wheel.hpp"
+#include "common/vehicle/input_devices/wheel_setup.hpp"
 #include "nodes/input/game_pad.hpp"
 #include "nodes/input/joystick_source.hpp"
 #include "nodes/input/joysticks.hpp"

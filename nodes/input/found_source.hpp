@@ -2,14 +2,14 @@
 
 #include <memory>
 
-#include "common/launch/node_context.hpp"
+#include "common/runtime/launch/node_context.hpp"
 #include "nodes/input/source.hpp"
 
 namespace rodeira::nodes {
 
 // `source: joystick` that names no `wheel`: what is plugged in, the first of
 // - a wheel whose file `rodeira input setup` has written,
-// - a steering wheel that nobody has set up, by its plain mapping (common/hands/plain_wheel.hpp),
+// - a steering wheel that nobody has set up, by its plain mapping (common/vehicle/input_devices/plain_wheel.hpp),
 // - a game pad,
 // - a device whose own file is broken, by its plain mapping too,
 // - the windows' keys, where `keyboard` names their file.

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "common/base/result.hpp"
-#include "common/hands/pad_driver.hpp"
+#include "common/core/base/result.hpp"
+#include "common/vehicle/input_devices/pad_driver.hpp"
 
 struct _SDL_GameController;
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "common/hands/force_device.hpp"
+#include "common/vehicle/input_devices/force_device.hpp"
 
 struct _SDL_Joystick;
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "common/base/files.hpp"
+#include "common/core/base/files.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"

@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <utility>
 
-#include "common/base/suggest.hpp"
-#include "common/hands/force_device.hpp"
-#include "common/hands/wheel_driver.hpp"
+#include "common/core/base/suggest.hpp"
+#include "common/vehicle/input_devices/force_device.hpp"
+#include "common/vehicle/input_devices/wheel_driver.hpp"
 #include "nodes/input/car_seen.hpp"
 #include "nodes/input/found_source.hpp"
 #include "nodes/input/joysticks.hpp"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "common/hands/wheel_driver.hpp"
-#include "common/launch/node_context.hpp"
+#include "common/vehicle/input_devices/wheel_driver.hpp"
+#include "common/runtime/launch/node_context.hpp"
 #include "nodes/input/haptic_force.hpp"
 #include "nodes/input/source.hpp"
 

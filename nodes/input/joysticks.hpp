@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/base/result.hpp"
-#include "common/hands/wheel_driver.hpp"
+#include "common/core/base/result.hpp"
+#include "common/vehicle/input_devices/wheel_driver.hpp"
 
 struct _SDL_Joystick;
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/hands/keyboard_driver.hpp"
+#include "common/vehicle/input_devices/keyboard_driver.hpp"
 #include "nodes/input/car_seen.hpp"
 
 namespace rodeira::nodes {

@@ -2,12 +2,12 @@
 
 #include <memory>
 
-#include "common/launch/node_context.hpp"
+#include "common/runtime/launch/node_context.hpp"
 #include "nodes/input/source.hpp"
 
 namespace rodeira::nodes {
 
-// Drives by the keys that the run's windows forward (common/launch/live_keys.hpp), as a keyboard file says
+// Drives by the keys that the run's windows forward (common/runtime/launch/live_keys.hpp), as a keyboard file says
 // (docs/formats.md). What is held at an activation becomes the controls of that activation.
 base::Result<std::unique_ptr<Source>> MakeKeyboardSource(const config::Map& config, launch::NodeContext& context);
 

@@ -1,4 +1,4 @@
-#include "common/dds/run.hpp"
+#include "common/runtime/dds/run.hpp"
 #include "nodes/input/input_node.hpp"
 
 int main(int argc, char** argv) { return rodeira::dds::RunNode("input", argc, argv, rodeira::nodes::MakeInputNode); }

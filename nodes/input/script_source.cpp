@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "common/base/suggest.hpp"
+#include "common/core/base/suggest.hpp"
 
 namespace rodeira::nodes {
 namespace {

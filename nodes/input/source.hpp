@@ -1,11 +1,11 @@
 #pragma once
 
-#include "common/base/result.hpp"
-#include "common/base/state.hpp"
-#include "common/hands/signals.hpp"
-#include "common/lockstep/inbox.hpp"
-#include "common/lockstep/step.hpp"
-#include "common/vehicle/controls.hpp"
+#include "common/core/base/result.hpp"
+#include "common/core/base/state.hpp"
+#include "common/vehicle/input_devices/signals.hpp"
+#include "common/runtime/lockstep/inbox.hpp"
+#include "common/runtime/lockstep/step.hpp"
+#include "common/vehicle/dynamics/controls.hpp"
 
 namespace rodeira::nodes {
 

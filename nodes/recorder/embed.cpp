@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "common/launch/agreement.hpp"
-#include "common/launch/files_of.hpp"
-#include "common/record/compress.hpp"
+#include "common/runtime/launch/agreement.hpp"
+#include "common/runtime/launch/files_of.hpp"
+#include "common/data/record/compress.hpp"
 
 namespace rodeira::nodes {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "common/base/result.hpp"
-#include "common/launch/launch.hpp"
-#include "common/record/mcap_writer.hpp"
+#include "common/core/base/result.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/data/record/mcap_writer.hpp"
 
 namespace rodeira::nodes {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "common/launch/run_log_wire.hpp"
+#include "common/runtime/launch/run_log_wire.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"

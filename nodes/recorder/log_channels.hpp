@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "common/base/result.hpp"
-#include "common/launch/run_log_border.hpp"
-#include "common/record/mcap_writer.hpp"
+#include "common/core/base/result.hpp"
+#include "common/runtime/launch/run_log_border.hpp"
+#include "common/data/record/mcap_writer.hpp"
 
 namespace rodeira::nodes {
 

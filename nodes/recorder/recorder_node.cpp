@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
-#include "common/base/mathematics.hpp"
-#include "common/record/mcap_writer.hpp"
+#include "common/core/base/mathematics.hpp"
+#include "common/data/record/mcap_writer.hpp"
 #include "idl/topics.hpp"
 #include "nodes/recorder/embed.hpp"
 #include "nodes/recorder/log_channels.hpp"

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/lockstep/roster.hpp"
-#include "common/record/mcap_types.hpp"
+#include "common/runtime/lockstep/roster.hpp"
+#include "common/data/record/mcap_types.hpp"
 
 namespace rodeira::nodes {
 

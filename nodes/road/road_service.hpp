@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "common/launch/node_context.hpp"
-#include "common/road/world.hpp"
+#include "common/runtime/launch/node_context.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::nodes {
 

@@ -8,13 +8,13 @@
 #include <limits>
 #include <utility>
 
-#include "common/base/suggest.hpp"
-#include "common/road/road_chains.hpp"
-#include "common/road/world.hpp"
-#include "common/road/world_weather.hpp"
-#include "common/scenario/request.hpp"
-#include "common/scenario/scenario_file.hpp"
-#include "common/weather/named_weather.hpp"
+#include "common/core/base/suggest.hpp"
+#include "common/world/road/road_chains.hpp"
+#include "common/world/road/world.hpp"
+#include "common/world/road/world_weather.hpp"
+#include "common/driving/scenario/request.hpp"
+#include "common/driving/scenario/scenario_file.hpp"
+#include "common/world/weather/named_weather.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"

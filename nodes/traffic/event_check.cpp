@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "common/scenario/scenario_file.hpp"
+#include "common/driving/scenario/scenario_file.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::nodes {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <string_view>
 
-#include "common/base/result.hpp"
-#include "common/launch/node_context.hpp"
-#include "common/scenario/event.hpp"
+#include "common/core/base/result.hpp"
+#include "common/runtime/launch/node_context.hpp"
+#include "common/driving/scenario/event.hpp"
 #include "common/traffic/place_orders.hpp"
 #include "common/traffic/traffic_model.hpp"
 

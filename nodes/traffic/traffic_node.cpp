@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "common/map/heights.hpp"
-#include "common/road/map_world.hpp"
-#include "common/scenario/event.hpp"
+#include "common/world/traffic_map/heights.hpp"
+#include "common/world/road/map_world.hpp"
+#include "common/driving/scenario/event.hpp"
 #include "common/traffic/map_lights.hpp"
 #include "common/traffic/place_orders.hpp"
 #include "common/traffic/road_network.hpp"

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "common/base/state.hpp"
-#include "common/lockstep/inbox.hpp"
-#include "common/lockstep/step.hpp"
-#include "common/vehicle/collision_space.hpp"
+#include "common/core/base/state.hpp"
+#include "common/runtime/lockstep/inbox.hpp"
+#include "common/runtime/lockstep/step.hpp"
+#include "common/vehicle/dynamics/collision_space.hpp"
 #include "idl/messages.hpp"
 #include "nodes/vehicle/obstacle_map.hpp"
 

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "common/network/placing.hpp"
-#include "common/network/tubes.hpp"
-#include "common/road/world.hpp"
-#include "common/vehicle/collision_space.hpp"
+#include "common/world/network/placing.hpp"
+#include "common/world/network/tubes.hpp"
+#include "common/world/road/world.hpp"
+#include "common/vehicle/dynamics/collision_space.hpp"
 
 namespace rodeira::nodes {
 

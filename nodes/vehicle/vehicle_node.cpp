@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include "common/geometry/angle.hpp"
-#include "common/road/world.hpp"
-#include "common/scenario/event.hpp"
-#include "common/vehicle/vehicle_model.hpp"
-#include "common/weather/wet_ground.hpp"
+#include "common/core/geometry/angle.hpp"
+#include "common/world/road/world.hpp"
+#include "common/driving/scenario/event.hpp"
+#include "common/vehicle/dynamics/vehicle_model.hpp"
+#include "common/world/weather/wet_ground.hpp"
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
 #include "nodes/vehicle/collisions.hpp"

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "common/vehicle/controls.hpp"
-#include "common/vehicle/vehicle_model.hpp"
-#include "common/vehicle/vehicle_state.hpp"
+#include "common/vehicle/dynamics/controls.hpp"
+#include "common/vehicle/dynamics/vehicle_model.hpp"
+#include "common/vehicle/dynamics/vehicle_state.hpp"
 #include "idl/messages.hpp"
 
 namespace rodeira::nodes {

@@ -8,9 +8,9 @@
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "nodes/view/find_built.hpp"
-#include "nodes/view/from_wire.hpp"
-#include "nodes/view/stage.hpp"
+#include "nodes/view/visual_database/find_built.hpp"
+#include "nodes/view/run_connection/from_wire.hpp"
+#include "nodes/view/window/stage.hpp"
 #include "nodes/view/view_settings.hpp"
 
 namespace rodeira::nodes {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "common/base/suggest.hpp"
-#include "common/hands/keyboard_driver.hpp"
-#include "common/hands/wheel_driver.hpp"
-#include "common/launch/lab.hpp"
+#include "common/core/base/suggest.hpp"
+#include "common/vehicle/input_devices/keyboard_driver.hpp"
+#include "common/vehicle/input_devices/wheel_driver.hpp"
+#include "common/runtime/launch/lab.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::view {

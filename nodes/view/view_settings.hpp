@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "common/launch/node_context.hpp"
-#include "common/road/world.hpp"
-#include "common/scene/camera.hpp"
-#include "common/scene/mirror.hpp"
-#include "nodes/view/ask_place.hpp"
-#include "nodes/view/driver_aims.hpp"
-#include "nodes/view/paint.hpp"
-#include "nodes/view/picture.hpp"
-#include "nodes/view/quality.hpp"
-#include "nodes/view/wheel_buttons.hpp"
+#include "common/runtime/launch/node_context.hpp"
+#include "common/world/road/world.hpp"
+#include "common/view/scene/camera/camera.hpp"
+#include "common/view/scene/camera/mirror.hpp"
+#include "nodes/view/run_connection/ask_place.hpp"
+#include "nodes/view/dynamic_objects/driver_aims.hpp"
+#include "nodes/view/dynamic_objects/paint.hpp"
+#include "nodes/view/frame/picture.hpp"
+#include "nodes/view/frame/quality.hpp"
+#include "nodes/view/window/wheel_buttons.hpp"
 
 namespace rodeira::view {
 

@@ -16,7 +16,7 @@ using system_test::Bin;
 using system_test::RunCommand;
 
 const std::string kEmulator = "/usr/bin/qemu-x86_64";
-// What a program sets itself before it begins again (common/base/mathematics.cpp); beginning again would leave the emulator.
+// What a program sets itself before it begins again (common/core/base/mathematics.cpp); beginning again would leave the emulator.
 const std::string kFixed = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2";
 
 class Processors : public ::testing::Test {

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <string>
 
-#include "common/base/files.hpp"
-#include "common/base/mathematics.hpp"
-#include "common/base/random.hpp"
-#include "common/launch/launch.hpp"
-#include "common/lockstep/in_process.hpp"
-#include "launch/local_nodes.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/mathematics.hpp"
+#include "common/core/base/random.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "common/terrain/elevation_file.hpp"
+#include "common/world/terrain/elevation_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::filesystem::path file = std::filesystem::temp_directory_path() / ("rodeira-fuzz-" + std::to_string(::getpid()) + ".bt");

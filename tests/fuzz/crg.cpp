@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "common/surface/crg_file.hpp"
+#include "common/world/surface/crg_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto file = rodeira::surface::ParseCrg(std::as_bytes(std::span(data, size)), "fuzz.crg");

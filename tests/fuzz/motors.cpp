@@ -3,10 +3,10 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "common/map/check.hpp"
-#include "common/map/lane_map.hpp"
-#include "common/map/map_file.hpp"
-#include "common/map/map_network.hpp"
+#include "common/world/traffic_map/check.hpp"
+#include "common/world/traffic_map/lane_map.hpp"
+#include "common/world/traffic_map/map_file.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rodeira::map;

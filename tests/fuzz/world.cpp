@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "common/road/world.hpp"
+#include "common/world/road/world.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto world = rodeira::road::World::Parse(std::string(reinterpret_cast<const char*>(data), size), "fuzz.yaml");

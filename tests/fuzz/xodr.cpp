@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "common/network/placing.hpp"
-#include "common/opendrive/import.hpp"
+#include "common/world/network/placing.hpp"
+#include "common/world/opendrive/import.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto import = rodeira::opendrive::Read(std::string(reinterpret_cast<const char*>(data), size), "fuzz.xodr");

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "common/lockstep/sample.hpp"
+#include "common/runtime/lockstep/sample.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"

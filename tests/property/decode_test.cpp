@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "common/decode/difference.hpp"
-#include "common/decode/idl_reader.hpp"
+#include "common/data/decode/difference.hpp"
+#include "common/data/decode/idl_reader.hpp"
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
-#include "tests/common/decode/fields.hpp"
+#include "tests/common/data/decode/fields.hpp"
 #include "tests/property/fuzz.hpp"
 #include "tests/property/mutate.hpp"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "common/road/world.hpp"
-#include "common/scene/ground_tile.hpp"
+#include "common/world/road/world.hpp"
+#include "common/view/scene/visual_world/ground_tile.hpp"
 
 // Shared by the tests of broken texts and the fuzzer's program.
 namespace rodeira::property {

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "common/base/files.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "common/core/base/files.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/property/drawn_ground.hpp"
 #include "tests/property/fuzz.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/result.hpp"
+#include "common/core/base/result.hpp"
 #include "tests/property/mutate.hpp"
 #include "tests/setting.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 
 namespace rodeira::property {
 

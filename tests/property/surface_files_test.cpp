@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "common/geometry/polyline_offset.hpp"
-#include "common/surface/crg_report.hpp"
-#include "tests/common/surface/made_crg.hpp"
+#include "common/core/geometry/polyline_offset.hpp"
+#include "common/world/surface/crg_report.hpp"
+#include "tests/common/world/surface/made_crg.hpp"
 #include "tests/property/fuzz.hpp"
 
 namespace rodeira::property {

@@ -6,15 +6,15 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
-#include "common/map/heights.hpp"
-#include "common/map/lane_map.hpp"
-#include "common/map/map_network.hpp"
-#include "common/scenario/scenario_file.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "common/world/traffic_map/heights.hpp"
+#include "common/world/traffic_map/lane_map.hpp"
+#include "common/world/traffic_map/map_network.hpp"
+#include "common/driving/scenario/scenario_file.hpp"
 #include "common/traffic/map_demand.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/property/fuzz.hpp"
 #include "tests/property/mutate_structure.hpp"
 #include "tests/tree.hpp"

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <filesystem>
 
-#include "common/base/files.hpp"
-#include "common/network/placing.hpp"
-#include "common/road/network_world.hpp"
-#include "common/road/world.hpp"
-#include "common/road/world_report.hpp"
-#include "tests/common/opendrive/sample.hpp"
-#include "tests/common/surface/made_crg.hpp"
+#include "common/core/base/files.hpp"
+#include "common/world/network/placing.hpp"
+#include "common/world/road/network_world.hpp"
+#include "common/world/road/world.hpp"
+#include "common/world/road/world_report.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
+#include "tests/common/world/surface/made_crg.hpp"
 #include "tests/property/fuzz.hpp"
 #include "tests/property/mutate_structure.hpp"
 #include "tests/tree.hpp"

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <map>
 
-#include "common/base/files.hpp"
-#include "common/base/hash.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/hash.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 #include "tests/tree.hpp"
 

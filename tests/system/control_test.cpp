@@ -5,11 +5,11 @@
 #include <mutex>
 #include <thread>
 
-#include "common/dds/participant.hpp"
+#include "common/runtime/dds/participant.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "common/vehicle/vehicle_model.hpp"
+#include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "tests/system/command.hpp"

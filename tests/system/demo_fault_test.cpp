@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-#include "tests/launch/temporary_folder.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "idl/topics.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"

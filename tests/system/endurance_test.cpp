@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "idl/topics.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/setting.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"

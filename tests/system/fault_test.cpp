@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "common/base/files.hpp"
+#include "common/core/base/files.hpp"
 #include "tests/system/command.hpp"
 #include "tests/tree.hpp"
 

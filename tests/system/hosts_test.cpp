@@ -9,8 +9,8 @@
 #include <set>
 #include <thread>
 
-#include "common/base/files.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
 #include "tests/system/rig.hpp"

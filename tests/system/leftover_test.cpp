@@ -8,8 +8,8 @@
 #include <set>
 #include <thread>
 
-#include "launch/shared_memory.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "launch/rodeira/run/shared_memory.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 
 namespace rodeira::system_test {

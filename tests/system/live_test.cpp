@@ -7,12 +7,12 @@
 #include <thread>
 #include <vector>
 
-#include "common/base/files.hpp"
-#include "common/dds/participant.hpp"
-#include "common/dds/remote_keys.hpp"
-#include "common/dds/remote_requests.hpp"
-#include "common/record/mcap_reader.hpp"
-#include "common/scenario/request.hpp"
+#include "common/core/base/files.hpp"
+#include "common/runtime/dds/participant.hpp"
+#include "common/runtime/dds/remote_keys.hpp"
+#include "common/runtime/dds/remote_requests.hpp"
+#include "common/data/record/mcap_reader.hpp"
+#include "common/driving/scenario/request.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"

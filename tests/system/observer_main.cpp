@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "common/dds/options.hpp"
-#include "common/dds/participant.hpp"
+#include "common/runtime/dds/options.hpp"
+#include "common/runtime/dds/participant.hpp"
 #include "idl/topics.hpp"
 
 int main(int argc, char** argv) {

@@ -12,7 +12,7 @@
 
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
 #include "tests/tree.hpp"

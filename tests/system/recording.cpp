@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "common/lockstep/sample.hpp"
+#include "common/runtime/lockstep/sample.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::system_test {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "common/base/hash.hpp"
-#include "common/record/mcap_reader.hpp"
+#include "common/core/base/hash.hpp"
+#include "common/data/record/mcap_reader.hpp"
 #include "idl/codec.hpp"
 
 // What whole runs left in their recordings.

@@ -10,11 +10,11 @@
 #include <fstream>
 #include <thread>
 
-#include "common/base/files.hpp"
-#include "common/record/mcap_writer.hpp"
+#include "common/core/base/files.hpp"
+#include "common/data/record/mcap_writer.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
 

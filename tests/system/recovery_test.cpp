@@ -10,10 +10,10 @@
 #include <random>
 #include <thread>
 
-#include "common/base/files.hpp"
+#include "common/core/base/files.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/setting.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"

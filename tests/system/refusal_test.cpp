@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <set>
 
-#include "common/base/files.hpp"
-#include "launch/shared_memory.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "launch/rodeira/run/shared_memory.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 #include "tests/tree.hpp"
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <thread>
 
-#include "common/base/files.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/load.hpp"
 #include "tests/system/recording.hpp"

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <map>
 
-#include "common/base/files.hpp"
-#include "common/record/mcap_reader.hpp"
+#include "common/core/base/files.hpp"
+#include "common/data/record/mcap_reader.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"

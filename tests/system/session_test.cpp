@@ -10,9 +10,9 @@
 #include <memory>
 #include <thread>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
-#include "common/record/mcap_reader.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "common/data/record/mcap_reader.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -70,7 +70,7 @@ Recorded ReadRecorded(const fs::path& file) {
 
 constexpr int kWidth = 1280, kHeight = 720;  // of the run's window
 
-// How much of the lower left corner, where a chosen vehicle's panel stands (nodes/view/instruments), is as it was behind glass of
+// How much of the lower left corner, where a chosen vehicle's panel stands (nodes/view/overlays/instruments), is as it was behind glass of
 // the panel's colour, 0.05 of green, that lets 0.45 through: all of it but its letters, which are less than a quarter.
 double BehindGlass(const view::Image& before, const view::Image& after) {
   int behind = 0, all = 0;
@@ -80,7 +80,7 @@ double BehindGlass(const view::Image& before, const view::Image& after) {
   return static_cast<double>(behind) / all;
 }
 
-// Red, yellow and green from left to right, where the legend's bar is (nodes/view/heat_node).
+// Red, yellow and green from left to right, where the legend's bar is (nodes/view/overlays/heat_node).
 bool HasLegend(const view::Image& image) {
   constexpr int kBar = 157;
   const std::uint8_t *red = image.At(32, kBar), *yellow = image.At(208, kBar), *green = image.At(384, kBar);

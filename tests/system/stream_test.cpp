@@ -9,11 +9,11 @@
 #include <thread>
 #include <tuple>
 
-#include "common/launch/launch.hpp"
-#include "common/lockstep/in_process.hpp"
-#include "common/replay/recorded_node.hpp"
-#include "launch/local_nodes.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
+#include "common/runtime/replay/recorded_node.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/setting.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/load.hpp"

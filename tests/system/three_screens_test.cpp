@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
 #include "tests/nodes/view/read_png.hpp"
 #include "tests/system/command.hpp"
 #include "tests/tree.hpp"

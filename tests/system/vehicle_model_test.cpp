@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "common/base/files.hpp"
-#include "common/base/hash.hpp"
-#include "tests/common/fmi/test_fmu.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/hash.hpp"
+#include "tests/common/vehicle/fmi/test_fmu.hpp"
 #include "tests/system/command.hpp"
 
 namespace rodeira::system_test {

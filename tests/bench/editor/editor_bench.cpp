@@ -9,9 +9,9 @@
 #include <functional>
 #include <memory>
 
-#include "common/base/files.hpp"
-#include "common/base/random.hpp"
-#include "common/base/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/random.hpp"
+#include "common/core/base/temporary_folder.hpp"
 #include "nodes/editor/desk.hpp"
 
 namespace {

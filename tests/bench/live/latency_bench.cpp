@@ -12,11 +12,11 @@
 #include <thread>
 #include <vector>
 
-#include "common/base/mathematics.hpp"
-#include "common/base/random.hpp"
-#include "common/launch/launch.hpp"
-#include "common/lockstep/in_process.hpp"
-#include "launch/local_nodes.hpp"
+#include "common/core/base/mathematics.hpp"
+#include "common/core/base/random.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
 #include "nodes/input/joysticks.hpp"
 #include "tests/bench/live/watched_display.hpp"
 #include "tests/tree.hpp"

@@ -11,16 +11,16 @@
 #include <string>
 #include <vector>
 
-#include "common/base/files.hpp"
-#include "common/base/mathematics.hpp"
-#include "common/base/temporary_folder.hpp"
-#include "common/launch/launch.hpp"
-#include "common/launch/live_keys.hpp"
-#include "common/lockstep/in_process.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/mathematics.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/launch/live_keys.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "launch/local_nodes.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
 #include "tests/bench/live/shown.hpp"
 #include "tests/bench/live/watched_display.hpp"
 #include "tests/tree.hpp"

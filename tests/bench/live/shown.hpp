@@ -5,7 +5,7 @@
 
 namespace rodeira::bench {
 
-// A line of a window's frame log (nodes/view/frame_log): what was shown, and when.
+// A line of a window's frame log (nodes/view/frame/frame_log): what was shown, and when.
 struct Shown {
   double wall_s = 0.0, simulated_s = 0.0;
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;

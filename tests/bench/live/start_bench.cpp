@@ -13,9 +13,9 @@
 #include <thread>
 #include <vector>
 
-#include "common/dds/participant.hpp"
-#include "common/dds/remote_keys.hpp"
-#include "common/record/mcap_reader.hpp"
+#include "common/runtime/dds/participant.hpp"
+#include "common/runtime/dds/remote_keys.hpp"
+#include "common/data/record/mcap_reader.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"

@@ -12,7 +12,7 @@
 #include <set>
 #include <thread>
 
-#include "common/base/hash.hpp"
+#include "common/core/base/hash.hpp"
 
 namespace rodeira::bench {
 namespace {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
 #include "tests/bench/live/shown.hpp"
 #include "tests/bench/live/watched_display.hpp"
 #include "tests/system/command.hpp"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "common/multibody/mechanism.hpp"
+#include "common/vehicle/multibody/mechanism.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::multibody {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "common/base/files.hpp"
-#include "common/base/random.hpp"
-#include "common/opendrive/import.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/random.hpp"
+#include "common/world/opendrive/import.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::network {

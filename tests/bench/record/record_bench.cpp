@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "common/base/files.hpp"
-#include "common/base/random.hpp"
-#include "common/record/mcap_reader.hpp"
-#include "common/record/mcap_writer.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/random.hpp"
+#include "common/data/record/mcap_reader.hpp"
+#include "common/data/record/mcap_writer.hpp"
 
 namespace rodeira::record {
 namespace {

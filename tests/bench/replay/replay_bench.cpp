@@ -8,13 +8,13 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
-#include "launch/recorded_moments.hpp"
-#include "launch/recorded_view.hpp"
-#include "nodes/view/painter.hpp"
-#include "tests/common/replay/made_recording.hpp"
+#include "launch/rodeira/replay/recorded_moments.hpp"
+#include "launch/rodeira/replay/recorded_view.hpp"
+#include "nodes/view/renderer/painter.hpp"
+#include "tests/common/runtime/replay/made_recording.hpp"
 
 namespace rodeira::front {
 namespace {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "common/base/random.hpp"
-#include "common/geometry/clothoid.hpp"
-#include "common/network/network.hpp"
-#include "common/road/world.hpp"
+#include "common/core/base/random.hpp"
+#include "common/core/geometry/clothoid.hpp"
+#include "common/world/network/network.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::road {

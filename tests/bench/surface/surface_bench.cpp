@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "common/base/random.hpp"
-#include "common/surface/roughness.hpp"
-#include "tests/common/surface/made_crg.hpp"
+#include "common/core/base/random.hpp"
+#include "common/world/surface/roughness.hpp"
+#include "tests/common/world/surface/made_crg.hpp"
 
 namespace rodeira::surface {
 namespace {

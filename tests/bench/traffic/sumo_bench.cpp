@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "common/base/random.hpp"
-#include "common/base/temporary_folder.hpp"
-#include "common/map/open_drive.hpp"
+#include "common/core/base/random.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "common/world/traffic_map/open_drive.hpp"
 #include "tests/bench/traffic/grid.hpp"
 
 namespace rodeira::traffic {

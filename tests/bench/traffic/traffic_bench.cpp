@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/base/state.hpp"
-#include "common/map/map_network.hpp"
+#include "common/core/base/state.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 #include "common/traffic/lane_statistics.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "tests/bench/traffic/grid.hpp"

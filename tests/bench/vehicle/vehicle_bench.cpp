@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "common/base/state.hpp"
-#include "common/terrain/ground.hpp"
-#include "common/vehicle/bicycle_model.hpp"
-#include "common/vehicle/car_array.hpp"
-#include "common/vehicle/multibody_model.hpp"
+#include "common/core/base/state.hpp"
+#include "common/core/ground/ground.hpp"
+#include "common/vehicle/dynamics/bicycle_model.hpp"
+#include "common/vehicle/dynamics/car_array.hpp"
+#include "common/vehicle/dynamics/multibody_model.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::vehicle {

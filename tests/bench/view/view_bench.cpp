@@ -10,14 +10,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/base/temporary_folder.hpp"
-#include "common/road/road_chains.hpp"
-#include "common/road/world.hpp"
-#include "common/scene/world_scene.hpp"
-#include "nodes/view/database.hpp"
-#include "nodes/view/find_built.hpp"
-#include "nodes/view/painter.hpp"
-#include "nodes/view/png.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "common/world/road/road_chains.hpp"
+#include "common/world/road/world.hpp"
+#include "common/view/scene/visual_world/world_scene.hpp"
+#include "nodes/view/visual_database/database.hpp"
+#include "nodes/view/visual_database/find_built.hpp"
+#include "nodes/view/renderer/painter.hpp"
+#include "nodes/view/frame/png.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::view {

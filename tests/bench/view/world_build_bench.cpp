@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <string>
 
-#include "common/base/files.hpp"
-#include "common/road/world.hpp"
-#include "nodes/view/database.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "common/world/road/world.hpp"
+#include "nodes/view/visual_database/database.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::view {

@@ -6,9 +6,9 @@
 
 #include <memory>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
-#include "common/map/picture.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "common/world/traffic_map/picture.hpp"
 
 namespace rodeira::editor {
 namespace {

@@ -1,5 +1,5 @@
 // FILE.motors.yaml: what an author wrote stays, whatever is edited beside it.
-#include "common/map/companion_text.hpp"
+#include "common/world/traffic_map/companion_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "common/editor/commands.hpp"
 #include "common/editor/history.hpp"
-#include "tests/common/map/sample_map.hpp"
+#include "tests/common/world/traffic_map/sample_map.hpp"
 
 namespace rodeira::editor {
 

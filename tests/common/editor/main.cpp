@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "common/base/mathematics.hpp"
+#include "common/core/base/mathematics.hpp"
 
 // The runs here must compute like the programs do (law L7).
 int main(int argc, char** argv) {

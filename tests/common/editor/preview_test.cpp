@@ -5,8 +5,8 @@
 
 #include "common/editor/commands.hpp"
 #include "common/editor/templates.hpp"
-#include "common/lanes/signs.hpp"
-#include "common/map/map_network.hpp"
+#include "common/world/lanes/signs.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 #include "common/traffic/arrivals.hpp"
 #include "tests/common/editor/drawing.hpp"
 

@@ -4,10 +4,10 @@
 
 #include <set>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 #include "common/editor/lane_tools.hpp"
 #include "common/editor/templates.hpp"
-#include "common/map/companion_text.hpp"
+#include "common/world/traffic_map/companion_text.hpp"
 #include "tests/common/editor/drawing.hpp"
 
 namespace rodeira::editor {

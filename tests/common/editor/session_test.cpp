@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
 #include "tests/common/editor/drawing.hpp"
 
 namespace rodeira::editor {

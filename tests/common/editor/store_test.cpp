@@ -9,9 +9,9 @@
 #include <csignal>
 #include <fstream>
 
-#include "common/base/files.hpp"
-#include "common/base/random.hpp"
-#include "common/base/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/random.hpp"
+#include "common/core/base/temporary_folder.hpp"
 #include "tests/common/editor/drawing.hpp"
 
 namespace rodeira::editor {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/map/map_network.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 #include "common/traffic/study.hpp"
 #include "tests/common/editor/drawing.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/driver/test_road.hpp"
+#include "tests/common/driving/driver/test_road.hpp"
 
 namespace rodeira::traffic {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/lanes/closed_grid.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/world/lanes/closed_grid.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
 namespace {

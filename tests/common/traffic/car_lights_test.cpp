@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "common/lanes/ring.hpp"
+#include "common/world/lanes/ring.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/ring.hpp"
 
 namespace rodeira::traffic {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/traffic/restored.hpp"
 
 namespace rodeira::traffic {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/traffic/study.hpp"
-#include "tests/common/lanes/closed_grid.hpp"
+#include "tests/common/world/lanes/closed_grid.hpp"
 #include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/exit_room.hpp"
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/base/files.hpp"
+#include "common/core/base/files.hpp"
 
 namespace rodeira::traffic {
 

@@ -9,9 +9,9 @@
 #include <set>
 #include <vector>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/lanes/closed_grid.hpp"
+#include "tests/common/world/lanes/closed_grid.hpp"
 #include "tests/common/traffic/restored.hpp"
 
 namespace rodeira::traffic {

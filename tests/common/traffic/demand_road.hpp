@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 
 namespace rodeira::traffic {
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "common/traffic/study.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/demand_road.hpp"
 
 namespace rodeira::traffic {

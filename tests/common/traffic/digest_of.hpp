@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/base/state.hpp"
+#include "common/core/base/state.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "common/driver/footprint.hpp"
+#include "common/driving/driver/footprint.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {

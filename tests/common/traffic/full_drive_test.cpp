@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "common/lanes/signs.hpp"
+#include "common/world/lanes/signs.hpp"
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/traffic/two_way_ring.hpp"
 #include "tests/tree.hpp"
 

@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "common/driver/idm.hpp"
+#include "common/driving/driver/idm.hpp"
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
-#include "common/vehicle/bicycle_model.hpp"
-#include "tests/common/driver/test_road.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "common/vehicle/dynamics/bicycle_model.hpp"
+#include "tests/common/driving/driver/test_road.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/duration.hpp"
 #include "tests/common/traffic/identical.hpp"

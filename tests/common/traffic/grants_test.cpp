@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
 namespace {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"

@@ -5,11 +5,11 @@
 #include <set>
 #include <string>
 
-#include "common/base/files.hpp"
-#include "common/map/map_network.hpp"
-#include "common/map/open_drive.hpp"
+#include "common/core/base/files.hpp"
+#include "common/world/traffic_map/map_network.hpp"
+#include "common/world/traffic_map/open_drive.hpp"
 #include "common/traffic/study.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/demand_road.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 

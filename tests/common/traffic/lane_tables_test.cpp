@@ -13,7 +13,7 @@
 #include "common/traffic/floating_cars.hpp"
 #include "common/traffic/lane_tables.hpp"
 #include "common/traffic/trajectory_diagram.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <utility>
 
-#include "common/base/files.hpp"
-#include "common/lanes/edge_marks.hpp"
-#include "common/map/map_network.hpp"
-#include "common/map/open_drive.hpp"
-#include "common/opendrive/import.hpp"
+#include "common/core/base/files.hpp"
+#include "common/world/lanes/edge_marks.hpp"
+#include "common/world/traffic_map/map_network.hpp"
+#include "common/world/traffic_map/open_drive.hpp"
+#include "common/world/opendrive/import.hpp"
 #include "common/traffic/study.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 
 namespace rodeira::traffic {

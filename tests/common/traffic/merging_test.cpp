@@ -7,9 +7,9 @@
 #include <string>
 
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
-#include "tests/common/lanes/mirrored.hpp"
-#include "tests/common/lanes/short_sections.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/common/world/lanes/mirrored.hpp"
+#include "tests/common/world/lanes/short_sections.hpp"
 #include "tests/common/traffic/scripted.hpp"
 
 namespace rodeira::traffic {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/traffic/identical.hpp"
 
 namespace rodeira::traffic {

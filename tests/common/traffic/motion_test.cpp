@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/driver/test_road.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/driving/driver/test_road.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/traffic/scripted.hpp"

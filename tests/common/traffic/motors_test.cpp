@@ -6,8 +6,8 @@
 
 #include "common/traffic/motors_driver.hpp"
 #include "common/traffic/study.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 
 namespace rodeira::traffic {
 namespace {

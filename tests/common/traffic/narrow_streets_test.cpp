@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/traffic/study.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/traffic/scripted.hpp"
 
 namespace rodeira::traffic {

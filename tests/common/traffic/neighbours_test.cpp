@@ -11,13 +11,13 @@
 #include <set>
 #include <vector>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 #include "common/traffic/motors_driver.hpp"
 #include "common/traffic/motors_looks.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
-#include "tests/common/lanes/closed_grid.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/world/lanes/closed_grid.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/restored.hpp"
 #include "tests/tree.hpp"
 

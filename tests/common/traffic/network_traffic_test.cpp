@@ -7,10 +7,10 @@
 #include <map>
 #include <numbers>
 
-#include "common/lanes/signs.hpp"
+#include "common/world/lanes/signs.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/duration.hpp"
 #include "tests/tree.hpp"

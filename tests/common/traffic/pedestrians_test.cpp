@@ -7,8 +7,8 @@
 
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/duration.hpp"
 #include "tests/common/traffic/identical.hpp"

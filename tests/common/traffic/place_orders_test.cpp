@@ -9,8 +9,8 @@
 #include <map>
 #include <set>
 
-#include "tests/common/driver/test_road.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/driving/driver/test_road.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
 namespace {

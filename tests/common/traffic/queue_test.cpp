@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "common/driver/lane_path.hpp"
+#include "common/driving/driver/lane_path.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/driver/test_road.hpp"
+#include "tests/common/driving/driver/test_road.hpp"
 #include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/identical.hpp"
 

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <optional>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/lanes/mirrored.hpp"
+#include "tests/common/world/lanes/mirrored.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/restored.hpp"
 

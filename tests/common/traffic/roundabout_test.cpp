@@ -12,7 +12,7 @@
 
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/traffic/curves.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {

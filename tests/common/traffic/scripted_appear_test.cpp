@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "common/lanes/signs.hpp"
-#include "tests/common/driver/test_road.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "common/world/lanes/signs.hpp"
+#include "tests/common/driving/driver/test_road.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/scripted.hpp"
 
 namespace rodeira::traffic {

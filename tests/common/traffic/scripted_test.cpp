@@ -8,8 +8,8 @@
 #include <string>
 
 #include "common/traffic/place_orders.hpp"
-#include "tests/common/driver/test_road.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/driving/driver/test_road.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/scripted.hpp"
 #include "tests/common/traffic/two_way_ring.hpp"

@@ -11,8 +11,8 @@
 #include <set>
 #include <sstream>
 
-#include "common/base/files.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {

@@ -9,7 +9,7 @@
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/study.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "common/lanes/swath.hpp"
+#include "common/world/lanes/swath.hpp"
 #include "common/traffic/swing.hpp"
 #include "common/traffic/tight_bends.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/lanes/lane_networks.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/traffic/ring.hpp"
 
 namespace rodeira::traffic {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "common/driver/autopilot.hpp"
-#include "common/driver/route_path.hpp"
+#include "common/driving/driver/autopilot.hpp"
+#include "common/driving/driver/route_path.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "common/vehicle/vehicle_model.hpp"
+#include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "tests/n222.hpp"
 
 namespace rodeira::traffic {

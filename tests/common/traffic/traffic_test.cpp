@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "common/driver/idm.hpp"
-#include "common/driver/lane_path.hpp"
-#include "tests/common/driver/test_road.hpp"
+#include "common/driving/driver/idm.hpp"
+#include "common/driving/driver/lane_path.hpp"
+#include "tests/common/driving/driver/test_road.hpp"
 #include "tests/n222.hpp"
 
 namespace rodeira::traffic {

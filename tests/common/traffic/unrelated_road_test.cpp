@@ -6,10 +6,10 @@
 #include <tuple>
 #include <utility>
 
-#include "common/map/lane_map.hpp"
-#include "common/map/open_drive.hpp"
+#include "common/world/traffic_map/lane_map.hpp"
+#include "common/world/traffic_map/open_drive.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/opendrive/sample.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/traffic/demand_road.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/tree.hpp"

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/network/network.hpp"
+#include "common/world/network/network.hpp"
 
 namespace rodeira::traffic {
 

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
 #include "nodes/editor/desk.hpp"
-#include "tests/common/map/sample_map.hpp"
-#include "tests/common/window/hands.hpp"
+#include "tests/common/world/traffic_map/sample_map.hpp"
+#include "tests/common/view/window/hands.hpp"
 
 namespace rodeira::desk {
 

@@ -1,7 +1,7 @@
 // The desk by mouse and keyboard, without a display: the thesis' example, and what its editor lacked.
 #include <fmt/format.h>
 
-#include "common/map/check.hpp"
+#include "common/world/traffic_map/check.hpp"
 #include "tests/nodes/editor/desk_fixture.hpp"
 
 namespace rodeira::desk {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "common/road/world.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/nodes/editor/desk_fixture.hpp"
 #include "tests/tree.hpp"
 

@@ -14,9 +14,9 @@
 #include <thread>
 #include <vector>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
-#include "common/map/lane_map.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "common/world/traffic_map/lane_map.hpp"
 #include "tests/nodes/editor/desk_fixture.hpp"
 #include "tests/tree.hpp"
 

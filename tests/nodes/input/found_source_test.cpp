@@ -5,13 +5,13 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
-#include "common/hands/key_names.hpp"
-#include "common/hands/wheel_setup.hpp"
-#include "launch/pause_buttons.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "common/vehicle/input_devices/key_names.hpp"
+#include "common/vehicle/input_devices/wheel_setup.hpp"
+#include "launch/rodeira/run/pause_buttons.hpp"
 #include "nodes/input/joysticks.hpp"
-#include "nodes/view/wheel_buttons.hpp"
+#include "nodes/view/window/wheel_buttons.hpp"
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/nodes/input/virtual_pad.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"

@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <map>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
-#include "common/hands/wheel_setup.hpp"
-#include "launch/input_command.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "common/vehicle/input_devices/wheel_setup.hpp"
+#include "launch/rodeira/commands/input_command.hpp"
 #include "nodes/input/joysticks.hpp"
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "common/base/files.hpp"
-#include "launch/pause_buttons.hpp"
+#include "common/core/base/files.hpp"
+#include "launch/rodeira/run/pause_buttons.hpp"
 #include "nodes/input/joysticks.hpp"
-#include "nodes/view/wheel_buttons.hpp"
+#include "nodes/view/window/wheel_buttons.hpp"
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
 #include "tests/tree.hpp"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "common/hands/keyboard_driver.hpp"
+#include "common/vehicle/input_devices/keyboard_driver.hpp"
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/tree.hpp"
 

@@ -6,14 +6,14 @@
 #include <map>
 #include <optional>
 
-#include "common/replay/recorded_run.hpp"
+#include "common/runtime/replay/recorded_run.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "launch/branch.hpp"
-#include "launch/verify.hpp"
+#include "launch/rodeira/replay/branch.hpp"
+#include "launch/rodeira/replay/verify.hpp"
 #include "nodes/input/joysticks.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
 #include "tests/system/command.hpp"
 #include "tests/tree.hpp"

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "common/hands/key_names.hpp"
-#include "common/launch/launch.hpp"
-#include "common/lockstep/in_process.hpp"
+#include "common/vehicle/input_devices/key_names.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "launch/local_nodes.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira {

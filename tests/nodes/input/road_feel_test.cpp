@@ -5,15 +5,15 @@
 #include <filesystem>
 #include <vector>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
-#include "common/hands/force_feedback.hpp"
-#include "common/launch/launch.hpp"
-#include "common/lockstep/in_process.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "common/vehicle/input_devices/force_feedback.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "launch/local_nodes.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
 #include "nodes/input/car_seen.hpp"
 #include "tests/tree.hpp"
 

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <limits>
 
-#include "common/base/random.hpp"
-#include "common/dds/remote_ground.hpp"
+#include "common/core/base/random.hpp"
+#include "common/runtime/dds/remote_ground.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::nodes {

@@ -6,19 +6,19 @@
 #include <functional>
 #include <map>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
-#include "common/launch/launch.hpp"
-#include "common/lockstep/in_process.hpp"
-#include "common/road/world.hpp"
-#include "common/scenario/request.hpp"
-#include "common/replay/recorded_run.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
+#include "common/world/road/world.hpp"
+#include "common/driving/scenario/request.hpp"
+#include "common/runtime/replay/recorded_run.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "launch/local_nodes.hpp"
-#include "launch/verify.hpp"
-#include "nodes/view/ask_place.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
+#include "launch/rodeira/replay/verify.hpp"
+#include "nodes/view/run_connection/ask_place.hpp"
 #include "tests/n222.hpp"
 
 namespace rodeira {
@@ -133,7 +133,7 @@ TEST_F(Requests, TheCarStandsWhereItWasAskedToBeAndTheRecordingKnowsIt) {
   ExpectIdenticalFrom({0, 1200, 1511, 2000});
 }
 
-// What a window asks for whose person wants to begin again (nodes/view/ask_place): the pose of the run's first sample.
+// What a window asks for whose person wants to begin again (nodes/view/run_connection/ask_place): the pose of the run's first sample.
 TEST_F(Requests, TheCarGoesBackToWhereItBegan) {
   const auto world = N222();
   scene::Moment moment;

@@ -6,14 +6,14 @@
 #include <map>
 #include <optional>
 
-#include "common/base/files.hpp"
-#include "common/launch/launch.hpp"
-#include "common/lockstep/in_process.hpp"
-#include "common/road/world.hpp"
+#include "common/core/base/files.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
+#include "common/world/road/world.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "launch/local_nodes.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
 #include "tests/n222.hpp"
 
 namespace rodeira {

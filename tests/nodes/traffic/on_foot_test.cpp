@@ -4,12 +4,12 @@
 #include <cmath>
 #include <map>
 
-#include "common/launch/launch.hpp"
-#include "common/lockstep/in_process.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "launch/local_nodes.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira {

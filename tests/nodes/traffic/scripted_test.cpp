@@ -7,14 +7,14 @@
 #include <optional>
 #include <string>
 
-#include "common/base/files.hpp"
-#include "common/launch/launch.hpp"
-#include "common/lockstep/in_process.hpp"
+#include "common/core/base/files.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "launch/local_nodes.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira {

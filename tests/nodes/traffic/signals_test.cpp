@@ -4,14 +4,14 @@
 #include <cmath>
 #include <optional>
 
-#include "common/launch/launch.hpp"
-#include "common/lockstep/in_process.hpp"
-#include "common/network/lights.hpp"
-#include "common/road/world.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
+#include "common/world/network/lights.hpp"
+#include "common/world/road/world.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "launch/local_nodes.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira {

@@ -5,13 +5,13 @@
 #include <map>
 #include <optional>
 
-#include "common/launch/launch.hpp"
-#include "common/lockstep/in_process.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
 #include "common/traffic/traffic_settings.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "launch/local_nodes.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "common/base/files.hpp"
+#include "common/core/base/files.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::nodes {

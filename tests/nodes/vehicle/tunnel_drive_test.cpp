@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/vehicle/collision_space.hpp"
+#include "common/vehicle/dynamics/collision_space.hpp"
 #include "nodes/vehicle/obstacle_map.hpp"
-#include "tests/common/vehicle/every_model.hpp"
+#include "tests/common/vehicle/dynamics/every_model.hpp"
 
 namespace rodeira::nodes {
 namespace {

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 
 namespace rodeira::nodes {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/scene/cabin.hpp"
-#include "common/scene/cabin_body.hpp"
+#include "common/view/scene/vehicles/cabin.hpp"
+#include "common/view/scene/vehicles/cabin_body.hpp"
 #include "tests/nodes/view/driver_still.hpp"
 
 namespace rodeira::view {

@@ -12,8 +12,8 @@
 #include <set>
 #include <utility>
 
-#include "nodes/view/screen.hpp"
-#include "nodes/view/surface.hpp"
+#include "nodes/view/window/screen.hpp"
+#include "nodes/view/frame/surface.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 

@@ -8,12 +8,12 @@
 #include <optional>
 #include <sstream>
 
-#include "common/hands/key_names.hpp"
-#include "common/hands/keyboard_driver.hpp"
-#include "common/launch/launch.hpp"
-#include "common/scene/camera.hpp"
-#include "nodes/view/driver_aims.hpp"
-#include "nodes/view/screen.hpp"
+#include "common/vehicle/input_devices/key_names.hpp"
+#include "common/vehicle/input_devices/keyboard_driver.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/view/scene/camera/camera.hpp"
+#include "nodes/view/dynamic_objects/driver_aims.hpp"
+#include "nodes/view/window/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/screen_hands.hpp"
 #include "tests/tree.hpp"

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <set>
 
-#include "common/base/files.hpp"
-#include "common/network/network.hpp"
-#include "common/scene/tile_grid.hpp"
-#include "tests/common/surface/made_crg.hpp"
+#include "common/core/base/files.hpp"
+#include "common/world/network/network.hpp"
+#include "common/view/scene/tiles/tile_grid.hpp"
+#include "tests/common/world/surface/made_crg.hpp"
 #include "tests/nodes/view/database_fixture.hpp"
 #include "tests/setting.hpp"
 #include "tests/tree.hpp"

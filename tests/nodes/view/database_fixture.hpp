@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "nodes/view/database.hpp"
-#include "tests/common/scene/ground_worlds.hpp"
+#include "nodes/view/visual_database/database.hpp"
+#include "tests/common/view/scene/ground_worlds.hpp"
 
 namespace rodeira::view {
 

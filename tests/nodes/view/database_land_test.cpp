@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "common/scene/ground_tile.hpp"
-#include "nodes/view/find_built.hpp"
+#include "common/view/scene/visual_world/ground_tile.hpp"
+#include "nodes/view/visual_database/find_built.hpp"
 #include "tests/nodes/view/database_fixture.hpp"
 #include "tests/nodes/view/pictures.hpp"
 

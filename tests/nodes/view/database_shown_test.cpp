@@ -3,7 +3,7 @@
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
-#include "nodes/view/find_built.hpp"
+#include "nodes/view/visual_database/find_built.hpp"
 #include "tests/nodes/view/database_fixture.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"

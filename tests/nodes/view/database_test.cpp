@@ -3,7 +3,7 @@
 #include <osg/Texture2D>
 #include <osgDB/ReadFile>
 
-#include "common/scene/ground_tile.hpp"
+#include "common/view/scene/visual_world/ground_tile.hpp"
 #include "tests/n222.hpp"
 #include "tests/nodes/view/database_fixture.hpp"
 #include "tests/setting.hpp"

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "common/launch/node_context.hpp"
-#include "common/lockstep/node.hpp"
-#include "common/scene/moment.hpp"
+#include "common/runtime/launch/node_context.hpp"
+#include "common/runtime/lockstep/node.hpp"
+#include "common/view/scene/vehicles/moment.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"

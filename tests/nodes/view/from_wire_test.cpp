@@ -1,9 +1,9 @@
 // From a run's messages to what is drawn.
-#include "nodes/view/from_wire.hpp"
+#include "nodes/view/run_connection/from_wire.hpp"
 
 #include <gtest/gtest.h>
 
-#include "common/launch/launch.hpp"
+#include "common/runtime/launch/launch.hpp"
 #include "tests/nodes/view/fake_run.hpp"
 
 namespace rodeira::view {

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "common/base/files.hpp"
-#include "nodes/view/database.hpp"
-#include "nodes/view/find_built.hpp"
-#include "tests/launch/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "nodes/view/visual_database/database.hpp"
+#include "nodes/view/visual_database/find_built.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
 namespace rodeira::view {

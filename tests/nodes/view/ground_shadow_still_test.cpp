@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "common/base/random.hpp"
-#include "common/scene/air.hpp"
-#include "tests/common/scene/ground_worlds.hpp"
+#include "common/core/base/random.hpp"
+#include "common/view/scene/lighting/air.hpp"
+#include "tests/common/view/scene/ground_worlds.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/n222.hpp"
 

@@ -1,10 +1,10 @@
 // What a window says of the keys held in it, from SDL's events.
-#include "nodes/view/key_forwarder.hpp"
+#include "nodes/view/run_connection/key_forwarder.hpp"
 
 #include <SDL.h>
 #include <gtest/gtest.h>
 
-#include "common/launch/live_keys.hpp"
+#include "common/runtime/launch/live_keys.hpp"
 
 namespace rodeira::view {
 namespace {

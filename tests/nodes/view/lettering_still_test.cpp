@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "common/scene/mirror.hpp"
-#include "common/scene/sign_face.hpp"
-#include "tests/common/scene/ground_worlds.hpp"
+#include "common/view/scene/camera/mirror.hpp"
+#include "common/view/scene/road_furniture/sign_face.hpp"
+#include "tests/common/view/scene/ground_worlds.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
 namespace rodeira::view {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/scene/car_mesh.hpp"
-#include "common/scene/person_mesh.hpp"
+#include "common/view/scene/vehicles/car_mesh.hpp"
+#include "common/view/scene/vehicles/person_mesh.hpp"
 #include "tests/nodes/view/driver_still.hpp"
 
 namespace rodeira::view {

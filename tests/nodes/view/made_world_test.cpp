@@ -2,7 +2,7 @@
 #include <chrono>
 #include <thread>
 
-#include "common/scene/world_scene.hpp"
+#include "common/view/scene/visual_world/world_scene.hpp"
 #include "tests/nodes/view/database_fixture.hpp"
 #include "tests/nodes/view/pictures.hpp"
 

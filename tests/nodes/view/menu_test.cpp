@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "nodes/view/png.hpp"
-#include "nodes/view/screen.hpp"
+#include "nodes/view/frame/png.hpp"
+#include "nodes/view/window/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/screen_hands.hpp"
 #include "tests/tree.hpp"

@@ -3,8 +3,8 @@
 
 #include <GL/gl.h>
 
-#include "common/launch/launch.hpp"
-#include "nodes/view/eye_buffer.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "nodes/view/frame/eye_buffer.hpp"
 #include "nodes/view/view_settings.hpp"
 #include "tests/nodes/view/driver_still.hpp"
 

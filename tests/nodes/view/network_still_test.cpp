@@ -6,8 +6,8 @@
 #include <optional>
 #include <cmath>
 
-#include "common/scene/light_heads.hpp"
-#include "tests/common/scene/ground_worlds.hpp"
+#include "common/view/scene/road_furniture/light_heads.hpp"
+#include "tests/common/view/scene/ground_worlds.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
 namespace rodeira::view {

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "nodes/view/stage.hpp"
+#include "nodes/view/window/stage.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/virtual_display.hpp"
 #include "tests/tree.hpp"

@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "common/road/world.hpp"
-#include "common/scene/camera.hpp"
-#include "nodes/view/painter.hpp"
-#include "nodes/view/picture.hpp"
+#include "common/world/road/world.hpp"
+#include "common/view/scene/camera/camera.hpp"
+#include "nodes/view/renderer/painter.hpp"
+#include "nodes/view/frame/picture.hpp"
 #include "tests/nodes/view/read_png.hpp"
 
 namespace rodeira::view {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "common/scene/air.hpp"
+#include "common/view/scene/lighting/air.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/n222.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "nodes/view/picture.hpp"
+#include "nodes/view/frame/picture.hpp"
 
 namespace rodeira::view {
 

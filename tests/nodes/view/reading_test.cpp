@@ -6,10 +6,10 @@
 #include <iterator>
 #include <thread>
 
-#include "common/base/temporary_folder.hpp"
-#include "nodes/view/loading.hpp"
-#include "nodes/view/replay_window.hpp"
-#include "nodes/view/stage.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "nodes/view/window/loading.hpp"
+#include "nodes/view/playback/replay_window.hpp"
+#include "nodes/view/window/stage.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/virtual_display.hpp"
 #include "tests/tree.hpp"

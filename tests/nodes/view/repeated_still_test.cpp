@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "nodes/view/plain_geometry.hpp"
+#include "nodes/view/materials/plain_geometry.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 

@@ -2,9 +2,9 @@
 #include <SDL.h>
 #include <gtest/gtest.h>
 
-#include "nodes/view/replay_keys.hpp"
-#include "nodes/view/replay_window.hpp"
-#include "nodes/view/timeline_bar.hpp"
+#include "nodes/view/playback/replay_keys.hpp"
+#include "nodes/view/playback/replay_window.hpp"
+#include "nodes/view/overlays/timeline_bar.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "nodes/view/screen.hpp"
+#include "nodes/view/window/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
 namespace rodeira::view {

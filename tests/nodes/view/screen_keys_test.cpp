@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "nodes/view/heat_node.hpp"
-#include "nodes/view/screen.hpp"
+#include "nodes/view/overlays/heat_node.hpp"
+#include "nodes/view/window/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/screen_hands.hpp"
 #include "tests/tree.hpp"

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <tuple>
 
-#include "common/base/temporary_folder.hpp"
-#include "nodes/view/asker.hpp"
-#include "nodes/view/screen.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "nodes/view/run_connection/asker.hpp"
+#include "nodes/view/window/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/screen_hands.hpp"
 #include "tests/n222.hpp"

@@ -3,9 +3,9 @@
 
 #include <cstdlib>
 
-#include "nodes/view/from_wire.hpp"
-#include "nodes/view/heard.hpp"
-#include "nodes/view/speaker.hpp"
+#include "nodes/view/run_connection/from_wire.hpp"
+#include "nodes/view/sound/heard.hpp"
+#include "nodes/view/sound/speaker.hpp"
 
 namespace rodeira::view {
 namespace {

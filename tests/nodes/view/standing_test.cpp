@@ -9,10 +9,10 @@
 #include <thread>
 #include <vector>
 
-#include "common/base/temporary_folder.hpp"
-#include "launch/control_server.hpp"
-#include "nodes/view/loading.hpp"
-#include "nodes/view/screen.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "launch/rodeira/run/control_server.hpp"
+#include "nodes/view/window/loading.hpp"
+#include "nodes/view/window/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 

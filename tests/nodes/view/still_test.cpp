@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "common/base/random.hpp"
+#include "common/core/base/random.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/n222.hpp"
 

@@ -1,5 +1,5 @@
 // The tree in which tiles stand.
-#include "nodes/view/tile_tree.hpp"
+#include "nodes/view/paging/tile_tree.hpp"
 
 #include <set>
 

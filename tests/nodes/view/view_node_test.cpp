@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
-#include "common/base/files.hpp"
-#include "common/launch/launch.hpp"
-#include "common/lockstep/in_process.hpp"
-#include "nodes/view/from_wire.hpp"
+#include "common/core/base/files.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
+#include "nodes/view/run_connection/from_wire.hpp"
 #include "tests/nodes/view/fake_run.hpp"
 #include "tests/nodes/view/pictures.hpp"
 

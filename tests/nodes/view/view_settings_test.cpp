@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "common/base/files.hpp"
-#include "common/base/temporary_folder.hpp"
+#include "common/core/base/files.hpp"
+#include "common/core/base/temporary_folder.hpp"
 #include "nodes/view/view_node.hpp"
 #include "tests/nodes/view/fake_run.hpp"
 #include "tests/tree.hpp"

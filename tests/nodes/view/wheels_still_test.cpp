@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/scene/car_mesh.hpp"
+#include "common/view/scene/vehicles/car_mesh.hpp"
 #include "tests/nodes/view/driver_still.hpp"
 
 namespace rodeira::view {

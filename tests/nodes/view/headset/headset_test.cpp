@@ -11,9 +11,9 @@
 #include <numbers>
 #include <thread>
 
-#include "common/launch/live_keys.hpp"
-#include "nodes/view/screen.hpp"
-#include "nodes/view/stage.hpp"
+#include "common/runtime/launch/live_keys.hpp"
+#include "nodes/view/window/screen.hpp"
+#include "nodes/view/window/stage.hpp"
 #include "tests/nodes/view/headset/fake_headset.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/virtual_display.hpp"

@@ -1,0 +1,77 @@
+#include "common/core/base/crew.hpp"
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "common/core/base/assert.hpp"
+
+namespace rodeira::base {
+
+struct Crew::Parts {
+  std::mutex mutex;
+  std::condition_variable begins, ends;
+  std::uint64_t round = 0;
+  std::size_t count = 0, busy = 0;
+  bool over = false;
+  const std::function<void(std::size_t, std::size_t)>* work = nullptr;
+  std::vector<std::jthread> others;  // last: they end before what they use
+
+  void Do(std::size_t part) const {
+    const std::size_t parts = others.size() + 1;
+    const std::size_t begin = count * part / parts, end = count * (part + 1) / parts;
+    if (begin < end) (*work)(begin, end);
+  }
+  void Wait(std::size_t part) {
+    std::uint64_t done = 0;
+    std::unique_lock lock(mutex);
+    while (true) {
+      begins.wait(lock, [&] { return over || round != done; });
+      if (over) return;
+      done = round;
+      lock.unlock();
+      Do(part);
+      lock.lock();
+      if (--busy == 0) ends.notify_one();
+    }
+  }
+};
+
+Crew::Crew(unsigned threads) : parts_(std::make_unique<Parts>()) {
+  RODEIRA_ASSERT(threads >= 1);
+  const std::scoped_lock lock(parts_->mutex);  // nobody looks at `others` before it is whole
+  for (std::size_t part = 1; part < threads; ++part) parts_->others.emplace_back([parts = parts_.get(), part] { parts->Wait(part); });
+}
+
+Crew::~Crew() {
+  {
+    const std::scoped_lock lock(parts_->mutex);
+    parts_->over = true;
+  }
+  parts_->begins.notify_all();
+}
+
+unsigned Crew::threads() const { return static_cast<unsigned>(parts_->others.size() + 1); }
+
+void Crew::Share(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
+  {
+    const std::scoped_lock lock(parts_->mutex);
+    parts_->work = &work;
+    parts_->count = count;
+    parts_->busy = parts_->others.size();
+    ++parts_->round;
+  }
+  parts_->begins.notify_all();
+  parts_->Do(0);
+  std::unique_lock lock(parts_->mutex);
+  parts_->ends.wait(lock, [&] { return parts_->busy == 0; });
+}
+
+void Share(Crew* crew, std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
+  if (crew != nullptr) crew->Share(count, work);
+  else work(0, count);
+}
+
+}  // namespace rodeira::base

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "common/core/base/bytes.hpp"
+#include "common/core/base/result.hpp"
+
+namespace rodeira::base {
+
+// The whole file, or what comes through a pipe until it is closed. Wrong input where it is missing, is a folder, or is larger than `limit_bytes`.
+Result<std::string> ReadText(const std::filesystem::path& path, std::size_t limit_bytes = 64u << 20);
+Result<Bytes> ReadBytes(const std::filesystem::path& path, std::size_t limit_bytes = 1u << 30);
+
+// Writes beside the target and renames: the file is the old one or the whole new one, never half of it.
+Status WriteWhole(const std::filesystem::path& path, std::span<const std::byte> bytes);
+Status WriteWhole(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace rodeira::base

@@ -1,0 +1,21 @@
+#include "common/core/base/user_folders.hpp"
+
+#include <cstdlib>
+
+namespace rodeira::base {
+namespace {
+
+std::filesystem::path Folder(const char* variable, const char* below_home) {
+  const char* set = std::getenv(variable);
+  if (set != nullptr && *set != '\0') return std::filesystem::path(set) / "rodeira";
+  const char* home = std::getenv("HOME");
+  return std::filesystem::path(home != nullptr ? home : ".") / below_home / "rodeira";
+}
+
+}  // namespace
+
+std::filesystem::path UserDataFolder() { return Folder("XDG_DATA_HOME", ".local/share"); }
+
+std::filesystem::path UserConfigFolder() { return Folder("XDG_CONFIG_HOME", ".config"); }
+
+}  // namespace rodeira::base

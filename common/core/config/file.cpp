@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "common/core/base/files.hpp"
+#include "common/core/base/suggest.hpp"
+#include "common/core/config/yaml.hpp"
+
+namespace rodeira::config {
+namespace {
+
+constexpr std::size_t kSlip = 5;  // 's_m' is as near to 't_m' as any other
+
+// 'mass_kg' where 'mass_t' was given: the same quantity in another unit.
+bool DifferOnlyByUnit(const std::string& a, const std::string& b) {
+  static const std::set<std::string, std::less<>> kUnits = {
+      "m",  "cm", "mm", "km", "ft", "s",  "ms", "us",  "ns",  "min", "h",   "kg",  "g",  "t",  "n",  "kn",  "nm",  "rad",   "deg",
+      "mps", "kmh", "kmph", "kph", "mph", "mps2", "radps", "degps", "rpm", "hz", "w", "kw", "hp", "pa", "kpa", "bar", "pct", "percent", "m2", "kgm2"};
+  const auto cut_a = a.rfind('_');
+  const auto cut_b = b.rfind('_');
+  if (cut_a == std::string::npos || cut_b == std::string::npos || a.substr(0, cut_a) != b.substr(0, cut_b)) return false;
+  return kUnits.contains(a.substr(cut_a + 1)) && kUnits.contains(b.substr(cut_b + 1));
+}
+
+// What an unknown key was probably meant to be, and the end of the sentence that says so.
+struct Meant {
+  std::string key;  // empty: nothing is near
+  std::string hint;
+};
+
+Meant MeantBy(const std::string& key, const std::set<std::string, std::less<>>& asked) {
+  const std::vector<std::string> known(asked.begin(), asked.end());
+  for (const std::string& other : known) {
+    if (DifferOnlyByUnit(other, key)) return {other, fmt::format("; the unit is part of the name: '{}'", other)};
+  }
+  return {base::NearestName(key, known), base::DidYouMean(key, known)};
+}
+
+void CollectScalars(const YAML::Node& node, std::vector<std::string>& out) {
+  if (node.IsScalar()) out.push_back(node.Scalar());
+  if (node.IsSequence()) {
+    for (const auto& item : node) CollectScalars(item, out);
+  }
+  if (node.IsMap()) {
+    for (const auto& item : node) CollectScalars(item.second, out);
+  }
+}
+
+// The same value without the lines that it had in its own text: it stands in no line of the file that it is put into.
+YAML::Node WithoutLines(const YAML::Node& node) {
+  YAML::Node out(node.Type());
+  if (node.IsScalar()) out = YAML::Node(node.Scalar());
+  if (node.IsSequence()) {
+    for (const auto& item : node) out.push_back(WithoutLines(item));
+  }
+  if (node.IsMap()) {
+    for (const auto& item : node) out.force_insert(WithoutLines(item.first), WithoutLines(item.second));
+  }
+  if (!node.IsNull()) out.SetTag(node.Tag());
+  return out;
+}
+
+}  // namespace
+
+File::File(std::shared_ptr<detail::Context> context) : context_(std::move(context)) {}
+
+base::Result<File> File::Load(const std::filesystem::path& path) {
+  auto text = base::ReadText(path, 16u << 20);
+  if (!text) return text.error();
+  return Parse(text.value(), path);
+}
+
+base::Result<File> File::Parse(std::string_view text, const std::filesystem::path& name) {
+  auto context = std::make_shared<detail::Context>();
+  context->path = name;
+  context->text = std::string(text);
+  if (text.find('\0') != std::string_view::npos) return base::WrongInput("the file holds a zero byte; YAML text was expected", name.string());
+  const auto root = LoadYaml(context->text, "this");
+  if (!root) return base::WrongInput(root.error().message, root.error().context.empty() ? name.string() : name.string() + ":" + root.error().context);
+  context->root.reset(root.value());
+  if (!context->root.IsMap()) {
+    return base::WrongInput(fmt::format("the file holds {}; a mapping (key: value) was expected", KindOf(context->root)), name.string());
+  }
+  return File(context);
+}
+
+base::Status File::Override(std::string_view key, std::string_view value) {
+  const std::string where = fmt::format("--set {}={}", key, value);
+  const auto leaf = LoadYaml(std::string(value), "the value");
+  if (!leaf) return base::WrongInput(leaf.error().message, where);
+  YAML::Node at;
+  at.reset(context_->root);
+  std::size_t from = 0;
+  for (;;) {
+    const std::size_t dot = key.find('.', from);
+    const std::string part(key.substr(from, dot == std::string_view::npos ? dot : dot - from));
+    if (part.empty()) return base::WrongInput("a key of the form a.b.c was expected", where);
+    if (!at.IsMap() && !at.IsNull()) return base::WrongInput(fmt::format("'{}' is {}, no mapping", key.substr(0, from == 0 ? 0 : from - 1), KindOf(at)), where);
+    if (dot == std::string_view::npos) {
+      if (leaf.value().IsNull()) at.remove(part);
+      else at[part] = WithoutLines(leaf.value());
+      return {};
+    }
+    if (!Find(at, part).IsDefined()) at[part] = YAML::Node(YAML::NodeType::Map);
+    YAML::Node next;
+    next.reset(at[part]);
+    at.reset(next);
+    from = dot + 1;
+  }
+}
+
+Map File::root() const {
+  auto node = std::make_shared<detail::YamlNode>();
+  node->node.reset(context_->root);
+  return Map(context_, node, "");
+}
+
+std::vector<base::Error> File::Problems() const {
+  std::vector<detail::Problem> all = context_->problems, misspelt, strange;
+  for (const auto& [place, asked] : context_->asked) {
+    std::set<std::string> seen;
+    for (const auto& item : asked.node) {
+      if (!item.first.IsScalar()) {
+        all.push_back({LineOf(item.first), "a key is no plain word", ""});
+        continue;
+      }
+      const std::string key = item.first.Scalar();
+      if (!seen.insert(key).second) all.push_back({LineOf(item.first), fmt::format("key '{}' stands twice", Sub(asked.path, key)), ""});
+      if (asked.keys.contains(key)) continue;
+      std::set<std::string, std::less<>> known = asked.keys;
+      known.insert(asked.hoped.begin(), asked.hoped.end());
+      known.erase(key);  // it may stand there, but what is wrong elsewhere kept it from being read
+      const Meant meant = MeantBy(key, known);
+      // Where the mapping is wrong itself whoever reads it may have stopped before this key; only what is long enough to be a slip of the pen is told.
+      if (asked.wrong && (meant.key.empty() || key.size() < kSlip)) continue;
+      const std::string missing = Sub(asked.path, meant.key);
+      if (!meant.key.empty()) std::erase_if(all, [&](const auto& problem) { return problem.missing == missing; });
+      (meant.key.empty() ? strange : misspelt).push_back({LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
+    }
+  }
+  // What is misspelt comes before what is missing in its line, perhaps for that; what nobody asked for behind both, perhaps since something is missing.
+  for (auto& problem : misspelt) {
+    const auto missing = std::find_if(all.begin(), all.end(), [&](const auto& other) { return other.line == problem.line && !other.missing.empty(); });
+    all.insert(missing, std::move(problem));
+  }
+  all.insert(all.end(), strange.begin(), strange.end());
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
+  std::vector<base::Error> errors;
+  for (auto& problem : all) errors.push_back(base::WrongInput(problem.message, PlaceOf(*context_, problem.line)));
+  return errors;
+}
+
+base::Status File::Finish() const {
+  const auto problems = Problems();
+  if (problems.empty()) return {};
+  return problems.front();
+}
+
+std::vector<std::string> File::Scalars() const {
+  std::vector<std::string> scalars;
+  CollectScalars(context_->root, scalars);
+  return scalars;
+}
+
+const std::string& File::text() const { return context_->text; }
+const std::filesystem::path& File::path() const { return context_->path; }
+
+}  // namespace rodeira::config

@@ -1,0 +1,202 @@
+#include "common/data/csv/export.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "common/data/csv/table_writer.hpp"
+#include "common/data/decode/idl_reader.hpp"
+
+namespace rodeira::csv {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The states of nodes as named octets: what they mean is known to the nodes alone.
+constexpr const char* kSnapshotType = "rodeira::msg::Snapshot";
+constexpr std::uint64_t kMessagesBetweenProgress = 4096;
+
+struct Table {
+  std::string topic;
+  std::string file;
+  decode::TypePtr type;
+  std::unique_ptr<TableWriter> writer;
+};
+
+// A folder that becomes `target` at the end, and is gone where that does not come.
+class Workplace {
+ public:
+  explicit Workplace(fs::path target) : target_(std::move(target)) {}
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+  ~Workplace() {
+    std::error_code problem;
+    if (!path_.empty()) fs::remove_all(path_, problem);
+  }
+  base::Status Begin() {
+    std::error_code problem;
+    if (fs::exists(fs::symlink_status(target_, problem))) {
+      return base::WrongInput("the folder for the tables is there already; another name was expected", target_.string());
+    }
+    const fs::path beside = target_.string() + fmt::format(".{}.part", ::getpid());
+    if (target_.has_parent_path()) fs::create_directories(target_.parent_path(), problem);
+    if (!fs::create_directory(beside, problem)) {
+      return base::Failed(fmt::format("the folder for the tables cannot be made: {}", problem.message()), target_.string());
+    }
+    path_ = beside;
+    return {};
+  }
+  base::Status Finish() {
+    if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) != 0) {
+      const std::string what = fmt::format("the folder for the tables cannot be put in its place: {}", std::strerror(errno));
+      return base::Failed(what, target_.string());
+    }
+    path_.clear();
+    return {};
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path target_;
+  fs::path path_;
+};
+
+// "rodeira/vehicle_state" is "vehicle_state"; other characters than letters, digits, '-', '_' and '.' become '_'.
+std::string FileName(std::string_view topic, std::set<std::string>& taken) {
+  if (topic.starts_with("rodeira/")) topic.remove_prefix(8);
+  std::string name(topic.substr(0, 100));
+  for (char& c : name) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (!letter && c != '-' && c != '.') c = '_';
+  }
+  if (name.empty() || name[0] == '.') name.insert(0, "_");
+  std::string free = name;
+  for (int number = 2; !taken.insert(free).second; ++number) free = fmt::format("{}_{}", name, number);
+  return free + ".csv";
+}
+
+class Exporter {
+ public:
+  Exporter(const record::McapReader& reader, const fs::path& folder, const ExportProgress& progress)
+      : reader_(reader), progress_(progress), workplace_(folder) {}
+
+  base::Result<ExportReport> Run() {
+    if (auto status = workplace_.Begin(); !status) return status.error();
+    report_.losses = reader_.condition().findings;
+    for (const auto& [id, channel] : reader_.channels()) {
+      if (auto status = Open(channel); !status) return status.error();
+    }
+    if (auto status = Copy(); !status) return status.error();
+    for (const auto& table : tables_) {
+      if (auto status = table->writer->Close(); !status) return status.error();
+      const TableWriter& writer = *table->writer;
+      report_.tables.push_back({table->topic, table->file, writer.messages(), writer.rows(), writer.written_bytes()});
+    }
+    if (auto status = workplace_.Finish(); !status) return status.error();
+    return std::move(report_);
+  }
+
+ private:
+  // Channels of one topic and schema share a table.
+  base::Status Open(const record::Channel& channel) {
+    for (const auto& [key, table] : table_of_) {
+      if (key.first == channel.topic && key.second == channel.schema) {
+        of_channel_[channel.id] = table;
+        return {};
+      }
+    }
+    const auto schema = reader_.schemas().find(channel.schema);
+    if (schema == reader_.schemas().end() || schema->second.encoding != "omgidl" || channel.message_encoding != "cdr") {
+      LeaveOut(channel.topic, "its messages are not CDR with an IDL schema");
+      return {};
+    }
+    if (schema->second.name == kSnapshotType) {
+      LeaveOut(channel.topic, "snapshots are the states of nodes, no measurements");
+      return {};
+    }
+    auto type = decode::ReadType(schema->second.text, schema->second.name);
+    if (!type) return base::WrongInput(type.error().Text(), channel.topic);
+    auto layout = LayoutOf(*type.value());
+    if (!layout) return base::WrongInput(layout.error().Text(), channel.topic);
+    auto table = std::make_shared<Table>();
+    table->topic = channel.topic;
+    table->file = FileName(channel.topic, names_);
+    table->type = type.value();
+    auto file = CsvFile::Create(workplace_.path() / table->file);
+    if (!file) return file.error();
+    table->writer = std::make_unique<TableWriter>(*table->type, std::move(layout).value(), std::move(file).value());
+    table->writer->PutHeaderLine();
+    tables_.push_back(table);
+    table_of_.emplace_back(std::pair(channel.topic, channel.schema), table);
+    of_channel_[channel.id] = table;
+    return {};
+  }
+
+  base::Status Copy() {
+    record::Query query;
+    query.order = record::Query::Order::kFile;  // one chunk at a time
+    query.channels.emplace();
+    for (const auto& [channel, table] : of_channel_) query.channels->insert(channel);
+    auto cursor = reader_.Messages(query);
+    for (std::uint64_t count = 0;; ++count) {
+      const auto message = cursor.Next();
+      if (!message) {
+        report_.losses.push_back(message.error().Text());
+        continue;
+      }
+      if (!message.value()) return {};
+      if (auto status = Put(*message.value()); !status) return status;
+      if (count % kMessagesBetweenProgress != 0 || GoesOn(count)) continue;
+      return base::Failed("the export was broken off; nothing is left of it");
+    }
+  }
+  bool GoesOn(std::uint64_t messages) const {
+    const auto all = static_cast<double>(std::max<std::uint64_t>(1, reader_.statistics().messages));
+    return !progress_ || progress_(std::min(1.0, static_cast<double>(messages) / all));
+  }
+
+  base::Status Put(const record::Message& message) {
+    const record::Channel& channel = reader_.channels().at(message.channel);
+    const auto source = channel.metadata.find("source");
+    const std::string name = source != channel.metadata.end() ? source->second : fmt::format("channel {}", channel.id);
+    auto status = of_channel_.at(message.channel)->writer->Put(message.data, message.log_time_ns, name);
+    if (status || status.error().code == base::ErrorCode::kFailed) return status;
+    std::string time;
+    AppendSeconds(static_cast<std::int64_t>(message.log_time_ns), time);
+    return base::WrongInput(status.error().Text(), fmt::format("{} of '{}' at {} s", channel.topic, name, time));
+  }
+
+  void LeaveOut(const std::string& topic, const char* why) {
+    std::string sentence = fmt::format("{}: {}", topic, why);
+    if (std::ranges::find(report_.left_out, sentence) == report_.left_out.end()) report_.left_out.push_back(std::move(sentence));
+  }
+
+  const record::McapReader& reader_;
+  const ExportProgress& progress_;
+  Workplace workplace_;
+  ExportReport report_;
+  std::set<std::string> names_;
+  std::vector<std::shared_ptr<Table>> tables_;
+  std::vector<std::pair<std::pair<std::string, record::SchemaId>, std::shared_ptr<Table>>> table_of_;
+  std::map<record::ChannelId, std::shared_ptr<Table>> of_channel_;
+};
+
+}  // namespace
+
+base::Result<ExportReport> ExportCsv(const record::McapReader& reader, const fs::path& folder, const ExportProgress& progress) {
+  fs::path plain = folder.lexically_normal();  // "tables/" names the folder "tables"
+  if (!plain.has_filename()) plain = plain.parent_path();
+  return Exporter(reader, plain, progress).Run();
+}
+
+}  // namespace rodeira::csv

@@ -1,0 +1,155 @@
+#include "common/data/csv/table_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace rodeira::csv {
+namespace {
+
+using Use = Slot::Use;
+using decode::Value;
+
+void AppendValue(const Value& value, std::string& out) {
+  if (const auto* number = std::get_if<double>(&value); number != nullptr && *number == *number) {
+    fmt::format_to(std::back_inserter(out), "{}", *number);  // most values are: no text of their own
+  } else if (const auto* text = std::get_if<std::string>(&value)) {
+    AppendCell(*text, out);
+  } else {
+    out += decode::Text(value);
+  }
+}
+
+// A text within a list: in quotes, so that a semicolon in it separates nothing.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+bool IsRowUse(Use use) { return use == Use::kRowCell || use == Use::kRowList; }
+
+}  // namespace
+
+TableWriter::TableWriter(const decode::Type& type, Layout layout, CsvFile file)
+    : type_(type), layout_(std::move(layout)), file_(std::move(file)) {
+  if (layout_.rows.empty()) return;
+  // The row sequence's slots stand together; those that are dropped ("end") belong to it where they lie in its path.
+  const std::string prefix = layout_.rows + ".";
+  const auto belongs = [&](const Slot& slot) {
+    return IsRowUse(slot.use) || (slot.use == Use::kDropped && slot.name.starts_with(prefix));
+  };
+  while (row_slot_ < layout_.slots.size() && !belongs(layout_.slots[row_slot_])) ++row_slot_;
+  while (row_slot_ + row_slots_ < layout_.slots.size() && belongs(layout_.slots[row_slot_ + row_slots_])) ++row_slots_;
+}
+
+void TableWriter::PutHeaderLine() {
+  std::string& out = file_.buffer();
+  out += layout_.has_header ? "time_s,step,source" : "time_s,source";
+  for (const Slot& slot : layout_.slots) {
+    if (slot.use != Use::kCell && slot.use != Use::kList && !IsRowUse(slot.use)) continue;
+    out += ',';
+    AppendCell(slot.name.empty() ? "value" : slot.name, out);
+  }
+  out += layout_.has_header ? ",state_digest\n" : "\n";
+}
+
+base::Status TableWriter::Put(std::span<const std::byte> payload, std::uint64_t log_time_ns, std::string_view source) {
+  slot_ = 0;
+  in_rows_ = false;
+  list_depth_ = 0;
+  lists_open_ = 0;
+  before_.clear();
+  row_cells_.clear();
+  after_.clear();
+  time_ns_ = static_cast<std::int64_t>(log_time_ns);
+  if (auto status = decode::Walk(type_, payload, *this); !status) return status;
+  ++messages_;
+  std::string& out = file_.buffer();
+  const std::size_t rows = layout_.rows.empty() ? 1 : row_cells_.size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    AppendSeconds(time_ns_, out);
+    out += ',';
+    if (layout_.has_header) fmt::format_to(std::back_inserter(out), "{},", step_);
+    AppendCell(source, out);
+    out += before_;
+    if (!layout_.rows.empty()) out += row_cells_[row];
+    out += after_;
+    if (layout_.has_header) fmt::format_to(std::back_inserter(out), ",{:016x}", digest_);
+    out += '\n';
+    ++rows_;
+  }
+  return file_.Drain();
+}
+
+void TableWriter::OnValue(const decode::Path& path, Value value) {
+  if (list_depth_ > 0) return AddToList(path, value);
+  const Use use = layout_.slots[slot_].use;
+  switch (use) {
+    case Use::kStep: step_ = std::get<std::int64_t>(value); break;
+    case Use::kTime: time_ns_ = std::get<std::int64_t>(value); break;
+    case Use::kDigest: digest_ = std::get<std::uint64_t>(value); break;
+    case Use::kSource:
+    case Use::kIncarnation:
+    case Use::kDropped: break;
+    default: {
+      std::string& cells = in_rows_ ? row_cells_.back() : slot_ < row_slot_ ? before_ : after_;
+      cells += ',';
+      AppendValue(value, cells);
+    }
+  }
+  ++slot_;
+  EndRow();
+}
+
+void TableWriter::OnSequence(const decode::Path& path, std::uint64_t length) {
+  if (list_depth_ > 0) {
+    ++lists_open_;
+    return;
+  }
+  const bool makes_rows = !in_rows_ && row_slots_ > 0 && slot_ == row_slot_ && !layout_.rows.empty();
+  if (makes_rows) {
+    in_rows_ = length > 0;
+    if (in_rows_) row_cells_.emplace_back();
+    return;
+  }
+  list_depth_ = path.size();
+  lists_open_ = 1;
+  list_.clear();
+}
+
+void TableWriter::OnSequenceEnd(const decode::Path&) {
+  if (list_depth_ > 0) {
+    if (--lists_open_ > 0) return;
+    list_depth_ = 0;
+    std::string& cells = in_rows_ ? row_cells_.back() : slot_ < row_slot_ ? before_ : after_;
+    cells += ',';
+    AppendCell(list_, cells);
+    ++slot_;
+    EndRow();
+    return;
+  }
+  // Behind the last element a row was begun that does not come.
+  if (in_rows_) row_cells_.pop_back();
+  in_rows_ = false;
+  slot_ = row_slot_ + row_slots_;
+}
+
+void TableWriter::AddToList(const decode::Path& path, const Value& value) {
+  if (!list_.empty()) list_ += "; ";
+  const decode::Path inner(path.begin() + static_cast<std::ptrdiff_t>(list_depth_), path.end());
+  if (inner.size() > 1) list_ += decode::Text(inner) + "=";
+  const auto* text = std::get_if<std::string>(&value);
+  list_ += text != nullptr ? Quoted(*text) : decode::Text(value);
+}
+
+void TableWriter::EndRow() {
+  if (!in_rows_ || slot_ < row_slot_ + row_slots_) return;
+  slot_ = row_slot_;
+  row_cells_.emplace_back();
+}
+
+}  // namespace rodeira::csv

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/core/base/result.hpp"
+#include "common/data/record/mcap_format.hpp"
+#include "common/data/record/mcap_reader.hpp"
+#include "common/data/record/source.hpp"
+
+// What is known of a recording, whether its summary or a scan said so. For the reader's own files.
+namespace rodeira::record {
+
+// Schemas and channels met so far.
+struct Definitions {
+  std::map<SchemaId, Schema> schemas;
+  std::map<ChannelId, Channel> channels;
+  bool operator==(const Definitions&) const = default;
+
+  // Wrong input where an id would get another meaning, or where a channel's schema is not known.
+  base::Status Add(const Schema& schema);
+  base::Status Add(const Channel& channel);
+};
+
+struct Contents {
+  Header header;
+  Definitions definitions;
+  Statistics statistics;
+  std::vector<ChunkInfo> chunks;            // these three in file order
+  std::vector<MetadataInfo> metadata;
+  std::vector<AttachmentInfo> attachments;
+};
+
+// A chunk's records, uncompressed, their checksum found right, and the places of its messages.
+struct Chunk {
+  struct Entry {
+    std::uint64_t log_time_ns = 0;
+    std::uint64_t offset = 0;  // of the message's record within `records`
+    ChannelId channel = 0;
+  };
+  ChunkHead head;  // without its records
+  base::Bytes records;
+  std::vector<Entry> entries;  // in file order
+};
+
+// A record read from the file.
+struct FileRecord {
+  Opcode opcode = Opcode::kHeader;
+  base::Bytes bytes;  // with opcode and length
+  std::span<const std::byte> content() const { return std::span(bytes).subspan(kHeadBytes); }
+};
+
+// Reads the record at `offset` that must end at or before `end`. Wrong input where it does not, or is too large.
+base::Result<FileRecord> ReadRecord(const Source& source, std::uint64_t offset, std::uint64_t end);
+
+// Uncompresses a Chunk record's content, checks it, adds its schemas and channels to `definitions` (only where all of
+// the chunk is right) and lists its messages.
+base::Result<Chunk> DecodeChunk(std::span<const std::byte> content, Definitions& definitions);
+
+// The chunk that `info` describes. Its definitions must be among those that are known.
+base::Result<Chunk> LoadChunk(const Source& source, const ChunkInfo& info, const Definitions& known);
+
+// What the summary says; wrong input says why it cannot be used.
+base::Result<Contents> ReadSummary(const Source& source);
+
+// What can be read from the start.
+struct Scan {
+  Contents contents;
+  bool ended = false;            // DataEnd was reached
+  std::uint64_t good_bytes = 0;  // up to the end of the last record that was taken
+  std::vector<std::string> findings;
+};
+// Wrong input where a file does not begin as an MCAP file of the version that this program reads.
+base::Status CheckMark(const Source& source);
+// Wrong input where not even the header is there.
+base::Result<Scan> ScanFile(const Source& source);
+
+class McapReader::Shared {
+ public:
+  std::unique_ptr<Source> source;
+  ReaderSettings settings;
+  Condition condition;
+  Contents contents;
+};
+
+// "12.345 s", for sentences.
+std::string Seconds(std::uint64_t time_ns);
+
+}  // namespace rodeira::record

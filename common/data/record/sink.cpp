@@ -1,0 +1,116 @@
+#include "common/data/record/sink.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace rodeira::record {
+namespace {
+
+// Faults of the place that was asked for are wrong input; a full disk and the like are failures.
+base::Error CannotOpen(const std::filesystem::path& path, int error) {
+  std::string message = fmt::format("the recording cannot be created: {}", std::strerror(error));
+  if (error == EEXIST) message = "the recording cannot be created: a file of that name is there already";
+  if (error == EWOULDBLOCK) message = "the recording cannot be created: another process writes it at this moment";
+  const bool disk = error == ENOSPC || error == EDQUOT || error == EIO || error == EMFILE || error == ENFILE;
+  return disk ? base::Failed(message, path.string()) : base::WrongInput(message, path.string());
+}
+
+class FileSink final : public Sink {
+ public:
+  FileSink(int file, std::string path) : file_(file), path_(std::move(path)) {}
+  FileSink(const FileSink&) = delete;
+  FileSink& operator=(const FileSink&) = delete;
+  ~FileSink() override {
+    if (file_ >= 0) ::close(file_);
+  }
+
+  base::Status Append(std::span<const std::byte> bytes) override {
+    RODEIRA_ASSERT(file_ >= 0);
+    while (!bytes.empty()) {
+      const ssize_t wrote = ::write(file_, bytes.data(), bytes.size());
+      if (wrote < 0 && errno == EINTR) continue;
+      if (wrote <= 0) return Problem("written", wrote < 0 ? errno : ENOSPC);
+      bytes = bytes.subspan(static_cast<std::size_t>(wrote));
+    }
+    return {};
+  }
+
+  base::Status Sync() override {
+    RODEIRA_ASSERT(file_ >= 0);
+    // What is no file (a pipe, a device) has nothing to wait for and says EINVAL.
+    if (::fdatasync(file_) != 0 && errno != EINVAL) return Problem("brought to the disk", errno);
+    return {};
+  }
+
+  void CutTo(std::uint64_t size) override {
+    // Best effort: where it fails, the reader passes over the incomplete record all the same.
+    if (::ftruncate(file_, static_cast<off_t>(size)) == 0) ::lseek(file_, static_cast<off_t>(size), SEEK_SET);
+  }
+
+  base::Status Close() override {
+    if (file_ < 0) return {};
+    const int result = ::close(file_);
+    const int error = errno;
+    file_ = -1;
+    if (result != 0 && error != EINTR) return Problem("closed", error);
+    return {};
+  }
+
+  std::string name() const override { return path_; }
+
+ private:
+  base::Error Problem(const char* what, int error) const {
+    return base::Failed(fmt::format("the recording cannot be {}: {}", what, std::strerror(error)), path_);
+  }
+
+  int file_;
+  std::string path_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<Sink>> OpenFileSink(const std::filesystem::path& path, bool overwrite) {
+  struct stat before {};
+  const bool there = ::stat(path.c_str(), &before) == 0;
+  const bool device = there && !S_ISREG(before.st_mode);  // a pipe or device is written, not replaced
+  const int how = O_WRONLY | O_CLOEXEC | O_CREAT | (overwrite || device ? 0 : O_EXCL);
+  const int file = ::open(path.c_str(), how, 0666);
+  if (file < 0) return CannotOpen(path, errno);
+  auto sink = std::make_unique<FileSink>(file, path.string());
+  if (device) return std::unique_ptr<Sink>(std::move(sink));
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0) return CannotOpen(path, errno);
+  if (::ftruncate(file, 0) != 0) return CannotOpen(path, errno);
+  return std::unique_ptr<Sink>(std::move(sink));
+}
+
+base::Result<std::unique_ptr<Sink>> OpenFileSinkBehind(const std::filesystem::path& path, std::uint64_t size) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) return CannotOpen(path, errno);
+  auto sink = std::make_unique<FileSink>(file, path.string());
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0) return CannotOpen(path, errno);
+  if (::ftruncate(file, static_cast<off_t>(size)) != 0 || ::lseek(file, 0, SEEK_END) < 0) return CannotOpen(path, errno);
+  return std::unique_ptr<Sink>(std::move(sink));
+}
+
+base::Status MemorySink::Append(std::span<const std::byte> bytes) {
+  const std::uint64_t room = capacity_ > into_->size() ? capacity_ - into_->size() : 0;
+  const auto fits = bytes.first(static_cast<std::size_t>(std::min<std::uint64_t>(room, bytes.size())));
+  into_->insert(into_->end(), fits.begin(), fits.end());
+  if (fits.size() < bytes.size()) {
+    return base::Failed(fmt::format("the recording cannot be written: the room of {} bytes is full", capacity_), name());
+  }
+  return {};
+}
+
+void MemorySink::CutTo(std::uint64_t size) {
+  if (size < into_->size()) into_->resize(static_cast<std::size_t>(size));
+}
+
+}  // namespace rodeira::record

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "common/core/base/result.hpp"
+#include "common/core/base/state.hpp"
+#include "common/core/config/config.hpp"
+#include "common/driving/driver/footprint.hpp"
+#include "common/driving/driver/idm.hpp"
+#include "common/driving/driver/lane_path.hpp"
+#include "common/driving/driver/leader.hpp"
+#include "common/driving/driver/lights_ahead.hpp"
+#include "common/driving/driver/pedals.hpp"
+#include "common/driving/driver/speed_plan.hpp"
+#include "common/driving/driver/steering.hpp"
+#include "common/vehicle/dynamics/controls.hpp"
+#include "common/vehicle/dynamics/vehicle_model.hpp"
+
+namespace rodeira::driver {
+
+struct AutopilotSettings {
+  IdmSettings idm;
+  SpeedPlanSettings speed{.stop_at_end = true};
+  SteeringSettings steering;
+  PedalSettings pedals;
+  LightSettings lights;
+  double speed_factor = 0.98;     // of the legal limit: slopes and gear changes leave a little over
+  double anticipation_s = 0.5;    // the plan is read so far ahead in time, as pedals and engine take theirs
+  double tracking_s = 1.0;        // time in which a deviation from the plan is made good
+  double side_margin_m = 0.3;     // what comes nearer to the car's sides is in its way
+  double range_m = 150.0;         // sight
+  double far_off_m = 2.5;         // this far beside the lane it drives slowly
+  double slowly_mps = 4.0;
+};
+
+// `rodeira: driver/1`. Problems stay in the file's collection.
+AutopilotSettings ReadAutopilot(const config::Map& root);
+base::Result<AutopilotSettings> LoadDriver(const std::filesystem::path& path);
+
+// What the driver perceives.
+struct DriverView {
+  const vehicle::VehicleState& own;
+  const vehicle::VehicleDimensions& dimensions;
+  std::span<const Footprint> others;  // without the own car
+  std::span<const LightAhead> lights = {};  // on its way, ascending; behind it too
+};
+
+// A car as it goes now.
+struct CarMotion {
+  Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
+  double heading_rad = 0.0, speed_mps = 0.0;
+  double wheelbase_m = 0.0, front_m = 0.0;  // of the front bumper from B's origin
+};
+
+// What a driver goes by at a moment, for displays.
+struct Aim {
+  double speed_mps = 0.0;  // that limit, bends, crests and the way's end allow; what is ahead of him is not in it
+  Eigen::Vector2d target_W = Eigen::Vector2d::Zero();  // the point of his way that he steers for
+  double way_heading_rad = 0.0;                        // of his way beside the car
+  Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // up to where on his way he looks for what slows him
+};
+
+// Drives a lane by steering wheel, pedals and selector alone: at the speed that limit, bends, crests and slopes allow,
+// behind a leader by the IDM, to a stop before what blocks the lane, at lights, and before the road's end.
+class Autopilot {
+ public:
+  // Drives this lane of the road, which must outlive the autopilot.
+  Autopilot(const AutopilotSettings& settings, const road::Road& road, int lane_id);
+  // Follows this way.
+  Autopilot(const AutopilotSettings& settings, std::unique_ptr<const Way> way);
+
+  // The controls for the coming dt_s (over 0), from what is seen now.
+  vehicle::Controls Step(const DriverView& view, double dt_s);
+  // Goes on from where others have left steering wheel and pedals.
+  void TakeOver(const vehicle::Controls& last);
+
+  // What Step would steer and drive by there; keeps nothing. Nothing beside the way's ends.
+  std::optional<Aim> AimOf(const CarMotion& car) const;
+
+  const Way& path() const { return *path_; }
+  // For displays: the speed that is allowed here, and what is followed.
+  double allowed_mps() const { return allowed_mps_; }
+  const std::optional<Leader>& leader() const { return leader_; }
+
+  void Save(base::StateWriter& writer) const;
+  void Restore(base::StateReader& reader);
+
+ private:
+  double WantedAcceleration(const DriverView& view, const Way::Place& place);
+  SpeedPlan::Allowed AllowedTo(const Way::Place& place, double speed_mps, double heading_rad) const;
+  Eigen::Vector2d TargetFrom(const Way::Place& place, double half_base_m, double speed_mps) const;
+  double SteeringWheel(const DriverView& view, const Way::Place& place, double dt_s);
+
+  AutopilotSettings settings_;
+  std::unique_ptr<const Way> path_;
+  SpeedPlan plan_;
+  Pedals pedals_;
+  LightStops light_stops_;
+  double steering_wheel_rad_ = 0.0;
+  double allowed_mps_ = 0.0;
+  std::optional<Leader> leader_;
+};
+
+}  // namespace rodeira::driver

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "common/driving/driver/footprint.hpp"
+
+namespace rodeira::driver {
+
+// The middle of a lane at a distance along it, looking the way its traffic goes.
+struct LaneFrame {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // on the road's surface
+  double heading_rad = 0.0;                       // in (-pi, pi]
+  double curvature_1pm = 0.0;                     // of the lane's own middle, positive to the left
+  double grade = 0.0;                             // rise over plan distance, positive uphill
+};
+
+// Something that occupies a stretch of the lane.
+struct LaneSpan {
+  double rear_m = 0.0;   // distances along the lane
+  double front_m = 0.0;
+  double right_m = 0.0;  // offsets from the lane's middle, positive to the left; right <= left
+  double left_m = 0.0;
+  double speed_mps = 0.0;  // along the lane, negative against its traffic
+};
+
+// What a driver follows: the middle of a lane, or of a chain of lanes, by the distance d along it.
+class Way {
+ public:
+  // The coordinates of a point: how far along, and how far to the left.
+  struct Place {
+    double d_m = 0.0;
+    double offset_m = 0.0;
+  };
+
+  virtual ~Way() = default;
+  virtual double length_m() const = 0;
+  virtual double SpeedLimit_mps(double d_m) const = 0;
+  virtual LaneFrame At(double d_m) const = 0;
+  virtual double VerticalCurvature_1pm(double d_m) const = 0;
+  // The surface at d, `offset_m` to the left of the middle as its traffic sees it.
+  virtual Eigen::Vector3d Position(double d_m, double offset_m) const = 0;
+  // Nothing beside the ends. The height tells levels apart where the way leads over itself.
+  virtual std::optional<Place> Locate(double x_m, double y_m, std::optional<double> z_m = std::nullopt) const = 0;
+
+  // The stretch that a rectangle takes up, or nothing where its middle is beyond the ends.
+  std::optional<LaneSpan> SpanOf(const Footprint& footprint) const;
+};
+
+}  // namespace rodeira::driver

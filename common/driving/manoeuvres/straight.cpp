@@ -1,0 +1,154 @@
+// Manoeuvres along a straight line.
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/geometry/angle.hpp"
+#include "common/driving/manoeuvres/manoeuvre.hpp"
+#include "common/driving/manoeuvres/trial.hpp"
+
+namespace rodeira::manoeuvres {
+namespace {
+
+using vehicle::Controls;
+
+constexpr double kDegrees = 180.0 / geometry::kPi;
+constexpr double kHundred_mps = 100.0 / 3.6;
+
+// When a quantity that begins at 0 passes a value, between the last step and this one.
+class Passing {
+ public:
+  explicit Passing(double value) : value_(value) {}
+  void See(double time_s, double quantity) {
+    if (!passed_ && quantity >= value_) {
+      passed_ = true;
+      at_s_ = last_time_s_ + (time_s - last_time_s_) * (value_ - last_) / (quantity - last_);
+    }
+    last_ = quantity;
+    last_time_s_ = time_s;
+  }
+  bool passed() const { return passed_; }
+  double at_s() const { return at_s_; }
+
+ private:
+  double value_;
+  double last_ = 0.0, last_time_s_ = 0.0, at_s_ = 0.0;
+  bool passed_ = false;
+};
+
+base::Result<Outcome> BrakeFrom(vehicle::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps, double step_s) {
+  constexpr double kLongest_s = 120.0;
+  auto trial = Trial::Begin(car, ground, speed_mps, step_s);
+  if (!trial) return trial.error();
+  Trial& t = trial.value();
+  Controls controls;
+  controls.brake = 1.0;
+  double most_heading_rad = 0.0;
+  while (t.state().speed_mps() > 0.05 && std::fabs(t.state().heading_rad()) < 1.5) {
+    if (t.time_s() > kLongest_s) return base::Failed("the car does not come to rest within two minutes");
+    t.Step(controls);
+    most_heading_rad = std::max(most_heading_rad, std::fabs(t.state().heading_rad()));
+  }
+  Outcome outcome{t.table(), {}};
+  if (t.state().speed_mps() <= 0.05) {
+    const double distance_m = t.state().p_WB_W.head<2>().norm();
+    outcome.figures.push_back({"distance", distance_m, "m"});
+    outcome.figures.push_back({"time", t.time_s(), "s"});
+    outcome.figures.push_back({"mean deceleration", speed_mps * speed_mps / (2.0 * distance_m), "m/s²"});
+  }
+  outcome.figures.push_back({"drift to the left", t.state().p_WB_W.y(), "m"});
+  outcome.figures.push_back({"largest yaw", most_heading_rad * kDegrees, "deg"});
+  return outcome;
+}
+
+}  // namespace
+
+base::Result<Outcome> Acceleration(vehicle::VehicleModel& car, double step_s) {
+  constexpr double kLongest_s = 180.0, kSteady_mps2 = 0.02, kSteady_s = 3.0;
+  auto trial = Trial::Begin(car, {}, 0.0, step_s);
+  if (!trial) return trial.error();
+  Trial& t = trial.value();
+  Controls controls;
+  controls.throttle = 1.0;
+  Passing hundred(kHundred_mps), quarter(400.0);
+  double fastest_mps = 0.0, grew_at_s = 0.0;
+  while (t.time_s() < kLongest_s && t.time_s() - grew_at_s < kSteady_s) {
+    t.Step(controls);
+    hundred.See(t.time_s(), t.state().speed_mps());
+    quarter.See(t.time_s(), t.state().p_WB_W.x());
+    if (t.state().speed_mps() > fastest_mps + kSteady_mps2 * (t.time_s() - grew_at_s)) {
+      fastest_mps = t.state().speed_mps();
+      grew_at_s = t.time_s();
+    }
+  }
+  Outcome outcome{t.table(), {}};
+  if (hundred.passed()) outcome.figures.push_back({"0 to 100 km/h", hundred.at_s(), "s"});
+  if (quarter.passed()) outcome.figures.push_back({"0 to 400 m", quarter.at_s(), "s"});
+  if (t.time_s() - grew_at_s >= kSteady_s) outcome.figures.push_back({"top speed", fastest_mps * 3.6, "km/h"});
+  if (fastest_mps < 1.0) return base::Failed("the car does not get going");
+  return outcome;
+}
+
+base::Result<Outcome> Braking(vehicle::VehicleModel& car, double step_s) { return BrakeFrom(car, {}, kHundred_mps, step_s); }
+
+base::Result<Outcome> SplitFriction(vehicle::VehicleModel& car, double step_s) {
+  ProvingGroundSettings ground;
+  ground.friction_right = 0.3;
+  return BrakeFrom(car, ground, 80.0 / 3.6, step_s);
+}
+
+base::Result<Outcome> Park(vehicle::VehicleModel& car, double step_s) {
+  ProvingGroundSettings ground;
+  ground.slope = 0.2;
+  auto trial = Trial::Begin(car, ground, 0.0, step_s);
+  if (!trial) return trial.error();
+  Trial& t = trial.value();
+  Controls controls;
+  controls.gearbox = vehicle::GearboxMode::kManual;
+  controls.gear = 0;
+  controls.handbrake = 1.0;
+  while (t.time_s() < 5.0) t.Step(controls);  // it settles on its springs first
+  const Eigen::Vector3d settled_W = t.state().p_WB_W;
+  while (t.time_s() < 65.0) t.Step(controls);
+  Outcome outcome{t.table(), {}};
+  outcome.figures.push_back({"creep", (t.state().p_WB_W - settled_W).norm() * 1e3, "mm in a minute"});
+  return outcome;
+}
+
+base::Result<Outcome> Bump(vehicle::VehicleModel& car, double step_s) {
+  constexpr double kCalm_mps2 = 0.2, kSpeed_mps = 40.0 / 3.6, kFor_s = 6.0;
+  ProvingGroundSettings ground;
+  ground.bump_height_m = 0.05;
+  ground.bump_length_m = 0.5;
+  ground.bump_at_m = 15.0;
+  auto trial = Trial::Begin(car, ground, kSpeed_mps, step_s);
+  if (!trial) return trial.error();
+  Trial& t = trial.value();
+  SpeedHold foot;
+  double up = 0.0, down = 0.0, most_N = 0.0, least_N = 1e12, moved_at_s = 0.0, reached_s = 0.0;
+  while (t.time_s() < kFor_s) {
+    Controls controls;
+    foot.Press(kSpeed_mps, t, controls);
+    t.Step(controls);
+    const vehicle::VehicleState& s = t.state();
+    if (s.p_WB_W.x() + 0.5 * t.dimensions().wheelbase_m < ground.bump_at_m) continue;
+    if (reached_s == 0.0) reached_s = t.time_s();
+    const double vertical = s.a_WB_W.z();
+    up = std::max(up, vertical);
+    down = std::max(down, -vertical);
+    for (const auto& wheel : s.wheels) {
+      most_N = std::max(most_N, wheel.load_N);
+      least_N = std::min(least_N, wheel.load_N);
+    }
+    if (std::fabs(vertical) > kCalm_mps2) moved_at_s = t.time_s();
+  }
+  if (reached_s == 0.0) return base::Failed("the car does not come to the bump");
+  Outcome outcome{t.table(), {}};
+  outcome.figures.push_back({"largest acceleration upward", up, "m/s²"});
+  outcome.figures.push_back({"largest acceleration downward", down, "m/s²"});
+  outcome.figures.push_back({"largest wheel load", most_N, "N"});
+  outcome.figures.push_back({"smallest wheel load", least_N, "N"});
+  outcome.figures.push_back({"calm again after", std::max(0.0, moved_at_s - reached_s), "s"});
+  return outcome;
+}
+
+}  // namespace rodeira::manoeuvres

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "common/core/base/result.hpp"
+#include "common/driving/scenario/event.hpp"
+
+namespace rodeira::scenario {
+
+inline constexpr std::string_view kPlaceRequest = "place";      // argument: the vehicle, and the height near which the ground is meant; value: degrees
+inline constexpr std::string_view kWeatherRequest = "weather";  // argument: its name; value: seconds
+
+// What a window asks for (idl/live.idl).
+struct Request {
+  std::string name, argument;
+  double x_m = 0.0, y_m = 0.0;
+  double value = 0.0;
+};
+
+Request PlaceRequest(const PlaceChoice& place, double heading_deg);
+Request WeatherRequest(std::string_view weather, double over_s);
+
+// The event that it becomes. Wrong input where it cannot be obeyed.
+base::Result<Event> EventOf(const Request& request);
+
+}  // namespace rodeira::scenario

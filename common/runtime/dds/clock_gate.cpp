@@ -1,0 +1,67 @@
+#include "common/runtime/dds/clock_gate.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "common/core/base/suggest.hpp"
+#include "common/runtime/dds/statements.hpp"
+
+namespace rodeira::dds {
+
+void ClockGate::Take(const base::Bytes& payload) {
+  auto named = DecodeReport(payload);
+  if (!named) {
+    refusal_ = "a report that cannot be read was found (a node of another version?): " + named.error().Text();
+    return;
+  }
+  Take(named.value());
+}
+
+void ClockGate::Take(NamedReport& named) {
+  const lockstep::NodeIndex node = run_.roster.Find(named.node);
+  if (node == run_.roster.nodes().size()) {
+    Say("refused a node named '{}' on host {}, which is not in the roster{}", OneLine(named.node), named.hello.host, base::DidYouMean(named.node, run_.roster.Names()));
+    return;
+  }
+  if (named.clock_id != 0 && named.clock_id != clock_id_) return;  // meant for another clock
+  if (named.report.incarnation < run_.clock.life(node)) return;    // of a life that is over
+  if (named.report.phase == lockstep::Phase::kLost) {
+    lost_.push_back(named.node + " " + named.report.message);
+    return;
+  }
+  named.report.node = node;
+  if (auto status = MayTakePart(node, named); !status) {
+    refusal_ = status.error().Text();
+    return;
+  }
+  const lockstep::Wall now = run_.Now();
+  run_.watchdog.Heard(named.report, now.monotonic_ns / 1'000'000);
+  run_.missed.Heard(node, now.monotonic_ns);
+  if (auto status = run_.clock.Take(named.report); !status) Say("refused {}", OneLine(status.error().Text()));
+}
+
+base::Status ClockGate::MayTakePart(lockstep::NodeIndex node, const NamedReport& named) {
+  if (own_.world == 0) own_.world = named.hello.world;
+  if (auto status = CheckHello(own_, named.hello); !status) {
+    return base::WrongInput(fmt::format("node '{}' (process {} on host {}) was refused: {}", named.node, named.hello.pid, named.hello.host, status.error().Text()));
+  }
+  if (named.report.phase < lockstep::Phase::kFailed) {
+    if (auto status = CheckOnce(node, named); !status) return status;
+  }
+  return run_.clock.recovery().CheckState(named.report);
+}
+
+// Two processes as one node, of one life: somebody has started the same host twice.
+base::Status ClockGate::CheckOnce(lockstep::NodeIndex node, const NamedReport& named) {
+  const Who now{named.report.incarnation, named.hello.host, named.hello.pid};
+  Who& known = who_[node];
+  if (known.pid == 0 || known.incarnation < now.incarnation) known = now;
+  if (known.incarnation != now.incarnation || (known.pid == now.pid && known.host == now.host)) return {};
+  return base::WrongInput(fmt::format("node '{}' takes part twice, as process {} on host {} and as process {} on host {}; end one of them", named.node, known.pid,
+                                      known.host, now.pid, now.host));
+}
+
+std::vector<std::string> ClockGate::TakeLost() { return std::exchange(lost_, {}); }
+
+}  // namespace rodeira::dds

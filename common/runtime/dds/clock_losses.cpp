@@ -1,0 +1,74 @@
+#include "common/runtime/dds/clock_losses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/core/base/suggest.hpp"
+#include "common/runtime/dds/statements.hpp"
+
+namespace rodeira::dds {
+
+using lockstep::Phase;
+
+std::optional<RunsEnd> ClockLosses::TakeLost(const std::string& lost) {
+  const auto space = std::min(lost.find(' '), lost.size());
+  const lockstep::NodeIndex node = run_.roster.Find(lost.substr(0, space));
+  if (node == run_.roster.nodes().size()) return std::nullopt;
+  const std::string what = space < lost.size() ? lost.substr(space + 1) : "was lost";
+  return Lose(node, fmt::format("node '{}' {} at about step {}", run_.roster.node(node).name, what, run_.clock.reached(node)), 1);
+}
+
+// Who failed by its own word would fail again; who has not been ready in time would not be the next time either.
+std::optional<RunsEnd> ClockLosses::Watch() {
+  const auto fault = run_.watchdog.Check(run_.NowMs());
+  if (!fault) return std::nullopt;
+  const lockstep::Report& report = run_.clock.report(fault->node);
+  const bool by_its_own_word = report.phase == Phase::kFailed || report.phase == Phase::kRefused;
+  if (by_its_own_word || report.phase < Phase::kReady) return RunsEnd{fault->reason, fault->status};
+  return Lose(fault->node, fault->reason, fault->status);
+}
+
+// Names the fault and does what the node's policy says; an end where that is the end of the run.
+std::optional<RunsEnd> ClockLosses::Lose(lockstep::NodeIndex node, const std::string& reason, int status) {
+  if (run_.clock.grant().abort || run_.clock.report(node).phase == Phase::kFinished) return std::nullopt;
+  const auto decision = run_.clock.Lose(node);
+  switch (decision.policy) {
+    case lockstep::Policy::kStop: return RunsEnd{decision.why.empty() ? reason : reason + "; " + decision.why, status};
+    case lockstep::Policy::kPause:
+      run_.watchdog.Excuse(node);
+      Say("paused {} {}", run_.roster.node(node).name, OneLine(reason));
+      run_.conductor.NoteFault(reason + "; the run waits for it", run_.Now());
+      run_.missed.Lost(node, reason, run_.NowNs());
+      return std::nullopt;
+    case lockstep::Policy::kRestart: Announce(node, reason); return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+// To `rodeira run`, here by this line and on other PCs by the lives in the grant, which end the old process and start another.
+void ClockLosses::Announce(lockstep::NodeIndex node, const std::string& reason) {
+  run_.watchdog.ExpectNextLife(node, run_.NowMs());
+  run_.missed.Restarted(node);
+  Say("restart {} {} {}", run_.roster.node(node).name, run_.clock.life(node), OneLine(reason));
+  run_.conductor.NoteFault(reason + "; it is started again", run_.Now());
+  on_next_life_(node);
+}
+
+base::Result<std::string> ClockLosses::RestartByHand(const std::string& name) {
+  const lockstep::NodeIndex node = run_.roster.Find(name);
+  if (node == run_.roster.nodes().size()) {
+    return base::WrongInput(fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, run_.roster.Names())), "restart");
+  }
+  if (!run_.clock.recovery().restarts()) {
+    return base::Failed("in this run nobody keeps what a node needs that is started again; a recorder and 'recovery: pause' or 'restart' in its launch file do");
+  }
+  if (run_.launch.node(node).is_live()) return base::Failed(fmt::format("node '{}' is driven by a person, whose input cannot be computed again", name));
+  if (run_.clock.report(node).cannot_save) return base::Failed(fmt::format("node '{}' cannot save its state, so it cannot be started again", name));
+  const std::string reason = fmt::format("node '{}' at about step {}: asked for by the operator", name, run_.clock.reached(node));
+  run_.clock.ExpectNextLife(node);
+  Announce(node, reason);
+  return fmt::format("'{}' is started again", name);
+}
+
+}  // namespace rodeira::dds

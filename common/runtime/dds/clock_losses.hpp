@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "common/runtime/dds/led_run.hpp"
+
+namespace rodeira::dds {
+
+// Ends a run: the sentence, and the status to leave with.
+struct RunsEnd {
+  std::string reason;
+  int status = 1;
+};
+
+// What becomes of a run that has lost a part: named, and then what the node's policy or a person says.
+class ClockLosses {
+ public:
+  // on_next_life: another life of the node is expected; the grant that says so is to be said.
+  ClockLosses(LedRun& run, std::function<void(lockstep::NodeIndex)> on_next_life) : run_(run), on_next_life_(std::move(on_next_life)) {}
+
+  // "NODE TEXT" of a process that died or was stopped, as `rodeira run` saw it. An end where the run cannot go on.
+  std::optional<RunsEnd> TakeLost(const std::string& lost);
+  // Whom the watchdog names, if anybody.
+  std::optional<RunsEnd> Watch();
+  // By the operator's word: a sentence of what is done, or why it cannot be.
+  base::Result<std::string> RestartByHand(const std::string& name);
+
+ private:
+  std::optional<RunsEnd> Lose(lockstep::NodeIndex node, const std::string& reason, int status);
+  void Announce(lockstep::NodeIndex node, const std::string& reason);
+
+  LedRun& run_;
+  std::function<void(lockstep::NodeIndex)> on_next_life_;
+};
+
+}  // namespace rodeira::dds

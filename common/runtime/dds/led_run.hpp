@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "common/runtime/dds/options.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "common/runtime/lockstep/clock.hpp"
+#include "common/runtime/lockstep/conductor.hpp"
+#include "common/runtime/lockstep/missed_nodes.hpp"
+#include "common/runtime/lockstep/watchdog.hpp"
+
+namespace rodeira::dds {
+
+// A run as the clock's process leads it: who grants, who watches, and the wall clock that they are told.
+struct LedRun {
+  LedRun(const launch::Launch& launch, const ProcessOptions& options);
+
+  // Since `start`, and since 1970.
+  lockstep::Wall Now() const;
+  std::int64_t NowNs() const { return Now().monotonic_ns; }
+  std::int64_t NowMs() const { return NowNs() / 1'000'000; }
+  // Since the first grant; 0 before.
+  double RunSeconds() const { return static_cast<double>(conductor.RunNs(Now())) * 1e-9; }
+  // When the first grant was given, ns of std::chrono::steady_clock.
+  std::int64_t BegunNs() const;
+
+  const launch::Launch& launch;
+  const lockstep::Roster& roster;
+  lockstep::Clock clock;
+  lockstep::Conductor conductor;
+  lockstep::Watchdog watchdog;
+  lockstep::MissedNodes missed;
+  std::chrono::steady_clock::time_point start;
+};
+
+}  // namespace rodeira::dds

@@ -1,0 +1,328 @@
+#include "common/runtime/dds/node_bus.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <utility>
+
+#include "common/runtime/launch/sample_difference.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::dds {
+
+namespace {
+
+volatile std::sig_atomic_t g_terminated = 0;
+
+void OnTerminate(int) {
+  g_terminated = 1;
+  ::alarm(1);  // whose default ends the process, should it hang
+}
+
+}  // namespace
+
+void NodeBus::HandleSignals() {
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, OnTerminate);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error to report, not the process' end
+}
+
+namespace topics = idl::topics;
+using WallClock = std::chrono::steady_clock;
+
+NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings)
+    : roster_(roster), mailbox_(mailbox), settings_(settings), listens_(settings.incarnation == 0),
+      parcels_(roster, settings.node, settings.most_parcel_bytes) {
+  last_.node = settings.node;
+  last_.incarnation = settings.incarnation;
+  answers_.emplace(roster, settings.node, settings.keeps_all, settings.most_answer_bytes, [this](lockstep::NodeIndex asker, std::span<const lockstep::Sample> samples) {
+    if (asker != settings_.node) (void)answers_writer_->Write(EncodeParcel(asker, samples));
+  });
+}
+
+base::Result<std::unique_ptr<NodeBus>> NodeBus::Open(Participant& participant, const lockstep::Roster& roster, lockstep::Mailbox& mailbox,
+                                                     const Settings& settings) {
+  std::unique_ptr<NodeBus> bus(new NodeBus(roster, mailbox, settings));
+  if (auto status = bus->Connect(participant); !status) return status.error();
+  bus->heartbeat_ = std::thread([raw = bus.get()] { raw->Heartbeat(); });
+  return bus;
+}
+
+NodeBus::~NodeBus() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  woken_.notify_all();
+  if (heartbeat_.joinable()) heartbeat_.join();
+  readers_.clear();  // first: their callbacks use the rest
+  answers_.reset();  // then: it uses the writers
+}
+
+base::Status NodeBus::Connect(Participant& participant) {
+  const auto add_reader = [&](std::string_view topic, Delivery delivery, OnPayload on_payload) -> base::Status {
+    auto reader = participant.MakeReader(topic, delivery, std::move(on_payload));
+    if (!reader) return reader.error();
+    readers_.push_back(std::move(reader).value());
+    return {};
+  };
+  outputs_ = roster_.node(settings_.node).outputs;
+  if (const auto& snapshots = roster_.node(settings_.node).snapshots) outputs_.push_back(*snapshots);
+  for (const lockstep::SourceIndex output : outputs_) {
+    auto writer = participant.MakeWriter(roster_.source(output).topic, Delivery::kSaidAgain);
+    if (!writer) return writer.error();
+    writers_.push_back(std::move(writer).value());
+  }
+  for (const lockstep::Port& port : roster_.node(settings_.node).inputs) {
+    const std::string_view topic = port.topic;
+    const auto in_parcels = [&](lockstep::SourceIndex source) { return lockstep::GetsParcels(roster_, source, settings_.node); };
+    if (std::all_of(port.sources.begin(), port.sources.end(), in_parcels)) continue;
+    if (auto status = add_reader(topic, Delivery::kSaidAgain, [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); }); !status) return status;
+  }
+  if (auto status = ConnectParcels(participant); !status) return status;
+  // Answers have a topic of their own, which no step is published on: two threads that write on a topic which their process
+  // also reads can stop each other for good, each within a lock of Fast DDS that the other wants.
+  auto answers = participant.MakeWriter(topics::kAnswers, Delivery::kSaidAgain);
+  if (!answers) return answers.error();
+  answers_writer_ = std::move(answers).value();
+  if (auto status = add_reader(topics::kAnswers, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAnswer(bytes); }); !status) return status;
+  if (!writers_.empty() || settings_.keeps_all) {
+    if (auto status = add_reader(topics::kAsk, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); }); !status) return status;
+  }
+  auto questions = participant.MakeWriter(topics::kAsk, Delivery::kSaidAgain);
+  if (!questions) return questions.error();
+  questions_ = std::move(questions).value();
+  auto reports = participant.MakeWriter(topics::kReport, Delivery::kSaidAgain);
+  if (!reports) return reports.error();
+  reports_ = std::move(reports).value();
+  return add_reader(topics::kGrant, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnGrant(std::move(bytes)); });
+}
+
+// Whom this node sends parcels, and those for it.
+base::Status NodeBus::ConnectParcels(Participant& participant) {
+  const auto topic_of = [&](lockstep::NodeIndex n) { return std::string(topics::kParcels) + roster_.node(n).name; };
+  for (const lockstep::NodeIndex n : parcels_.Consumers()) {
+    auto writer = participant.MakeWriter(topic_of(n), Delivery::kSaidAgain);
+    if (!writer) return writer.error();
+    parcel_writers_.emplace(n, std::move(writer).value());
+  }
+  const auto gets_parcels = [&](const lockstep::Port& port) {
+    return std::any_of(port.sources.begin(), port.sources.end(), [&](lockstep::SourceIndex source) { return lockstep::GetsParcels(roster_, source, settings_.node); });
+  };
+  const auto& inputs = roster_.node(settings_.node).inputs;
+  if (std::none_of(inputs.begin(), inputs.end(), gets_parcels)) return {};
+  auto reader = participant.MakeReader(topic_of(settings_.node), Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnParcel(bytes); });
+  if (!reader) return reader.error();
+  readers_.push_back(std::move(reader).value());
+  return {};
+}
+
+base::Status NodeBus::Publish(const lockstep::Sample& sample) {
+  const lockstep::Grant grant = mailbox_.grant();
+  answers_->Keep(sample);
+  for (const auto& parcel : parcels_.Add(sample, grant.final ? grant.through : lockstep::kNever)) {
+    if (auto status = parcel_writers_.at(parcel.to)->Write(EncodeParcel(parcel.to, parcel.samples)); !status) return status;
+  }
+  return Say(sample);  // also where every consumer gets parcels: others may look on
+}
+
+base::Status NodeBus::Say(const lockstep::Sample& sample) { return WriterOf(sample.source()).Write(*sample.payload); }
+
+Writer& NodeBus::WriterOf(lockstep::SourceIndex source) {
+  const auto output = std::find(outputs_.begin(), outputs_.end(), source);
+  RODEIRA_ASSERT(output != outputs_.end());
+  return *writers_[static_cast<std::size_t>(output - outputs_.begin())];
+}
+
+void NodeBus::Ask(const lockstep::Gap& gap) {
+  (void)questions_->Write(EncodeAsk(roster_.hash(), {settings_.node, gap}));  // a lost question is put again by the runner
+}
+
+void NodeBus::OnAsk(const base::Bytes& payload) {
+  if (const auto question = DecodeAsk(roster_.hash(), payload)) answers_->Take(*question);
+}
+
+void NodeBus::OnParcel(const base::Bytes& payload) {
+  if (!listens_) return;
+  auto opened = DecodeParcel(payload);
+  if (!opened) return Abort(opened.error().Text());
+  for (base::Bytes& sample : opened.value().samples) OnSample({}, std::move(sample));
+}
+
+void NodeBus::OnAnswer(const base::Bytes& payload) {
+  auto opened = DecodeParcel(payload);
+  if (!opened) return Abort(opened.error().Text());
+  if (opened.value().to != settings_.node) return;
+  for (base::Bytes& sample : opened.value().samples) {
+    TakeSnapshot(sample);
+    OnSample({}, std::move(sample));
+  }
+}
+
+void NodeBus::TakeSnapshot(const base::Bytes& payload) {
+  const std::lock_guard lock(mutex_);
+  if (!wanted_ || !lockstep::SampleHeader::HasHeader(payload)) return;
+  const auto header = lockstep::SampleHeader::Read(payload);
+  if (header.source != wanted_->source || header.step != wanted_->from) return;
+  auto snapshot = lockstep::Snapshot::FromSample(payload);
+  if (!snapshot || snapshot.value().node != settings_.node) return;
+  snapshot_ = std::move(snapshot).value();
+  woken_.notify_all();
+}
+
+base::Status NodeBus::Remember(const lockstep::Sample& sample) { return answers_->Remember(sample); }
+
+std::optional<lockstep::Grant> NodeBus::AwaitGrant(std::chrono::milliseconds limit) {
+  const auto until = WallClock::now() + limit;
+  std::unique_lock lock(mutex_);
+  while (!heard_ && WallClock::now() < until) woken_.wait_for(lock, std::chrono::milliseconds(10));
+  return heard_ && !heard_->abort ? heard_ : std::nullopt;
+}
+
+std::optional<lockstep::Snapshot> NodeBus::FetchSnapshot(lockstep::Step step, std::chrono::milliseconds limit) {
+  const lockstep::Gap wanted{*roster_.node(settings_.node).snapshots, step};
+  const auto until = WallClock::now() + limit;
+  std::unique_lock lock(mutex_);
+  wanted_ = wanted;
+  while (!snapshot_ && WallClock::now() < until && !mailbox_.grant().abort) {
+    lock.unlock();
+    Ask(wanted);
+    lock.lock();
+    woken_.wait_for(lock, std::chrono::milliseconds(10), [&] { return snapshot_.has_value(); });
+  }
+  wanted_.reset();
+  return std::exchange(snapshot_, std::nullopt);
+}
+
+void NodeBus::SetSafe(lockstep::Step safe) {
+  const std::lock_guard lock(mutex_);
+  safe_ = safe;
+}
+
+void NodeBus::Tell(const lockstep::Report& report) {
+  NamedReport named;
+  const lockstep::Grant grant = mailbox_.grant();
+  {
+    const std::lock_guard lock(mutex_);
+    last_ = report;
+    last_.safe = safe_;
+    last_.granted = grant.through;
+    last_.granted_final = grant.final;
+    named.clock_id = clock_id_;
+    named.hello = settings_.hello;
+    named.report = last_;
+  }
+  named.node = roster_.node(settings_.node).name;
+  (void)reports_->Write(EncodeReport(named));  // a lost report is said again by the heartbeat
+}
+
+void NodeBus::Follow(const lockstep::Runner* runner) {
+  const std::lock_guard lock(mutex_);
+  runner_ = runner;
+}
+
+void NodeBus::SetWorldHash(base::Digest hash) {
+  const std::lock_guard lock(mutex_);
+  settings_.hello.world = hash;
+}
+
+std::string NodeBus::fault() const {
+  const std::lock_guard lock(mutex_);
+  return fault_;
+}
+
+void NodeBus::OnSample(std::string_view topic, base::Bytes&& payload) {
+  if (!listens_) return;
+  if (!lockstep::SampleHeader::HasHeader(payload)) return Abort(fmt::format("topic {}: a sample of {} bytes has no header", topic, payload.size()));
+  const auto header = lockstep::SampleHeader::Read(payload);
+  if (header.source >= roster_.sources().size() || (!topic.empty() && roster_.source(header.source).topic != topic)) {
+    return Abort(fmt::format("topic {}: a sample of source number {} was found, which does not publish it", topic, header.source));
+  }
+  lockstep::Sample sample{header, std::make_shared<const base::Bytes>(std::move(payload))};
+  if (auto status = Remember(sample); !status) return AbortBy(status.error(), sample);
+  if (auto status = mailbox_.Deliver(sample); !status) AbortBy(status.error(), sample);
+}
+
+void NodeBus::AbortBy(const base::Error& error, const lockstep::Sample& came) {
+  auto kept = answers_->Kept(came.source(), came.valid());
+  if (!kept) kept = mailbox_.Kept(came.source(), came.valid());
+  Abort(kept && kept->valid() == came.valid() && !lockstep::SameContent(*kept, came) ? launch::ContradictionText(roster_, *kept, came) : error.Text());
+}
+
+void NodeBus::OnGrant(base::Bytes&& payload) {
+  const auto grant = DecodeGrant(payload);
+  if (!grant) return;  // of another version; the clock refuses our report and says so
+  {
+    const std::lock_guard lock(mutex_);
+    if (clock_id_ == 0) clock_id_ = grant.value().clock_id;
+    if (clock_id_ != grant.value().clock_id) return;  // one clock a run: the first
+    heard_ = grant.value().grant;
+    clock_heard_ = WallClock::now();
+    if (grant.value().grant.abort && fault_.empty()) fault_ = grant.value().grant.reason;
+  }
+  const std::vector<std::uint32_t>& lives = grant.value().grant.lives;
+  if (settings_.node < lives.size() && lives[settings_.node] > settings_.incarnation) return Abort("another process has taken its place");
+  mailbox_.DeliverGrant(grant.value().grant);
+  answers_->Granted(grant.value().grant);
+  if (grant.value().grant.over || grant.value().grant.abort) woken_.notify_all();
+}
+
+void NodeBus::Abort(std::string reason) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (fault_.empty()) fault_ = reason;
+    last_.phase = lockstep::Phase::kFailed;
+    last_.message = reason;
+  }
+  lockstep::Grant grant = mailbox_.grant();
+  grant.abort = true;
+  grant.reason = std::move(reason);
+  mailbox_.DeliverGrant(grant);
+  woken_.notify_all();
+}
+
+void NodeBus::Heartbeat() {
+  std::unique_lock lock(mutex_);
+  auto looked = WallClock::now();
+  while (!stop_) {
+    const auto gap = WallClock::now() - looked;
+    looked += gap;
+    if (gap > settings_.clock_silence / 10) clock_heard_ += gap;  // this process itself was stopped, as by a debugger
+    const lockstep::Runner* runner = runner_;
+    lockstep::Report report = last_;
+    const bool silent = clock_id_ != 0 && fault_.empty() && WallClock::now() - clock_heard_ > settings_.clock_silence;
+    lock.unlock();
+    if (runner != nullptr && report.phase < lockstep::Phase::kFailed) report = runner->report();
+    if (silent && !mailbox_.grant().over) Abort(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
+                                                            static_cast<double>(settings_.clock_silence.count()) / 1e3));
+    if (g_terminated != 0 && !mailbox_.grant().over) Abort("the process was told to end by SIGTERM");
+    Tell(report);
+    lock.lock();
+    woken_.wait_for(lock, settings_.heartbeat, [this] { return stop_; });
+  }
+}
+
+void NodeBus::Linger(const lockstep::Report& last, std::chrono::milliseconds limit) {
+  Follow(nullptr);
+  const auto until = WallClock::now() + limit;
+  Tell(last);
+  std::unique_lock lock(mutex_);
+  while (WallClock::now() < until) {
+    lock.unlock();
+    const lockstep::Grant grant = mailbox_.grant();
+    if (clock_id() == 0) Tell(last);  // not met yet: what was said may have reached nobody
+    lock.lock();
+    if (grant.over) return;
+    if (grant.abort && WallClock::now() > until - limit + std::chrono::milliseconds(100)) return;  // the last word had time to go
+    woken_.wait_for(lock, std::chrono::milliseconds(10));
+  }
+}
+
+std::uint64_t NodeBus::clock_id() const {
+  const std::lock_guard lock(mutex_);
+  return clock_id_;
+}
+
+}  // namespace rodeira::dds

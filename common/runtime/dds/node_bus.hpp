@@ -1,0 +1,117 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/runtime/dds/answers.hpp"
+#include "common/runtime/dds/participant.hpp"
+#include "common/runtime/dds/wire.hpp"
+#include "common/runtime/lockstep/bus.hpp"
+#include "common/runtime/lockstep/mailbox.hpp"
+#include "common/runtime/lockstep/parcels.hpp"
+#include "common/runtime/lockstep/runner.hpp"
+
+namespace rodeira::dds {
+
+// A node's side of the bus: its writers and readers, the clock's grants, and the heartbeat that tells the clock where
+// the node stands even while it computes or waits.
+class NodeBus final : public lockstep::Bus {
+ public:
+  struct Settings {
+    lockstep::NodeIndex node = 0;
+    std::uint32_t incarnation = 0;
+    Hello hello;
+    bool keeps_all = false;  // a recorder, in a run of which a part may be started again: answers for everybody's samples
+    std::size_t most_parcel_bytes = 8'000;  // as Parcels
+    std::size_t most_answer_bytes = 1'200;  // as Answers; what is small gets through where large datagrams do not
+    std::chrono::milliseconds heartbeat{25};
+    std::chrono::milliseconds clock_silence{3000};  // the clock repeats its grant all the time; silent this long it is gone
+  };
+  static base::Result<std::unique_ptr<NodeBus>> Open(Participant& participant, const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings);
+  ~NodeBus() override;
+
+  base::Status Publish(const lockstep::Sample& sample) override;
+  void Ask(const lockstep::Gap& gap) override;
+  void Tell(const lockstep::Report& report) override;
+
+  // From then on heartbeats carry the runner's report; before, "starting". Null before the runner goes.
+  void Follow(const lockstep::Runner* runner);
+  void SetWorldHash(base::Digest hash);
+  // Of a recorder: samples valid through it lie in its file. Any thread.
+  void SetSafe(lockstep::Step safe);
+  // The newest grant, waited for; none where the run was aborted or nothing came.
+  std::optional<lockstep::Grant> AwaitGrant(std::chrono::milliseconds limit);
+  // Another life than the first takes samples only from then on: its mailbox must know before where it begins.
+  void Listen() { listens_ = true; }
+  // This node's snapshot at `step`, from whoever keeps it: asked for until it comes; none after `limit` or an abort.
+  std::optional<lockstep::Snapshot> FetchSnapshot(lockstep::Step step, std::chrono::milliseconds limit);
+  // What a recorder that is started again has in its file already.
+  base::Status Remember(const lockstep::Sample& sample);
+  // The node's last word, repeated until the clock says that all is over, at most for `limit`.
+  void Linger(const lockstep::Report& last, std::chrono::milliseconds limit);
+  // Ctrl-C is left to the clock, which stops everybody at the same step. SIGTERM (the parent has died) aborts this node,
+  // which then has a second to close what it has open. Call it once, early.
+  static void HandleSignals();
+  // Why the run was aborted by this bus or the clock; empty where it was not.
+  std::string fault() const;
+
+ private:
+  NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings);
+  base::Status Connect(Participant& participant);
+  base::Status ConnectParcels(Participant& participant);
+  base::Status Say(const lockstep::Sample& sample);
+  void OnParcel(const base::Bytes& payload);
+  void OnAnswer(const base::Bytes& payload);
+  void TakeSnapshot(const base::Bytes& payload);
+  // `topic`: by which it came; empty: in a parcel.
+  void OnSample(std::string_view topic, base::Bytes&& payload);
+  void OnGrant(base::Bytes&& payload);
+  void OnAsk(const base::Bytes& payload);
+  Writer& WriterOf(lockstep::SourceIndex output);
+  void Abort(std::string reason);
+  // A sample was refused: where it contradicts one that is here, the reason is the node that said both.
+  void AbortBy(const base::Error& error, const lockstep::Sample& came);
+  void Heartbeat();
+  std::uint64_t clock_id() const;  // 0 before the clock was heard
+
+  const lockstep::Roster& roster_;
+  lockstep::Mailbox& mailbox_;
+  Settings settings_;
+  std::atomic<bool> listens_;
+  std::vector<lockstep::SourceIndex> outputs_;    // with the snapshots
+  std::vector<std::unique_ptr<Writer>> writers_;  // one for each of them
+  std::unique_ptr<Writer> questions_;
+  std::unique_ptr<Writer> reports_;
+  std::vector<std::unique_ptr<Reader>> readers_;
+
+  std::map<lockstep::NodeIndex, std::unique_ptr<Writer>> parcel_writers_;  // by the node that they are for
+  std::unique_ptr<Writer> answers_writer_;  // of the answering thread
+
+  lockstep::Parcels parcels_;  // of the thread that publishes
+  std::optional<Answers> answers_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable woken_;
+  const lockstep::Runner* runner_ = nullptr;
+  lockstep::Report last_;
+  std::uint64_t clock_id_ = 0;
+  std::chrono::steady_clock::time_point clock_heard_;
+  std::string fault_;
+  std::optional<lockstep::Grant> heard_;
+  std::optional<lockstep::Gap> wanted_;  // the snapshot that is waited for
+  std::optional<lockstep::Snapshot> snapshot_;
+  lockstep::Step safe_ = -1;
+  bool stop_ = false;
+  std::thread heartbeat_;
+};
+
+}  // namespace rodeira::dds

@@ -1,0 +1,79 @@
+#include "common/runtime/dds/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+
+#include "common/runtime/launch/pace.hpp"
+
+namespace rodeira::dds {
+namespace {
+
+// A duration in seconds, over 0.
+const CLI::Validator Positive(
+    [](std::string& text) {
+      char* end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      return end != text.c_str() && *end == '\0' && value > 0.0 && std::isfinite(value) ? std::string() : "'" + text + "' was found; a positive number of seconds was expected";
+    },
+    "SECONDS");
+
+}  // namespace
+
+ParsedOptions ParseOptions(const std::string& program, bool is_clock, int argc, char** argv) {
+  ParsedOptions parsed;
+  ProcessOptions& options = parsed.options;
+  CLI::App app{"One process of a Rodeira run; `rodeira run` starts all of them."};
+  app.name(program);
+  std::vector<std::string> sets;
+  std::string pace = "max";
+  double duration_s = 0.0;
+  app.add_option("--launch", options.launch_file, "launch file (the same for every process)")->required();
+  app.add_option("--run", options.run, "name of the run: only processes of the same name meet");
+  app.add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(CLI::Range(0, 232));
+  app.add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file");
+  if (is_clock) {
+    app.add_option("--pace", pace, "max, real or a factor");
+    app.add_option("--for", duration_s, "simulated seconds")->check(Positive);
+    app.add_flag("--listen", options.listen, "take lines 'lost NODE TEXT' and 'do NUMBER COMMAND' from standard input");
+    app.add_option("--incarnation", options.incarnation, "which life of the clock");
+    app.add_option("--clock-id", options.clock_id, "number of the run's clock; another life has that of the first");
+    app.add_option("--begun-ns", options.begun_ns, "another life: when the run began, on the monotonic clock");
+    app.add_flag("--paused", options.paused, "another life: begin paused");
+    app.add_option("--follow", options.follow, "name of this host: grant nothing, say what the run's clock on another host says");
+  } else {
+    app.add_option("--node", options.node, "name of the node in the launch file")->required();
+    app.add_option("--incarnation", options.incarnation, "which life of the node");
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    parsed.leave_with = app.exit(problem) == 0 ? 0 : 2;
+    return parsed;
+  }
+  for (const std::string& set : sets) {
+    const auto equals = set.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      std::cerr << program << ": --set " << set << ": KEY=VALUE was expected\n";
+      parsed.leave_with = 2;
+      return parsed;
+    }
+    options.overrides.emplace_back(set.substr(0, equals), set.substr(equals + 1));
+  }
+  const auto factor = launch::ParsePace(pace);
+  if (!factor) {
+    std::cerr << program << ": " << factor.error().Text() << "\n";
+    parsed.leave_with = 2;
+    return parsed;
+  }
+  options.pace = factor.value();
+  if (duration_s > 0.0) options.duration_s = duration_s;
+  return parsed;
+}
+
+DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& launch, const std::string& name) {
+  return {options.domain, options.run, name, launch.transport(), launch.discovery(), false, launch.keeps_for_restarts(), options.incarnation > 0};
+}
+
+}  // namespace rodeira::dds

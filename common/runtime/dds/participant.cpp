@@ -1,0 +1,183 @@
+#include "common/runtime/dds/participant.hpp"
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/log/Log.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <fmt/format.h>
+
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "common/runtime/dds/participant_qos.hpp"
+#include "common/runtime/dds/raw_type.hpp"
+#include "common/runtime/dds/robust_mutexes.hpp"
+#include "common/runtime/dds/udp_port.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::dds {
+namespace {
+
+namespace fdds = eprosima::fastdds::dds;
+using eprosima::fastrtps::Duration_t;
+
+constexpr int kMilli = 1'000'000;  // nanoseconds
+
+class FastWriter final : public Writer {
+ public:
+  FastWriter(fdds::Publisher* publisher, fdds::DataWriter* writer, std::string topic)
+      : publisher_(publisher), writer_(writer), topic_(std::move(topic)) {}
+  ~FastWriter() override { publisher_->delete_datawriter(writer_); }
+  base::Status Write(const base::Bytes& payload) override {
+    RawSample sample;
+    sample.to_send = &payload;
+    if (!writer_->write(&sample)) return base::Failed("Fast DDS does not take a sample", "topic " + topic_);
+    return {};
+  }
+
+ private:
+  fdds::Publisher* publisher_;
+  fdds::DataWriter* writer_;
+  std::string topic_;
+};
+
+class FastReader final : public Reader, public fdds::DataReaderListener {
+ public:
+  FastReader(fdds::Subscriber* subscriber, OnPayload on_payload) : subscriber_(subscriber), on_payload_(std::move(on_payload)) {}
+  ~FastReader() override {
+    if (reader_ == nullptr) return;
+    reader_->set_listener(nullptr);
+    subscriber_->delete_datareader(reader_);
+  }
+  void Begin(fdds::DataReader* reader) { reader_ = reader; }
+
+  void on_data_available(fdds::DataReader* reader) override {
+    RawSample sample;
+    fdds::SampleInfo info;
+    while (reader->take_next_sample(&sample, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+      if (info.valid_data) on_payload_(std::move(sample.bytes));
+    }
+  }
+
+ private:
+  fdds::Subscriber* subscriber_;
+  fdds::DataReader* reader_ = nullptr;
+  OnPayload on_payload_;
+};
+
+class FastParticipant final : public Participant {
+ public:
+  FastParticipant(fdds::DomainParticipant* participant, fdds::Publisher* publisher, fdds::Subscriber* subscriber)
+      : participant_(participant), publisher_(publisher), subscriber_(subscriber) {}
+  ~FastParticipant() override {
+    participant_->delete_contained_entities();
+    fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+
+  base::Result<std::unique_ptr<Writer>> MakeWriter(std::string_view topic, Delivery delivery) override {
+    auto* made_topic = TopicOf(topic);
+    if (made_topic == nullptr) return Refused(topic);
+    fdds::DataWriterQos qos = fdds::DATAWRITER_QOS_DEFAULT;
+    Common(qos, delivery);
+    qos.durability().kind = IsKept(delivery) ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
+    qos.reliability().kind = delivery == Delivery::kSaidAgain ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
+    auto& times = qos.reliable_writer_qos().times;
+    times.initialHeartbeatDelay = Duration_t{0, 0};
+    times.heartbeatPeriod = Duration_t{0, 3u * kMilli};
+    times.nackResponseDelay = Duration_t{0, 0};
+    times.nackSupressionDuration = Duration_t{0, 0};
+    fdds::DataWriter* writer = publisher_->create_datawriter(made_topic, qos);
+    if (writer == nullptr) return Refused(topic);
+    return std::unique_ptr<Writer>(std::make_unique<FastWriter>(publisher_, writer, std::string(topic)));
+  }
+
+  base::Result<std::unique_ptr<Reader>> MakeReader(std::string_view topic, Delivery delivery, OnPayload on_payload) override {
+    auto* made_topic = TopicOf(topic);
+    if (made_topic == nullptr) return Refused(topic);
+    fdds::DataReaderQos qos = fdds::DATAREADER_QOS_DEFAULT;
+    Common(qos, delivery);
+    qos.durability().kind = IsKept(delivery) ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
+    const bool best_effort = delivery == Delivery::kObserve || delivery == Delivery::kSaidAgain;
+    qos.reliability().kind = best_effort ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
+    qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t{0, 0};
+    auto reader = std::make_unique<FastReader>(subscriber_, std::move(on_payload));
+    fdds::DataReader* made = subscriber_->create_datareader(made_topic, qos, reader.get());
+    if (made == nullptr) return Refused(topic);
+    reader->Begin(made);
+    return std::unique_ptr<Reader>(std::move(reader));
+  }
+
+ private:
+  static bool IsKept(Delivery delivery) { return delivery == Delivery::kForLateComers || delivery == Delivery::kHistory; }
+  template <class Qos>
+  static void Common(Qos& qos, Delivery delivery) {
+    qos.history().kind = fdds::KEEP_LAST_HISTORY_QOS;
+    qos.history().depth = delivery == Delivery::kForLateComers ? 1 : 256;  // of all writers together: the types have no keys
+    qos.resource_limits().max_samples = 1000;
+    qos.resource_limits().max_instances = 1;
+    qos.resource_limits().max_samples_per_instance = 1000;
+    qos.resource_limits().allocated_samples = 64;
+    qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.data_sharing().off();
+  }
+  static base::Error Refused(std::string_view topic) { return base::Failed("Fast DDS makes no endpoint for this topic", "topic " + std::string(topic)); }
+
+  fdds::Topic* TopicOf(std::string_view name) {
+    const idl::TopicInfo* info = idl::FindTopic(name);
+    if (info == nullptr) return nullptr;
+    const std::lock_guard lock(mutex_);
+    auto& topic = topics_[std::string(name)];
+    if (topic == nullptr) {
+      const std::string type_name(info->type);
+      if (participant_->find_type(type_name).empty()) fdds::TypeSupport(new RawType(type_name)).register_type(participant_);
+      topic = participant_->create_topic(std::string(name), type_name, fdds::TOPIC_QOS_DEFAULT);
+    }
+    return topic;
+  }
+
+  fdds::DomainParticipant* participant_;
+  fdds::Publisher* publisher_;
+  fdds::Subscriber* subscriber_;
+  std::mutex mutex_;
+  std::map<std::string, fdds::Topic*, std::less<>> topics_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<Participant>> Participant::Open(const DomainSettings& settings) {
+  RODEIRA_ASSERT(!settings.run.empty());
+  RODEIRA_ASSERT(SharedMutexesAreRobust());
+  const launch::Discovery& discovery = settings.discovery;
+  if (settings.serves_discovery && discovery.kind == launch::DiscoveryKind::kServer && !UdpPortIsFree(discovery.port)) {
+    return base::WrongInput(fmt::format("UDP port {} of the discovery server is in use by another program; end that one, or name another 'discovery.port'",
+                                        discovery.port), fmt::format("run '{}'", settings.run));
+  }
+  fdds::Log::SetVerbosity(fdds::Log::Kind::Error);
+  auto* factory = fdds::DomainParticipantFactory::get_instance();
+  auto* participant = factory->create_participant(settings.domain, ParticipantQos(settings));
+  if (participant == nullptr) {
+    return base::Failed(fmt::format("Fast DDS makes no participant in domain {} (is /dev/shm writable, are ports {} and following free?)", settings.domain,
+                                    7400 + 250 * settings.domain));
+  }
+  fdds::PublisherQos publisher_qos = fdds::PUBLISHER_QOS_DEFAULT;
+  publisher_qos.partition().push_back(("rodeira/" + settings.run).c_str());
+  fdds::SubscriberQos subscriber_qos = fdds::SUBSCRIBER_QOS_DEFAULT;
+  subscriber_qos.partition().push_back(("rodeira/" + settings.run).c_str());
+  auto* publisher = participant->create_publisher(publisher_qos);
+  auto* subscriber = participant->create_subscriber(subscriber_qos);
+  if (publisher == nullptr || subscriber == nullptr) {
+    factory->delete_participant(participant);
+    return base::Failed("Fast DDS makes no publisher and subscriber");
+  }
+  return std::unique_ptr<Participant>(std::make_unique<FastParticipant>(participant, publisher, subscriber));
+}
+
+}  // namespace rodeira::dds

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "common/core/base/bytes.hpp"
+#include "common/core/base/result.hpp"
+#include "common/runtime/launch/launch.hpp"
+
+namespace rodeira::dds {
+
+// How a topic's samples are kept and handed over (docs/architecture.md says why).
+enum class Delivery {
+  kSaidAgain,      // best effort: what is repeated where it is missed (samples, grants, reports, questions and answers)
+  kForLateComers,  // reliable, transient local, the newest: world information
+  kHistory,      // reliable, transient local, the newest 256: what happens seldom and must reach everybody (triggers)
+  kObserve,      // best effort: whoever only looks on, and never slows a run (law L5)
+};
+
+struct DomainSettings {
+  std::uint32_t domain = 0;       // one a rig
+  std::string run;                // one a run: becomes the partition, never empty
+  std::string name;               // of the participant, for people
+  launch::Transport transport = launch::Transport::kSharedMemory;
+  launch::Discovery discovery;
+  bool serves_discovery = false;  // the one that DiscoveryKind::kServer asks: the clock
+  bool meets_later = false;       // processes may be started again in the midst of the run
+  bool is_another_life = false;   // of a process that has died: takes none of its places in shared memory
+};
+
+class Writer {
+ public:
+  virtual ~Writer() = default;
+  // Failed where the library takes no more.
+  virtual base::Status Write(const base::Bytes& payload) = 0;
+};
+
+class Reader {
+ public:
+  virtual ~Reader() = default;
+};
+
+// Gets every payload on a receive thread of the library: it moves the sample on and returns; it never waits.
+using OnPayload = std::function<void(base::Bytes&&)>;
+
+// A DDS participant, one a process. Topics and types are those of idl/topics.hpp.
+class Participant {
+ public:
+  // Wrong input where the discovery server's port is in use: the library would silently take another.
+  static base::Result<std::unique_ptr<Participant>> Open(const DomainSettings& settings);
+  virtual ~Participant() = default;
+  virtual base::Result<std::unique_ptr<Writer>> MakeWriter(std::string_view topic, Delivery delivery) = 0;
+  virtual base::Result<std::unique_ptr<Reader>> MakeReader(std::string_view topic, Delivery delivery, OnPayload on_payload) = 0;
+};
+
+}  // namespace rodeira::dds

@@ -1,0 +1,275 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <csignal>
+#include <deque>
+#include <mutex>
+#include <random>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "common/core/base/mathematics.hpp"
+#include "common/runtime/dds/clock_desk.hpp"
+#include "common/runtime/dds/clock_gate.hpp"
+#include "common/runtime/dds/clock_losses.hpp"
+#include "common/runtime/dds/clock_words.hpp"
+#include "common/runtime/dds/led_run.hpp"
+#include "common/runtime/dds/options.hpp"
+#include "common/runtime/dds/parents_word.hpp"
+#include "common/runtime/dds/participant.hpp"
+#include "common/runtime/dds/remote_log.hpp"
+#include "common/runtime/dds/run.hpp"
+#include "common/runtime/dds/statements.hpp"
+#include "common/runtime/dds/triggers.hpp"
+#include "common/runtime/dds/wire.hpp"
+#include "common/runtime/launch/agreement.hpp"
+#include "idl/topics.hpp"
+
+namespace rodeira::dds {
+namespace {
+
+using namespace std::chrono_literals;
+using WallClock = std::chrono::steady_clock;
+namespace topics = idl::topics;
+
+std::atomic<int> g_signals = 0;
+void OnSignal(int) { ++g_signals; }
+
+std::uint64_t DrawnIfNone(std::uint64_t clock_id) {
+  std::random_device device;
+  while (clock_id == 0) clock_id = (static_cast<std::uint64_t>(device()) << 32) | device();
+  return clock_id;
+}
+
+// The clock's process: its endpoints, its loop, and its end. Who takes part, what becomes of losses, what an operator asks and how
+// the run is told have rooms of their own (clock_*.hpp).
+class ClockProcess {
+ public:
+  ClockProcess(const launch::Launch& launch, const ProcessOptions& options)
+      : options_(options), clock_id_(DrawnIfNone(options.clock_id)), run_(launch, options), gate_(run_, OwnHello(launch::Agreement(launch)), clock_id_),
+        losses_(run_, [this](lockstep::NodeIndex node) { OnNextLife(node); }), desk_(run_, losses_) {}
+
+  int Run() {
+    DomainSettings settings = DomainOf(options_, run_.launch, "clock");
+    settings.serves_discovery = true;
+    auto participant = Participant::Open(settings);
+    if (!participant) return Complain(participant.error());
+    participant_ = std::move(participant).value();
+    if (auto status = Connect(*participant_); !status) return Complain(status.error());
+    Say("clock id={} life={}", clock_id_, options_.incarnation);
+    Say("starting {} nodes", run_.roster.nodes().size());
+    if (options_.listen) parents_.Listen([this] { woken_.notify_one(); });
+    run_.start = WallClock::now();
+    if (options_.incarnation > 0) GoOn();
+    return Loop();
+  }
+
+ private:
+  static int Complain(const base::Error& error) {
+    Say("fault {}", OneLine(error.Text()));
+    return error.exit_status();
+  }
+
+  base::Status Connect(Participant& participant) {
+    // Before anything is said: another clock's word in this run means that this one is too many.
+    auto other = participant.MakeReader(topics::kGrant, Delivery::kSaidAgain, [this](base::Bytes&& bytes) {
+      const auto grant = DecodeGrant(bytes);
+      if (grant && grant.value().clock_id != clock_id_) other_clock_ = grant.value().clock_id;
+    });
+    if (!other) return other.error();
+    others_ = std::move(other).value();
+    if (options_.incarnation == 0) std::this_thread::sleep_for(300ms);
+    if (other_clock_ != 0) return SecondClock();
+    auto reports = participant.MakeReader(topics::kReport, Delivery::kSaidAgain, [this](base::Bytes&& bytes) {
+      const std::lock_guard lock(mutex_);
+      inbox_.push_back(std::move(bytes));
+      woken_.notify_one();
+    });
+    if (!reports) return reports.error();
+    reports_ = std::move(reports).value();
+    auto grants = participant.MakeWriter(topics::kGrant, Delivery::kSaidAgain);
+    if (!grants) return grants.error();
+    grants_ = std::move(grants).value();
+    auto log = OpenLogSpeaker(participant, run_.roster.hash(), clock_id_, run_.roster.base_step_ns());
+    if (!log) return log.error();
+    log_ = std::move(log).value();
+    auto triggers = Triggers::Open(participant, options_.run, run_.roster.base_step_ns());
+    if (!triggers) return triggers.error();
+    triggers_.emplace(std::move(triggers).value());
+    return {};
+  }
+  base::Status SecondClock() const {
+    return base::WrongInput(fmt::format("run '{}' in domain {} has a clock already ({}); choose another --run or --domain", options_.run, options_.domain,
+                                        base::Hex(other_clock_)));
+  }
+  // Two clocks that began at the same moment: the one with the larger number is the one too many.
+  bool MustYield() const { return other_clock_ != 0 && other_clock_ < clock_id_; }
+
+  // This life of the clock takes the place of one that has died: the nodes' reports say where the run stands.
+  void GoOn() {
+    run_.clock.Rebuild();
+    serial_ = options_.incarnation << 24;
+    if (options_.begun_ns < 0) return;
+    run_.conductor.GoOn(options_.begun_ns - std::chrono::nanoseconds(run_.start.time_since_epoch()).count(), options_.paused, run_.Now());
+  }
+
+  int Loop() {
+    auto said = WallClock::now() - 1s;
+    bool told_ready = false;
+    while (!run_.clock.all_finished()) {
+      if (MustYield()) return Complain(SecondClock().error());
+      TakeReports();
+      if (!gate_.refusal().empty()) return Abort({gate_.refusal(), 2});
+      if (const auto end = LookAfterLosses()) return Abort(*end);
+      if (!told_ready && run_.clock.all_ready()) {
+        told_ready = true;
+        Say("ready");
+      }
+      const lockstep::Grant before = run_.clock.grant();
+      desk_.Do(parents_.TakeAsked());
+      if (run_.clock.grant().abort) return Abort({run_.clock.grant().reason, 1});
+      if (desk_.stop_asked() && !run_.missed.empty()) return Abort({"stopped while the run waited: " + run_.missed.Text(run_.NowNs()), 1});
+      const lockstep::Grant grant = run_.conductor.Move(run_.Now());
+      const auto now = WallClock::now();
+      if (grant.through != before.through || grant.final != before.final || now - said >= 10ms) {
+        said = now;
+        SayGrant(grant);
+        ShowProgress(now);
+      }
+      if (grant.final && run_.clock.all_sources_finished()) run_.conductor.CloseLog(run_.Now());
+      FlushLog();
+      Wait();
+    }
+    triggers_->SayEnd(run_.clock.grant().through, run_.Now().utc_ns, "ok");
+    Close(NodeLines(run_) + EndLine(run_, "ok", run_.clock.grant().through, run_.clock.RunDigest(), 0));
+    return 0;
+  }
+
+  // Who is lost, as this PC, another one, or the watchdog says; and a signal to this process.
+  std::optional<RunsEnd> LookAfterLosses() {
+    std::vector<std::string> lost = gate_.TakeLost();
+    for (std::string& one : parents_.TakeLost()) lost.push_back(std::move(one));
+    for (const std::string& one : lost) {
+      if (auto end = losses_.TakeLost(one)) return end;
+    }
+    const auto now = WallClock::now();
+    if (now - checked_ < 20ms) return std::nullopt;
+    checked_ = now;
+    if (auto end = losses_.Watch()) return end;
+    if (const int signals = g_signals; signals > 0) {
+      if (signals > 2 || run_.clock.grant().through < 0) return RunsEnd{"stopped by a signal", 1};
+      desk_.StopBySignal();
+    }
+    return std::nullopt;
+  }
+  void OnNextLife(lockstep::NodeIndex node) {
+    gate_.ExpectNextLife(node);
+    SayGrant(run_.clock.grant());
+  }
+
+  void TakeReports() {
+    std::deque<base::Bytes> taken;
+    {
+      const std::lock_guard lock(mutex_);
+      taken.swap(inbox_);
+    }
+    for (const base::Bytes& bytes : taken) gate_.Take(bytes);
+  }
+  void Wait() {
+    std::unique_lock lock(mutex_);
+    const auto due = std::chrono::nanoseconds(run_.conductor.NextDueIn(run_.Now()));
+    const std::chrono::nanoseconds limit = due > 0ns ? std::min<std::chrono::nanoseconds>(due, 10ms) : 10ms;
+    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || parents_.is_waiting(); });
+  }
+
+  void SayGrant(const lockstep::Grant& grant) { (void)grants_->Write(EncodeGrant({clock_id_, ++serial_, grant})); }
+  void ShowProgress(WallClock::time_point now) {
+    if (now - shown_ < 200ms) return;
+    shown_ = now;
+    SayLine(ProgressLine(run_));
+  }
+  void FlushLog() {
+    const auto batch = run_.conductor.log().Take(run_.NowNs());
+    if (!batch) return;
+    log_->Say(*batch);
+    for (const lockstep::Remark& remark : batch->remarks) triggers_->Say(remark);
+  }
+
+  // The closing words, here and to who follows on other PCs. Said again until everybody must have heard them; who has gone
+  // already does not matter.
+  void Close(const std::string& words) {
+    lockstep::Grant last = run_.clock.grant();
+    last.over = true;
+    last.reason = words;
+    for (int i = 0; i < 10; ++i) {
+      SayGrant(last);
+      std::this_thread::sleep_for(5ms);
+    }
+    SayLine(words);
+  }
+  // Time stops everywhere; sinks get a moment to close their files.
+  int Abort(const RunsEnd& end) {
+    run_.conductor.Abort(end.reason, run_.Now());
+    FlushLog();
+    triggers_->SayEnd(run_.clock.slowest_progress() - 1, run_.Now().utc_ns, run_.clock.grant().reason);
+    Say("fault {}", OneLine(end.reason));
+    // At least some times: no process of another PC is told of it by anybody else.
+    for (int i = 0; i < 10 || (i < 100 && !AllSinksHaveFinished()); ++i) {
+      SayGrant(run_.clock.grant());
+      std::this_thread::sleep_for(10ms);
+      TakeReports();
+    }
+    Close(fmt::format("fault {}\n", OneLine(end.reason)) + NodeLines(run_) + EndLine(run_, "aborted", run_.clock.slowest_progress() - 1, 0, end.status));
+    return end.status;
+  }
+  bool AllSinksHaveFinished() const {
+    for (lockstep::NodeIndex n = 0; n < run_.roster.nodes().size(); ++n) {
+      if (run_.roster.node(n).is_sink() && run_.clock.report(n).phase < lockstep::Phase::kFinished) return false;
+    }
+    return true;
+  }
+
+  const ProcessOptions& options_;
+  const std::uint64_t clock_id_;
+  LedRun run_;
+  ClockGate gate_;
+  ClockLosses losses_;
+  ClockDesk desk_;
+  std::uint32_t serial_ = 0;
+  std::atomic<std::uint64_t> other_clock_ = 0;
+  WallClock::time_point shown_{};
+  WallClock::time_point checked_{};
+  std::mutex mutex_;
+  std::condition_variable woken_;
+  std::deque<base::Bytes> inbox_;
+  ParentsWord parents_;
+  std::unique_ptr<Participant> participant_;  // outlives its endpoints
+  std::unique_ptr<Writer> grants_;
+  std::unique_ptr<LogSpeaker> log_;
+  std::optional<Triggers> triggers_;
+  std::unique_ptr<Reader> others_;
+  std::unique_ptr<Reader> reports_;
+};
+
+}  // namespace
+
+int RunClock(int argc, char** argv) {
+  base::FixMathematics(argv);
+  const ParsedOptions parsed = ParseOptions("rodeira-clock", true, argc, argv);
+  if (parsed.leave_with) return *parsed.leave_with;
+  const auto launch = launch::Launch::Load(parsed.options.launch_file, parsed.options.overrides);
+  if (!launch) {
+    fmt::print(stderr, "rodeira-clock: {}\n", launch.error().Text());
+    return launch.error().exit_status();
+  }
+  if (!parsed.options.follow.empty()) return FollowClock(launch.value(), parsed.options);
+  std::signal(SIGINT, OnSignal);
+  std::signal(SIGTERM, OnSignal);
+  return ClockProcess(launch.value(), parsed.options).Run();
+}
+
+}  // namespace rodeira::dds

@@ -1,0 +1,130 @@
+#include "common/runtime/launch/lab.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "common/core/base/suggest.hpp"
+
+namespace rodeira::launch {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+LabScreen ReadScreen(const std::string& name, const config::Map& map) {
+  const auto metres = [&](std::string_view key, double low_cm, double high_cm) { return 0.01 * map.Number(key, {low_cm, high_cm}); };
+  LabScreen screen;
+  screen.name = name;
+  screen.width_m = metres("width_cm", 1.0, 5000.0);
+  screen.height_m = metres("height_cm", 1.0, 5000.0);
+  screen.distance_m = metres("distance_cm", 1.0, 5000.0);
+  screen.angle_rad = kDegree * map.Number("angle_deg", {-180.0, 180.0}, 0.0);
+  screen.eye_height_m = 0.01 * map.Number("eye_height_cm", {-5000.0, 5000.0}, 50.0 * screen.height_m);
+  screen.aside_m = 0.01 * map.Number("aside_cm", {-5000.0, 5000.0}, 0.0);
+  return screen;
+}
+
+}  // namespace
+
+base::Result<Lab> Lab::Load(const std::filesystem::path& path) {
+  auto file = config::File::Load(path);
+  if (!file) return file.error();
+  return Read(file.value());
+}
+
+base::Result<Lab> Lab::Parse(std::string_view text, const std::filesystem::path& name) {
+  auto file = config::File::Parse(text, name);
+  if (!file) return file.error();
+  return Read(file.value());
+}
+
+base::Result<Lab> Lab::Read(const config::File& file) {
+  Lab lab;
+  lab.path_ = file.path();
+  const config::Map root = file.root();
+  (void)root.Choice("rodeira", {"lab/1"});
+  lab.run_ = root.Text("run", "lab");
+  if (lab.run_.empty()) root.Problem("run", "'run' is empty; a name was expected by which the processes of all PCs meet");
+  lab.domain_ = static_cast<std::uint32_t>(root.Integer("domain", 0, 232));
+
+  const config::Map hosts = root.Child("hosts");
+  for (const std::string& name : hosts.Keys()) {
+    const LabHost host{name, ReadAddress(hosts.Child(name), "address")};
+    const auto same = std::ranges::find(lab.hosts_, host.address, &LabHost::address);
+    if (same != lab.hosts_.end()) {
+      hosts.Problem(name, fmt::format("hosts '{}' and '{}' have the same address {}", same->name, name, host.address));
+    }
+    lab.hosts_.push_back(host);
+  }
+  if (lab.hosts_.empty() && root.Has("hosts")) {
+    root.Problem("hosts", "'hosts' is empty; at least one PC with its address was expected");
+  }
+  if (!lab.hosts_.empty()) lab.clock_ = root.Choice("clock", lab.Names(), lab.hosts_.front().name);
+
+  const std::string transport = root.Choice("transport", {"udp", "shared_memory"}, "udp");
+  lab.transport_ = transport == "udp" ? Transport::kUdp : Transport::kSharedMemory;
+  if (lab.transport_ != Transport::kUdp && lab.hosts_.size() > 1) {
+    root.Problem("transport", "'transport' is 'shared_memory', which ends at a PC; 'udp' was expected");
+  }
+  const config::Map discovery = root.OptionalChild("discovery");
+  lab.discovery_ = ReadDiscoveryKind(discovery);
+  if (lab.discovery_ != DiscoveryKind::kMulticast && lab.transport_ != Transport::kUdp) {
+    root.Problem("discovery", fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(lab.discovery_)));
+  }
+  if (lab.discovery_ == DiscoveryKind::kPeers) lab.participants_ = ReadParticipants(discovery);
+  if (lab.discovery_ == DiscoveryKind::kServer) lab.port_ = ReadPort(discovery);
+  const config::Map screens = root.OptionalChild("screens");
+  for (const std::string& name : screens.Keys()) lab.screens_.push_back(ReadScreen(name, screens.Child(name)));
+  if (auto status = file.Finish(); !status) return status.error();
+  return lab;
+}
+
+std::vector<std::string> Lab::Names() const {
+  std::vector<std::string> names;
+  for (const LabHost& host : hosts_) names.push_back(host.name);
+  return names;
+}
+
+base::Result<LabHost> Lab::Host(const std::string& name) const {
+  const auto found = std::ranges::find(hosts_, name, &LabHost::name);
+  if (found == hosts_.end()) {
+    return base::WrongInput(fmt::format("there is no host '{}'{}", name, base::DidYouMean(name, Names())), path_.string());
+  }
+  return *found;
+}
+
+base::Result<LabScreen> Lab::Screen(const std::string& name) const {
+  const auto found = std::ranges::find(screens_, name, &LabScreen::name);
+  if (found != screens_.end()) return *found;
+  std::vector<std::string> names;
+  for (const LabScreen& screen : screens_) names.push_back(screen.name);
+  return base::WrongInput(fmt::format("there is no screen '{}'{}", name, base::DidYouMean(name, names)), path_.string());
+}
+
+base::Status Lab::Fits(const Launch& launch) const {
+  for (const LaunchNode& node : launch.nodes()) {
+    if (node.host.empty() || Host(node.host).ok()) continue;
+    return base::WrongInput(fmt::format("node '{}' belongs to host '{}', which is not in {}{}", node.name, node.host, path_.string(),
+                                        base::DidYouMean(node.host, Names())), node.config->Place("host"));
+  }
+  return {};
+}
+
+Overrides Lab::For(const LabHost& host) const {
+  Overrides overrides;
+  overrides.emplace_back("transport", transport_ == Transport::kUdp ? "udp" : "shared_memory");
+  std::string more;
+  if (discovery_ == DiscoveryKind::kPeers) {
+    std::vector<std::string> addresses;
+    for (const LabHost& other : hosts_) addresses.push_back(other.address);
+    more = fmt::format(", participants: {}, addresses: [{}]", participants_, fmt::join(addresses, ", "));
+  }
+  if (discovery_ == DiscoveryKind::kServer) more = fmt::format(", address: {}, port: {}", Host(clock_).value().address, port_);
+  const std::string interface = transport_ == Transport::kUdp ? ", interface: " + host.address : "";
+  overrides.emplace_back("discovery", fmt::format("{{kind: {}{}{}}}", Word(discovery_), interface, more));
+  return overrides;
+}
+
+}  // namespace rodeira::launch

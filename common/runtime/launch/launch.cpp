@@ -1,0 +1,216 @@
+#include "common/runtime/launch/launch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/core/base/suggest.hpp"
+#include "common/runtime/launch/pace.hpp"
+
+namespace rodeira::launch {
+namespace {
+
+using lockstep::NodeWish;
+using lockstep::PortWish;
+using lockstep::Step;
+
+constexpr std::string_view kTopicPrefix = "rodeira/";
+
+std::string ShortName(std::string_view topic) { return std::string(topic.substr(kTopicPrefix.size())); }
+
+// Seconds to whole steps; a period that is none is a problem of the file.
+Step ToSteps(const config::Map& map, std::string_view key, double seconds, std::int64_t base_step_ns) {
+  const double steps = seconds * 1e9 / static_cast<double>(base_step_ns);
+  const double whole = std::round(steps);
+  if (std::fabs(steps - whole) > 1e-6 * std::max(1.0, steps) || whole < 1.0) {
+    map.Problem(key, fmt::format("'{}' is {} s; a multiple of the base step ({} s) was expected", key, seconds, static_cast<double>(base_step_ns) * 1e-9));
+    return 1;
+  }
+  return static_cast<Step>(whole);
+}
+
+NodeWish ReadNode(const config::Map& map, const std::string& name, const NodeKind& kind, std::int64_t base_step_ns) {
+  NodeWish wish;
+  wish.name = name;
+  wish.kind = std::string(kind.name);
+  wish.role = kind.role;
+  wish.deadline_ms = static_cast<std::int64_t>(map.Number("deadline_s", {0.0, 86400.0}, 0.0) * 1e3);
+  if (kind.role == lockstep::Role::kService) return wish;
+  wish.period = ToSteps(map, "period_s", map.Number("period_s", config::Range::Positive(), kind.default_period_s), base_step_ns);
+  if (map.Has("delay_s")) wish.delay = ToSteps(map, "delay_s", map.Number("delay_s", config::Range::Positive()), base_step_ns);
+  for (const std::string_view topic : kind.outputs) wish.outputs.emplace_back(topic);
+  return wish;
+}
+
+// Where there is a recorder, all others but sinks publish their state, at the same steps: each `snapshot_every_s`, rounded
+// up to a common multiple of their periods.
+void SetSnapshots(const config::Map& root, std::int64_t base_step_ns, std::vector<NodeWish>& wishes) {
+  Step every = ToSteps(root, "snapshot_every_s", root.Number("snapshot_every_s", config::Range::Positive(), 1.0), base_step_ns);
+  const auto has_state = [](const NodeWish& wish) { return wish.role == lockstep::Role::kStepped && !wish.outputs.empty(); };
+  if (std::none_of(wishes.begin(), wishes.end(), [](const NodeWish& wish) { return wish.kind == "recorder"; })) return;
+  Step common = 1;
+  for (const NodeWish& wish : wishes) {
+    // Recorders too: one that begins at a snapshot waits for none that lies before.
+    if (has_state(wish) || wish.kind == "recorder") common = std::lcm(common, wish.period);
+  }
+  every = lockstep::CeilTo(every, common);
+  for (NodeWish& wish : wishes) {
+    if (has_state(wish)) wish.snapshot_every = every;
+  }
+}
+
+// Names of the other nodes that publish a topic.
+std::vector<std::string> Publishers(const std::vector<NodeWish>& wishes, std::string_view topic, const std::string& except) {
+  std::vector<std::string> names;
+  for (const NodeWish& wish : wishes) {
+    if (wish.name == except) continue;
+    if (topic == lockstep::kSnapshotTopic && wish.snapshot_every > 0) names.push_back(wish.name);
+    for (const std::string& output : wish.outputs) {
+      if (output == topic) names.push_back(wish.name);
+    }
+  }
+  return names;
+}
+
+// Wires a node's inputs: as `inputs` says, otherwise to everybody else who publishes the topic.
+void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeWish>& wishes, NodeWish& wish) {
+  const config::Map inputs = map.OptionalChild("inputs");
+  for (const KindPort& port : kind.inputs) {
+    const std::string key = ShortName(port.topic);
+    PortWish out{std::string(port.topic), port.kind, {}};
+    if (inputs.Has(key)) {
+      const config::List names = inputs.OptionalItems(key);
+      for (std::size_t i = 0; i < names.size(); ++i) out.sources.push_back(names.Text(i));
+    } else {
+      out.sources = Publishers(wishes, port.topic, wish.name);
+      if (!port.many && out.sources.size() > 1) {
+        map.Problem("kind", fmt::format("node '{}' takes '{}' from one node, but {} publish it ({}); say which under 'inputs'", wish.name, key,
+                                        out.sources.size(), fmt::join(out.sources, ", ")));
+      }
+    }
+    if (!port.many && out.sources.size() > 1) out.sources.resize(1);
+    if (port.required && out.sources.empty()) {
+      map.Problem("kind", fmt::format("node '{}' needs '{}', but no node publishes it", wish.name, key));
+    }
+    if (!out.sources.empty()) wish.inputs.push_back(std::move(out));
+  }
+}
+
+lockstep::Policy ReadPolicy(const config::Map& map, std::string_view fallback) {
+  const std::string word = map.Choice("recovery", {"stop", "pause", "restart"}, std::string(fallback));
+  return word == "restart" ? lockstep::Policy::kRestart : word == "pause" ? lockstep::Policy::kPause : lockstep::Policy::kStop;
+}
+
+// A person's input cannot be computed again.
+void ExceptLiveInput(const std::vector<config::Map>& maps, std::vector<LaunchNode>& nodes) {
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (nodes[n].recovery != lockstep::Policy::kRestart || !nodes[n].is_live()) continue;
+    nodes[n].recovery = lockstep::Policy::kStop;
+    if (!maps[n].Has("recovery")) continue;
+    maps[n].Problem("recovery", fmt::format("node '{}' is driven by a person, whose input cannot be computed again; stop or pause was expected", nodes[n].name));
+  }
+}
+
+}  // namespace
+
+bool LaunchNode::is_live() const {
+  if (kind->name == "scenario") return takes_requests();
+  const auto source = config->Peek({"config", "source"});
+  return kind->name == "input" && source && (*source == "keyboard" || *source == "joystick" || *source == "gamepad");
+}
+
+bool LaunchNode::takes_requests() const { return kind->name == "scenario" && config->Peek({"config", "requests"}) == "true"; }
+
+std::vector<lockstep::Policy> Launch::policies() const {
+  std::vector<lockstep::Policy> policies;
+  for (const LaunchNode& node : nodes_) policies.push_back(node.recovery);
+  return policies;
+}
+
+base::Status Launch::CheckRecovery() const {
+  const auto& nodes = roster_->nodes();
+  if (std::any_of(nodes.begin(), nodes.end(), [](const lockstep::NodeSpec& node) { return node.keeps_snapshots(); })) return {};
+  for (const LaunchNode& node : nodes_) {
+    if (node.recovery != lockstep::Policy::kRestart || node.kind->outputs.empty()) continue;
+    return base::WrongInput(fmt::format("node '{}' can be started again only where there is a recorder, but there is none (with --no-record: --set recovery=stop)",
+                                        node.name), path().string());
+  }
+  return {};
+}
+
+bool Launch::keeps_for_restarts() const { return lockstep::Recovery(*roster_, policies()).restarts(); }
+
+base::Result<Launch> Launch::Load(const std::filesystem::path& path, const Overrides& overrides) {
+  auto file = config::File::Load(path);
+  if (!file) return file.error();
+  return Read(std::move(file).value(), overrides);
+}
+
+base::Result<Launch> Launch::Parse(std::string_view text, const std::filesystem::path& name, const Overrides& overrides) {
+  auto file = config::File::Parse(text, name);
+  if (!file) return file.error();
+  return Read(std::move(file).value(), overrides);
+}
+
+base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides) {
+  for (const auto& [key, value] : overrides) {
+    if (auto status = file.Override(key, value); !status) return status.error();
+  }
+  Launch launch;
+  launch.overrides_ = overrides;
+  launch.file_ = std::make_shared<config::File>(std::move(file));
+  const config::Map root = launch.file_->root();
+  (void)root.Choice("rodeira", {"launch/1"});
+  launch.name_ = root.Text("name", launch.file_->path().stem().string());
+  if (const auto world = root.OptionalPath("world")) launch.world_ = *world;
+  if (const auto lab = root.OptionalPath("lab")) launch.lab_ = *lab;
+  launch.vehicle_model_ = root.OptionalChild("vehicle").Text("model", "");
+  launch.seed_ = static_cast<std::uint64_t>(root.Integer("seed", 0, INT64_MAX, 1));
+  if (root.Has("duration_s")) launch.duration_s_ = root.Number("duration_s", config::Range::Positive());
+  launch.transport_ = root.Choice("transport", {"shared_memory", "udp"}, "shared_memory") == "udp" ? Transport::kUdp : Transport::kSharedMemory;
+  launch.discovery_ = ReadDiscovery(root.OptionalChild("discovery"));
+  if (launch.discovery_.kind != DiscoveryKind::kMulticast && launch.transport_ != Transport::kUdp) {
+    root.Problem("discovery", fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(launch.discovery_.kind)));
+  }
+  launch.pace_ = root.Text("pace", "");
+  if (root.Has("pace") && !ParsePace(launch.pace_).ok()) {
+    root.Problem("pace", fmt::format("'pace' is '{}'; max, real or a positive number was expected", launch.pace_));
+  }
+  const double base_step_s = root.Number("base_step_s", {1e-6, 1.0}, 0.001);
+  const auto base_step_ns = static_cast<std::int64_t>(std::llround(base_step_s * 1e9));
+  const Step window = root.Integer("window_steps", 1, 1'000'000, 100);
+  const config::Map limits = root.OptionalChild("limits");
+  launch.watchdog_.silence_ms = static_cast<std::int64_t>(limits.Number("silence_s", {0.1, 3600.0}, 0.6) * 1e3);
+  launch.watchdog_.deadline_ms = static_cast<std::int64_t>(limits.Number("step_s", {0.01, 86400.0}, 0.6) * 1e3);
+  launch.watchdog_.start_ms = static_cast<std::int64_t>(limits.Number("start_s", {0.1, 86400.0}, 60.0) * 1e3);
+
+  launch.recovery_ = ReadPolicy(root, "stop");
+  const config::Map nodes = root.Child("nodes");
+  std::vector<NodeWish> wishes;
+  std::vector<config::Map> maps;
+  for (const std::string& name : nodes.Keys()) {
+    if (nodes.Peek({name, "kind"}) == kNoKind) continue;  // as if it were not there, with all that stands under it
+    const config::Map map = nodes.OptionalChild(name);
+    const std::string kind_name = map.Choice("kind", KindNames());
+    const NodeKind* kind = FindKind(kind_name);
+    LaunchNode node{name, kind, map.Text("host", ""), std::make_shared<const config::Map>(map), launch.recovery_};
+    if (map.Has("recovery")) node.recovery = ReadPolicy(map, "stop");
+    map.LeaveToOthers("config");
+    wishes.push_back(ReadNode(map, name, *kind, base_step_ns));
+    launch.nodes_.push_back(std::move(node));
+    maps.push_back(map);
+  }
+  SetSnapshots(root, base_step_ns, wishes);
+  ExceptLiveInput(maps, launch.nodes_);
+  for (std::size_t n = 0; n < wishes.size(); ++n) Wire(maps[n], *launch.nodes_[n].kind, wishes, wishes[n]);
+  if (auto status = launch.file_->Finish(); !status) return status.error();
+  if (wishes.empty()) return base::WrongInput("'nodes' is empty; at least one node was expected", nodes.Place());
+  auto roster = lockstep::Roster::Create(base_step_ns, window, wishes);
+  if (!roster) return base::WrongInput(roster.error().Text(), launch.path().string());
+  launch.roster_ = std::make_shared<const lockstep::Roster>(std::move(roster).value());
+  return launch;
+}
+
+}  // namespace rodeira::launch

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "common/data/decode/difference.hpp"
+#include "common/data/decode/type.hpp"
+#include "common/runtime/lockstep/roster.hpp"
+#include "common/runtime/lockstep/sample.hpp"
+
+namespace rodeira::launch {
+
+// Names the first value in which two samples of one source and step differ: a field of the message, "state.NAME" of a snapshot,
+// "header.state_digest" where only the node's state does, or, where no field can be named, "(sample)" with both digests.
+class SampleDifference {
+ public:
+  explicit SampleDifference(const lockstep::Roster& roster) : roster_(roster) {}
+  // Call it for samples whose content differs (lockstep::SameContent).
+  decode::Difference Between(const lockstep::Sample& a, const lockstep::Sample& b);
+
+ private:
+  const decode::Type* TypeOf(lockstep::SourceIndex source);  // null where the topic is not known
+
+  const lockstep::Roster& roster_;
+  std::map<std::string, decode::TypePtr> types_;  // by topic, as they are needed
+};
+
+// Of a node that said one thing, and another for the same step: who it is, where, and what differs.
+std::string ContradictionText(const lockstep::Roster& roster, const lockstep::Sample& before, const lockstep::Sample& now);
+
+}  // namespace rodeira::launch

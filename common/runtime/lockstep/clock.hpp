@@ -1,0 +1,78 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/core/base/result.hpp"
+#include "common/runtime/lockstep/recovery.hpp"
+#include "common/runtime/lockstep/report.hpp"
+#include "common/runtime/lockstep/roster.hpp"
+
+namespace rodeira::lockstep {
+
+// The clock only grants (law L2): through = min(slowest progress + window, what the pace allows, the last step).
+// Pure logic: reports in, a grant out; whoever holds it brings the wall time.
+class Clock {
+ public:
+  // last_step: the run ends there, inclusive; none: it runs until Stop(). first_step: where the nodes begin (a
+  // snapshot's step), 0 for a run from its start. policies: as Recovery.
+  Clock(const Roster& roster, std::optional<Step> last_step, Step first_step = 0, std::vector<Policy> policies = {});
+  // This clock takes the place of one that has died: what was granted it learns from the nodes' reports, and grants nothing
+  // new before it has heard them all.
+  void Rebuild() { rebuilding_ = true; }
+
+  // A report that does not match (unknown node, old incarnation, progress that is no activation or goes back, a phase
+  // that goes back) changes nothing and is refused with a sentence.
+  base::Status Take(const Report& report);
+
+  // Everybody is ready: the first grant may go out.
+  bool all_ready() const;
+  bool all_finished() const;
+  // Everybody but the sinks has: no sample will come any more.
+  bool all_sources_finished() const;
+  // Who has not come as far as `phase`; who failed never will.
+  std::vector<std::string> Missing(Phase phase) const;
+  // The smallest next activation of all stepped nodes.
+  Step slowest_progress() const;
+  // What may be granted whatever the pace: slowest progress + window.
+  Step window_limit() const;
+
+  // The grant that holds now; `pace_limit` is the last step that the pace allows.
+  Grant Update(Step pace_limit);
+  const Grant& grant() const { return grant_; }
+  // The last granted step becomes the last of the run.
+  void Stop();
+  void Abort(std::string reason);
+
+  // The next activation of a node; a server has none, it is where the run is (never less than before).
+  Step reached(NodeIndex node) const;
+  // A node is lost: what its policy says. Where that is kRestart, its next life is expected already.
+  Recovery::Decision Lose(NodeIndex node);
+  // Another life of the node takes its place; nobody is granted anything new before it is ready.
+  void ExpectNextLife(NodeIndex node);
+  std::uint32_t life(NodeIndex node) const { return node < grant_.lives.size() ? grant_.lives[node] : 0; }
+
+  // Where the nodes begin.
+  Step first_step() const { return first_step_; }
+  const Recovery& recovery() const { return recovery_; }
+  const Report& report(NodeIndex node) const { return reports_[node]; }
+  const std::vector<Report>& reports() const { return reports_; }
+  const Roster& roster() const { return roster_; }
+  // Of all nodes' chains, in the roster's order; meaningful once all are finished.
+  base::Digest RunDigest() const;
+
+ private:
+  void SetLife(NodeIndex node, std::uint32_t incarnation);
+
+  const Roster& roster_;
+  std::optional<Step> last_step_;
+  Step first_step_;
+  Recovery recovery_;
+  std::vector<Report> reports_;
+  std::vector<bool> heard_;
+  bool rebuilding_ = false;
+  Grant grant_;
+};
+
+}  // namespace rodeira::lockstep

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/runtime/lockstep/in_process.hpp"
+#include "common/runtime/lockstep/runner.hpp"
+
+// What both ways of running nodes in one process share.
+namespace rodeira::lockstep {
+
+// Services take no part in the lockstep: for the clock they are ready and finished from the start.
+void ReportServices(const Roster& roster, Clock& clock);
+// By source: who is wired to it.
+std::vector<std::vector<NodeIndex>> ConsumersOf(const Roster& roster);
+Runner::Settings RunnerSettings(const InProcessSettings& settings, NodeIndex node);
+RunOutcome OutcomeOf(const Clock& clock, const std::string& fault);
+
+}  // namespace rodeira::lockstep

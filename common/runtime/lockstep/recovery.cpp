@@ -1,0 +1,76 @@
+#include "common/runtime/lockstep/recovery.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace rodeira::lockstep {
+namespace {
+
+constexpr int kMostTimes = 4;
+
+}  // namespace
+
+Beginning BeginningOf(const Roster& roster, NodeIndex node, const Grant& grant, Step has_through) {
+  if (grant.through < 0) return {};
+  const NodeSpec& spec = roster.node(node);
+  if (spec.keeps_snapshots()) return {0, CeilTo(has_through + 1, spec.period)};
+  if (spec.is_sink()) return {0, FloorTo(std::max<Step>(grant.through - roster.window(), 0), spec.period)};
+  return {grant.resume, 0};
+}
+
+Recovery::Recovery(const Roster& roster, std::vector<Policy> policies)
+    : roster_(roster), policies_(std::move(policies)), safe_of_(roster.nodes().size(), -1), lives_(roster.nodes().size()) {
+  policies_.resize(roster.nodes().size(), Policy::kStop);
+  const bool wished = std::any_of(policies_.begin(), policies_.end(), [](Policy policy) { return policy != Policy::kStop; });
+  restarts_ = wished && std::any_of(roster.nodes().begin(), roster.nodes().end(), [](const NodeSpec& node) { return node.keeps_snapshots(); });
+  for (const NodeSpec& node : roster.nodes()) {
+    if (node.role != Role::kStepped) continue;
+    ahead_ = std::max(ahead_, node.delay);
+    if (node.snapshots) every_ = roster.source(*node.snapshots).period;
+  }
+}
+
+base::Status Recovery::CheckState(const Report& report) const {
+  if (!report.cannot_save || policies_[report.node] != Policy::kRestart) return {};
+  const std::string& name = roster_.node(report.node).name;
+  return base::WrongInput(fmt::format("node '{}' cannot save its state, so it cannot be started again; 'stop' or 'pause' was expected as nodes.{}.recovery", name, name));
+}
+
+void Recovery::Heard(const Report& report) {
+  Life& life = lives_[report.node];
+  const bool is_there = roster_.node(report.node).role == Role::kService || report.progress >= life.farthest;
+  if (report.phase >= Phase::kReady && report.phase < Phase::kFailed && is_there) life.back = true;
+  if (!roster_.node(report.node).keeps_snapshots()) return;
+  Step& own = safe_of_[report.node];
+  own = std::max(own, report.safe);
+  Step all = kNever;
+  for (NodeIndex n = 0; n < safe_of_.size(); ++n) {
+    if (roster_.node(n).keeps_snapshots()) all = std::min(all, safe_of_[n]);
+  }
+  safe_ = std::max(safe_, all);
+}
+
+Step Recovery::Newest() const { return every_ == 0 ? 0 : std::max<Step>(FloorTo(safe_ - ahead_, every_), 0); }
+
+Step Recovery::resume() const {
+  Step resume = Newest();
+  for (const Life& life : lives_) {
+    if (!life.back) resume = std::min(resume, life.resume);
+  }
+  return resume;
+}
+
+Recovery::Decision Recovery::Lost(NodeIndex node, Step progress) {
+  if (policies_[node] != Policy::kRestart) return {policies_[node], ""};
+  Life& life = lives_[node];
+  life.times = progress <= life.farthest ? life.times + 1 : 1;
+  if (life.times >= kMostTimes) return {Policy::kStop, fmt::format("it was lost {} times without getting beyond step {}", life.times, life.farthest)};
+  life.resume = resume();  // not beyond where an earlier life was sent to, as long as it is not back
+  life.farthest = std::max(life.farthest, progress);
+  life.back = false;
+  return {Policy::kRestart, ""};
+}
+
+}  // namespace rodeira::lockstep

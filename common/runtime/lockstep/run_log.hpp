@@ -1,0 +1,123 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/runtime/lockstep/step.hpp"
+
+// What happens around a run on the wall's clock: when which step was granted, what the operator did, what failed. No part
+// of the lockstep: nothing of it is in a digest, and two runs with different logs are identical.
+namespace rodeira::lockstep {
+
+// One grant: all steps behind `after`, through `through`. At a pace step k was due (through - k) base steps, divided by the
+// pace, before through was: before monotonic_ns - late_ns. Steps that no entry covers were granted by a clock that died before it
+// could say when.
+struct WallTime {
+  Step after = -1;                // the newest granted step before
+  Step through = 0;
+  std::int64_t utc_ns = 0;        // since 1970
+  std::int64_t monotonic_ns = 0;  // since the first grant
+  std::int64_t late_ns = 0;       // of `through`; 0 at pace 0
+  double pace = 0.0;              // as Pacer
+  bool paused = false;            // a single step of a paused run
+
+  bool operator==(const WallTime&) const = default;
+};
+
+enum class RemarkKind { kStart, kEnd, kMark, kPause, kResume, kStep, kPace, kStop, kFault };
+std::string_view RemarkName(RemarkKind kind);  // "start", "end", "mark" …
+
+struct Remark {
+  Step step = -1;  // the newest granted one
+  std::int64_t utc_ns = 0;
+  std::int64_t monotonic_ns = 0;
+  double pace = 0.0;  // from then on
+  RemarkKind kind = RemarkKind::kMark;
+  std::string text;
+  std::uint32_t number = 0;  // counts from 1
+
+  bool operator==(const Remark&) const = default;
+};
+
+struct LogBatch {
+  std::uint64_t number = 0;  // counts from 0
+  std::vector<WallTime> walls;
+  std::vector<Remark> remarks;
+  bool last = false;  // nothing follows
+
+  bool operator==(const LogBatch&) const = default;
+};
+
+// The clock's side: gathers entries into batches.
+class RunLog {
+ public:
+  // Another life of a clock counts in numbers of its own, so that nobody takes its batches for earlier ones.
+  static constexpr std::uint64_t kBatchesOfALife = std::uint64_t{1} << 24;
+  static constexpr std::uint32_t kRemarksOfALife = 100'000;
+  explicit RunLog(std::uint32_t life = 0) : remarks_(life * kRemarksOfALife) { next_.number = life * kBatchesOfALife; }
+
+  static constexpr std::int64_t kBatch_ns = 50'000'000;  // wall times wait for company, remarks do not
+  static constexpr std::size_t kBatchEntries = 256;
+
+  void Add(const WallTime& wall) { next_.walls.push_back(wall); }
+  // Numbers it; the number comes back.
+  std::uint32_t Add(Remark remark);
+  // Nothing follows; the next Take() says so.
+  void Close() { next_.last = true; }
+  bool closed() const { return next_.last || closed_; }
+  // What is due at wall time `now_ns`; nothing where nothing is, and after the last.
+  std::optional<LogBatch> Take(std::int64_t now_ns);
+
+ private:
+  LogBatch next_;
+  std::int64_t taken_ns_ = 0;
+  std::uint32_t remarks_ = 0;
+  bool closed_ = false;
+};
+
+// Batches that were said, for who missed some: the newest kMost of them. For one thread.
+class KeptLog {
+ public:
+  static constexpr std::size_t kMost = 2000;
+  void Add(const LogBatch& batch);
+  // Those from `number` on, at most 64 at a time: who lacks more asks again.
+  std::vector<LogBatch> From(std::uint64_t number) const;
+
+ private:
+  std::deque<LogBatch> batches_;
+};
+
+// The recorder's side: puts batches back into their order, whatever was lost, doubled or overtaken; what an earlier life of the
+// clock had not said is lost with it. Any thread may call.
+class LogInbox {
+ public:
+  void Deliver(LogBatch batch);
+  // Earlier ones are there already, in a file.
+  void BeginAt(std::uint64_t number);
+  // Whole and in order; never waits.
+  std::vector<LogBatch> Take();
+  // The number of the oldest batch that is missing although a later one is here.
+  std::optional<std::uint64_t> Gap() const;
+  // The number of the next batch that is not here.
+  std::uint64_t next() const;
+  // Waits until the last batch and all before it are here; false after `limit`.
+  bool AwaitEnd(std::chrono::milliseconds limit);
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable woken_;
+  std::map<std::uint64_t, LogBatch> early_;
+  std::vector<LogBatch> ready_;
+  std::uint64_t next_ = 0;
+  bool over_ = false;
+};
+
+}  // namespace rodeira::lockstep

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "common/runtime/lockstep/bus.hpp"
+#include "common/runtime/lockstep/intervals.hpp"
+#include "common/runtime/lockstep/mailbox.hpp"
+#include "common/runtime/lockstep/node.hpp"
+#include "common/runtime/lockstep/report.hpp"
+
+namespace rodeira::lockstep {
+
+// The only loop of the system (law L3): first samples, ready, one activation after the other, finish.
+class Runner {
+ public:
+  struct Settings {
+    std::uint32_t incarnation = 0;
+    Step snapshot_every = 0;             // 0: none; otherwise one at each multiple, the node's state handed to Bus::Keep
+    std::optional<Snapshot> resume;      // begin here instead of at step 0; one without a state: the node stands there already
+    Step sink_from = 0;                  // a sink: the first activation at or after this step, instead of a snapshot
+    std::chrono::milliseconds patience{2};       // how long a sample may be missing before it is asked for again …
+    std::chrono::milliseconds most_patience{8};  // … doubled after each question up to this
+  };
+  enum class Outcome { kWorking, kBlocked, kFinished, kAborted, kFailed };
+
+  Runner(const Roster& roster, NodeIndex index, Node& node, Bus& bus, Mailbox& mailbox, Settings settings);
+
+  // Runs to the end on the calling thread.
+  Outcome Run();
+  // One piece of work: starts, or does one activation, or finishes; waits at most `limit` for what it needs (0: not at
+  // all) and says kBlocked where that was not enough.
+  Outcome Advance(std::chrono::milliseconds limit);
+  // After kBlocked: asks the others to say again what is missing and could be there. Called where the waiting is long.
+  void AskAgain();
+
+  // Where the node stands, for heartbeats: any thread may ask at any time.
+  Report report() const;
+  // The node waits for a server's answer (SUELO): not its own time. Called by whoever asks, on the runner's thread.
+  void BeginServerCall();
+  void EndServerCall();
+
+ private:
+  enum class Stage { kBegin, kInputs, kStepping, kEnding, kOver };
+
+  Outcome Begin();
+  Outcome AwaitInputs(std::chrono::milliseconds limit);
+  Outcome Activate(std::chrono::milliseconds limit);
+  Outcome End(std::chrono::milliseconds limit);
+  Outcome Fail(const base::Error& error);
+  Outcome FinishAborted();
+  base::Status PublishAll(std::vector<Sample> samples);
+  Snapshot SnapshotAt(Step step) const;
+  base::Status PublishSnapshot(const Snapshot& snapshot);
+  base::Status TakeSnapshotIfDue(Step step);
+  void ForgetOwnSamples(Step step);
+  base::Digest StateDigest();
+  void Note(Phase phase, Waiting waiting);
+  void NoteWaiting(Step step);
+  void NoteFinished();
+  void TellReport();
+
+  const Roster& roster_;
+  const NodeIndex index_;
+  const NodeSpec& spec_;
+  Node& node_;
+  Bus& bus_;
+  Mailbox& mailbox_;
+  Settings settings_;
+  Outbox outbox_;
+  Stage stage_ = Stage::kBegin;
+  Step begun_at_ = 0;       // 0, or the step of the snapshot that was resumed
+  Step next_ = 0;           // the next activation
+  Step told_ = -1;          // the progress last told
+  std::deque<Sample> own_;  // own samples that a snapshot or a late peer may still need
+  base::StateWriter state_without_names_{base::StateWriter::Names::kWithout};
+
+  mutable std::mutex report_mutex_;
+  Report report_;
+  Intervals intervals_;
+  std::optional<std::chrono::steady_clock::time_point> begun_step_;  // the last activation's
+  std::chrono::steady_clock::time_point since_;
+};
+
+}  // namespace rodeira::lockstep

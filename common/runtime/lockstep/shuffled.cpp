@@ -1,0 +1,249 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+#include "common/core/base/random.hpp"
+#include "common/runtime/lockstep/archive.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
+#include "common/runtime/lockstep/in_process_parts.hpp"
+#include "common/runtime/lockstep/kept_samples.hpp"
+#include "common/runtime/lockstep/mailbox.hpp"
+#include "common/runtime/lockstep/parcels.hpp"
+
+namespace rodeira::lockstep {
+namespace {
+
+constexpr std::size_t kMostParcel_bytes = 300;  // a few samples of a test's: some parcels go before they are due
+
+class ShuffledRun {
+ public:
+  ShuffledRun(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings, std::uint64_t seed)
+      : roster_(roster), settings_(settings), seed_(seed), clock_(roster, settings.last_step, settings.first_step, settings.deaths.policies), consumers_(ConsumersOf(roster)) {
+    ReportServices(roster, clock_);
+    for (NodeIndex n = 0; n < nodes.size(); ++n) {
+      mailboxes_.push_back(std::make_unique<Mailbox>(roster, n));
+      buses_.push_back(std::make_unique<ShuffleBus>(*this, n));
+      runners_.push_back(nodes[n] == nullptr ? nullptr
+                                             : std::make_unique<Runner>(roster, n, *nodes[n], *buses_[n], *mailboxes_[n], RunnerSettings(settings, n)));
+      over_.push_back(nodes[n] == nullptr);
+    }
+  }
+
+  RunOutcome Run() {
+    std::size_t idle = 0;
+    const std::size_t patience = 5000 * runners_.size();
+    while (fault_.empty() && !AllOver()) {
+      if (settings_.deaths.share > 0.0 && base::RandomUniform({seed_, draws_++}) < settings_.deaths.share) KillOne();
+      const bool deliver = !in_flight_.empty() && Draw(3) != 0;
+      const bool moved = deliver ? DeliverOne() : AdvanceOne();
+      // A node that waits asks at each turn: without a bound the answers would bury the one message that it waits for.
+      while (fault_.empty() && in_flight_.size() > 64) DeliverOne();
+      idle = moved ? 0 : idle + 1;
+      if (idle > patience) {
+        fault_ = "deadlock: " + Standing();
+      }
+    }
+    RunOutcome outcome = OutcomeOf(clock_, fault_);
+    outcome.deaths = deaths_;
+    return outcome;
+  }
+
+ private:
+  struct Message {
+    enum class Kind { kSample, kParcel, kGrant, kReport, kAsk } kind;
+    NodeIndex to = 0;
+    Sample sample{};
+    std::vector<Sample> parcel{};
+    Grant grant{};
+    Report report{};
+    Gap gap{};
+  };
+  struct ShuffleBus final : Bus {
+    ShuffleBus(ShuffledRun& owner, NodeIndex n) : run(owner), node(n), kept(run.roster_, n), parcels(run.roster_, n, kMostParcel_bytes) {
+      if (run.settings_.deaths.share > 0.0 && run.roster_.node(n).keeps_snapshots()) archive.emplace(run.roster_);
+    }
+    base::Status Publish(const Sample& sample) override {
+      if (run.settings_.on_sample) run.settings_.on_sample(sample);
+      kept.Add(sample);
+      const Grant grant = run.mailboxes_[node]->grant();
+      for (auto& parcel : parcels.Add(sample, grant.final ? grant.through : kNever)) {
+        run.in_flight_.push_back({.kind = Message::Kind::kParcel, .to = parcel.to, .parcel = std::move(parcel.samples)});
+      }
+      Say(sample, [&](NodeIndex n) { return !GetsParcels(run.roster_, sample.source(), n); });
+      return {};
+    }
+    template <class Whom>
+    void Say(const Sample& sample, Whom whom) {
+      for (const NodeIndex n : run.consumers_[sample.source()]) {
+        if (whom(n)) run.in_flight_.push_back({.kind = Message::Kind::kSample, .to = n, .sample = sample});
+      }
+    }
+    void Ask(const Gap& gap) override {
+      for (NodeIndex n = 0; n < run.buses_.size(); ++n) {
+        const bool answers = n == run.roster_.source(gap.source).node || run.buses_[n]->archive;
+        if (answers) run.in_flight_.push_back({.kind = Message::Kind::kAsk, .to = n, .gap = gap});
+      }
+    }
+    void Tell(const Report& report) override {
+      Report said = report;
+      const Grant grant = run.mailboxes_[node]->grant();
+      said.granted = grant.through;
+      said.granted_final = grant.final;
+      if (archive) said.safe = run.settings_.deaths.safe(node);
+      run.in_flight_.push_back({.kind = Message::Kind::kReport, .report = said});
+    }
+    void Answer(const Gap& gap) {
+      const auto anybody = [](NodeIndex) { return true; };
+      for (const Sample& sample : kept.From(gap)) Say(sample, anybody);
+      if (!archive) return;
+      for (const Sample& sample : archive->From(gap)) Say(sample, anybody);
+    }
+    void Keep(const Snapshot& snapshot) override {
+      if (run.settings_.on_snapshot) run.settings_.on_snapshot(snapshot);
+    }
+    ShuffledRun& run;
+    NodeIndex node;
+    KeptSamples kept;
+    Parcels parcels;
+    std::optional<Archive> archive;
+  };
+
+  std::uint64_t Draw(std::uint64_t below) { return base::RandomBits({seed_, draws_++}) % below; }
+
+  // Nobody has moved by that: who waits in vain may ask and be answered for ever.
+  bool DeliverOne() {
+    const std::size_t at = Draw(in_flight_.size());
+    const Message message = in_flight_[at];
+    if (Draw(8) != 0) {  // otherwise it stays in flight and arrives once more
+      in_flight_[at] = in_flight_.back();
+      in_flight_.pop_back();
+    }
+    const bool may_be_lost = message.kind == Message::Kind::kSample || message.kind == Message::Kind::kParcel || message.kind == Message::Kind::kAsk;
+    if (may_be_lost && base::RandomUniform({seed_, draws_++}) < settings_.loss) return false;
+    switch (message.kind) {
+      case Message::Kind::kSample: Deliver(message.to, message.sample); break;
+      case Message::Kind::kParcel:
+        for (const Sample& sample : message.parcel) Deliver(message.to, sample);
+        break;
+      case Message::Kind::kGrant:
+        mailboxes_[message.to]->DeliverGrant(message.grant);
+        buses_[message.to]->kept.Granted(message.grant);
+        if (auto& archive = buses_[message.to]->archive) archive->Forget(message.grant.resume);
+        break;
+      case Message::Kind::kAsk: buses_[message.to]->Answer(message.gap); break;
+      case Message::Kind::kReport: Hear(message.report); break;
+    }
+    return false;
+  }
+  void Deliver(NodeIndex to, const Sample& sample) {
+    if (runners_[to] == nullptr) return;  // nobody lives there
+    if (auto& archive = buses_[to]->archive) {
+      if (auto status = archive->Add(sample); !status) fault_ = status.error().Text();
+    }
+    if (auto status = mailboxes_[to]->Deliver(sample); !status) fault_ = status.error().Text();
+  }
+  void Hear(const Report& report) {
+    if (report.incarnation < clock_.life(report.node)) return;
+    if (report.phase == Phase::kFailed) fault_ = fmt::format("node '{}' failed: {}", roster_.node(report.node).name, report.message);
+    if (auto status = clock_.Take(report); !status) fault_ = status.error().Text();
+    const Step before = clock_.grant().through;
+    const Grant grant = clock_.Update(clock_.window_limit());
+    if (grant.through == before) return;
+    for (NodeIndex n = 0; n < mailboxes_.size(); ++n) in_flight_.push_back({.kind = Message::Kind::kGrant, .to = n, .grant = grant});
+  }
+  // With its mailbox, what it kept, and what it has said to a clock that knows better.
+  void KillOne() {
+    const auto n = static_cast<NodeIndex>(Draw(runners_.size()));
+    if (runners_[n] == nullptr || over_[n] || clock_.report(n).phase == Phase::kFinished) return;
+    const auto decision = clock_.Lose(n);
+    if (decision.policy != Policy::kRestart) {
+      if (!decision.why.empty()) fault_ = decision.why;
+      return;
+    }
+    ++deaths_;
+    runners_[n].reset();
+    buses_[n] = std::make_unique<ShuffleBus>(*this, n);
+    mailboxes_[n] = std::make_unique<Mailbox>(roster_, n);
+  }
+  // Once it finds what it begins with: its recorder may have died as well.
+  bool Raise(NodeIndex n) {
+    const Grant grant = clock_.grant();
+    Runner::Settings settings;
+    settings.incarnation = clock_.life(n);
+    const NodeSpec& spec = roster_.node(n);
+    if (!spec.keeps_snapshots()) {
+      const Beginning beginning = BeginningOf(roster_, n, grant, -1);
+      settings.sink_from = beginning.sink_from;
+      if (beginning.snapshot > 0 && !FindSnapshot({*spec.snapshots, beginning.snapshot}, settings)) return false;
+    }
+    const auto remade = settings_.deaths.remake(n);
+    if (spec.keeps_snapshots()) settings.sink_from = BeginningOf(roster_, n, grant, remade.has_through).sink_from;
+    for (const Sample& sample : remade.tail) RODEIRA_ASSERT(buses_[n]->archive->Add(sample).ok());
+    mailboxes_[n]->StartAt(settings.resume ? settings.resume->at : settings.sink_from);
+    mailboxes_[n]->DeliverGrant(grant);
+    runners_[n] = std::make_unique<Runner>(roster_, n, *remade.node, *buses_[n], *mailboxes_[n], settings);
+    return true;
+  }
+  bool FindSnapshot(const Gap& gap, Runner::Settings& settings) const {
+    for (const auto& bus : buses_) {
+      if (!bus->archive) continue;
+      const auto found = bus->archive->From(gap);
+      if (found.empty() || found.front().valid() != gap.from) continue;
+      settings.resume = Snapshot::FromSample(*found.front().payload).value();
+      return true;
+    }
+    return false;
+  }
+
+  bool AdvanceOne() {
+    const std::size_t n = Draw(runners_.size());
+    if (over_[n]) return false;
+    if (runners_[n] == nullptr) return Raise(static_cast<NodeIndex>(n));
+    const Runner::Outcome outcome = runners_[n]->Advance(std::chrono::milliseconds(0));
+    if (outcome == Runner::Outcome::kBlocked) {
+      runners_[n]->AskAgain();
+      return false;
+    }
+    over_[n] = outcome != Runner::Outcome::kWorking;
+    return true;
+  }
+  bool AllOver() const {
+    for (const bool over : over_) {
+      if (!over) return false;
+    }
+    return in_flight_.empty();
+  }
+  std::string Standing() const {
+    std::string text;
+    for (NodeIndex n = 0; n < runners_.size(); ++n) {
+      if (runners_[n] == nullptr) continue;  // a service, or dead
+      const Report report = runners_[n]->report();
+      text += fmt::format("{} at {} ({}); ", roster_.node(n).name, report.progress, PhaseName(report.phase));
+    }
+    return text + fmt::format("granted {}", clock_.grant().through);
+  }
+
+  const Roster& roster_;
+  const InProcessSettings& settings_;
+  std::uint64_t seed_;
+  std::uint64_t draws_ = 0;
+  int deaths_ = 0;
+  Clock clock_;
+  std::vector<std::vector<NodeIndex>> consumers_;
+  std::vector<std::unique_ptr<Mailbox>> mailboxes_;
+  std::vector<std::unique_ptr<ShuffleBus>> buses_;
+  std::vector<std::unique_ptr<Runner>> runners_;
+  std::vector<bool> over_;
+  std::vector<Message> in_flight_;
+  std::string fault_;
+};
+
+}  // namespace
+
+RunOutcome RunShuffled(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings, std::uint64_t seed) {
+  RODEIRA_ASSERT(nodes.size() == roster.nodes().size());
+  return ShuffledRun(roster, nodes, settings, seed).Run();
+}
+
+}  // namespace rodeira::lockstep

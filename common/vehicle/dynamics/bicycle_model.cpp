@@ -1,0 +1,36 @@
+#include "common/vehicle/dynamics/bicycle_model.hpp"
+
+#include <cmath>
+
+#include "common/core/base/assert.hpp"
+#include "common/vehicle/dynamics/enveloping.hpp"
+
+namespace rodeira::vehicle {
+namespace {
+
+constexpr double kMostStep_s = 0.1;
+
+}  // namespace
+
+void BicycleModel::AskGround(terrain::Ground& ground, double steering_wheel_rad) {
+  WheelPlaces places;
+  std::array<WheelGround*, kWheels> wheels{};
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const double steer = chassis_.SteerAngle(i, steering_wheel_rad);
+    places.hubs_W[i] = car_.HubAtRest_W(chassis_, i);
+    places.axles_W[i] = car_.body.q_WG * Eigen::Vector3d(-std::sin(steer), std::cos(steer), 0.0);
+    wheels[i] = &car_.wheels[i];
+  }
+  vehicle::AskGround(ground, settings().wheel.enveloping, settings().wheel.radius_m, places, wheels);
+}
+
+void BicycleModel::Step(const Controls& controls, terrain::Ground& ground, double dt_s) {
+  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
+  const Controls cut = Cut(controls);
+  AskGround(ground, cut.steering_wheel_rad);
+  car_.Step(chassis_, cut, push_, dt_s, findings_);
+  push_ = {};
+  Publish(cut, dt_s);
+}
+
+}  // namespace rodeira::vehicle

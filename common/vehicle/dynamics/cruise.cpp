@@ -1,0 +1,30 @@
+#include "common/vehicle/dynamics/cruise.hpp"
+
+#include <cmath>
+
+namespace rodeira::vehicle {
+namespace {
+
+constexpr double kStandstill_mps = 1e-6;
+
+}  // namespace
+
+bool IsCruise(const InitialCondition& initial) {
+  return std::fabs(initial.speed_mps) >= kStandstill_mps && initial.lateral_speed_mps == 0.0 && initial.yaw_rate_radps == 0.0;
+}
+
+CruiseForces PushAlong(double total_N, const std::array<double, kWheels>& loads_N, const WheelSettings& wheel, bool front_driven, double speed_mps) {
+  CruiseForces forces;
+  const double resistance = std::copysign(wheel.rolling_resistance, speed_mps);
+  double shafts_N = total_N;  // over the rolling radius
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    forces.longitudinal_N[i] = -resistance * loads_N[i];
+    shafts_N -= forces.longitudinal_N[i];
+  }
+  const std::size_t driven = front_driven ? kFrontLeft : kRearLeft;
+  for (std::size_t i = driven; i < driven + 2; ++i) forces.longitudinal_N[i] += 0.5 * shafts_N;
+  forces.at_wheel_Nm = 0.5 * shafts_N * wheel.rolling_radius_m;
+  return forces;
+}
+
+}  // namespace rodeira::vehicle

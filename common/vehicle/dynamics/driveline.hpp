@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+
+#include "common/core/base/state.hpp"
+#include "common/vehicle/dynamics/engine.hpp"
+
+namespace rodeira::vehicle {
+
+// A friction clutch: what it can pass falls linearly with the pedal.
+struct ClutchSettings {
+  double capacity_Nm = 200.0;
+};
+double ClutchCapacity(const ClutchSettings& clutch, double pedal);  // pedal 0 engaged … 1 disengaged
+
+// A differential whose clutch plates resist a difference of its shafts' speeds with a torque of at most this much between the two
+// shafts: preload + locking × |sum of both shafts|. All 0: open. A locking value S is |T_left - T_right| / (T_left + T_right)
+// while one wheel slips, as makers state it: without preload the better wheel gets up to (1 + S)/(1 - S) of the worse one's torque.
+struct DifferentialSettings {
+  double preload_Nm = 0.0;
+  double locking_drive = 0.0;    // while the engine drives, 0 … 1
+  double locking_overrun = 0.0;  // while the wheels drive the engine, 0 … 1
+};
+double LockingTorque(const DifferentialSettings& differential, double sum_of_shafts_Nm);
+
+// One step's loads on engine, clutch, gears, differential and the two driven wheels.
+struct DrivelineLoads {
+  double ratio = 0.0;            // engine turns a turn of the wheels, negative in reverse, 0 in neutral
+  double clutch_capacity_Nm = 0.0;
+  double locking_torque_Nm = 0.0;   // the most that the shafts' torques differ by; 0: an open differential
+  double wheel_inertia_kgm2 = 1.0;  // each
+  std::array<double, 2> wheel_radps{};
+  std::array<double, 2> road_torque_Nm{};      // of the tyres on the wheels, positive forward
+  std::array<double, 2> friction_torque_Nm{};  // brake, rolling resistance, losses: at most this much against the rotation
+};
+
+struct DrivelineMotion {
+  double engine_radps = 0.0;
+  std::array<double, 2> wheel_radps{};
+  std::array<double, 2> friction_torque_Nm{};  // acting, either sign
+  double drive_torque_Nm = 0.0;                // of a drive shaft in the mean of both: half of ratio × clutch torque
+  double locking_torque_Nm = 0.0;              // left shaft - right shaft
+  double locking_heat_W = 0.0;                 // of the differential's plates
+  double clutch_torque_Nm = 0.0;               // from engine to gearbox, either sign
+  double clutch_slip_radps = 0.0;              // at the end of the step
+  double clutch_in_W = 0.0;                    // torque × mean speed of the engine
+  double clutch_out_W = 0.0;                   // torque × mean speed of the gearbox's input
+  double clutch_heat_W = 0.0;                  // in - out
+
+  // Of each shaft on its wheel: left, right.
+  std::array<double, 2> shaft_torque_Nm() const { return {drive_torque_Nm + 0.5 * locking_torque_Nm, drive_torque_Nm - 0.5 * locking_torque_Nm}; }
+
+  void Save(base::StateWriter& writer) const;
+  void Restore(base::StateReader& reader);
+};
+
+// Engine, clutch and driven wheels as three rigid rotors joined by dry friction, solved at the end-of-step speeds: what
+// sticks sticks exactly, brakes never turn a wheel back, a locked clutch or differential does not slip. Over the step the work
+// balances to rounding: change of kinetic energy = engine + road - friction - heat of clutch and differential, torques × mean speeds.
+DrivelineMotion StepDriveline(const EngineSettings& settings, const Engine& engine, const DrivelineLoads& loads, double dt_s);
+
+// A wheel by itself, without a drive shaft. Returns its new speed; `friction_Nm` becomes what acted.
+double StepFreeWheel(double wheel_radps, double inertia_kgm2, double road_torque_Nm, double& friction_Nm, double dt_s);
+
+}  // namespace rodeira::vehicle

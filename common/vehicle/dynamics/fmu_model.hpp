@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "common/vehicle/fmi/unit.hpp"
+#include "common/vehicle/dynamics/fmu_variables.hpp"
+#include "common/vehicle/dynamics/vehicle_model.hpp"
+#include "common/vehicle/dynamics/wheel.hpp"
+#include "common/vehicle/dynamics/wheel_ground.hpp"
+
+namespace rodeira::vehicle {
+
+// All that a vehicle file of model `fmu` says.
+struct FmuSettings {
+  std::filesystem::path fmu;
+  std::map<std::string, std::string> names;    // our names of variables to the FMU's own
+  std::map<std::string, double> parameters;    // of the FMU, by its names: set before the first step
+  Enveloping enveloping = Enveloping::kNone;   // of the ground that it is told
+  VehicleDimensions dimensions;
+};
+FmuSettings ReadFmu(const config::Map& root);
+
+// A laboratory's own vehicle: an FMU for co-simulation (FMI 2.0). Its inputs are the driver's controls and the ground's plane under each
+// wheel, its outputs the car's motion; how it stands at the beginning is its own business. An FMU that fails stops where it is, and
+// problem() says why.
+class FmuModel final : public VehicleModel {
+ public:
+  // Nothing but Build may be called before Build has succeeded.
+  explicit FmuModel(const FmuSettings& settings) : settings_(settings) {}
+  // Wrong input where the file is no FMU that drives here.
+  base::Status Build();
+
+  base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) override;
+  void Step(const Controls& controls, terrain::Ground& ground, double dt_s) override;
+  base::Status problem() const override { return problem_; }
+  void SetPush(const Wrench& push) override { push_ = push; }
+  // It has all inputs push_….
+  bool can_be_pushed() const override { return variables_.takes_pushes(); }
+  const VehicleState& state() const override { return state_; }
+  const VehicleDimensions& dimensions() const override { return settings_.dimensions; }
+  void Save(base::StateWriter& writer) const override;
+  void Restore(base::StateReader& reader) override;
+  bool can_save() const override { return unit_->description().can_get_state && unit_->description().can_serialize_state; }
+
+ private:
+  Eigen::Vector3d HubAtRest_B(std::size_t wheel) const;
+  void AskGround(terrain::Ground& ground);
+  base::Status Set(const fmi::Variable* variable, double value);
+  base::Status SetGround();
+  base::Status SetPushInputs();
+  base::Status SetControls(const Controls& controls);
+  base::Status SetStart(const InitialCondition& initial);
+  base::Status Begin(const InitialCondition& initial, terrain::Ground& ground);
+  base::Result<double> Get(const fmi::Variable* variable, double otherwise = 0.0);
+  base::Status Publish(const Controls& controls, double dt_s);
+  base::Status Advance(const Controls& controls, double dt_s);
+
+  FmuSettings settings_;
+  std::unique_ptr<fmi::Unit> unit_;
+  FmuVariables variables_;
+  std::unique_ptr<fmi::Instance> instance_;  // dies before the unit
+  double time_s_ = 0.0;
+  std::array<WheelGround, kWheels> wheels_;
+  Wrench push_;  // of the next step
+  VehicleState state_;
+  base::Status problem_;
+};
+
+}  // namespace rodeira::vehicle

@@ -1,0 +1,229 @@
+#include "common/vehicle/dynamics/multibody_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/base/assert.hpp"
+#include "common/core/geometry/angle.hpp"
+#include "common/vehicle/dynamics/enveloping.hpp"
+
+namespace rodeira::vehicle {
+namespace {
+
+constexpr double kMostStep_s = 0.1;
+constexpr double kBottom = 0.5;  // share of the radius that a tyre can be pressed in
+constexpr int kMostHalvings = 3;
+
+TyreMotion Halfway(const TyreMotion& a, const TyreMotion& b) {
+  return {0.5 * (a.vx_mps + b.vx_mps), 0.5 * (a.vsx_mps + b.vsx_mps), 0.5 * (a.vsy_mps + b.vsy_mps), 0.5 * (a.camber_rad + b.camber_rad)};
+}
+
+}  // namespace
+
+base::Status MultibodyModel::Build() {
+  multibody::Drawing drawing = settings_.mechanism;
+  const multibody::Frame& chassis = drawing.bodies[static_cast<std::size_t>(settings_.chassis)].frame;
+  origin_ = chassis.PointAt(Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const MultibodyWheelSettings& hung = settings_.wheels[i];
+    WheelLoad::Settings load;
+    load.carrier = drawing.bodies[static_cast<std::size_t>(hung.carrier)].frame;
+    load.centre = hung.centre;
+    load.axle = hung.axle;
+    load.radius_m = settings_.wheel.radius_m;
+    load.vertical_Npm = settings_.wheel.vertical_Npm;
+    load.damping_Nspm = settings_.tyre_damping_Nspm;
+    load.bottom_m = kBottom * settings_.wheel.radius_m;
+    load.spin_inertia_kgm2 = settings_.wheel.inertia_kgm2;
+    wheels_[i].load = std::make_shared<WheelLoad>(load);
+    drawing.loads.push_back({"wheel", wheels_[i].load});
+  }
+  chassis_load_ = std::make_shared<ChassisLoad>(chassis, chassis.PointAt(settings_.drag_point_m),
+                                                0.5 * settings_.air_density_kgpm3 * settings_.drag_area_m2);
+  column_load_ =
+      std::make_shared<ColumnLoad>(settings_.steering.angle, settings_.steering.column_Nmprad, settings_.steering.column_Nmsprad);
+  body_load_ = std::make_shared<BodyLoad>(chassis, CollisionSettings{});
+  drawing.loads.push_back({"chassis", chassis_load_});
+  drawing.loads.push_back({"body", body_load_});
+  drawing.loads.push_back({"column", column_load_});
+  auto system = multibody::System::Make(drawing);
+  if (!system) return system.error();
+  system_ = std::move(system).value();
+  ahead_q_.assign(system_->q().size(), 0.0);
+  ahead_qd_ = ahead_q_;
+  if (auto status = system_->Start(); !status) return status;
+  // Where the car stands level on z = 0 is the published frame.
+  terrain::PlaneGround level;
+  if (auto status = Initialise({}, level); !status) return status;
+  const Eigen::Isometry3d X_WC = X_WB();  // X_CB is the identity as yet
+  X_CB_ = X_WC.inverse();
+  body_load_->SetBody(X_CB_, settings_.dimensions);
+  for (std::size_t i = 0; i < kWheels; ++i) hub_rest_B_[i] = Hub_W(i);
+  return Initialise({}, level);
+}
+
+Eigen::Vector3d MultibodyModel::Hub_W(std::size_t wheel) const { return system_->motion().At(settings_.wheels[wheel].centre); }
+
+Eigen::Isometry3d MultibodyModel::X_WB() const {
+  Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+  X_WC.linear() = system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame.Rotation(system_->q().data());
+  X_WC.translation() = multibody::Evaluate(origin_, system_->q().data());
+  return X_WC * X_CB_;
+}
+
+Eigen::Vector3d MultibodyModel::Forward_W() const {
+  return multibody::Evaluate(system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame.axes[0], system_->q().data());
+}
+
+// ½ Σ e × ė.
+Eigen::Vector3d MultibodyModel::Turning_W(const multibody::Frame& frame, const multibody::Motion& motion) const {
+  Eigen::Vector3d turning = Eigen::Vector3d::Zero();
+  for (const multibody::Form& axis : frame.axes) turning += 0.5 * multibody::Evaluate(axis, motion.q).cross(multibody::Evaluate(axis, motion.qd));
+  return turning;
+}
+
+void MultibodyModel::GiveGround(std::size_t wheel) {
+  wheels_[wheel].load->SetPlane(wheels_[wheel].plane_W, wheels_[wheel].normal_W);
+}
+
+void MultibodyModel::AskGround(terrain::Ground& ground) {
+  WheelPlaces places;
+  std::array<WheelGround*, kWheels> wheels{};
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    places.hubs_W[i] = Hub_W(i);
+    places.axles_W[i] = system_->motion().At(settings_.wheels[i].axle);
+    wheels[i] = &wheels_[i];
+  }
+  vehicle::AskGround(ground, settings_.wheel.enveloping, settings_.wheel.radius_m, places, wheels);
+}
+
+void MultibodyModel::Step(const Controls& controls, terrain::Ground& ground, double dt_s) {
+  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
+  const Controls cut = Cut(controls);
+  AskGround(ground);
+  const Plane under = PlaneUnder({&wheels_[0], &wheels_[1], &wheels_[2], &wheels_[3]});
+  body_load_->SetGround(under.point_W, under.normal_W);
+  body_load_->SetPush(push_);
+  const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / settings_.longest_substep_s - 1e-6)));
+  for (int i = 0; i < substeps; ++i) Substep(cut, dt_s / substeps);
+  push_ = {};
+  Publish(cut, dt_s);
+}
+
+MultibodyModel::Contacts MultibodyModel::FindContacts(const multibody::Motion& motion) const {
+  Contacts contacts;
+  for (std::size_t i = 0; i < kWheels; ++i) contacts[i] = wheels_[i].load->ContactAt(motion);
+  return contacts;
+}
+
+// Sideways the contact moves with the carrier (camber and steer rates count); along, the hub's speed and the spin do.
+TyreMotion MultibodyModel::MotionOf(std::size_t wheel, const multibody::Motion& motion, const WheelLoad::Contact& contact) const {
+  const MultibodyWheelSettings& hung = settings_.wheels[wheel];
+  const Eigen::Vector3d hub_v = motion.RateOf(hung.centre);
+  const Eigen::Vector3d turning = Turning_W(system_->drawing().bodies[static_cast<std::size_t>(hung.carrier)].frame, motion);
+  const Eigen::Vector3d v = hub_v + turning.cross(contact.point_W - motion.At(hung.centre));
+  TyreMotion rolling;
+  rolling.vx_mps = hub_v.dot(contact.along_W);
+  rolling.vsx_mps = rolling.vx_mps - wheels_[wheel].spin_radps * settings_.wheel.rolling_radius_m;
+  rolling.vsy_mps = v.dot(contact.across_W);
+  rolling.camber_rad = contact.camber_rad;
+  return rolling;
+}
+
+MultibodyModel::Rolling MultibodyModel::FindRolling(const multibody::Motion& motion, const Contacts& contacts) const {
+  Rolling rolling;
+  for (std::size_t i = 0; i < kWheels; ++i) rolling[i] = MotionOf(i, motion, contacts[i]);
+  return rolling;
+}
+
+MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls, const std::array<double, kWheels>& loads_N,
+                                                        const std::array<TyreForces, kWheels>& forces, double dt_s) {
+  WheelTorques torques;
+  const double radius = settings_.wheel.rolling_radius_m;
+  std::array<double, kWheels> road{};
+  std::array<double, kWheels> friction{};
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    road[i] = -radius * forces[i].longitudinal_N;
+    torques.brake_Nm[i] = BrakeTorque(settings_.brakes, i, controls.brake, controls.handbrake);
+    friction[i] = torques.brake_Nm[i] + settings_.wheel.rolling_resistance * loads_N[i] * radius;
+  }
+  const std::size_t driven = settings_.front_driven ? kFrontLeft : kRearLeft;
+  const std::size_t free = settings_.front_driven ? kRearLeft : kFrontLeft;
+  PowertrainInput input;
+  input.wheel_inertia_kgm2 = settings_.wheel.inertia_kgm2;
+  input.speed_mps = multibody::Evaluate(origin_, system_->qd().data()).dot(Forward_W());
+  input.inertia_torque_Nm = settings_.mass_kg * radius * forward_mps2_;
+  for (std::size_t i = 0; i < 2; ++i) {
+    input.wheel_radps[i] = wheels_[driven + i].spin_radps;
+    input.road_torque_Nm[i] = road[driven + i];
+    input.friction_torque_Nm[i] = friction[driven + i];
+  }
+  const DrivelineMotion& motion = powertrain_.Step(settings_.powertrain, controls, input, dt_s);
+  for (std::size_t i = 0; i < 2; ++i) {
+    wheels_[driven + i].spin_radps = motion.wheel_radps[i];
+    torques.drive_Nm[driven + i] = motion.shaft_torque_Nm()[i];
+    torques.friction_Nm[driven + i] = motion.friction_torque_Nm[i];
+    Wheel& rolling = wheels_[free + i];
+    torques.friction_Nm[free + i] = friction[free + i];
+    rolling.spin_radps =
+        StepFreeWheel(rolling.spin_radps, settings_.wheel.inertia_kgm2, road[free + i], torques.friction_Nm[free + i], dt_s);
+  }
+  // The brake's share of the friction that acted: the rest is rolling resistance and gears.
+  for (std::size_t i = 0; i < kWheels; ++i) torques.friction_Nm[i] *= friction[i] > 0.0 ? torques.brake_Nm[i] / friction[i] : 0.0;
+  return torques;
+}
+
+// The wheels turn under the forces of the step's middle; the mechanism, whose rule takes the mean of both ends, gets those of its end. Both are
+// found from where the present accelerations lead, so that all of it is of second order.
+void MultibodyModel::Substep(const Controls& controls, double dt_s) {
+  for (std::size_t i = 0; i < kWheels; ++i) GiveGround(i);
+  system_->Foresee(dt_s, ahead_q_, ahead_qd_);
+  const multibody::Motion ahead{ahead_q_.data(), ahead_qd_.data(), system_->time_s() + dt_s};
+  const Contacts before = FindContacts(system_->motion()), foreseen = FindContacts(ahead);
+  const Rolling began = FindRolling(system_->motion(), before);
+  const Rolling goes_on = FindRolling(ahead, foreseen);
+  std::array<double, kWheels> loads_N{};
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    loads_N[i] = 0.5 * (before[i].load_N + foreseen[i].load_N);
+    forces_[i] = wheels_[i].tyre.ForcesAfter(tyres_[i], began[i], Halfway(began[i], goes_on[i]), loads_N[i], wheels_[i].friction, 0.5 * dt_s);
+  }
+  torques_ = TurnWheels(controls, loads_N, forces_, dt_s);
+  const Rolling ends = FindRolling(ahead, foreseen);  // with the new spins
+  for (std::size_t i = 0; i < kWheels; ++i)
+    forces_[i] = wheels_[i].tyre.ForcesAfter(tyres_[i], began[i], ends[i], foreseen[i].load_N, wheels_[i].friction, dt_s);
+  double drive_Nm = 0.0;
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    wheels_[i].load->SetStep(forces_[i].longitudinal_N, forces_[i].lateral_N, torques_.friction_Nm[i], wheels_[i].spin_radps);
+    drive_Nm += torques_.drive_Nm[i];
+  }
+  chassis_load_->SetDrive(drive_Nm);
+  const double limit = settings_.steering.limit_rad;
+  const double hands = std::clamp(controls.steering_wheel_rad, -limit, limit);
+  column_load_->SetHands(hands, 0.0);
+  hands_rad_ = hands;
+  const Eigen::Vector3d before_W = multibody::Evaluate(origin_, system_->qd().data());
+  Advance(dt_s, 0);
+  forward_mps2_ = (multibody::Evaluate(origin_, system_->qd().data()) - before_W).dot(Forward_W()) / dt_s;
+  const Contacts after = FindContacts(system_->motion());
+  const Rolling ended = FindRolling(system_->motion(), after);
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    Wheel& wheel = wheels_[i];
+    wheel.tyre.Advance(tyres_[i], began[i], ended[i], after[i].load_N, wheel.friction, dt_s);
+    wheel.spin_rad = geometry::WrapAngle(wheel.spin_rad + dt_s * wheel.spin_radps);
+  }
+}
+
+// A step that does not converge (a blow, a wall) is divided; at last the car is brought to rest where it was.
+void MultibodyModel::Advance(double dt_s, int depth) {
+  report_ = system_->Step(dt_s);
+  if (report_.converged) return;
+  system_->Undo();
+  if (depth < kMostHalvings) {
+    for (int half = 0; half < 2; ++half) Advance(0.5 * dt_s, depth + 1);
+    return;
+  }
+  std::fill(system_->qd().begin(), system_->qd().end(), 0.0);
+  (void)system_->FindAccelerations();
+}
+
+}  // namespace rodeira::vehicle

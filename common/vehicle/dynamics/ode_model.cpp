@@ -1,0 +1,168 @@
+#include "common/vehicle/dynamics/ode_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/base/assert.hpp"
+#include "common/core/geometry/angle.hpp"
+#include "common/vehicle/dynamics/enveloping.hpp"
+
+namespace rodeira::vehicle {
+namespace {
+
+constexpr double kMostStep_s = 0.1;
+constexpr double kBottom = 0.5;  // share of the radius that a tyre can be pressed in
+
+std::size_t AxleOf(std::size_t wheel) { return wheel / 2; }
+
+}  // namespace
+
+base::Status OdeModel::Build() {
+  measures_ = ChassisOf(settings_);
+  car_ = std::make_unique<OdeCar>(settings_);
+  terrain::PlaneGround level;
+  return Initialise({}, level);
+}
+
+Eigen::Vector3d OdeModel::p_WB_W() const { return chassis().p_WG_W - chassis().q_WG * measures_.p_BG_B; }
+
+double OdeModel::SteerAngle(std::size_t wheel, double steering_wheel_rad) const {
+  const SteeringSettings& steering = settings_.car.steering;
+  return AxleOf(wheel) == 0 ? std::clamp(steering_wheel_rad, -steering.limit_rad, steering.limit_rad) / steering.ratio : 0.0;
+}
+
+double OdeModel::Travel(std::size_t wheel) const {
+  const Eigen::Vector3d hub_B = chassis().q_WG.conjugate() * (now_.bodies[wheel].p_WG_W - p_WB_W());
+  return hub_B.z() - HubAtRest_B(settings_.car, wheel).z();
+}
+
+double OdeModel::TravelRate(std::size_t wheel) const {
+  const RigidBody& hub = now_.bodies[wheel];
+  return (chassis().q_WG.conjugate() * (hub.v_WG_W - chassis().VelocityAt(hub.p_WG_W))).z();
+}
+
+double OdeModel::StrutExtra(std::size_t wheel) const {
+  const SuspensionSettings& suspension = settings_.car.suspension[AxleOf(wheel)];
+  const double travel = Travel(wheel);
+  const double beyond = travel - std::clamp(travel, -suspension.rebound_m, suspension.bump_m);
+  return PreloadOf(settings_, wheel) + suspension.anti_roll_Npm * (travel - Travel(wheel ^ 1u)) + settings_.stop_Npm * beyond;
+}
+
+void OdeModel::AskGround(terrain::Ground& ground) {
+  WheelPlaces places;
+  std::array<WheelGround*, kWheels> wheels{};
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    places.hubs_W[i] = now_.bodies[i].p_WG_W;
+    places.axles_W[i] = now_.bodies[i].q_WG * Eigen::Vector3d::UnitY();
+    wheels[i] = &now_.wheels[i];
+  }
+  vehicle::AskGround(ground, settings_.car.wheel.enveloping, settings_.car.wheel.radius_m, places, wheels);
+}
+
+OdeModel::Contact OdeModel::ContactOf(std::size_t wheel) const {
+  const WheelSettings& tyre = settings_.car.wheel;
+  const Wheel& w = now_.wheels[wheel];
+  const RigidBody& hub = now_.bodies[wheel];
+  Contact contact;
+  static_cast<DiscContact&>(contact) = MeetPlane(hub.p_WG_W, hub.q_WG * Eigen::Vector3d::UnitY(), tyre.radius_m, w.plane_W, w.normal_W);
+  const double pressed = std::min(contact.deflection_m, kBottom * tyre.radius_m);
+  if (pressed > 0.0) {
+    const double closing = -hub.v_WG_W.dot(w.normal_W) / contact.lean;
+    contact.load_N = std::clamp(tyre.vertical_Npm * pressed + settings_.tyre_damping_Nspm * closing, 0.0, tyre.vertical_Npm * kBottom * tyre.radius_m);
+  }
+  return contact;
+}
+
+// Sideways the contact moves with the hub's carrier, which turns as the wheel does but for its spin.
+TyreMotion OdeModel::MotionOf(std::size_t wheel, const Contact& contact) const {
+  const RigidBody& hub = now_.bodies[wheel];
+  const Eigen::Vector3d axle = hub.q_WG * Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d turning = hub.w_WG_W() - hub.w_WG_W().dot(axle) * axle;
+  TyreMotion motion;
+  motion.vx_mps = hub.v_WG_W.dot(contact.along_W);
+  motion.vsx_mps = motion.vx_mps - now_.wheels[wheel].spin_radps * settings_.car.wheel.rolling_radius_m;
+  motion.vsy_mps = (hub.v_WG_W + turning.cross(contact.point_W - hub.p_WG_W)).dot(contact.across_W);
+  motion.camber_rad = contact.camber_rad;
+  return motion;
+}
+
+void OdeModel::Step(const Controls& controls, terrain::Ground& ground, double dt_s) {
+  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
+  const Controls cut = Cut(controls);
+  car_->Give(now_.bodies);  // what a snapshot knows, and nothing else
+  now_.bodies = car_->bodies();
+  AskGround(ground);
+  const Plane under = PlaneUnder({&now_.wheels[0], &now_.wheels[1], &now_.wheels[2], &now_.wheels[3]});
+  car_->SetGround(under.point_W, under.normal_W);
+  const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / settings_.longest_substep_s - 1e-6)));
+  for (int i = 0; i < substeps; ++i) Substep(cut, dt_s / substeps);
+  push_ = {};
+  Publish(cut, dt_s);
+}
+
+void OdeModel::Substep(const Controls& controls, double dt_s) {
+  const BicycleSettings& car = settings_.car;
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    contacts_[i] = ContactOf(i);
+    contacts_[i].forces = now_.wheels[i].tyre.Forces(tyres_[i], MotionOf(i, contacts_[i]), contacts_[i].load_N, now_.wheels[i].friction);
+  }
+  torques_ = TurnWheels(controls, contacts_, dt_s);
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const Contact& contact = contacts_[i];
+    car_->Push(i, contact.load_N * now_.wheels[i].normal_W + contact.forces.longitudinal_N * contact.along_W + contact.forces.lateral_N * contact.across_W,
+              contact.point_W);
+    car_->Strut(i, StrutExtra(i));
+    car_->TurnWheel(i, SteerAngle(i, controls.steering_wheel_rad), now_.wheels[i].spin_radps);
+  }
+  const double speed = chassis().v_WG_W.norm();
+  drag_N_ = AirDrag(car.body.air_density_kgpm3, car.body.drag_area_m2, speed);
+  if (speed > 0.0) car_->Push(OdeCar::kChassis, -drag_N_ / speed * chassis().v_WG_W, chassis().p_WG_W);
+  if (push_.any()) {
+    car_->Push(OdeCar::kChassis, push_.force_W, p_WB_W());
+    car_->Twist(OdeCar::kChassis, push_.moment_WB_W);
+  }
+  const Eigen::Vector3d before = chassis().v_WG_W;
+  car_->Step(dt_s);
+  now_.bodies = car_->bodies();
+  now_.forward_mps2 = (chassis().v_WG_W - before).dot(chassis().q_WG * Eigen::Vector3d::UnitX()) / dt_s;
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    Wheel& wheel = now_.wheels[i];
+    const Contact after = ContactOf(i);
+    wheel.tyre.Advance(tyres_[i], MotionOf(i, after), after.load_N, wheel.friction, dt_s);
+    wheel.spin_rad = geometry::WrapAngle(wheel.spin_rad + dt_s * wheel.spin_radps);
+  }
+}
+
+OdeModel::WheelTorques OdeModel::TurnWheels(const Controls& controls, const Contacts& contacts, double dt_s) {
+  const BicycleSettings& car = settings_.car;
+  WheelTorques torques;
+  const double radius = car.wheel.rolling_radius_m;
+  std::array<double, kWheels> road{};
+  std::array<double, kWheels> friction{};
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    road[i] = -radius * contacts[i].forces.longitudinal_N;
+    torques.brake_Nm[i] = BrakeTorque(car.brakes, i, controls.brake, controls.handbrake);
+    friction[i] = torques.brake_Nm[i] + car.wheel.rolling_resistance * contacts[i].load_N * radius;
+  }
+  const std::size_t driven = car.front_driven ? kFrontLeft : kRearLeft;
+  const std::size_t free = car.front_driven ? kRearLeft : kFrontLeft;
+  PowertrainInput input;
+  input.wheel_inertia_kgm2 = car.wheel.inertia_kgm2;
+  input.speed_mps = (chassis().q_WG.conjugate() * chassis().v_WG_W).x();
+  input.inertia_torque_Nm = car.body.mass_kg * radius * now_.forward_mps2;
+  for (std::size_t i = 0; i < 2; ++i) {
+    input.wheel_radps[i] = now_.wheels[driven + i].spin_radps;
+    input.road_torque_Nm[i] = road[driven + i];
+    input.friction_torque_Nm[i] = friction[driven + i];
+  }
+  const DrivelineMotion& motion = now_.powertrain.Step(car.powertrain, controls, input, dt_s);
+  for (std::size_t i = 0; i < 2; ++i) {
+    now_.wheels[driven + i].spin_radps = motion.wheel_radps[i];
+    torques.drive_Nm[driven + i] = motion.shaft_torque_Nm()[i];
+    Wheel& rolling = now_.wheels[free + i];
+    rolling.spin_radps = StepFreeWheel(rolling.spin_radps, car.wheel.inertia_kgm2, road[free + i], friction[free + i], dt_s);
+  }
+  return torques;
+}
+
+}  // namespace rodeira::vehicle

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "common/core/config/config.hpp"
+#include "common/vehicle/dynamics/powertrain.hpp"
+#include "common/vehicle/dynamics/suspension.hpp"
+#include "common/vehicle/dynamics/tyre.hpp"
+#include "common/vehicle/dynamics/wheel.hpp"
+
+// The parts of a vehicle file that every model shares. Each reads one mapping; problems stay in the file's collection.
+namespace rodeira::vehicle {
+
+// engine, clutch, gearbox and, where it is there, automatic.
+PowertrainSettings ReadPowertrain(const config::Map& root);
+SuspensionSettings ReadSuspension(const config::Map& map);
+WheelSettings ReadWheel(const config::Map& map);
+Enveloping ReadEnveloping(const config::Map& map);
+BrakeSettings ReadBrakes(const config::Map& map);
+TyreSettings ReadTyre(const config::Map& map);
+
+}  // namespace rodeira::vehicle

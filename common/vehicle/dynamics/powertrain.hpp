@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "common/core/base/state.hpp"
+#include "common/vehicle/dynamics/automatic_gearbox.hpp"
+#include "common/vehicle/dynamics/controls.hpp"
+#include "common/vehicle/dynamics/driveline.hpp"
+#include "common/vehicle/dynamics/engine.hpp"
+#include "common/vehicle/dynamics/gearbox.hpp"
+
+namespace rodeira::vehicle {
+
+struct PowertrainSettings {
+  EngineSettings engine;
+  ClutchSettings clutch;
+  GearboxSettings gearbox;
+  DifferentialSettings differential;
+  AutomaticSettings automatic;
+};
+
+// What the car around it tells the powertrain at the beginning of a step. Driven wheels: left, right.
+struct PowertrainInput {
+  double wheel_inertia_kgm2 = 1.0;
+  std::array<double, 2> wheel_radps{};
+  std::array<double, 2> road_torque_Nm{};
+  std::array<double, 2> friction_torque_Nm{};  // brake and rolling resistance
+  double speed_mps = 0.0;                      // of the car, forward
+  double inertia_torque_Nm = 0.0;              // mass × radius × forward acceleration, of the last step
+};
+
+// Torque of a shaft of which its wheel gets `at_wheel_Nm` when it turns onward (1) or backward (-1): the gears' losses are dry friction by it.
+double ShaftTorque(const GearboxSettings& gearbox, double at_wheel_Nm, double onward);
+
+// Engine, clutch, gearbox worked by hand or by the car, final drive and differential to two wheels.
+class Powertrain {
+ public:
+  // The engine runs; where the wheels turn fast enough it turns with them in a gear that suits.
+  void Start(const PowertrainSettings& settings, double wheel_radps);
+  // The same at a speed that it keeps: each driven wheel gets this torque of its shaft less the gears' losses, by an engine whose throttle is open
+  // as far as that takes. Not more than Start where the wheels turn too slowly for a closed clutch.
+  void StartSteadily(const PowertrainSettings& settings, double wheel_radps, double at_wheel_Nm);
+  const DrivelineMotion& Step(const PowertrainSettings& settings, const Controls& controls, const PowertrainInput& input, double dt_s);
+
+  const Engine& engine() const { return engine_; }
+  const DrivelineMotion& motion() const { return motion_; }
+  int gear() const { return gear_; }
+  double clutch() const { return clutch_; }
+
+  void Save(base::StateWriter& writer) const;
+  void Restore(base::StateReader& reader);
+
+ private:
+  Engine engine_;
+  AutomaticGearbox automatic_;
+  GearboxMode mode_ = GearboxMode::kAutomatic;
+  std::int32_t gear_ = 0;
+  double clutch_ = 1.0;
+  DrivelineMotion motion_;  // of the last step; its clutch torque sets the next step's losses
+};
+
+}  // namespace rodeira::vehicle

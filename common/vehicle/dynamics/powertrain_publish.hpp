@@ -1,0 +1,11 @@
+#pragma once
+
+#include "common/vehicle/dynamics/powertrain.hpp"
+#include "common/vehicle/dynamics/vehicle_state.hpp"
+
+namespace rodeira::vehicle {
+
+// What a published state says of engine, clutch, gear and fuel.
+void PublishPowertrain(const Powertrain& powertrain, VehicleState& state);
+
+}  // namespace rodeira::vehicle

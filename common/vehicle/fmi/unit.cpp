@@ -1,0 +1,273 @@
+#include "common/vehicle/fmi/unit.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <vector>
+
+#include "common/vehicle/fmi/archive.hpp"
+#include "common/vehicle/fmi/fmi2.hpp"
+#include "common/vehicle/fmi/guard.hpp"
+#include "common/vehicle/fmi/trial.hpp"
+
+namespace rodeira::fmi {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The functions of a loaded FMU. Those of its state may be null.
+struct Functions {
+  InstantiateFunction* instantiate = nullptr;
+  FreeInstanceFunction* free_instance = nullptr;
+  SetupExperimentFunction* setup_experiment = nullptr;
+  ComponentFunction* enter_initialisation = nullptr;
+  ComponentFunction* exit_initialisation = nullptr;
+  ComponentFunction* terminate = nullptr;
+  GetRealFunction* get_real = nullptr;
+  SetRealFunction* set_real = nullptr;
+  GetIntegerFunction* get_integer = nullptr;
+  SetIntegerFunction* set_integer = nullptr;
+  GetIntegerFunction* get_boolean = nullptr;
+  SetIntegerFunction* set_boolean = nullptr;
+  DoStepFunction* do_step = nullptr;
+  GetStateFunction* get_state = nullptr;
+  SetStateFunction* set_state = nullptr;
+  GetStateFunction* free_state = nullptr;
+  StateSizeFunction* state_size = nullptr;
+  SerializeFunction* serialize = nullptr;
+  DeserializeFunction* deserialize = nullptr;
+  bool crashed = false;  // one of them has: none is called again, and the library stays where it is
+};
+
+const char* Word(fmi2Status status) {
+  constexpr std::array kWords = {"ok", "warning", "discard", "error", "fatal", "pending"};
+  const auto index = static_cast<std::size_t>(status);
+  return index < kWords.size() ? kWords[index] : "an unknown status";
+}
+
+// The FMU's last remark that was no fine word.
+void Log(fmi2ComponentEnvironment environment, fmi2String, fmi2Status status, fmi2String, fmi2String message, ...) {
+  if (environment == nullptr || message == nullptr || status == fmi2OK) return;
+  std::array<char, 500> text{};
+  va_list arguments;
+  va_start(arguments, message);
+  (void)std::vsnprintf(text.data(), text.size(), message, arguments);
+  va_end(arguments);
+  *static_cast<std::string*>(environment) = text.data();
+}
+
+// What an FMU that is called no more still holds stays held to the end of the program.
+void Abandon(fmi2Component component) {
+  static std::mutex mutex;
+  static auto* const all = new std::vector<fmi2Component>;
+  const std::lock_guard lock(mutex);
+  all->push_back(component);
+}
+
+class LoadedInstance final : public Instance {
+ public:
+  LoadedInstance(Functions& functions, const Description& description, std::string file)
+      : f_(functions), description_(description), file_(std::move(file)) {}
+  ~LoadedInstance() override {
+    if (component_ == nullptr) return;
+    if (dead_) {  // after "fatal" nothing may be called
+      Abandon(component_);
+      return;
+    }
+    const int signal = CallGuarded([this] {
+      if (runs_ && !failed_) (void)f_.terminate(component_);
+      f_.free_instance(component_);
+    });
+    if (signal == 0) return;
+    f_.crashed = true;
+    Abandon(component_);
+  }
+  LoadedInstance(const LoadedInstance&) = delete;
+  LoadedInstance& operator=(const LoadedInstance&) = delete;
+
+  base::Status Make(const std::string& name, const fs::path& resources) {
+    callbacks_ = {&Log, &std::calloc, &std::free, nullptr, &said_};
+    const std::string where = "file://" + resources.string();
+    const int signal = CallGuarded([&] { component_ = f_.instantiate(name.c_str(), fmi2CoSimulation, description_.guid.c_str(), where.c_str(), &callbacks_, 0, 0); });
+    if (signal != 0) return Crashed("fmi2Instantiate", signal);
+    if (component_ != nullptr) return {};
+    return base::WrongInput(fmt::format("fmi2Instantiate: the FMU makes no instance of itself{}", said_.empty() ? "" : ": " + said_), file_);
+  }
+
+  base::Status EnterInitialisation(double time_s) override {
+    if (auto status = Call("fmi2SetupExperiment", [&] { return f_.setup_experiment(component_, 0, 0.0, time_s, 0, 0.0); }); !status) return status;
+    return Call("fmi2EnterInitializationMode", [&] { return f_.enter_initialisation(component_); });
+  }
+  base::Status ExitInitialisation() override {
+    runs_ = true;
+    return Call("fmi2ExitInitializationMode", [&] { return f_.exit_initialisation(component_); });
+  }
+  base::Status Set(const Variable& variable, double value) override {
+    const fmi2ValueReference reference = variable.reference;
+    if (variable.type == VariableType::kReal) return Call("fmi2SetReal", [&] { return f_.set_real(component_, &reference, 1, &value); }, &variable);
+    const auto whole = static_cast<fmi2Integer>(std::lround(std::clamp(value, -1e9, 1e9)));
+    if (variable.type == VariableType::kInteger) return Call("fmi2SetInteger", [&] { return f_.set_integer(component_, &reference, 1, &whole); }, &variable);
+    const fmi2Boolean truth = value != 0.0;
+    return Call("fmi2SetBoolean", [&] { return f_.set_boolean(component_, &reference, 1, &truth); }, &variable);
+  }
+  base::Result<double> Get(const Variable& variable) override {
+    const fmi2ValueReference reference = variable.reference;
+    double real = 0.0;
+    int whole = 0;
+    base::Status status;
+    if (variable.type == VariableType::kReal) status = Call("fmi2GetReal", [&] { return f_.get_real(component_, &reference, 1, &real); }, &variable);
+    else if (variable.type == VariableType::kInteger) status = Call("fmi2GetInteger", [&] { return f_.get_integer(component_, &reference, 1, &whole); }, &variable);
+    else status = Call("fmi2GetBoolean", [&] { return f_.get_boolean(component_, &reference, 1, &whole); }, &variable);
+    if (!status) return status.error();
+    return variable.type == VariableType::kReal ? real : static_cast<double>(whole);
+  }
+  base::Status DoStep(double time_s, double step_s) override { return Call("fmi2DoStep", [&] { return f_.do_step(component_, time_s, step_s, 0); }); }
+
+  base::Result<base::Bytes> State() override {
+    fmi2FMUstate state = nullptr;
+    std::size_t size = 0;
+    if (auto status = Call("fmi2GetFMUstate", [&] { return f_.get_state(component_, &state); }); !status) return status.error();
+    if (auto status = Call("fmi2SerializedFMUstateSize", [&] { return f_.state_size(component_, state, &size); }); !status) return status.error();
+    base::Bytes bytes(size);
+    if (auto status = Call("fmi2SerializeFMUstate", [&] { return f_.serialize(component_, state, reinterpret_cast<fmi2Byte*>(bytes.data()), size); }); !status)
+      return status.error();
+    if (auto status = Call("fmi2FreeFMUstate", [&] { return f_.free_state(component_, &state); }); !status) return status.error();
+    return bytes;
+  }
+  base::Status SetState(std::span<const std::byte> bytes) override {
+    fmi2FMUstate state = nullptr;
+    const auto* raw = reinterpret_cast<const fmi2Byte*>(bytes.data());
+    if (auto status = Call("fmi2DeSerializeFMUstate", [&] { return f_.deserialize(component_, raw, bytes.size(), &state); }); !status) return status;
+    if (auto status = Call("fmi2SetFMUstate", [&] { return f_.set_state(component_, state); }); !status) return status;
+    return Call("fmi2FreeFMUstate", [&] { return f_.free_state(component_, &state); });
+  }
+
+ private:
+  template <class Function>
+  base::Status Call(const char* name, const Function& function, const Variable* variable = nullptr) {
+    if (dead_) return base::Failed(fmt::format("{}: not called, the FMU has ended with a fatal error before", name), file_);
+    fmi2Status status = fmi2OK;
+    if (const int signal = CallGuarded([&] { status = function(); }); signal != 0) return Crashed(name, signal);
+    if (status == fmi2OK || status == fmi2Warning) return {};
+    failed_ = true;
+    dead_ = status == fmi2Fatal;
+    return base::Failed(fmt::format("{}{}: {}{}", name, variable == nullptr ? "" : " of '" + variable->name + "'", Word(status), said_.empty() ? "" : ": " + said_), file_);
+  }
+  base::Status Crashed(const char* name, int signal) {
+    dead_ = f_.crashed = true;
+    return base::Failed(fmt::format("{}: it crashes (signal {}){}", name, signal, said_.empty() ? "" : "; before, it said: " + said_), file_);
+  }
+
+  Functions& f_;
+  const Description& description_;
+  std::string file_;
+  std::string said_;
+  fmi2CallbackFunctions callbacks_{};
+  fmi2Component component_ = nullptr;
+  bool runs_ = false;
+  bool failed_ = false;
+  bool dead_ = false;
+};
+
+// The platforms that an FMU has binaries for.
+std::string Platforms(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code problem;
+  for (const auto& entry : fs::directory_iterator(folder / "binaries", problem)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+class LoadedUnit final : public Unit {
+ public:
+  LoadedUnit(base::TemporaryFolder folder, Description description, std::string file)
+      : folder_(std::move(folder)), description_(std::move(description)), file_(std::move(file)) {}
+  ~LoadedUnit() override {
+    if (library_ != nullptr && !f_.crashed) (void)::dlclose(library_);
+  }
+  LoadedUnit(const LoadedUnit&) = delete;
+  LoadedUnit& operator=(const LoadedUnit&) = delete;
+
+  base::Status Open() {
+    const fs::path binary = folder_.path() / "binaries/linux64" / (description_.identifier + ".so");
+    std::error_code problem;
+    if (!fs::is_regular_file(binary, problem)) {
+      return base::WrongInput(fmt::format("this FMU has no binaries/linux64/{}.so; the platforms that it has binaries for: {}", description_.identifier,
+                                          Platforms(folder_.path())), file_);
+    }
+    library_ = ::dlopen(binary.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (library_ == nullptr) return base::WrongInput(fmt::format("its binary cannot be loaded: {}", ::dlerror()), file_);
+    Find("fmi2Instantiate", f_.instantiate);
+    Find("fmi2FreeInstance", f_.free_instance);
+    Find("fmi2SetupExperiment", f_.setup_experiment);
+    Find("fmi2EnterInitializationMode", f_.enter_initialisation);
+    Find("fmi2ExitInitializationMode", f_.exit_initialisation);
+    Find("fmi2Terminate", f_.terminate);
+    Find("fmi2GetReal", f_.get_real);
+    Find("fmi2SetReal", f_.set_real);
+    Find("fmi2GetInteger", f_.get_integer);
+    Find("fmi2SetInteger", f_.set_integer);
+    Find("fmi2GetBoolean", f_.get_boolean);
+    Find("fmi2SetBoolean", f_.set_boolean);
+    Find("fmi2DoStep", f_.do_step);
+    if (description_.can_get_state && description_.can_serialize_state) {
+      Find("fmi2GetFMUstate", f_.get_state);
+      Find("fmi2SetFMUstate", f_.set_state);
+      Find("fmi2FreeFMUstate", f_.free_state);
+      Find("fmi2SerializedFMUstateSize", f_.state_size);
+      Find("fmi2SerializeFMUstate", f_.serialize);
+      Find("fmi2DeSerializeFMUstate", f_.deserialize);
+    }
+    if (missing_.empty()) return {};
+    return base::WrongInput(fmt::format("its binary has no function '{}', which FMI 2.0 asks of it", missing_), file_);
+  }
+
+  const Description& description() const override { return description_; }
+  base::Result<std::unique_ptr<Instance>> Instantiate(const std::string& name) override {
+    auto instance = std::make_unique<LoadedInstance>(f_, description_, file_);
+    if (auto status = instance->Make(name, folder_.path() / "resources"); !status) return status.error();
+    return std::unique_ptr<Instance>(std::move(instance));
+  }
+
+ private:
+  template <class Function>
+  void Find(const char* name, Function*& function) {
+    function = reinterpret_cast<Function*>(::dlsym(library_, name));
+    if (function == nullptr && missing_.empty()) missing_ = name;
+  }
+
+  base::TemporaryFolder folder_;
+  Description description_;
+  std::string file_;
+  void* library_ = nullptr;
+  Functions f_;
+  std::string missing_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<Unit>> Unit::Load(const fs::path& fmu) {
+  auto folder = Unpack(fmu);
+  if (!folder) return folder.error();
+  auto description = ReadDescription(folder.value().path() / "modelDescription.xml", fmu.string());
+  if (!description) return description.error();
+  auto unit = std::make_unique<LoadedUnit>(std::move(folder).value(), std::move(description).value(), fmu.string());
+  // Once where it can do no harm.
+  const auto tried = TryInChild([&unit] {
+    if (!unit->Open()) return;
+    auto instance = unit->Instantiate("trial");
+    if (instance && instance.value()->EnterInitialisation(0.0)) (void)instance.value()->ExitInitialisation();
+  });
+  if (!tried) return base::Error{tried.error().code, tried.error().message, fmu.string()};
+  if (auto status = unit->Open(); !status) return status.error();
+  return std::unique_ptr<Unit>(std::move(unit));
+}
+
+}  // namespace rodeira::fmi

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "common/core/base/bytes.hpp"
+#include "common/core/base/result.hpp"
+#include "common/vehicle/fmi/description.hpp"
+
+namespace rodeira::fmi {
+
+// One running instance of an FMU. Every call may fail: what it says then is "fmi2DoStep: error: WHAT THE FMU LOGGED". After a failure
+// nothing but the destructor may be called. What its code does besides (hang, crash) nobody can keep it from.
+class Instance {
+ public:
+  virtual ~Instance() = default;
+
+  // Before the first step: values are set between these two.
+  virtual base::Status EnterInitialisation(double time_s) = 0;
+  virtual base::Status ExitInitialisation() = 0;
+  // Whole numbers and truths are numbers, too (rounded; 0 or 1).
+  virtual base::Status Set(const Variable& variable, double value) = 0;
+  virtual base::Result<double> Get(const Variable& variable) = 0;
+  virtual base::Status DoStep(double time_s, double step_s) = 0;
+  // The whole state, where the description offers it (can_get_state and can_serialize_state).
+  virtual base::Result<base::Bytes> State() = 0;
+  virtual base::Status SetState(std::span<const std::byte> bytes) = 0;
+};
+
+// An FMU for co-simulation, FMI 2.0, of this platform (linux64): unpacked and loaded. Instances must not outlive it.
+class Unit {
+ public:
+  // Wrong input where it is none, or of another platform.
+  static base::Result<std::unique_ptr<Unit>> Load(const std::filesystem::path& fmu);
+  virtual ~Unit() = default;
+
+  virtual const Description& description() const = 0;
+  virtual base::Result<std::unique_ptr<Instance>> Instantiate(const std::string& name) = 0;
+};
+
+}  // namespace rodeira::fmi

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/core/base/state.hpp"
+#include "common/vehicle/input_devices/gear_selector.hpp"
+#include "common/vehicle/input_devices/signals.hpp"
+#include "common/vehicle/dynamics/controls.hpp"
+
+namespace rodeira::hands {
+
+enum class PadButton : std::size_t {
+  kGearUp, kGearDown, kGearboxMode, kHandbrake, kStarter, kIndicateLeft, kIndicateRight, kHazard, kHeadlights, kHorn, kCamera, kPause
+};
+inline constexpr std::size_t kPadButtons = 12;
+
+// What a game pad says now.
+struct PadReading {
+  bool connected = false;
+  double stick = 0.0;                // -1 left … 1 right
+  double throttle = 0.0, brake = 0.0;  // 0 … 1
+  bool down[kPadButtons] = {};
+
+  bool Down(PadButton button) const { return down[static_cast<std::size_t>(button)]; }
+};
+
+// The values are choices of this project: nothing need be set up.
+struct PadSettings {
+  double lock_rad = 7.85;            // of the steering wheel, at rest
+  double half_lock_speed_mps = 6.5;  // where only half of it is left
+  double turn_s = 0.5;               // from straight ahead to the lock of that speed
+  double centre_s = 0.3;             // from there back
+  double stick_dead_zone = 0.12;     // share of a side
+  double stick_exponent = 1.6;       // finer next to the middle
+  double trigger_dead_zone = 0.04;
+  std::int32_t gears = 5;
+};
+
+// Drives with thumbs. The stick says where between the locks of the present speed (LockAt) the wheel is to be; the wheel goes there at no more
+// than lock(v) / turn_s outwards and lock(v) / centre_s back, and stands at exactly 0 when the stick is let go. Triggers are pedals. Where the
+// pad is away the pedals are released and the steering stays as it is.
+class PadDriver {
+ public:
+  explicit PadDriver(const PadSettings& settings = {}) : settings_(settings), lever_(settings.gears) { lever_.Show(controls_); }
+
+  // The controls dt_s (over 0) later; `engaged` is the gear that is in, `speed_mps` the car's, forward.
+  vehicle::Controls Step(const PadReading& pad, std::int32_t engaged, double speed_mps, double dt_s);
+  const vehicle::Controls& controls() const { return controls_; }
+  Signals signals() const { return signals_.signals(); }
+  // Goes on from where others have left steering and lever; pedals are released.
+  void TakeOver(const vehicle::Controls& last, const Signals& signals = {});
+
+  void Save(base::StateWriter& out) const;
+  void Restore(base::StateReader& in);
+
+ private:
+  std::uint32_t Presses(const PadReading& pad, PadButton button);
+
+  PadSettings settings_;
+  GearSelector lever_;
+  SignalSwitch signals_;
+  bool down_[kPadButtons] = {};
+  vehicle::Controls controls_;
+};
+
+}  // namespace rodeira::hands

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/vehicle/multibody/block_ldlt.hpp"
+#include "common/vehicle/multibody/form.hpp"
+
+namespace rodeira::multibody {
+
+// Coordinates and velocities, three numbers an entity, at a time.
+struct Motion {
+  const double* q = nullptr;
+  const double* qd = nullptr;
+  double time_s = 0.0;
+
+  Vector3d At(int entity) const { return Eigen::Map<const Vector3d>(q + 3 * entity); }
+  Vector3d RateOf(int entity) const { return Eigen::Map<const Vector3d>(qd + 3 * entity); }
+};
+
+// Takes what loads do: generalised forces Q and, where the matrix is being made, their stiffness and damping.
+class Sink {
+ public:
+  Sink(double* forces, Block* matrix, double stiffness_factor, double damping_factor)
+      : forces_(forces), matrix_(matrix), stiffness_factor_(stiffness_factor), damping_factor_(damping_factor) {}
+
+  void Push(const Form& form, const Vector3d& force) { multibody::Push(form, force, forces_); }
+  void Push(int coordinate, double force) { forces_[3 * coordinate] += force; }
+  double* forces() { return forces_; }
+  bool wants_matrix() const { return matrix_ != nullptr; }
+  // K += stiffness g gᵀ and C += damping g gᵀ, with a gradient for each of the load's entities that can move.
+  void Stiffen(std::span<const OuterPair> pairs, const Triple* gradients, double stiffness, double damping) {
+    AddOuter(pairs, gradients, stiffness_factor_ * stiffness + damping_factor_ * damping, matrix_);
+  }
+
+ private:
+  double* forces_;
+  Block* matrix_;
+  double stiffness_factor_;
+  double damping_factor_;
+};
+
+inline constexpr std::size_t kMostLoadEntities = 24;  // that a load stiffens against each other
+
+// Something that acts: a function of motion and time. It names the entities whose coordinates it stiffens against each
+// other (a pattern that never changes), and gets their places in the matrix. Add may not allocate.
+class Load {
+ public:
+  virtual ~Load() = default;
+  virtual std::vector<int> Stiffens() const { return {}; }
+  virtual void Add(const Motion& motion, Sink& sink) const = 0;
+  // Potential energy, where it has one.
+  virtual double Energy(const Motion&) const { return 0.0; }
+  // The force (or torque) that it passes, tension or along its direction positive: an output.
+  virtual double Force(const Motion&) const { return 0.0; }
+
+  // The same at zero velocity.
+  virtual double ForceAtRest(const Motion& motion) const { return Force(motion); }
+
+  // Called once: which of the entities can move, in order, and where their blocks stand.
+  void Bind(std::vector<int> entities, std::vector<OuterPair> pairs, std::vector<Vector3d> free) {
+    entities_ = std::move(entities);
+    pairs_ = std::move(pairs);
+    free_ = std::move(free);
+  }
+
+ protected:
+  // Gradients of a form along n for the load's entities that can move.
+  void AlongForm(const Form& form, const Vector3d& n, Triple* gradients) const;
+
+  std::vector<int> entities_;
+  std::vector<OuterPair> pairs_;
+  std::vector<Vector3d> free_;  // 1 for a coordinate that can move, 0 for a fixed one
+};
+
+}  // namespace rodeira::multibody

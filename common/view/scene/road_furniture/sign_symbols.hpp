@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "common/view/scene/raster/canvas.hpp"
+
+// What is on the faces of signs, by the plate's form. `kind` as in FaceKinds(), `text` what is written on it.
+namespace rodeira::scene {
+
+void DrawRound(Canvas& canvas, const std::string& kind, const std::string& text);
+void DrawTriangle(Canvas& canvas, const std::string& kind, const std::string& text);
+void DrawRectangle(Canvas& canvas, const std::string& kind, const std::string& text);
+// Stop, give way, priority road and its end.
+void DrawPriority(Canvas& canvas, const std::string& kind);
+
+}  // namespace rodeira::scene

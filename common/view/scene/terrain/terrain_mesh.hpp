@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "common/view/scene/terrain/lattice.hpp"
+#include "common/view/scene/mesh/mesh.hpp"
+#include "common/view/scene/terrain/ribbon.hpp"
+
+namespace rodeira::scene {
+
+inline constexpr int kTerrainLevels = 3;
+
+// A square of terrain at several levels of detail, the finest first. On the square's edge all levels have the same
+// vertices, so that any two of them fit together without a crack.
+struct TerrainTile {
+  int column = 0, row = 0;  // which square, counted from the south-west
+  std::array<Mesh, kTerrainLevels> levels;
+  Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();
+  double radius_m = 0.0;
+};
+
+// Up to this distance from the tile's centre a level is shown.
+float TerrainSeen_m(const TerrainTile& tile, std::size_t level);
+
+// The lattice's triangles, with the ribbons cut out of them. Near a ribbon every level is the finest one.
+std::vector<TerrainTile> BuildTerrain(const Lattice& lattice, const std::vector<Ribbon>& ribbons);
+
+}  // namespace rodeira::scene

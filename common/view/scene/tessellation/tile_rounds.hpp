@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/view/scene/tessellation/tile_plan.hpp"
+
+// How a tile's triangles come to meet the ground: points put in round by round, until nothing is off.
+namespace rodeira::scene {
+
+// What is followed in a tile.
+struct Followed {
+  bool kept = false;    // beyond slopes the land is the terrain's own triangles
+  bool slopes = false;  // cuts, fills and verges
+  bool decks = false;   // what lies below bridges
+};
+
+// Puts points into a plan, whose faces are known, where its triangles are farther from SUELO's ground than the level allows.
+void MeetTheGround(const road::World& world, const Land& land, int level, const Followed& followed, TilePlan& plan);
+
+// A line on a deck or at its edge, with points where what lies below bends.
+std::vector<partition::GridPoint> LineOverGround(const road::World& world, const TileKey& key, const partition::GridSegment& segment, int level);
+
+// A triangle's middle, to whole steps.
+partition::GridPoint MiddleOf(const partition::Triangulation& triangles, const partition::Triangulation::Triangle& triangle);
+
+// New triangles belong to the face that they were cut from.
+void CarryFaces(TilePlan& plan);
+
+inline double Squared(const partition::GridPoint& a, const partition::GridPoint& b) {
+  const double dx = a.x - b.x, dy = a.y - b.y;
+  return dx * dx + dy * dy;
+}
+
+}  // namespace rodeira::scene

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "common/core/tessellation/grid_point.hpp"
+#include "common/view/scene/tiles/post_lines.hpp"
+#include "common/view/scene/breaklines/road_lines.hpp"
+#include "common/view/scene/tiles/tile_grid.hpp"
+
+namespace rodeira::scene {
+
+using TileLines = std::map<TileKey, std::vector<partition::GridLine>>;
+
+// Adds the lines' parts to the tiles that they run through, cut where they pass from one to another. What runs along a
+// common edge is in both tiles.
+void AddToTiles(std::span<const Line3> lines, TileLines& tiles);
+
+// The points on tiles' edges, of both neighbours together: a tile triangulates all of its edges' points, at every level.
+class TileEdges {
+ public:
+  // There is always one this often; where land is made of the terrain's posts, these and its diagonals take their place.
+  static constexpr std::int32_t kEvery = static_cast<std::int32_t>(kTileSteps / 16);
+
+  TileEdges() = default;
+  explicit TileEdges(const PostLines& posts) : posts_(posts) {}
+
+  void Add(const TileKey& tile, std::span<const partition::GridSegment> segments);
+  // All points on the tile's four edges.
+  std::vector<partition::GridPoint> Of(const TileKey& tile) const;
+
+ private:
+  struct Edge {
+    TileKey tile;          // whose west or south edge it is
+    bool west = false;
+
+    auto operator<=>(const Edge&) const = default;
+  };
+  std::vector<std::int32_t> Usual(const Edge& edge) const;
+
+  PostLines posts_;
+  std::map<Edge, std::set<std::int32_t>> places_;
+};
+
+}  // namespace rodeira::scene

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/core/config/config.hpp"
+#include "common/core/ground/ground.hpp"
+
+namespace rodeira::design {
+
+// What a lane is made of.
+struct Material {
+  terrain::Surface surface = terrain::Surface::kAsphalt;
+  double friction = 1.0;
+  std::string texture;  // a picture's file; empty: the surface's usual look
+  double texture_width_m = 0.0, texture_height_m = 0.0;  // of the picture on the ground
+};
+
+// What the parts of a world file refer to.
+struct Context {
+  bool left_hand = false;                     // vehicles keep to the left
+  std::map<std::string, Material> materials;  // the surfaces by their names, and the file's own
+  std::map<std::string, config::Map> templates;  // by name: the mapping that has it
+  std::vector<std::string> warnings;
+  std::vector<base::Error> missing;  // pictures: wrong, but the world can be driven without them
+
+  const Material& MaterialOf(const config::Map& map, std::string_view key, std::string_view otherwise) const;
+};
+
+// The materials that are the surfaces themselves, with their friction.
+std::map<std::string, Material> UsualMaterials(const std::array<double, 7>& friction);
+// Reads 'materials': {name: {surface, friction, texture, texture_m}}.
+void ReadMaterials(const config::Map& map, Context& context);
+// The cross-sections that the program knows: rural, bypass, motorway.
+config::Map UsualTemplates();
+
+}  // namespace rodeira::design

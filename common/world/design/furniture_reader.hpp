@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/core/config/config.hpp"
+#include "common/world/design/context.hpp"
+#include "common/world/network/road.hpp"
+
+namespace rodeira::design {
+
+// 'signs', 'objects', 'bridges', 'tunnels' and 'surfaces' of a road. The road's lanes must be there already.
+void ReadFurniture(const config::Map& road, const Context& context, double length_m, network::RoadSpec& spec, std::vector<std::string>& warnings);
+
+// A sign by its name here, as a signal without its place: its number in the German catalogue (StVO), which most OpenDRIVE
+// files use. `value` (km/h, %, t …) where the sign shows one.
+struct SignKind {
+  const char* name;
+  const char* type;
+  const char* subtype;
+  double height_m, width_m;
+  bool with_value;
+};
+const std::vector<SignKind>& SignKinds();
+network::Signal MakeSign(const SignKind& kind, std::optional<double> value);
+const SignKind* FindSign(std::string_view name);
+
+}  // namespace rodeira::design

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "common/core/config/config.hpp"
+#include "common/world/network/furniture.hpp"
+
+namespace rodeira::design {
+
+// What stands somewhere, by the keys that do not say where.
+struct ObjectReading {
+  network::Object object;
+  bool continuous = false;  // a guard rail, a wall: it goes on from one place to another
+};
+
+// 'type', 'name', 'model', 'length_m', 'width_m', 'height_m', 'radius_m' and 'z_m' of an object, with the usual sizes of its type.
+ObjectReading ReadObjectItself(const config::Map& item, std::string id);
+
+}  // namespace rodeira::design

@@ -1,0 +1,105 @@
+#include "common/world/design/standing_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "common/world/design/object_reader.hpp"
+#include "common/core/geometry/angle.hpp"
+
+namespace rodeira::design {
+namespace {
+
+using config::List;
+using config::Map;
+using Eigen::Vector2d;
+
+constexpr config::Range kPlace_m = {-1e8, 1e8};
+constexpr config::Range kTurn_deg = {-360.0, 360.0};
+constexpr double kMost = 1e5;       // of a row
+constexpr double kLongest_m = 1e5;  // of what goes on
+
+double Radians(double deg) { return deg * geometry::kPi / 180.0; }
+
+// The corners of a line; fewer than two, and a problem, where it is none.
+std::vector<Vector2d> ReadLine(const Map& item) {
+  std::vector<Vector2d> points;
+  const List list = item.Items("along");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::vector<double> p = list.Numbers(i);
+    if (p.size() != 2 || !(std::fabs(p[0]) <= kPlace_m.high) || !(std::fabs(p[1]) <= kPlace_m.high)) {
+      list.Problem(i, "a point of 'along' is [x, y], in metres, each at most 1e8");
+      return {};
+    }
+    const Vector2d point(p[0], p[1]);
+    if (!points.empty() && !((point - points.back()).norm() > 1e-6)) {
+      list.Problem(i, "this point of 'along' is the one before");
+      return {};
+    }
+    points.push_back(point);
+  }
+  if (points.size() < 2) item.Problem("along", fmt::format("'along' has {} points; two or more were expected", points.size()));
+  return points;
+}
+
+double LengthOf(const std::vector<Vector2d>& line) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
+  return length;
+}
+
+// From the line's beginning on one every so often, turned against it.
+void StandInARow(const Map& item, const std::vector<Vector2d>& line, std::size_t object, network::Standing& standing) {
+  const double every = item.Number("every_m", {0.1, 1e6}), turn = Radians(item.Number("rotation_deg", kTurn_deg, 0.0));
+  const double last = std::floor(LengthOf(line) / every + 1e-9);
+  if (last >= kMost) return item.Problem("every_m", "more than 100 000 in a row; fewer were expected");
+  std::size_t piece = 1;
+  double before = 0.0;  // the piece's first point, along the line
+  for (double i = 0.0; i <= last; i += 1.0) {
+    Vector2d way = line[piece] - line[piece - 1];
+    while (i * every > before + way.norm() && piece + 1 < line.size()) {
+      before += way.norm();
+      ++piece;
+      way = line[piece] - line[piece - 1];
+    }
+    standing.things.push_back({object, line[piece - 1] + (i * every - before) * way.normalized(), std::atan2(way.y(), way.x()) + turn});
+  }
+}
+
+void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, network::Standing& standing) {
+  auto [object, continuous] = ReadObjectItself(item, fmt::format("object{}", standing.objects.size()));
+  const std::size_t index = standing.objects.size(), first = standing.things.size();
+  standing.objects.push_back(std::move(object));
+  if (continuous || item.Has("along")) {
+    for (const char* key : {"x_m", "y_m", "heading_deg"}) {
+      if (item.Has(key)) item.Problem(key, fmt::format("what stands 'along' a line has no '{}' of its own", key));
+    }
+    std::vector<Vector2d> line = ReadLine(item);
+    if (line.size() < 2) return;
+    for (const Vector2d& p : line) {
+      if (terrain_is_at && !terrain_is_at(p.x(), p.y())) return item.Problem("along", fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
+    }
+    if (!continuous) StandInARow(item, line, index, standing);
+    else if (item.Has("every_m")) item.Problem("every_m", "what goes on has no 'every_m'");
+    else if (LengthOf(line) > kLongest_m) item.Problem("along", fmt::format("'along' is {:.0f} m long; at most {:.0f} m was expected", LengthOf(line), kLongest_m));
+    else standing.runs.push_back({index, std::move(line)});
+  } else {
+    standing.things.push_back({index, {item.Number("x_m", kPlace_m), item.Number("y_m", kPlace_m)}, Radians(item.Number("heading_deg", kTurn_deg, 0.0))});
+    if (item.Has("every_m")) item.Problem("every_m", "what is repeated stands 'along' a line: 'along: [[x, y], [x, y]]'");
+  }
+  for (std::size_t i = first; i < standing.things.size(); ++i) {
+    const Vector2d& p = standing.things[i].at_W;
+    if (terrain_is_at && !terrain_is_at(p.x(), p.y())) return item.Problem(item.Has("along") ? "along" : "x_m", fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
+  }
+}
+
+}  // namespace
+
+void ReadStanding(const Map& file, const TerrainIsAt& terrain_is_at, network::Standing& standing) {
+  const List objects = file.OptionalItems("objects");
+  for (std::size_t i = 0; i < objects.size(); ++i) ReadThing(objects.At(i), terrain_is_at, standing);
+}
+
+}  // namespace rodeira::design

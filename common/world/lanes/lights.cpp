@@ -1,0 +1,116 @@
+#include "common/world/lanes/lights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/geometry/plane.hpp"
+#include "common/world/lanes/signs.hpp"
+
+namespace rodeira::lanes {
+namespace {
+
+constexpr double kBack_m = 60.0;
+constexpr double kBehind_m = 1.0;     // a light at the end of a track may stand a little beyond where a zone begins
+constexpr double kAlike_rad = 0.45;   // approaches that point as nearly the same way share a light
+constexpr double kHeadOn_rad = 2.5;   // approaches farther apart than this meet head-on
+constexpr const char* kOnFoot = "1000002";
+
+// The controller with times that a signal obeys.
+std::optional<std::uint32_t> ControllerOf(const network::Network& network, const std::string& signal) {
+  for (std::uint32_t i = 0; i < network.controllers().size(); ++i) {
+    const network::Controller& controller = network.controllers()[i];
+    if (!controller.times) continue;
+    for (const network::ControllerEntry& entry : controller.controls) {
+      if (entry.signal_id == signal) return i;
+    }
+  }
+  return std::nullopt;
+}
+
+bool OnFoot(const network::Network& network, const std::string& id) {
+  for (const network::Road& road : network.roads()) {
+    for (const network::Signal& signal : road.spec().signals) {
+      if (signal.id == id) return signal.type == kOnFoot;
+    }
+  }
+  return false;
+}
+
+std::string Named(const Graph& graph, const LightPlace& light) {
+  const network::Controller& controller = graph.network().controllers()[light.controller];
+  const network::LaneKey& lane = graph[light.track].lane;
+  return "'" + (controller.name.empty() ? controller.id : controller.name) + "' (signal " + light.signal + ", road '" +
+         graph.network().roads()[lane.road].id() + "', lane " + std::to_string(lane.lane) + ")";
+}
+
+}  // namespace
+
+std::vector<LaneLight> LightsOfLane(const network::Network& network, const network::LaneKey& lane, bool along, double low_s_m, double high_s_m) {
+  std::vector<LaneLight> lights;
+  if (network.controllers().empty()) return lights;
+  const network::RoadSpec& road = network.roads()[lane.road].spec();
+  const auto add = [&](const std::string& id, double s_m) {
+    const auto controller = ControllerOf(network, id);
+    if (controller && s_m >= low_s_m && s_m <= high_s_m) lights.push_back({s_m, *controller, id});
+  };
+  for (const network::Signal& signal : road.signals) {
+    if (signal.type != kOnFoot && HoldsFor(lane.lane, along, signal.orientation, signal.validity)) add(signal.id, signal.s_m);
+  }
+  for (const network::SignalReference& reference : road.signal_references) {
+    if (HoldsFor(lane.lane, along, reference.orientation, reference.validity) && !OnFoot(network, reference.id)) add(reference.id, reference.s_m);
+  }
+  std::stable_sort(lights.begin(), lights.end(), [](const LaneLight& a, const LaneLight& b) { return a.s_m < b.s_m; });
+  return lights;
+}
+
+std::vector<LightPlace> LightsOf(const Graph& graph, std::uint32_t track) {
+  const Track& t = graph[track];
+  const double begin = t.curve.nodes().front().s_m, end = t.curve.nodes().back().s_m;
+  std::vector<LightPlace> lights;
+  for (LaneLight& light : LightsOfLane(graph.network(), t.lane, t.along, std::min(begin, end), std::max(begin, end))) {
+    lights.push_back({(light.s_m - begin) / (end - begin) * t.length_m(), light.controller, std::move(light.signal), track});
+  }
+  std::stable_sort(lights.begin(), lights.end(), [](const LightPlace& a, const LightPlace& b) { return a.d_m < b.d_m; });
+  return lights;
+}
+
+std::optional<LightPlace> LightFor(const Graph& graph, std::uint32_t track, double d_m) {
+  double back = 0.0;
+  while (true) {
+    const auto lights = LightsOf(graph, track);
+    for (auto light = lights.rbegin(); light != lights.rend(); ++light) {
+      if (light->d_m <= d_m + kBehind_m) return *light;
+    }
+    back += d_m;
+    if (back > kBack_m || graph[track].before.size() != 1) return std::nullopt;
+    track = graph[track].before.front();
+    d_m = graph[track].length_m();
+  }
+}
+
+std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& zones) {
+  for (const Zone& zone : zones.zones()) {
+    if (zone.kind == ZoneKind::kDiverge) continue;
+    const auto a = LightFor(graph, zone.track[0], zone.in_m[0]), b = LightFor(graph, zone.track[1], zone.in_m[1]);
+    if (!a || !b) continue;
+    const auto& controllers = graph.network().controllers();
+    if (!network::MeetGreen(*controllers[a->controller].times, *controllers[b->controller].times)) continue;
+    const Eigen::Vector2d from_a = graph[a->track].curve.At(a->d_m).ahead_W, from_b = graph[b->track].curve.At(b->d_m).ahead_W;
+    const double turned = std::fabs(std::atan2(geometry::Cross(from_a, from_b), from_a.dot(from_b)));
+    if (turned < kAlike_rad || turned > kHeadOn_rad) continue;
+    return GreenTogether{{a->controller, b->controller}, "the lights " + Named(graph, *a) + " and " + Named(graph, *b) +
+                            " are green or amber together, and their ways " +
+                            (zone.kind == ZoneKind::kMerge ? "merge" : "cross") + "; phases that do not meet were expected"};
+  }
+  return std::nullopt;
+}
+
+base::Status CheckLights(const Graph& graph, const Zones& zones) {
+  const auto together = FindGreenTogether(graph, zones);
+  if (!together) return {};
+  // At the later of the two: it is green although the other one is.
+  const std::string& place = graph.network().controllers()[std::max(together->controllers[0], together->controllers[1])].place;
+  return base::WrongInput(together->sentence, place.empty() ? "network '" + graph.network().name() + "'" : place);
+}
+
+}  // namespace rodeira::lanes

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "common/world/network/furniture.hpp"
+
+namespace rodeira::network {
+
+// What stands on the ground by itself, at no road: a world file's own objects. An object's s, t and turn say nothing here.
+struct Standing {
+  struct Thing {
+    std::size_t object = 0;
+    Eigen::Vector2d at_W = Eigen::Vector2d::Zero();
+    double heading_rad = 0.0;  // of its x axis, from east to north
+  };
+  // What goes on in straight pieces from point to point: a wall, a guard rail.
+  struct Run {
+    std::size_t object = 0;
+    std::vector<Eigen::Vector2d> points_W;  // two or more, none on the one before
+  };
+  std::vector<Object> objects;
+  std::vector<Thing> things;
+  std::vector<Run> runs;
+
+  bool empty() const { return things.empty() && runs.empty(); }
+};
+
+}  // namespace rodeira::network

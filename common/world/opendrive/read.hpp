@@ -1,0 +1,92 @@
+#pragma once
+
+#include <vector>
+
+#include "common/world/network/junction_grid.hpp"
+#include "common/world/network/network.hpp"
+#include "common/world/opendrive/source.hpp"
+
+// How the elements of an OpenDRIVE file become the parts of a network. Each says what is wrong to the node's source.
+namespace rodeira::opendrive {
+
+// Where something stands in the file, for checks that come later.
+struct RoadLines {
+  std::size_t road = 0;
+  std::vector<std::size_t> elements;  // by plan view element
+  std::vector<std::size_t> sections;  // by lane section
+};
+
+struct RoadReading {
+  network::RoadSpec spec;
+  std::vector<geometry::PlanElement> elements;
+  RoadLines lines;
+};
+
+// A piece of a junction's boundary: along a lane's outer edge (lane 0: along the middle), or across a road's end.
+struct BoundarySegment {
+  bool joint = false;
+  std::string road;
+  std::size_t line = 0;
+  // Along: the lane, and where; infinite: to the road's end.
+  int lane = 0;
+  double from_s_m = 0.0, to_s_m = 0.0;
+  // Across: at which end, the lanes that it reaches between, each to its outer edge (nothing: all), and how far inward heights go over.
+  network::End end = network::End::kStart;
+  std::optional<int> first_lane, last_lane;
+  double transition_m = 0.0;
+};
+
+// An object beside a junction's own line: its s and t, and those of its corners, are the line's.
+struct JunctionObject {
+  network::Object object;
+  std::size_t line = 0;
+};
+
+// A road that people on foot cross others by.
+struct CrossPath {
+  std::string id, road;
+  std::size_t line = 0;
+};
+
+struct JunctionReading {
+  network::Junction junction;
+  std::size_t line = 0;
+  std::vector<BoundarySegment> boundary;
+  std::vector<JunctionObject> objects;
+  std::vector<CrossPath> cross_paths;
+  bool has_grid = false;
+  std::vector<geometry::PlanElement> elements;  // of its reference line
+  double grid_start_m = 0.0, grid_spacing_m = 0.0;
+  std::vector<network::JunctionGridRow> grid_rows;
+};
+
+network::End ReadContact(const Node& node, const char* attribute);
+RoadReading ReadRoad(const Node& road);
+std::vector<geometry::PlanElement> ReadPlanView(const Node& road, RoadLines& lines);
+void ReadProfiles(const Node& road, network::RoadSpec& spec);
+void ReadLateral(const Node& road, network::LateralProfile& lateral);
+void ReadLanes(const Node& road, network::RoadSpec& spec, RoadLines& lines);
+network::RoadMark ReadMark(const Node& mark, double section_s_m);
+void ReadSignals(const Node& road, network::RoadSpec& spec);
+network::Object ReadObject(const Node& node);
+void ReadObjects(const Node& road, network::RoadSpec& spec);
+void ReadSurface(const Node& road, network::RoadSpec& spec);
+JunctionReading ReadJunction(const Node& junction);
+network::Controller ReadController(const Node& controller);
+// Controllers that a junction names and that say no times take turns, in the junction's order: 20 s of green, 3 s of amber,
+// 2 s of red for all. Those of lights for people on foot alone stay dark.
+void TakeTurns(network::NetworkSpec& spec);
+// A warning for each kind of element or attribute that says something about the world and is passed over; at the first of them.
+void TellUnread(const Node& root);
+// A warning for each element, attribute and word that OpenDRIVE does not know, with the nearest that it does; an error for an
+// element that stands twice where it may stand once.
+void TellUnknown(const Node& root);
+// Records and things that begin beside their road or lane section, first widths that leave a lane without any, repeats below 0, ids that stand twice: an
+// error below 0, where a number can have no meaning; otherwise a warning for each kind, at the first.
+void CheckStations(const Node& root);
+// Measures beyond those of measures.hpp, wherever a record of them is in force: an error for each.
+void CheckMeasures(const Node& root);
+// In m/s from the attributes 'max' or 'speed' and 'unit'; infinite: no limit; nothing: not said.
+std::optional<double> ReadSpeed(const Node& speed, const char* attribute);
+
+}  // namespace rodeira::opendrive

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/core/base/result.hpp"
+#include "common/core/geometry/cubic.hpp"
+#include "common/world/opendrive/finding.hpp"
+
+namespace rodeira::opendrive {
+
+class Source;
+
+// An element of the file. It is asked for attributes, and says itself what is wrong with them.
+class Node {
+ public:
+  Node(Source* source, pugi::xml_node node) : source_(source), node_(node) {}
+
+  explicit operator bool() const { return static_cast<bool>(node_); }
+  std::string_view name() const { return node_.name(); }
+  std::size_t line() const;
+  Source& source() const { return *source_; }
+  pugi::xml_node xml() const { return node_; }
+
+  bool Has(const char* attribute) const { return static_cast<bool>(node_.attribute(attribute)); }
+  // Finite numbers; what is missing without `otherwise`, or is no number, is a finding, and 0 comes.
+  double Number(const char* attribute) const;
+  double Number(const char* attribute, double otherwise) const;
+  int Integer(const char* attribute) const;
+  std::string Text(const char* attribute) const;  // a finding where missing or empty
+  std::string Text(const char* attribute, std::string_view otherwise) const;
+  bool Flag(const char* attribute, bool otherwise) const;  // true, false, 1, 0, yes, no
+  // a, b, c, d and where they begin: origin + the named attribute.
+  geometry::Cubic Cubic(const char* from, double origin) const;
+
+  Node Child(const char* element) const { return {source_, node_.child(element)}; }
+  std::vector<Node> Children(const char* element) const;
+  void Wrong(std::string_view rule, std::string message) const;
+
+ private:
+  std::optional<double> Read(const char* attribute) const;
+  Source* source_;
+  pugi::xml_node node_;
+};
+
+// An XML file as it is read: what is found wrong in it, and in which road, lane and s the reader is.
+class Source {
+ public:
+  // Wrong input where the text is no XML.
+  static base::Result<std::unique_ptr<Source>> Parse(std::string text, const std::filesystem::path& path);
+
+  Node root() { return {this, document_.document_element()}; }
+  std::size_t LineAt(std::ptrdiff_t offset) const;
+
+  // Said with every finding from now on.
+  struct Where {
+    std::string road;
+    std::optional<int> lane;
+    std::optional<double> s_m;
+  };
+  Where where;
+  std::vector<Finding> errors, warnings;
+  std::vector<NamedFile> surfaces;
+
+  void Wrong(std::string_view rule, std::string message, std::size_t line);
+
+ private:
+  Source() = default;
+  std::string text_;
+  std::vector<std::size_t> line_starts_;
+  pugi::xml_document document_;
+};
+
+// Keeps `where` for as long as it lives.
+class Within {
+ public:
+  explicit Within(Source& source) : source_(source), before_(source.where) {}
+  ~Within() { source_.where = before_; }
+  Within(const Within&) = delete;
+  Within& operator=(const Within&) = delete;
+
+ private:
+  Source& source_;
+  Source::Where before_;
+};
+
+// The records of one kind in ascending order. Others are a finding of `rule`, and are put in order.
+geometry::CubicTable ReadCubics(const std::vector<Node>& records, const char* from, double origin, std::string_view rule);
+
+}  // namespace rodeira::opendrive

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "common/world/road/surface_point.hpp"
+#include "common/world/road/world_spec.hpp"
+#include "common/world/terrain/elevation_grid.hpp"
+
+namespace rodeira::road {
+
+// A world's terrain without any road: an elevation grid, a plane, or none.
+struct BareTerrain {
+  std::shared_ptr<const terrain::ElevationGrid> grid;  // one of these two, or neither
+  std::optional<PlaneSpec> plane;
+  terrain::Surface surface = terrain::Surface::kGrass;
+  double friction = 0.0;
+
+  SurfacePoint At(double x_m, double y_m) const;
+};
+
+}  // namespace rodeira::road

@@ -1,0 +1,175 @@
+#include "common/world/road/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "common/core/base/assert.hpp"
+#include "common/world/network/cluster.hpp"
+#include "common/world/road/built_ground.hpp"
+#include "common/world/road/network_ground.hpp"
+#include "common/world/road/road_network.hpp"
+#include "common/world/road/surface_detail.hpp"
+#include "common/world/road/world_hash.hpp"
+#include "common/world/terrain/heights_ahead.hpp"
+
+namespace rodeira::road {
+namespace {
+
+constexpr std::size_t kFew = 12;  // are asked sooner one by one
+
+// Answers for points close to one another as World::At does for each; false, and writes nothing, where it cannot.
+using Together = std::function<bool(std::span<const terrain::GroundQuery>, std::span<terrain::GroundPoint>)>;
+
+// SUELO on a world: nothing but World::At, a point at a time, or the same faster where many lie together on a road.
+class WorldGround final : public terrain::Ground {
+ public:
+  WorldGround(std::shared_ptr<const World> world, Together together)
+      : world_(std::move(world)), together_(std::move(together)), ahead_(world_->grid()) {}
+
+  void Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) override {
+    RODEIRA_ASSERT(queries.size() == points.size());
+    for (std::size_t from = 0; from < queries.size(); from += network::Cluster::kMost) {
+      const std::size_t count = std::min(network::Cluster::kMost, queries.size() - from);
+      const auto some = queries.subspan(from, count);
+      const auto answers = points.subspan(from, count);
+      if (count <= kFew || !together_ || !together_(some, answers)) OneByOne(some, answers);
+    }
+  }
+
+ private:
+  void OneByOne(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) const {
+    const auto fetch = [&](std::size_t i) {
+      if (ahead_.any() && i < queries.size()) ahead_.Fetch(queries[i].x_m, queries[i].y_m);
+    };
+    for (std::size_t i = 0; i < terrain::HeightsAhead::kAhead; ++i) fetch(i);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      fetch(i + terrain::HeightsAhead::kAhead);
+      const SurfacePoint at = world_->At(queries[i].x_m, queries[i].y_m, queries[i].z_hint_m);
+      if (!at.inside) {
+        points[i] = {};
+        continue;
+      }
+      const double up = 1.0 / std::sqrt(at.slope_x * at.slope_x + at.slope_y * at.slope_y + 1.0);
+      points[i].z_m = at.z_m;
+      points[i].normal_W = {-at.slope_x * up, -at.slope_y * up, up};
+      points[i].friction = at.friction;
+      points[i].surface = at.surface;
+      points[i].inside = true;
+    }
+  }
+
+  std::shared_ptr<const World> world_;
+  Together together_;  // none: each point by itself
+  terrain::HeightsAhead ahead_;
+};
+
+}  // namespace
+
+World::World(WorldSpec spec)
+    : name_(spec.name),
+      terrain_{spec.grid, spec.plane, spec.terrain_surface,
+               spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)])},
+      network_(spec.network),
+      standing_(spec.standing),
+      detail_(spec.detail),
+      ground_picture_(spec.ground_picture),
+      friction_(spec.friction),
+      start_(spec.start),
+      content_hash_(ContentHash(spec)) {
+  RODEIRA_ASSERT(grid() == nullptr || !plane());
+  RODEIRA_ASSERT(grid() != nullptr || plane() || network_ != nullptr);
+  for (const RoadSpec& road : spec.roads) roads_.emplace_back(road);
+  if (!roads_.empty()) {
+    network_ = AsNetwork(spec, roads_);
+  } else if (open_drive()) {
+    grounds_ = LaneGrounds(*network_, friction_);
+    paint_ = std::make_shared<const MarkPaint>(network_);
+    land_ = std::make_shared<const NetworkLand>(network_);
+  } else if (network_ != nullptr) {
+    built_ = std::make_shared<const BuiltGround>(network_, spec.junctions, friction_, detail_ == nullptr ? SurfaceDetail() : *detail_, terrain_);
+  }
+}
+
+std::shared_ptr<const World> World::Make(WorldSpec spec) { return std::shared_ptr<const World>(new World(std::move(spec))); }
+
+Extents World::extents() const {
+  if (grid() != nullptr) {
+    const terrain::ElevationGrid::Frame& frame = grid()->frame();
+    return {frame.west_m, frame.south_m, frame.east_m, frame.north_m};
+  }
+  if (open_drive()) return NetworkExtents(*network_);
+  const double infinity = std::numeric_limits<double>::infinity();
+  return {-infinity, -infinity, infinity, infinity};
+}
+
+std::unique_ptr<terrain::Ground> World::MakeGround() const {
+  Together together;
+  if (built_ != nullptr) {
+    together = [this](auto queries, auto points) { return built_->Together(queries, points); };
+  } else if (open_drive()) {
+    together = [this](auto queries, auto points) { return NetworkGroundTogether(*network_, grounds_, friction_, paint_.get(), detail_.get(), queries, points); };
+  }
+  return std::make_unique<WorldGround>(shared_from_this(), std::move(together));
+}
+
+std::shared_ptr<const World> World::AsSeen() const {
+  if (detail_ == nullptr || !detail_->IsFine()) return shared_from_this();
+  const std::shared_ptr<World> seen(new World(*this));
+  seen->detail_ = std::make_shared<const SurfaceDetail>(detail_->AsSeen());
+  if (built_ != nullptr) seen->built_ = built_->With(*seen->detail_);
+  return seen;
+}
+
+base::Digest World::DetailDigest(std::uint32_t road, double from_s_m, double to_s_m) const { return detail_ == nullptr ? 0 : detail_->DigestOn(road, from_s_m, to_s_m); }
+
+std::span<const std::shared_ptr<const design::JunctionSurface>> World::junctions() const {
+  return built_ == nullptr ? std::span<const std::shared_ptr<const design::JunctionSurface>>() : std::span(built_->junctions());
+}
+
+SurfacePoint World::At(double x_m, double y_m, double z_hint_m) const {
+  if (open_drive()) return NetworkGround(*network_, grounds_, *land_, friction_, x_m, y_m, z_hint_m, paint_.get(), detail_.get());
+  if (built_ != nullptr) return built_->At(x_m, y_m, z_hint_m);
+  SurfacePoint point = TerrainAt(x_m, y_m);
+  for (const Road& road : roads_) {
+    if (road.plan().MayReach(x_m, y_m)) LayRoad(road, x_m, y_m, point);
+  }
+  return point;
+}
+
+void World::LayRoad(const Road& road, double x_m, double y_m, SurfacePoint& point) const {
+  const geometry::Foot foot = road.plan().Project(x_m, y_m);
+  const Section& section = road.section();
+  const double aside = foot.t_m - std::clamp(foot.t_m, section.verge_right_m(), section.verge_left_m());
+  const double excess = std::sqrt(aside * aside + foot.beyond_m * foot.beyond_m);  // distance from the verges' outline
+  const double blend = section.spec().blend_m;
+  if (excess >= blend) return;
+
+  // The road's own surface, going on in its slopes beyond the verge and beyond the ends.
+  const geometry::ProfilePoint profile = road.profile().Evaluate(foot.s_m);
+  const Band& band = section.BandAt(foot.t_m);
+  const Eigen::Vector2d& along_W = foot.at.tangent_W;
+  const Eigen::Vector2d left_W = foot.at.left_W();
+  // Along the axis s grows by 1 / (1 - k t) a metre; past an end it stands still and the straight distance counts.
+  const double stretch = foot.beyond_m == 0.0 ? 1.0 / (1.0 - foot.at.curvature_1pm * foot.t_m) : 1.0;
+  const double z = profile.z_m + profile.grade * foot.beyond_m + band.from_z_m + band.slope * (foot.t_m - band.from_t_m);
+  const Eigen::Vector2d slope = profile.grade * stretch * along_W + band.slope * left_W;
+  if (excess == 0.0) {
+    const bool painted = road.IsPainted(foot.s_m, foot.t_m, foot.at.heading_rad);
+    const terrain::Surface surface = painted ? terrain::Surface::kRoadMark : band.surface;
+    point = {z, slope.x(), slope.y(), Friction(surface), surface, true};
+    return;
+  }
+  if (!point.inside) return;
+  const double u = excess / blend;
+  const double weight = u * u * (3.0 - 2.0 * u);
+  const double weight_slope = 6.0 * u * (1.0 - u) / blend;
+  const Eigen::Vector2d outward_W = (aside * left_W + foot.beyond_m * along_W) / excess;
+  const double step = point.z_m - z;
+  point.slope_x = slope.x() + weight * (point.slope_x - slope.x()) + weight_slope * step * outward_W.x();
+  point.slope_y = slope.y() + weight * (point.slope_y - slope.y()) + weight_slope * step * outward_W.y();
+  point.z_m = z + weight * step;
+}
+
+}  // namespace rodeira::road

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/core/base/hash.hpp"
+#include "common/core/base/result.hpp"
+#include "common/world/road/bare_terrain.hpp"
+#include "common/world/road/lane_grounds.hpp"
+#include "common/world/road/road.hpp"
+#include "common/world/road/world_spec.hpp"
+#include "common/world/terrain/elevation_grid.hpp"
+#include "common/core/ground/ground.hpp"
+
+namespace rodeira::road {
+
+class BuiltGround;
+class MarkPaint;
+class NetworkLand;
+
+// The rectangle in which the ground is known; infinite for a plane.
+struct Extents {
+  double west_m = 0.0;
+  double south_m = 0.0;
+  double east_m = 0.0;
+  double north_m = 0.0;
+};
+
+// A world: terrain (an elevation grid or a plane) and a network of roads; or the roads of an OpenDRIVE file alone.
+// Immutable and shared; the same file gives the same content hash, and the same content hash the same answers, bit by bit.
+class World : public std::enable_shared_from_this<World> {
+ public:
+  // Reads a world file (docs/formats.md) and all files that it names, or an OpenDRIVE file (`.xodr`), or a traffic map (`.motors`). Wrong input where anything is missing, broken,
+  // out of range or does not fit together.
+  static base::Result<std::shared_ptr<const World>> Load(const std::filesystem::path& world_yaml);
+  // The same from a text; `name` stands for the path in messages, and relative paths start at its folder.
+  static base::Result<std::shared_ptr<const World>> Parse(std::string_view text, const std::filesystem::path& name);
+  // From its parts, which must fit together as a world file's do.
+  static std::shared_ptr<const World> Make(WorldSpec spec);
+
+  const std::string& name() const { return name_; }
+  // The roads: a network whoever wrote them down, null where the world has none. Its outermost lanes are the verges.
+  const network::Network* network() const { return network_.get(); }
+  // The same roads as a world file of version 1 says them; no others are here.
+  std::span<const Road> roads() const { return roads_; }
+  // The elevation grid under the roads, for meshes, or null for a plane. Near a road the ground is not the grid's:
+  // ask MakeGround() for heights.
+  const terrain::ElevationGrid* grid() const { return terrain_.grid.get(); }
+  const std::optional<PlaneSpec>& plane() const { return terrain_.plane; }
+  // The world is an OpenDRIVE file: it has no terrain of its own.
+  bool open_drive() const { return terrain_.grid == nullptr && !terrain_.plane; }
+  // What lies beside and under such roads; null where the world is none.
+  const NetworkLand* land() const { return land_.get(); }
+  Extents extents() const;
+  const StartPose& start() const { return start_; }
+  terrain::Surface terrain_surface() const { return terrain_.surface; }
+  double terrain_friction() const { return terrain_.friction; }
+  // What lies on the terrain to be seen, and changes no answer; null: nothing.
+  const terrain::LaidPicture* ground_picture() const { return ground_picture_ ? &*ground_picture_ : nullptr; }
+  // What stands on the ground at no road, on SUELO's highest surface there; null: nothing.
+  const network::Standing* standing() const { return standing_.get(); }
+  // Of what lies on a road between two stations, measured or laid by an author, as SurfaceDetail::DigestOn says; 0: nothing.
+  base::Digest DetailDigest(std::uint32_t road, double from_s_m, double to_s_m) const;
+  // The surfaces of the junctions of a network that is built into a terrain.
+  std::span<const std::shared_ptr<const design::JunctionSurface>> junctions() const;
+  double Friction(terrain::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
+
+  // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. Where surfaces lie over one
+  // another, the height hint chooses; a world file of version 1 has one surface everywhere.
+  std::unique_ptr<terrain::Ground> MakeGround() const;
+  // One of its answers: the road within its verges, and beside it the terrain, cut and filled to meet it (BuiltGround). Beside
+  // a road of version 1, over its blend, both, weighted by 3 u^2 - 2 u^3 of the distance from the verge over the blend's width.
+  SurfacePoint At(double x_m, double y_m, double z_hint_m = std::numeric_limits<double>::quiet_NaN()) const;
+  // The world as it is drawn: its roads without what is too fine for a picture, made roughness and the short waves of measured surfaces. This
+  // world itself where it has neither; the same network, hash and everything else.
+  std::shared_ptr<const World> AsSeen() const;
+  // The terrain without any road.
+  SurfacePoint TerrainAt(double x_m, double y_m) const { return terrain_.At(x_m, y_m); }
+
+  // Of everything that can change an answer (numbers of roads, lanes, marks, terrain, friction, start), and of nothing
+  // else: names, comments, paths, the coordinate system's name, the order of keys.
+  base::Digest content_hash() const { return content_hash_; }
+
+ private:
+  explicit World(WorldSpec spec);
+  World(const World&) = default;
+  void LayRoad(const Road& road, double x_m, double y_m, SurfacePoint& point) const;
+
+  std::string name_;
+  std::vector<Road> roads_;
+  BareTerrain terrain_;
+  std::shared_ptr<const network::Network> network_;
+  std::shared_ptr<const network::Standing> standing_;
+  std::shared_ptr<const SurfaceDetail> detail_;
+  std::shared_ptr<const BuiltGround> built_;  // of a network in a terrain that is no road of version 1
+  std::optional<terrain::LaidPicture> ground_picture_;
+  FrictionTable friction_;
+  LaneGrounds grounds_;  // of an OpenDRIVE file
+  std::shared_ptr<const MarkPaint> paint_;  // the same
+  std::shared_ptr<const NetworkLand> land_;  // the same
+  StartPose start_;
+  base::Digest content_hash_ = 0;
+};
+
+}  // namespace rodeira::road

@@ -1,0 +1,94 @@
+#include "common/world/road/world_hash.hpp"
+
+#include "common/core/base/bytes.hpp"
+#include "common/world/road/network_hash.hpp"
+#include "common/world/road/surface_detail.hpp"
+
+namespace rodeira::road {
+namespace {
+
+class Canonical {
+ public:
+  void Put(double value) { out_.Put(value + 0.0); }  // -0 is 0
+  void Put(int value) { out_.Put(static_cast<std::int64_t>(value)); }
+  void Put(std::size_t value) { out_.Put(static_cast<std::uint64_t>(value)); }
+  void Put(terrain::Surface value) { out_.Put(static_cast<std::uint64_t>(value)); }
+  void Put(MarkColour value) { out_.Put(static_cast<std::uint64_t>(value)); }
+  template <class... Values>
+  void PutAll(Values... values) {
+    (Put(values), ...);
+  }
+  base::ByteWriter& out() { return out_; }
+
+ private:
+  base::ByteWriter out_;
+};
+
+void PutSection(Canonical& canonical, const SectionSpec& section) {
+  canonical.Put(section.lanes.size());
+  for (const Lane& lane : section.lanes) canonical.PutAll(lane.id, lane.direction, lane.width_m, lane.speed_limit_mps);
+  canonical.PutAll(section.fall_left, section.fall_right, section.surface);
+  for (const Shoulder* shoulder : {&section.left, &section.right}) {
+    canonical.PutAll(shoulder->width_m, shoulder->fall, shoulder->surface);
+  }
+  canonical.PutAll(section.verge.width_m, section.verge.fall, section.verge.surface, section.blend_m);
+}
+
+void PutRoad(Canonical& canonical, const RoadSpec& road) {
+  canonical.PutAll(road.start_W.x(), road.start_W.y(), road.heading_rad, road.pieces.size());
+  for (const geometry::PlanPiece& piece : road.pieces) {
+    canonical.PutAll(piece.length_m, piece.curvature_start_1pm, piece.curvature_end_1pm);
+  }
+  canonical.Put(road.grade_points.size());
+  for (const geometry::GradePoint& point : road.grade_points) canonical.PutAll(point.s_m, point.z_m, point.parabola_m);
+  PutSection(canonical, road.section);
+  canonical.Put(road.marks.size());
+  for (const Mark& mark : road.marks) {
+    canonical.PutAll(mark.t_m, mark.width_m, mark.from_s_m, mark.to_s_m, mark.stroke_m, mark.gap_m, mark.colour);
+  }
+}
+
+// What is run into is part of a world.
+void PutStanding(Canonical& canonical, const network::Standing& standing) {
+  canonical.PutAll(7, standing.objects.size(), standing.things.size(), standing.runs.size());
+  for (const network::Object& object : standing.objects) {
+    canonical.out().PutString(object.subtype);
+    canonical.PutAll(object.length_m, object.width_m, object.height_m, object.radius_m, object.z_offset_m);
+  }
+  for (const auto& thing : standing.things) canonical.PutAll(thing.object, thing.at_W.x(), thing.at_W.y(), thing.heading_rad);
+  for (const auto& run : standing.runs) {
+    canonical.PutAll(run.object, run.points_W.size());
+    for (const Eigen::Vector2d& p : run.points_W) canonical.PutAll(p.x(), p.y());
+  }
+}
+
+}  // namespace
+
+base::Digest ContentHash(const WorldSpec& spec) {
+  Canonical canonical;
+  canonical.out().PutString("rodeira world/1");
+  canonical.Put(spec.roads.size());
+  for (const RoadSpec& road : spec.roads) PutRoad(canonical, road);
+  if (spec.grid != nullptr) {
+    const terrain::ElevationGrid::Frame& frame = spec.grid->frame();
+    canonical.PutAll(1, frame.columns, frame.rows, frame.west_m, frame.south_m, frame.east_m, frame.north_m);
+    canonical.out().PutRaw(std::as_bytes(spec.grid->heights_m()));
+  } else if (spec.plane) {
+    canonical.PutAll(2, spec.plane->z_m, spec.plane->slope_x, spec.plane->slope_y);
+  } else if (spec.network != nullptr) {
+    canonical.PutAll(6, static_cast<std::size_t>(spec.network_hash));  // 3 was without paint
+  }
+  if (spec.network != nullptr && (spec.grid != nullptr || spec.plane)) {
+    canonical.PutAll(4, static_cast<std::size_t>(HashOf(*spec.network)), spec.junctions.size());
+  }
+  if (spec.detail != nullptr && spec.detail->digest() != 0) canonical.PutAll(5, static_cast<std::size_t>(spec.detail->digest()));
+  if (spec.standing != nullptr) PutStanding(canonical, *spec.standing);
+  canonical.Put(spec.terrain_surface);
+  canonical.Put(spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)]));
+  for (const double friction : spec.friction) canonical.Put(friction);
+  const StartPose& start = spec.start;
+  canonical.PutAll(start.x_m, start.y_m, start.heading_rad, start.road, start.lane, start.s_m);
+  return base::Hash(canonical.out().bytes());
+}
+
+}  // namespace rodeira::road

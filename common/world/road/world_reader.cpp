@@ -1,0 +1,307 @@
+#include "common/world/road/world_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "common/core/base/suggest.hpp"
+#include "common/core/config/either.hpp"
+#include "common/world/design/design_reader.hpp"
+#include "common/core/geometry/angle.hpp"
+#include "common/world/road/named_network.hpp"
+#include "common/world/road/network_world.hpp"
+#include "common/world/road/picture_reader.hpp"
+#include "common/world/road/road_reader.hpp"
+#include "common/world/road/surface_detail.hpp"
+#include "common/world/road/world_fit.hpp"
+#include "common/world/terrain/elevation_file.hpp"
+#include "common/world/weather/weather_plan.hpp"
+
+namespace rodeira::road {
+namespace {
+
+using config::List;
+using config::Map;
+using config::Range;
+
+constexpr const char* kFirstVersion = "world/1";
+constexpr const char* kVersion = "world/2";
+
+// Whether the file is of the second version.
+bool ReadVersion(const Map& root) {
+  const std::string version = root.Text("rodeira");
+  if (root.Has("rodeira") && version != kVersion && version != kFirstVersion) {
+    root.Problem("rodeira", fmt::format("'rodeira' is '{}'; a world file of this program says '{}' or '{}'", version, kVersion, kFirstVersion));
+  }
+  return version == kVersion;
+}
+
+HillsSpec ReadHills(const Map& map) {
+  HillsSpec hills;
+  hills.seed = static_cast<std::uint64_t>(map.Integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  hills.columns = static_cast<int>(map.Integer("columns", 2, 8193));
+  hills.rows = static_cast<int>(map.Integer("rows", 2, 8193));
+  hills.spacing_m = map.Number("spacing_m", {0.1, 1000.0});
+  hills.west_m = map.Number("west_m", {-1e8, 1e8});
+  hills.south_m = map.Number("south_m", {-1e8, 1e8});
+  if (map.Has("base_z_m")) hills.base_z_m = map.Number("base_z_m", {-12'000.0, 12'000.0});
+  hills.below_m = map.Number("below_m", {-50.0, 50.0}, 0.0);
+  hills.flat_m = map.Number("flat_m", {0.1, 10'000.0}, 15.0);
+  hills.full_m = map.Number("full_m", {0.2, 100'000.0}, 200.0);
+  if (hills.full_m <= hills.flat_m) map.Problem("full_m", "'full_m' must be greater than 'flat_m': the hills grow between them");
+  hills.reach_m = map.Number("reach_m", {0.2, 1e6}, 3.0 * hills.full_m);
+  hills.follow_structures = map.Flag("follow_structures", true);
+  if (hills.reach_m < hills.full_m) map.Problem("reach_m", "'reach_m' must not be less than 'full_m': up to there the hills grow with the distance from the roads");
+  const List relief = map.Items("relief");
+  for (std::size_t i = 0; i < relief.size(); ++i) {
+    const Map layer = relief.At(i);
+    hills.relief.push_back({layer.Number("wavelength_m", {1.0, 1e6}), layer.Number("amplitude_m", {0.0, 10'000.0})});
+    const double nodes = hills.columns * hills.spacing_m / hills.relief.back().wavelength_m * hills.rows * hills.spacing_m /
+                         hills.relief.back().wavelength_m;
+    if (nodes > 1e8) layer.Problem("wavelength_m", "the wavelength is too short for a terrain of this size");
+  }
+  if (map.Has("projection")) {
+    auto wkt = terrain::ProjectionWkt(map.Text("projection"));
+    if (wkt) hills.projection_wkt = std::move(wkt).value();
+    else map.Problem("projection", wkt.error().message);
+  }
+  return hills;
+}
+
+void ReadFriction(const Map& map, WorldSpec& spec) {
+  using terrain::Surface;
+  for (const Surface surface : {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil, Surface::kRoadMark}) {
+    double& friction = spec.friction[static_cast<std::size_t>(surface)];
+    friction = map.Number(SurfaceName(surface), {0.01, 2.0}, friction);
+  }
+}
+
+void ReadPlane(const Map& map, WorldSpec& spec) {
+  (void)map.Choice("kind", {"plane"});
+  spec.plane = PlaneSpec{map.Number("z_m", {-12'000.0, 12'000.0}, 0.0), map.Number("slope_x", {-1.0, 1.0}, 0.0),
+                         map.Number("slope_y", {-1.0, 1.0}, 0.0)};
+  spec.terrain_surface = ReadSurface(map, "surface", terrain::Surface::kAsphalt);
+  if (map.Has("friction")) spec.terrain_friction = map.Number("friction", {0.01, 2.0});
+}
+
+// On a road: its index, lane and s, from which the rest follows once the road stands. Elsewhere: the pose itself.
+void ReadStart(const Map& map, const std::vector<RoadSpec>& roads, StartPose& start) {
+  for (const char* place : {"x_m", "y_m"}) {
+    if (config::SaysTwice(map, "road", place) || config::SaysTwice(map, "s_m", place)) return;
+  }
+  const auto radians = [](double degrees) { return geometry::WrapAngle(degrees * geometry::kPi / 180.0); };
+  if (!map.Has("road") && (roads.empty() || map.Has("x_m") || map.Has("y_m"))) {
+    start.x_m = map.Number("x_m", {-1e8, 1e8});
+    start.y_m = map.Number("y_m", {-1e8, 1e8});
+    start.heading_rad = radians(map.Number("heading_deg", {-360.0, 360.0}, 0.0));
+    return;
+  }
+  const std::string id = map.Text("road", roads.empty() ? "" : roads.front().id);
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < roads.size(); ++i) {
+    ids.push_back(roads[i].id);
+    if (roads[i].id == id) start.road = static_cast<int>(i);
+  }
+  if (start.road < 0) return map.Problem("road", fmt::format("there is no road '{}'{}", id, base::DidYouMean(id, ids)));
+  start.lane = static_cast<int>(map.Integer("lane", -20, 20, -1));
+  start.s_m = map.Number("s_m", Range::NotNegative(), 0.0);
+  bool known = false;
+  for (const Lane& lane : roads[static_cast<std::size_t>(start.road)].section.lanes) known |= lane.id == start.lane;
+  if (!known) map.Problem("lane", fmt::format("road '{}' has no lane {}", id, start.lane));
+}
+
+// The same of a file of version 2: what stands on a road is found with the roads.
+design::StartWish ReadStartWish(const Map& map, StartPose& start) {
+  design::StartWish wish;
+  if (map.Has("x_m") || map.Has("y_m")) {
+    ReadStart(map, {}, start);
+    return wish;
+  }
+  wish.road = map.Text("road", "");
+  if (map.Has("lane")) wish.lane = static_cast<int>(map.Integer("lane", -30, 30));
+  if (map.Has("s_m")) wish.s_m = map.Number("s_m", Range::NotNegative());
+  return wish;
+}
+
+// All keys of the file. What needs other files or the finished roads comes afterwards.
+struct Keys {
+  WorldSpec spec;
+  std::optional<HillsSpec> hills;
+  std::optional<std::filesystem::path> elevation_file, network_file;
+  std::string elevation_place;  // "file:line" where it is named
+  terrain::Registration registration = terrain::Registration::kUsual;
+  bool second = false;  // version 2: the roads are read by common/world/design
+  design::StartWish start;
+  std::vector<base::Error> missing;
+};
+
+Keys ReadKeys(const Map& root) {
+  Keys keys;
+  keys.second = ReadVersion(root);
+  keys.spec.name = root.Text("name");
+  (void)root.Text("description", "");
+  ReadFriction(root.OptionalChild("friction"), keys.spec);
+  if (root.Has("network")) keys.network_file = root.Child("network").Path("file");
+  const int grounds = (root.Has("ground") ? 1 : 0) + (root.Has("terrain") ? 1 : 0) + (keys.network_file ? 1 : 0);
+  if (grounds != 1) {
+    root.Problem(grounds == 0 ? "" : keys.network_file ? "network" : "ground",
+                 "a world stands either on 'terrain' (an elevation file, or hills) or on 'ground' (a plane), or is the 'network' of an OpenDRIVE file");
+  }
+  if (root.Has("ground")) {
+    ReadPlane(root.Child("ground"), keys.spec);
+    keys.spec.ground_picture = ReadGroundPicture(root.Child("ground"), keys.missing);
+  }
+  const Map terrain = root.OptionalChild("terrain");
+  if (root.Has("terrain")) {
+    keys.spec.terrain_surface = ReadSurface(terrain, "surface", terrain::Surface::kGrass);
+    keys.spec.ground_picture = ReadGroundPicture(terrain, keys.missing);
+    keys.elevation_file = terrain.OptionalPath("file");
+    keys.elevation_place = terrain.Place("file");
+    if (terrain.Has("registration")) {
+      keys.registration = terrain.Choice("registration", {"posts", "cells"}) == "cells" ? terrain::Registration::kCells : terrain::Registration::kPosts;
+      if (!keys.elevation_file) terrain.Problem("registration", "'registration' says where the heights of a 'file' stand; there is none");
+    }
+    const Map hills = terrain.OptionalChild("generate");
+    if (terrain.Has("generate")) keys.hills = ReadHills(hills);
+    if (terrain.Has("generate") == terrain.Has("file")) terrain.Problem("file", "'terrain' needs either 'file' or 'generate'");
+  }
+  if (keys.second && root.Has("weather")) (void)weather::ReadStanding(root.Child("weather"));  // a scenario's node asks for it (WeatherOf)
+  if (keys.network_file && !keys.second) root.Problem("network", "'network' needs 'rodeira: world/2'");
+  if (keys.second) {
+    if (root.Has("start")) keys.start = ReadStartWish(root.Child("start"), keys.spec.start);
+    return keys;
+  }
+  const List roads = root.OptionalItems("roads");
+  for (std::size_t i = 0; i < roads.size(); ++i) keys.spec.roads.push_back(ReadRoad(roads.At(i)));
+  if (roads.size() > 1) roads.Problem(1, "a second road; version 1 has one road a world, several need 'rodeira: world/2'");
+  if (root.Has("start")) ReadStart(root.Child("start"), keys.spec.roads, keys.spec.start);
+  return keys;
+}
+
+void PutStart(const Map& root, const std::vector<Road>& roads, const WorldSpec& spec, StartPose& start) {
+  const Map map = root.OptionalChild("start");
+  if (!root.Has("start")) {  // a lane in its direction where there is one, otherwise the middle of the terrain
+    if (!roads.empty()) {
+      start.road = 0;
+      start.lane = roads[0].lanes().front().id;
+    } else if (spec.grid != nullptr) {
+      start.x_m = 0.5 * (spec.grid->frame().west_m + spec.grid->frame().east_m);
+      start.y_m = 0.5 * (spec.grid->frame().south_m + spec.grid->frame().north_m);
+    }
+  }
+  if (start.road >= 0) {
+    const Road& road = roads[static_cast<std::size_t>(start.road)];
+    const Lane& lane = *road.section().FindLane(start.lane);
+    if (start.s_m > road.length_m()) {
+      map.Problem("s_m", fmt::format("'start.s_m' is {}; the road is {:.3f} m long", start.s_m, road.length_m()));
+    }
+    const Eigen::Vector3d p = road.Position(start.s_m, lane.centre_t_m());
+    start.x_m = p.x();
+    start.y_m = p.y();
+    const double turned = lane.direction > 0 ? 0.0 : geometry::kPi;
+    start.heading_rad = geometry::WrapAngle(road.Evaluate(start.s_m).heading_rad + turned);
+  } else if (spec.grid != nullptr && !spec.grid->At(start.x_m, start.y_m).inside) {
+    map.Problem("x_m", fmt::format("the start ({}, {}) lies outside the terrain", start.x_m, start.y_m));
+  }
+}
+
+// The terrain's file or hills; false, and a problem, where the file cannot be read.
+template <class Axis>
+bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
+  if (keys.elevation_file) {
+    auto grid = terrain::LoadElevation(*keys.elevation_file, keys.registration);
+    if (!grid) {
+      reading.problems.push_back(base::WrongInput(grid.error().Text(), keys.elevation_place));
+      return false;
+    }
+    keys.spec.grid = std::move(grid).value();
+    if (const auto missing = terrain::MissingProjection(*keys.elevation_file)) {
+      reading.warnings.push_back(fmt::format("{}: '{}' says that its coordinates are those of '{}', which is not there: {}", keys.elevation_place, keys.elevation_file->filename().string(), missing->filename().string(),
+                                             keys.spec.grid->projection_wkt().empty() ? "nothing can say where on the earth it lies" : "they are taken for those of the UTM zone that it names"));
+    }
+  } else if (keys.hills) {
+    keys.spec.grid = std::make_shared<const terrain::ElevationGrid>(MakeHills(*keys.hills, axis));
+  }
+  SpreadPicture(keys.spec);
+  return true;
+}
+
+// Where roads may lie: on the heights of a file, or on hills, which are made when the roads are known; on a plane anywhere.
+design::TerrainIsAt TerrainOf(const Keys& keys) {
+  if (const auto grid = keys.spec.grid) return [grid](double x_m, double y_m) { return grid->At(x_m, y_m).inside; };
+  if (!keys.hills) return {};
+  const HillsSpec& hills = *keys.hills;
+  const double west = hills.west_m, south = hills.south_m, east = west + (hills.columns - 1) * hills.spacing_m, north = south + (hills.rows - 1) * hills.spacing_m;
+  return [=](double x_m, double y_m) { return x_m >= west && x_m <= east && y_m >= south && y_m <= north; };
+}
+
+WorldReading ReadSecond(const config::File& file, Keys keys) {
+  const Map root = file.root();
+  WorldReading reading;
+  if (keys.elevation_file && !PutTerrain(keys, std::span<const Road>(), reading)) return reading;
+  const std::string projection = keys.hills ? keys.hills->projection_wkt : keys.spec.grid != nullptr ? keys.spec.grid->projection_wkt() : "";
+  design::Design design = design::ReadDesign(file, keys.spec.friction, keys.spec.name, projection, keys.start, root.OptionalChild("start"), TerrainOf(keys));
+  std::move(design.warnings.begin(), design.warnings.end(), std::back_inserter(reading.warnings));
+  reading.road_places = std::move(design.road_places);
+  reading.missing = std::move(keys.missing);
+  std::move(design.missing.begin(), design.missing.end(), std::back_inserter(reading.missing));
+  reading.problems = file.Problems();
+  reading.problems.insert(reading.problems.end(), design.problems.begin(), design.problems.end());
+  if (!reading.problems.empty()) return reading;
+  keys.spec.network = design.network;
+  keys.spec.junctions = std::move(design.junctions);
+  if (!design.standing.empty()) {
+    keys.spec.standing = std::make_shared<const network::Standing>(std::move(design.standing));
+    // What is drawn of roads and their things is drawn of things alone, too: they stand beside no road.
+    if (keys.spec.network == nullptr) keys.spec.network = design.network = std::make_shared<const network::Network>(network::NetworkSpec{keys.spec.name, projection, {}, {}, {}, {}});
+  }
+  if (keys.hills && !PutTerrain(keys, design.network == nullptr ? std::vector<AxisPoint>() : AxisPoints(*design.network, keys.hills->follow_structures), reading)) return reading;
+  if (design.start) keys.spec.start = PoseOn(*design.network, {design.start->road, 0, design.start->lane}, design.start->s_m);
+  else PutStart(root, {}, keys.spec, keys.spec.start);
+  if (design.network != nullptr) {
+    auto detail = SurfaceDetail::Load(*design.network, file.path().parent_path(), design.laid);
+    if (!detail) {
+      reading.problems.push_back(base::WrongInput(detail.error().Text(), file.path().string()));
+      return reading;
+    }
+    for (const std::string& wall : detail.value().Walls(*design.network)) reading.warnings.push_back(fmt::format("{}: {}", file.path().string(), wall));
+    keys.spec.detail = std::make_shared<const SurfaceDetail>(std::move(detail).value());
+  }
+  reading.problems = file.Problems();
+  reading.hills = std::move(keys.hills);
+  if (reading.problems.empty()) reading.spec = std::move(keys.spec);
+  return reading;
+}
+
+}  // namespace
+
+WorldReading ReadWorld(const config::File& file) {
+  const Map root = file.root();
+  if (const std::string version = root.Peek({"rodeira"}).value_or(kVersion); version != kVersion && version != kFirstVersion) {
+    (void)ReadVersion(root);
+    (void)root.Keys();  // those of another version are not known here
+    WorldReading reading;
+    reading.problems = file.Problems();
+    return reading;
+  }
+  Keys keys = ReadKeys(root);
+  if (keys.network_file) return ReadNamedNetwork(file, *keys.network_file, std::move(keys.spec), keys.start);
+  if (keys.second) return ReadSecond(file, std::move(keys));
+  WorldReading reading;
+  reading.missing = std::move(keys.missing);
+  reading.problems = file.Problems();
+  if (!reading.problems.empty()) return reading;
+
+  std::vector<Road> roads;
+  for (const RoadSpec& road : keys.spec.roads) roads.emplace_back(road);
+  if (!PutTerrain(keys, std::span<const Road>(roads), reading)) return reading;
+  PutStart(root, roads, keys.spec, keys.spec.start);
+  for (std::size_t i = 0; i < roads.size(); ++i) CheckRoadFits(roads[i], keys.spec.grid.get(), root.Items("roads").At(i));
+  reading.problems = file.Problems();
+  reading.hills = std::move(keys.hills);
+  if (reading.problems.empty()) reading.spec = std::move(keys.spec);
+  return reading;
+}
+
+}  // namespace rodeira::road

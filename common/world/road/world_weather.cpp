@@ -1,0 +1,18 @@
+#include "common/world/road/world_weather.hpp"
+
+#include "common/core/config/config.hpp"
+#include "common/world/road/map_world.hpp"
+#include "common/world/road/network_world.hpp"
+
+namespace rodeira::road {
+
+base::Result<std::optional<weather::Change>> WeatherOf(const std::filesystem::path& world_file) {
+  if (IsOpenDrive(world_file) || IsTrafficMap(world_file)) return std::optional<weather::Change>();
+  const auto file = config::File::Load(world_file);
+  if (!file) return file.error();
+  const config::Map root = file.value().root();
+  if (!root.Has("weather")) return std::optional<weather::Change>();
+  return std::optional(weather::ReadStanding(root.Child("weather")));  // of what is wrong in it whoever loads the world tells
+}
+
+}  // namespace rodeira::road

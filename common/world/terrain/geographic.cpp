@@ -1,0 +1,86 @@
+#include "common/world/terrain/geographic.hpp"
+
+#include <fmt/format.h>
+#include <proj.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace rodeira::terrain {
+namespace {
+
+constexpr const char* kEarth = "EPSG:4326";  // WGS 84
+
+bool IsMap(PJ_CONTEXT* context, const PJ* to_earth) {
+  PJ* source = proj_get_source_crs(context, to_earth);
+  const PJ_TYPE type = source == nullptr ? PJ_TYPE_UNKNOWN : proj_get_type(source);
+  proj_destroy(source);
+  return type != PJ_TYPE_UNKNOWN && type != PJ_TYPE_GEOGRAPHIC_2D_CRS && type != PJ_TYPE_GEOGRAPHIC_3D_CRS && type != PJ_TYPE_GEOCENTRIC_CRS;
+}
+
+}  // namespace
+
+struct Geographic::Parts {
+  PJ_CONTEXT* context = proj_context_create();
+  PJ* to_earth = nullptr;
+
+  Parts() {
+    proj_log_level(context, PJ_LOG_NONE);
+    proj_context_set_enable_network(context, 0);
+  }
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+  ~Parts() {
+    proj_destroy(to_earth);
+    proj_context_destroy(context);
+  }
+
+  std::optional<Eigen::Vector2d> Move(PJ_DIRECTION direction, double first, double second) const {
+    if (!std::isfinite(first) || !std::isfinite(second)) return std::nullopt;
+    proj_errno_reset(to_earth);
+    const PJ_COORD moved = proj_trans(to_earth, direction, proj_coord(first, second, 0.0, HUGE_VAL));
+    if (proj_errno(to_earth) != 0 || !std::isfinite(moved.xy.x) || !std::isfinite(moved.xy.y)) return std::nullopt;
+    return Eigen::Vector2d(moved.xy.x, moved.xy.y);
+  }
+};
+
+base::Result<Geographic> Geographic::Make(const std::string& definition) {
+  auto parts = std::make_shared<Parts>();
+  PJ* raw = proj_create_crs_to_crs(parts->context, definition.c_str(), kEarth, nullptr);
+  if (raw != nullptr) {
+    parts->to_earth = proj_normalize_for_visualization(parts->context, raw);  // east before north, longitude before latitude
+    proj_destroy(raw);
+  }
+  const bool known = parts->to_earth != nullptr;
+  // A system of longitudes and latitudes is no map.
+  if (!known || !IsMap(parts->context, parts->to_earth)) {
+    return base::WrongInput(fmt::format("'{}' is no {}; a PROJ string, WKT or EPSG code of a projection was expected", definition.substr(0, std::min<std::size_t>(60, definition.find('\n'))),
+                                        known ? "projection" : "coordinate system that PROJ knows"));
+  }
+  return Geographic(std::move(parts));
+}
+
+std::optional<EarthPlace> Geographic::ToEarth(double x_m, double y_m) const {
+  const auto at = parts_->Move(PJ_FWD, x_m, y_m);
+  return at ? std::optional(EarthPlace{at->x(), at->y()}) : std::nullopt;
+}
+
+std::optional<Eigen::Vector2d> Geographic::ToMap(const EarthPlace& place) const { return parts_->Move(PJ_INV, place.longitude_deg, place.latitude_deg); }
+
+std::optional<std::string> ProjString(const std::string& definition) {
+  PJ_CONTEXT* context = proj_context_create();
+  proj_log_level(context, PJ_LOG_NONE);
+  proj_context_set_enable_network(context, 0);
+  PJ* system = proj_create(context, definition.c_str());
+  const char* said = system == nullptr ? nullptr : proj_as_proj_string(context, system, PJ_PROJ_4, nullptr);
+  std::optional<std::string> text;
+  if (said != nullptr) text = said;
+  proj_destroy(system);
+  proj_context_destroy(context);
+  constexpr std::string_view kType = " +type=crs";
+  if (text && text->ends_with(kType)) text->resize(text->size() - kType.size());
+  return text;
+}
+
+}  // namespace rodeira::terrain

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/world/traffic_map/check.hpp"
+
+namespace rodeira::map {
+
+// Findings are added by element, whatever it is.
+class Findings {
+ public:
+  void Add(Severity severity, const Line<Curve>& curve, std::string sentence) {
+    all_.push_back({severity, Element::kCurve, curve.value.id, 0, curve.number, std::move(sentence)});
+  }
+  void Add(Severity severity, const Line<Lane>& lane, std::string sentence) {
+    all_.push_back({severity, Element::kLane, lane.value.id, 0, lane.number, std::move(sentence)});
+  }
+  void Add(Severity severity, const Line<Connection>& connection, std::string sentence) {
+    all_.push_back(
+        {severity, Element::kConnection, connection.value.from, connection.value.to, connection.number, std::move(sentence)});
+  }
+  void Add(Severity severity, const CurveHeights& heights, std::string sentence) {
+    all_.push_back({severity, Element::kHeights, heights.curve, 0, heights.line, std::move(sentence)});
+  }
+  void Add(Severity severity, const lights::Phase& phase, std::string sentence) {
+    all_.push_back({severity, Element::kLights, 0, 0, LineOf(phase.place), std::move(sentence)});
+  }
+  void Add(Severity severity, const LaneSign& sign, std::string sentence) {
+    all_.push_back({severity, Element::kSign, sign.lane, 0, sign.line, std::move(sentence)});
+  }
+  void Add(Severity severity, const LaneFlow& flow, std::string sentence) {
+    all_.push_back({severity, Element::kFlow, flow.lane, 0, flow.line, std::move(sentence)});
+  }
+  void AddToMap(Severity severity, std::string sentence) {
+    all_.push_back({severity, Element::kMap, 0, 0, 0, std::move(sentence)});
+  }
+
+  const std::vector<Finding>& all() const { return all_; }
+
+ private:
+  std::vector<Finding> all_;
+};
+
+// Numbers that are there twice, or are named and not there; start and end lanes; curves that nobody uses.
+void CheckNumbers(const MapFile& map, const Heights& heights, Findings& findings);
+// Where no vehicle gets to, or away from.
+void CheckWays(const MapFile& map, Findings& findings);
+// Curves, lanes, and how lanes fit together; the picture.
+void CheckShapes(const MapFile& map, const Heights& heights, Findings& findings);
+
+}  // namespace rodeira::map

@@ -1,0 +1,119 @@
+#include "common/world/traffic_map/heights.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "common/core/config/config.hpp"
+
+namespace rodeira::map {
+namespace {
+
+constexpr double kMostHeight_m = 1e4;
+constexpr double kMostDistance_m = 1e5;
+
+bool Below(const CurveHeights& heights, std::int32_t curve) { return heights.curve < curve; }
+
+// A key that is an element's number; nothing, after a problem, where it is none.
+std::optional<std::int32_t> NumberOf(const config::Map& map, const std::string& key, std::string_view what) {
+  std::int32_t number = 0;
+  const auto [end, problem] = std::from_chars(key.data(), key.data() + key.size(), number);
+  if (problem == std::errc() && end == key.data() + key.size()) return number;
+  map.Problem(key, fmt::format("'{}' is not a {}'s number", key, what));
+  return std::nullopt;
+}
+
+void ReadCurves(const config::Map& all, Heights& heights) {
+  for (const std::string& key : all.Keys()) {
+    CurveHeights one;
+    if (const auto number = NumberOf(all, key, "curve")) one.curve = *number;
+    const std::vector<double> z = all.Numbers(key, {-kMostHeight_m, kMostHeight_m});
+    if (z.size() == one.z_m.size()) {
+      std::copy(z.begin(), z.end(), one.z_m.begin());
+    } else {
+      all.Problem(key, fmt::format("curve {} has {} heights; 4 were expected, one a control point", key, z.size()));
+    }
+    one.line = LineOf(all.Place(key));
+    const auto at = std::lower_bound(heights.curves.begin(), heights.curves.end(), one.curve, Below);
+    if (at != heights.curves.end() && at->curve == one.curve)
+      all.Problem(key, fmt::format("curve {} has heights already", one.curve));
+    heights.curves.insert(at, one);
+  }
+}
+
+LaneSign ReadSign(const config::Map& item) {
+  std::vector<std::string> kinds;
+  for (int i = 0; i < kSignKinds; ++i) kinds.emplace_back(NameOf(static_cast<SignKind>(i)));
+  LaneSign sign;
+  sign.line = LineOf(item.Place());
+  sign.lane = static_cast<std::int32_t>(item.Integer("lane", INT32_MIN, INT32_MAX));
+  const auto kind = std::find(kinds.begin(), kinds.end(), item.Choice("kind", kinds));
+  if (kind != kinds.end()) sign.kind = static_cast<SignKind>(kind - kinds.begin());
+  sign.before_end_m = item.Number("before_end_m", {0.0, kMostDistance_m}, 0.0);
+  if (sign.kind == SignKind::kSpeedLimit) sign.limit_kmh = item.Number("limit_kmh", {5.0, 200.0});
+  return sign;
+}
+
+void ReadFlows(const config::Map& all, Heights& heights) {
+  for (const std::string& key : all.Keys()) {
+    LaneFlow flow;
+    if (const auto number = NumberOf(all, key, "lane")) flow.lane = *number;
+    flow.vehph = all.Number(key, {0.0, 10'000.0});
+    flow.line = LineOf(all.Place(key));
+    const auto at = std::lower_bound(heights.flows.begin(), heights.flows.end(), flow.lane, [](const LaneFlow& f, std::int32_t lane) { return f.lane < lane; });
+    if (at != heights.flows.end() && at->lane == flow.lane) all.Problem(key, fmt::format("lane {} has a flow already", flow.lane));
+    heights.flows.insert(at, flow);
+  }
+}
+
+base::Result<Heights> Read(config::File& file) {
+  const config::Map root = file.root();
+  (void)root.Choice("rodeira", {"motors/1"});
+  Heights heights;
+  const config::List lights = root.OptionalItems("lights"), signs = root.OptionalItems("signs");
+  for (std::size_t i = 0; i < lights.size(); ++i) heights.lights.push_back(lights::ReadLightPlan(lights.At(i)));
+  for (std::size_t i = 0; i < signs.size(); ++i) heights.signs.push_back(ReadSign(signs.At(i)));
+  heights.left_hand = root.Choice("rule", {"right", "left"}, "right") == "left";
+  ReadCurves(root.OptionalChild("heights_m"), heights);
+  ReadFlows(root.OptionalChild("flows_vehph"), heights);
+  if (const base::Status status = file.Finish(); !status) return status.error();
+  return heights;
+}
+
+}  // namespace
+
+std::string_view NameOf(SignKind kind) {
+  constexpr std::array<std::string_view, kSignKinds> kNames = {"stop", "give_way", "priority", "speed_limit"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::size_t LineOf(const std::string& place) {
+  std::size_t line = 0;
+  const std::size_t colon = place.rfind(':');
+  if (colon != std::string::npos) std::from_chars(place.data() + colon + 1, place.data() + place.size(), line);
+  return line;
+}
+
+std::array<double, 4> Heights::Of(std::int32_t curve) const {
+  const auto at = std::lower_bound(curves.begin(), curves.end(), curve, Below);
+  return at != curves.end() && at->curve == curve ? at->z_m : std::array<double, 4>{};
+}
+
+base::Result<Heights> ParseHeights(std::string_view text, const std::filesystem::path& name) {
+  auto file = config::File::Parse(text, name);
+  if (!file) return file.error();
+  return Read(file.value());
+}
+
+base::Result<Heights> LoadHeightsOf(const std::filesystem::path& map_file) {
+  const std::filesystem::path path = map_file.string() + ".yaml";
+  std::error_code problem;
+  if (!std::filesystem::exists(path, problem)) return Heights{};
+  auto file = config::File::Load(path);
+  if (!file) return file.error();
+  return Read(file.value());
+}
+
+}  // namespace rodeira::map

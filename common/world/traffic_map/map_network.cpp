@@ -1,0 +1,24 @@
+#include "common/world/traffic_map/map_network.hpp"
+
+#include "common/world/traffic_map/open_drive.hpp"
+#include "common/world/opendrive/import.hpp"
+
+namespace rodeira::map {
+
+base::Result<std::shared_ptr<const network::Network>> ToNetwork(const LaneMap& map, const std::string& name) {
+  const auto drive = ToOpenDrive(map, name, Junctions::kDirect);
+  if (!drive) return base::WrongInput(drive.error().message, name);
+  const auto import = opendrive::Read(drive.value().xml, name);
+  if (!import) return import.error();
+  // A line of the OpenDRIVE in between would say nothing to whoever wrote the map; its roads have the numbers of the lanes.
+  if (!import.value().errors.empty()) return base::WrongInput(import.value().errors.front().Text(), name);
+  return import.value().network;
+}
+
+base::Result<std::shared_ptr<const network::Network>> LoadNetwork(const std::filesystem::path& path) {
+  const auto made = LoadLaneMap(path);
+  if (!made) return made.error();
+  return ToNetwork(made.value(), path.string());
+}
+
+}  // namespace rodeira::map

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "common/world/traffic_map/lane_map.hpp"
+
+namespace rodeira::map {
+
+// The map from above as SVG, north up: lanes with their numbers and directions (start lanes green, end lanes red), borders
+// by their type, STOP lines. What lies higher is drawn over what lies lower.
+std::string PlotMap(const LaneMap& map);
+
+}  // namespace rodeira::map

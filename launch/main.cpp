@@ -1,3 +1,0 @@
-#include "launch/commands.hpp"
-
-int main(int argc, char** argv) { return rodeira::front::Main(argc, argv); }

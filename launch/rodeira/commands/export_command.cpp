@@ -1,0 +1,66 @@
+#include "launch/rodeira/commands/export_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "common/data/csv/export.hpp"
+#include "launch/rodeira/interrupt.hpp"
+#include "launch/rodeira/replay/recording_text.hpp"
+
+namespace rodeira::front {
+namespace {
+
+// What is done, on a terminal and after two seconds.
+class Progress {
+ public:
+  explicit Progress(bool quiet) : quiet_(quiet || ::isatty(STDERR_FILENO) == 0) {}
+  ~Progress() {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+  }
+  bool Show(double share) {
+    if (!quiet_ && std::chrono::steady_clock::now() - start_ > std::chrono::seconds(2)) {
+      fmt::print(stderr, "\r\033[K{:.0f} % written", 100.0 * share);
+      shown_ = true;
+    }
+    return !Interrupted();
+  }
+
+ private:
+  bool quiet_;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+int Export(const ExportOptions& options) {
+  CatchInterrupts();
+  const auto reader = record::McapReader::Open(options.recording);
+  const auto report = [&]() -> base::Result<csv::ExportReport> {
+    if (!reader) return reader.error();
+    Progress progress(options.quiet);
+    return csv::ExportCsv(reader.value(), options.csv, [&progress](double share) { return progress.Show(share); });
+  }();
+  if (!report) {
+    fmt::print(stderr, "rodeira: {}\n", report.error().Text());
+    return report.error().exit_status();
+  }
+  if (!options.quiet) {
+    constexpr const char* kLine = "{:<24}  {:<24}  {:>9}  {:>9}  {:>10}\n";
+    fmt::print(kLine, "table", "topic", "samples", "rows", "size");
+    for (const auto& table : report.value().tables) {
+      fmt::print(kLine, table.file, table.topic, table.messages, table.rows, Size(table.bytes));
+    }
+    for (const std::string& sentence : report.value().left_out) fmt::print("left out  {}\n", sentence);
+  }
+  for (const std::string& loss : report.value().losses) fmt::print(stderr, "rodeira: {}: {}\n", options.recording, loss);
+  const bool whole = report.value().losses.empty() && reader.value().condition().whole;
+  if (whole) return 0;
+  fmt::print(stderr, "rodeira: {} is not whole: the tables in {} hold what could be read\n", options.recording, options.csv);
+  return 1;
+}
+
+}  // namespace rodeira::front

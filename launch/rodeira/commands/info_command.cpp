@@ -1,0 +1,82 @@
+#include "launch/rodeira/commands/info_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <set>
+
+#include "common/data/record/mcap_reader.hpp"
+#include "common/data/record/repair.hpp"
+#include "launch/rodeira/replay/recording_audit.hpp"
+#include "launch/rodeira/replay/recording_text.hpp"
+
+namespace rodeira::front {
+namespace {
+
+void PrintWhatItIs(const record::McapReader& in, const std::string& file) {
+  const auto& statistics = in.statistics();
+  fmt::print("{}  {}, {}\n", file, Size(in.condition().file_bytes), in.condition().whole ? "whole" : "not whole");
+  fmt::print("time    {:.3f} s to {:.3f} s, {} samples in {} chunks\n", static_cast<double>(statistics.first_log_time_ns) * 1e-9,
+             static_cast<double>(statistics.last_log_time_ns) * 1e-9, statistics.messages, statistics.chunks);
+  for (const char* name : {"rodeira", "rodeira.meta", "rodeira.branch", "rodeira.end", record::kRepairMetadata}) {
+    const auto metadata = in.FindMetadata(name);
+    if (!metadata || !metadata.value()) continue;
+    if (name == std::string_view(record::kRepairMetadata)) fmt::print("repaired:\n");
+    for (const auto& [key, value] : metadata.value()->entries) fmt::print("{:<16}  {}\n", key, value);
+  }
+}
+
+void PrintSources(const RecordingAudit& audit) {
+  constexpr const char* kLine = "{:<24}  {:<10}  {:<28}  {:>8}  {:>9}  {:>10}  {}\n";
+  fmt::print(kLine, "topic", "source", "type", "rate", "samples", "size", "audit");
+  for (const RecordedSource& source : audit.sources) {
+    const std::string rate = source.rate_hz ? fmt::format("{:g} Hz", *source.rate_hz) : "";
+    fmt::print(kLine, source.topic, source.source, source.type, rate, source.samples, Size(source.bytes), source.Verdict());
+  }
+}
+
+void PrintWhatIsEmbedded(const record::McapReader& in) {
+  std::set<std::string> schemas;
+  for (const auto& [id, schema] : in.schemas()) schemas.insert(schema.name + " (" + schema.encoding + ")");
+  for (const auto& attachment : in.attachments()) {
+    fmt::print("embedded  {}  {}, {}\n", attachment.name, Size(attachment.data_bytes), attachment.media_type);
+  }
+  for (const std::string& schema : schemas) fmt::print("embedded  {}\n", schema);
+}
+
+}  // namespace
+
+int Info(const std::string& file) {
+  const auto reader = record::McapReader::Open(file);
+  if (!reader) {
+    fmt::print(stderr, "rodeira: {}\n", reader.error().Text());
+    return reader.error().exit_status();
+  }
+  const auto& in = reader.value();
+  const RecordingAudit audit = Audit(in);
+  PrintWhatItIs(in, file);
+  PrintSources(audit);
+  PrintWhatIsEmbedded(in);
+  for (const RecordedSource& source : audit.sources) {
+    if (source.without_state) fmt::print("{}", WithoutStateLine(source.source));
+  }
+  fmt::print("content   {}  (of all samples: recordings with the same one are identical)\n", base::Hex(audit.content));
+  for (const std::string& damage : audit.damages) fmt::print("damage    {}\n", damage);
+  if (audit.steps_without_wall_time.value_or(0) > 0) {
+    fmt::print("wall      the wall times of {} steps are missing: a clock that was lost had not said them yet\n", *audit.steps_without_wall_time);
+  }
+  const bool whole = in.condition().whole && audit.damages.empty();
+  if (!whole) fmt::print("what to do: rodeira repair {} --out REPAIRED.mcap\n", file);
+  if (!audit.lossless()) {
+    fmt::print("{}\n", audit.last_step && audit.has_every_sample() ? "damaged, though no source lacks a sample" : "not lossless: samples of the run are missing");
+  } else if (whole && audit.broken_off) {
+    fmt::print("no gaps; the run was broken off at step {}\n", audit.last_step.value_or(0));
+  } else if (whole && audit.last_step) {
+    fmt::print("lossless: each source's samples are there once, from step 0 to step {}\n", *audit.last_step);
+  } else if (whole) {
+    fmt::print("no gaps; the end of the run is not in it\n");
+  }
+  return whole && audit.lossless() ? 0 : 1;
+}
+
+}  // namespace rodeira::front

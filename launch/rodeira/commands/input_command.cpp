@@ -1,0 +1,60 @@
+#include "launch/rodeira/commands/input_command.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include "launch/rodeira/interrupt.hpp"
+#include "launch/rodeira/commands/wheel_wizard.hpp"
+
+namespace rodeira::front {
+namespace {
+
+constexpr double kTick_s = 0.01;
+
+int Refuse(const base::Error& error) {
+  fmt::print(stderr, "rodeira: {}\n", error.Text());
+  return error.exit_status();
+}
+
+}  // namespace
+
+int SetUpInput(const InputOptions& options, const std::function<void(const std::string&)>& say, const std::function<bool()>& wait) {
+  auto begun = WheelWizard::Begin();
+  if (!begun) return Refuse(begun.error());
+  WheelWizard& wizard = *begun.value();
+  for (const nodes::JoystickInfo& info : wizard.devices()) say(fmt::format("{}: {} axes, {} buttons", info.name, info.axes, info.buttons));
+  std::string said_prompt, said_remark;
+  while (!wizard.done()) {
+    if (wizard.remark() != said_remark && !wizard.remark().empty()) say(wizard.remark());
+    said_remark = wizard.remark();
+    if (wizard.prompt() != said_prompt) {
+      said_prompt = wizard.prompt();
+      say(fmt::format("{}. {}", wizard.number(), said_prompt));
+    }
+    if (!wait()) return Refuse(base::Failed("the setup was broken off; nothing was written"));
+    if (const auto went = wizard.Step(kTick_s); !went) return Refuse(went.error());
+  }
+  const auto file = wizard.Write(options.out, options.lock_deg);
+  if (!file) return Refuse(file.error());
+  say(fmt::format("written: {}", file.value().string()));
+  say(options.out ? fmt::format("drive with it: rodeira run launch/wheel.yaml --set nodes.driver.config.wheel={}", file.value().string())
+                  : "drive with it: rodeira run launch/wheel.yaml");
+  return 0;
+}
+
+int SetUpInput(const InputOptions& options) {
+  CatchInterrupts();
+  const auto say = [](const std::string& line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  };
+  return SetUpInput(options, say, [] {
+    std::this_thread::sleep_for(std::chrono::duration<double>(kTick_s));
+    return !Interrupted();
+  });
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,106 @@
+#include "launch/rodeira/commands/joysticks_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include "launch/rodeira/interrupt.hpp"
+
+namespace rodeira::front {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+constexpr double kMoved = 655.0;  // a hundredth of an axis' whole way
+
+void Watch(nodes::Joysticks& joysticks, const std::vector<nodes::JoystickInfo>& connected, std::optional<double> duration_s) {
+  CatchInterrupts();
+  std::vector<std::string> guids;
+  for (const nodes::JoystickInfo& info : connected) guids.push_back(info.guid);
+  joysticks.Use(guids);
+  std::vector<hands::DeviceReading> before;
+  for (std::size_t place = 0; place < guids.size(); ++place) before.push_back(joysticks.reading(place));
+  const auto begin = WallClock::now();
+  while (!Interrupted() && (!duration_s || std::chrono::duration<double>(WallClock::now() - begin).count() < *duration_s)) {
+    joysticks.Update();
+    for (std::size_t place = 0; place < guids.size(); ++place) {
+      fmt::print("{}", JoystickMoves(connected[place].name, before[place], joysticks.reading(place)));
+    }
+    std::fflush(stdout);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+}  // namespace
+
+std::string JoystickTable(const std::vector<nodes::JoystickInfo>& connected) {
+  if (connected.empty()) return "no device is connected (or none that you may read: `rodeira doctor`)\n";
+  std::string text = fmt::format("{:<32}  {:>4}  {:>7}  {}\n", "GUID", "axes", "buttons", "name");
+  for (const nodes::JoystickInfo& info : connected)
+    text += fmt::format("{:<32}  {:>4}  {:>7}  {}\n", info.guid, info.axes, info.buttons, info.name);
+  return text;
+}
+
+std::string JoystickMoves(const std::string& device, hands::DeviceReading& before, const hands::DeviceReading& now) {
+  std::string text;
+  if (before.connected != now.connected) text += fmt::format("{}: {}\n", device, now.connected ? "is there" : "was unplugged");
+  if (before.connected != now.connected || before.axes.size() != now.axes.size() || before.buttons.size() != now.buttons.size()) {
+    before = now;
+    return text;
+  }
+  for (std::size_t axis = 0; axis < now.axes.size(); ++axis) {
+    if (std::fabs(now.axes[axis] - before.axes[axis]) < kMoved) continue;
+    text += fmt::format("{}: axis {}: {:.0f} -> {:.0f}\n", device, axis, before.axes[axis], now.axes[axis]);
+    before.axes[axis] = now.axes[axis];
+  }
+  for (std::size_t button = 0; button < now.buttons.size(); ++button) {
+    if (now.buttons[button] == before.buttons[button]) continue;
+    text += fmt::format("{}: button {}: {}\n", device, button, now.buttons[button] != 0 ? "down" : "up");
+    before.buttons[button] = now.buttons[button];
+  }
+  return text;
+}
+
+int ListJoysticks(const JoysticksOptions& options) {
+  auto joysticks = nodes::Joysticks::Start();
+  if (!joysticks) {
+    fmt::print(stderr, "rodeira: {}\n", joysticks.error().Text());
+    return joysticks.error().exit_status();
+  }
+  joysticks.value()->Update();
+  const auto connected = joysticks.value()->Connected();
+  fmt::print("{}", JoystickTable(connected));
+  if (!options.watch || connected.empty()) return 0;
+  fmt::print("move or press one thing at a time; Ctrl-C ends\n");
+  Watch(*joysticks.value(), connected, options.duration_s);
+  return 0;
+}
+
+Finding CheckJoysticks(const std::vector<nodes::JoystickInfo>& connected, const std::filesystem::path& input_folder) {
+  const std::string check = "joysticks";
+  int closed = 0;
+  std::error_code problem;
+  for (const auto& entry : std::filesystem::directory_iterator(input_folder, problem)) {
+    if (entry.path().filename().string().starts_with("event") && ::access(entry.path().c_str(), R_OK) != 0) ++closed;
+  }
+  // Keyboards and mice are among these, and closed to everybody but root: only with no joystick at all is it worth a word.
+  if (connected.empty() && closed > 0) {
+    return Warning(
+        check,
+        fmt::format("none, but {} devices in {} may not be read: if a wheel is plugged in, add yourself to the group input "
+                    "(sudo usermod -aG input $USER) and log in again",
+                    closed, input_folder.string()));
+  }
+  if (connected.empty()) return Ok(check, "none is connected (only `source: joystick` needs one)");
+  std::string names;
+  for (const nodes::JoystickInfo& info : connected)
+    names +=
+        fmt::format("{}{} '{}' ({} axes, {} buttons)", names.empty() ? "" : ", ", info.guid, info.name, info.axes, info.buttons);
+  return Ok(check, names);
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,27 @@
+#include "launch/rodeira/commands/repair_command.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <cstdio>
+
+#include "common/data/record/repair.hpp"
+#include "common/runtime/replay/repaired_end.hpp"
+#include "launch/rodeira/replay/recording_text.hpp"
+
+namespace rodeira::front {
+
+int RepairRecording(const std::string& recording, const std::string& out) {
+  ::signal(SIGXFSZ, SIG_IGN);
+  replay::RepairedEnd end;
+  const auto report = record::Repair(recording, out, &end);
+  if (!report) {
+    fmt::print(stderr, "rodeira: {}\n", report.error().Text());
+    return report.error().exit_status();
+  }
+  const auto& done = report.value();
+  fmt::print("{}{}  {} of {}\n", done.Text(), out, Size(done.target_bytes), Size(done.source_bytes));
+  return 0;
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,32 @@
+#include "launch/rodeira/commands/surface_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "common/core/base/files.hpp"
+#include "common/world/surface/crg_report.hpp"
+
+namespace rodeira::front {
+namespace {
+
+int Complain(const base::Error& error) {
+  fmt::print(stderr, "rodeira: {}\n", error.Text());
+  return error.exit_status();
+}
+
+}  // namespace
+
+int Surface(const SurfaceOptions& options) {
+  const auto file = surface::LoadCrg(options.file);
+  if (!file) return Complain(file.error());
+  fmt::print("file             {}\n{}", options.file, surface::DescribeCrg(file.value()));
+  if (options.svg.empty()) return 0;
+  if (const auto written = base::WriteWhole(options.svg, surface::PlotCrg(*file.value().surface)); !written) {
+    return Complain(written.error());
+  }
+  fmt::print("wrote            {}\n", options.svg);
+  return 0;
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,141 @@
+#include "launch/rodeira/commands/traffic_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "common/world/traffic_map/heights.hpp"
+#include "common/world/road/map_world.hpp"
+#include "common/traffic/drivetrain.hpp"
+#include "common/traffic/map_demand.hpp"
+#include "common/traffic/map_lights.hpp"
+#include "common/traffic/road_network.hpp"
+#include "common/traffic/study.hpp"
+#include "common/traffic/tight_bends.hpp"
+#include "launch/rodeira/commands/traffic_files.hpp"
+
+namespace rodeira::front {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kCell_m = 1.0;  // of the statistics of lanes
+
+int Complain(const base::Error& error) {
+  fmt::print(stderr, "rodeira: {}\n", error.Text());
+  return error.exit_status();
+}
+
+double SecondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+// As the file of settings says; without flows there those of a traffic map's companion.
+base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& options) {
+  traffic::TrafficSettings settings;
+  settings.vehicles = 50;
+  if (!options.settings.empty()) {
+    auto loaded = traffic::LoadTraffic(options.settings, options.seed);
+    if (!loaded) return loaded.error();
+    settings = std::move(loaded).value();
+  }
+  settings.seed = options.seed;
+  if (!options.physics.empty()) settings.physics = options.physics == "full" ? traffic::Physics::kFull : traffic::Physics::kPlanar;
+  if (!options.driver.empty()) settings.driver = options.driver == "motors" ? traffic::DriverKind::kMotors : traffic::DriverKind::kStandard;
+  if (settings.driver == traffic::DriverKind::kMotors) {
+    if (options.physics == "planar") return base::WrongInput("'--physics planar' was given; the driver 'motors' holds pedals and steering wheel: full was expected");
+    if (settings.pedestrians) return base::WrongInput("the driver 'motors' sees nobody on foot; no 'pedestrians' were expected", options.settings);
+    settings.physics = traffic::Physics::kFull;
+  }
+  if (settings.demand.flows.empty() && road::IsTrafficMap(options.map)) {
+    const auto companion = map::LoadHeightsOf(options.map);
+    if (!companion) return companion.error();
+    settings.demand.flows = traffic::DemandOf(companion.value(), options.map + ".yaml").flows;
+    if (!settings.demand.flows.empty()) settings.vehicles = traffic::TrafficSettings::kMostOfFlows;
+  }
+  if (options.vehicles) settings.vehicles = *options.vehicles;
+  return settings;
+}
+
+void Describe(const TrafficOptions& options, const traffic::StudyResult& r, double wall_s) {
+  fmt::print("vehicles         {} on the road, {} waiting to enter, {} trips ended\n", r.on_road, r.waiting, r.arrivals);
+  fmt::print("entered, left    {} came onto the road, {} left it; {} were there at the beginning\n", r.entered, r.left, r.began);
+  fmt::print("driven           {:.3f} km at {:.2f} m/s in the mean\n", r.driven_km, r.mean_speed_mps());
+  const double litres = r.fuel_mg / traffic::kFuelDensity_mgpl;
+  fmt::print("fuel             {:.3f} l, {:.2f} l/100 km\n", litres, r.driven_km > 0.0 ? 100.0 * litres / r.driven_km : 0.0);
+  const auto who = [](double time_s, std::uint32_t id) { return time_s > 0.0 ? fmt::format("{:.1f} s (car {})", time_s, id) : std::string("0.0 s"); };
+  fmt::print("standing         {:.1f} % of the time, at most {}, with room ahead {}\n", r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, who(r.longest_stand_s, r.longest_stand_id),
+             who(r.longest_with_room_s, r.longest_with_room_id));
+  fmt::print("hardest braking  {:.2f} m/s2 with a foot on the brake, which asks it for {:.2f} m/s2 at most; {:.2f} m/s2 in all\n", r.hardest_mps2, r.foot_mps2, r.hardest_any_mps2);
+  fmt::print("emergencies      {} steps of a vehicle\n", r.hurried_steps);
+  fmt::print("collisions       {}\n", r.collisions);
+  fmt::print("beside its lane  {} times, a wheel off the road {} times, looked at every 0.1 s\n", r.off_lane, r.wheels_off);
+  fmt::print("wall time        {:.2f} s, {:.1f} times real time, {:.0f} vehicle steps a second\n", wall_s, options.duration_s / wall_s,
+             r.vehicle_s / options.step_s / wall_s);
+  for (const std::string& incident : r.incidents) fmt::print("incident         {}\n", incident);
+}
+
+struct FlowsSeen {
+  std::vector<traffic::TrafficModel::FlowCount> flows;
+  std::uint64_t missed = 0;
+};
+
+void Describe(const FlowsSeen& seen) {
+  for (std::size_t f = 0; f < seen.flows.size(); ++f) {
+    fmt::print("flow {:<12}{} arrived, {} of them without a vehicle yet\n", f + 1, seen.flows[f].arrived, seen.flows[f].arrived - seen.flows[f].given);
+  }
+  if (!seen.flows.empty()) fmt::print("lanes missed     {} times a route's lane was not reached\n", seen.missed);
+}
+
+}  // namespace
+
+int TrafficRun(const TrafficOptions& options) {
+  const auto world = road::World::Load(options.map);
+  if (!world) return Complain(world.error());
+  const auto network = traffic::NetworkOf(world.value());
+  if (road::IsTrafficMap(options.map)) {
+    if (const auto lit = traffic::CheckLightsOfMap(options.map); !lit) return Complain(lit.error());
+  }
+  auto how = HowTrafficIs(options);
+  if (!how) return Complain(how.error());
+  traffic::StudySettings settings;
+  settings.traffic = std::move(how).value();
+  settings.duration_s = options.duration_s;
+  settings.step_s = options.step_s;
+  settings.watch_s = std::max(0.1, options.step_s);
+  auto opened = TrafficFiles::Open(options, *network);
+  if (!opened) return Complain(opened.error());
+  TrafficFiles files = std::move(opened).value();
+  if (files.wants_cells()) settings.cell_m = kCell_m;
+  settings.warm_s = options.warm_s, settings.every_s = options.every_s;
+  if (!options.quiet && settings.traffic.physics == traffic::Physics::kFull) {
+    const lanes::Graph graph(*network);
+    for (const traffic::TightBend& bend : traffic::TightBendsOf(graph, settings.traffic)) fmt::print(stderr, "rodeira: warning: {}: {}\n", options.map, traffic::Text(bend, graph));
+  }
+  const bool terminal = !options.quiet && ::isatty(STDERR_FILENO) == 1;
+  const auto begin = Clock::now();
+  bool shown = false;
+  FlowsSeen flows;
+  const auto watch = [&](const traffic::StudyMoment& moment) {
+    files.Write(moment);
+    flows = {moment.model.flows(), moment.model.missed()};
+    if (!terminal || SecondsSince(begin) < 2.0) return;
+    fmt::print(stderr, "\r{:3.0f} %", 100.0 * moment.time_s / options.duration_s);
+    shown = true;
+  };
+  const auto result = traffic::RunStudy(settings, world.value(), watch);
+  if (shown) fmt::print(stderr, "\r     \r");
+  if (!result) return Complain(result.error());
+  const auto written = files.Close(*network, result.value());
+  if (!written) return Complain(written.error());
+  if (options.quiet) return 0;
+  Describe(options, result.value(), SecondsSince(begin));
+  Describe(flows);
+  for (const std::string& file : written.value()) fmt::print("wrote            {}\n", file);
+  return 0;
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "common/core/base/result.hpp"
+#include "common/traffic/study.hpp"
+#include "common/traffic/trajectory_diagram.hpp"
+#include "launch/rodeira/commands/traffic_command.hpp"
+
+namespace rodeira::front {
+
+// What `rodeira traffic run` writes: some of it moment by moment, the rest at the end.
+class TrafficFiles {
+ public:
+  // Wrong input where a wish is wrong, failed where a file cannot be begun.
+  static base::Result<TrafficFiles> Open(const TrafficOptions& options, const network::Network& network);
+
+  bool wants_cells() const { return !options_.csv.empty() || !options_.heat.empty(); }
+  void Write(const traffic::StudyMoment& moment);
+  // What was written, a path each.
+  base::Result<std::vector<std::string>> Close(const network::Network& network, const traffic::StudyResult& result);
+
+ private:
+  explicit TrafficFiles(TrafficOptions options) : options_(std::move(options)) {}
+  std::string InFolder(const char* name) const;
+  void WriteTrajectories(const traffic::StudyMoment& moment);
+
+  TrafficOptions options_;
+  std::ofstream trajectories_, fcd_;
+  std::optional<traffic::TrajectoryDiagram> diagram_;
+  double next_s_ = 0.0;
+};
+
+}  // namespace rodeira::front

@@ -1,0 +1,83 @@
+#include "launch/rodeira/commands/vehicle_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "common/core/base/files.hpp"
+#include "common/driving/manoeuvres/manoeuvre.hpp"
+
+namespace rodeira::front {
+namespace {
+
+int Complain(const base::Error& error) {
+  fmt::print(stderr, "rodeira: {}\n", error.Text());
+  return error.exit_status();
+}
+
+base::Result<std::vector<const manoeuvres::Manoeuvre*>> Chosen(const VehicleOptions& options) {
+  std::vector<const manoeuvres::Manoeuvre*> chosen;
+  for (const std::string& name : options.manoeuvres) {
+    const auto found = manoeuvres::FindManoeuvre(name);
+    if (!found) return found.error();
+    chosen.push_back(found.value());
+  }
+  if (chosen.empty()) {
+    for (const manoeuvres::Manoeuvre& manoeuvre : manoeuvres::Manoeuvres()) chosen.push_back(&manoeuvre);
+  }
+  if (chosen.size() > 1 && (!options.csv.empty() || !options.svg.empty())) {
+    return base::WrongInput(fmt::format("{} manoeuvres are to be driven; --out FOLDER writes them all, --csv and --svg are of one", chosen.size()),
+                            options.csv.empty() ? "--svg" : "--csv");
+  }
+  if (!(options.step_s > 0.0 && options.step_s <= 0.1)) return base::WrongInput(fmt::format("{} s was found; over 0 and at most 0.1 s was expected", options.step_s), "--step");
+  return chosen;
+}
+
+base::Status Write(const VehicleOptions& options, const manoeuvres::Manoeuvre& manoeuvre, const plot::Table& table) {
+  std::string csv = options.csv, svg = options.svg;
+  if (!options.out.empty()) {
+    std::error_code problem;
+    std::filesystem::create_directories(options.out, problem);
+    csv = options.out + "/" + manoeuvre.name + ".csv";
+    svg = options.out + "/" + manoeuvre.name + ".svg";
+  }
+  const std::string title = fmt::format("{}: {}", std::filesystem::path(options.file).filename().string(), manoeuvre.what);
+  if (!csv.empty()) {
+    if (auto status = base::WriteWhole(csv, plot::ToCsv(table)); !status) return status;
+  }
+  if (!svg.empty()) {
+    if (auto status = base::WriteWhole(svg, plot::ToSvg(table, title)); !status) return status;
+  }
+  return {};
+}
+
+}  // namespace
+
+int TestVehicle(const VehicleOptions& options) {
+  const auto chosen = Chosen(options);
+  if (!chosen) return Complain(chosen.error());
+  auto car = vehicle::LoadVehicle(options.file);
+  if (!car) return Complain(car.error());
+  const bool shown = !options.quiet && ::isatty(STDERR_FILENO) == 1;
+  int status = 0;
+  for (const manoeuvres::Manoeuvre* manoeuvre : chosen.value()) {
+    if (shown) fmt::print(stderr, "\r\033[K{} …", manoeuvre->name);
+    const auto outcome = manoeuvres::Drive(*manoeuvre, *car.value(), options.step_s);
+    if (shown) fmt::print(stderr, "\r\033[K");
+    if (!options.quiet) fmt::print("{}: {}\n", manoeuvre->name, manoeuvre->what);
+    if (!outcome) {
+      status = Complain(base::Error{outcome.error().code, outcome.error().Text(), manoeuvre->name});
+      continue;
+    }
+    for (const manoeuvres::Figure& figure : outcome.value().figures) {
+      if (!options.quiet) fmt::print("  {:<36} {:>10.3f} {}\n", figure.name, figure.value, figure.unit);
+    }
+    if (auto written = Write(options, *manoeuvre, outcome.value().table); !written) return Complain(written.error());
+  }
+  if (!options.quiet && !options.out.empty()) fmt::print("wrote {}\n", options.out);
+  return status;
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,54 @@
+#include "launch/rodeira/commands/view_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <vector>
+
+#include "common/core/base/suggest.hpp"
+#include "launch/rodeira/start_window/start_window.hpp"
+
+namespace rodeira::front {
+
+base::Result<RunOptions> RunOf(const ViewOptions& options) {
+  const auto launch = launch::Launch::Load(options.launch_file, {});
+  if (!launch) return launch.error();
+  std::vector<std::string> views, screens;
+  const launch::LaunchNode* chosen = nullptr;
+  for (const launch::LaunchNode& node : launch.value().nodes()) {
+    if (node.kind->name != "view") continue;
+    views.push_back(node.name);
+    const std::string screen = node.config->Peek({"config", "screen"}).value_or("");
+    if (!screen.empty()) screens.push_back(screen);
+    if (chosen == nullptr && (options.screen.empty() || screen == options.screen)) chosen = &node;
+  }
+  if (views.empty()) return base::WrongInput("no node of kind view was found; one was expected", options.launch_file);
+  if (chosen == nullptr) return base::WrongInput(fmt::format("no view looks through a screen '{}'{}", options.screen, base::DidYouMean(options.screen, screens)), options.launch_file);
+  RunOptions run;
+  run.launch_file = options.launch_file;
+  run.duration_s = options.duration_s;
+  if (!options.screen.empty() && !chosen->host.empty()) {
+    run.host = chosen->host;
+    if (options.headset) return base::WrongInput("--headset would make another run of this PC's part than of the others'; 'headset: true' at the view was expected", options.launch_file);
+    return run;
+  }
+  for (const std::string& view : views) {
+    if (!options.screen.empty() && view != chosen->name) run.overrides.emplace_back("nodes." + view + ".kind", "none");
+  }
+  if (options.headset) run.overrides.emplace_back("nodes." + chosen->name + ".config.headset", "true");
+  return run;
+}
+
+int View(const ViewOptions& options) {
+  if (options.launch_file.empty() && options.screen.empty() && !options.headset) return StartByWindow();
+  if (options.launch_file.empty()) {
+    fmt::print(stderr, "rodeira: view: a launch file was expected before --screen and --headset\n");
+    return 2;
+  }
+  const auto run = RunOf(options);
+  if (run) return Run(run.value());
+  fmt::print(stderr, "rodeira: {}\n", run.error().Text());
+  return run.error().exit_status();
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,97 @@
+#include "launch/rodeira/doctor/doctor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "common/core/base/mathematics.hpp"
+#include "launch/rodeira/doctor/built_with.hpp"
+#include "launch/rodeira/doctor/doctor_gl.hpp"
+#include "launch/rodeira/doctor/doctor_machine.hpp"
+#include "launch/rodeira/doctor/doctor_network.hpp"
+#include "launch/rodeira/interrupt.hpp"
+#include "launch/rodeira/commands/joysticks_command.hpp"
+#include "launch/rodeira/run/processes.hpp"
+#include "common/core/base/user_folders.hpp"
+#include "launch/rodeira/run/shared_memory.hpp"
+
+namespace rodeira::front {
+namespace {
+
+using Check = std::function<Finding()>;
+
+Finding LookForJoysticks() {
+  auto joysticks = nodes::Joysticks::Start();
+  if (!joysticks) return Warning("joysticks", joysticks.error().Text() + "; a run without `source: joystick` needs none");
+  joysticks.value()->Update();
+  return CheckJoysticks(joysticks.value()->Connected());
+}
+
+// Drawing comes before DDS: it forks, which wants a process without threads.
+std::vector<Check> Checks(const DoctorOptions& options, launch::Transport transport) {
+  LoopBackSettings loop_back;
+  loop_back.transport = transport;
+  loop_back.domain = options.domain;
+  loop_back.program = ProgramFolder() + "/rodeira";
+  loop_back.cancelled = Interrupted;
+  return {
+      [] { return CheckPackages(ParsePackages(PackageList())); },
+      [] { return CheckPrograms(NodePrograms(), ProgramFolder()); },
+      [] { return CheckMathematics(base::MathematicsFixed(), base::MathematicsDigest()); },
+      [] { return CheckGl(); },
+      [] { return CheckDisplay(DisplayPlace::OfThisProcess()); },
+      [] { return LookForJoysticks(); },
+      [] { return CheckSharedMemory(); },
+      [domain = options.domain] { return CheckPorts(domain); },
+      [loop_back] { return CheckLoopBack(loop_back); },
+      [] { return CheckSockets(); },
+      [] { return CheckCores(std::thread::hardware_concurrency()); },
+      [] { return CheckMemory(); },
+      [] { return CheckDisk(base::UserDataFolder()); },
+  };
+}
+
+std::string Summary(std::span<const Finding> findings) {
+  const auto count = [&](Verdict verdict) { return std::count_if(findings.begin(), findings.end(), [verdict](const Finding& f) { return f.verdict == verdict; }); };
+  const auto faults = count(Verdict::kFault);
+  const auto warnings = count(Verdict::kWarning);
+  const auto number = [](auto n, const char* what) { return n == 0 ? fmt::format("no {}", what) : fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
+  return fmt::format("{}, {}\n", number(faults, "fault"), number(warnings, "warning"));
+}
+
+}  // namespace
+
+std::string FindingLine(const Finding& finding) {
+  const char* word = finding.verdict == Verdict::kOk ? "ok" : finding.verdict == Verdict::kWarning ? "warning" : "fault";
+  return fmt::format("{:<7}  {:<17}  {}\n", word, finding.check, finding.sentence);
+}
+
+int StatusOf(std::span<const Finding> findings) {
+  return std::any_of(findings.begin(), findings.end(), [](const Finding& finding) { return finding.verdict == Verdict::kFault; }) ? 1 : 0;
+}
+
+int Doctor(const DoctorOptions& options) {
+  const auto transport = options.transport == "udp" ? launch::Transport::kUdp : launch::Transport::kSharedMemory;
+  if (!options.answer.empty()) return AnswerLoopBack(options.answer, options.domain, transport);
+  CatchInterrupts();
+  if (options.clean) {
+    const int removed = RemoveLeftOvers({});
+    if (!options.quiet) fmt::print("{} files of dead processes removed from /dev/shm\n", removed);
+  }
+  std::vector<Finding> findings;
+  for (const Check& check : Checks(options, transport)) {
+    findings.push_back(check());
+    if (Interrupted()) return 1;
+    if (options.quiet && findings.back().verdict == Verdict::kOk) continue;
+    fmt::print("{}", FindingLine(findings.back()));
+    std::fflush(stdout);
+  }
+  if (!options.quiet) fmt::print("{}", Summary(findings));
+  return StatusOf(findings);
+}
+
+}  // namespace rodeira::front

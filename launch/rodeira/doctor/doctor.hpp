@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "common/runtime/launch/launch.hpp"
+#include "launch/rodeira/doctor/finding.hpp"
+
+namespace rodeira::front {
+
+// `rodeira doctor …`: is this PC ready?
+struct DoctorOptions {
+  bool asked = false;
+  std::string transport = "shared_memory";
+  std::uint32_t domain = 0;
+  bool quiet = false;
+  bool clean = false;
+  std::string answer;  // be the second process of the DDS loop-back, in this run
+};
+
+// One line of the table, with its line break.
+std::string FindingLine(const Finding& finding);
+// 0, or 1 where there is a fault.
+int StatusOf(std::span<const Finding> findings);
+
+// Prints a line a check (with --quiet only what is not well). The exit status comes back.
+int Doctor(const DoctorOptions& options);
+
+}  // namespace rodeira::front

@@ -1,0 +1,24 @@
+#include "launch/rodeira/interrupt.hpp"
+
+#include <signal.h>
+
+#include <atomic>
+
+namespace rodeira::front {
+namespace {
+
+std::atomic<bool> g_interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "written by a signal handler");
+void OnInterrupt(int) { g_interrupted = true; }
+
+}  // namespace
+
+void CatchInterrupts() {
+  ::signal(SIGINT, OnInterrupt);
+  ::signal(SIGTERM, OnInterrupt);
+  ::signal(SIGXFSZ, SIG_IGN);
+}
+
+bool Interrupted() { return g_interrupted; }
+
+}  // namespace rodeira::front

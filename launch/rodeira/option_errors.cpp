@@ -1,0 +1,162 @@
+#include "launch/rodeira/option_errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+
+#include "common/core/base/suggest.hpp"
+
+namespace rodeira::front {
+namespace {
+
+// The command that was being read, and how a person calls it.
+struct Reading {
+  const CLI::App* command;
+  std::string name;
+};
+Reading Deepest(const CLI::App& app) {
+  Reading reading{&app, app.get_name()};
+  for (auto inner = app.get_subcommands(); !inner.empty(); inner = reading.command->get_subcommands()) {
+    reading = {inner.back(), reading.name + " " + inner.back()->get_name()};
+  }
+  return reading;
+}
+
+std::vector<std::string> CommandsOf(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; })) names.push_back(inner->get_name());
+  return names;
+}
+
+std::vector<std::string> OptionsOf(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_group().empty()) continue;  // hidden
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+// The parser says "Could not convert: NAME = VALUE"; nothing where it says something else.
+std::string ConversionSentence(const CLI::App& command, const std::string& called, const std::string& said) {
+  constexpr std::string_view kSaid = "Could not convert: ", kIs = " = ";
+  const std::size_t equals = said.find(kIs);
+  if (!said.starts_with(kSaid) || equals == std::string::npos) return "";
+  const std::string name = said.substr(kSaid.size(), equals - kSaid.size()), value = said.substr(equals + kIs.size());
+  std::string type;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_name() == name || option->check_name(name)) type = option->get_type_name();
+  }
+  const bool whole = type.starts_with("INT") || type.starts_with("UINT");
+  return fmt::format("{} of '{}' is '{}'; a {} was expected", name, called, value, whole ? "whole number" : "number");
+}
+
+// A sentence where the text is a number that does not pass; what is no number is left to the conversion.
+template <class Passes>
+std::string WhyNot(const std::string& text, const Passes& passes, const std::string& what) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || passes(value)) return "";
+  return fmt::format("'{}' was found; {} was expected", text, what);
+}
+
+// The parser says "NAME: At least N required but received M", or "at most" and "exactly"; nothing where it says something else.
+std::string CountSentence(const CLI::App& command, const std::string& called, const std::string& said) {
+  const std::size_t colon = said.find(':'), received = said.find("received ");
+  if (colon == std::string::npos || received == std::string::npos) return "";
+  const std::string name = said.substr(0, colon), count = said.substr(received + std::string_view("received ").size());
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_name() != name && !option->check_name(name)) continue;
+    const int least = option->get_items_expected_min(), most = option->get_items_expected_max();
+    const std::string expected = least == most ? fmt::format("{}", least) : most >= CLI::detail::expected_max_vector_size ? fmt::format("{} or more", least) : fmt::format("{} to {}", least, most);
+    return fmt::format("{} of '{}' has {} value{}; {} were expected", name, called, count, count == "1" ? "" : "s", expected);
+  }
+  return "";
+}
+
+}  // namespace
+
+CLI::Validator OneOf(std::vector<std::string> words) {
+  const std::string described = fmt::format("{}", fmt::join(words, "|"));
+  return CLI::Validator(
+      [words = std::move(words)](std::string& text) {
+        return std::find(words.begin(), words.end(), text) != words.end() ? std::string() : fmt::format("'{}' was found{}", text, base::DidYouMean(text, words));
+      },
+      described);
+}
+
+CLI::Validator Above0(std::string what) {
+  return CLI::Validator(
+      [what = std::move(what)](std::string& text) {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        return end != text.c_str() && *end == '\0' && value > 0.0 && std::isfinite(value) ? std::string() : fmt::format("'{}' was found; {} was expected", text, what);
+      },
+      "NUMBER");
+}
+
+CLI::Validator Finite() {
+  return CLI::Validator([](std::string& text) { return WhyNot(text, [](double value) { return std::isfinite(value); }, "a finite number"); }, "NUMBER");
+}
+
+CLI::Validator From0() {
+  return CLI::Validator([](std::string& text) { return WhyNot(text, [](double value) { return std::isfinite(value) && value >= 0.0; }, "a number from 0 on"); }, "NUMBER");
+}
+
+CLI::Validator Between(double low, double high) {
+  return CLI::Validator([=](std::string& text) { return WhyNot(text, [=](double value) { return value >= low && value <= high; }, fmt::format("a number from {} to {}", low, high)); }, "NUMBER");
+}
+
+CLI::Validator WholeNumber() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::uint64_t value = 0;
+        const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+        return problem == std::errc() && end == text.data() + text.size() ? std::string() : fmt::format("'{}' was found; a whole number from 0 on was expected", text);
+      },
+      "NUMBER");
+}
+
+CLI::Validator NewFile() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const std::filesystem::path folder = std::filesystem::path(text).parent_path();
+        std::error_code problem;
+        if (folder.empty() || std::filesystem::is_directory(folder, problem)) return std::string();
+        return fmt::format("'{}' was found; there is no folder '{}'", text, folder.string());
+      },
+      "FILE");
+}
+
+std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem) {
+  const Reading reading = Deepest(app);
+  // A word before the command that was read: 'trafic run' is not 'run'.
+  const std::vector<std::string> before = app.remaining(false);
+  if (reading.command != &app && !before.empty() && before.front().front() != '-') return fmt::format("'{}' is no command of '{}'{}", before.front(), app.get_name(), base::DidYouMean(before.front(), CommandsOf(app)));
+  const std::vector<std::string> extras = reading.command->remaining(true);
+  const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& word) { return word.size() > 1 && word.front() == '-'; });
+  if (option != extras.end()) {
+    const std::string name = option->substr(0, option->find('='));
+    return fmt::format("'{}' is no option of '{}'{}", name, reading.name, base::DidYouMean(name, OptionsOf(*reading.command)));
+  }
+  const std::vector<std::string> commands = CommandsOf(*reading.command);
+  if (!commands.empty() && !extras.empty()) return fmt::format("'{}' is no command of '{}'{}", extras.front(), reading.name, base::DidYouMean(extras.front(), commands));
+  if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&problem) != nullptr) return fmt::format("'{}' needs a command; known are {}", reading.name, fmt::join(commands, ", "));
+  if (!extras.empty()) return fmt::format("'{}' was not expected by '{}'", extras.front(), reading.name);
+  if (dynamic_cast<const CLI::ConversionError*>(&problem) != nullptr) {
+    if (const std::string sentence = ConversionSentence(*reading.command, reading.name, problem.what()); !sentence.empty()) return sentence;
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&problem) != nullptr) {
+    if (const std::string sentence = CountSentence(*reading.command, reading.name, problem.what()); !sentence.empty()) return sentence;
+  }
+  return problem.what();
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,108 @@
+#include "launch/rodeira/replay/branch_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "common/runtime/launch/pace.hpp"
+#include "launch/rodeira/replay/branch.hpp"
+#include "launch/rodeira/interrupt.hpp"
+#include "launch/rodeira/run/operator.hpp"
+#include "launch/rodeira/replay/recording_text.hpp"
+
+namespace rodeira::front {
+namespace {
+
+using lockstep::Step;
+
+int Complain(const base::Error& error) {
+  fmt::print(stderr, "rodeira: {}\n", error.Text());
+  return error.exit_status();
+}
+
+bool IsFile(const std::string& text) {
+  std::error_code problem;
+  return std::filesystem::is_regular_file(text, problem);
+}
+
+std::string Absolute(const std::string& file) { return std::filesystem::absolute(file).lexically_normal().string(); }
+
+// A file is meant as seen from here, not from the recorded launch file; also within `{source: keyboard, keyboard: FILE}`.
+std::string WithFilesFromHere(const std::string& value) {
+  if (IsFile(value)) return "\"" + Absolute(value) + "\"";
+  constexpr std::string_view kBetween = "{}[],: \"'";
+  std::string text;
+  for (std::size_t at = 0; at < value.size();) {
+    const std::size_t end = std::min(value.find_first_of(kBetween, at), value.size());
+    const std::string word = value.substr(at, end - at);
+    text += IsFile(word) ? Absolute(word) : word;
+    if (end < value.size()) text += value[end];
+    at = end + 1;
+  }
+  return text;
+}
+
+base::Result<BranchWish> WishOf(const ReplayOptions& options) {
+  if (!options.from_s) return base::WrongInput("--from is missing: where does the branch leave its parent?", "rodeira replay --branch");
+  if (options.record.empty()) return base::WrongInput("--record is missing: into which file?", "rodeira replay --branch");
+  const auto parent = replay::RecordedRun::Open(options.file);
+  if (!parent) return parent.error();
+  const double steps_a_second = 1e9 / static_cast<double>(parent.value().roster().base_step_ns());
+  const auto steps = [&](double seconds) { return static_cast<Step>(std::llround(seconds * steps_a_second)); };
+  if (const double from = *options.from_s * steps_a_second; std::fabs(from - std::round(from)) > 1e-6 * std::max(1.0, from)) {
+    return base::WrongInput(fmt::format("--from {} s was found; a multiple of the base step of {} s was expected", *options.from_s, 1.0 / steps_a_second), options.file);
+  }
+  BranchWish wish;
+  wish.parent = options.file;
+  wish.at = steps(*options.from_s);
+  if (options.for_s) wish.last_step = wish.at + steps(*options.for_s);
+  for (const auto& [key, value] : options.changes) wish.changes.emplace_back(key, WithFilesFromHere(value));
+  wish.recording = options.record;
+  wish.stop_requested = Interrupted;
+  wish.with_view = options.view;
+  const auto persons = DrivenLive(wish);
+  if (!persons) return persons.error();
+  const auto pace = launch::ParsePace(options.pace.value_or(options.view || !persons.value().empty() ? "real" : "max"));
+  if (!pace) return pace.error();
+  wish.pace = pace.value();
+  return wish;
+}
+
+void Tell(const ReplayOptions& options, const BranchOutcome& outcome) {
+  const std::string basis = outcome.recomputed_from == outcome.at ? fmt::format("the states recorded at step {}", outcome.at)
+                                                                  : fmt::format("repeated from step {} to {}, identical", outcome.recomputed_from, outcome.at);
+  fmt::print("parent    {} ({})\nbranch    steps {} to {}\n", options.file, basis, outcome.at, outcome.last_step);
+  for (const auto& [key, value] : options.changes) fmt::print("changed   {} = {}\n", key, value);
+  if (!outcome.without_state.empty()) fmt::print("{}", ComputedFromTheStart(outcome.without_state));
+  if (!outcome.live.empty()) fmt::print("driven by a person: {}\n", fmt::join(outcome.live, ", "));
+  if (!outcome.taken_over.empty()) fmt::print("began from what was published: {}\n", fmt::join(outcome.taken_over, ", "));
+  fmt::print("wrote     {}\n", options.record);
+}
+
+}  // namespace
+
+int MakeBranch(const ReplayOptions& options) {
+  auto wish = WishOf(options);
+  if (!wish) return Complain(wish.error());
+  std::unique_ptr<Operator> desk;
+  if (wish.value().pace > 0.0) {  // somebody has the time to say something
+    desk = std::make_unique<Operator>("branch-" + std::filesystem::path(options.record).stem().string(), options.quiet);
+    wish.value().next_command = [&desk] { return NextCommand(*desk); };
+  }
+  const auto outcome = Branch(wish.value());
+  desk.reset();  // the terminal is a terminal again
+  if (!outcome) return Complain(outcome.error());
+  if (outcome.value().difference) {
+    fmt::print(stderr, "rodeira: {}: the parent could not be repeated up to the branch; {}\n{}", options.file, outcome.value().difference->Text(),
+               outcome.value().recorded_by_another);
+    return 1;
+  }
+  Tell(options, outcome.value());
+  return 0;
+}
+
+}  // namespace rodeira::front

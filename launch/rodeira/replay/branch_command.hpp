@@ -1,0 +1,11 @@
+#pragma once
+
+#include "launch/rodeira/replay/replay_command.hpp"
+
+namespace rodeira::front {
+
+// `rodeira replay FILE --from T --branch KEY=VALUE … --record NEW`: exit status 0, 1 where the parent could not be repeated,
+// 2 for wrong input.
+int MakeBranch(const ReplayOptions& options);
+
+}  // namespace rodeira::front

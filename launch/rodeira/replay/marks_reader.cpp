@@ -1,0 +1,23 @@
+#include "launch/rodeira/replay/marks_reader.hpp"
+
+#include <chrono>
+
+#include "launch/rodeira/replay/recorded_view.hpp"
+
+namespace rodeira::front {
+
+MarksReader::MarksReader(const std::filesystem::path& file)
+    : marks_(std::async(std::launch::async, [this, file]() -> base::Result<std::vector<view::ReplayMark>> {
+        const auto run = replay::RecordedRun::Open(file);
+        if (!run) return run.error();
+        return MarksOf(run.value(), [this] { return stop_.load(); });
+      })) {}
+
+MarksReader::~MarksReader() { stop_ = true; }
+
+std::optional<base::Result<std::vector<view::ReplayMark>>> MarksReader::Take() {
+  if (!marks_.valid() || marks_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
+  return marks_.get();
+}
+
+}  // namespace rodeira::front

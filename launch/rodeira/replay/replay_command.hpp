@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "launch/rodeira/replay/watch_command.hpp"
+
+namespace rodeira::front {
+
+struct ReplayOptions {
+  std::string file;
+  bool verify = false;
+  bool view = false;
+  WatchOptions watch;  // --view, --frames: what is theirs alone
+  std::optional<double> from_s;
+  std::vector<std::pair<std::string, std::string>> changes;  // --branch
+  std::optional<double> for_s;                               // of the branch: simulated seconds behind it
+  std::string record;                                        // of the branch
+  std::optional<std::string> pace;                           // of the branch; none: real where a person drives or watches
+  bool quiet = false;
+};
+
+// `rodeira replay`: exit status 0, 1 where a verification found a difference, 2 for wrong input.
+int Replay(const ReplayOptions& options);
+
+}  // namespace rodeira::front

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/core/base/result.hpp"
+
+namespace rodeira::front {
+
+// Where this user's runs on this PC have their control sockets: $XDG_RUNTIME_DIR/rodeira, else /tmp/rodeira-UID. Made
+// where it is not there; failed where it belongs to somebody else or is open to others.
+base::Result<std::filesystem::path> ControlFolder();
+// The socket of a run in it. A name that is no good file name stands there as its hash.
+std::filesystem::path ControlSocket(const std::filesystem::path& folder, const std::string& run);
+
+// A connection to the socket, or -1: nobody listens there (what a killed run left is removed).
+int ConnectTo(const std::filesystem::path& socket);
+// The sockets on which somebody listens, by name.
+std::vector<std::filesystem::path> LivingRuns(const std::filesystem::path& folder);
+
+}  // namespace rodeira::front

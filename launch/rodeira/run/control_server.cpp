@@ -1,0 +1,93 @@
+#include "launch/rodeira/run/control_server.hpp"
+
+#include <fmt/format.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "launch/rodeira/run/control_folder.hpp"
+
+namespace rodeira::front {
+namespace {
+
+constexpr std::size_t kMostConnections = 32;
+constexpr std::size_t kLongestLine = 1024;  // the clock takes at most 4096 at a time
+
+}  // namespace
+
+ControlServer::Connection::~Connection() { ::close(file); }
+
+void ControlServer::Connection::Say(const std::string& line) const {
+  const std::string text = line + "\n";
+  (void)::send(file, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);  // who does not read loses answers
+}
+
+base::Result<std::unique_ptr<ControlServer>> ControlServer::Open(const std::filesystem::path& socket) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string path = socket.string();
+  if (path.size() >= sizeof(address.sun_path)) return base::Failed("the path is too long for a socket", path);
+  std::memcpy(address.sun_path, path.c_str(), path.size());
+  if (const int living = ConnectTo(socket); living >= 0) {
+    ::close(living);
+    return base::Failed("a run of this name is controlled there already", path);
+  }
+  const int file = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (file < 0 || ::bind(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 || ::listen(file, 8) != 0) {
+    const int error = errno;
+    if (file >= 0) ::close(file);
+    return base::Failed(fmt::format("no control socket can be made: {}", std::strerror(error)), path);
+  }
+  return std::unique_ptr<ControlServer>(new ControlServer(file, socket));
+}
+
+ControlServer::~ControlServer() {
+  ::unlink(socket_.c_str());
+  ::close(file_);
+}
+
+void ControlServer::Accept() {
+  while (connections_.size() < kMostConnections) {
+    const int file = ::accept4(file_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    if (file < 0) return;
+    connections_.push_back(std::make_shared<Connection>(file));
+  }
+}
+
+void ControlServer::Read(Connection& connection) {
+  char buffer[1024];
+  while (connection.open && connection.pending.size() <= kLongestLine) {
+    const ssize_t size = ::recv(connection.file, buffer, sizeof(buffer), 0);
+    if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
+    if (size <= 0) {
+      connection.open = false;
+      return;
+    }
+    connection.pending.append(buffer, static_cast<std::size_t>(size));
+  }
+}
+
+std::optional<AskedLine> ControlServer::Next() {
+  Accept();
+  for (const auto& connection : connections_) {
+    Read(*connection);
+    const auto end = connection->pending.find('\n');
+    if (end == std::string::npos && connection->pending.size() > kLongestLine) {
+      connection->Say(fmt::format("wrong a line of more than {} bytes was found", kLongestLine));
+      connection->pending.clear();
+      connection->open = false;
+    }
+    if (end == std::string::npos) continue;
+    AskedLine asked{connection->pending.substr(0, end), [connection](const std::string& answer) { connection->Say(answer); }};
+    connection->pending.erase(0, end + 1);
+    return asked;
+  }
+  std::erase_if(connections_, [](const auto& connection) { return !connection->open && connection->pending.find('\n') == std::string::npos; });
+  return std::nullopt;
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,126 @@
+#include "launch/rodeira/run/crew.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+namespace rodeira::front {
+namespace {
+
+using namespace std::chrono_literals;
+using WallClock = std::chrono::steady_clock;
+
+base::Status MakeSureItIsDead(Child& child) {
+  child.Signal(SIGKILL);
+  for (int i = 0; i < 20'000 && !child.ended(); ++i) {
+    child.Poll();
+    if (!child.ended()) ::usleep(1000);
+  }
+  return child.ended() ? base::Status() : base::Failed(fmt::format("process {} of '{}' cannot be ended", child.pid(), child.name()));
+}
+
+}  // namespace
+
+Crew::Crew(const RunOptions& options, const Placement& placement, const launch::Launch& launch, launch::Overrides overrides)
+    : options_(options), placement_(placement), launch_(launch), overrides_(std::move(overrides)),
+      domain_(options.domain.value_or(static_cast<std::uint32_t>(1 + base::Hash(options.run) % 200))) {}
+
+std::vector<std::string> Crew::Command(const std::string& program) const {
+  std::vector<std::string> command{ProgramFolder() + "/" + program, "--launch", launch_.path().string(), "--run", options_.run, "--domain",
+                                   std::to_string(domain_)};
+  for (const auto& [key, value] : overrides_) {
+    command.push_back("--set");
+    command.push_back(key + "=" + value);
+  }
+  return command;
+}
+
+std::vector<std::string> Crew::ClockCommand(const std::string& pace) const {
+  std::vector<std::string> command = Command("rodeira-clock");
+  if (!placement_.has_clock()) {
+    command.insert(command.end(), {"--follow", placement_.host()});
+    return command;
+  }
+  command.insert(command.end(), {"--listen", "--pace", pace});
+  if (options_.duration_s) command.insert(command.end(), {"--for", fmt::format("{}", *options_.duration_s)});
+  return command;
+}
+
+base::Status Crew::StartClock() {
+  auto child = Child::Start(placement_.has_clock() ? "clock" : "follower of the clock", ClockCommand(options_.pace), true);
+  if (!child) return child.error();
+  children_.push_back(std::move(child).value());
+  return {};
+}
+
+base::Status Crew::RestartClock(const ClocksPlace& place) {
+  if (auto status = MakeSureItIsDead(clock()); !status) return status;
+  const std::string pace = place.begun_ns < 0 ? options_.pace : place.pace > 0.0 ? fmt::format("{}", place.pace) : "max";
+  std::vector<std::string> command = ClockCommand(pace);
+  command.insert(command.end(), {"--incarnation", std::to_string(++clocks_life_), "--clock-id", std::to_string(place.id), "--begun-ns",
+                                 std::to_string(place.begun_ns)});
+  if (place.paused) command.emplace_back("--paused");
+  auto child = Child::Start("clock", command, true);
+  if (!child) return child.error();
+  clock() = std::move(child).value();
+  return {};
+}
+
+base::Status Crew::StartNodes() {
+  has_nodes_ = true;
+  for (const launch::LaunchNode& node : launch_.nodes()) {
+    if (!placement_.Has(node)) continue;
+    std::vector<std::string> command = Command(std::string(node.kind->program));
+    command.insert(command.end(), {"--node", node.name});
+    auto started = Child::Start(node.name, command, false);
+    if (!started) return started.error();
+    children_.push_back(std::move(started).value());
+  }
+  return {};
+}
+
+base::Result<bool> Crew::RestartNode(const std::string& name, std::uint32_t life) {
+  const auto child = std::find_if(children_.begin() + 1, children_.end(), [&](const Child& one) { return one.name() == name; });
+  if (child == children_.end()) return false;
+  if (auto status = MakeSureItIsDead(*child); !status) return status.error();
+  std::vector<std::string> command = Command(std::string(launch_.node(launch_.roster().Find(name)).kind->program));
+  command.insert(command.end(), {"--node", name, "--incarnation", std::to_string(life)});
+  auto started = Child::Start(name, command, false);
+  if (!started) return started.error();
+  *child = std::move(started).value();
+  return true;
+}
+
+void Crew::Poll() {
+  for (Child& child : children_) child.Poll();
+}
+
+void Crew::EndAll(bool orderly, std::optional<WallClock::time_point> interrupted_at) {
+  for (Child& child : children_) {
+    child.Poll();
+    if (!orderly) child.Signal(SIGTERM);
+    if (child.stopped() || (!orderly && &child == &children_.front())) child.Signal(SIGKILL);
+  }
+  auto until = WallClock::now() + 1500ms;
+  if (interrupted_at) until = std::min(until, *interrupted_at + 1700ms);
+  while (WallClock::now() < until && std::any_of(children_.begin(), children_.end(), [](const Child& child) { return !child.ended(); })) {
+    std::this_thread::sleep_for(5ms);
+    for (Child& child : children_) child.Poll();
+  }
+  for (Child& child : children_) child.Signal(SIGKILL);
+  for (int i = 0; i < 200; ++i) {
+    bool all = true;
+    for (Child& child : children_) {
+      child.Poll();
+      all = all && child.ended();
+    }
+    if (all) return;
+    std::this_thread::sleep_for(5ms);
+  }
+}
+
+}  // namespace rodeira::front

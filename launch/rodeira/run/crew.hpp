@@ -1,0 +1,61 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/core/base/result.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "launch/rodeira/run/placement.hpp"
+#include "launch/rodeira/run/processes.hpp"
+#include "launch/rodeira/run/run_command.hpp"
+
+namespace rodeira::front {
+
+// The processes of a run on this PC: the clock, or who follows it, and the nodes. Started, started again, ended.
+class Crew {
+ public:
+  // All outlive it; options.run is the run's name.
+  Crew(const RunOptions& options, const Placement& placement, const launch::Launch& launch, launch::Overrides overrides);
+
+  // The clock, or on the other PCs of a laboratory who follows it. First.
+  base::Status StartClock();
+  base::Status StartNodes();
+  bool has_nodes() const { return has_nodes_; }
+
+  // Where a clock stood that was lost.
+  struct ClocksPlace {
+    std::uint64_t id = 0;
+    std::int64_t begun_ns = -1;  // on the monotonic clock; -1: the run has not begun
+    double pace = 0.0;           // 0: as fast as it can
+    bool paused = false;
+  };
+  // Another life of it, which learns from the nodes where the run stands; the old process is dead then.
+  base::Status RestartClock(const ClocksPlace& place);
+  // Another life of a node; the old process is dead then. False where the node is another PC's.
+  base::Result<bool> RestartNode(const std::string& name, std::uint32_t life);
+
+  // Everybody goes: by themselves where the run ended in good order, or by force before two seconds have passed since Ctrl-C.
+  void EndAll(bool orderly, std::optional<std::chrono::steady_clock::time_point> interrupted_at);
+
+  void Poll();
+  Child& clock() { return children_.front(); }
+  const std::vector<Child>& children() const { return children_; }  // the clock first
+
+ private:
+  std::vector<std::string> Command(const std::string& program) const;
+  std::vector<std::string> ClockCommand(const std::string& pace) const;
+
+  const RunOptions& options_;
+  const Placement& placement_;
+  const launch::Launch& launch_;
+  launch::Overrides overrides_;
+  std::uint32_t domain_;
+  std::uint32_t clocks_life_ = 0;
+  bool has_nodes_ = false;
+  std::vector<Child> children_;
+};
+
+}  // namespace rodeira::front

@@ -1,0 +1,70 @@
+#include "launch/rodeira/run/in_process_command.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "common/runtime/launch/pace.hpp"
+#include "common/runtime/lockstep/in_process.hpp"
+#include "launch/rodeira/interrupt.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
+#include "launch/rodeira/run/operator.hpp"
+#include "launch/rodeira/run/run_report.hpp"
+
+namespace rodeira::front {
+namespace {
+
+RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& roster, double wall_s) {
+  RunReport report;
+  report.ready = true;
+  report.ended = true;
+  report.ok = outcome.ok;
+  report.step = outcome.last_step;
+  report.wall_s = wall_s;
+  report.slipped_s = static_cast<double>(outcome.slipped_ns) * 1e-9;
+  report.paused_s = static_cast<double>(outcome.paused_ns) * 1e-9;
+  report.paced_steps = outcome.lateness.steps;
+  report.late_steps = outcome.lateness.late;
+  report.late_mean_s = outcome.lateness.mean_ns() * 1e-9;
+  report.late_worst_s = static_cast<double>(outcome.lateness.worst_ns) * 1e-9;
+  report.digest = base::Hex(outcome.digest);
+  if (!outcome.fault.empty()) report.faults.push_back(outcome.fault);
+  for (const lockstep::Report& node : outcome.reports) {
+    const double mean_us = node.steps == 0 ? 0.0 : static_cast<double>(node.busy_ns) * 1e-3 / static_cast<double>(node.steps);
+    report.nodes.push_back({roster.node(node.node).name, node.steps, mean_us, static_cast<double>(node.worst_ns) * 1e-3,
+                            static_cast<double>(node.median_interval_ns) * 1e-3, static_cast<double>(node.p99_interval_ns) * 1e-3, node.server_calls, node.cannot_save});
+  }
+  return report;
+}
+
+}  // namespace
+
+int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
+  const auto& roster = launch.roster();
+  Operator desk(options.run, options.quiet);
+  launch::RunLogBoard log;
+  auto nodes = LocalNodes::Make(launch, {}, &log);
+  if (!nodes) {
+    fmt::print(stderr, "rodeira: {}\n", nodes.error().Text());
+    return nodes.error().exit_status();
+  }
+  lockstep::InProcessSettings settings;
+  const auto seconds = options.duration_s ? options.duration_s : launch.duration_s();
+  if (seconds) settings.last_step = static_cast<lockstep::Step>(std::llround(*seconds * 1e9 / static_cast<double>(roster.base_step_ns())));
+  settings.pace = launch::ParsePace(options.pace).value();
+  settings.stop_requested = Interrupted;
+  settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
+  settings.next_command = [&desk] { return NextCommand(desk); };
+  CatchInterrupts();
+  const auto start = std::chrono::steady_clock::now();
+  const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
+  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const RunReport report = ReportOf(outcome, roster, wall_s);
+  if (!outcome.ok) fmt::print(stderr, "rodeira: {}\n", outcome.fault);
+  if (!options.quiet) fmt::print("{}", report.Table(static_cast<double>(roster.base_step_ns()) * 1e-9, options.record));
+  return outcome.ok ? 0 : 1;
+}
+
+}  // namespace rodeira::front

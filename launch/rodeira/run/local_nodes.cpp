@@ -1,0 +1,82 @@
+#include "launch/rodeira/run/local_nodes.hpp"
+
+#include <fmt/format.h>
+
+#include "launch/rodeira/run/node_factories.hpp"
+#include "nodes/road/road_service.hpp"
+
+namespace rodeira::front {
+namespace {
+
+class LocalContext final : public launch::NodeContext {
+ public:
+  LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world, launch::LiveKeysBoard& keys,
+               launch::LiveRequestsBoard& requests, launch::RunLogBoard* log)
+      : NodeContext(launch, index), world_(std::move(world)), keys_(keys), requests_(requests), log_(log) {
+    if (world_ != nullptr) ground_ = world_->MakeGround();
+  }
+  terrain::Ground& Ground() override {
+    RODEIRA_ASSERT(ground_ != nullptr);  // World() comes first and refuses
+    return *ground_;
+  }
+  bool ground_is_here() const override { return true; }
+  base::Result<launch::WorldSummary> World() override {
+    if (world_ == nullptr) return base::WrongInput("the launch file has no node of kind 'road'", launch().path().string());
+    return nodes::Summary(*world_);
+  }
+  std::unique_ptr<launch::LiveKeysSender> KeysSender() override { return keys_.MakeSender(); }
+  std::unique_ptr<launch::LiveKeysReceiver> KeysReceiver() override { return keys_.MakeReceiver(); }
+  std::unique_ptr<launch::LiveRequestsSender> RequestsSender() override { return requests_.MakeSender(); }
+  std::unique_ptr<launch::LiveRequestsReceiver> RequestsReceiver() override { return requests_.MakeReceiver(); }
+  std::unique_ptr<launch::RunLogReceiver> RunLog() override { return log_ == nullptr ? nullptr : log_->MakeReceiver(); }
+
+ private:
+  std::shared_ptr<const road::World> world_;
+  std::unique_ptr<terrain::Ground> ground_;
+  launch::LiveKeysBoard& keys_;
+  launch::LiveRequestsBoard& requests_;
+  launch::RunLogBoard* log_;
+};
+
+// The world of the run, where a road server would load it.
+base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch& launch) {
+  for (const launch::LaunchNode& node : launch.nodes()) {
+    if (node.kind->name != "road") continue;
+    if (launch.world().empty()) return base::WrongInput("key 'world' is missing; a road server needs a world file", launch.path().string());
+    return road::World::Load(launch.world());
+  }
+  return std::shared_ptr<const road::World>();
+}
+
+}  // namespace
+
+LocalNodes::LocalNodes(LocalNodes&&) noexcept = default;
+LocalNodes::~LocalNodes() = default;
+
+base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const StandIn& stand_in, launch::RunLogBoard* log) {
+  const auto& roster = launch.roster();
+  auto world = LoadWorld(launch);
+  if (!world) return world.error();
+  LocalNodes made;
+  if (world.value() != nullptr) made.world_hash_ = world.value()->content_hash();
+  for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
+    made.contexts_.push_back(std::make_unique<LocalContext>(launch, n, world.value(), *made.keys_, *made.requests_, log));
+    made.nodes_.push_back(nullptr);
+    if (roster.node(n).role == lockstep::Role::kService) continue;
+    if (auto other = stand_in ? stand_in(n) : nullptr) {
+      made.owned_.push_back(std::move(other));
+      made.nodes_.back() = made.owned_.back().get();
+      continue;
+    }
+    const launch::NodeFactory factory = FactoryOf(roster.node(n).kind);
+    if (factory == nullptr) return base::WrongInput(fmt::format("nodes of kind '{}' do not run in one process", roster.node(n).kind), fmt::format("node '{}'", roster.node(n).name));
+    auto node = factory(*made.contexts_.back());
+    if (!node) return base::Error{node.error().code, node.error().Text(), fmt::format("node '{}'", roster.node(n).name)};
+    made.owned_.push_back(std::move(node).value());
+    made.nodes_.back() = made.owned_.back().get();
+  }
+  if (auto status = launch.file().Finish(); !status) return status.error();
+  return made;
+}
+
+}  // namespace rodeira::front

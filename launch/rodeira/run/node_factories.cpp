@@ -1,0 +1,24 @@
+#include "launch/rodeira/run/node_factories.hpp"
+
+#include "nodes/empty/empty_node.hpp"
+#include "nodes/input/input_node.hpp"
+#include "nodes/recorder/recorder_node.hpp"
+#include "nodes/scenario/scenario_node.hpp"
+#include "nodes/traffic/traffic_node.hpp"
+#include "nodes/vehicle/vehicle_node.hpp"
+#include "nodes/view/view_node.hpp"
+
+namespace rodeira::front {
+
+launch::NodeFactory FactoryOf(std::string_view kind) {
+  if (kind == "empty") return nodes::MakeEmptyNode;
+  if (kind == "input") return nodes::MakeInputNode;
+  if (kind == "recorder") return nodes::MakeRecorderNode;
+  if (kind == "scenario") return nodes::MakeScenarioNode;
+  if (kind == "traffic") return nodes::MakeTrafficNode;
+  if (kind == "vehicle") return nodes::MakeVehicleNode;
+  if (kind == "view") return nodes::MakeViewNode;
+  return nullptr;
+}
+
+}  // namespace rodeira::front

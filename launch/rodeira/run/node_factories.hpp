@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string_view>
+
+#include "common/runtime/launch/node_context.hpp"
+
+namespace rodeira::front {
+
+// What makes a node of a kind, for runs in one process and for checks before a run; null for kinds that are services.
+launch::NodeFactory FactoryOf(std::string_view kind);
+
+}  // namespace rodeira::front

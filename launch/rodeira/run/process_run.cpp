@@ -1,0 +1,270 @@
+#include "launch/rodeira/run/process_run.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "launch/rodeira/run/crew.hpp"
+#include "launch/rodeira/run/operator.hpp"
+#include "launch/rodeira/run/run_report.hpp"
+#include "launch/rodeira/run/shared_memory.hpp"
+
+namespace rodeira::front {
+namespace {
+
+using namespace std::chrono_literals;
+using WallClock = std::chrono::steady_clock;
+
+std::atomic<int> g_interrupts = 0;
+void OnInterrupt(int) { ++g_interrupts; }
+
+int Complain(const base::Error& error) {
+  fmt::print(stderr, "rodeira: {}\n", error.Text());
+  return error.exit_status();
+}
+
+// The processes of a run, their clock's words, and their end.
+class ProcessRun {
+ public:
+  ProcessRun(const RunOptions& options, const Placement& placement, const launch::Launch& launch, launch::Overrides overrides)
+      : options_(options), placement_(placement), launch_(launch), crew_(options, placement, launch, std::move(overrides)) {
+    RemoveLeftOvers({});  // of dead runs
+    before_ = SharedMemoryFiles();
+    if (placement.has_clock()) desk_.emplace(options.run, options.quiet);
+    if (desk_) desk_->Listen(PauseButtons::Open(launch));
+  }
+
+  int Run() {
+    struct sigaction action {};
+    action.sa_handler = OnInterrupt;
+    ::sigaction(SIGINT, &action, nullptr);
+    ::sigaction(SIGTERM, &action, nullptr);
+    ::signal(SIGPIPE, SIG_IGN);
+    base::Status status = crew_.StartClock();
+    if (status.ok() && placement_.has_clock()) status = crew_.StartNodes();
+    if (!status) {
+      crew_.EndAll(report_.ended, interrupted_at_);
+      return Complain(status.error());
+    }
+    status = Watch();
+    crew_.EndAll(report_.ended, interrupted_at_);
+    RemoveLeftOvers(before_);
+    if (!status) return Complain(status.error());
+    Close();
+    return ExitStatus();
+  }
+
+ private:
+  base::Status RestartClock(const std::string& reason) {
+    const Crew::ClocksPlace place{report_.clock_id, report_.begun_ns, report_.pace, report_.paused};
+    if (auto status = crew_.RestartClock(place); !status) return status;
+    pending_.clear();
+    told_.clear();  // the old one may have died before it heard
+    for (const auto& [number, answer] : answers_) answer("failed the clock was lost; ask again");
+    answers_.clear();
+    report_.recovered.push_back(reason + "; started again");
+    Tell(report_.recovered.back());
+    return {};
+  }
+  base::Status RestartNode(const RunReport::Restart& wish) {
+    const auto done = crew_.RestartNode(wish.node, wish.life);
+    if (!done) return done.error();
+    if (!done.value()) return {};
+    told_.erase(wish.node);
+    Tell(wish.reason + "; it is started again");
+    return {};
+  }
+
+  // Until the clock has ended, by itself or not.
+  base::Status Watch() {
+    while (true) {
+      ReadClock(50);
+      // Beside a clock elsewhere nothing begins before it is met: this PC may wait for the others as long as it likes.
+      if (report_.met && !crew_.has_nodes()) {
+        if (auto status = crew_.StartNodes(); !status) return status;
+      }
+      for (const RunReport::Restart& wish : std::exchange(report_.wanted, {})) {
+        if (auto status = RestartNode(wish); !status) return status;
+      }
+      for (const std::string& reason : std::exchange(report_.paused_by, {})) {
+        Tell(reason + "; the run waits: it goes on when the node does; `rodeira ctl restart NODE` or `rodeira ctl stop` decide otherwise");
+      }
+      crew_.Poll();
+      Child& clock = crew_.clock();
+      if ((clock.ended() || clock.stopped()) && MayRestartClock()) {
+        if (auto status = RestartClock(fmt::format("the clock {} at about step {}", clock.Fate(), report_.step)); !status) return status;
+        continue;
+      }
+      if (clock.ended()) {
+        while (ReadClock(0)) {
+        }
+        if (!report_.ended && clock.exit_status() != 2) Fault(fmt::format("the {} {} at about step {}", clock.name(), clock.Fate(), report_.step));
+        return {};
+      }
+      if (clock.stopped()) {
+        if (!report_.ended) Fault(fmt::format("the {} {} at about step {}", clock.name(), clock.Fate(), report_.step));
+        return {};
+      }
+      for (const Child& child : crew_.children()) {
+        if (&child == &clock) continue;
+        if (Broken(child)) {
+          TellClock(child);
+        } else if (!child.ended()) {
+          told_.erase(child.name());  // it goes on
+        }
+      }
+      const int interrupts = g_interrupts;
+      if (interrupts > 0 && !interrupted_at_) interrupted_at_ = WallClock::now();
+      for (; passed_on_ < interrupts; ++passed_on_) clock.Signal(SIGINT);
+      AskClock();
+      ShowProgress();
+    }
+  }
+  // What the operator asks for goes to the clock; its answer comes among its other words.
+  void AskClock() {
+    while (auto asked = desk_ ? desk_->Next() : std::nullopt) {
+      // What would end a line or a text is no part of a command.
+      std::replace_if(asked->line.begin(), asked->line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+      crew_.clock().Send(fmt::format("do {} {}", ++asked_, asked->line));
+      answers_[asked_] = std::move(asked->answer);
+    }
+  }
+  void TakeAnswer(std::string_view line) {
+    std::size_t number = 0;
+    const auto [end, problem] = std::from_chars(line.data(), line.data() + line.size(), number);
+    const auto waiting = answers_.find(number);
+    if (problem != std::errc{} || waiting == answers_.end()) return;
+    line.remove_prefix(std::min(static_cast<std::size_t>(end - line.data()) + 1, line.size()));
+    waiting->second(std::string(line));
+    answers_.erase(waiting);
+  }
+  // Dead or stopped though the run is not over. A node that left with a sentence has told the clock itself.
+  bool Broken(const Child& child) const {
+    if (report_.ended || !fault_.empty()) return false;
+    if (child.stopped()) return true;
+    if (!child.ended()) return false;
+    const bool by_itself = child.exit_status() && *child.exit_status() <= 2;
+    return !by_itself || WallClock::now() - child.ended_at() > 1s;
+  }
+  void TellClock(const Child& broken) {
+    if (!told_.insert(broken.name()).second) return;
+    const launch::LaunchNode& node = launch_.node(launch_.roster().Find(broken.name()));
+    if (node.recovery == lockstep::Policy::kStop) Fault(fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step));
+    crew_.clock().Send(fmt::format("lost {} {}", broken.name(), broken.Fate()));
+  }
+  // A clock that is lost again and again without the run getting on has a reason for it. One that had not said its number yet (0) is
+  // known to nobody: another one draws its own.
+  bool MayRestartClock() {
+    while (ReadClock(0)) {
+    }
+    const Child& clock = crew_.clock();
+    const bool by_itself = clock.ended() && clock.exit_status() && *clock.exit_status() <= 2;
+    if (by_itself || report_.ended || !fault_.empty() || g_interrupts > 0) return false;
+    if (!placement_.has_clock() || launch_.recovery() != lockstep::Policy::kRestart) return false;
+    clocks_losses_ = report_.step > clocks_last_step_ ? 1 : clocks_losses_ + 1;
+    clocks_last_step_ = report_.step;
+    return clocks_losses_ < 4;
+  }
+  // The first fault is the cause, what follows are its consequences; it is said at once.
+  void Fault(const std::string& fault) {
+    if (!fault_.empty()) return;
+    fault_ = fault;
+    Tell(fault);
+  }
+  void Tell(const std::string& sentence) {
+    fmt::print(stderr, "{}rodeira: {}\n", shown_ ? "\r\033[K" : "", sentence);
+    std::fflush(stderr);
+  }
+
+  // Reads what the clock has said; false where there was nothing.
+  bool ReadClock(int wait_ms) {
+    const int out = crew_.clock().out();
+    pollfd waiting{out, POLLIN, 0};
+    if (::poll(&waiting, 1, wait_ms) <= 0) return false;
+    char buffer[4096];
+    const ssize_t size = ::read(out, buffer, sizeof(buffer));
+    if (size <= 0) {
+      if (wait_ms > 0) ::usleep(10'000);  // closed: its end is seen by Poll
+      return false;
+    }
+    pending_.append(buffer, static_cast<std::size_t>(size));
+    for (auto end = pending_.find('\n'); end != std::string::npos; end = pending_.find('\n')) {
+      const std::string_view line = std::string_view(pending_).substr(0, end);
+      if (line.starts_with("answer ")) {
+        TakeAnswer(line.substr(7));
+      } else {
+        report_.Take(line);
+      }
+      pending_.erase(0, end + 1);
+      if (!report_.faults.empty()) Fault(report_.faults.front());
+    }
+    return true;
+  }
+
+  void ShowProgress() {
+    if (options_.quiet || ::isatty(STDERR_FILENO) == 0 || WallClock::now() - start_ < 2s) return;
+    if (!report_.ready) {
+      fmt::print(stderr, "\r\033[Kwaiting for {}{}", report_.waiting_for, crew_.has_nodes() ? "" : " on " + placement_.ClocksPlace());
+    } else {
+      const double simulated_s = static_cast<double>(report_.step) * static_cast<double>(launch_.roster().base_step_ns()) * 1e-9;
+      fmt::print(stderr, "\r\033[K{:.1f} s simulated, {:.1f} s passed, {:.2f} × real time{}{}", simulated_s, report_.wall_s,
+                 report_.wall_s > 0.0 ? simulated_s / report_.wall_s : 0.0, report_.paused ? ", paused" : "", desk_ && desk_->has_keys() ? " (h: keys)" : "");
+    }
+    shown_ = true;
+  }
+
+  void Close() {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+    report_.faults = fault_.empty() ? std::vector<std::string>() : std::vector<std::string>{fault_};
+    for (const std::string& remark : report_.remarks) fmt::print(stderr, "rodeira: {}\n", remark);
+    if (!report_.ready || options_.quiet) return;
+    fmt::print("{}", report_.Table(static_cast<double>(launch_.roster().base_step_ns()) * 1e-9, options_.record));
+  }
+
+  int ExitStatus() const {
+    if (report_.ok && fault_.empty()) return 0;
+    for (const Child& child : crew_.children()) {
+      if (child.exit_status() == 2) return 2;
+    }
+    return 1;
+  }
+
+  const RunOptions& options_;
+  const Placement& placement_;
+  const launch::Launch& launch_;
+  Crew crew_;
+  std::set<std::string> before_;
+  RunReport report_;
+  std::string fault_;
+  std::string pending_;
+  std::optional<Operator> desk_;  // where the clock is
+  std::size_t asked_ = 0;
+  std::map<std::size_t, std::function<void(const std::string&)>> answers_;
+  int passed_on_ = 0;
+  std::optional<WallClock::time_point> interrupted_at_;
+  std::set<std::string> told_;  // nodes of which the clock was told that they are lost
+  std::int64_t clocks_last_step_ = -1;  // where it was lost …
+  int clocks_losses_ = 0;               // … so often
+  bool shown_ = false;
+  WallClock::time_point start_ = WallClock::now();
+};
+
+}  // namespace
+
+int RunProcesses(const RunOptions& options, const Placement& placement, const launch::Launch& launch, launch::Overrides overrides) {
+  return ProcessRun(options, placement, launch, std::move(overrides)).Run();
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,125 @@
+#include "launch/rodeira/run/processes.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+namespace rodeira::front {
+
+base::Result<Child> Child::Start(const std::string& name, const std::vector<std::string>& command, bool with_pipes) {
+  int to_child[2] = {-1, -1};
+  int from_child[2] = {-1, -1};
+  if (with_pipes && (::pipe2(to_child, O_CLOEXEC) != 0 || ::pipe2(from_child, O_CLOEXEC) != 0)) {
+    return base::Failed(fmt::format("no pipe can be made: {}", std::strerror(errno)), name);
+  }
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const pid_t parent = ::getpid();
+  const pid_t pid = ::fork();
+  if (pid < 0) return base::Failed(fmt::format("no process can be made: {}", std::strerror(errno)), name);
+  if (pid == 0) {
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (::getppid() != parent) ::_exit(1);  // it died in between
+    if (with_pipes) {
+      ::dup2(to_child[0], STDIN_FILENO);
+      ::dup2(from_child[1], STDOUT_FILENO);
+    } else {
+      const int nothing = ::open("/dev/null", O_RDONLY);
+      ::dup2(nothing, STDIN_FILENO);
+    }
+    ::execv(arguments[0], arguments.data());
+    ::_exit(127);
+  }
+  Child child;
+  child.name_ = name;
+  child.pid_ = pid;
+  if (with_pipes) {
+    ::close(to_child[0]);
+    ::close(from_child[1]);
+    child.in_ = to_child[1];
+    child.out_ = from_child[0];
+  }
+  return child;
+}
+
+Child::Child(Child&& other) noexcept { *this = std::move(other); }
+
+Child& Child::operator=(Child&& other) noexcept {
+  Close();
+  name_ = std::move(other.name_);
+  pid_ = std::exchange(other.pid_, -1);
+  in_ = std::exchange(other.in_, -1);
+  out_ = std::exchange(other.out_, -1);
+  ended_ = other.ended_;
+  ended_at_ = other.ended_at_;
+  stopped_ = other.stopped_;
+  stop_signal_ = other.stop_signal_;
+  kill_signal_ = other.kill_signal_;
+  exit_status_ = other.exit_status_;
+  return *this;
+}
+
+Child::~Child() { Close(); }
+
+void Child::CloseInput() {
+  if (in_ >= 0) ::close(std::exchange(in_, -1));
+}
+
+void Child::Close() {
+  CloseInput();
+  if (out_ >= 0) ::close(std::exchange(out_, -1));
+}
+
+void Child::Poll() {
+  if (ended_ || pid_ < 0) return;
+  int status = 0;
+  while (::waitpid(pid_, &status, WNOHANG | WUNTRACED | WCONTINUED) == pid_) {
+    if (WIFSTOPPED(status)) {
+      stopped_ = true;
+      stop_signal_ = WSTOPSIG(status);
+    } else if (WIFCONTINUED(status)) {
+      stopped_ = false;
+    } else {
+      ended_ = true;
+      ended_at_ = std::chrono::steady_clock::now();
+      if (WIFEXITED(status)) exit_status_ = WEXITSTATUS(status);
+      if (WIFSIGNALED(status)) kill_signal_ = WTERMSIG(status);
+      return;
+    }
+  }
+}
+
+void Child::Signal(int number) const {
+  if (!ended_ && pid_ > 0) ::kill(pid_, number);
+}
+
+std::string Child::Fate() const {
+  if (kill_signal_ != 0) return fmt::format("was killed by signal {} ({})", kill_signal_, ::strsignal(kill_signal_));
+  if (exit_status_ == 127) return "could not be started";
+  if (exit_status_) return fmt::format("left with status {}", *exit_status_);
+  if (stopped_) return fmt::format("was stopped by signal {} ({})", stop_signal_, ::strsignal(stop_signal_));
+  return "lives";
+}
+
+void Child::Send(const std::string& line) const {
+  const std::string text = line + "\n";
+  if (in_ >= 0) [[maybe_unused]] const ssize_t sent = ::write(in_, text.data(), text.size());
+}
+
+std::string ProgramFolder() {
+  std::error_code problem;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", problem);
+  return problem ? "." : self.parent_path().string();
+}
+
+}  // namespace rodeira::front

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/core/base/result.hpp"
+
+namespace rodeira::front {
+
+// A child process of `rodeira run`, in a process group of its own (a terminal's Ctrl-C reaches only the parent), told by
+// SIGTERM when the parent dies, however it dies.
+class Child {
+ public:
+  // Pipes for standard input and output only where asked for; standard error stays the parent's.
+  static base::Result<Child> Start(const std::string& name, const std::vector<std::string>& command, bool with_pipes);
+
+  Child(Child&& other) noexcept;
+  Child& operator=(Child&& other) noexcept;
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child();
+
+  // Looks, without waiting, whether it has ended or been stopped.
+  void Poll();
+  void Signal(int number) const;  // nothing where it has ended
+
+  const std::string& name() const { return name_; }
+  pid_t pid() const { return pid_; }
+  bool ended() const { return ended_; }
+  std::chrono::steady_clock::time_point ended_at() const { return ended_at_; }  // when Poll saw it
+  bool stopped() const { return stopped_; }
+  std::optional<int> exit_status() const { return exit_status_; }  // where it left by itself
+  // "was killed by signal 9 (Killed)", "left with status 1", "was stopped by signal 19 (Stopped)".
+  std::string Fate() const;
+  int out() const { return out_; }  // to read from; -1 without pipes
+  void Send(const std::string& line) const;  // to its standard input
+  void CloseInput();
+
+ private:
+  Child() = default;
+  void Close();
+  std::string name_;
+  pid_t pid_ = -1;
+  int in_ = -1;
+  int out_ = -1;
+  bool ended_ = false;
+  bool stopped_ = false;
+  std::chrono::steady_clock::time_point ended_at_;
+  int stop_signal_ = 0;
+  int kill_signal_ = 0;
+  std::optional<int> exit_status_;
+};
+
+// The folder of the running program, where its fellow programs lie too.
+std::string ProgramFolder();
+
+}  // namespace rodeira::front

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "common/core/base/result.hpp"
+#include "common/runtime/launch/launch.hpp"
+#include "launch/rodeira/run/placement.hpp"
+#include "launch/rodeira/run/run_command.hpp"
+
+namespace rodeira::front {
+
+// Where the recording goes: --record, else the launch file's own, else a dated file in the user's data folder. A recorder
+// that the launch file does not have is added; --no-record takes those away that it has. On a PC of a laboratory only its own
+// recorder counts, and none is added: all PCs must agree on who takes part. What is decided is written into options.record and
+// the overrides.
+base::Status ResolveRecording(const launch::Launch& launch, const Placement& placement, RunOptions& options, launch::Overrides& overrides);
+
+}  // namespace rodeira::front

@@ -1,0 +1,54 @@
+#include "launch/rodeira/run/run_meta.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rodeira::front {
+namespace {
+
+// A YAML text in double quotes, whatever it holds.
+std::string Quoted(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      quoted += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '"';
+}
+
+bool IsName(std::string_view key) {
+  return !key.empty() && key.size() <= 64 && std::all_of(key.begin(), key.end(), [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+std::string RecorderOf(const launch::Launch& launch) {
+  for (const launch::LaunchNode& node : launch.nodes()) {
+    if (node.kind->name == "recorder") return node.name;
+  }
+  return "";
+}
+
+}  // namespace
+
+base::Status AddMeta(const launch::Launch& launch, const std::vector<std::string>& meta, launch::Overrides& overrides) {
+  if (meta.empty()) return {};
+  const std::string recorder = RecorderOf(launch);
+  if (recorder.empty()) return base::WrongInput("nothing is recorded, so there is nowhere to write it", "--meta");
+  for (const std::string& pair : meta) {
+    const auto equals = pair.find('=');
+    const std::string key = pair.substr(0, equals);
+    if (equals == std::string::npos || !IsName(key)) {
+      return base::WrongInput(fmt::format("'{}' was found; KEY=VALUE was expected, the key of letters, digits, _ and -", pair), "--meta");
+    }
+    overrides.emplace_back("nodes." + recorder + ".config.meta." + key, Quoted(std::string_view(pair).substr(equals + 1)));
+  }
+  return {};
+}
+
+}  // namespace rodeira::front

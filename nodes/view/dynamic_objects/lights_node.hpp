@@ -1,0 +1,33 @@
+#pragma once
+
+#include <osg/Group>
+#include <osg/ref_ptr>
+
+#include <array>
+#include <vector>
+
+#include "common/world/road/world.hpp"
+#include "common/view/scene/vehicles/moment.hpp"
+#include "nodes/view/materials/look.hpp"
+
+namespace rodeira::view {
+
+// The lit lights of a world's signals; the dark ones belong to what stands there.
+class LightsNode {
+ public:
+  LightsNode(Look& look, const road::World& world);
+  osg::Node* node() { return group_; }
+
+  void Show(const std::vector<scene::LightShown>& lights);
+
+ private:
+  struct Head {
+    std::uint32_t controller;
+    std::array<osg::ref_ptr<osg::Node>, 3> lit;  // from below: green, amber, red
+  };
+
+  osg::ref_ptr<osg::Group> group_;
+  std::vector<Head> heads_;
+};
+
+}  // namespace rodeira::view

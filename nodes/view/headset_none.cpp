@@ -1,9 +1,0 @@
-#include "nodes/view/headset.hpp"
-
-namespace rodeira::view {
-
-base::Result<std::unique_ptr<Headset>> Headset::Open(Quality) {
-  return base::WrongInput("this Rodeira was built without OpenXR (package libopenxr-dev, CMake's RODEIRA_OPENXR)");
-}
-
-}  // namespace rodeira::view

@@ -1,0 +1,90 @@
+#include "nodes/view/paging/ground_nodes.hpp"
+
+#include <osg/LOD>
+
+#include <Eigen/Geometry>
+
+#include "nodes/view/materials/model_file.hpp"
+
+namespace rodeira::view {
+namespace {
+
+constexpr float kMarksSeen_m = 650.0F;
+constexpr float kTreesSeen_m = 1'100.0F;
+constexpr double kHighestTree_m = 12.0;
+
+osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+PlacedNode TerrainNode(Look& look, const scene::TerrainTile& tile) {
+  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+  lod->setCenter(ToOsg(tile.centre_W));
+  lod->setRadius(tile.radius_m);
+  float from = 0.0F;
+  for (std::size_t level = 0; level < tile.levels.size(); ++level) {
+    const scene::Mesh* mesh = &tile.levels[level];
+    const float to = scene::TerrainSeen_m(tile, level);
+    lod->addChild(look.Placed({&mesh, 1}), from, to);
+    from = to;
+  }
+  return {tile.centre_W.head<2>(), lod};
+}
+
+osg::ref_ptr<osg::Group> LevelNode(Look& look, const scene::GroundLevel& level) {
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  std::vector<const scene::Mesh*> meshes, things;
+  for (const scene::Mesh& mesh : level.ground) meshes.push_back(&mesh);
+  if (!meshes.empty()) group->addChild(look.Placed(meshes));
+  const scene::Mesh* marks = &level.marks;
+  if (!marks->triangles.empty()) group->addChild(look.Placed({&marks, 1}));
+  for (const scene::Mesh& mesh : level.things) things.push_back(&mesh);
+  if (!things.empty()) group->addChild(look.Placed(things));
+  if (!level.repeated.empty()) group->addChild(look.Placed(level.repeated));
+  if (!level.models.empty()) {
+    const osg::ref_ptr<osg::Group> models = PlaceModels(level.models);
+    models->setNodeMask(kOnlyNear);
+    group->addChild(models);
+  }
+  return group;
+}
+
+PlacedNode GroundNode(Look& look, const scene::GroundTile& tile) {
+  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+  lod->setCenter(ToOsg(tile.ball.centre_W));
+  lod->setRadius(tile.ball.radius_m);
+  float from = 0.0F;
+  for (std::size_t level = 0; level < tile.levels.size(); ++level) {
+    lod->addChild(LevelNode(look, tile.levels[level]), from, scene::kGroundSeen_m[level]);
+    from = scene::kGroundSeen_m[level];
+  }
+  return {tile.ball.centre_W.head<2>(), lod};
+}
+
+void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group) {
+  std::vector<const scene::Mesh*> ground;
+  for (const scene::Mesh& mesh : tile.ground) ground.push_back(&mesh);
+  if (!ground.empty()) group.addChild(look.Placed(ground));
+  if (tile.marks.triangles.empty()) return;
+  const scene::Mesh* marks = &tile.marks;
+  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+  lod->addChild(look.Placed({&marks, 1}), 0.0F, kMarksSeen_m);
+  group.addChild(lod);
+}
+
+PlacedNode TreesNode(Look& look, const std::vector<scene::Repeated>& trees) {
+  Eigen::AlignedBox3d feet_W;
+  for (const scene::Repeated& kind : trees) {
+    for (const scene::StandingPlace& place : kind.places) feet_W.extend(place.stand.foot_W);
+  }
+  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+  lod->setCenter(ToOsg(feet_W.center()));
+  lod->setRadius(0.5 * feet_W.diagonal().norm() + kHighestTree_m);
+  lod->addChild(look.Placed(trees), 0.0F, kTreesSeen_m);
+  return {feet_W.center().head<2>(), lod};
+}
+
+}  // namespace rodeira::view

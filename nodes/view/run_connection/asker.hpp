@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/runtime/launch/live_requests.hpp"
+#include "common/driving/scenario/request.hpp"
+
+namespace rodeira::view {
+
+// Asks the run for something, and again every kRepeat_s until the run's own events say that it has happened: a message may be lost, and
+// a run that stands takes nothing. Used on the thread of the window.
+class Asker {
+ public:
+  static constexpr double kRepeat_s = 0.05;
+
+  explicit Asker(std::unique_ptr<launch::LiveRequestsSender> sender) : sender_(std::move(sender)) {}
+
+  // False where too many wait already, or it can be no event: then nothing is asked.
+  bool Ask(const scenario::Request& request);
+  // What the run has said.
+  void See(const std::vector<scenario::Event>& events);
+  // Says what is due.
+  void Tell(double now_s);
+  std::size_t waiting() const { return waiting_.size(); }
+
+ private:
+  struct Waiting {
+    launch::LiveRequest request;
+    scenario::Event becomes;
+  };
+  std::unique_ptr<launch::LiveRequestsSender> sender_;
+  std::vector<Waiting> waiting_;  // by number
+  std::uint32_t newest_ = 0;
+  bool changed_ = false;
+  double told_s_ = -1.0e9;
+};
+
+}  // namespace rodeira::view

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "nodes/view/run_connection/run_desk.hpp"
+
+namespace rodeira::view {
+
+// Whether the run's time stands, and why, for a window of a live run: told what it shows, it asks the run's control socket where that comes to
+// rest.
+class Standing {
+ public:
+  static constexpr double kStill_s = 0.5;  // without a new moment: time stands
+  static constexpr double kAgain_s = 0.5;  // so often it asks why
+
+  Standing() : desk_(RunDesk::Open()) {}
+
+  // Pause, or go on; one step. False where the clock is not on this PC.
+  bool Toggle() { return Ask("toggle"); }
+  bool Step() { return Ask("step"); }
+  // At each picture: its simulated time and the wall's. A sentence for the window; empty while time goes on.
+  std::string See(std::int64_t time_ns, double now_s);
+
+ private:
+  bool Ask(const char* command);
+
+  std::unique_ptr<RunDesk> desk_;  // null: the clock is elsewhere
+  std::int64_t seen_ns_ = -1;
+  double moved_s_ = 0.0;  // when the simulated time was last seen to go on
+  double asked_s_ = -1e9;
+  std::string why_;  // "paused at …", as the clock says it; empty: it has not said so
+};
+
+}  // namespace rodeira::view

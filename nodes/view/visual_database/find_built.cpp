@@ -1,0 +1,48 @@
+#include "nodes/view/visual_database/find_built.hpp"
+
+#include <fmt/format.h>
+
+#include "common/core/base/files.hpp"
+#include "common/view/scene/visual_world/seen_digest.hpp"
+#include "nodes/view/visual_database/database.hpp"
+#include "nodes/view/visual_database/visual_files.hpp"
+
+namespace rodeira::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The first file that is not as it was written; empty: all are.
+std::string FirstChanged(const fs::path& folder, const VisualContents& contents) {
+  bool root = false;
+  for (const VisualContents::Listed& listed : contents.files) {
+    const auto bytes = base::ReadText(folder / listed.name, 1u << 30);
+    if (!bytes || base::Hash(bytes.value()) != listed.hash) return listed.name;
+    root = root || listed.name == "world.osgb";
+  }
+  return root ? "" : "world.osgb";
+}
+
+}  // namespace
+
+FoundBuilt FindBuilt(const fs::path& world_file, const road::World& world) {
+  FoundBuilt found;
+  if (world_file.empty() || !world.roads().empty()) return found;
+  std::string seen;
+  for (const fs::path& folder : {world_file.parent_path(), world_file.parent_path() / world_file.stem()}) {
+    std::error_code problem;
+    const fs::path manifest = folder / kManifest;
+    if (!fs::is_regular_file(manifest, problem)) continue;
+    if (seen.empty()) seen = base::Hex(scene::SeenDigest(world));
+    const VisualContents contents = ReadVisualContents(manifest);
+    std::string why;
+    if (contents.seen != seen) why = "it was built from another world, or by another version of the program";
+    else if (!contents.broken.empty()) why = fmt::format("its line '{}' names no file with its hash", contents.broken.front());
+    else if (const std::string changed = FirstChanged(folder, contents); !changed.empty()) why = fmt::format("its file '{}' is not as it was written", changed);
+    if (why.empty()) return {folder, ""};
+    found.remark = fmt::format("{}: the built database is not shown: {}; `rodeira world build` renews it", manifest.string(), why);
+  }
+  return found;
+}
+
+}  // namespace rodeira::view

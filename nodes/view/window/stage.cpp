@@ -1,0 +1,208 @@
+#include "nodes/view/window/stage.hpp"
+
+#include <SDL.h>
+
+#include <chrono>
+#include <utility>
+
+#include "nodes/view/run_connection/asker.hpp"
+#include "nodes/view/run_connection/key_forwarder.hpp"
+#include "nodes/view/frame/png.hpp"
+#include "nodes/view/window/screen.hpp"
+
+namespace rodeira::view {
+
+struct Stage::Hand {
+  std::unique_ptr<Screen> screen;
+  std::unique_ptr<KeyForwarder> keys;  // null: nobody drives by this window
+  std::unique_ptr<Asker> asker;        // null: nobody takes requests
+  std::unique_ptr<WheelButtons> wheel;  // null: it has no buttons for the window
+  scene::PicturePace pace;
+};
+
+Stage::Stage(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys, std::unique_ptr<launch::LiveRequestsSender> requests)
+    : settings_(settings), reader_(std::move(reader)), keys_(std::move(keys)), requests_(std::move(requests)) {
+  thread_ = std::thread([this] { Run(); });
+}
+
+base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, std::shared_ptr<const road::World> world) {
+  return Open(settings, [shown = ReadWorld{std::move(world), settings.built}] { return shown; });
+}
+
+base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys,
+                                                 std::unique_ptr<launch::LiveRequestsSender> requests) {
+  std::unique_ptr<Stage> stage(new Stage(settings, std::move(reader), std::move(keys), std::move(requests)));
+  {
+    std::unique_lock lock(stage->mutex_);
+    stage->changed_.wait(lock, [&] { return stage->ready_; });
+    if (!stage->set_up_) return stage->set_up_.error();
+    if (!stage->nothing_to_draw_) return stage;
+  }
+  return std::unique_ptr<Stage>();
+}
+
+Stage::~Stage() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+bool Stage::has_window() const {
+  const std::lock_guard lock(mutex_);
+  return window_;
+}
+
+void Stage::Show(scene::Moment moment) {
+  const double wall_s = launch::WallSeconds();
+  const std::lock_guard lock(mutex_);
+  history_.Add(std::move(moment));
+  clock_.Arrived(wall_s, static_cast<double>(history_.newest_ns()) * 1e-9, static_cast<double>(history_.interval_ns()) * 1e-9);
+}
+
+void Stage::Tell(const std::vector<scenario::Event>& events) {
+  const std::lock_guard lock(mutex_);
+  told_.insert(told_.end(), events.begin(), events.end());
+}
+
+base::Status Stage::Order(Picture picture, std::filesystem::path file) {
+  const std::lock_guard lock(mutex_);
+  if (!written_) return written_;
+  orders_.push_back({std::move(picture), std::move(file)});
+  changed_.notify_all();
+  return {};
+}
+
+base::Status Stage::Drain() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return orders_.empty() || !written_; });
+  return written_;
+}
+
+void Stage::Run() {
+  Hand hand;
+  base::Status status = SetUp(hand);
+  const bool go_on = status.ok() && hand.screen != nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    set_up_ = std::move(status);
+    nothing_to_draw_ = hand.screen == nullptr;
+    window_ = go_on && (hand.screen->surface().kind() == SurfaceKind::kWindow || hand.screen->has_headset());
+    ready_ = true;
+  }
+  changed_.notify_all();
+  if (go_on) Loop(hand);
+}
+
+// Null where there is nothing to draw here.
+base::Status Stage::OpenSurfaceFor(std::unique_ptr<Surface>& surface) const {
+  const bool only_window = settings_.frame_steps.empty() && !settings_.headset;
+  const auto open = [&](SurfaceKind kind) -> base::Status {
+    auto opened = OpenSurface(kind, settings_, settings_.frame_steps.empty());
+    if (!opened) return opened.error();
+    surface = std::move(opened).value();
+    return {};
+  };
+  if (settings_.window == WindowWish::kAlways) return open(SurfaceKind::kWindow);
+  if (settings_.window == WindowWish::kAuto && HasDisplay() && open(SurfaceKind::kWindow)) return {};  // a display without OpenGL is as good as none
+  return only_window ? base::Status() : open(SurfaceKind::kOffscreen);
+}
+
+base::Status Stage::SetUp(Hand& hand) {
+  std::unique_ptr<Surface> surface;
+  if (auto status = OpenSurfaceFor(surface); !status) return status;
+  auto shown = ReadBefore(surface.get(), reader_);
+  if (!shown) return shown.error();
+  if (surface == nullptr) return {};
+  world_ = std::move(shown.value().world);
+  ViewSettings settings = settings_;
+  settings.built = std::move(shown.value().built);
+  const std::string own = WindowHelp(settings_.mouse_button), help = settings_.driving_help.empty() ? own : own + "\n\n" + settings_.driving_help;
+  auto screen = Screen::Open(std::move(surface), settings, *world_, help);
+  if (!screen) return screen.error();
+  hand.screen = std::move(screen).value();
+  if (hand.screen->surface().kind() == SurfaceKind::kOffscreen && settings_.frame_steps.empty() && !hand.screen->has_headset()) {
+    hand.screen.reset();
+    return {};
+  }
+  if (keys_ != nullptr) hand.keys = std::make_unique<KeyForwarder>(std::move(keys_));
+  if (hand.screen->surface().kind() == SurfaceKind::kWindow) hand.wheel = WheelButtons::Open(settings_.camera_buttons);
+  if (requests_ != nullptr) {
+    hand.asker = std::make_unique<Asker>(std::move(requests_));
+    hand.screen->set_ask([&asker = *hand.asker](const scenario::Request& request) { return asker.Ask(request); });
+  }
+  return {};
+}
+
+void Stage::Loop(Hand& hand) {
+  std::unique_lock lock(mutex_);
+  while (!quit_) {
+    if (!orders_.empty()) {
+      ServeOrder(hand, lock);
+    } else if (window_ && !history_.empty()) {
+      ShowWindow(hand, lock);
+    } else {
+      changed_.wait_for(lock, std::chrono::milliseconds(window_ ? 10 : 1000), [&] { return quit_ || !orders_.empty(); });
+      if (window_) window_ = ReadKeys(hand);
+    }
+    if (hand.asker != nullptr) {
+      hand.asker->See(std::exchange(told_, {}));
+      hand.asker->Tell(launch::WallSeconds());
+    }
+  }
+}
+
+void Stage::ServeOrder(Hand& hand, std::unique_lock<std::mutex>& lock) {
+  const Ordered& order = orders_.front();  // others are only added behind it
+  lock.unlock();
+  hand.screen->painter().DrawWhole(order.picture);
+  base::Status status = WritePng(order.file, hand.screen->painter().Read());
+  lock.lock();
+  if (written_) written_ = std::move(status);
+  orders_.pop_front();
+  changed_.notify_all();
+}
+
+void Stage::ShowWindow(Hand& hand, std::unique_lock<std::mutex>& lock) {
+  const double begin_s = launch::WallSeconds();
+  const double rate = clock_.rate();
+  lock.unlock();
+  bool open = ReadKeys(hand);
+  const bool waited = hand.screen->WaitForHeadset();
+  lock.lock();
+  scene::Moment moment = history_.At(clock_.Now(waited ? launch::WallSeconds() : begin_s) * 1e9);
+  lock.unlock();
+  hand.screen->Show(std::move(moment), rate);
+  lock.lock();
+  open = open && (hand.screen->surface().kind() == SurfaceKind::kWindow || hand.screen->has_headset());
+  if (!open) window_ = false;
+  if (waited) return;
+  const double rest_s = hand.pace.Next(begin_s, hand.screen->surface().beat()) - launch::WallSeconds();
+  if (rest_s > 0.0) changed_.wait_for(lock, std::chrono::duration<double>(rest_s), [&] { return quit_ || !orders_.empty(); });
+}
+
+// False where the person closed the window.
+bool Stage::ReadKeys(Hand& hand) {
+  SDL_Event event;
+  bool open = true;
+  while (SDL_PollEvent(&event) != 0) {
+    if (event.type == SDL_QUIT) open = false;
+    if (event.type == SDL_KEYDOWN && event.key.repeat == 0 && event.key.keysym.sym == SDLK_ESCAPE) open = false;
+    const bool own = event.type == SDL_KEYDOWN && event.key.repeat == 0 &&
+                     (event.key.keysym.sym == SDLK_ESCAPE || hand.screen->TakeKey(event.key.keysym.sym, hand.keys != nullptr, event.key.keysym.mod));
+    if (hand.screen->TakeMouse(event)) continue;
+    if (!own && hand.keys != nullptr) hand.keys->Take(event);
+  }
+  open = open && !hand.screen->asked_to_close();
+  if (hand.wheel != nullptr && hand.wheel->Pressed()) (void)hand.screen->TakeKey(SDLK_k, true);
+  if (hand.keys != nullptr) {
+    if (!open) hand.keys->ReleaseAll();
+    hand.keys->Tell(launch::WallSeconds());
+  }
+  if (!open) hand.screen->surface().Hide();
+  return open;
+}
+
+}  // namespace rodeira::view

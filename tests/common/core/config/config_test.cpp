@@ -1,0 +1,188 @@
+#include "common/core/config/config.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rodeira::config {
+namespace {
+
+File Parsed(const char* text) {
+  auto file = File::Parse(text, "folder/car.yaml");
+  EXPECT_TRUE(file.ok());
+  return std::move(file).value();
+}
+
+TEST(Config, GivesWhatTheFileSays) {
+  const File file = Parsed("mass_kg: 1200.5\nname: Seat\nwheels: 4\nabs: true\nbody: {colour: red}\ngears: [3.46, 1.96]\nmesh: parts/a.obj\n");
+  const Map root = file.root();
+  EXPECT_EQ(root.Number("mass_kg", Range::Positive()), 1200.5);
+  EXPECT_EQ(root.Text("name"), "Seat");
+  EXPECT_EQ(root.Integer("wheels", 2, 8), 4);
+  EXPECT_TRUE(root.Flag("abs", false));
+  EXPECT_EQ(root.Child("body").Choice("colour", {"blue", "red"}), "red");
+  EXPECT_EQ(root.Numbers("gears"), (std::vector<double>{3.46, 1.96}));
+  EXPECT_EQ(root.Path("mesh"), "folder/parts/a.obj");
+  EXPECT_EQ(root.Number("drag_area_m2", {}, 0.5), 0.5);
+  EXPECT_TRUE(file.Finish().ok());
+}
+
+TEST(Config, AnUnknownKeyIsNamedWithItsLineAndTheNearestName) {
+  const File file = Parsed("name: a\nmas_kg: 5\n");
+  (void)file.root().Text("name");
+  (void)file.root().Number("mass_kg", {}, 1.0);
+  const auto status = file.Finish();
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().Text(), "folder/car.yaml:2: unknown key 'mas_kg'; did you mean 'mass_kg'?");
+}
+
+TEST(Config, AWrongUnitIsNamed) {
+  const File file = Parsed("length_cm: 5\n");
+  (void)file.root().Number("length_m", {}, 1.0);
+  EXPECT_EQ(file.Finish().error().Text(), "folder/car.yaml:1: unknown key 'length_cm'; the unit is part of the name: 'length_m'");
+}
+
+TEST(Config, AMisspeltKeyIsNotMissingToo) {
+  const auto problems = [](const std::string& text) {
+    auto file = File::Parse(text, "car.yaml").value();
+    const Map body = file.root().Child("body");
+    (void)body.Number("mass_kg");
+    (void)body.Child("wheels");
+    (void)body.Items("axles");
+    std::vector<std::string> said;
+    for (const auto& problem : file.Problems()) said.push_back(problem.Text());
+    return said;
+  };
+  const std::string rest = "  wheels: {}\n  axles: []\n";
+  EXPECT_EQ(problems("body:\n  mas_kg: 1\n" + rest), std::vector<std::string>{"car.yaml:2: unknown key 'body.mas_kg'; did you mean 'mass_kg'?"});
+  EXPECT_EQ(problems("body:\n  mass_t: 1\n" + rest), std::vector<std::string>{"car.yaml:2: unknown key 'body.mass_t'; the unit is part of the name: 'mass_kg'"});
+  EXPECT_EQ(problems("body:\n  mass_kg: 1\n  wheel: {}\n  axle: []\n"),
+            (std::vector<std::string>{"car.yaml:3: unknown key 'body.wheel'; did you mean 'wheels'?", "car.yaml:4: unknown key 'body.axle'; did you mean 'axles'?"}));
+  EXPECT_EQ(problems("body:\n" + rest), std::vector<std::string>{"car.yaml:2: key 'body.mass_kg' is missing; a number was expected"}) << "what is just missing is said";
+}
+
+TEST(Config, EveryProblemIsCollectedInTheOrderOfLines) {
+  const File file = Parsed("a_m: -1\nb_m: long\nc: {d: 1, d: 2}\ne: [1, x]\nf: violet\n");
+  const Map root = file.root();
+  (void)root.Choice("f", {"violin", "red"});
+  (void)root.Number("b_m");
+  (void)root.Number("a_m", Range::NotNegative());
+  (void)root.Child("c").Integer("d", 0, 9);
+  (void)root.Numbers("e");
+  (void)root.Number("g_m");
+  std::vector<std::string> texts;
+  for (const auto& problem : file.Problems()) texts.push_back(problem.Text());
+  EXPECT_EQ(texts, (std::vector<std::string>{
+                       "folder/car.yaml:1: 'a_m' is -1; a number at least 0 was expected",
+                       "folder/car.yaml:1: key 'g_m' is missing; a number was expected",
+                       "folder/car.yaml:2: 'b_m' is 'long'; a number was expected",
+                       "folder/car.yaml:3: key 'c.d' stands twice",
+                       "folder/car.yaml:4: item 2 of 'e' is 'x'; a number finite was expected",
+                       "folder/car.yaml:5: 'f' is 'violet'; did you mean 'violin'?",
+                   }));
+}
+
+TEST(Config, RefusesWhatIsNoMapping) {
+  EXPECT_NE(File::Parse("- 1\n", "x.yaml").error().Text().find("a mapping (key: value) was expected"), std::string::npos);
+  EXPECT_NE(File::Parse("a: [1\n", "x.yaml").error().Text().find("x.yaml:"), std::string::npos);
+  EXPECT_EQ(File::Load("/no/such/file.yaml").error().Text(), "/no/such/file.yaml: there is no such file");
+  EXPECT_EQ(File::Parse("", "x.yaml").error().code, base::ErrorCode::kWrongInput);
+}
+
+TEST(Config, NestingIsBounded) {
+  for (const std::size_t depth : {1000u, 100'000u}) {
+    for (const char* open : {"[", "{a: ", "- ", "? "}) {
+      std::string text = "a:\n  ";
+      for (std::size_t i = 0; i < depth; ++i) text += open;
+      const auto file = File::Parse(text, "x.yaml");
+      ASSERT_FALSE(file.ok());
+      EXPECT_NE(file.error().Text().find(":2: this is nested too deeply"), std::string::npos) << file.error().Text();
+    }
+    const std::string closed = "a: " + std::string(depth, '[') + std::string(depth, ']') + "\n";
+    EXPECT_EQ(File::Parse(closed, "x.yaml").error().Text(), "x.yaml:1: this is nested too deeply: lists and mappings lie in one another, 500 levels are too many");
+  }
+  EXPECT_TRUE(File::Parse("a: " + std::string(200, '[') + std::string(200, ']') + "\n", "x.yaml").ok());
+  File file = Parsed("a: 1\n");
+  EXPECT_NE(file.Override("a", std::string(1000, '[')).error().Text().find("the value is nested too deeply"), std::string::npos);
+}
+
+TEST(Config, AnOverrideByNothingTakesAKeyOut) {
+  auto file = File::Parse("a: 1\nb: {c: 2, d: 3}\n", "x.yaml").value();
+  ASSERT_TRUE(file.Override("b.c", "~").ok());
+  ASSERT_TRUE(file.Override("b.none", "~").ok());
+  EXPECT_FALSE(file.root().Child("b").Has("c"));
+  EXPECT_EQ(file.root().Child("b").Integer("d", 0, 9), 3);
+  EXPECT_EQ(file.root().Integer("a", 0, 9), 1);
+  EXPECT_TRUE(file.Finish().ok());
+}
+
+// What is wrong in it stands in no line of the file.
+TEST(Config, AnOverrideHasNoLine) {
+  File file = Parsed("a: 1\nb: {c: 2}\n");
+  ASSERT_TRUE(file.Override("b", "{c: 3, list: [1, x], inner: {odd: 1}}").ok());
+  (void)file.root().Number("a");
+  const Map b = file.root().Child("b");
+  EXPECT_EQ(b.Number("c"), 3.0);
+  (void)b.Items("list").Number(1);
+  (void)b.Child("inner").Number("even", {}, 1.0);
+  const auto problems = file.Problems();
+  ASSERT_EQ(problems.size(), 2u);
+  for (const base::Error& problem : problems) EXPECT_EQ(problem.context, "folder/car.yaml") << problem.Text();
+}
+
+TEST(Config, OverridesReplaceAndAdd) {
+  File file = Parsed("a: 1\nb: {c: 2}\n");
+  ASSERT_TRUE(file.Override("a", "5").ok());
+  ASSERT_TRUE(file.Override("b.c", "6").ok());
+  ASSERT_TRUE(file.Override("b.d.e", "[1, 2]").ok());
+  EXPECT_EQ(file.root().Number("a"), 5.0);
+  EXPECT_EQ(file.root().Child("b").Number("c"), 6.0);
+  EXPECT_EQ(file.root().Child("b").Child("d").Numbers("e").size(), 2u);
+  EXPECT_TRUE(file.Finish().ok());
+  EXPECT_EQ(file.Override("a.x", "1").error().Text(), "--set a.x=1: 'a' is '5', no mapping");
+  EXPECT_FALSE(file.Override("a..x", "1").ok());
+  EXPECT_FALSE(file.Override("a", "[1").ok());
+}
+
+// A key that may stand there and does not is known where another is misspelt, and what is misspelt comes before what is missing.
+TEST(Config, WhatMayStandThereIsAmongTheNamesThatAreNear) {
+  const auto file = File::Parse("throtle: 1\nframes: {fsp: 25}\n", "wheel.yaml");
+  ASSERT_TRUE(file.ok());
+  const Map root = file.value().root();
+  EXPECT_FALSE(root.Has("throttle"));
+  const Map frames = root.Child("frames");
+  EXPECT_FALSE(frames.Has("fps"));
+  (void)frames.Text("times_s");
+  const auto problems = file.value().Problems();
+  ASSERT_EQ(problems.size(), 3u);
+  EXPECT_NE(problems[0].Text().find("unknown key 'throtle'; did you mean 'throttle'?"), std::string::npos) << problems[0].Text();
+  EXPECT_NE(problems[1].Text().find("unknown key 'frames.fsp'; did you mean 'fps'?"), std::string::npos) << problems[1].Text();
+  EXPECT_NE(problems[2].Text().find("key 'frames.times_s' is missing"), std::string::npos) << problems[2].Text();
+}
+
+TEST(Config, WhatIsLeftToOthersIsNotUnknown) {
+  const File file = Parsed("mine: 1\nyours: {x: 1}\n");
+  (void)file.root().Number("mine");
+  file.root().LeaveToOthers("yours");
+  EXPECT_TRUE(file.Finish().ok());
+}
+
+TEST(Config, PeekingAsksForNothing) {
+  const File file = Parsed("yours: {x: {y: here}, z: 1}\nlist: [1]\n");
+  const Map root = file.root();
+  root.LeaveToOthers("yours");
+  root.LeaveToOthers("list");
+  EXPECT_EQ(root.Peek({"yours", "x", "y"}), "here");
+  EXPECT_EQ(root.Peek({"yours", "z"}), "1");
+  EXPECT_FALSE(root.Peek({"yours", "x"}).has_value()) << "no text";
+  EXPECT_FALSE(root.Peek({"yours", "w", "y"}).has_value());
+  EXPECT_FALSE(root.Peek({"list", "x"}).has_value());
+  EXPECT_TRUE(file.Finish().ok()) << "what stands in yours is not ours to judge";
+}
+
+TEST(Config, NumbersAreNeverInfinite) {
+  const File file = Parsed("a: .inf\nb: nan\nc: 1e999\n");
+  for (const char* key : {"a", "b", "c"}) (void)file.root().Number(key);
+  EXPECT_EQ(file.Problems().size(), 3u);
+}
+
+}  // namespace
+}  // namespace rodeira::config

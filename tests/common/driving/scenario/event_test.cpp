@@ -1,0 +1,108 @@
+#include "common/driving/scenario/event.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace rodeira::scenario {
+namespace {
+
+TEST(Event, APlaceIsReadBackToTheBit) {
+  for (const double x : {0.1, -1234.5678901234567, 1e-300, 4.0e7, std::numeric_limits<double>::denorm_min()}) {
+    const PlaceChoice place{"ego", x, -x / 3.0, x * 7.0};
+    const auto read = ParsePlace(PlaceText(place));
+    ASSERT_TRUE(read.ok()) << read.error().Text();
+    EXPECT_EQ(read.value().vehicle, "ego");
+    EXPECT_EQ(read.value().x_m, place.x_m);
+    EXPECT_EQ(read.value().y_m, place.y_m);
+    EXPECT_EQ(read.value().z_m, place.z_m);
+  }
+  const auto flat = ParsePlace("car 12.5 -3.25");
+  ASSERT_TRUE(flat.ok());
+  EXPECT_FALSE(flat.value().z_m);
+}
+
+TEST(Event, WhatIsNoPlaceIsRefused) {
+  for (const char* text : {"", "ego", "ego 1", "ego 1 2 3 4", "ego  1 2", " 1 2", "ego 1 nan", "ego inf 2", "ego 1x 2", "ego 1 2 x", "ego 1,5 2", "ego 1 2 "}) {
+    const auto read = ParsePlace(text);
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_EQ(read.error().exit_status(), 2);
+    EXPECT_NE(read.error().Text().find("is no place; the name of a vehicle node and metres"), std::string::npos) << read.error().Text();
+  }
+}
+
+TEST(Event, ACrossingIsARoadAPlaceAndASide) {
+  const auto right = ParseCrossing("main 120.5"), left = ParseCrossing("long road 3 left");
+  ASSERT_TRUE(right.ok() && left.ok());
+  EXPECT_EQ(right.value().road, "main");
+  EXPECT_EQ(right.value().s_m, 120.5);
+  EXPECT_FALSE(right.value().from_left);
+  EXPECT_EQ(left.value().road, "long road");
+  EXPECT_EQ(left.value().s_m, 3.0);
+  EXPECT_TRUE(left.value().from_left);
+  for (const char* text : {"", "main", "120", "main left", "main x left", " 5", "main 12 up", "left", "main nan"}) {
+    const auto read = ParseCrossing(text);
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_EQ(read.error().exit_status(), 2);
+    EXPECT_NE(read.error().Text().find("is no crossing; a road, metres along it"), std::string::npos) << read.error().Text();
+  }
+}
+
+TEST(Event, AnAgentMayBeMeantAtAPlace) {
+  const auto one = ParseAgent("12"), at = ParseAgent("12 at main 350.5"), next = ParseAgent("next at long road 3"), all = ParseAgent("all at 7 0");
+  ASSERT_TRUE(one.ok() && at.ok() && next.ok() && all.ok());
+  EXPECT_FALSE(one.value().at);
+  EXPECT_EQ(at.value().kind, AgentChoice::Kind::kOne);
+  EXPECT_EQ(at.value().id, 12u);
+  EXPECT_EQ(at.value().at->road, "main");
+  EXPECT_EQ(at.value().at->s_m, 350.5);
+  EXPECT_EQ(next.value().kind, AgentChoice::Kind::kNext);
+  EXPECT_EQ(next.value().at->road, "long road");
+  EXPECT_EQ(all.value().kind, AgentChoice::Kind::kAll);
+  EXPECT_EQ(AgentText("next", *next.value().at), "next at long road 3");
+  for (const char* text : {"12 at", "12 at ", "12 at main", "12 at main x", "12 at main -3", "12 at  5", "12 at main nan"}) {
+    const auto read = ParseAgent(text);
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_EQ(read.error().exit_status(), 2);
+  }
+  EXPECT_EQ(ParseAgent("next").error().Text(), "'next' is whoever comes to a place first; one was expected, as in 'next at main 350'");
+  EXPECT_EQ(ParseAgent("first at main 3").error().Text(), "'first' is no agent; its number, all or ahead was expected");
+}
+
+TEST(Event, AVehicleAppearsOnALane) {
+  const auto read = ParseAgentOnLane("20 at long road:-2 350.5");
+  ASSERT_TRUE(read.ok()) << read.error().Text();
+  EXPECT_EQ(read.value().id, 20u);
+  EXPECT_EQ(read.value().at->road, "long road:-2");
+  EXPECT_EQ(read.value().at->s_m, 350.5);
+  for (const char* text : {"", "20", "all at main:-1 5", "next at main:-1 5", "20 at main 5", "20 at :-1 5", "20 at main:x 5", "20 at main: 5", "20 at main:-1", "x at main:-1 5"}) {
+    const auto refused = ParseAgentOnLane(text);
+    ASSERT_FALSE(refused.ok()) << text;
+    EXPECT_EQ(refused.error().exit_status(), 2);
+  }
+  EXPECT_TRUE(CheckEvent({"traffic.appear", "20 at main:-1 5", 0.0}));
+  EXPECT_FALSE(CheckEvent({"traffic.appear", "20 at main:-1 5", 101.0}));
+  EXPECT_TRUE(CheckEvent({"traffic.overtake", "next at main 5", 0.0}));
+  EXPECT_TRUE(CheckEvent({"traffic.change_lane", "3", -1.0}));
+  EXPECT_EQ(CheckEvent({"traffic.change_lane", "3", 0.5}).error().Text(), "'side' of 'traffic.change_lane' is 0.5; 1 (left) or -1 (right) was expected");
+}
+
+TEST(Event, WhatCannotBeObeyedIsSaid) {
+  EXPECT_TRUE(CheckEvent({"vehicle.place", "ego 1 2", 90.0}));
+  EXPECT_TRUE(CheckEvent({"weather", "fog", 5.0}));
+  EXPECT_TRUE(CheckEvent({"mark", "anything", 0.0}));
+  const auto complaint = [](const Event& event) {
+    const auto status = CheckEvent(event);
+    return status ? std::string() : status.error().Text();
+  };
+  EXPECT_NE(complaint({"vehicle.plce", "ego 1 2", 0.0}).find("did you mean 'vehicle.place'?"), std::string::npos);
+  EXPECT_EQ(complaint({"vehicle.place", "ego 1 2", 400.0}), "'heading_deg' of 'vehicle.place' is 400; -360 to 360 was expected");
+  EXPECT_NE(complaint({"vehicle.place", "ego 1 2", std::numeric_limits<double>::quiet_NaN()}).find("heading_deg"), std::string::npos);
+  EXPECT_NE(complaint({"vehicle.place", "ego", 0.0}).find("is no place"), std::string::npos);
+  EXPECT_NE(complaint({"weather", "fogg", 5.0}).find("'fogg' is no weather; did you mean 'fog'?"), std::string::npos) << complaint({"weather", "fogg", 5.0});
+  EXPECT_NE(complaint({"traffic.pedestrian", "main", 0.0}).find("is no crossing"), std::string::npos);
+  EXPECT_NE(complaint({"traffic.brake", "nobody", 5.0}).find("is no agent"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rodeira::scenario

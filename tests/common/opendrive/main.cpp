@@ -1,9 +1,0 @@
-#include <gtest/gtest.h>
-
-#include "common/base/mathematics.hpp"
-
-int main(int argc, char** argv) {
-  rodeira::base::FixMathematics(argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -1,0 +1,90 @@
+#include "common/runtime/launch/launch.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rodeira::launch {
+namespace {
+
+constexpr const char* kDrive = R"(rodeira: launch/1
+world: ../worlds/plane.yaml
+seed: 7
+nodes:
+  road: {kind: road}
+  driver: {kind: input, config: {source: script}}
+  ego: {kind: vehicle, config: {vehicle: car.yaml}}
+  traffic: {kind: traffic, period_s: 0.02, delay_s: 0.04}
+  recorder: {kind: recorder}
+)";
+
+std::string Refusal(const std::string& text, const Overrides& overrides = {}) {
+  const auto launch = Launch::Parse(text, "dir/drive.yaml", overrides);
+  return launch.ok() ? "" : launch.error().Text();
+}
+
+TEST(Launch, WiresEverybodyByTopic) {
+  const Launch launch = Launch::Parse(kDrive, "dir/drive.yaml").value();
+  const auto& roster = launch.roster();
+  EXPECT_EQ(launch.world(), "worlds/plane.yaml");
+  EXPECT_EQ(launch.seed(), 7u);
+  EXPECT_EQ(roster.base_step_ns(), 1'000'000);
+  const auto& ego = roster.node(roster.Find("ego"));
+  EXPECT_EQ(ego.period, 1);
+  ASSERT_EQ(ego.inputs.size(), 2u);
+  EXPECT_EQ(roster.SourceName(ego.inputs[0].sources[0]), "driver.rodeira/controls");
+  EXPECT_EQ(roster.SourceName(ego.inputs[1].sources[0]), "traffic.rodeira/traffic_state");
+  const auto& traffic = roster.node(roster.Find("traffic"));
+  EXPECT_EQ(traffic.period, 20);
+  EXPECT_EQ(traffic.delay, 40);
+  EXPECT_EQ(roster.node(roster.Find("recorder")).inputs.size(), 7u) << "six streams of samples, and the snapshots";
+  EXPECT_EQ(roster.node(roster.Find("road")).role, lockstep::Role::kService);
+  EXPECT_EQ(launch.node(1).config->OptionalChild("config").Text("source"), "script");
+}
+
+TEST(Launch, TheSameFileGivesTheSameHashAndAnOverrideAnother) {
+  const auto hash = [](const Overrides& overrides) { return Launch::Parse(kDrive, "x.yaml", overrides).value().roster().hash(); };
+  EXPECT_EQ(hash({}), hash({}));
+  EXPECT_NE(hash({}), hash({{"nodes.traffic.period_s", "0.01"}}));
+}
+
+// Who begins at a snapshot must find the recorder beginning there too: otherwise it waits for an earlier one, for ever.
+TEST(Launch, SnapshotsAreTakenWhereAllPeriodsMeetTheRecordersToo) {
+  const auto every = [](const Overrides& overrides) {
+    const Launch launch = Launch::Parse(kDrive, "x.yaml", overrides).value();
+    const auto& roster = launch.roster();
+    return roster.source(*roster.node(roster.Find("ego")).snapshots).period;
+  };
+  EXPECT_EQ(every({}), 1000);
+  EXPECT_EQ(every({{"snapshot_every_s", "0.01"}, {"nodes.recorder.period_s", "0.05"}}), 100) << "of 1, 20, 50 and the driver's 10 steps";
+  EXPECT_EQ(every({{"snapshot_every_s", "0.01"}, {"nodes.recorder.period_s", "0.03"}}), 60);
+  EXPECT_EQ(every({{"snapshot_every_s", "1"}, {"nodes.recorder.period_s", "0.03"}}), 1020);
+}
+
+TEST(Launch, ANodeOfNoKindIsNotThere) {
+  std::string without = kDrive;
+  without.resize(without.find("  recorder:"));
+  const Launch launch = Launch::Parse(kDrive, "x.yaml", {{"nodes.recorder.kind", "none"}, {"nodes.recorder.config.file", "a.mcap"}}).value();
+  EXPECT_EQ(launch.roster().hash(), Launch::Parse(without, "x.yaml").value().roster().hash());
+  EXPECT_EQ(launch.nodes().size(), 4u);
+  EXPECT_EQ(Refusal(kDrive, {{"nodes.driver.kind", "none"}}).substr(0, 61), "dir/drive.yaml:7: node 'ego' needs 'controls', but no node pu");
+}
+
+TEST(Launch, RefusesWhatIsWrongWithPlaceAndNearestName) {
+  const std::string text = kDrive;
+  EXPECT_EQ(Refusal(text + "  x: {kind: vehcile}\n"), "dir/drive.yaml:10: 'nodes.x.kind' is 'vehcile'; did you mean 'vehicle'?");
+  EXPECT_EQ(Refusal(text + "  b: {kind: input}\n"),
+            "dir/drive.yaml:7: node 'ego' takes 'controls' from one node, but 2 publish it (driver, b); say which under 'inputs'");
+  EXPECT_EQ(Refusal(text, {{"nodes.ego.inputs.controls", "[drivr]"}}),
+            "dir/drive.yaml: node 'ego', input 'rodeira/controls': there is no node 'drivr'; did you mean 'driver'?");
+  EXPECT_EQ(Refusal(text + "sed: 4\n"), "dir/drive.yaml:10: unknown key 'sed'; did you mean 'seed'?");
+  EXPECT_EQ(Refusal(text, {{"nodes.traffic.period_s", "0.0105"}}),
+            "dir/drive.yaml:8: 'period_s' is 0.0105 s; a multiple of the base step (0.001 s) was expected");
+  EXPECT_EQ(Refusal("rodeira: launch/2\nnodes: {road: {kind: road}}\n"), "dir/drive.yaml:1: 'rodeira' is 'launch/2'; did you mean 'launch/1'?");
+  EXPECT_EQ(Refusal("rodeira: launch/1\n"), "dir/drive.yaml:1: key 'nodes' is missing; a mapping was expected");
+  EXPECT_EQ(Refusal("rodeira: launch/1\nnodes: {ego: {kind: vehicle}}\n"), "dir/drive.yaml:2: node 'ego' needs 'controls', but no node publishes it");
+  EXPECT_EQ(Refusal(text + "pace: rael\n"), "dir/drive.yaml:10: 'pace' is 'rael'; max, real or a positive number was expected");
+  EXPECT_EQ(Refusal(text + "pace: -1\n"), "dir/drive.yaml:10: 'pace' is '-1'; max, real or a positive number was expected");
+  EXPECT_EQ(Refusal(text, {{"base_step_s", "fast"}}), "dir/drive.yaml: 'base_step_s' is 'fast'; a number was expected");
+}
+
+}  // namespace
+}  // namespace rodeira::launch

@@ -1,0 +1,313 @@
+// A part of a run dies at any moment: what the others see and what is recorded is that of a run without deaths.
+#include "common/runtime/lockstep/recovery.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/runtime/lockstep/archive.hpp"
+#include "common/runtime/lockstep/wait_chain.hpp"
+#include "tests/common/runtime/lockstep/law.hpp"
+
+namespace rodeira::lockstep {
+namespace {
+
+// What outlives a recorder, and what does not.
+struct Disk {
+  std::vector<Sample> file;
+  std::vector<Sample> unwritten;
+  std::uint64_t seed = 0;
+  Step safe() const { return file.empty() ? -1 : file.back().valid() - 1; }
+};
+
+// Writes in the order of (step, source), now and then what it has gathered, beginning behind what the file holds.
+class RecorderDouble final : public Node {
+ public:
+  explicit RecorderDouble(Disk& disk) : disk_(disk) { disk_.unwritten.clear(); }
+  base::Status Initialise(Outbox&) override { return {}; }
+  base::Status Step(const StepInfo&, const Inbox& inbox, Outbox&) override {
+    Take(inbox);
+    return {};
+  }
+  base::Status Finish(const Inbox& rest, lockstep::Step, bool) override {
+    Take(rest);
+    Write();
+    return {};
+  }
+  void Save(base::StateWriter&) const override {}
+  void Restore(base::StateReader&) override {}
+
+ private:
+  static auto KeyOf(const Sample& sample) { return std::pair(sample.valid(), sample.source()); }
+  void Take(const Inbox& inbox) {
+    std::vector<Sample> samples;
+    for (const auto& port : inbox.ports()) samples.insert(samples.end(), port.samples.begin(), port.samples.end());
+    std::ranges::sort(samples, {}, KeyOf);
+    for (const Sample& sample : samples) {
+      if (!disk_.file.empty() && KeyOf(sample) <= KeyOf(disk_.file.back())) continue;  // of an earlier life
+      disk_.unwritten.push_back(sample);
+      if (base::RandomBits({disk_.seed, ++draws_}) % 300 == 0) Write();
+    }
+  }
+  void Write() {
+    disk_.file.insert(disk_.file.end(), disk_.unwritten.begin(), disk_.unwritten.end());
+    disk_.unwritten.clear();
+  }
+  Disk& disk_;
+  std::uint64_t draws_ = 0;
+};
+
+// A roster drawn from a seed, with a recorder that is wired to everything and snapshots.
+Roster RecordedRoster(std::uint64_t seed) {
+  law::Wishes wishes = law::RandomWishes(seed);
+  Step every = 1;
+  for (const NodeWish& wish : wishes.nodes) {
+    if (!wish.outputs.empty()) every = std::lcm(every, wish.period);
+  }
+  NodeWish recorder;
+  recorder.name = "recorder";
+  recorder.kind = "test";
+  recorder.period = 1 + static_cast<Step>(seed % 11);
+  PortWish snapshots{std::string(kSnapshotTopic), PortKind::kEvent, {}};
+  PortWish a{"a", PortKind::kEvent, {}}, b{"b", PortKind::kEvent, {}};
+  for (NodeWish& wish : wishes.nodes) {
+    if (wish.outputs.empty()) continue;
+    wish.snapshot_every = every;
+    snapshots.sources.push_back(wish.name);
+    a.sources.push_back(wish.name);
+    if (wish.outputs.size() == 2) b.sources.push_back(wish.name);
+  }
+  recorder.inputs = {a, snapshots};
+  if (!b.sources.empty()) recorder.inputs.push_back(b);
+  wishes.nodes.push_back(recorder);
+  return Roster::Create(1'000'000, wishes.window, wishes.nodes).value();
+}
+
+TEST(Recovery, DeathsAtAnyMomentChangeNoBitAndNoRecord) {
+  int deaths = 0;
+  EXPECT_TRUE(rc::check("a run with deaths equals the law, and its file is whole", [&](std::uint64_t seed) {
+    const Roster roster = RecordedRoster(seed);
+    const Step last = 80 + static_cast<Step>(seed % 170);
+    const auto recorder = static_cast<NodeIndex>(roster.nodes().size() - 1);
+    Disk undisturbed, disk;
+    undisturbed.seed = disk.seed = seed;
+    std::vector<std::unique_ptr<Node>> alive(roster.nodes().size());
+    const auto make = [&](NodeIndex n, Disk& into) -> Node* {
+      if (n == recorder) {
+        alive[n] = std::make_unique<RecorderDouble>(into);
+      } else {
+        alive[n] = std::make_unique<law::Rememberer>(roster, n);
+      }
+      return alive[n].get();
+    };
+    const auto make_all = [&](Disk& into) {
+      std::vector<Node*> nodes;
+      for (NodeIndex n = 0; n < roster.nodes().size(); ++n) nodes.push_back(make(n, into));
+      return nodes;
+    };
+    InProcessSettings settings;
+    settings.last_step = last;
+    settings.loss = seed % 2 == 0 ? 0.0 : 0.1;
+    settings.deaths.share = 0.003;
+    settings.deaths.policies.assign(roster.nodes().size(), Policy::kRestart);
+    settings.deaths.safe = [&](NodeIndex) { return disk.safe(); };
+    settings.deaths.remake = [&](NodeIndex n) {
+      InProcessSettings::Deaths::Remade remade{make(n, disk), -1, {}};
+      if (n == recorder) remade.has_through = disk.safe();
+      if (n == recorder) remade.tail = disk.file;
+      return remade;
+    };
+    InProcessSettings calm;
+    calm.last_step = last;
+    RC_ASSERT(RunShuffled(roster, make_all(undisturbed), calm, seed + 2).ok);
+    const RunOutcome outcome = RunShuffled(roster, make_all(disk), settings, seed + 1);
+    deaths += outcome.deaths;
+    if (outcome.fault.find("times without getting") != std::string::npos) RC_DISCARD("died too often at one place");
+    RC_ASSERT(outcome.fault == "");
+    RC_ASSERT(outcome.ok);
+
+    // Snapshots included, sample for sample.
+    RC_ASSERT(disk.file.size() == undisturbed.file.size());
+    for (std::size_t i = 0; i < disk.file.size(); ++i) RC_ASSERT(SameContent(disk.file[i], undisturbed.file[i]));
+    std::map<std::pair<SourceIndex, Step>, std::uint64_t> recorded;
+    for (const Sample& sample : disk.file) {
+      if (roster.source(sample.source()).topic != kSnapshotTopic) recorded[{sample.source(), sample.valid()}] = law::ContentOf(sample);
+    }
+    auto reference = law::Reference(roster, last);
+    std::erase_if(reference, [&](const auto& entry) { return entry.first.second > last; });
+    RC_ASSERT(recorded == reference);
+  }));
+  EXPECT_GT(deaths, 100);
+}
+
+TEST(Recovery, WhoDiesAgainAndAgainAtOnePlaceEndsTheRun) {
+  const Roster roster = RecordedRoster(3);
+  Recovery recovery(roster, std::vector<Policy>(roster.nodes().size(), Policy::kRestart));
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(recovery.Lost(0, 40).policy, Policy::kRestart);
+  const auto fourth = recovery.Lost(0, 40);
+  EXPECT_EQ(fourth.policy, Policy::kStop);
+  EXPECT_EQ(fourth.why, "it was lost 4 times without getting beyond step 40");
+  EXPECT_EQ(recovery.Lost(1, 40).policy, Policy::kRestart);
+  Recovery onwards(roster, std::vector<Policy>(roster.nodes().size(), Policy::kRestart));
+  for (Step progress = 0; progress < 100; progress += 10) EXPECT_EQ(onwards.Lost(0, progress).policy, Policy::kRestart);
+}
+
+class RecoveryOfOne : public ::testing::Test {
+ protected:
+  // A car each step, a recorder each 5, snapshots each 10; delays 1 and 5.
+  static Roster Make(bool with_recorder) {
+    std::vector<NodeWish> wishes{{"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {}, with_recorder ? 10 : 0}};
+    if (with_recorder) {
+      wishes.push_back({"recorder", "t", Role::kStepped, 5, 5, 0, {}, {{"a", PortKind::kEvent, {"car"}}, {std::string(kSnapshotTopic), PortKind::kEvent, {"car"}}}, 0});
+    } else {
+      wishes.push_back({"view", "t", Role::kStepped, 5, 5, 0, {}, {{"a", PortKind::kEvent, {"car"}}}, 0});
+    }
+    return Roster::Create(1'000'000, 20, wishes).value();
+  }
+  static Report Running(NodeIndex node, Step progress, Step safe = -1) {
+    Report report;
+    report.node = node;
+    report.phase = Phase::kRunning;
+    report.progress = progress;
+    report.safe = safe;
+    return report;
+  }
+};
+
+TEST_F(RecoveryOfOne, GoesOnFromASnapshotThatLiesInTheFile) {
+  const Roster roster = Make(true);
+  Recovery recovery(roster, {Policy::kRestart, Policy::kRestart});
+  EXPECT_EQ(recovery.safe(), -1);
+  EXPECT_EQ(recovery.resume(), 0);
+  recovery.Heard(Running(1, 60, 44));
+  EXPECT_EQ(recovery.safe(), 44);
+  EXPECT_EQ(recovery.resume(), 30) << "what is published ahead (5 steps) must be there too";
+  recovery.Heard(Running(1, 60, 45));
+  EXPECT_EQ(recovery.resume(), 40);
+  // A lost node holds the beginning back until it is where it was.
+  EXPECT_EQ(recovery.Lost(0, 66).policy, Policy::kRestart);
+  recovery.Heard(Running(1, 90, 88));
+  EXPECT_EQ(recovery.resume(), 40);
+  recovery.Heard(Running(0, 65));
+  EXPECT_EQ(recovery.resume(), 40);
+  recovery.Heard(Running(0, 66));
+  EXPECT_EQ(recovery.resume(), 80);
+  recovery.Heard(Running(1, 0, -1));
+  EXPECT_EQ(recovery.safe(), 88) << "what a recorder's other life has not yet said is not forgotten";
+}
+
+TEST_F(RecoveryOfOne, NobodyKeepsAnythingWhereNobodyCanComeBack) {
+  EXPECT_EQ(Recovery(Make(false), {Policy::kPause, Policy::kPause}).safe(), kNever);
+  EXPECT_EQ(Recovery(Make(true), {Policy::kStop, Policy::kStop}).safe(), kNever);
+  EXPECT_EQ(Recovery(Make(true), {Policy::kPause, Policy::kStop}).safe(), -1) << "a person may start it again";
+}
+
+TEST_F(RecoveryOfOne, WhoCannotSaveItsStateIsNotStartedAgain) {
+  const Roster roster = Make(true);
+  Report car = Running(0, 0);
+  EXPECT_TRUE(Recovery(roster, {Policy::kRestart, Policy::kRestart}).CheckState(car).ok());
+  car.cannot_save = true;
+  const auto status = Recovery(roster, {Policy::kRestart, Policy::kRestart}).CheckState(car);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().Text(), "node 'car' cannot save its state, so it cannot be started again; 'stop' or 'pause' was expected as nodes.car.recovery");
+  EXPECT_EQ(status.error().exit_status(), 2);
+  EXPECT_TRUE(Recovery(roster, {Policy::kPause, Policy::kRestart}).CheckState(car).ok());
+  EXPECT_TRUE(Recovery(roster, {Policy::kStop, Policy::kRestart}).CheckState(car).ok());
+}
+
+TEST_F(RecoveryOfOne, EachKindBeginsWhereItCan) {
+  const Roster roster = Make(true);
+  Grant grant;
+  EXPECT_EQ(BeginningOf(roster, 0, grant, -1).snapshot, 0) << "the run has not begun";
+  grant.through = 97;
+  grant.resume = 40;
+  EXPECT_EQ(BeginningOf(roster, 0, grant, -1).snapshot, 40);
+  EXPECT_EQ(BeginningOf(roster, 1, grant, 61).sink_from, 65);
+  EXPECT_EQ(BeginningOf(roster, 1, grant, 64).sink_from, 65);
+  EXPECT_EQ(BeginningOf(Make(false), 1, grant, -1).sink_from, 75) << "97 less the window of 20";
+}
+
+TEST_F(RecoveryOfOne, AClockThatIsStartedAgainGrantsNothingNewBeforeItHasHeardAll) {
+  const Roster roster = Make(true);
+  Clock clock(roster, 1000, 0, {Policy::kRestart, Policy::kRestart});
+  clock.Rebuild();
+  Report car = Running(0, 52);
+  car.granted = 60;
+  car.incarnation = 2;
+  ASSERT_TRUE(clock.Take(car).ok());
+  EXPECT_EQ(clock.life(0), 2u);
+  EXPECT_EQ(clock.Update(1000).through, 60) << "what was granted stays granted";
+  Report recorder = Running(1, 45);
+  recorder.granted = 55;
+  ASSERT_TRUE(clock.Take(recorder).ok());
+  EXPECT_EQ(clock.Update(1000).through, 65) << "45 and the window of 20";
+  EXPECT_FALSE(clock.Take(Running(0, 99)).ok()) << "from now on nobody runs ahead of the grant";
+}
+
+TEST_F(RecoveryOfOne, AClockThatIsStartedAgainKnowsTheEnd) {
+  const Roster roster = Make(true);
+  Clock clock(roster, 1000, 0, {Policy::kRestart, Policy::kRestart});
+  clock.Rebuild();
+  Report car = Running(0, 52);
+  car.granted = 60;
+  car.granted_final = true;
+  ASSERT_TRUE(clock.Take(car).ok());
+  ASSERT_TRUE(clock.Take(Running(1, 45)).ok());
+  EXPECT_TRUE(clock.Update(1000).final);
+  EXPECT_EQ(clock.Update(1000).through, 60);
+}
+
+TEST_F(RecoveryOfOne, TheArchiveHasNoHolesAndRefusesAContradiction) {
+  const Roster roster = Make(true);
+  const auto sample = [&](Step valid, std::uint64_t content) {
+    base::Bytes payload = law::Payload(content);
+    const SampleHeader header{valid, valid * 1'000'000, 0, 0, 0};
+    header.Write(payload);
+    return Sample{header, std::make_shared<const base::Bytes>(std::move(payload))};
+  };
+  Archive archive(roster);
+  for (const Step valid : {0, 1, 2, 4, 5}) ASSERT_TRUE(archive.Add(sample(valid, 7)).ok());
+  EXPECT_EQ(archive.From({0, 0}).size(), 3u) << "3 is missing";
+  EXPECT_TRUE(archive.From({0, 3}).empty());
+  ASSERT_TRUE(archive.Add(sample(4, 7)).ok()) << "said again";
+  const auto status = archive.Add(sample(4, 8));
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().Text(), "car.a: two different samples are valid at step 4");
+  archive.Forget(10);  // the recorder's activation at 10 sees the events in (5, 10]
+  EXPECT_EQ(archive.size(), 0u);
+  ASSERT_TRUE(archive.Add(sample(5, 1)).ok());
+  EXPECT_EQ(archive.size(), 0u) << "nobody can ask for it";
+  ASSERT_TRUE(archive.Add(sample(6, 1)).ok());
+  EXPECT_EQ(archive.size(), 1u);
+}
+
+TEST_F(RecoveryOfOne, TheChainOfWaitingEndsAtItsCause) {
+  const Roster roster = Roster::Create(1'000'000, 20,
+                                       {{"driver", "t", Role::kStepped, 1, 1, 0, {"c"}, {{"a", PortKind::kState, {"car"}}}},
+                                        {"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {{"c", PortKind::kState, {"driver"}}}},
+                                        {"view", "t", Role::kStepped, 5, 5, 0, {}, {{"a", PortKind::kEvent, {"car"}}}}})
+                            .value();
+  std::vector<Report> reports{Running(0, 12), Running(1, 12), Running(2, 10)};
+  for (Report& report : reports) report.waiting = Waiting::kGrant;
+  EXPECT_EQ(WaitChain(roster, reports), "") << "everybody waits for time";
+  reports[2].waiting = Waiting::kInputs;
+  reports[2].waiting_source = 1;
+  EXPECT_EQ(WaitChain(roster, reports), "") << "the view too";
+  reports[1].waiting = Waiting::kInputs;
+  reports[1].waiting_source = 0;
+  reports[0].waiting = Waiting::kNothing;
+  reports[0].since_ms = 3200;
+  EXPECT_EQ(WaitChain(roster, reports), "'view' waits for 'car', 'car' waits for 'driver', 'driver' computes step 12 since 3.2 s");
+  reports[0].waiting = Waiting::kServer;
+  EXPECT_EQ(WaitChain(roster, reports), "'view' waits for 'car', 'car' waits for 'driver', 'driver' waits at step 12 for a server's answer since 3.2 s");
+  reports[0].waiting = Waiting::kOutput;
+  EXPECT_EQ(WaitChain(roster, reports), "'view' waits for 'car', 'car' waits for 'driver', 'driver' writes what it made before step 12 since 3.2 s");
+  reports[0].phase = Phase::kStarting;
+  reports[0].waiting = Waiting::kNothing;
+  EXPECT_EQ(WaitChain(roster, reports), "'view' waits for 'car', 'car' waits for 'driver', 'driver' is starting");
+}
+
+}  // namespace
+}  // namespace rodeira::lockstep

@@ -1,0 +1,159 @@
+// Signs' faces: areas in closed form, symmetries, colours where the Vienna Convention has them.
+#include "common/view/scene/road_furniture/sign_face.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "common/world/design/furniture_reader.hpp"
+#include "common/view/scene/raster/lettering.hpp"
+
+namespace rodeira::scene {
+namespace {
+
+using P = Eigen::Vector2d;
+
+const Colour kInk = Colour::Of(0x000000), kPaper = Colour::Of(0xffffff);
+
+// How much of a picture of black on white is black, in the canvas's units squared.
+double Inked(const Canvas& canvas) {
+  const Raster raster = canvas.Paint();
+  double sum = 0.0;
+  for (const Colour& pixel : raster.pixels) sum += 1.0 - pixel.green / 255.0;
+  return sum * 4.0 / (static_cast<double>(raster.height_px) * raster.height_px);
+}
+
+TEST(Canvas, ShapesCoverTheirAreas) {
+  Canvas disc(128, 128, kPaper);
+  disc.Disc({0.1, -0.2}, 0.6, kInk);
+  EXPECT_NEAR(Inked(disc), 16.0 * std::sin(2.0 * 3.14159265358979 / 32.0) * 0.36, 0.002);  // 32 corners
+  Canvas square(192, 128, kPaper);
+  square.Fill(std::vector<P>{{-1.4, -0.5}, {1.3, -0.5}, {1.3, 0.4}, {0.0, 0.0}, {-1.4, 0.4}}, kInk);
+  EXPECT_NEAR(Inked(square), 2.7 * 0.9 - 0.5 * 2.7 * 0.4, 0.003);
+  Canvas line(128, 128, kPaper);
+  line.Stroke(std::vector<P>{{-0.5, -0.37}, {0.6, 0.41}}, 0.2, kInk);
+  EXPECT_NEAR(Inked(line), 0.2 * std::hypot(1.1, 0.78) + 3.12145 * 0.01, 0.002);
+  Canvas outside(64, 64, kPaper);
+  outside.Fill(std::vector<P>{{-9.0, -9.0}, {9.0, -9.0}, {9.0, 9.0}, {-9.0, 9.0}}, kInk);
+  EXPECT_NEAR(Inked(outside), 4.0, 1e-12);
+}
+
+TEST(Lettering, IsCentredHasItsHeightAndIsNarrowedToFit) {
+  const auto bounds = [](std::string_view text, double most) {
+    Canvas canvas(192, 128, kPaper);
+    Letter(canvas, text, {0.1, 0.0}, 0.8, most, kInk);
+    const Raster raster = canvas.Paint();
+    double left = 9.0, right = -9.0, low = 9.0, high = -9.0;
+    for (int y = 0; y < raster.height_px; ++y) {
+      for (int x = 0; x < raster.width_px; ++x) {
+        if (raster.At(x, y).red > 127) continue;
+        const double px = (x + 0.5) / 64.0 - 1.5, py = (y + 0.5) / 64.0 - 1.0;
+        left = std::min(left, px), right = std::max(right, px), low = std::min(low, py), high = std::max(high, py);
+      }
+    }
+    return std::array<double, 4>{left, right, low, high};
+  };
+  const auto wide = bounds("H8H", 9.0);
+  EXPECT_NEAR(wide[0] + wide[1], 0.2, 0.04);
+  EXPECT_NEAR(wide[3] - wide[2], 0.8, 0.04);
+  const auto narrow = bounds("H8H8HH8H", 1.2);
+  EXPECT_LE(narrow[1] - narrow[0], 1.22);
+  EXPECT_GE(narrow[1] - narrow[0], 1.1);
+  // Capitals whichever way they are written; accents and cedillas add to them.
+  const auto ink = [](std::string_view text) {
+    Canvas canvas(192, 128, kPaper);
+    Letter(canvas, text, {0.0, 0.0}, 0.6, 9.0, kInk);
+    return Inked(canvas);
+  };
+  EXPECT_EQ(ink("bou"), ink("BOU"));
+  EXPECT_EQ(ink("ç"), ink("Ç"));
+  for (const auto& [plain, accented] : {std::pair("C", "Ç"), std::pair("A", "ã"), std::pair("E", "É"), std::pair("O", "ô"), std::pair("N", "ñ"), std::pair("U", "ü")}) {
+    EXPECT_GT(ink(accented), ink(plain) + 0.005) << accented;
+  }
+}
+
+TEST(SignFace, EverySignOfWorldFilesHasAPictureOfItsOwn) {
+  for (const design::SignKind& kind : design::SignKinds()) {
+    network::Signal signal = design::MakeSign(kind, kind.with_value ? std::optional(80.0) : std::nullopt);
+    signal.text = "Freixo";
+    const std::string face = FaceOf(signal, true);
+    EXPECT_EQ(face.substr(0, std::string(kind.name).size()), kind.name);
+    EXPECT_NE(face, "plate");
+  }
+  std::set<std::vector<std::uint8_t>> pictures;
+  for (const std::string& kind : FaceKinds()) {
+    std::vector<std::uint8_t> bytes;
+    for (const Colour& pixel : DrawFace(kind.ends_with("speed_limit") ? kind + " 30" : kind).pixels) bytes.insert(bytes.end(), {pixel.red, pixel.green, pixel.blue});
+    EXPECT_TRUE(pictures.insert(bytes).second) << kind << " looks like another one";
+  }
+}
+
+TEST(SignFace, NumbersOfTheCatalogueAndWhatIsNotInIt) {
+  network::Signal signal;
+  signal.country = "OpenDRIVE";
+  signal.type = "274", signal.subtype = "57";
+  EXPECT_EQ(FaceOf(signal, false), "speed_limit 70");
+  signal.value = 90.0;
+  EXPECT_EQ(FaceOf(signal, false), "speed_limit 90");
+  signal.value = 25.0, signal.unit = "m/s";
+  EXPECT_EQ(FaceOf(signal, false), "speed_limit 90");
+  signal.type = "294";
+  EXPECT_EQ(FaceOf(signal, false), "");  // a stop line is paint
+  signal.type = "123";
+  EXPECT_EQ(FaceOf(signal, false), "plate");
+  signal.country = "se", signal.type = "274";
+  EXPECT_EQ(FaceOf(signal, false), "plate");  // another catalogue's numbers mean other things
+  signal.country = "de", signal.type = "625";
+  EXPECT_EQ(FaceOf(signal, true), "chevron_left");
+  EXPECT_EQ(FaceOf(signal, false), "chevron_right");
+}
+
+TEST(SignFace, LeftAndRightMirrorOneAnother) {
+  for (const auto& [left, right] : {std::pair("chevron_left", "chevron_right"), std::pair("bend_left", "bend_right"), std::pair("bends_left_first", "bends_right_first")}) {
+    const Raster a = DrawFace(left), b = DrawFace(right);
+    int apart = 0;
+    for (int y = 0; y < a.height_px; ++y) {
+      for (int x = 0; x < a.width_px; ++x) apart += std::abs(a.At(x, y).green - b.At(a.width_px - 1 - x, y).green) > 32;
+    }
+    EXPECT_LE(apart, 4) << left;
+    EXPECT_FALSE(a.pixels == b.pixels);
+  }
+  // A chevron's point is on the side to which it points: white at the tip in the middle's height, red at its corners.
+  EXPECT_GT(DrawFace("chevron_right").At(110, 64).green, 200);
+  EXPECT_LT(DrawFace("chevron_right").At(3, 64).green, 100);
+}
+
+TEST(SignFace, ColoursOfTheConvention) {
+  const auto is_red = [](Colour c) { return c.red > 150 && c.green < 60 && c.blue < 60; };
+  const auto is_white = [](Colour c) { return c.red > 220 && c.green > 220 && c.blue > 220; };
+  const auto is_blue = [](Colour c) { return c.blue > 120 && c.red < 60; };
+  const auto at = [](const char* face, double x, double y) { return DrawFace(face).At(static_cast<int>(64.0 * (x + 1.0)), static_cast<int>(64.0 * (y + 1.0))); };
+  EXPECT_TRUE(is_red(at("speed_limit 50", 0.0, 0.88)));     // C, 14: a red ring, its ground white
+  EXPECT_TRUE(is_white(at("speed_limit 50", 0.0, 0.62)));
+  EXPECT_TRUE(is_white(at("no_entry", 0.0, 0.0)));          // C, 1: a white bar
+  EXPECT_TRUE(is_red(at("no_entry", 0.0, 0.5)));
+  EXPECT_TRUE(is_white(at("give_way", 0.0, 0.3)));          // B, 1: point downward
+  EXPECT_TRUE(is_red(at("give_way", 0.0, 0.93)));
+  EXPECT_TRUE(is_red(at("stop", 0.0, 0.7)));                // B, 2a: STOP on red
+  EXPECT_GT(at("priority_road", 0.3, 0.2).red, 220);        // B, 3: yellow inside
+  EXPECT_LT(at("priority_road", 0.3, 0.2).blue, 60);
+  EXPECT_TRUE(is_blue(at("roundabout", 0.0, 0.0)));
+  EXPECT_TRUE(is_blue(at("motorway", -0.8, 0.8)));
+}
+
+TEST(SignFace, PlatesAreConvexAndCounterClockwise) {
+  for (const std::string& kind : FaceKinds()) {
+    const auto outline = PlateOutline(kind);
+    ASSERT_GE(outline.size(), 3u);
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const P a = outline[i], b = outline[(i + 1) % outline.size()], c = outline[(i + 2) % outline.size()];
+      EXPECT_GT((b - a).x() * (c - b).y() - (b - a).y() * (c - b).x(), 0.0) << kind;
+      EXPECT_GE(std::min(a.x(), a.y()), -1e-12) << kind;
+      EXPECT_LE(std::max(a.x(), a.y()), 1.0 + 1e-12) << kind;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::scene

@@ -1,0 +1,9 @@
+#include <gtest/gtest.h>
+
+#include "common/core/base/mathematics.hpp"
+
+int main(int argc, char** argv) {
+  rodeira::base::FixMathematics(argv);
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

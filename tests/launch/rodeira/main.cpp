@@ -1,0 +1,10 @@
+#include <gtest/gtest.h>
+
+#include "common/core/base/mathematics.hpp"
+
+// The runs here must compute like the programs do (law L7).
+int main(int argc, char** argv) {
+  rodeira::base::FixMathematics(argv);
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
