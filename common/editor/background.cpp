@@ -193,11 +193,11 @@ base::Result<std::shared_ptr<const Pyramid>> ReadPyramid(std::string_view bytes,
 }
 
 base::Result<std::string> ImportPicture(const std::filesystem::path& path) {
-  auto bytes = base::ReadText(path, map::kMostBytes / 2);
+  auto bytes = base::ReadText(path, traffic_map::kMostBytes / 2);
   if (!bytes) return bytes.error();
   auto pixels = DecodePicture(bytes.value());
   if (!pixels) return base::WrongInput(pixels.error().message, path.string());
-  if (map::ReadPictureInfo(bytes.value())) return bytes;
+  if (traffic_map::ReadPictureInfo(bytes.value())) return bytes;
   const Quiet quiet;
   auto png = ToPng(pixels.value());
   if (!png) return base::Failed(png.error().message, path.string());

@@ -23,7 +23,7 @@ base::Result<Edit> SetHeights(Document& document, std::int32_t curve, const std:
   }
   Recorder recorder(document);
   auto& curves = recorder.companion().curves;
-  const auto at = std::lower_bound(curves.begin(), curves.end(), curve, [](const map::CurveHeights& one, std::int32_t number) { return one.curve < number; });
+  const auto at = std::lower_bound(curves.begin(), curves.end(), curve, [](const traffic_map::CurveHeights& one, std::int32_t number) { return one.curve < number; });
   const bool there = at != curves.end() && at->curve == curve, flat = z_m == std::array<double, 4>{};
   if (there && flat) curves.erase(at);
   else if (there) at->z_m = z_m;
@@ -31,11 +31,11 @@ base::Result<Edit> SetHeights(Document& document, std::int32_t curve, const std:
   return std::move(recorder).Finish(fmt::format("heights of curve {} changed", curve));
 }
 
-base::Result<Edit> SetSigns(Document& document, const std::vector<map::LaneSign>& signs) {
-  for (const map::LaneSign& sign : signs) {
+base::Result<Edit> SetSigns(Document& document, const std::vector<traffic_map::LaneSign>& signs) {
+  for (const traffic_map::LaneSign& sign : signs) {
     if (!Find(document.map.lanes, sign.lane)) return NoLane(fmt::format("{}", sign.lane));
     if (!(sign.before_end_m >= 0.0) || sign.before_end_m > 1e5) return base::WrongInput(fmt::format("the sign stands {} m before the lane's end; 0 to 100000 was expected", sign.before_end_m));
-    if (sign.kind == map::SignKind::kSpeedLimit && !(sign.limit_kmh >= 5.0 && sign.limit_kmh <= 200.0))
+    if (sign.kind == traffic_map::SignKind::kSpeedLimit && !(sign.limit_kmh >= 5.0 && sign.limit_kmh <= 200.0))
       return base::WrongInput(fmt::format("the limit is {} km/h; 5 to 200 was expected", sign.limit_kmh));
   }
   Recorder recorder(document);
@@ -46,11 +46,11 @@ base::Result<Edit> SetSigns(Document& document, const std::vector<map::LaneSign>
 base::Result<Edit> SetFlow(Document& document, std::int32_t lane, double vehph) {
   const auto place = Find(document.map.lanes, lane);
   if (!place) return NoLane(fmt::format("{}", lane));
-  if (document.map.lanes[*place].value.mode != map::LaneMode::kStart) return base::WrongInput(fmt::format("lane {} is no start lane: nobody begins there", lane));
+  if (document.map.lanes[*place].value.mode != traffic_map::LaneMode::kStart) return base::WrongInput(fmt::format("lane {} is no start lane: nobody begins there", lane));
   if (!(vehph >= 0.0 && vehph <= 10'000.0)) return base::WrongInput(fmt::format("the flow is {} vehicles an hour; 0 to 10000 was expected", vehph));
   Recorder recorder(document);
   auto& flows = recorder.companion().flows;
-  const auto at = std::lower_bound(flows.begin(), flows.end(), lane, [](const map::LaneFlow& one, std::int32_t number) { return one.lane < number; });
+  const auto at = std::lower_bound(flows.begin(), flows.end(), lane, [](const traffic_map::LaneFlow& one, std::int32_t number) { return one.lane < number; });
   const bool there = at != flows.end() && at->lane == lane;
   if (there && vehph == 0.0) flows.erase(at);
   else if (there) at->vehph = vehph;

@@ -8,12 +8,12 @@
 namespace rodeira::editor {
 namespace {
 
-bool Fits(const Eigen::Vector2d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= static_cast<double>(map::kFarthest_m); }
+bool Fits(const Eigen::Vector2d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= static_cast<double>(traffic_map::kFarthest_m); }
 
 base::Error TooFar() { return base::WrongInput("a point would lie farther out than 1 000 000 m, where no map reaches"); }
 
 // Nothing, or what is wrong with a lane's sides.
-base::Status CheckSides(const Document& document, const map::LaneSide& left, const map::LaneSide& right) {
+base::Status CheckSides(const Document& document, const traffic_map::LaneSide& left, const traffic_map::LaneSide& right) {
   for (const auto& [side, name] : {std::pair(left, "left"), std::pair(right, "right")}) {
     if (!Find(document.map.curves, side.curve)) return base::WrongInput(fmt::format("the {} curve {} does not exist", name, side.curve));
   }
@@ -23,8 +23,8 @@ base::Status CheckSides(const Document& document, const map::LaneSide& left, con
 
 }  // namespace
 
-base::Result<map::Curve> CurveOf(std::int32_t number, const Points& points_W) {
-  map::Curve curve;
+base::Result<traffic_map::Curve> CurveOf(std::int32_t number, const Points& points_W) {
+  traffic_map::Curve curve;
   curve.id = number;
   for (std::size_t i = 0; i < points_W.size(); ++i) {
     if (!Fits(points_W[i])) return TooFar();
@@ -42,12 +42,12 @@ base::Result<Edit> NewCurve(Document& document, const Points& points_W) {
 }
 
 base::Result<Edit> MoveHandles(Document& document, const std::vector<Handle>& handles, const Eigen::Vector2d& by_W) {
-  std::map<std::size_t, map::Curve> moved;
+  std::map<std::size_t, traffic_map::Curve> moved;
   for (const Handle& handle : handles) {
     const auto at = Find(document.map.curves, handle.curve);
     if (!at || handle.index < 0 || handle.index > 3) return base::WrongInput(fmt::format("curve {} does not exist", handle.curve));
-    map::Curve& curve = moved.try_emplace(*at, document.map.curves[*at].value).first->second;
-    map::ControlPoint& point = curve.points[static_cast<std::size_t>(handle.index)];
+    traffic_map::Curve& curve = moved.try_emplace(*at, document.map.curves[*at].value).first->second;
+    traffic_map::ControlPoint& point = curve.points[static_cast<std::size_t>(handle.index)];
     const Eigen::Vector2d to = Eigen::Vector2d(static_cast<double>(point.x_m), static_cast<double>(point.y_m)) + by_W;
     if (!Fits(to)) return TooFar();
     point.x_m = static_cast<float>(to.x());
@@ -59,15 +59,15 @@ base::Result<Edit> MoveHandles(Document& document, const std::vector<Handle>& ha
                                                         : fmt::format("{} handles moved", handles.size()));
 }
 
-base::Result<Edit> NewLane(Document& document, const map::LaneSide& left, const map::LaneSide& right, map::LaneMode mode) {
+base::Result<Edit> NewLane(Document& document, const traffic_map::LaneSide& left, const traffic_map::LaneSide& right, traffic_map::LaneMode mode) {
   if (auto status = CheckSides(document, left, right); !status) return base::WrongInput("no lane was made: " + status.error().message);
-  const map::Lane lane{NextNumber(document.map.lanes), left, right, mode};
+  const traffic_map::Lane lane{NextNumber(document.map.lanes), left, right, mode};
   Recorder recorder(document);
   recorder.Add(lane);
   return std::move(recorder).Finish(fmt::format("lane {} made", lane.id));
 }
 
-base::Result<Edit> SetLane(Document& document, const map::Lane& lane) {
+base::Result<Edit> SetLane(Document& document, const traffic_map::Lane& lane) {
   const auto at = Find(document.map.lanes, lane.id);
   if (!at) return base::WrongInput(fmt::format("lane {} does not exist", lane.id));
   if (auto status = CheckSides(document, lane.left, lane.right); !status) return base::WrongInput(fmt::format("lane {} was not changed: {}", lane.id, status.error().message));
@@ -83,14 +83,14 @@ base::Result<Edit> NewConnection(Document& document, std::int32_t from, std::int
   if (from == to) return base::WrongInput(fmt::format("no connection was made: it would lead from lane {} back into it", from));
   if (Find(document.map.connections, from, to)) return base::WrongInput(fmt::format("no connection was made: lane {} is connected to lane {} already", from, to));
   Recorder recorder(document);
-  recorder.Add(map::Connection{from, to, stop, {}});
+  recorder.Add(traffic_map::Connection{from, to, stop, {}});
   return std::move(recorder).Finish(fmt::format("connection {} to {} made", from, to));
 }
 
 base::Result<Edit> SetStop(Document& document, std::int32_t from, std::int32_t to, bool stop) {
   const auto at = Find(document.map.connections, from, to);
   if (!at) return base::WrongInput(fmt::format("lane {} is not connected to lane {}", from, to));
-  map::Connection connection = document.map.connections[*at].value;
+  traffic_map::Connection connection = document.map.connections[*at].value;
   connection.stop = stop;
   Recorder recorder(document);
   recorder.SetConnection(*at, connection);
@@ -98,7 +98,7 @@ base::Result<Edit> SetStop(Document& document, std::int32_t from, std::int32_t t
 }
 
 base::Result<Edit> SetPicture(Document& document, std::string bytes, float scale) {
-  if (!(scale >= 1e-6f) || scale > map::kFarthest_m) return base::WrongInput(fmt::format("the scale is {}; a number from 0.000001 to 1000000 was expected", scale));
+  if (!(scale >= 1e-6f) || scale > traffic_map::kFarthest_m) return base::WrongInput(fmt::format("the scale is {}; a number from 0.000001 to 1000000 was expected", scale));
   Recorder recorder(document);
   const bool none = bytes.empty();
   recorder.SetPicture(std::move(bytes));
@@ -107,7 +107,7 @@ base::Result<Edit> SetPicture(Document& document, std::string bytes, float scale
 }
 
 base::Result<Edit> SetScale(Document& document, float scale) {
-  if (!(scale >= 1e-6f) || scale > map::kFarthest_m) return base::WrongInput(fmt::format("the scale is {}; a number from 0.000001 to 1000000 was expected", scale));
+  if (!(scale >= 1e-6f) || scale > traffic_map::kFarthest_m) return base::WrongInput(fmt::format("the scale is {}; a number from 0.000001 to 1000000 was expected", scale));
   Recorder recorder(document);
   recorder.SetScale(scale);
   return std::move(recorder).Finish(fmt::format("background scale {}", scale));

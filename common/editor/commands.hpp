@@ -23,9 +23,9 @@ base::Result<Edit> NewCurve(Document& document, const Points& points_W);
 base::Result<Edit> MoveHandles(Document& document, const std::vector<Handle>& handles, const Eigen::Vector2d& by_W);
 
 // The number is given by the document; both curves must be there and be two.
-base::Result<Edit> NewLane(Document& document, const map::LaneSide& left, const map::LaneSide& right, map::LaneMode mode);
+base::Result<Edit> NewLane(Document& document, const traffic_map::LaneSide& left, const traffic_map::LaneSide& right, traffic_map::LaneMode mode);
 // The lane of that number becomes this one.
-base::Result<Edit> SetLane(Document& document, const map::Lane& lane);
+base::Result<Edit> SetLane(Document& document, const traffic_map::Lane& lane);
 // Both lanes must be there and be two, not connected so yet.
 base::Result<Edit> NewConnection(Document& document, std::int32_t from, std::int32_t to, bool stop);
 base::Result<Edit> SetStop(Document& document, std::int32_t from, std::int32_t to, bool stop);
@@ -37,7 +37,7 @@ base::Result<Edit> Reset(Document& document);
 
 // What the companion says of single elements. Heights of four zeros, and a flow of 0, are none.
 base::Result<Edit> SetHeights(Document& document, std::int32_t curve, const std::array<double, 4>& z_m);
-base::Result<Edit> SetSigns(Document& document, const std::vector<map::LaneSign>& signs);
+base::Result<Edit> SetSigns(Document& document, const std::vector<traffic_map::LaneSign>& signs);
 base::Result<Edit> SetFlow(Document& document, std::int32_t lane, double vehph);
 base::Result<Edit> SetLights(Document& document, const std::vector<lights::LightPlan>& lights);
 
@@ -48,6 +48,6 @@ base::Result<Edit> SetScale(Document& document, float scale);
 base::Result<Edit> ScaleByDistance(Document& document, const Eigen::Vector2d& here_W, const Eigen::Vector2d& there_W, double known_m);
 
 // A point as the file holds it; refused beyond its bounds.
-base::Result<map::Curve> CurveOf(std::int32_t number, const Points& points_W);
+base::Result<traffic_map::Curve> CurveOf(std::int32_t number, const Points& points_W);
 
 }  // namespace rodeira::editor

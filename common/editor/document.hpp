@@ -15,29 +15,29 @@ namespace rodeira::editor {
 // A map as it is drawn: what the `.motors` file says, and what its companion `.motors.yaml` says beside it. It may be faulty:
 // numbers twice, elements that are named and not there; of equal numbers the first element counts.
 struct Document {
-  map::MapFile map;
-  map::Heights companion;
+  traffic_map::MapFile map;
+  traffic_map::Heights companion;
 };
 
 // What was loaded of the companion: what is not edited keeps these bytes.
 struct LoadedCompanion {
-  map::Heights value;
+  traffic_map::Heights value;
   std::string text;  // empty: there was no such file
 };
 
 // Where the first element with a number stands.
 template <class Value>
-std::optional<std::size_t> Find(const std::vector<map::Line<Value>>& lines, std::int32_t number) {
+std::optional<std::size_t> Find(const std::vector<traffic_map::Line<Value>>& lines, std::int32_t number) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i].value.id == number) return i;
   }
   return std::nullopt;
 }
-std::optional<std::size_t> Find(const std::vector<map::Line<map::Connection>>& lines, std::int32_t from, std::int32_t to);
+std::optional<std::size_t> Find(const std::vector<traffic_map::Line<traffic_map::Connection>>& lines, std::int32_t from, std::int32_t to);
 
 // The number after the highest one, as the original editor counts; the lowest free one where there is none after it.
 template <class Value>
-std::int32_t NextNumber(const std::vector<map::Line<Value>>& lines) {
+std::int32_t NextNumber(const std::vector<traffic_map::Line<Value>>& lines) {
   std::int32_t highest = 0;
   for (const auto& line : lines) highest = line.value.id > highest ? line.value.id : highest;
   if (highest < INT32_MAX) return highest + 1;
@@ -54,11 +54,11 @@ std::string BytesOf(const Document& document);
 
 // A lane's two borders in the direction of its traffic; nothing where one of its curves does not exist.
 struct Borders {
-  map::Cubic left, right;
+  traffic_map::Cubic left, right;
 
-  map::Cubic Middle() const;
+  traffic_map::Cubic Middle() const;
 };
-std::optional<Borders> BordersOf(const Document& document, const map::Lane& lane);
-map::Cubic CubicOf(const map::Curve& curve);
+std::optional<Borders> BordersOf(const Document& document, const traffic_map::Lane& lane);
+traffic_map::Cubic CubicOf(const traffic_map::Curve& curve);
 
 }  // namespace rodeira::editor

@@ -6,9 +6,9 @@
 namespace rodeira::editor {
 namespace {
 
-std::vector<map::Line<map::Curve>>& LinesOf(Document& document, const map::Curve*) { return document.map.curves; }
-std::vector<map::Line<map::Lane>>& LinesOf(Document& document, const map::Lane*) { return document.map.lanes; }
-std::vector<map::Line<map::Connection>>& LinesOf(Document& document, const map::Connection*) { return document.map.connections; }
+std::vector<traffic_map::Line<traffic_map::Curve>>& LinesOf(Document& document, const traffic_map::Curve*) { return document.map.curves; }
+std::vector<traffic_map::Line<traffic_map::Lane>>& LinesOf(Document& document, const traffic_map::Lane*) { return document.map.lanes; }
+std::vector<traffic_map::Line<traffic_map::Connection>>& LinesOf(Document& document, const traffic_map::Connection*) { return document.map.connections; }
 
 // A change done forward or backward.
 class Carry {
@@ -46,34 +46,34 @@ void Edit::Redo(Document& document) {
 }
 
 template <class Value>
-void Recorder::Insert(std::vector<map::Line<Value>>& lines, const Value& value) {
+void Recorder::Insert(std::vector<traffic_map::Line<Value>>& lines, const Value& value) {
   lines.push_back({value, "", 0});
   edit_.changes_.push_back(LineChange<Value>{lines.size() - 1, std::nullopt, lines.back()});
 }
 
 template <class Value>
-void Recorder::Set(std::vector<map::Line<Value>>& lines, std::size_t index, const Value& value) {
+void Recorder::Set(std::vector<traffic_map::Line<Value>>& lines, std::size_t index, const Value& value) {
   if (lines[index].value == value) return;
-  map::Line<Value> before = lines[index];
+  traffic_map::Line<Value> before = lines[index];
   lines[index].value = value;
   edit_.changes_.push_back(LineChange<Value>{index, std::move(before), lines[index]});
 }
 
 template <class Value>
-void Recorder::Remove(std::vector<map::Line<Value>>& lines, std::size_t index) {
+void Recorder::Remove(std::vector<traffic_map::Line<Value>>& lines, std::size_t index) {
   edit_.changes_.push_back(LineChange<Value>{index, std::move(lines[index]), std::nullopt});
   lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
-template void Recorder::Insert(std::vector<map::Line<map::Curve>>&, const map::Curve&);
-template void Recorder::Insert(std::vector<map::Line<map::Lane>>&, const map::Lane&);
-template void Recorder::Insert(std::vector<map::Line<map::Connection>>&, const map::Connection&);
-template void Recorder::Set(std::vector<map::Line<map::Curve>>&, std::size_t, const map::Curve&);
-template void Recorder::Set(std::vector<map::Line<map::Lane>>&, std::size_t, const map::Lane&);
-template void Recorder::Set(std::vector<map::Line<map::Connection>>&, std::size_t, const map::Connection&);
-template void Recorder::Remove(std::vector<map::Line<map::Curve>>&, std::size_t);
-template void Recorder::Remove(std::vector<map::Line<map::Lane>>&, std::size_t);
-template void Recorder::Remove(std::vector<map::Line<map::Connection>>&, std::size_t);
+template void Recorder::Insert(std::vector<traffic_map::Line<traffic_map::Curve>>&, const traffic_map::Curve&);
+template void Recorder::Insert(std::vector<traffic_map::Line<traffic_map::Lane>>&, const traffic_map::Lane&);
+template void Recorder::Insert(std::vector<traffic_map::Line<traffic_map::Connection>>&, const traffic_map::Connection&);
+template void Recorder::Set(std::vector<traffic_map::Line<traffic_map::Curve>>&, std::size_t, const traffic_map::Curve&);
+template void Recorder::Set(std::vector<traffic_map::Line<traffic_map::Lane>>&, std::size_t, const traffic_map::Lane&);
+template void Recorder::Set(std::vector<traffic_map::Line<traffic_map::Connection>>&, std::size_t, const traffic_map::Connection&);
+template void Recorder::Remove(std::vector<traffic_map::Line<traffic_map::Curve>>&, std::size_t);
+template void Recorder::Remove(std::vector<traffic_map::Line<traffic_map::Lane>>&, std::size_t);
+template void Recorder::Remove(std::vector<traffic_map::Line<traffic_map::Connection>>&, std::size_t);
 
 void Recorder::SetScale(float value) {
   if (document_.map.scale.value.value == value) return;
@@ -88,13 +88,13 @@ void Recorder::SetPicture(std::string bytes) {
   edit_.changes_.emplace_back(PictureChange{std::move(bytes)});
 }
 
-map::Heights& Recorder::companion() {
+traffic_map::Heights& Recorder::companion() {
   if (!companion_before_) companion_before_ = document_.companion;
   return document_.companion;
 }
 
 Edit Recorder::Finish(std::string what) && {
-  if (companion_before_ && map::CompanionText(*companion_before_) != map::CompanionText(document_.companion))
+  if (companion_before_ && traffic_map::CompanionText(*companion_before_) != traffic_map::CompanionText(document_.companion))
     edit_.changes_.emplace_back(CompanionChange{std::move(*companion_before_), document_.companion});
   edit_.what_ = std::move(what);
   return std::move(edit_);

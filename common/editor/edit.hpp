@@ -15,19 +15,19 @@ namespace rodeira::editor {
 template <class Value>
 struct LineChange {
   std::size_t index = 0;
-  std::optional<map::Line<Value>> before, after;
+  std::optional<traffic_map::Line<Value>> before, after;
 };
 // A value that stands once. Of a picture, which is large, only the one that the document does not hold is kept here.
 struct ScaleChange {
-  map::Line<map::Scale> before, after;
+  traffic_map::Line<traffic_map::Scale> before, after;
 };
 struct PictureChange {
   std::string other;
 };
 struct CompanionChange {
-  map::Heights before, after;
+  traffic_map::Heights before, after;
 };
-using Change = std::variant<LineChange<map::Curve>, LineChange<map::Lane>, LineChange<map::Connection>, ScaleChange, PictureChange, CompanionChange>;
+using Change = std::variant<LineChange<traffic_map::Curve>, LineChange<traffic_map::Lane>, LineChange<traffic_map::Connection>, ScaleChange, PictureChange, CompanionChange>;
 
 // What one action of a person did to a document: the command that undo takes back and redo does again.
 class Edit {
@@ -49,19 +49,19 @@ class Recorder {
  public:
   explicit Recorder(Document& document) : document_(document) {}
 
-  void Add(const map::Curve& curve) { Insert(document_.map.curves, curve); }
-  void Add(const map::Lane& lane) { Insert(document_.map.lanes, lane); }
-  void Add(const map::Connection& connection) { Insert(document_.map.connections, connection); }
-  void SetCurve(std::size_t index, const map::Curve& curve) { Set(document_.map.curves, index, curve); }
-  void SetLane(std::size_t index, const map::Lane& lane) { Set(document_.map.lanes, index, lane); }
-  void SetConnection(std::size_t index, const map::Connection& connection) { Set(document_.map.connections, index, connection); }
+  void Add(const traffic_map::Curve& curve) { Insert(document_.map.curves, curve); }
+  void Add(const traffic_map::Lane& lane) { Insert(document_.map.lanes, lane); }
+  void Add(const traffic_map::Connection& connection) { Insert(document_.map.connections, connection); }
+  void SetCurve(std::size_t index, const traffic_map::Curve& curve) { Set(document_.map.curves, index, curve); }
+  void SetLane(std::size_t index, const traffic_map::Lane& lane) { Set(document_.map.lanes, index, lane); }
+  void SetConnection(std::size_t index, const traffic_map::Connection& connection) { Set(document_.map.connections, index, connection); }
   void RemoveCurve(std::size_t index) { Remove(document_.map.curves, index); }
   void RemoveLane(std::size_t index) { Remove(document_.map.lanes, index); }
   void RemoveConnection(std::size_t index) { Remove(document_.map.connections, index); }
   void SetScale(float value);
   void SetPicture(std::string bytes);
   // To be changed freely; what became of it is written down by Finish.
-  map::Heights& companion();
+  traffic_map::Heights& companion();
   const Document& document() const { return document_; }
 
   // Once, at the end.
@@ -69,14 +69,14 @@ class Recorder {
 
  private:
   template <class Value>
-  void Insert(std::vector<map::Line<Value>>& lines, const Value& value);
+  void Insert(std::vector<traffic_map::Line<Value>>& lines, const Value& value);
   template <class Value>
-  void Set(std::vector<map::Line<Value>>& lines, std::size_t index, const Value& value);
+  void Set(std::vector<traffic_map::Line<Value>>& lines, std::size_t index, const Value& value);
   template <class Value>
-  void Remove(std::vector<map::Line<Value>>& lines, std::size_t index);
+  void Remove(std::vector<traffic_map::Line<Value>>& lines, std::size_t index);
 
   Document& document_;
-  std::optional<map::Heights> companion_before_;
+  std::optional<traffic_map::Heights> companion_before_;
   Edit edit_;
 };
 

@@ -8,9 +8,9 @@
 namespace rodeira::editor {
 
 base::Result<std::string> Export(const Document& document, const std::filesystem::path& path) {
-  const auto lanes = map::MakeLaneMap(document.map, document.companion, "map");
+  const auto lanes = traffic_map::MakeLaneMap(document.map, document.companion, "map");
   if (!lanes) return base::WrongInput(lanes.error().message);
-  const auto drive = map::WriteWorld(lanes.value(), path, "drawn with rodeira edit");
+  const auto drive = traffic_map::WriteWorld(lanes.value(), path, "drawn with rodeira edit");
   if (!drive) return drive.error();
   const bool alone = path.extension() == ".xodr";
   const std::string roads = std::filesystem::path(path).replace_extension(".xodr").filename().string();

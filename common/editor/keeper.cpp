@@ -63,13 +63,13 @@ base::Status Keeper::Keep(const Document& document, const fs::path& of, std::uin
     if (auto status = base::WriteWhole(own_ / kPicture, document.map.picture); !status) return status;
     picture_state_ = picture_state;
   }
-  map::MapFile lines;
+  traffic_map::MapFile lines;
   lines.curves = document.map.curves, lines.lanes = document.map.lanes, lines.connections = document.map.connections, lines.scale = document.map.scale;
   std::error_code problem;
   const fs::path whole = of.empty() ? of : fs::absolute(of, problem);
   if (auto status = base::WriteWhole(own_ / kOf, whole.string()); !status) return status;
-  if (auto status = base::WriteWhole(own_ / kCompanion, map::CompanionText(document.companion)); !status) return status;
-  return map::SaveMap(lines, own_ / kLines);
+  if (auto status = base::WriteWhole(own_ / kCompanion, traffic_map::CompanionText(document.companion)); !status) return status;
+  return traffic_map::SaveMap(lines, own_ / kLines);
 }
 
 void Keeper::Forget() {
@@ -100,15 +100,15 @@ std::vector<Keeper::Left> Keeper::Found() const {
 }
 
 base::Result<Opened> Keeper::Restore(const Left& left) {
-  auto file = map::LoadMap(left.folder / kLines);
+  auto file = traffic_map::LoadMap(left.folder / kLines);
   if (!file) return file.error();
   Opened opened;
   opened.document.map = std::move(file).value();
-  auto picture = base::ReadText(left.folder / kPicture, map::kMostBytes);
+  auto picture = base::ReadText(left.folder / kPicture, traffic_map::kMostBytes);
   if (picture) opened.document.map.picture = std::move(picture).value();
   const auto text = base::ReadText(left.folder / kCompanion);
   if (text && !text.value().empty()) {
-    const auto heights = map::ParseHeights(text.value(), left.folder / kCompanion);
+    const auto heights = traffic_map::ParseHeights(text.value(), left.folder / kCompanion);
     if (!heights) return heights.error();
     opened.document.companion = heights.value();
   }

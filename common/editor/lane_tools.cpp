@@ -21,11 +21,11 @@ struct Ends {
 };
 
 std::vector<Ends> EndsOf(const Document& document) {
-  const map::NumberIndex curves(document.map.curves);
+  const traffic_map::NumberIndex curves(document.map.curves);
   std::vector<Ends> all;
   for (const auto& line : document.map.lanes) {
     if (!curves.Find(line.value.left.curve) || !curves.Find(line.value.right.curve)) continue;
-    const map::Cubic middle = BordersOf(document, line.value)->Middle();
+    const traffic_map::Cubic middle = BordersOf(document, line.value)->Middle();
     all.push_back({line.value.id, middle.p_W[0], middle.p_W[3], middle.Tangent(0.0), middle.Tangent(1.0)});
   }
   return all;
@@ -40,14 +40,14 @@ bool Meet(const Ends& from, const Ends& to) {
 base::Result<Edit> LaneAlong(Document& document, const Points& middle_W, const LaneLook& look) {
   if (!(look.width_m >= kNarrowest_m && look.width_m <= kWidest_m))
     return base::WrongInput(fmt::format("the lane is {} m wide; {} to {} was expected", look.width_m, kNarrowest_m, kWidest_m));
-  const map::Cubic middle{middle_W};
+  const traffic_map::Cubic middle{middle_W};
   if (middle.PolygonLength() < 0.1) return base::WrongInput("the lane has no length; a line of 0.1 m or more was expected");
   const std::int32_t first = NextNumber(document.map.curves);
   if (first > INT32_MAX - 2) return base::WrongInput("there are no numbers left for two curves");
   const auto left = CurveOf(first, Beside(middle, 0.5 * look.width_m).p_W), right = CurveOf(first + 1, Beside(middle, -0.5 * look.width_m).p_W);
   if (!left) return left.error();
   if (!right) return right.error();
-  const map::Lane lane{NextNumber(document.map.lanes), {first, false, look.left}, {first + 1, false, look.right}, look.mode};
+  const traffic_map::Lane lane{NextNumber(document.map.lanes), {first, false, look.left}, {first + 1, false, look.right}, look.mode};
   Recorder recorder(document);
   recorder.Add(left.value());
   recorder.Add(right.value());
@@ -59,21 +59,21 @@ base::Result<Edit> LaneBeside(Document& document, std::int32_t number, bool on_l
   const auto at = Find(document.map.lanes, number);
   const auto borders = at ? BordersOf(document, document.map.lanes[*at].value) : std::nullopt;
   if (!borders) return base::WrongInput(fmt::format("lane {} does not exist with both of its curves", number));
-  map::Lane old = document.map.lanes[*at].value;
+  traffic_map::Lane old = document.map.lanes[*at].value;
   const double width_m = (borders->left.p_W[0] - borders->right.p_W[0]).norm();
-  const map::Cubic& shared = on_left ? borders->left : borders->right;
+  const traffic_map::Cubic& shared = on_left ? borders->left : borders->right;
   const auto outer = CurveOf(NextNumber(document.map.curves), Beside(shared, on_left ? width_m : -width_m).p_W);
   if (!outer) return outer.error();
-  map::LaneSide& between = on_left ? old.left : old.right;
-  const map::BorderType outside = between.type;
-  between.type = same_way ? map::BorderType::kDashedSame : map::BorderType::kSingle;
-  map::LaneSide inner_side = between, outer_side{outer.value().id, false, outside};
+  traffic_map::LaneSide& between = on_left ? old.left : old.right;
+  const traffic_map::BorderType outside = between.type;
+  between.type = same_way ? traffic_map::BorderType::kDashedSame : traffic_map::BorderType::kSingle;
+  traffic_map::LaneSide inner_side = between, outer_side{outer.value().id, false, outside};
   if (!same_way) inner_side.inverted = !inner_side.inverted, outer_side.inverted = true;
   // Driven the same way, a lane on the left has the shared border on its right; driven against it, on its left.
   const bool inner_is_right = on_left == same_way;
-  map::LaneMode mode = old.mode;
-  if (!same_way && mode != map::LaneMode::kNone) mode = mode == map::LaneMode::kStart ? map::LaneMode::kEnd : map::LaneMode::kStart;
-  const map::Lane lane{NextNumber(document.map.lanes), inner_is_right ? outer_side : inner_side, inner_is_right ? inner_side : outer_side, mode};
+  traffic_map::LaneMode mode = old.mode;
+  if (!same_way && mode != traffic_map::LaneMode::kNone) mode = mode == traffic_map::LaneMode::kStart ? traffic_map::LaneMode::kEnd : traffic_map::LaneMode::kStart;
+  const traffic_map::Lane lane{NextNumber(document.map.lanes), inner_is_right ? outer_side : inner_side, inner_is_right ? inner_side : outer_side, mode};
   Recorder recorder(document);
   recorder.Add(outer.value());
   recorder.SetLane(*at, old);
@@ -141,7 +141,7 @@ base::Result<Edit> Connect(Document& document, const std::vector<std::pair<std::
   }
   if (connections.empty()) return base::WrongInput("no two lanes meet that are not connected yet");
   Recorder recorder(document);
-  for (const auto& [from, to] : connections) recorder.Add(map::Connection{from, to, false, {}});
+  for (const auto& [from, to] : connections) recorder.Add(traffic_map::Connection{from, to, false, {}});
   return std::move(recorder).Finish(connections.size() == 1 ? fmt::format("connection {} to {} made", connections[0].first, connections[0].second)
                                                             : fmt::format("{} connections made", connections.size()));
 }

@@ -7,9 +7,9 @@ namespace rodeira::editor {
 
 struct LaneLook {
   double width_m = 3.25;
-  map::BorderType left = map::BorderType::kBoundary;
-  map::BorderType right = map::BorderType::kBoundary;
-  map::LaneMode mode = map::LaneMode::kNone;
+  traffic_map::BorderType left = traffic_map::BorderType::kBoundary;
+  traffic_map::BorderType right = traffic_map::BorderType::kBoundary;
+  traffic_map::LaneMode mode = traffic_map::LaneMode::kNone;
 };
 
 // A lane along its middle, driven from the first point to the last: two curves and the lane.

@@ -5,7 +5,7 @@
 
 namespace rodeira::editor {
 
-map::Cubic Beside(const map::Cubic& curve, double left_m) {
+traffic_map::Cubic Beside(const traffic_map::Cubic& curve, double left_m) {
   const auto left_of = [&](double t) -> Eigen::Vector2d {
     const Eigen::Vector2d along = curve.Tangent(t);
     return curve.At(t) + left_m * Eigen::Vector2d(-along.y(), along.x());

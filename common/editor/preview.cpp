@@ -14,9 +14,9 @@ constexpr std::uint64_t kStepsALook = 10;  // at queues
 }  // namespace
 
 base::Result<Preview> Preview::Start(const Document& document, const PreviewSettings& settings) {
-  const auto lanes = map::MakeLaneMap(document.map, document.companion, "map");
+  const auto lanes = traffic_map::MakeLaneMap(document.map, document.companion, "map");
   if (!lanes) return base::WrongInput(lanes.error().message);
-  const auto network = map::ToNetwork(lanes.value(), "map");
+  const auto network = traffic_map::ToNetwork(lanes.value(), "map");
   if (!network) return network.error();
   traffic::TrafficSettings how;
   how.vehicles = settings.vehicles;

@@ -9,7 +9,7 @@ namespace rodeira::editor {
 namespace {
 
 template <class Value, class Gone>
-std::vector<std::size_t> Places(const std::vector<map::Line<Value>>& lines, const Gone& gone) {
+std::vector<std::size_t> Places(const std::vector<traffic_map::Line<Value>>& lines, const Gone& gone) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (gone(lines[i].value)) places.push_back(i);
@@ -19,10 +19,10 @@ std::vector<std::size_t> Places(const std::vector<map::Line<Value>>& lines, cons
 }
 
 // What the companion says of lanes and curves that are gone.
-void Forget(map::Heights& companion, const std::set<std::int32_t>& curves, const std::set<std::int32_t>& lanes) {
-  std::erase_if(companion.curves, [&](const map::CurveHeights& one) { return curves.contains(one.curve); });
-  std::erase_if(companion.signs, [&](const map::LaneSign& sign) { return lanes.contains(sign.lane); });
-  std::erase_if(companion.flows, [&](const map::LaneFlow& flow) { return lanes.contains(flow.lane); });
+void Forget(traffic_map::Heights& companion, const std::set<std::int32_t>& curves, const std::set<std::int32_t>& lanes) {
+  std::erase_if(companion.curves, [&](const traffic_map::CurveHeights& one) { return curves.contains(one.curve); });
+  std::erase_if(companion.signs, [&](const traffic_map::LaneSign& sign) { return lanes.contains(sign.lane); });
+  std::erase_if(companion.flows, [&](const traffic_map::LaneFlow& flow) { return lanes.contains(flow.lane); });
   for (lights::LightPlan& plan : companion.lights) {
     for (lights::Phase& phase : plan.phases) {
       std::erase_if(phase.green, [&](const std::string& name) {
@@ -51,9 +51,9 @@ base::Result<Edit> Remove(Document& document, const Selection& selection) {
   for (const auto& line : document.map.lanes) {
     if (gone.curves.contains(line.value.left.curve) || gone.curves.contains(line.value.right.curve)) gone.lanes.insert(line.value.id);
   }
-  const auto curves = Places(document.map.curves, [&](const map::Curve& curve) { return gone.curves.contains(curve.id); });
-  const auto lanes = Places(document.map.lanes, [&](const map::Lane& lane) { return gone.lanes.contains(lane.id); });
-  const auto connections = Places(document.map.connections, [&](const map::Connection& c) {
+  const auto curves = Places(document.map.curves, [&](const traffic_map::Curve& curve) { return gone.curves.contains(curve.id); });
+  const auto lanes = Places(document.map.lanes, [&](const traffic_map::Lane& lane) { return gone.lanes.contains(lane.id); });
+  const auto connections = Places(document.map.connections, [&](const traffic_map::Connection& c) {
     return gone.lanes.contains(c.from) || gone.lanes.contains(c.to) || gone.connections.contains({c.from, c.to});
   });
   if (curves.empty() && lanes.empty() && connections.empty()) return base::WrongInput("nothing is chosen that could be deleted");

@@ -8,7 +8,7 @@ namespace {
 constexpr int kPieces = 24;  // that a curve is looked at in
 constexpr double kTogether_m = 1e-3;
 
-Eigen::Vector2d PointOf(const map::ControlPoint& point) { return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)}; }
+Eigen::Vector2d PointOf(const traffic_map::ControlPoint& point) { return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)}; }
 
 double DistanceToPiece(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = b - a;
@@ -18,13 +18,13 @@ double DistanceToPiece(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const
 }
 
 // Whether p lies within the cubic's control points' box, widened.
-bool Near(const map::Cubic& cubic, const Eigen::Vector2d& p, double radius_m) {
+bool Near(const traffic_map::Cubic& cubic, const Eigen::Vector2d& p, double radius_m) {
   Eigen::Vector2d low = cubic.p_W[0], high = cubic.p_W[0];
   for (const auto& point : cubic.p_W) low = low.cwiseMin(point), high = high.cwiseMax(point);
   return (p.array() >= low.array() - radius_m).all() && (p.array() <= high.array() + radius_m).all();
 }
 
-double DistanceTo(const map::Cubic& cubic, const Eigen::Vector2d& p) {
+double DistanceTo(const traffic_map::Cubic& cubic, const Eigen::Vector2d& p) {
   double nearest = 1e300;
   Eigen::Vector2d before = cubic.p_W[0];
   for (int i = 1; i <= kPieces; ++i) {
@@ -90,17 +90,17 @@ Selection Inside(const Document& document, const Eigen::Vector2d& corner_W, cons
   return selection;
 }
 
-Selection Chosen(const map::Finding& finding) {
+Selection Chosen(const traffic_map::Finding& finding) {
   Selection selection;
   switch (finding.element) {
-    case map::Element::kCurve:
-    case map::Element::kHeights: selection.curves.insert(finding.number); break;
-    case map::Element::kLane:
-    case map::Element::kSign:
-    case map::Element::kFlow: selection.lanes.insert(finding.number); break;
-    case map::Element::kConnection: selection.connections.insert({finding.number, finding.to}); break;
-    case map::Element::kLights:
-    case map::Element::kMap: break;
+    case traffic_map::Element::kCurve:
+    case traffic_map::Element::kHeights: selection.curves.insert(finding.number); break;
+    case traffic_map::Element::kLane:
+    case traffic_map::Element::kSign:
+    case traffic_map::Element::kFlow: selection.lanes.insert(finding.number); break;
+    case traffic_map::Element::kConnection: selection.connections.insert({finding.number, finding.to}); break;
+    case traffic_map::Element::kLights:
+    case traffic_map::Element::kMap: break;
   }
   return selection;
 }
@@ -136,7 +136,7 @@ std::optional<std::int32_t> CurveAt(const Document& document, const Eigen::Vecto
   std::optional<std::int32_t> found;
   double nearest = radius_m;
   for (const auto& line : document.map.curves) {
-    const map::Cubic cubic = CubicOf(line.value);
+    const traffic_map::Cubic cubic = CubicOf(line.value);
     if (!Near(cubic, p_W, radius_m)) continue;
     const double distance = DistanceTo(cubic, p_W);
     if (distance > nearest || (found && distance == nearest)) continue;
@@ -147,12 +147,12 @@ std::optional<std::int32_t> CurveAt(const Document& document, const Eigen::Vecto
 }
 
 std::optional<std::int32_t> LaneAt(const Document& document, const Eigen::Vector2d& p_W) {
-  const map::NumberIndex curves(document.map.curves);
+  const traffic_map::NumberIndex curves(document.map.curves);
   for (const auto& line : document.map.lanes) {
     const auto left = curves.Find(line.value.left.curve), right = curves.Find(line.value.right.curve);
     if (!left || !right) continue;
-    map::Cubic box = CubicOf(document.map.curves[*left].value);
-    const map::Cubic other = CubicOf(document.map.curves[*right].value);
+    traffic_map::Cubic box = CubicOf(document.map.curves[*left].value);
+    const traffic_map::Cubic other = CubicOf(document.map.curves[*right].value);
     Eigen::Vector2d low = box.p_W[0], high = low;
     for (const auto& cubic : {box, other}) {
       for (const auto& point : cubic.p_W) low = low.cwiseMin(point), high = high.cwiseMax(point);

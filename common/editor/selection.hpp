@@ -38,7 +38,7 @@ std::vector<Handle> HandlesOf(const Document& document, const Selection& selecti
 Selection Inside(const Document& document, const Eigen::Vector2d& corner_W, const Eigen::Vector2d& opposite_W);
 
 // The element that a finding of the check speaks of.
-Selection Chosen(const map::Finding& finding);
+Selection Chosen(const traffic_map::Finding& finding);
 // Where it is to be seen: the middle of the chosen; nothing where nothing of it is there.
 std::optional<Eigen::Vector2d> MiddleOf(const Document& document, const Selection& selection);
 

@@ -58,7 +58,7 @@ bool Session::Open(const std::filesystem::path& file) {
   }
   Take(std::move(opened).value(), file, true);
   const auto& findings = Findings();
-  const auto errors = std::count_if(findings.begin(), findings.end(), [](const map::Finding& f) { return f.severity == map::Severity::kError; });
+  const auto errors = std::count_if(findings.begin(), findings.end(), [](const traffic_map::Finding& f) { return f.severity == traffic_map::Severity::kError; });
   Say(errors == 0 ? "opened " + file.filename().string() : fmt::format("opened {}; the check finds {} errors", file.filename().string(), errors), errors == 0);
   return true;
 }
@@ -76,7 +76,7 @@ void Session::Take(Opened opened, const std::filesystem::path& file, bool saved)
 
 bool Session::Save(const std::filesystem::path& file, bool despite_errors) {
   const auto& findings = Findings();
-  const auto wrong = std::find_if(findings.begin(), findings.end(), [](const map::Finding& f) { return f.severity == map::Severity::kError; });
+  const auto wrong = std::find_if(findings.begin(), findings.end(), [](const traffic_map::Finding& f) { return f.severity == traffic_map::Severity::kError; });
   if (wrong != findings.end() && !despite_errors) {
     selection = Chosen(*wrong);
     Say("not saved: " + wrong->Text(), false);
@@ -94,9 +94,9 @@ bool Session::Save(const std::filesystem::path& file, bool despite_errors) {
   return true;
 }
 
-const std::vector<map::Finding>& Session::Findings() {
+const std::vector<traffic_map::Finding>& Session::Findings() {
   if (checked_state_ != history_.state()) {
-    findings_ = map::CheckMap(document().map, document().companion);
+    findings_ = traffic_map::CheckMap(document().map, document().companion);
     checked_state_ = history_.state();
   }
   return findings_;

@@ -57,7 +57,7 @@ class Session {
   bool Save(const std::filesystem::path& file, bool despite_errors = false);
 
   // Everything that is wrong with the map as it is now; looked for again only after it changed.
-  const std::vector<map::Finding>& Findings();
+  const std::vector<traffic_map::Finding>& Findings();
 
  private:
   bool Told(const base::Status& status);
@@ -67,7 +67,7 @@ class Session {
   std::filesystem::path path_;
   std::uint64_t saved_state_ = 0, opened_ = 0, picture_state_ = 0;
   Said said_;
-  std::vector<map::Finding> findings_;
+  std::vector<traffic_map::Finding> findings_;
   std::optional<std::uint64_t> checked_state_;
 };
 

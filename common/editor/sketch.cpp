@@ -27,7 +27,7 @@ Pose Pose::Moved(double ahead_m, double left_m) const {
 
 Sketch::Sketch(const Document& document) : next_curve_(NextNumber(document.map.curves)), next_lane_(NextNumber(document.map.lanes)) {}
 
-map::LaneSide Sketch::Side(const Points& points, map::BorderType type) {
+traffic_map::LaneSide Sketch::Side(const Points& points, traffic_map::BorderType type) {
   for (const auto& [number, known] : curves_) {
     for (const bool reversed : {false, true}) {
       if (Same(points, known, reversed)) return {number, reversed, type};
@@ -37,28 +37,28 @@ map::LaneSide Sketch::Side(const Points& points, map::BorderType type) {
   return {curves_.back().first, false, type};
 }
 
-std::int32_t Sketch::Lane(const Pose& from, const Pose& to, double width_m, map::BorderType left, map::BorderType right, map::LaneMode mode) {
+std::int32_t Sketch::Lane(const Pose& from, const Pose& to, double width_m, traffic_map::BorderType left, traffic_map::BorderType right, traffic_map::LaneMode mode) {
   const auto border = [&](double left_m) {
     const Pose begin = from.Moved(0.0, left_m), end = to.Moved(0.0, left_m);
     return CurveBetween(begin.p_W, begin.heading_rad, end.p_W, end.heading_rad);
   };
-  const map::LaneSide left_side = Side(border(0.5 * width_m), left), right_side = Side(border(-0.5 * width_m), right);
+  const traffic_map::LaneSide left_side = Side(border(0.5 * width_m), left), right_side = Side(border(-0.5 * width_m), right);
   lanes_.push_back({next_lane_++, left_side, right_side, mode});
   return lanes_.back().id;
 }
 
 base::Result<Edit> Sketch::Finish(Document& document, std::string what) const {
   if (next_curve_ > kMostNumber || next_lane_ > kMostNumber) return base::WrongInput("there are no numbers left for so many curves and lanes");
-  std::vector<map::Curve> curves;
+  std::vector<traffic_map::Curve> curves;
   for (const auto& [number, points] : curves_) {
     const auto curve = CurveOf(number, points);
     if (!curve) return curve.error();
     curves.push_back(curve.value());
   }
   Recorder recorder(document);
-  for (const map::Curve& curve : curves) recorder.Add(curve);
-  for (const map::Lane& lane : lanes_) recorder.Add(lane);
-  for (const map::Connection& connection : connections_) recorder.Add(connection);
+  for (const traffic_map::Curve& curve : curves) recorder.Add(curve);
+  for (const traffic_map::Lane& lane : lanes_) recorder.Add(lane);
+  for (const traffic_map::Connection& connection : connections_) recorder.Add(connection);
   if (!signs_.empty()) {
     auto& signs = recorder.companion().signs;
     signs.insert(signs.end(), signs_.begin(), signs_.end());

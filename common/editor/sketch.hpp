@@ -22,21 +22,21 @@ class Sketch {
   explicit Sketch(const Document& document);
 
   // From pose to pose of its middle; its number.
-  std::int32_t Lane(const Pose& from, const Pose& to, double width_m, map::BorderType left, map::BorderType right, map::LaneMode mode = map::LaneMode::kNone);
+  std::int32_t Lane(const Pose& from, const Pose& to, double width_m, traffic_map::BorderType left, traffic_map::BorderType right, traffic_map::LaneMode mode = traffic_map::LaneMode::kNone);
   void Connect(std::int32_t from, std::int32_t to, bool stop = false) { connections_.push_back({from, to, stop, {}}); }
-  void GiveWay(std::int32_t lane) { signs_.push_back({lane, map::SignKind::kGiveWay, 0.0, 0.0, 0}); }
+  void GiveWay(std::int32_t lane) { signs_.push_back({lane, traffic_map::SignKind::kGiveWay, 0.0, 0.0, 0}); }
 
   // All of it into the document, or a sentence where it does not fit there.
   base::Result<Edit> Finish(Document& document, std::string what) const;
 
  private:
-  map::LaneSide Side(const Points& points, map::BorderType type);
+  traffic_map::LaneSide Side(const Points& points, traffic_map::BorderType type);
 
   std::int32_t next_curve_, next_lane_;
   std::vector<std::pair<std::int32_t, Points>> curves_;
-  std::vector<map::Lane> lanes_;
-  std::vector<map::Connection> connections_;
-  std::vector<map::LaneSign> signs_;
+  std::vector<traffic_map::Lane> lanes_;
+  std::vector<traffic_map::Connection> connections_;
+  std::vector<traffic_map::LaneSign> signs_;
 };
 
 }  // namespace rodeira::editor

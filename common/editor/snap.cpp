@@ -10,7 +10,7 @@ Snapped SnapEnd(const Document& document, const std::set<std::int32_t>& dragged,
   double nearest = radius_m;
   for (const auto& line : document.map.curves) {
     if (dragged.contains(line.value.id)) continue;
-    const map::Cubic cubic = CubicOf(line.value);
+    const traffic_map::Cubic cubic = CubicOf(line.value);
     for (const std::size_t end : {0u, 3u}) {
       const double distance = (cubic.p_W[end] - p_W).norm();
       if (distance > nearest) continue;
@@ -29,7 +29,7 @@ Snapped SnapTangent(const Document& document, const Handle& handle, const std::s
   double nearest = radius_m;
   for (const auto& line : document.map.curves) {
     if (dragged.contains(line.value.id) || line.value.id == handle.curve) continue;
-    const map::Cubic cubic = CubicOf(line.value);
+    const traffic_map::Cubic cubic = CubicOf(line.value);
     for (const bool begins : {true, false}) {
       if ((cubic.p_W[begins ? 0 : 3] - end).norm() > kTogether_m) continue;
       const Eigen::Vector2d along = cubic.Tangent(begins ? 0.0 : 1.0);

@@ -27,7 +27,7 @@ base::Status PutInPlace(const std::filesystem::path& from, const std::filesystem
 std::filesystem::path CompanionPath(const std::filesystem::path& map_file) { return map_file.string() + ".yaml"; }
 
 base::Result<Opened> Open(const std::filesystem::path& map_file) {
-  auto file = map::LoadMap(map_file);
+  auto file = traffic_map::LoadMap(map_file);
   if (!file) return file.error();
   Opened opened;
   opened.document.map = std::move(file).value();
@@ -36,7 +36,7 @@ base::Result<Opened> Open(const std::filesystem::path& map_file) {
   if (!std::filesystem::exists(beside, problem)) return opened;
   auto text = base::ReadText(beside, kMostCompanionBytes);
   if (!text) return text.error();
-  const auto heights = map::ParseHeights(text.value(), beside);
+  const auto heights = traffic_map::ParseHeights(text.value(), beside);
   if (!heights) return heights.error();
   opened.document.companion = heights.value();
   opened.companion = {heights.value(), std::move(text).value()};
@@ -53,14 +53,14 @@ base::Result<LoadedCompanion> Save(const Document& document, const LoadedCompani
     clean();
     return base::Error{error.code, error.message, map_file.string()};
   };
-  const std::string text = map::CompanionText(document.companion, loaded.value, loaded.text);
+  const std::string text = traffic_map::CompanionText(document.companion, loaded.value, loaded.text);
   if (!text.empty()) {
     // Nothing is written that could not be read again.
-    const auto again = map::ParseHeights(text, beside);
+    const auto again = traffic_map::ParseHeights(text, beside);
     if (!again) return fail(base::Failed("the companion file would not be readable: " + again.error().message));
     if (auto status = base::WriteWhole(new_beside, text); !status) return fail(status.error());
   }
-  if (auto status = map::SaveMap(document.map, new_map); !status) return fail(status.error());
+  if (auto status = traffic_map::SaveMap(document.map, new_map); !status) return fail(status.error());
   if (!text.empty()) {
     if (auto status = PutInPlace(new_beside, beside); !status) return fail(status.error());
   }

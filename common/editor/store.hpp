@@ -17,7 +17,7 @@ struct Opened {
   Document document;
   LoadedCompanion companion;
 };
-// A map and its companion. Wrong input as map::LoadMap and map::LoadHeightsOf; numbers that do not fit together are no hindrance here.
+// A map and its companion. Wrong input as traffic_map::LoadMap and traffic_map::LoadHeightsOf; numbers that do not fit together are no hindrance here.
 base::Result<Opened> Open(const std::filesystem::path& map_file);
 
 // Both files, each whole; where one of them cannot be written (a full disk) both stay as they were. Companion bytes that were loaded and

@@ -10,8 +10,8 @@
 namespace rodeira::editor {
 namespace {
 
-using map::BorderType;
-using map::LaneMode;
+using traffic_map::BorderType;
+using traffic_map::LaneMode;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kArms = 4;

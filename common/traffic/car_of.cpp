@@ -27,8 +27,8 @@ struct Make {
 constexpr Make kCar{1050.0, 0.55, 0.68, 0.37, 1.35, 0.4, 0.09, 0.25, 0.8, 0.5, 0.012, 16.0};
 constexpr Make kHeavy{11000.0, 0.42, 0.58, 0.37, 1.6, 0.7, 0.10, 0.35, 9.0, 5.5, 0.008, 20.0};
 
-vehicle::PowertrainSettings CarPowertrain(double size) {
-  vehicle::PowertrainSettings p;
+dynamics::PowertrainSettings CarPowertrain(double size) {
+  dynamics::PowertrainSettings p;
   for (const auto& [rpm, torque] : {std::pair{1000.0, 87.5}, {3500.0, 115.5}, {6499.0, 62.5}}) p.engine.full_load.push_back({Rpm(rpm), size * torque});
   p.engine.inertia_kgm2 *= size;
   p.engine.drag_Nm *= size;
@@ -38,8 +38,8 @@ vehicle::PowertrainSettings CarPowertrain(double size) {
   return p;
 }
 
-vehicle::PowertrainSettings HeavyPowertrain(double size) {
-  vehicle::PowertrainSettings p;
+dynamics::PowertrainSettings HeavyPowertrain(double size) {
+  dynamics::PowertrainSettings p;
   for (const auto& [rpm, torque] : {std::pair{600.0, 600.0}, {1200.0, 1100.0}, {1600.0, 1100.0}, {2300.0, 800.0}}) {
     p.engine.full_load.push_back({Rpm(rpm), size * torque});
   }
@@ -66,9 +66,9 @@ vehicle::PowertrainSettings HeavyPowertrain(double size) {
   return p;
 }
 
-vehicle::SuspensionSettings SpringsUnder(double wheel_load_N, const Make& make) {
+dynamics::SuspensionSettings SpringsUnder(double wheel_load_N, const Make& make) {
   const double mass_kg = wheel_load_N / kGravity_mps2, rate = 2.0 * std::numbers::pi * make.natural_Hz;
-  vehicle::SuspensionSettings springs;
+  dynamics::SuspensionSettings springs;
   springs.spring_Npm = mass_kg * rate * rate;
   springs.damper_Nspm = 2.0 * kDamping * mass_kg * rate;
   springs.anti_roll_Npm = make.anti_roll * springs.spring_Npm;
@@ -76,9 +76,9 @@ vehicle::SuspensionSettings SpringsUnder(double wheel_load_N, const Make& make) 
   return springs;
 }
 
-vehicle::BodySettings BodyOf(const AgentTraits& traits, const Make& make) {
+dynamics::BodySettings BodyOf(const AgentTraits& traits, const Make& make) {
   const double m = traits.mass_kg, l2 = traits.length_m * traits.length_m, w2 = traits.width_m * traits.width_m, h2 = traits.height_m * traits.height_m;
-  vehicle::BodySettings body;
+  dynamics::BodySettings body;
   body.mass_kg = m;
   body.roll_inertia_kgm2 = m * (w2 + h2) / 12.0;
   body.pitch_inertia_kgm2 = m * (l2 + h2) / 12.0;
@@ -92,17 +92,17 @@ vehicle::BodySettings BodyOf(const AgentTraits& traits, const Make& make) {
 
 }  // namespace
 
-vehicle::BicycleSettings CarOf(const AgentTraits& traits) {
+dynamics::BicycleSettings CarOf(const AgentTraits& traits) {
   const bool heavy = traits.kind == VehicleKind::kLorry || traits.kind == VehicleKind::kBus;
   const Make& make = heavy ? kHeavy : kCar;
   const double m = traits.mass_kg, weight_N = m * kGravity_mps2, size = m / make.of_mass_kg;
-  vehicle::BicycleSettings car;
+  dynamics::BicycleSettings car;
   car.body = BodyOf(traits, make);
   car.steering.ratio = make.steering_ratio;
   car.steering.limit_rad = kMostSteer_rad * make.steering_ratio;
   car.suspension = {SpringsUnder(0.5 * make.front_load * weight_N, make), SpringsUnder(0.5 * (1.0 - make.front_load) * weight_N, make)};
-  for (vehicle::TyreSettings& tyre : car.tyre) {
-    tyre.slip_curve = vehicle::SlipCurveSettings{};
+  for (dynamics::TyreSettings& tyre : car.tyre) {
+    tyre.slip_curve = dynamics::SlipCurveSettings{};
     tyre.low_speed_damping_Nspm *= size;
   }
   car.wheel.radius_m = traits.wheel_radius_m;
@@ -118,7 +118,7 @@ vehicle::BicycleSettings CarOf(const AgentTraits& traits) {
   car.powertrain.automatic.swap_s = kSwap_s;
   car.powertrain.automatic.close_s = kClose_s;
   car.front_driven = !heavy;
-  vehicle::VehicleDimensions& d = car.dimensions;
+  dynamics::VehicleDimensions& d = car.dimensions;
   d.wheelbase_m = traits.wheelbase_m;
   d.track_front_m = d.track_rear_m = traits.width_m - make.track_less_m;
   d.front_m = d.rear_m = 0.5 * traits.length_m;
@@ -136,16 +136,16 @@ vehicle::BicycleSettings CarOf(const AgentTraits& traits) {
 double TipsAt_mps2(const TrafficSettings& settings) {
   double least = settings.speed.tips_mps2;
   for (const std::uint32_t body : BodiesOf(settings)) {
-    const vehicle::BicycleSettings& car = CarOfBody(body);
+    const dynamics::BicycleSettings& car = CarOfBody(body);
     const double track_m = std::min(car.dimensions.track_front_m, car.dimensions.track_rear_m);
     least = std::min(least, kGravity_mps2 * track_m / (2.0 * car.body.cg_height_m));
   }
   return least;
 }
 
-const vehicle::BicycleSettings& CarOfBody(std::uint32_t body) {
-  static const std::vector<vehicle::BicycleSettings> kCars = [] {
-    std::vector<vehicle::BicycleSettings> cars;
+const dynamics::BicycleSettings& CarOfBody(std::uint32_t body) {
+  static const std::vector<dynamics::BicycleSettings> kCars = [] {
+    std::vector<dynamics::BicycleSettings> cars;
     for (std::uint32_t i = 0; i < kBodies; ++i) cars.push_back(CarOf(TraitsOfBody(i)));
     return cars;
   }();

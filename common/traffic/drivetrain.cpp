@@ -15,30 +15,30 @@ constexpr double kFree_mps2 = 1e3;
 constexpr double kSpare = 0.9;     // of the jerk: the rest is for a grade that changes meanwhile
 
 // What keeps a rolling car back beside engine and brakes.
-double Resistance_N(const vehicle::BicycleSettings& car, double speed_mps, double grade) {
+double Resistance_N(const dynamics::BicycleSettings& car, double speed_mps, double grade) {
   const double weight_N = car.body.mass_kg * kGravity_mps2 / std::sqrt(1.0 + grade * grade);
-  return weight_N * (grade + car.wheel.rolling_resistance) + vehicle::AirDrag(car.body.air_density_kgpm3, car.body.drag_area_m2, speed_mps);
+  return weight_N * (grade + car.wheel.rolling_resistance) + dynamics::AirDrag(car.body.air_density_kgpm3, car.body.drag_area_m2, speed_mps);
 }
 
-// What the gears leave of an engine's torque at both driven wheels together (the inverse of vehicle::ShaftTorque).
-double AtWheels(const vehicle::GearboxSettings& gearbox, double ratio, double engine_Nm) {
+// What the gears leave of an engine's torque at both driven wheels together (the inverse of dynamics::ShaftTorque).
+double AtWheels(const dynamics::GearboxSettings& gearbox, double ratio, double engine_Nm) {
   return ratio * engine_Nm * (engine_Nm > 0.0 ? gearbox.efficiency : 2.0 - gearbox.efficiency);
 }
 
 }  // namespace
 
-double FullBrake_N(const vehicle::BicycleSettings& car) {
+double FullBrake_N(const dynamics::BicycleSettings& car) {
   double torque_Nm = 0.0;
-  for (std::size_t wheel = 0; wheel < vehicle::kWheels; ++wheel) torque_Nm += vehicle::BrakeTorque(car.brakes, wheel, 1.0, 0.0);
+  for (std::size_t wheel = 0; wheel < dynamics::kWheels; ++wheel) torque_Nm += dynamics::BrakeTorque(car.brakes, wheel, 1.0, 0.0);
   return torque_Nm / car.wheel.rolling_radius_m;
 }
 
 // An engine without a torque curve's ends: what there is to open the throttle for, and the drag.
-Torques::Torques(const vehicle::EngineSettings& engine, double radps) : full_Nm(vehicle::FullLoadTorque(engine, radps)), drag_Nm(vehicle::DragTorque(engine, radps)) {}
+Torques::Torques(const dynamics::EngineSettings& engine, double radps) : full_Nm(dynamics::FullLoadTorque(engine, radps)), drag_Nm(dynamics::DragTorque(engine, radps)) {}
 
-PlanarCar::PlanarCar(const vehicle::BicycleSettings& of)
+PlanarCar::PlanarCar(const dynamics::BicycleSettings& of)
     : settings_(&of), full_brake_N_(FullBrake_N(of)), idling_(of.powertrain.engine, of.powertrain.engine.idle_radps) {
-  for (int gear = 1; gear <= static_cast<int>(of.powertrain.gearbox.forward.size()); ++gear) ratios_.push_back(vehicle::TotalRatio(of.powertrain.gearbox, gear));
+  for (int gear = 1; gear <= static_cast<int>(of.powertrain.gearbox.forward.size()); ++gear) ratios_.push_back(dynamics::TotalRatio(of.powertrain.gearbox, gear));
 }
 
 namespace {
@@ -49,7 +49,7 @@ struct Demand {
   double speed_mps, resistance_N, force_N, at_wheels_Nm, wheels_radps;
 
   Demand(const PlanarCar& planar, double v, double acceleration_mps2, double grade) : car(planar), speed_mps(v) {
-    const vehicle::BicycleSettings& of = planar.settings();
+    const dynamics::BicycleSettings& of = planar.settings();
     resistance_N = Resistance_N(of, v, grade);
     force_N = of.body.mass_kg * acceleration_mps2 + resistance_N;
     at_wheels_Nm = force_N * of.wheel.rolling_radius_m;
@@ -59,22 +59,22 @@ struct Demand {
   double Turns_radps(int gear) const { return wheels_radps * car.Ratio(gear); }
   // Whether the engine can do `margin` times it in this gear.
   bool Reaches(int gear, double margin = 1.0) const {
-    const vehicle::PowertrainSettings& p = car.settings().powertrain;
+    const dynamics::PowertrainSettings& p = car.settings().powertrain;
     const double ratio = car.Ratio(gear);
-    return at_wheels_Nm <= 0.0 || AtWheels(p.gearbox, ratio, vehicle::FullLoadTorque(p.engine, std::max(p.engine.idle_radps, wheels_radps * ratio))) >= margin * at_wheels_Nm;
+    return at_wheels_Nm <= 0.0 || AtWheels(p.gearbox, ratio, dynamics::FullLoadTorque(p.engine, std::max(p.engine.idle_radps, wheels_radps * ratio))) >= margin * at_wheels_Nm;
   }
 };
 
 // The highest gear in which the engine neither labours nor is too weak.
 int BestGear(const Demand& demand) {
-  const vehicle::PowertrainSettings& p = demand.car.settings().powertrain;
+  const dynamics::PowertrainSettings& p = demand.car.settings().powertrain;
   int gear = demand.car.gears();
   while (gear > 1 && (demand.Turns_radps(gear) < p.automatic.down_light_radps || (!demand.Reaches(gear) && demand.Turns_radps(gear - 1) < p.engine.resume_radps))) --gear;
   return gear;
 }
 
 int NextGear(const Demand& demand, const Driving& before) {
-  const vehicle::PowertrainSettings& p = demand.car.settings().powertrain;
+  const dynamics::PowertrainSettings& p = demand.car.settings().powertrain;
   const int best = BestGear(demand), gear = before.gear;
   if (before.engine_radps <= 0.0 || best == gear) return best;
   if (best < gear) {
@@ -91,7 +91,7 @@ int NextGear(const Demand& demand, const Driving& before) {
 }
 
 Driving Standing(const PlanarCar& car, double grade) {
-  const vehicle::BicycleSettings& of = car.settings();
+  const dynamics::BicycleSettings& of = car.settings();
   return {0.0, std::min(1.0, kHolding + of.body.mass_kg * kGravity_mps2 * std::fabs(grade) / car.full_brake_N()), 1.0, of.powertrain.engine.idle_radps, 1};
 }
 
@@ -100,7 +100,7 @@ double EngineIn_radps(int gear, const Demand& demand) { return std::max(demand.c
 
 // The pedals for it in a gear.
 Driving DrivingIn(int gear, const Demand& demand, const Torques& torques) {
-  const vehicle::PowertrainSettings& p = demand.car.settings().powertrain;
+  const dynamics::PowertrainSettings& p = demand.car.settings().powertrain;
   Driving driving;
   driving.gear = gear;
   driving.engine_radps = EngineIn_radps(gear, demand);
@@ -109,7 +109,7 @@ Driving DrivingIn(int gear, const Demand& demand, const Torques& torques) {
   if (demand.force_N < 0.0 && driving.clutch > 0.0) {
     driving.clutch = 1.0;  // nothing is left for the engine to do
   } else {
-    const double wanted = vehicle::ShaftTorque(p.gearbox, demand.at_wheels_Nm, 1.0) / ratio;
+    const double wanted = dynamics::ShaftTorque(p.gearbox, demand.at_wheels_Nm, 1.0) / ratio;
     driving.throttle = std::clamp((wanted + torques.drag_Nm) / (torques.full_Nm + torques.drag_Nm), 0.0, 1.0);
   }
   if (driving.throttle > 0.0) return driving;
@@ -121,7 +121,7 @@ Driving DrivingIn(int gear, const Demand& demand, const Torques& torques) {
 Torques TorquesIn(int gear, const Demand& demand) { return {demand.car.settings().powertrain.engine, EngineIn_radps(gear, demand)}; }
 
 double AccelerationOf(const PlanarCar& car, const Driving& driving, double speed_mps, double resistance_N, const Torques& torques) {
-  const vehicle::BicycleSettings& of = car.settings();
+  const dynamics::BicycleSettings& of = car.settings();
   const double net_Nm = torques.Net(driving.throttle) * (driving.throttle > 0.0 ? 1.0 : 1.0 - driving.clutch);
   const double push_N = AtWheels(of.powertrain.gearbox, car.Ratio(driving.gear), net_Nm) / of.wheel.rolling_radius_m;
   const double brake_N = driving.brake * car.full_brake_N();
@@ -130,7 +130,7 @@ double AccelerationOf(const PlanarCar& car, const Driving& driving, double speed
 }
 
 double FuelFlow_mgps(const PlanarCar& car, const Driving& driving, const Torques& torques) {
-  const vehicle::EngineSettings& engine = car.settings().powertrain.engine;
+  const dynamics::EngineSettings& engine = car.settings().powertrain.engine;
   double indicated_Nm = driving.throttle * (torques.full_Nm + torques.drag_Nm);
   if (driving.clutch > 0.0) indicated_Nm = std::max(indicated_Nm, torques.drag_Nm);  // idle control
   return 1e6 * indicated_Nm * driving.engine_radps / (engine.indicated_efficiency * engine.heating_value_Jpkg);
@@ -159,7 +159,7 @@ double FuelFlow_mgps(const PlanarCar& car, const Driving& driving) {
 
 double AtMostBeforeChange_mps2(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double jerk_mps3) {
   if (acceleration_mps2 <= 0.0 || before.engine_radps <= 0.0 || before.gear >= car.gears()) return kFree_mps2;
-  const vehicle::BicycleSettings& of = car.settings();
+  const dynamics::BicycleSettings& of = car.settings();
   const double fastest_radps = of.powertrain.engine.resume_radps, ratio = car.Ratio(before.gear);
   const double changes_mps = fastest_radps / ratio * of.wheel.rolling_radius_m;
   if (speed_mps > changes_mps || changes_mps > speed_mps + kSoon_s * acceleration_mps2) return kFree_mps2;

@@ -21,7 +21,7 @@ struct Driving {
 struct Torques {
   double full_Nm = 0.0, drag_Nm = 0.0;
 
-  Torques(const vehicle::EngineSettings& engine, double radps);
+  Torques(const dynamics::EngineSettings& engine, double radps);
   double Net(double throttle) const { return throttle * (full_Nm + drag_Nm) - drag_Nm; }
 };
 
@@ -29,16 +29,16 @@ struct Torques {
 // is found once; the settings must outlive it.
 class PlanarCar {
  public:
-  PlanarCar(const vehicle::BicycleSettings& of);  // NOLINT: a car of the vehicle library is one
+  PlanarCar(const dynamics::BicycleSettings& of);  // NOLINT: a car of the vehicle library is one
 
-  const vehicle::BicycleSettings& settings() const { return *settings_; }
+  const dynamics::BicycleSettings& settings() const { return *settings_; }
   int gears() const { return static_cast<int>(ratios_.size()); }
   double Ratio(int gear) const { return ratios_[static_cast<std::size_t>(std::clamp(gear, 1, gears()) - 1)]; }  // the engine's speed over the wheels'
   double full_brake_N() const { return full_brake_N_; }
   const Torques& idling() const { return idling_; }  // at idle speed
 
  private:
-  const vehicle::BicycleSettings* settings_;
+  const dynamics::BicycleSettings* settings_;
   boost::container::small_vector<double, 8> ratios_;
   double full_brake_N_;
   Torques idling_;
@@ -55,7 +55,7 @@ Driving DriveOn(const PlanarCar& car, const Driving& before, double speed_mps, d
 // What these pedals give, by the torque curve and the drag of the engine, the gears and their losses, the brakes of four wheels, the drag of the air.
 // A car at rest is held by its brake.
 double AccelerationOf(const PlanarCar& car, const Driving& driving, double speed_mps, double grade);
-// What its engine burns then, mg/s: Willans' line as vehicle::Engine counts it; 0 in overrun, and what idling takes while the clutch slips.
+// What its engine burns then, mg/s: Willans' line as dynamics::Engine counts it; 0 in overrun, and what idling takes while the clutch slips.
 double FuelFlow_mgps(const PlanarCar& car, const Driving& driving);
 // The three of them of one step, to the bit, of an engine that is asked once.
 struct Driven {
@@ -69,8 +69,8 @@ Driven Drive(const PlanarCar& car, const Driving& before, double speed_mps, doub
 double AtMostBeforeChange_mps2(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double jerk_mps3);
 
 // What all four wheels push back with the pedal to the floor, while they roll.
-double FullBrake_N(const vehicle::BicycleSettings& car);
+double FullBrake_N(const dynamics::BicycleSettings& car);
 
-inline constexpr double kFuelDensity_mgpl = 1e6 * vehicle::kPetrol_kgpl;
+inline constexpr double kFuelDensity_mgpl = 1e6 * dynamics::kPetrol_kgpl;
 
 }  // namespace rodeira::traffic

@@ -17,13 +17,13 @@ constexpr double kSlows_mps2 = -0.3;
 constexpr double kSlipFrom_mps = 1.0;  // slower, the motion of the rear axle says nothing of its slip angle
 
 // What the driver knows of his car here and now: what its engine gives in the gear that is engaged.
-driver::PedalSettings PedalsOf(const vehicle::BicycleChassis& chassis, const vehicle::Powertrain& powertrain, double speed_mps, double wanted_mps2) {
-  const vehicle::BicycleSettings& car = chassis.settings;
-  const vehicle::PowertrainSettings& p = car.powertrain;
+driver::PedalSettings PedalsOf(const dynamics::BicycleChassis& chassis, const dynamics::Powertrain& powertrain, double speed_mps, double wanted_mps2) {
+  const dynamics::BicycleSettings& car = chassis.settings;
+  const dynamics::PowertrainSettings& p = car.powertrain;
   const double m = car.body.mass_kg, radius = car.wheel.rolling_radius_m;
-  const double ratio = vehicle::TotalRatio(p.gearbox, std::max(1, powertrain.gear()));
+  const double ratio = dynamics::TotalRatio(p.gearbox, std::max(1, powertrain.gear()));
   const double radps = std::max({p.engine.idle_radps, p.automatic.bite_radps, ratio * speed_mps / radius});
-  const double drag_Nm = vehicle::DragTorque(p.engine, radps), full_Nm = vehicle::FullLoadTorque(p.engine, radps);
+  const double drag_Nm = dynamics::DragTorque(p.engine, radps), full_Nm = dynamics::FullLoadTorque(p.engine, radps);
   const double engine_mps2 = p.gearbox.efficiency * ratio / (radius * m);  // of one newton metre
   driver::PedalSettings feet;
   feet.power_Wpkg = 1e6;
@@ -34,7 +34,7 @@ driver::PedalSettings PedalsOf(const vehicle::BicycleChassis& chassis, const veh
   const bool pushes = powertrain.engine().speed_radps() > kAsFast * ratio * speed_mps / radius;
   const double held = pushes ? 0.0 : 1.0 - powertrain.clutch(), drags = wanted_mps2 < 0.0 ? held : 1.0;
   // What turns with the wheels is to be sped up and slowed down as well: in a lorry's first gear the engine weighs as much as the lorry.
-  const double turning_kgm2 = vehicle::kWheels * car.wheel.inertia_kgm2 + held * ratio * ratio * p.engine.inertia_kgm2;
+  const double turning_kgm2 = dynamics::kWheels * car.wheel.inertia_kgm2 + held * ratio * ratio * p.engine.inertia_kgm2;
   const double turning_mps2 = wanted_mps2 * turning_kgm2 / (radius * radius * m);
   feet.rolling_mps2 = 9.81 * car.wheel.rolling_resistance + drags * engine_mps2 * drag_Nm + turning_mps2;
   feet.air_1pm = 0.5 * car.body.air_density_kgpm3 * car.body.drag_area_m2 / m;
@@ -43,7 +43,7 @@ driver::PedalSettings PedalsOf(const vehicle::BicycleChassis& chassis, const veh
 
 }  // namespace
 
-FullCars::FullCars(std::shared_ptr<terrain::Ground> ground, std::size_t agents) : ground_(std::move(ground)), controls_(agents), feet_(agents) {
+FullCars::FullCars(std::shared_ptr<ground::Ground> ground, std::size_t agents) : ground_(std::move(ground)), controls_(agents), feet_(agents) {
   for (std::uint32_t body = 0; body < kBodies; ++body) {
     const auto kind = cars_.AddKind(CarOfBody(body));
     RODEIRA_ASSERT(kind.ok() && kind.value() == body);
@@ -51,7 +51,7 @@ FullCars::FullCars(std::shared_ptr<terrain::Ground> ground, std::size_t agents) 
   cars_.Resize(agents);
 }
 
-base::Status FullCars::Place(std::uint32_t id, std::uint32_t body, const vehicle::InitialCondition& initial) {
+base::Status FullCars::Place(std::uint32_t id, std::uint32_t body, const dynamics::InitialCondition& initial) {
   if (const base::Status status = cars_.Place(id, body, initial, *ground_); !status) return status;
   controls_[id] = {};
   feet_[id] = {};
@@ -69,13 +69,13 @@ double FullCars::PlanSpeed_mps(std::uint32_t id) const {
   const Eigen::Vector2d v = cars_.car(id).body.VelocityAt(cars_.p_WB_W(id)).head<2>();
   if (v.norm() < kStanding_mps) return 0.0;
   const Eigen::Vector2d ahead = (cars_.car(id).body.q_WG * Eigen::Vector3d::UnitX()).head<2>().normalized(), left(-ahead.y(), ahead.x());
-  const double half = 0.5 * std::tan(cars_.chassis(id).SteerAngle(vehicle::kFrontLeft, controls_[id].steering_wheel_rad));
+  const double half = 0.5 * std::tan(cars_.chassis(id).SteerAngle(dynamics::kFrontLeft, controls_[id].steering_wheel_rad));
   return (v.dot(ahead) + half * v.dot(left)) / std::hypot(1.0, half);
 }
 
 double FullCars::SteeringWheel(std::uint32_t id, const PathAhead& path, double dt_s) const {
-  const vehicle::BicycleCar& car = cars_.car(id);
-  const vehicle::BicycleSettings& settings = cars_.chassis(id).settings;
+  const dynamics::BicycleCar& car = cars_.car(id);
+  const dynamics::BicycleSettings& settings = cars_.chassis(id).settings;
   const Eigen::Vector2d ahead = (car.body.q_WG * Eigen::Vector3d::UnitX()).head<2>().normalized(), left(-ahead.y(), ahead.x());
   const Eigen::Vector3d rear_W = cars_.p_WB_W(id) - 0.5 * settings.body.wheelbase_m * (car.body.q_WG * Eigen::Vector3d::UnitX());
   const Eigen::Vector2d v = car.body.VelocityAt(rear_W).head<2>();
@@ -86,10 +86,10 @@ double FullCars::SteeringWheel(std::uint32_t id, const PathAhead& path, double d
 }
 
 void FullCars::Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path, double dt_s) {
-  const vehicle::BicycleCar& car = cars_.car(id);
+  const dynamics::BicycleCar& car = cars_.car(id);
   const Eigen::Vector3d ahead_W = car.body.q_WG * Eigen::Vector3d::UnitX();
   const double speed = PlanSpeed_mps(id), grade = ahead_W.z() / std::max(1e-3, std::hypot(ahead_W.x(), ahead_W.y()));
-  vehicle::Controls& controls = controls_[id];
+  dynamics::Controls& controls = controls_[id];
   // Who slows down does not first make good the speed that his engine was too weak to come to.
   driver::Pedals& foot = feet_[id];
   if (wanted_mps2 < kSlows_mps2 && !foot.holds() && foot.throttle() > 0.0 && foot.reference_mps() > speed) foot.TakeOver(foot.throttle(), foot.brake(), speed);
@@ -102,16 +102,16 @@ void FullCars::Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path
 void FullCars::Step(double dt_s, base::Crew* crew) { cars_.Step(controls_, *ground_, dt_s, crew); }
 
 Driving FullCars::DrivingOf(std::uint32_t id) const {
-  const vehicle::Powertrain& powertrain = cars_.car(id).powertrain;
+  const dynamics::Powertrain& powertrain = cars_.car(id).powertrain;
   return {powertrain.engine().throttle(), controls_[id].brake, powertrain.clutch(), powertrain.engine().speed_radps(), powertrain.gear()};
 }
 
 void FullCars::Tell(std::uint32_t id, AgentPose& pose) const {
-  const vehicle::BicycleCar& car = cars_.car(id);
+  const dynamics::BicycleCar& car = cars_.car(id);
   pose.p_WB_W = cars_.p_WB_W(id);
   pose.q_WB = car.body.q_WG;
-  pose.steer_rad = cars_.chassis(id).SteerAngle(vehicle::kFrontLeft, controls_[id].steering_wheel_rad);
-  pose.wheel_spin_rad = car.wheels[vehicle::kFrontLeft].spin_rad;
+  pose.steer_rad = cars_.chassis(id).SteerAngle(dynamics::kFrontLeft, controls_[id].steering_wheel_rad);
+  pose.wheel_spin_rad = car.wheels[dynamics::kFrontLeft].spin_rad;
 }
 
 void FullCars::Save(base::StateWriter& writer) const {

@@ -20,26 +20,26 @@ struct PathAhead {
   double curvature_1pm = 0.0;                          // where the car is when hands and tyres have answered; positive to the left
 };
 
-// Agents' cars with full physics: each a car of vehicle::CarArray (four wheels on SUELO's ground, engine, clutch, gears, differential, brakes, drag),
+// Agents' cars with full physics: each a car of dynamics::CarArray (four wheels on SUELO's ground, engine, clutch, gears, differential, brakes, drag),
 // driven by throttle, brake and steering wheel alone.
 class FullCars {
  public:
   // So many places, one an agent.
-  FullCars(std::shared_ptr<terrain::Ground> ground, std::size_t agents);
+  FullCars(std::shared_ptr<ground::Ground> ground, std::size_t agents);
 
   // INI of an agent's car; refused as by BicycleModel::Initialise.
-  base::Status Place(std::uint32_t id, std::uint32_t body, const vehicle::InitialCondition& initial);
+  base::Status Place(std::uint32_t id, std::uint32_t body, const dynamics::InitialCondition& initial);
   void Clear(std::uint32_t id) { cars_.Clear(id); }
 
   // How hands and feet are held until the next decision, for an acceleration in the plane and to stay on the path. Of the agent's own alone.
   void Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path, double dt_s);
   // The same by hands and feet of somebody else.
-  void Hold(std::uint32_t id, const vehicle::Controls& controls) { controls_[id] = controls; }
+  void Hold(std::uint32_t id, const dynamics::Controls& controls) { controls_[id] = controls; }
   // Every car by its controls; by how large a crew (none: alone) changes no bit.
   void Step(double dt_s, base::Crew* crew);
 
-  const vehicle::CarArray& cars() const { return cars_; }
-  const vehicle::Controls& controls(std::uint32_t id) const { return controls_[id]; }
+  const dynamics::CarArray& cars() const { return cars_; }
+  const dynamics::Controls& controls(std::uint32_t id) const { return controls_[id]; }
   const driver::Pedals& foot(std::uint32_t id) const { return feet_[id]; }
   // Of its middle, in the plane, along the way on which its wheels roll, heading + atan(½ tan δ): less than its motion where it slides, and
   // below 0 where it rolls back. At less than a millimetre a second it stands.
@@ -57,9 +57,9 @@ class FullCars {
  private:
   double SteeringWheel(std::uint32_t id, const PathAhead& path, double dt_s) const;
 
-  std::shared_ptr<terrain::Ground> ground_;
-  vehicle::CarArray cars_;
-  std::vector<vehicle::Controls> controls_;  // by agent
+  std::shared_ptr<ground::Ground> ground_;
+  dynamics::CarArray cars_;
+  std::vector<dynamics::Controls> controls_;  // by agent
   std::vector<driver::Pedals> feet_;         // by agent
 };
 

@@ -20,7 +20,7 @@ double SteeredWay_m(double wheelbase_m, double speed_mps) { return std::max({kPr
 double AnsweredWay_m(double speed_mps) { return std::max(kAnswerLeast_m, kAnswer_s * speed_mps); }
 
 // The curvature that the rear axle is to follow: the path's, and what leads back to its line.
-double MovedWheel_rad(const vehicle::BicycleSettings& car, const RearBeside& rear, double now_rad, double dt_s) {
+double MovedWheel_rad(const dynamics::BicycleSettings& car, const RearBeside& rear, double now_rad, double dt_s) {
   const double wheelbase = car.body.wheelbase_m, way = SteeredWay_m(wheelbase, rear.speed_mps);
   const double curvature = rear.curvature_1pm - 2.0 * rear.turned_rad / way - rear.aside_m / (way * way);
   const double wanted = std::clamp(std::atan(wheelbase * curvature) * car.steering.ratio, -car.steering.limit_rad, car.steering.limit_rad);

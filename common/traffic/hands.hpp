@@ -22,6 +22,6 @@ double SteeredWay_m(double wheelbase_m, double speed_mps);
 double AnsweredWay_m(double speed_mps);
 
 // Where the steering wheel is after dt, radians, positive to the left: hands lead back to the line, critically damped over the steered way, at 12 rad/s at most.
-double MovedWheel_rad(const vehicle::BicycleSettings& car, const RearBeside& rear, double now_rad, double dt_s);
+double MovedWheel_rad(const dynamics::BicycleSettings& car, const RearBeside& rear, double now_rad, double dt_s);
 
 }  // namespace rodeira::traffic

@@ -4,9 +4,9 @@
 
 namespace rodeira::traffic {
 
-DemandSettings DemandOf(const map::Heights& companion, const std::filesystem::path& file) {
+DemandSettings DemandOf(const traffic_map::Heights& companion, const std::filesystem::path& file) {
   DemandSettings demand;
-  for (const map::LaneFlow& wish : companion.flows) {
+  for (const traffic_map::LaneFlow& wish : companion.flows) {
     FlowSettings flow;
     flow.lane = std::to_string(wish.lane);  // the road that the lane becomes
     flow.per_h = {wish.vehph};

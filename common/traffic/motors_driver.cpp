@@ -80,11 +80,11 @@ void MotorsDriver::Shift(double engine_radps, int gears, double dt_s) {
   pause_s_ = kPause_s;
 }
 
-vehicle::Controls MotorsDriver::Step(const MotorsView& view, const MotorsCar& car, double dt_s) {
+dynamics::Controls MotorsDriver::Step(const MotorsView& view, const MotorsCar& car, double dt_s) {
   const double wanted = responsiveness_ * SteeringAngle(view.to_path_rad, view.to_target_rad, TargetWeight(view.distance_m), car.most_steer_rad);
   const double most = aggression_radps_ * dt_s;
   steer_rad_ += std::clamp(wanted - steer_rad_, -most, most);
-  vehicle::Controls controls;
+  dynamics::Controls controls;
   const double target = view.stops ? 0.0 : TurningSpeed_mps(view.turn_rad, view.limit_mps);
   if (view.speed_mps < target) controls.throttle = MotorsThrottle(view.to_path_rad);
   else controls.brake = MotorsBrake(view.speed_mps - target, view.stops);
@@ -96,7 +96,7 @@ vehicle::Controls MotorsDriver::Step(const MotorsView& view, const MotorsCar& ca
   controls.steering_wheel_rad = steer_rad_ * car.steering_ratio;
   controls.gear = gear_;
   controls.starter = !view.engine_runs;
-  controls.gearbox = vehicle::GearboxMode::kManual;
+  controls.gearbox = dynamics::GearboxMode::kManual;
   return controls;
 }
 

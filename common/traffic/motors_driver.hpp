@@ -54,7 +54,7 @@ class MotorsDriver {
 
   // The car drives in this gear.
   void Begin(int gear);
-  vehicle::Controls Step(const MotorsView& view, const MotorsCar& car, double dt_s);
+  dynamics::Controls Step(const MotorsView& view, const MotorsCar& car, double dt_s);
 
   double steer_rad() const { return steer_rad_; }
   int gear() const { return gear_; }

@@ -129,8 +129,8 @@ void TrafficModel::GiveWay() {
 void TrafficModel::DriveMotors(std::uint32_t id, double dt_s) {
   MotorsDriver& driver = motors_[id];
   const Agent& agent = agents_[id];
-  const vehicle::BicycleCar& car = full_->cars().car(id);
-  const vehicle::BicycleSettings& settings = full_->cars().chassis(id).settings;
+  const dynamics::BicycleCar& car = full_->cars().car(id);
+  const dynamics::BicycleSettings& settings = full_->cars().chassis(id).settings;
   const Vector2d at = full_->cars().p_WB_W(id).head<2>(), ahead = (car.body.q_WG * Eigen::Vector3d::UnitX()).head<2>();
   const Vector2d current = MotorsPoint(driver, driver.checkpoint), target = MotorsPoint(driver, driver.checkpoint + 1);
   MotorsView view;
@@ -143,7 +143,7 @@ void TrafficModel::DriveMotors(std::uint32_t id, double dt_s) {
   view.stops = driver.stops || agent.brake_mps2 > 0.0;
   view.engine_radps = car.powertrain.engine().speed_radps();
   view.engine_runs = car.powertrain.engine().running();
-  const vehicle::EngineSettings& engine = settings.powertrain.engine;
+  const dynamics::EngineSettings& engine = settings.powertrain.engine;
   MotorsCar of;
   of.steering_ratio = settings.steering.ratio;
   of.most_steer_rad = settings.steering.limit_rad / settings.steering.ratio;

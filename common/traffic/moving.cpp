@@ -15,7 +15,7 @@ double TurnOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to) { return s
 }  // namespace
 
 // Who cannot stand where it was to begin waits to enter.
-void TrafficModel::StartFull(std::shared_ptr<terrain::Ground> ground) {
+void TrafficModel::StartFull(std::shared_ptr<ground::Ground> ground) {
   full_.emplace(std::move(ground), agents_.size());
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     if (!agents_[id].on_road || PlaceFull(id)) continue;
@@ -31,7 +31,7 @@ base::Status TrafficModel::PlaceFull(std::uint32_t id) {
   Agent& agent = agents_[id];
   const Eigen::Vector3d front = FrameOf(id, agent.o_m + HalfBase(id)).p_W, rear = FrameOf(id, agent.o_m - HalfBase(id)).p_W;
   const Eigen::Vector3d middle = 0.5 * (front + rear), along = front - rear;
-  vehicle::InitialCondition initial;
+  dynamics::InitialCondition initial;
   initial.x_m = middle.x(), initial.y_m = middle.y(), initial.z_hint_m = middle.z();
   initial.heading_rad = std::atan2(along.y(), along.x());
   initial.speed_mps = agent.speed_mps * along.norm() / along.head<2>().norm();  // along the car; an agent's is over the plan

@@ -53,7 +53,7 @@ class Watcher {
       if (pose.acceleration_mps2 < -kHard_mps2 && before_[k].acceleration_mps2 >= -kHard_mps2) Tell("brakes at {:.2f} m/s2", pose, -pose.acceleration_mps2);
       result_.hardest_mps2 = std::max(result_.hardest_mps2, -pose.acceleration_mps2);
       if (pose.speed_mps < kMoves_mps) continue;
-      const vehicle::BicycleSettings& car = CarOfBody(model.traits(pose.id).body);
+      const dynamics::BicycleSettings& car = CarOfBody(model.traits(pose.id).body);
       result_.foot_mps2 = std::max(result_.foot_mps2, model.agent(pose.id).driving.brake * FullBrake_N(car) / car.body.mass_kg);
     }
     if (result_.steps == 0) result_.began = static_cast<std::int64_t>(model.poses().size());

@@ -182,7 +182,7 @@ class Swinger {
   const lanes::Graph& graph_;
   const TrafficSettings& settings_;
   lanes::LargestCar largest_;
-  const vehicle::BicycleSettings* car_;
+  const dynamics::BicycleSettings* car_;
   driver::SpeedPlanSettings speed_;
   std::map<std::uint32_t, driver::SpeedPlan> plans_;  // by track
   lanes::Swings swings_;

@@ -18,7 +18,7 @@ constexpr std::array kNames{"car", "van", "lorry", "bus"};
 TightBend WorstOn(const lanes::Graph& graph, std::uint32_t track, std::uint32_t body) {
   const AgentTraits traits = TraitsOfBody(body);
   const double base = traits.wheelbase_m;
-  const vehicle::BicycleSettings& car = CarOfBody(body);
+  const dynamics::BicycleSettings& car = CarOfBody(body);
   const lanes::Curve& curve = graph[track].curve;
   TightBend worst{body, track, 0.0, 0.0, 0.0, -1.0, true, 0};
   for (double from = 0.0; from + base <= curve.length_m(); from += 0.5) {

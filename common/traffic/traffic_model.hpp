@@ -290,7 +290,7 @@ class TrafficModel {
   double Cap_mps(std::uint32_t id) const { return std::min(agents_[id].cap_mps, traits_[id].top_mps); }
   double StopAt(std::uint32_t id, double odometer_m, double share = 1.0) const;
   double Smoothed(std::uint32_t id, double wanted_mps2, double dt_s);
-  void StartFull(std::shared_ptr<terrain::Ground> ground);
+  void StartFull(std::shared_ptr<ground::Ground> ground);
   base::Status PlaceFull(std::uint32_t id);
   void MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s);
   void DriveFull(std::uint32_t id, double wanted_mps2, double dt_s);

@@ -25,7 +25,7 @@
 #include "launch/rodeira/commands/view_command.hpp"
 #include "launch/rodeira/commands/world_command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 constexpr const char* kVersion = "rodeira 0.1.0";
@@ -373,4 +373,4 @@ int Main(int argc, char** argv) {
   return Run(run);
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

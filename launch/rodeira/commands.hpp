@@ -1,8 +1,8 @@
 #pragma once
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // The front door: finds the command, reads its options, returns the exit status (docs/architecture.md).
 int Main(int argc, char** argv);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

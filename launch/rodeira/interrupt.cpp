@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 std::atomic<bool> g_interrupted = false;
@@ -21,4 +21,4 @@ void CatchInterrupts() {
 
 bool Interrupted() { return g_interrupted; }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

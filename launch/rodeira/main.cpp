@@ -1,3 +1,3 @@
 #include "launch/rodeira/commands.hpp"
 
-int main(int argc, char** argv) { return rodeira::front::Main(argc, argv); }
+int main(int argc, char** argv) { return rodeira::cli::Main(argc, argv); }

@@ -12,7 +12,7 @@
 
 #include "common/core/base/suggest.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 // The command that was being read, and how a person calls it.
@@ -159,4 +159,4 @@ std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem) 
   return problem.what();
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -5,7 +5,7 @@
 #include <vector>
 
 // What a person is told of a command line that is not right.
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // One of the words, or the sentence that names the nearest.
 CLI::Validator OneOf(std::vector<std::string> words);
@@ -27,4 +27,4 @@ CLI::Validator NewFile();
 // otherwise the parser's own words.
 std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -7,7 +7,7 @@
 #include "common/editor/export.hpp"
 #include "nodes/editor/work.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 using editor::Document;
@@ -122,8 +122,8 @@ void RunOrPause(Work& work) {
   }
   auto preview = editor::Preview::Start(work.session.document(), {static_cast<std::uint32_t>(traffic.vehicles), 1});
   if (!preview) {
-    for (const map::Finding& finding : work.session.Findings()) {
-      if (finding.severity != map::Severity::kError) continue;
+    for (const traffic_map::Finding& finding : work.session.Findings()) {
+      if (finding.severity != traffic_map::Severity::kError) continue;
       work.session.selection = editor::Chosen(finding);
       break;
     }
@@ -143,4 +143,4 @@ void StopTraffic(Work& work) {
   work.traffic.runs = false;
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 constexpr double kTremble_px = 3.0;  // a click may move so far
@@ -61,4 +61,4 @@ void Canvas::TakeKeys(Work& work) {
   work.view.Go({step_m * (held(SDL_SCANCODE_D) - held(SDL_SCANCODE_A)), step_m * (held(SDL_SCANCODE_W) - held(SDL_SCANCODE_S))});
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

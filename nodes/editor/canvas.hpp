@@ -8,7 +8,7 @@
 #include "nodes/editor/picture_painter.hpp"
 #include "nodes/editor/work.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 // Where the map is drawn, and what mouse and keys do there.
 class Canvas {
@@ -53,4 +53,4 @@ class Canvas {
   bool edited_ = false;                   // the gesture has its edit
 };
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -10,7 +10,7 @@
 #include "common/editor/snap.hpp"
 #include "nodes/editor/canvas.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 using editor::Document;
@@ -111,4 +111,4 @@ void Canvas::FinishTool(Work& work, const Eigen::Vector2d& from_W, const Eigen::
   if (work.session.Do([&](Document& document) { return editor::Place(document, work.placing, place); })) work.tool = Tool::kChoose;
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -7,7 +7,7 @@
 
 #include "nodes/editor/canvas.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 using editor::Document;
 
@@ -40,11 +40,11 @@ void Canvas::DrawNumbers(const Work& work) const {
     list.AddText(corner, colour, text.c_str());
   };
   if (work.view.metres_per_px > 1.0) return;
-  const map::NumberIndex curves(document.map.curves);
+  const traffic_map::NumberIndex curves(document.map.curves);
   for (const auto& line : document.map.lanes) {
     const auto left = curves.Find(line.value.left.curve), right = curves.Find(line.value.right.curve);
     if (!left || !right) continue;
-    const Eigen::Vector2d a = map::BorderOf(line.value.left, document.map.curves[*left].value, {}).plan.At(0.5), b = map::BorderOf(line.value.right, document.map.curves[*right].value, {}).plan.At(0.5);
+    const Eigen::Vector2d a = traffic_map::BorderOf(line.value.left, document.map.curves[*left].value, {}).plan.At(0.5), b = traffic_map::BorderOf(line.value.right, document.map.curves[*right].value, {}).plan.At(0.5);
     write(0.5 * (a + b), line.value.id, IM_COL32(140, 220, 255, 255));
   }
   for (const auto& line : document.map.curves) write(editor::CubicOf(line.value).At(0.4), line.value.id, IM_COL32(255, 235, 140, 255));
@@ -65,7 +65,7 @@ void Canvas::DrawGesture(const Work& work) const {
     return;
   }
   const Eigen::Vector2d to_W = work.view.ToWorld({static_cast<double>(b.x - area_.left), static_cast<double>(b.y - area_.top)});
-  const map::Cubic middle{editor::MiddleBetween(work.session.document(), pressed_W_, to_W, work.snap ? kSnap_px * work.view.metres_per_px : 0.0)};
+  const traffic_map::Cubic middle{editor::MiddleBetween(work.session.document(), pressed_W_, to_W, work.snap ? kSnap_px * work.view.metres_per_px : 0.0)};
   std::array<ImVec2, 4> p;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Eigen::Vector2d at = Screen(work, middle.p_W[i]);
@@ -74,4 +74,4 @@ void Canvas::DrawGesture(const Work& work) const {
   list.AddBezierCubic(p[0], p[1], p[2], p[3], kInk, static_cast<float>(std::max(2.0, work.look.width_m / work.view.metres_per_px)) * 0.5f);
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -6,19 +6,19 @@
 
 #include "nodes/editor/panels.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 using editor::Document;
 
-bool SideFields(Work& work, const std::string& name, map::LaneSide& side) {
+bool SideFields(Work& work, const std::string& name, traffic_map::LaneSide& side) {
   ImGui::PushID(name.c_str());
   int type = static_cast<int>(side.type);
   ImGui::AlignTextToFramePadding();
   ImGui::Text("%s curve %d", name.c_str(), side.curve);
   ImGui::SameLine();
   bool changed = Tick(work, name + " inverted", "inverted", side.inverted);
-  if (OneOf(work, name + " border", "border", type, kBorderNames, 150.0f)) side.type = static_cast<map::BorderType>(type), changed = true;
+  if (OneOf(work, name + " border", "border", type, kBorderNames, 150.0f)) side.type = static_cast<traffic_map::BorderType>(type), changed = true;
   ImGui::PopID();
   return changed;
 }
@@ -26,12 +26,12 @@ bool SideFields(Work& work, const std::string& name, map::LaneSide& side) {
 void DrawLane(Work& work, std::int32_t number) {
   const auto at = editor::Find(work.session.document().map.lanes, number);
   if (!at) return;
-  map::Lane lane = work.session.document().map.lanes[*at].value;
+  traffic_map::Lane lane = work.session.document().map.lanes[*at].value;
   ImGui::Text("lane %d", number);
   bool changed = SideFields(work, "left", lane.left);
   changed |= SideFields(work, "right", lane.right);
   int mode = static_cast<int>(lane.mode);
-  if (OneOf(work, "mode", "mode", mode, kModeNames, 150.0f)) lane.mode = static_cast<map::LaneMode>(mode), changed = true;
+  if (OneOf(work, "mode", "mode", mode, kModeNames, 150.0f)) lane.mode = static_cast<traffic_map::LaneMode>(mode), changed = true;
   if (changed) work.session.Do([&](Document& document) { return editor::SetLane(document, lane); });
 }
 
@@ -65,8 +65,8 @@ void DrawHeights(Work& work, std::int32_t curve) {
 }
 
 void DrawSigns(Work& work, std::int32_t lane) {
-  constexpr const char* kKinds[map::kSignKinds] = {"STOP", "give way", "priority", "speed limit"};
-  std::vector<map::LaneSign> signs = work.session.document().companion.signs;
+  constexpr const char* kKinds[traffic_map::kSignKinds] = {"STOP", "give way", "priority", "speed limit"};
+  std::vector<traffic_map::LaneSign> signs = work.session.document().companion.signs;
   bool changed = false;
   int number = 0;  // among this lane's
   for (std::size_t i = 0; i < signs.size() && !changed; ++i) {
@@ -75,11 +75,11 @@ void DrawSigns(Work& work, std::int32_t lane) {
     int kind = static_cast<int>(signs[i].kind);
     const std::string name = fmt::format("sign {}", ++number);
     if (OneOf(work, name, "##kind", kind, kKinds, 100.0f)) {
-      signs[i].kind = static_cast<map::SignKind>(kind);
-      if (signs[i].kind == map::SignKind::kSpeedLimit && signs[i].limit_kmh == 0.0) signs[i].limit_kmh = 30.0;
+      signs[i].kind = static_cast<traffic_map::SignKind>(kind);
+      if (signs[i].kind == traffic_map::SignKind::kSpeedLimit && signs[i].limit_kmh == 0.0) signs[i].limit_kmh = 30.0;
       changed = true;
     }
-    if (signs[i].kind == map::SignKind::kSpeedLimit) {
+    if (signs[i].kind == traffic_map::SignKind::kSpeedLimit) {
       ImGui::SameLine();
       changed |= Number(work, name + " limit", "km/h", signs[i].limit_kmh, "%.0f", 60.0f);
     }
@@ -87,13 +87,13 @@ void DrawSigns(Work& work, std::int32_t lane) {
     if (SmallButton(work, "delete " + name, "Delete")) signs.erase(signs.begin() + static_cast<std::ptrdiff_t>(i)), changed = true;
     ImGui::PopID();
   }
-  if (SmallButton(work, "add sign", "Add a sign at its end")) signs.push_back({lane, map::SignKind::kGiveWay, 0.0, 0.0, 0}), changed = true;
+  if (SmallButton(work, "add sign", "Add a sign at its end")) signs.push_back({lane, traffic_map::SignKind::kGiveWay, 0.0, 0.0, 0}), changed = true;
   if (changed) work.session.Do([&](Document& document) { return editor::SetSigns(document, signs); });
 }
 
 void DrawFlow(Work& work, std::int32_t lane) {
   const auto& flows = work.session.document().companion.flows;
-  const auto at = std::find_if(flows.begin(), flows.end(), [lane](const map::LaneFlow& flow) { return flow.lane == lane; });
+  const auto at = std::find_if(flows.begin(), flows.end(), [lane](const traffic_map::LaneFlow& flow) { return flow.lane == lane; });
   double vehph = at != flows.end() ? at->vehph : 0.0;
   if (Number(work, "flow", "vehicles an hour", vehph, "%.0f", 100.0f))
     work.session.Do([&](Document& document) { return editor::SetFlow(document, lane, vehph); });
@@ -122,7 +122,7 @@ void DrawBesidePanel(Work& work) {
   const auto at = editor::Find(work.session.document().map.lanes, number);
   if (!at) return;
   DrawSigns(work, number);
-  if (work.session.document().map.lanes[*at].value.mode == map::LaneMode::kStart) DrawFlow(work, number);
+  if (work.session.document().map.lanes[*at].value.mode == traffic_map::LaneMode::kStart) DrawFlow(work, number);
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

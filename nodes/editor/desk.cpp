@@ -12,7 +12,7 @@
 #include "common/core/base/user_folders.hpp"
 #include "nodes/editor/panels.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 constexpr float kSide_px = 300.0f, kStatus_px = 30.0f;
@@ -152,4 +152,4 @@ int RunDesk(const std::filesystem::path& file) {
   return 0;
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 #include "nodes/editor/canvas.hpp"
 #include "nodes/editor/work.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 // The drawing desk in its window. The window must outlive it.
 class Desk {
@@ -43,4 +43,4 @@ class Desk {
 // `rodeira edit [FILE.motors]`: until the window is closed. The exit status.
 int RunDesk(const std::filesystem::path& file);
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <system_error>
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ void FileDialog::Draw() {
   ImGui::EndPopup();
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 // Asks for a file: a folder's contents to click through, and a line to write a path into.
 class FileDialog {
@@ -33,4 +33,4 @@ class FileDialog {
   Chosen chosen_;
 };
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -5,7 +5,7 @@
 
 #include "nodes/editor/panels.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 using editor::Document;
@@ -49,8 +49,8 @@ Answer DrawLaneForm(Work& work) {
   }
   const Answer answer = Buttons(work, "Make the lane");
   if (answer != Answer::kYes) return answer;
-  const map::LaneSide left{form.left, form.left_inverted, static_cast<map::BorderType>(form.left_type)}, right{form.right, form.right_inverted, static_cast<map::BorderType>(form.right_type)};
-  work.session.Do([&](Document& document) { return editor::NewLane(document, left, right, static_cast<map::LaneMode>(form.mode)); });
+  const traffic_map::LaneSide left{form.left, form.left_inverted, static_cast<traffic_map::BorderType>(form.left_type)}, right{form.right, form.right_inverted, static_cast<traffic_map::BorderType>(form.right_type)};
+  work.session.Do([&](Document& document) { return editor::NewLane(document, left, right, static_cast<traffic_map::LaneMode>(form.mode)); });
   return answer;
 }
 
@@ -158,4 +158,4 @@ void DrawForms(Work& work) {
   ImGui::EndPopup();
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -1,6 +1,6 @@
 #include "nodes/editor/items.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 void Note(Work& work, const std::string& name) {
   if (!ImGui::IsItemVisible()) return;
@@ -76,4 +76,4 @@ bool Number(Work& work, const std::string& name, const char* label, double& valu
   return changed;
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 #include "nodes/editor/work.hpp"
 
 // What panels and forms are made of. Each writes down where it stands (Work::places) by a name, so that scripted hands find it.
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 // Where the item that was drawn last stands; nowhere where it cannot be seen.
 void Note(Work& work, const std::string& name);
@@ -24,4 +24,4 @@ bool OneOf(Work& work, const std::string& name, const char* label, int& value, s
 // A number that counts when its field is left, by Enter, Tab or a click elsewhere; Escape leaves it as it was. True: it has changed.
 bool Number(Work& work, const std::string& name, const char* label, double& value, const char* format, float width_px);
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

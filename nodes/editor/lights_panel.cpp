@@ -6,7 +6,7 @@
 
 #include "nodes/editor/panels.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 using Plans = std::vector<lights::LightPlan>;
@@ -79,4 +79,4 @@ void DrawLightsPanel(Work& work) {
   if (changed) work.session.Do([&](editor::Document& document) { return editor::SetLights(document, plans); });
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

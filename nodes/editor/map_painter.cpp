@@ -11,19 +11,19 @@
 #include "common/world/traffic_map/lane_shape.hpp"
 #include "common/view/scene/road_markings/stencils.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
-using map::BorderType;
+using traffic_map::BorderType;
 
 constexpr Colour kStart = {70, 190, 90, 110}, kEnd = {210, 80, 70, 110}, kPlain = {90, 130, 190, 100};
 constexpr Colour kLine = {245, 245, 245, 255}, kUnused = {255, 170, 60, 255}, kHandle = {255, 220, 90, 255}, kArm = {255, 220, 90, 120};
 constexpr Colour kLink = {120, 220, 255, 200}, kStop = {235, 40, 40, 255}, kGiveWay = {255, 150, 40, 255}, kPaint = {255, 255, 255, 255}, kLight = {80, 230, 110, 255};
 constexpr Colour kChosen = {255, 235, 60, 255}, kProposed = {255, 120, 255, 255};
 
-const Colour& ColourOf(map::LaneMode mode) {
-  if (mode == map::LaneMode::kStart) return kStart;
-  return mode == map::LaneMode::kEnd ? kEnd : kPlain;
+const Colour& ColourOf(traffic_map::LaneMode mode) {
+  if (mode == traffic_map::LaneMode::kStart) return kStart;
+  return mode == traffic_map::LaneMode::kEnd ? kEnd : kPlain;
 }
 
 bool IsDashed(BorderType type) { return type != BorderType::kNone && type != BorderType::kBoundary && type != BorderType::kSingle; }
@@ -50,21 +50,21 @@ void MapPainter::Begin(const editor::Viewport& view, int left_px, int below_px) 
 
 void MapPainter::Build(const editor::Document& document) {
   for (Vertices* vertices : {&grounds_, &paint_, &curves_, &links_, &bars_, &handle_lines_, &handles_}) vertices->clear();
-  const map::NumberIndex curves(document.map.curves), lanes(document.map.lanes);
+  const traffic_map::NumberIndex curves(document.map.curves), lanes(document.map.lanes);
   std::vector<bool> used(document.map.curves.size(), false), dashed(document.map.curves.size(), false);
-  std::vector<std::optional<map::Cubic>> middles(document.map.lanes.size());
+  std::vector<std::optional<traffic_map::Cubic>> middles(document.map.lanes.size());
   for (std::size_t i = 0; i < document.map.lanes.size(); ++i) {
-    const map::Lane& lane = document.map.lanes[i].value;
+    const traffic_map::Lane& lane = document.map.lanes[i].value;
     const auto left = curves.Find(lane.left.curve), right = curves.Find(lane.right.curve);
     if (left) used[*left] = true, dashed[*left] = IsDashed(lane.left.type);
     if (right) used[*right] = true, dashed[*right] = IsDashed(lane.right.type);
     if (!left || !right) continue;
-    const editor::Borders borders{map::BorderOf(lane.left, document.map.curves[*left].value, {}).plan, map::BorderOf(lane.right, document.map.curves[*right].value, {}).plan};
+    const editor::Borders borders{traffic_map::BorderOf(lane.left, document.map.curves[*left].value, {}).plan, traffic_map::BorderOf(lane.right, document.map.curves[*right].value, {}).plan};
     middles[i] = borders.Middle();
     shapes_.AddGround(grounds_, borders, ColourOf(lane.mode));
   }
   for (std::size_t i = 0; i < document.map.curves.size(); ++i) {
-    const map::Cubic cubic = editor::CubicOf(document.map.curves[i].value);
+    const traffic_map::Cubic cubic = editor::CubicOf(document.map.curves[i].value);
     shapes_.AddCurve(curves_, cubic, used[i] ? kLine : kUnused, dashed[i]);
     shapes_.AddLine(handle_lines_, cubic.p_W[0], cubic.p_W[1], kArm);
     shapes_.AddLine(handle_lines_, cubic.p_W[3], cubic.p_W[2], kArm);
@@ -80,21 +80,21 @@ void MapPainter::Build(const editor::Document& document) {
 }
 
 // The white paint where one stops or gives way, as large as it is on the road and as the view draws it.
-void MapPainter::AddLinesAcross(const editor::Document& document, const map::NumberIndex& lanes) {
+void MapPainter::AddLinesAcross(const editor::Document& document, const traffic_map::NumberIndex& lanes) {
   const auto add = [&](std::int32_t number, double before_end_m, bool stops) {
     const auto at = lanes.Find(number);
     const auto borders = at ? editor::BordersOf(document, document.map.lanes[*at].value) : std::nullopt;
     if (!borders) return;
-    const map::LaneShape lane({borders->left, {}}, {borders->right, {}});
-    const map::LanePoint place = lane.At(lane.length_m() - before_end_m - map::kLineBefore_m);
+    const traffic_map::LaneShape lane({borders->left, {}}, {borders->right, {}});
+    const traffic_map::LanePoint place = lane.At(lane.length_m() - before_end_m - traffic_map::kLineBefore_m);
     for (const auto& polygon : stops ? scene::StopLineShape(place.right_m, place.left_m) : scene::GiveWayShape(place.right_m, place.left_m))
       shapes_.AddPolygon(paint_, polygon, place.p_W, place.tangent_W, kPaint);
   };
   for (const auto& line : document.map.connections) {
     if (line.value.stop) add(line.value.from, 0.0, true);
   }
-  for (const map::LaneSign& sign : document.companion.signs) {
-    if (sign.kind == map::SignKind::kStop || sign.kind == map::SignKind::kGiveWay) add(sign.lane, sign.before_end_m, sign.kind == map::SignKind::kStop);
+  for (const traffic_map::LaneSign& sign : document.companion.signs) {
+    if (sign.kind == traffic_map::SignKind::kStop || sign.kind == traffic_map::SignKind::kGiveWay) add(sign.lane, sign.before_end_m, sign.kind == traffic_map::SignKind::kStop);
   }
   for (const lights::LightPlan& plan : document.companion.lights) {
     for (const std::string& name : plan.Names()) {
@@ -105,7 +105,7 @@ void MapPainter::AddLinesAcross(const editor::Document& document, const map::Num
 }
 
 // Lines at the ends of lanes: where a STOP or give-way sign stands, or a light.
-void MapPainter::AddBars(const editor::Document& document, const map::NumberIndex& lanes) {
+void MapPainter::AddBars(const editor::Document& document, const traffic_map::NumberIndex& lanes) {
   const auto add = [&](std::int32_t number, const Colour& colour) {
     const auto at = lanes.Find(number);
     const auto borders = at ? editor::BordersOf(document, document.map.lanes[*at].value) : std::nullopt;
@@ -114,9 +114,9 @@ void MapPainter::AddBars(const editor::Document& document, const map::NumberInde
   for (const auto& line : document.map.connections) {
     if (line.value.stop) add(line.value.from, kStop);
   }
-  for (const map::LaneSign& sign : document.companion.signs) {
-    if (sign.kind == map::SignKind::kStop) add(sign.lane, kStop);
-    if (sign.kind == map::SignKind::kGiveWay) add(sign.lane, kGiveWay);
+  for (const traffic_map::LaneSign& sign : document.companion.signs) {
+    if (sign.kind == traffic_map::SignKind::kStop) add(sign.lane, kStop);
+    if (sign.kind == traffic_map::SignKind::kGiveWay) add(sign.lane, kGiveWay);
   }
   for (const lights::LightPlan& plan : document.companion.lights) {
     for (const std::string& name : plan.Names()) {
@@ -182,4 +182,4 @@ void MapPainter::DrawProposals(const editor::Document& document, std::uint64_t s
   DrawVertices(lines, GL_LINES);
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

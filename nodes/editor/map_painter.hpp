@@ -9,7 +9,7 @@
 #include "common/editor/viewport.hpp"
 #include "nodes/editor/shapes.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 // Draws a map with OpenGL: ground of lanes, borders, connections, handles; what is chosen; traffic. What does not change from picture to picture is
 // worked out once.
@@ -26,8 +26,8 @@ class MapPainter {
   const std::vector<std::pair<std::int32_t, std::int32_t>>& proposals() const { return proposals_; }
 
  private:
-  void AddBars(const editor::Document& document, const map::NumberIndex& lanes);
-  void AddLinesAcross(const editor::Document& document, const map::NumberIndex& lanes);
+  void AddBars(const editor::Document& document, const traffic_map::NumberIndex& lanes);
+  void AddLinesAcross(const editor::Document& document, const traffic_map::NumberIndex& lanes);
   void Build(const editor::Document& document);
 
   Shapes shapes_;
@@ -37,4 +37,4 @@ class MapPainter {
   std::vector<std::pair<std::int32_t, std::int32_t>> proposals_;
 };
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

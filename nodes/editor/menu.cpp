@@ -5,7 +5,7 @@
 
 #include "nodes/editor/panels.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 // A key with what is held beside it, the same in the menu and in the hands.
@@ -115,4 +115,4 @@ void TakeShortcuts(Work& work) {
   }
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

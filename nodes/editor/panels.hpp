@@ -7,7 +7,7 @@
 #include "nodes/editor/work.hpp"
 
 // What stands around the canvas. Each draws itself with Dear ImGui and does what is asked there.
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 void DrawMenu(Work& work);
 // Keys that stand in the menu.
@@ -24,7 +24,7 @@ void DrawBackgroundPanel(Work& work);
 void DrawStatus(Work& work, float top, float width, float height);
 void DrawForms(Work& work);
 
-extern const char* const kBorderNames[map::kBorderTypes];
+extern const char* const kBorderNames[traffic_map::kBorderTypes];
 extern const char* const kModeNames[3];
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

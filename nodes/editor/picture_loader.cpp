@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 void PictureLoader::Stop() {
   if (!thread_.joinable()) return;
@@ -50,4 +50,4 @@ void PictureLoader::Look() {
   problem_ = std::exchange(found_problem_, {});
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -11,7 +11,7 @@
 
 #include "common/editor/background.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 // Reads the map's background beside the drawing, so that the desk stays usable meanwhile.
 class PictureLoader {
@@ -45,4 +45,4 @@ class PictureLoader {
   std::atomic<bool> stop_{false}, done_{false};
 };
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

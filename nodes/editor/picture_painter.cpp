@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kMostMade = 4;             // a picture
@@ -109,4 +109,4 @@ void PicturePainter::Draw(const std::shared_ptr<const editor::Pyramid>& picture,
   }
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

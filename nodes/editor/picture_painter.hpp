@@ -8,7 +8,7 @@
 #include "common/editor/background.hpp"
 #include "common/editor/viewport.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 // Draws the background by tiles of the level that fits the screen. Tiles become textures as they are needed, some a picture, so that no
 // picture waits long; until then the coarsest level is seen.
@@ -45,4 +45,4 @@ class PicturePainter {
   bool incomplete_ = false;
 };
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

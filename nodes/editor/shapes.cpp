@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kMostPieces = 24;
@@ -12,7 +12,7 @@ constexpr double kPiece_px = 12.0;
 
 }  // namespace
 
-int Shapes::PiecesOf(const map::Cubic& cubic) const {
+int Shapes::PiecesOf(const traffic_map::Cubic& cubic) const {
   return std::clamp(static_cast<int>(cubic.PolygonLength() / metres_per_px / kPiece_px), 2, kMostPieces);
 }
 
@@ -36,7 +36,7 @@ void Shapes::AddGround(Vertices& triangles, const editor::Borders& borders, cons
   }
 }
 
-void Shapes::AddCurve(Vertices& lines, const map::Cubic& cubic, const Colour& colour, bool dashed) const {
+void Shapes::AddCurve(Vertices& lines, const traffic_map::Cubic& cubic, const Colour& colour, bool dashed) const {
   const int pieces = dashed ? kMostPieces : PiecesOf(cubic);
   Eigen::Vector2d before = cubic.At(0.0);
   for (int i = 1; i <= pieces; ++i) {
@@ -46,7 +46,7 @@ void Shapes::AddCurve(Vertices& lines, const map::Cubic& cubic, const Colour& co
   }
 }
 
-void Shapes::AddLink(Vertices& lines, const map::Cubic& from, const map::Cubic& to, const Colour& colour) const {
+void Shapes::AddLink(Vertices& lines, const traffic_map::Cubic& from, const traffic_map::Cubic& to, const Colour& colour) const {
   const Eigen::Vector2d a = from.At(0.85), b = from.At(1.0), c = to.At(0.0), d = to.At(0.15);
   AddLine(lines, a, b, colour);
   AddLine(lines, b, c, colour);
@@ -81,4 +81,4 @@ void DrawVertices(const Vertices& vertices, unsigned mode) {
   glDisableClientState(GL_VERTEX_ARRAY);
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

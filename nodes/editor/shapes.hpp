@@ -8,7 +8,7 @@
 
 #include "common/editor/document.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 // Red, green, blue, opacity.
 using Colour = std::array<std::uint8_t, 4>;
@@ -27,15 +27,15 @@ struct Shapes {
   Eigen::Vector2d origin_W = Eigen::Vector2d::Zero();  // vertices are counted from here
   double metres_per_px = 0.1;                          // how fine curves must be
 
-  int PiecesOf(const map::Cubic& cubic) const;
+  int PiecesOf(const traffic_map::Cubic& cubic) const;
   Vertex At(const Eigen::Vector2d& p_W, const Colour& colour) const;
   void AddLine(Vertices& lines, const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Colour& colour) const;
   void AddGround(Vertices& triangles, const editor::Borders& borders, const Colour& colour) const;
-  void AddCurve(Vertices& lines, const map::Cubic& cubic, const Colour& colour, bool dashed = false) const;
-  void AddLink(Vertices& lines, const map::Cubic& from, const map::Cubic& to, const Colour& colour) const;
+  void AddCurve(Vertices& lines, const traffic_map::Cubic& cubic, const Colour& colour, bool dashed = false) const;
+  void AddLink(Vertices& lines, const traffic_map::Cubic& from, const traffic_map::Cubic& to, const Colour& colour) const;
   void AddRectangle(Vertices& triangles, const Eigen::Vector2d& middle, const Eigen::Vector2d& ahead, double half_length_m, double half_width_m, const Colour& colour) const;
   // Convex; laid at a place with its x axis ahead.
   void AddPolygon(Vertices& triangles, std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& place, const Eigen::Vector2d& ahead, const Colour& colour) const;
 };
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -5,9 +5,9 @@
 
 #include "nodes/editor/panels.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
-const char* const kBorderNames[map::kBorderTypes] = {"None", "Boundary", "Single", "Dashed", "DashedSame", "DashedSpeedCtrl", "DashedWarn", "DoubleDashed"};
+const char* const kBorderNames[traffic_map::kBorderTypes] = {"None", "Boundary", "Single", "Dashed", "DashedSame", "DashedSpeedCtrl", "DashedWarn", "DoubleDashed"};
 const char* const kModeNames[3] = {"none", "start", "end"};
 
 namespace {
@@ -16,7 +16,7 @@ namespace {
 void DrawLaneLook(Work& work) {
   Number(work, "lane width", "width, m", work.look.width_m, "%.2f", 100.0f);
   int mode = static_cast<int>(work.look.mode);
-  if (OneOf(work, "lane mode", "mode", mode, kModeNames, 100.0f)) work.look.mode = static_cast<map::LaneMode>(mode);
+  if (OneOf(work, "lane mode", "mode", mode, kModeNames, 100.0f)) work.look.mode = static_cast<traffic_map::LaneMode>(mode);
 }
 
 // `rows` lines of a list, of which only those that are seen are drawn.
@@ -70,9 +70,9 @@ void DrawBackgroundPanel(Work& work) {
 
 void DrawLists(Work& work) {
   editor::Selection gone;
-  const map::MapFile& map = work.session.document().map;
+  const traffic_map::MapFile& map = work.session.document().map;
   DrawList("lanes", map.lanes.size(), [&](std::size_t i) {
-    const map::Lane& lane = map.lanes[i].value;
+    const traffic_map::Lane& lane = map.lanes[i].value;
     const std::string name = fmt::format("lane {}", lane.id);
     if (SmallButton(work, "delete " + name, "Delete")) gone.lanes.insert(lane.id);
     ImGui::SameLine();
@@ -126,4 +126,4 @@ void DrawStatus(Work& work, float top, float width, float height) {
   ImGui::End();
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -4,7 +4,7 @@
 #include "common/view/scene/heat_map/heat_map.hpp"
 #include "nodes/editor/map_painter.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 void MapPainter::DrawHeat(const std::vector<editor::HeatPatch>& patches) {
   constexpr auto kOpacity = static_cast<std::uint8_t>(255.0 * scene::kHeatShare);
@@ -29,4 +29,4 @@ void MapPainter::DrawVehicles(const traffic::TrafficModel& model) {
   DrawVertices(triangles, GL_TRIANGLES);
 }
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

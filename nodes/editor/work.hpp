@@ -16,7 +16,7 @@
 #include "nodes/editor/file_dialog.hpp"
 #include "nodes/editor/picture_loader.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 // What the left button does on the canvas.
 enum class Tool { kChoose, kLane, kMeasure, kTemplate };
@@ -104,4 +104,4 @@ void AskToClose(Work& work);
 void RunOrPause(Work& work);
 void StopTraffic(Work& work);
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

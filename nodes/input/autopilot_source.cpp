@@ -18,8 +18,8 @@ namespace {
 namespace topics = idl::topics;
 
 // What the autopilot reads of a published state: pose and motion.
-vehicle::VehicleState FromWire(const msg::VehicleState& in) {
-  vehicle::VehicleState out;
+dynamics::VehicleState FromWire(const msg::VehicleState& in) {
+  dynamics::VehicleState out;
   out.p_WB_W = {in.position_w_m().x(), in.position_w_m().y(), in.position_w_m().z()};
   out.q_WB = {in.attitude_wb().w(), in.attitude_wb().x(), in.attitude_wb().y(), in.attitude_wb().z()};
   out.v_WB_W = {in.velocity_w_mps().x(), in.velocity_w_mps().y(), in.velocity_w_mps().z()};
@@ -48,12 +48,12 @@ class AutopilotSource final : public Source {
  public:
   // The way belongs to the world, which is kept alive.
   AutopilotSource(std::shared_ptr<const road::World> world, const driver::AutopilotSettings& settings,
-                  const vehicle::VehicleDimensions& dimensions, driver::WayAndLights way)
+                  const dynamics::VehicleDimensions& dimensions, driver::WayAndLights way)
       : world_(std::move(world)), dimensions_(dimensions), lines_(std::move(way.lines)), autopilot_(settings, std::move(way.way)) {}
 
-  vehicle::Controls First() override { return {}; }
+  dynamics::Controls First() override { return {}; }
 
-  base::Result<vehicle::Controls> Step(const lockstep::StepInfo& step, std::int64_t, const lockstep::Inbox& inbox) override {
+  base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t, const lockstep::Inbox& inbox) override {
     const auto own = idl::Decode<msg::VehicleState>(*inbox.Latest(topics::kVehicleState).payload);
     if (!own) return own.error();
     others_.clear();
@@ -63,13 +63,13 @@ class AutopilotSource final : public Source {
       for (const msg::TrafficAgent& agent : traffic.value().agents()) others_.push_back(FootprintOf(agent));
     }
     if (auto status = SeeLights(inbox); !status) return status.error();
-    const vehicle::VehicleState state = FromWire(own.value());
+    const dynamics::VehicleState state = FromWire(own.value());
     return autopilot_.Step({state, dimensions_, others_, lights_}, step.dt_s);
   }
 
   void Save(base::StateWriter& out) const override { out.Put("autopilot", autopilot_); }
   void Restore(base::StateReader& in) override { in.Get("autopilot", autopilot_); }
-  void TakeOver(const vehicle::Controls& last, const hands::Signals& /*signals*/) override { autopilot_.TakeOver(last); }
+  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& /*signals*/) override { autopilot_.TakeOver(last); }
 
  private:
   // Lights that nobody tells of are dark.
@@ -90,7 +90,7 @@ class AutopilotSource final : public Source {
   }
 
   std::shared_ptr<const road::World> world_;
-  vehicle::VehicleDimensions dimensions_;
+  dynamics::VehicleDimensions dimensions_;
   std::vector<driver::LightLine> lines_;
   driver::Autopilot autopilot_;
   std::vector<driver::Footprint> others_;
@@ -112,7 +112,7 @@ base::Result<std::unique_ptr<Source>> MakeAutopilotSource(const config::Map& con
                             config.Place());
   const auto settings = driver::LoadDriver(driver_file);
   if (!settings) return settings.error();
-  const auto model = vehicle::LoadVehicle(vehicle_file, context.launch().vehicle_model());
+  const auto model = dynamics::LoadVehicle(vehicle_file, context.launch().vehicle_model());
   if (!model) return model.error();
   auto world = road::World::Load(context.launch().world());
   if (!world) return world.error();

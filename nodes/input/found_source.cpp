@@ -30,7 +30,7 @@ struct Search {
 // Null: none of them was set up, or not well.
 std::unique_ptr<Source> OwnWheel(Search& search, const config::Map& config) {
   for (const JoystickInfo& info : search.connected) {
-    const std::filesystem::path file = hands::WheelFileOf(info.guid);
+    const std::filesystem::path file = input_devices::WheelFileOf(info.guid);
     std::error_code problem;
     if (!std::filesystem::exists(file, problem)) continue;
     auto source = OpenWheelFile(file, config, search.node);
@@ -43,11 +43,11 @@ std::unique_ptr<Source> OwnWheel(Search& search, const config::Map& config) {
 
 // Null: it cannot be guessed at. `why` it has to be.
 std::unique_ptr<Source> Guess(const Search& search, const JoystickInfo& info, const char* why) {
-  const auto wheel = hands::PlainWheel({"wheel", info.guid, ""}, static_cast<std::size_t>(info.axes), static_cast<std::size_t>(info.buttons));
+  const auto wheel = input_devices::PlainWheel({"wheel", info.guid, ""}, static_cast<std::size_t>(info.axes), static_cast<std::size_t>(info.buttons));
   if (!wheel) return nullptr;
   auto source = OpenWheel(*wheel, search.node);
   if (!source) return nullptr;
-  search.Say(fmt::format("'{}' drives by a guess: {}{}", info.name, hands::AxesText(*wheel), why));
+  search.Say(fmt::format("'{}' drives by a guess: {}{}", info.name, input_devices::AxesText(*wheel), why));
   return std::move(source).value();
 }
 
@@ -55,7 +55,7 @@ std::unique_ptr<Source> Guess(const Search& search, const JoystickInfo& info, co
 std::unique_ptr<Source> NewWheel(const Search& search) {
   for (const JoystickInfo& info : search.connected) {
     std::error_code problem;
-    if (!info.is_wheel || std::filesystem::exists(hands::WheelFileOf(info.guid), problem)) continue;
+    if (!info.is_wheel || std::filesystem::exists(input_devices::WheelFileOf(info.guid), problem)) continue;
     if (auto source = Guess(search, info, "; it was not set up: `rodeira input setup` finds its axes, ends and buttons")) return source;
   }
   return nullptr;
@@ -93,7 +93,7 @@ base::Result<std::unique_ptr<Source>> MakeFoundSource(const config::Map& config,
     search.Say(fmt::format("no wheel that was set up (`rodeira input setup`) and no game pad is there ({}); the windows' keys drive", ListJoysticks(search.connected)));
     return MakeKeyboardSource(config, context);
   }
-  return base::WrongInput(fmt::format("no 'wheel' is named, and none of the devices was set up (`rodeira input setup`) in {}; {}", hands::WheelFolder().string(), ListJoysticks(search.connected)),
+  return base::WrongInput(fmt::format("no 'wheel' is named, and none of the devices was set up (`rodeira input setup`) in {}; {}", input_devices::WheelFolder().string(), ListJoysticks(search.connected)),
                           config.Place());
 }
 

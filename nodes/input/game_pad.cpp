@@ -10,10 +10,10 @@
 namespace rodeira::nodes {
 namespace {
 
-using hands::PadButton;
+using input_devices::PadButton;
 
 // Names are those of SDL, which are an Xbox pad's (docs/laboratory.md).
-constexpr std::array<std::pair<PadButton, SDL_GameControllerButton>, hands::kPadButtons> kButtons = {{
+constexpr std::array<std::pair<PadButton, SDL_GameControllerButton>, input_devices::kPadButtons> kButtons = {{
     {PadButton::kGearUp, SDL_CONTROLLER_BUTTON_RIGHTSHOULDER},
     {PadButton::kGearDown, SDL_CONTROLLER_BUTTON_LEFTSHOULDER},
     {PadButton::kGearboxMode, SDL_CONTROLLER_BUTTON_DPAD_DOWN},

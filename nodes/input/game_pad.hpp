@@ -21,7 +21,7 @@ class GamePad {
 
   // Reads what it says; sees it come and go.
   void Update();
-  const hands::PadReading& reading() const { return reading_; }
+  const input_devices::PadReading& reading() const { return reading_; }
   // As it calls itself, once it was there.
   const std::string& name() const { return name_; }
 
@@ -31,7 +31,7 @@ class GamePad {
 
   _SDL_GameController* pad_ = nullptr;
   std::string name_;
-  hands::PadReading reading_;
+  input_devices::PadReading reading_;
 };
 
 }  // namespace rodeira::nodes

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMost = 32767.0;
 
-class HapticForce final : public hands::ForceDevice {
+class HapticForce final : public input_devices::ForceDevice {
  public:
   // Takes the device; `effect` is on it already.
   HapticForce(SDL_Haptic* haptic, int effect, const SDL_HapticEffect& told, bool inverted) : haptic_(haptic), effect_(effect), told_(told), inverted_(inverted) {}
@@ -44,7 +44,7 @@ SDL_HapticEffect NoForce() {
 
 }  // namespace
 
-std::unique_ptr<hands::ForceDevice> OpenHapticForce(_SDL_Joystick* joystick, bool inverted) {
+std::unique_ptr<input_devices::ForceDevice> OpenHapticForce(_SDL_Joystick* joystick, bool inverted) {
   if (joystick == nullptr || SDL_InitSubSystem(SDL_INIT_HAPTIC) != 0) return nullptr;
   SDL_Haptic* haptic = SDL_JoystickIsHaptic(joystick) == SDL_TRUE ? SDL_HapticOpenFromJoystick(joystick) : nullptr;
   if (haptic != nullptr && (SDL_HapticQuery(haptic) & SDL_HAPTIC_CONSTANT) != 0) {

@@ -19,7 +19,7 @@ namespace {
 
 namespace topics = idl::topics;
 
-msg::Controls ToWire(const vehicle::Controls& in, const hands::Signals& signals) {
+msg::Controls ToWire(const dynamics::Controls& in, const input_devices::Signals& signals) {
   msg::Controls out;
   out.steering_wheel_rad(in.steering_wheel_rad);
   out.throttle(in.throttle);
@@ -35,21 +35,21 @@ msg::Controls ToWire(const vehicle::Controls& in, const hands::Signals& signals)
   return out;
 }
 
-vehicle::Controls FromWire(const msg::Controls& in) {
-  vehicle::Controls out;
+dynamics::Controls FromWire(const msg::Controls& in) {
+  dynamics::Controls out;
   out.steering_wheel_rad = in.steering_wheel_rad();
   out.throttle = in.throttle();
   out.brake = in.brake();
   out.clutch = in.clutch();
   out.handbrake = in.handbrake();
   out.gear = in.gear();
-  out.gearbox = in.gearbox_mode() == 1 ? vehicle::GearboxMode::kManual : vehicle::GearboxMode::kAutomatic;
+  out.gearbox = in.gearbox_mode() == 1 ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
   out.starter = in.starter() != 0;
-  return vehicle::Cut(out);
+  return dynamics::Cut(out);
 }
 
-hands::Signals SignalsOf(const msg::Controls& in) {
-  return {static_cast<hands::Indicators>(in.indicators() % 4), static_cast<hands::Headlights>(in.headlights() % 3), in.horn() != 0};
+input_devices::Signals SignalsOf(const msg::Controls& in) {
+  return {static_cast<input_devices::Indicators>(in.indicators() % 4), static_cast<input_devices::Headlights>(in.headlights() % 3), in.horn() != 0};
 }
 
 class InputNode final : public lockstep::Node {
@@ -57,7 +57,7 @@ class InputNode final : public lockstep::Node {
   InputNode(std::unique_ptr<Source> source, std::int64_t base_step_ns) : source_(std::move(source)), base_step_ns_(base_step_ns) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
-    const vehicle::Controls first = source_->First();
+    const dynamics::Controls first = source_->First();
     outbox.Put(topics::kControls, idl::Encode(ToWire(first, source_->signals())));
     return {};
   }

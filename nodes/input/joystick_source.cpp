@@ -20,7 +20,7 @@ namespace {
 
 class JoystickSource final : public Source {
  public:
-  JoystickSource(std::string node, const hands::WheelSettings& settings, std::unique_ptr<Joysticks> joysticks, MotorOpener motor)
+  JoystickSource(std::string node, const input_devices::WheelSettings& settings, std::unique_ptr<Joysticks> joysticks, MotorOpener motor)
       : node_(std::move(node)),
         settings_(settings),
         driver_(settings),
@@ -29,9 +29,9 @@ class JoystickSource final : public Source {
         motor_(std::move(motor)),
         force_(settings.force, nullptr) {}
 
-  vehicle::Controls First() override { return driver_.controls(); }
+  dynamics::Controls First() override { return driver_.controls(); }
 
-  base::Result<vehicle::Controls> Step(const lockstep::StepInfo&, std::int64_t, const lockstep::Inbox& inbox) override {
+  base::Result<dynamics::Controls> Step(const lockstep::StepInfo&, std::int64_t, const lockstep::Inbox& inbox) override {
     const auto car = SeeCar(inbox);
     if (!car) return car.error();
     joysticks_->Update();
@@ -40,22 +40,22 @@ class JoystickSource final : public Source {
       readings_.push_back(joysticks_->reading(place));
       Tell(place, readings_.back().connected);
     }
-    const vehicle::Controls controls = driver_.Step(readings_, car.value().gear);
+    const dynamics::Controls controls = driver_.Step(readings_, car.value().gear);
     Feel(car.value());
     return controls;
   }
 
-  hands::Signals signals() const override { return driver_.signals(); }
+  input_devices::Signals signals() const override { return driver_.signals(); }
   bool is_brief() const override { return false; }  // SDL wants one thread
   void Save(base::StateWriter& out) const override { out.Put("wheel", driver_); }
   void Restore(base::StateReader& in) override { in.Get("wheel", driver_); }
-  void TakeOver(const vehicle::Controls& last, const hands::Signals& signals) override { driver_.TakeOver(last, signals); }
+  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override { driver_.TakeOver(last, signals); }
 
  private:
   // What the road gives back, to the hands: no part of the run. A wheel that is back has its motor anew.
   void Feel(const CarSeen& car) {
     if (!settings_.has_force) return;
-    _SDL_Joystick* wheel = joysticks_->joystick(settings_.AxisOf(hands::WheelAxis::kSteering)->device);
+    _SDL_Joystick* wheel = joysticks_->joystick(settings_.AxisOf(input_devices::WheelAxis::kSteering)->device);
     if (wheel != felt_) force_.Change(motor_(wheel, settings_.force_inverted));
     felt_ = wheel;
     if (!driver_.rim_rad()) return;
@@ -72,28 +72,28 @@ class JoystickSource final : public Source {
   }
 
   std::string node_;
-  hands::WheelSettings settings_;
-  hands::WheelDriver driver_;
+  input_devices::WheelSettings settings_;
+  input_devices::WheelDriver driver_;
   std::unique_ptr<Joysticks> joysticks_;
   std::vector<bool> there_;
   MotorOpener motor_;
   _SDL_Joystick* felt_ = nullptr;  // the wheel whose motor that is
-  std::vector<hands::DeviceReading> readings_;
-  hands::ForceDriver force_;  // before its joystick in dying
+  std::vector<input_devices::DeviceReading> readings_;
+  input_devices::ForceDriver force_;  // before its joystick in dying
 };
 
 // GUIDs of the launch file stand above those of the wheel file: the same file then serves several seats.
-void ReplaceGuids(const config::Map& config, hands::WheelSettings& settings) {
+void ReplaceGuids(const config::Map& config, input_devices::WheelSettings& settings) {
   const config::Map devices = config.OptionalChild("devices");
   std::vector<std::string> names;
-  for (const hands::DeviceUse& device : settings.devices) names.push_back(device.name);
+  for (const input_devices::DeviceUse& device : settings.devices) names.push_back(device.name);
   for (const std::string& name : devices.Keys()) {
     std::string guid = devices.Text(name);
     std::transform(guid.begin(), guid.end(), guid.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
       devices.Problem(name, fmt::format("the wheel file has no device '{}'{}", name, base::DidYouMean(name, names)));
-    } else if (!hands::IsGuid(guid)) {
+    } else if (!input_devices::IsGuid(guid)) {
       devices.Problem(
           name, fmt::format("'{}' is '{}'; a GUID of 32 hexadecimal digits was expected, as `rodeira joysticks` lists them", name,
                             guid));
@@ -106,9 +106,9 @@ void ReplaceGuids(const config::Map& config, hands::WheelSettings& settings) {
 }
 
 // Everything that the file names is there, now.
-base::Status CheckDevices(const hands::WheelSettings& settings, const Joysticks& joysticks) {
+base::Status CheckDevices(const input_devices::WheelSettings& settings, const Joysticks& joysticks) {
   for (std::size_t place = 0; place < settings.devices.size(); ++place) {
-    const hands::DeviceUse& device = settings.devices[place];
+    const input_devices::DeviceUse& device = settings.devices[place];
     if (joysticks.reading(place).connected) continue;
     return base::WrongInput(
         fmt::format("device '{}' with GUID {} is not there; {}", device.name, device.guid, ListJoysticks(joysticks.Connected())),
@@ -126,12 +126,12 @@ base::Status CheckDevices(const hands::WheelSettings& settings, const Joysticks&
     if (auto status = check(axis->device, axis->axis, joysticks.reading(axis->device).axes.size(), "axis", axis->place); !status)
       return status;
   }
-  std::vector<hands::ButtonUse> buttons;
+  std::vector<input_devices::ButtonUse> buttons;
   for (const auto& button : settings.buttons) {
     if (button) buttons.push_back(*button);
   }
   for (const auto& [gear, button] : settings.lever) buttons.push_back(button);
-  for (const hands::ButtonUse& use : buttons) {
+  for (const input_devices::ButtonUse& use : buttons) {
     if (auto status = check(use.device, use.button, joysticks.reading(use.device).buttons.size(), "button", use.place); !status)
       return status;
   }
@@ -140,18 +140,18 @@ base::Status CheckDevices(const hands::WheelSettings& settings, const Joysticks&
 
 }  // namespace
 
-base::Result<std::unique_ptr<Source>> OpenWheel(const hands::WheelSettings& settings, const std::string& node, MotorOpener motor) {
+base::Result<std::unique_ptr<Source>> OpenWheel(const input_devices::WheelSettings& settings, const std::string& node, MotorOpener motor) {
   auto joysticks = Joysticks::Start();
   if (!joysticks) return joysticks.error();
   std::vector<std::string> guids;
-  for (const hands::DeviceUse& device : settings.devices) guids.push_back(device.guid);
+  for (const input_devices::DeviceUse& device : settings.devices) guids.push_back(device.guid);
   joysticks.value()->Use(guids);
   if (auto status = CheckDevices(settings, *joysticks.value()); !status) return status.error();
   return std::unique_ptr<Source>(std::make_unique<JoystickSource>(node, settings, std::move(joysticks).value(), std::move(motor)));
 }
 
 base::Result<std::unique_ptr<Source>> OpenWheelFile(const std::filesystem::path& file, const config::Map& config, const std::string& node) {
-  auto settings = hands::LoadWheel(file);
+  auto settings = input_devices::LoadWheel(file);
   if (!settings) return settings.error();
   ReplaceGuids(config, settings.value());
   return OpenWheel(settings.value(), node);

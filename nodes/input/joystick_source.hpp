@@ -21,7 +21,7 @@ base::Result<std::unique_ptr<Source>> MakeJoystickSource(const config::Map& conf
 // collection.
 base::Result<std::unique_ptr<Source>> OpenWheelFile(const std::filesystem::path& file, const config::Map& config, const std::string& node);
 // `motor`: opens the force feedback of a joystick; null where it has none.
-using MotorOpener = std::function<std::unique_ptr<hands::ForceDevice>(_SDL_Joystick* joystick, bool inverted)>;
-base::Result<std::unique_ptr<Source>> OpenWheel(const hands::WheelSettings& settings, const std::string& node, MotorOpener motor = OpenHapticForce);
+using MotorOpener = std::function<std::unique_ptr<input_devices::ForceDevice>(_SDL_Joystick* joystick, bool inverted)>;
+base::Result<std::unique_ptr<Source>> OpenWheel(const input_devices::WheelSettings& settings, const std::string& node, MotorOpener motor = OpenHapticForce);
 
 }  // namespace rodeira::nodes

@@ -39,7 +39,7 @@ class Joysticks {
   // Devices to be read, by GUID; their readings come in this order. Two with the same GUID are taken as they come.
   void Use(const std::vector<std::string>& guids);
   // The one of this place in the list; empty where it is not there.
-  const hands::DeviceReading& reading(std::size_t place) const { return used_[place].reading; }
+  const input_devices::DeviceReading& reading(std::size_t place) const { return used_[place].reading; }
   const std::string& name(std::size_t place) const { return used_[place].name; }
   // SDL's own; null where it is not there. Another one, or none, after each Update.
   _SDL_Joystick* joystick(std::size_t place) const { return used_[place].joystick; }
@@ -49,7 +49,7 @@ class Joysticks {
     std::string guid;
     std::string name;  // as the device calls itself, once it was there
     _SDL_Joystick* joystick = nullptr;
-    hands::DeviceReading reading;
+    input_devices::DeviceReading reading;
   };
   Joysticks() = default;
   void OpenMissing();

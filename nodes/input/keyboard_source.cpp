@@ -9,23 +9,23 @@
 namespace rodeira::nodes {
 namespace {
 
-using hands::Action;
+using input_devices::Action;
 
 class KeyboardSource final : public Source {
  public:
-  KeyboardSource(const hands::KeyboardSettings& settings, std::unique_ptr<launch::LiveKeysReceiver> keys)
+  KeyboardSource(const input_devices::KeyboardSettings& settings, std::unique_ptr<launch::LiveKeysReceiver> keys)
       : settings_(settings), driver_(settings), keys_(std::move(keys)) {}
 
-  vehicle::Controls First() override { return driver_.controls(); }
+  dynamics::Controls First() override { return driver_.controls(); }
 
-  base::Result<vehicle::Controls> Step(const lockstep::StepInfo& step, std::int64_t, const lockstep::Inbox& inbox) override {
+  base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t, const lockstep::Inbox& inbox) override {
     const auto car = SeeCar(inbox);
     if (!car) return car.error();
     const launch::KeysNow now = keys_->Take();
-    hands::KeyboardInput input;
-    for (std::size_t action = 0; action < hands::kActions; ++action) {
+    input_devices::KeyboardInput input;
+    for (std::size_t action = 0; action < input_devices::kActions; ++action) {
       const auto& keys = settings_.keys[action];
-      input.held[action] = std::any_of(keys.begin(), keys.end(), [&](hands::Key key) { return now.Holds(key); });
+      input.held[action] = std::any_of(keys.begin(), keys.end(), [&](input_devices::Key key) { return now.Holds(key); });
     }
     input.lever.up = Presses(now, Action::kGearUp);
     input.lever.down = Presses(now, Action::kGearDown);
@@ -40,20 +40,20 @@ class KeyboardSource final : public Source {
     return driver_.Step(input, step.dt_s);
   }
 
-  hands::Signals signals() const override { return driver_.signals(); }
+  input_devices::Signals signals() const override { return driver_.signals(); }
   void Save(base::StateWriter& out) const override { out.Put("keyboard", driver_); }
   void Restore(base::StateReader& in) override { in.Get("keyboard", driver_); }
-  void TakeOver(const vehicle::Controls& last, const hands::Signals& signals) override { driver_.TakeOver(last, signals); }
+  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override { driver_.TakeOver(last, signals); }
 
  private:
   std::uint32_t Presses(const launch::KeysNow& now, Action action) const {
     std::uint32_t presses = 0;
-    for (const hands::Key key : settings_.KeysOf(action)) presses += now.PressesOf(key);
+    for (const input_devices::Key key : settings_.KeysOf(action)) presses += now.PressesOf(key);
     return presses;
   }
 
-  hands::KeyboardSettings settings_;
-  hands::KeyboardDriver driver_;
+  input_devices::KeyboardSettings settings_;
+  input_devices::KeyboardDriver driver_;
   std::unique_ptr<launch::LiveKeysReceiver> keys_;
 };
 
@@ -62,7 +62,7 @@ class KeyboardSource final : public Source {
 base::Result<std::unique_ptr<Source>> MakeKeyboardSource(const config::Map& config, launch::NodeContext& context) {
   const std::filesystem::path file = config.Path("keyboard");
   if (auto status = context.launch().file().Finish(); !status) return status.error();
-  const auto settings = hands::LoadKeyboard(file);
+  const auto settings = input_devices::LoadKeyboard(file);
   if (!settings) return settings.error();
   auto keys = context.KeysReceiver();
   RODEIRA_ASSERT(keys != nullptr);

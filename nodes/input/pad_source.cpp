@@ -15,9 +15,9 @@ class PadSource final : public Source {
  public:
   PadSource(std::string node, std::unique_ptr<GamePad> pad) : node_(std::move(node)), pad_(std::move(pad)) {}
 
-  vehicle::Controls First() override { return driver_.controls(); }
+  dynamics::Controls First() override { return driver_.controls(); }
 
-  base::Result<vehicle::Controls> Step(const lockstep::StepInfo& step, std::int64_t, const lockstep::Inbox& inbox) override {
+  base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t, const lockstep::Inbox& inbox) override {
     const auto car = SeeCar(inbox);
     if (!car) return car.error();
     pad_->Update();
@@ -25,11 +25,11 @@ class PadSource final : public Source {
     return driver_.Step(pad_->reading(), car.value().gear, car.value().speed_mps, step.dt_s);
   }
 
-  hands::Signals signals() const override { return driver_.signals(); }
+  input_devices::Signals signals() const override { return driver_.signals(); }
   bool is_brief() const override { return false; }  // SDL wants one thread
   void Save(base::StateWriter& out) const override { out.Put("pad", driver_); }
   void Restore(base::StateReader& in) override { in.Get("pad", driver_); }
-  void TakeOver(const vehicle::Controls& last, const hands::Signals& signals) override { driver_.TakeOver(last, signals); }
+  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override { driver_.TakeOver(last, signals); }
 
  private:
   // To the person, once for each time.
@@ -40,7 +40,7 @@ class PadSource final : public Source {
   }
 
   std::string node_;
-  hands::PadDriver driver_;
+  input_devices::PadDriver driver_;
   std::unique_ptr<GamePad> pad_;
   bool there_ = true;
 };

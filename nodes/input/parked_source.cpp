@@ -15,9 +15,9 @@ class Parked final : public Source {
  public:
   explicit Parked(std::unique_ptr<Source> person) : person_(std::move(person)) {}
 
-  vehicle::Controls First() override { return person_->First(); }
+  dynamics::Controls First() override { return person_->First(); }
 
-  base::Result<vehicle::Controls> Step(const lockstep::StepInfo& step, std::int64_t valid_ns, const lockstep::Inbox& inbox) override {
+  base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t valid_ns, const lockstep::Inbox& inbox) override {
     auto controls = person_->Step(step, valid_ns, inbox);
     if (!controls) return controls;
     if (!begun_) {
@@ -26,7 +26,7 @@ class Parked final : public Source {
       begun_ = true;
       parked_ = std::fabs(car.value().speed_mps) < kStands_mps;
     }
-    vehicle::Controls& now = controls.value();
+    dynamics::Controls& now = controls.value();
     const bool pulls = now.handbrake > kPulled;
     if (now.throttle > kPressed || (pulls_ && !pulls)) parked_ = false;
     pulls_ = pulls;
@@ -34,7 +34,7 @@ class Parked final : public Source {
     return controls;
   }
 
-  hands::Signals signals() const override { return person_->signals(); }
+  input_devices::Signals signals() const override { return person_->signals(); }
   bool is_brief() const override { return person_->is_brief(); }
 
   void Save(base::StateWriter& out) const override {
@@ -51,7 +51,7 @@ class Parked final : public Source {
   }
 
   // Whoever takes over a car whose handbrake is pulled finds it so.
-  void TakeOver(const vehicle::Controls& last, const hands::Signals& signals) override {
+  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override {
     person_->TakeOver(last, signals);
     begun_ = true;
     parked_ = last.handbrake > kPulled && last.throttle <= kPressed;

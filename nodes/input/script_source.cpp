@@ -14,7 +14,7 @@
 namespace rodeira::nodes {
 namespace {
 
-using vehicle::Controls;
+using dynamics::Controls;
 
 std::vector<std::string> Split(std::string_view line) {
   std::vector<std::string> cells;
@@ -49,7 +49,7 @@ const std::vector<Column>& Columns() {
       {"clutch", 0.0, 1.0, [](Controls& c, double x) { c.clutch = x; }},
       {"handbrake", 0.0, 1.0, [](Controls& c, double x) { c.handbrake = x; }},
       {"gear", -1.0, 20.0, [](Controls& c, double x) { c.gear = static_cast<std::int32_t>(x); }, true},
-      {"manual", 0.0, 1.0, [](Controls& c, double x) { c.gearbox = x != 0.0 ? vehicle::GearboxMode::kManual : vehicle::GearboxMode::kAutomatic; }, true},
+      {"manual", 0.0, 1.0, [](Controls& c, double x) { c.gearbox = x != 0.0 ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic; }, true},
       {"starter", 0.0, 1.0, [](Controls& c, double x) { c.starter = x != 0.0; }, true},
   };
   return kColumns;
@@ -148,7 +148,7 @@ class ScriptSource final : public Source {
   }
   void Save(base::StateWriter&) const override {}  // a function of time alone
   void Restore(base::StateReader&) override {}
-  void TakeOver(const Controls&, const hands::Signals&) override {}
+  void TakeOver(const Controls&, const input_devices::Signals&) override {}
 
  private:
   Script script_;

@@ -18,12 +18,12 @@ class Script {
   // file:line otherwise.
   static base::Result<Script> Parse(std::string_view text, const std::filesystem::path& name);
 
-  vehicle::Controls At(double time_s) const;
+  dynamics::Controls At(double time_s) const;
 
  private:
   struct Row {
     double time_s = 0.0;
-    vehicle::Controls controls;
+    dynamics::Controls controls;
   };
   std::vector<Row> rows_;
 };

@@ -58,9 +58,9 @@ class RoadService final : public launch::Service {
 
  private:
   std::shared_ptr<const road::World> world_;
-  std::unique_ptr<terrain::Ground> ground_;
-  std::vector<terrain::GroundQuery> queries_;
-  std::vector<terrain::GroundPoint> points_;
+  std::unique_ptr<ground::Ground> ground_;
+  std::vector<ground::GroundQuery> queries_;
+  std::vector<ground::GroundPoint> points_;
 };
 
 }  // namespace

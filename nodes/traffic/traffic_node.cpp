@@ -297,7 +297,7 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
   context.set_world_hash(world.value()->content_hash());
   if (const std::filesystem::path map = context.launch().world(); road::IsTrafficMap(map)) {
     if (auto status = traffic::CheckLightsOfMap(map); !status) return status.error();
-    const auto companion = map::LoadHeightsOf(map);
+    const auto companion = traffic_map::LoadHeightsOf(map);
     if (companion && !companion.value().flows.empty() && settings.demand.flows.empty()) {
       fmt::print(stderr, "rodeira: node '{}': warning: {}.yaml: 'flows_vehph' are for 'rodeira traffic run' and the editor; in a run the traffic's own 'flows' say who comes\n", context.spec().name, map.string());
     }

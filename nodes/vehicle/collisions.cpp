@@ -15,16 +15,16 @@ namespace {
 constexpr std::uint32_t kInWorld = 0, kAgent = 1;  // collision.idl; another node's car is an agent by its stream, with the id 0
 
 // The same of another node's car, which turns as well.
-vehicle::Obstacle BoxOf(const msg::VehicleState& wire, double late_s) {
-  const vehicle::VehicleState car = FromWire(wire);
-  vehicle::VehicleDimensions dimensions;
+dynamics::Obstacle BoxOf(const msg::VehicleState& wire, double late_s) {
+  const dynamics::VehicleState car = FromWire(wire);
+  dynamics::VehicleDimensions dimensions;
   dimensions.front_m = static_cast<double>(wire.front_m());
   dimensions.rear_m = static_cast<double>(wire.length_m()) - dimensions.front_m;
   dimensions.width_m = static_cast<double>(wire.width_m());
   dimensions.height_m = static_cast<double>(wire.height_m());
-  const vehicle::BodyBox box = vehicle::BoxOf(dimensions, {});
+  const dynamics::BodyBox box = dynamics::BoxOf(dimensions, {});
   const Eigen::Vector3d middle_W = car.q_WB * box.centre_B;
-  vehicle::Obstacle obstacle;
+  dynamics::Obstacle obstacle;
   obstacle.q_WO = car.q_WB;
   obstacle.w_WO_W = car.q_WB * car.w_WB_B;
   obstacle.v_WO_W = car.v_WB_W + obstacle.w_WO_W.cross(middle_W);
@@ -34,15 +34,15 @@ vehicle::Obstacle BoxOf(const msg::VehicleState& wire, double late_s) {
 }
 
 // The agent's box `late_s` after it was there.
-vehicle::Obstacle BoxOf(const msg::TrafficAgent& agent, double late_s) {
-  const vehicle::CollisionSettings settings;
+dynamics::Obstacle BoxOf(const msg::TrafficAgent& agent, double late_s) {
+  const dynamics::CollisionSettings settings;
   const double half_length = 0.5 * static_cast<double>(agent.length_m());
-  vehicle::VehicleDimensions dimensions;
+  dynamics::VehicleDimensions dimensions;
   dimensions.front_m = dimensions.rear_m = half_length;
   dimensions.width_m = static_cast<double>(agent.width_m());
   dimensions.height_m = static_cast<double>(agent.height_m());
-  const vehicle::BodyBox box = vehicle::BoxOf(dimensions, settings);
-  vehicle::Obstacle obstacle;
+  const dynamics::BodyBox box = dynamics::BoxOf(dimensions, settings);
+  dynamics::Obstacle obstacle;
   obstacle.q_WO = Eigen::AngleAxisd(static_cast<double>(agent.heading_rad()), Eigen::Vector3d::UnitZ()) *
                   Eigen::AngleAxisd(static_cast<double>(agent.pitch_rad()), Eigen::Vector3d::UnitY()) *
                   Eigen::AngleAxisd(static_cast<double>(agent.roll_rad()), Eigen::Vector3d::UnitX());
@@ -54,10 +54,10 @@ vehicle::Obstacle BoxOf(const msg::TrafficAgent& agent, double late_s) {
 
 }  // namespace
 
-Collisions::Collisions(const vehicle::VehicleDimensions& dimensions, ObstacleMap world)
-    : world_(std::move(world)), space_(dimensions, {}), reach_m_(vehicle::BoxOf(dimensions, {}).reach_m()) {}
+Collisions::Collisions(const dynamics::VehicleDimensions& dimensions, ObstacleMap world)
+    : world_(std::move(world)), space_(dimensions, {}), reach_m_(dynamics::BoxOf(dimensions, {}).reach_m()) {}
 
-base::Status Collisions::SeeTraffic(const vehicle::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step) {
+base::Status Collisions::SeeTraffic(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step) {
   if (!inbox.Has(idl::topics::kTrafficState)) return {};
   for (const lockstep::Sample& sample : inbox.All(idl::topics::kTrafficState)) {
     Said& said = said_[sample.source()];
@@ -77,12 +77,12 @@ base::Status Collisions::SeeTraffic(const vehicle::VehicleState& car, const lock
   return {};
 }
 
-base::Status Collisions::SeeCars(const vehicle::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step) {
+base::Status Collisions::SeeCars(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step) {
   if (!inbox.Has(idl::topics::kVehicleState)) return {};
   for (const lockstep::Sample& sample : inbox.All(idl::topics::kVehicleState)) {
     const auto state = idl::Decode<msg::VehicleState>(*sample.payload);
     if (!state) return state.error();
-    const vehicle::Obstacle box = BoxOf(state.value(), static_cast<double>(step.time_ns - sample.header.time_ns) * 1e-9);
+    const dynamics::Obstacle box = BoxOf(state.value(), static_cast<double>(step.time_ns - sample.header.time_ns) * 1e-9);
     if ((box.centre_W - car.p_WB_W).norm() > reach_m_ + box.half_m.norm()) continue;
     obstacles_.push_back(box);
     partners_.push_back({kAgent, sample.source(), 0});
@@ -90,14 +90,14 @@ base::Status Collisions::SeeCars(const vehicle::VehicleState& car, const lockste
   return {};
 }
 
-void Collisions::SeeWorld(const vehicle::VehicleState& car) {
+void Collisions::SeeWorld(const dynamics::VehicleState& car) {
   for (const std::uint32_t number : world_.Near(car.p_WB_W)) {
     obstacles_.push_back(world_.all()[number]);
     partners_.push_back({kInWorld, 0, number});
   }
 }
 
-msg::Collision Collisions::EventOf(const vehicle::Impact& impact, double dt_s) const {
+msg::Collision Collisions::EventOf(const dynamics::Impact& impact, double dt_s) const {
   const Partner& partner = partners_[impact.id];
   const auto single = [](double value) { return static_cast<float>(value); };
   msg::Collision out;
@@ -120,18 +120,18 @@ msg::Collision Collisions::EventOf(const vehicle::Impact& impact, double dt_s) c
   return out;
 }
 
-base::Result<Collisions::Touched> Collisions::Find(const vehicle::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step) {
+base::Result<Collisions::Touched> Collisions::Find(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step) {
   obstacles_.clear();
   partners_.clear();
   if (auto status = SeeTraffic(car, inbox, step); !status) return status.error();
   if (auto status = SeeCars(car, inbox, step); !status) return status.error();
   SeeWorld(car);
   for (std::size_t i = 0; i < obstacles_.size(); ++i) obstacles_[i].id = i;
-  const std::vector<vehicle::Impact> impacts = space_.Touch(car, obstacles_);
+  const std::vector<dynamics::Impact> impacts = space_.Touch(car, obstacles_);
   Touched touched;
-  touched.push = vehicle::WrenchOf(impacts);
+  touched.push = dynamics::WrenchOf(impacts);
   std::vector<std::uint64_t> keys;
-  for (const vehicle::Impact& impact : impacts) {
+  for (const dynamics::Impact& impact : impacts) {
     msg::Collision event = EventOf(impact, step.dt_s);
     event.index(static_cast<std::uint32_t>(keys.size()));
     touched.event.collisions().push_back(std::move(event));

@@ -18,14 +18,14 @@ namespace rodeira::nodes {
 // car's state, the inbox and which partners the step before touched; only these are its state.
 class Collisions {
  public:
-  Collisions(const vehicle::VehicleDimensions& dimensions, ObstacleMap world);
+  Collisions(const dynamics::VehicleDimensions& dimensions, ObstacleMap world);
 
   struct Touched {
-    vehicle::Wrench push;  // on the car, for the step that begins now
+    dynamics::Wrench push;  // on the car, for the step that begins now
     msg::Collisions event;  // the same as impulses over that step
   };
   // For the step that begins. Agents are where their last published speed has carried them since.
-  base::Result<Touched> Find(const vehicle::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
+  base::Result<Touched> Find(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
@@ -45,18 +45,18 @@ class Collisions {
     msg::TrafficState state;
   };
 
-  base::Status SeeTraffic(const vehicle::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
-  base::Status SeeCars(const vehicle::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
-  void SeeWorld(const vehicle::VehicleState& car);
-  msg::Collision EventOf(const vehicle::Impact& impact, double dt_s) const;
+  base::Status SeeTraffic(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
+  base::Status SeeCars(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
+  void SeeWorld(const dynamics::VehicleState& car);
+  msg::Collision EventOf(const dynamics::Impact& impact, double dt_s) const;
 
   ObstacleMap world_;
-  vehicle::CollisionSpace space_;
+  dynamics::CollisionSpace space_;
   double reach_m_;
   std::vector<std::uint64_t> touched_;  // partners of the last step
   std::map<std::uint32_t, Said> said_;  // by stream
   // Of one step.
-  std::vector<vehicle::Obstacle> obstacles_;
+  std::vector<dynamics::Obstacle> obstacles_;
   std::vector<Partner> partners_;
 };
 

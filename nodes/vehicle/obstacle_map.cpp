@@ -180,7 +180,7 @@ void ObstacleMap::AddWall(const std::string& name, const Vector3d& from_W, const
 
 void ObstacleMap::AddBox(const std::string& name, const Vector3d& foot_W, double heading_rad, const Vector3d& size_m, bool stands) {
   const double low = stands ? -kBelow_m : 0.0, high = stands ? std::max(size_m.z(), kTall_m) : size_m.z();
-  vehicle::Obstacle box;
+  dynamics::Obstacle box;
   box.id = obstacles_.size();
   box.centre_W = foot_W + 0.5 * (low + high) * Vector3d::UnitZ();
   box.q_WO = Eigen::AngleAxisd(heading_rad, Vector3d::UnitZ());

@@ -26,7 +26,7 @@ class ObstacleMap {
   ObstacleMap(const road::World& world, double reach_m);
 
   // Their ids are their numbers.
-  std::span<const vehicle::Obstacle> all() const { return obstacles_; }
+  std::span<const dynamics::Obstacle> all() const { return obstacles_; }
   // The object's or the tunnel's id in the roads' file.
   const std::string& NameOf(std::size_t number) const { return names_[number]; }
   // Numbers, ascending, of all that a car whose B is at p_W may touch, and some around.
@@ -49,7 +49,7 @@ class ObstacleMap {
   void AddBox(const std::string& name, const Eigen::Vector3d& foot_W, double heading_rad, const Eigen::Vector3d& size_m, bool stands);
 
   double reach_m_ = 0.0;
-  std::vector<vehicle::Obstacle> obstacles_;
+  std::vector<dynamics::Obstacle> obstacles_;
   std::vector<std::string> names_;
   std::map<Cell, std::vector<std::uint32_t>> cells_;
 };

@@ -26,8 +26,8 @@ namespace topics = idl::topics;
 class VehicleNode final : public lockstep::Node {
  public:
   // `own`: null where the ground is asked for elsewhere.
-  VehicleNode(std::string name, lockstep::SourceIndex state_source, std::unique_ptr<vehicle::VehicleModel> model, const vehicle::InitialCondition& initial, std::unique_ptr<terrain::Ground> own,
-              terrain::Ground& ground, std::optional<Collisions> collisions)
+  VehicleNode(std::string name, lockstep::SourceIndex state_source, std::unique_ptr<dynamics::VehicleModel> model, const dynamics::InitialCondition& initial, std::unique_ptr<ground::Ground> own,
+              ground::Ground& ground, std::optional<Collisions> collisions)
       : name_(std::move(name)), state_source_(state_source), model_(std::move(model)), initial_(initial), own_ground_(std::move(own)), ground_(ground), collisions_(std::move(collisions)) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
@@ -63,7 +63,7 @@ class VehicleNode final : public lockstep::Node {
     if (newest == published.rend()) return base::WrongInput("no published state of the car was found");
     const auto state = idl::Decode<msg::VehicleState>(*newest->payload);
     if (!state) return state.error();
-    return model_->Initialise(vehicle::FromState(FromWire(state.value())), ground_);
+    return model_->Initialise(dynamics::FromState(FromWire(state.value())), ground_);
   }
 
   void Save(base::StateWriter& out) const override {
@@ -93,7 +93,7 @@ class VehicleNode final : public lockstep::Node {
     return {};
   }
   void Place(const scenario::PlaceChoice& place, double heading_deg) {
-    vehicle::InitialCondition there;
+    dynamics::InitialCondition there;
     there.x_m = place.x_m, there.y_m = place.y_m;
     if (place.z_m) there.z_hint_m = *place.z_m;
     there.heading_rad = heading_deg * geometry::kPi / 180.0;
@@ -110,9 +110,9 @@ class VehicleNode final : public lockstep::Node {
 
   std::string name_;
   lockstep::SourceIndex state_source_;
-  std::unique_ptr<vehicle::VehicleModel> model_;
-  vehicle::InitialCondition initial_;
-  std::unique_ptr<terrain::Ground> own_ground_;
+  std::unique_ptr<dynamics::VehicleModel> model_;
+  dynamics::InitialCondition initial_;
+  std::unique_ptr<ground::Ground> own_ground_;
   weather::WetGround ground_;  // of the newest weather: no state of its own
   std::optional<Collisions> collisions_;  // nothing: the car touches nobody
 };
@@ -132,7 +132,7 @@ base::Result<std::shared_ptr<const road::World>> OwnWorld(const launch::NodeCont
 
 struct Settings {
   std::filesystem::path vehicle;
-  vehicle::InitialCondition initial;
+  dynamics::InitialCondition initial;
   bool own_place = false, own_heading = false;  // otherwise the world's
   bool asks = false;                            // for the ground, at each step
   std::string hits;                             // all, traffic, none
@@ -155,13 +155,13 @@ Settings Read(const config::Map& config) {
   return settings;
 }
 
-std::optional<Collisions> CollisionsOf(const std::string& hits, const vehicle::VehicleModel& model, const road::World* world, const std::string& node) {
+std::optional<Collisions> CollisionsOf(const std::string& hits, const dynamics::VehicleModel& model, const road::World* world, const std::string& node) {
   if (hits == "none") return std::nullopt;
   if (!model.can_be_pushed()) {
     fmt::print(stderr, "rodeira: node '{}': the FMU has no inputs push_x_N … push_moment_z_Nm: collisions are told, but do not move the car\n", node);
   }
-  const vehicle::VehicleDimensions& dimensions = model.dimensions();
-  ObstacleMap map = hits == "all" && world != nullptr ? ObstacleMap(*world, vehicle::BoxOf(dimensions, {}).reach_m()) : ObstacleMap();
+  const dynamics::VehicleDimensions& dimensions = model.dimensions();
+  ObstacleMap map = hits == "all" && world != nullptr ? ObstacleMap(*world, dynamics::BoxOf(dimensions, {}).reach_m()) : ObstacleMap();
   return std::make_optional<Collisions>(dimensions, std::move(map));
 }
 
@@ -170,7 +170,7 @@ std::optional<Collisions> CollisionsOf(const std::string& hits, const vehicle::V
 base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContext& context) {
   Settings settings = Read(context.config());
   if (auto status = context.launch().file().Finish(); !status) return status.error();
-  auto model = vehicle::LoadVehicle(settings.vehicle, context.launch().vehicle_model());
+  auto model = dynamics::LoadVehicle(settings.vehicle, context.launch().vehicle_model());
   if (!model) return model.error();
   const auto summary = context.World();
   if (!summary) return summary.error();
@@ -187,8 +187,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContex
     if (!made) return made.error();
     world = std::move(made).value();
   }
-  std::unique_ptr<terrain::Ground> own = own_ground ? world->MakeGround() : nullptr;
-  terrain::Ground& ground = own != nullptr ? *own : context.Ground();
+  std::unique_ptr<ground::Ground> own = own_ground ? world->MakeGround() : nullptr;
+  ground::Ground& ground = own != nullptr ? *own : context.Ground();
   std::optional<Collisions> collisions = CollisionsOf(settings.hits, *model.value(), world.get(), context.spec().name);
   return std::unique_ptr<lockstep::Node>(std::make_unique<VehicleNode>(context.spec().name, context.spec().outputs.front(), std::move(model).value(), settings.initial,
                                                                        std::move(own), ground, std::move(collisions)));

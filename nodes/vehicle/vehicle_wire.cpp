@@ -36,7 +36,7 @@ msg::Vector3f Measured(const Eigen::Vector3d& v) {
   return out;
 }
 
-msg::WheelState Wheel(const vehicle::WheelState& in, const vehicle::VehicleState& car) {
+msg::WheelState Wheel(const dynamics::WheelState& in, const dynamics::VehicleState& car) {
   msg::WheelState out;
   out.hub_b_m(Measured(in.hub_B));
   out.steer_rad(Measured(in.steer_rad));
@@ -62,21 +62,21 @@ msg::WheelState Wheel(const vehicle::WheelState& in, const vehicle::VehicleState
 
 }  // namespace
 
-vehicle::Controls FromWire(const msg::Controls& in) {
-  vehicle::Controls out;
+dynamics::Controls FromWire(const msg::Controls& in) {
+  dynamics::Controls out;
   out.steering_wheel_rad = in.steering_wheel_rad();
   out.throttle = in.throttle();
   out.brake = in.brake();
   out.clutch = in.clutch();
   out.handbrake = in.handbrake();
   out.gear = in.gear();
-  out.gearbox = in.gearbox_mode() == 1 ? vehicle::GearboxMode::kManual : vehicle::GearboxMode::kAutomatic;
+  out.gearbox = in.gearbox_mode() == 1 ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
   out.starter = in.starter() != 0;
-  return vehicle::Cut(out);
+  return dynamics::Cut(out);
 }
 
-vehicle::VehicleState FromWire(const msg::VehicleState& in) {
-  vehicle::VehicleState out;
+dynamics::VehicleState FromWire(const msg::VehicleState& in) {
+  dynamics::VehicleState out;
   out.p_WB_W = {in.position_w_m().x(), in.position_w_m().y(), in.position_w_m().z()};
   out.q_WB = {in.attitude_wb().w(), in.attitude_wb().x(), in.attitude_wb().y(), in.attitude_wb().z()};
   out.v_WB_W = {in.velocity_w_mps().x(), in.velocity_w_mps().y(), in.velocity_w_mps().z()};
@@ -100,7 +100,7 @@ std::uint32_t LightsOf(const msg::Controls& controls, int gear) {
   return lights;
 }
 
-msg::VehicleState ToWire(const vehicle::VehicleState& state, const vehicle::VehicleDimensions& dimensions) {
+msg::VehicleState ToWire(const dynamics::VehicleState& state, const dynamics::VehicleDimensions& dimensions) {
   msg::VehicleState out;
   out.position_w_m(Vector(state.p_WB_W));
   out.attitude_wb().w(state.q_WB.w());
@@ -111,7 +111,7 @@ msg::VehicleState ToWire(const vehicle::VehicleState& state, const vehicle::Vehi
   out.angular_velocity_b_radps(Vector(state.w_WB_B));
   out.acceleration_w_mps2(Measured(state.a_WB_W));
   out.angular_acceleration_b_radps2(Measured(state.alpha_WB_B));
-  for (std::size_t i = 0; i < vehicle::kWheels; ++i) out.wheels()[i] = Wheel(state.wheels[i], state);
+  for (std::size_t i = 0; i < dynamics::kWheels; ++i) out.wheels()[i] = Wheel(state.wheels[i], state);
   out.engine_speed_radps(state.engine_speed_radps);
   out.engine_torque_nm(Measured(state.engine_torque_Nm));
   out.clutch(Single(state.clutch));

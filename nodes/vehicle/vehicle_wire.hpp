@@ -9,11 +9,11 @@
 
 namespace rodeira::nodes {
 
-vehicle::Controls FromWire(const msg::Controls& in);
+dynamics::Controls FromWire(const msg::Controls& in);
 // Pose, speeds, gear and engine of a published state: what a model needs to go on from it.
-vehicle::VehicleState FromWire(const msg::VehicleState& in);
+dynamics::VehicleState FromWire(const msg::VehicleState& in);
 // Which lights shine (bits as in vehicle.idl) under these controls in this gear; indicators without their flashing.
 std::uint32_t LightsOf(const msg::Controls& controls, int gear);
-msg::VehicleState ToWire(const vehicle::VehicleState& state, const vehicle::VehicleDimensions& dimensions);
+msg::VehicleState ToWire(const dynamics::VehicleState& state, const dynamics::VehicleDimensions& dimensions);
 
 }  // namespace rodeira::nodes

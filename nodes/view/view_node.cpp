@@ -31,7 +31,7 @@ base::Result<std::vector<scenario::Event>> EventsOf(const base::Bytes& payload) 
 
 class ViewNode final : public lockstep::Node {
  public:
-  ViewNode(const lockstep::Roster& roster, std::string name, view::ViewSettings settings, std::unique_ptr<view::Stage> stage)
+  ViewNode(const lockstep::Roster& roster, std::string name, nodes::ViewSettings settings, std::unique_ptr<nodes::Stage> stage)
       : roster_(roster), name_(std::move(name)), settings_(std::move(settings)), stage_(std::move(stage)) {}
 
   base::Status Initialise(lockstep::Outbox&) override { return {}; }
@@ -43,7 +43,7 @@ class ViewNode final : public lockstep::Node {
     if (auto status = Take(inbox, info.step - info.period, info.step); !status) return status;
     if (stage_ == nullptr || !stage_->has_window()) return {};
     if (auto status = TellEvents(inbox); !status) return status;
-    auto moment = view::MakeMoment(roster_, info.step, newest_);
+    auto moment = nodes::MakeMoment(roster_, info.step, newest_);
     if (!moment) return moment.error();
     stage_->Show(std::move(moment).value());
     return {};
@@ -94,7 +94,7 @@ class ViewNode final : public lockstep::Node {
     for (const std::string_view topic : {topics::kVehicleState, topics::kTrafficState, topics::kTrafficDetails, topics::kSignalsState, topics::kWeatherState}) {
       if (!inbox.Has(topic)) continue;
       for (const Sample& sample : inbox.All(topic)) {
-        if (view::SaysSomething(topic, *sample.payload)) samples.push_back(&sample);
+        if (nodes::SaysSomething(topic, *sample.payload)) samples.push_back(&sample);
       }
     }
     std::stable_sort(samples.begin(), samples.end(), [](const Sample* a, const Sample* b) { return a->valid() < b->valid(); });
@@ -124,33 +124,33 @@ class ViewNode final : public lockstep::Node {
   }
 
   base::Status WriteFrame(lockstep::Step step) {
-    auto moment = view::MakeMoment(roster_, step, newest_);
+    auto moment = nodes::MakeMoment(roster_, step, newest_);
     if (!moment) return moment.error();
-    return stage_->Order(view::PictureOf(settings_, std::move(moment).value()), settings_.folder / view::FrameName(step));
+    return stage_->Order(nodes::PictureOf(settings_, std::move(moment).value()), settings_.folder / nodes::FrameName(step));
   }
 
   const lockstep::Roster& roster_;
   std::string name_;
-  view::ViewSettings settings_;
-  std::unique_ptr<view::Stage> stage_;  // null: nothing is drawn
-  view::NewestSamples newest_;
+  nodes::ViewSettings settings_;
+  std::unique_ptr<nodes::Stage> stage_;  // null: nothing is drawn
+  nodes::NewestSamples newest_;
   lockstep::Step taken_through_ = -1;
 };
 
 }  // namespace
 
 base::Result<std::unique_ptr<lockstep::Node>> MakeViewNode(launch::NodeContext& context) {
-  auto settings = view::ReadViewSettings(context);
+  auto settings = nodes::ReadViewSettings(context);
   if (!settings) return settings.error();
-  const auto read = [&context]() -> base::Result<view::ReadWorld> {
-    auto world = view::WorldOf(context.launch());
+  const auto read = [&context]() -> base::Result<nodes::ReadWorld> {
+    auto world = nodes::WorldOf(context.launch());
     if (!world) return world.error();
     if (!context.launch().world().empty()) context.set_world_hash(world.value()->content_hash());
-    view::FoundBuilt built = view::FindBuilt(context.launch().world(), *world.value());
+    nodes::FoundBuilt built = nodes::FindBuilt(context.launch().world(), *world.value());
     if (!built.remark.empty()) fmt::print(stderr, "rodeira: node '{}': {}\n", context.spec().name, built.remark);
-    return view::ReadWorld{std::move(world).value(), std::move(built.folder)};
+    return nodes::ReadWorld{std::move(world).value(), std::move(built.folder)};
   };
-  auto stage = view::Stage::Open(settings.value(), read, settings.value().drives ? context.KeysSender() : nullptr,
+  auto stage = nodes::Stage::Open(settings.value(), read, settings.value().drives ? context.KeysSender() : nullptr,
                                  settings.value().can_ask ? context.RequestsSender() : nullptr);
   if (!stage) return stage.error();
   return std::unique_ptr<lockstep::Node>(

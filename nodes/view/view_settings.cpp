@@ -14,7 +14,7 @@
 #include "common/runtime/launch/lab.hpp"
 #include "idl/topics.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // The cars' streams, as the view's port is wired.
@@ -86,19 +86,19 @@ void ReadWheelButtons(const launch::Launch& launch, const launch::LaunchNode& no
     settings.camera_buttons.push_back({"", 0, true});
     return settings.camera_buttons.push_back({"", kPadCameraButton});
   }
-  const auto wheel = hands::PeekWheel((launch.path().parent_path() / *file).lexically_normal(),
+  const auto wheel = input_devices::PeekWheel((launch.path().parent_path() / *file).lexically_normal(),
                                       [&](const std::string& device) { return node.config->Peek({"config", "devices", device}); });
-  const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(hands::WheelButton::kCamera)] : std::optional<hands::ButtonUse>();
+  const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(input_devices::WheelButton::kCamera)] : std::optional<input_devices::ButtonUse>();
   if (use) settings.camera_buttons.push_back({wheel->devices[use->device].guid, static_cast<int>(use->button)});
 }
 
-bool Drives(const hands::KeyboardSettings& keyboard, int mouse_button) {
-  const auto holds = [&](const std::vector<hands::Key>& keys) { return std::find(keys.begin(), keys.end(), hands::kMouse + static_cast<hands::Key>(mouse_button)) != keys.end(); };
+bool Drives(const input_devices::KeyboardSettings& keyboard, int mouse_button) {
+  const auto holds = [&](const std::vector<input_devices::Key>& keys) { return std::find(keys.begin(), keys.end(), input_devices::kMouse + static_cast<input_devices::Key>(mouse_button)) != keys.end(); };
   return std::any_of(std::begin(keyboard.keys), std::end(keyboard.keys), holds);
 }
 
 // The first button from this one on, in the order in which a window takes one, that the keyboard file leaves alone.
-int FreeButton(const hands::KeyboardSettings& keyboard, int mouse_button) {
+int FreeButton(const input_devices::KeyboardSettings& keyboard, int mouse_button) {
   constexpr std::array kOrder = {kLeftButton, kRightButton, kMiddleButton};
   for (auto button = std::find(kOrder.begin(), kOrder.end(), mouse_button); button != kOrder.end(); ++button) {
     if (!Drives(keyboard, *button)) return *button;
@@ -118,9 +118,9 @@ void ReadDriving(const launch::Launch& launch, ViewSettings& settings) {
     if (source != "keyboard" && !falls_back) continue;
     settings.drives = true;
     if (!file) continue;
-    const auto keyboard = hands::LoadKeyboard((launch.path().parent_path() / *file).lexically_normal());
+    const auto keyboard = input_devices::LoadKeyboard((launch.path().parent_path() / *file).lexically_normal());
     if (!keyboard) continue;
-    settings.driving_help = hands::KeyboardHelp(keyboard.value());
+    settings.driving_help = input_devices::KeyboardHelp(keyboard.value());
     settings.mouse_button = FreeButton(keyboard.value(), settings.mouse_button);
   }
 }
@@ -276,10 +276,10 @@ base::Result<std::shared_ptr<const road::World>> WorldOf(const launch::Launch& l
   if (!launch.world().empty()) return road::World::Load(launch.world());
   road::WorldSpec level;  // a run without a world stands on a level plane
   level.plane = road::PlaneSpec{};
-  level.terrain_surface = terrain::Surface::kAsphalt;
+  level.terrain_surface = ground::Surface::kAsphalt;
   return road::World::Make(std::move(level));
 }
 
 std::string FrameName(lockstep::Step step) { return fmt::format("step_{:09}.png", step); }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

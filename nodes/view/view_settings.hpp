@@ -18,7 +18,7 @@
 #include "nodes/view/frame/quality.hpp"
 #include "nodes/view/window/wheel_buttons.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 enum class WindowWish { kAuto, kAlways, kNever };
 
@@ -88,4 +88,4 @@ base::Result<std::shared_ptr<const road::World>> WorldOf(const launch::Launch& l
 // "step_000012340.png": the frame of a step.
 std::string FrameName(lockstep::Step step);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

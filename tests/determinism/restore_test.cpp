@@ -34,7 +34,7 @@ void ExpectRestorable(const std::string& launch_file) {
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
   // Steps that are no round numbers, and no multiples of anybody's period.
   const lockstep::Step every = 1500 + static_cast<lockstep::Step>(base::RandomBits({static_cast<std::uint64_t>(::getpid())}) % 997);
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   lockstep::InProcessSettings settings;
   settings.last_step = kLast;

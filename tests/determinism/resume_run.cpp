@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   if (argc != 5) return 2;
   const auto launch = launch::Launch::Load(argv[1]);
   if (!launch) return 2;
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   if (!nodes) {
     std::fprintf(stderr, "%s\n", nodes.error().Text().c_str());
     return 2;

@@ -9,7 +9,7 @@
 #include "common/world/traffic_map/map_network.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace rodeira::map;
+  using namespace rodeira::traffic_map;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const auto file = ParseMap(bytes, "fuzz.motors");
   if (!file) return 0;

@@ -132,10 +132,10 @@ TEST(TextFiles, TyreProperties) {
   const std::string good = "[UNITS]\nLENGTH ='meter'\nANGLE = 'radians'\n[MODEL]\nFITTYP = 61 $version\n[VERTICAL]\nFNOMIN = 4000\n[LONGITUDINAL_COEFFICIENTS]\n"
                            "PCX1 = 1.6\nPDX1 = 1.1\nPKX1 = 2.1E1\n{x y}\n 1.0 2\n[LATERAL_COEFFICIENTS]\nPCY1=1.3\nPDY1 = 1.0\nPKY1 = -18\n! end\n";
   Fuzz("tyre", {good, good + "PHY3 = +.04\r\nFZMAX = 9e3"}, [](const std::string& text) -> std::optional<base::Error> {
-    const auto tyre = vehicle::ParseTir(text, "fuzz.tir");
+    const auto tyre = dynamics::ParseTir(text, "fuzz.tir");
     if (!tyre) return tyre.error();
     EXPECT_LT(tyre.value().pky1, 0.0);
-    (void)vehicle::SteadyForces(tyre.value(), {0.1, -0.1, 0.05}, 3000.0, 1.0);
+    (void)dynamics::SteadyForces(tyre.value(), {0.1, -0.1, 0.05}, 3000.0, 1.0);
     return std::nullopt;
   });
 }
@@ -145,9 +145,9 @@ TEST(TextFiles, Worlds) {
     const auto world = road::World::Parse(text, "fuzz.yaml");
     if (!world) return world.error();
     const auto ground = world.value()->MakeGround();
-    std::vector<terrain::GroundQuery> queries;
+    std::vector<ground::GroundQuery> queries;
     for (const double x : {0.0, -50.25, 37.5, 1e6, -1e300}) queries.push_back({x, 0.3 * x, 0.0});
-    std::vector<terrain::GroundPoint> points(queries.size());
+    std::vector<ground::GroundPoint> points(queries.size());
     ground->Query(queries, points);
     for (const auto& point : points) EXPECT_TRUE(std::isfinite(point.z_m) || !point.inside);
     return std::nullopt;
@@ -157,14 +157,14 @@ TEST(TextFiles, Worlds) {
 TEST(TextFiles, Vehicles) {
   const OnDisk disk;
   Fuzz("vehicle", {GoodFile("configs/vehicles/default.yaml"), GoodFile("configs/vehicles/prototype.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
-    const auto loaded = vehicle::LoadVehicle(disk.Put(text));
+    const auto loaded = dynamics::LoadVehicle(disk.Put(text));
     if (!loaded) return loaded.error();
-    vehicle::VehicleModel& model = *loaded.value();
-    vehicle::HillGround ground(1, {});
-    vehicle::InitialCondition initial;
+    dynamics::VehicleModel& model = *loaded.value();
+    dynamics::HillGround ground(1, {});
+    dynamics::InitialCondition initial;
     initial.speed_mps = 10.0;
     if (!model.Initialise(initial, ground)) return std::nullopt;
-    vehicle::Controls controls;
+    dynamics::Controls controls;
     controls.throttle = 0.5;
     controls.steering_wheel_rad = 0.3;
     for (int i = 0; i < 20; ++i) model.Step(controls, ground, 0.001);
@@ -253,16 +253,16 @@ TEST(TextFiles, Drivers) {
 TEST(TextFiles, Keyboards) {
   const OnDisk disk;
   Fuzz("keyboard", {GoodFile("configs/drivers/keyboard.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
-    const auto settings = hands::LoadKeyboard(disk.Put(text));
+    const auto settings = input_devices::LoadKeyboard(disk.Put(text));
     if (!settings) return settings.error();
-    EXPECT_FALSE(hands::KeyboardHelp(settings.value()).empty());
-    hands::KeyboardDriver driver(settings.value());
-    hands::KeyboardInput all;
+    EXPECT_FALSE(input_devices::KeyboardHelp(settings.value()).empty());
+    input_devices::KeyboardDriver driver(settings.value());
+    input_devices::KeyboardInput all;
     for (bool& held : all.held) held = true;
     all.held[1] = false;
     all.lever = {1, 3, 1, 2};
     for (int i = 0; i < 20; ++i) {
-      const vehicle::Controls controls = driver.Step(all, 0.1);
+      const dynamics::Controls controls = driver.Step(all, 0.1);
       EXPECT_TRUE(std::isfinite(controls.steering_wheel_rad) && controls.throttle >= 0.0 && controls.throttle <= 1.0 && controls.brake <= 1.0);
     }
     return std::nullopt;
@@ -276,13 +276,13 @@ TEST(TextFiles, Wheels) {
       "steering: {device: rim, axis: 0, centre: 12, dead_zone: 0.01, exponent: 1.5, lock_deg: 540}\npedals: {device: feet, axis: 1, inverted: true}\n"
       "clutch: {device: feet, axis: 2, min: 0, max: 255}\nbuttons:\n  starter: {device: rim, button: 3}\nlever:\n  reverse: {device: rim, button: 8}\n  1: {device: rim, button: 9}\n";
   Fuzz("wheel", {GoodFile("configs/drivers/wheel.yaml"), rich}, [&disk](const std::string& text) -> std::optional<base::Error> {
-    const auto settings = hands::LoadWheel(disk.Put(text));
+    const auto settings = input_devices::LoadWheel(disk.Put(text));
     if (!settings) return settings.error();
-    hands::WheelDriver driver(settings.value());
-    std::vector<hands::DeviceReading> readings(settings.value().devices.size());
+    input_devices::WheelDriver driver(settings.value());
+    std::vector<input_devices::DeviceReading> readings(settings.value().devices.size());
     for (const double raw : {0.0, 32767.0, -32768.0, 100.0}) {
       for (auto& reading : readings) reading = {true, std::vector<double>(3, raw), std::vector<std::uint8_t>(10, raw > 0.0)};
-      const vehicle::Controls controls = driver.Step(readings, 1);
+      const dynamics::Controls controls = driver.Step(readings, 1);
       EXPECT_TRUE(std::isfinite(controls.steering_wheel_rad));
       for (const double pedal : {controls.throttle, controls.brake, controls.clutch, controls.handbrake}) EXPECT_TRUE(pedal >= 0.0 && pedal <= 1.0) << pedal;
     }
@@ -307,26 +307,26 @@ TEST(TextFiles, Scenarios) {
 
 // What is read comes back to the byte; what the check finds no error in can be driven along and drawn.
 TEST(TextFiles, Maps) {
-  Fuzz("motors", {map::Figure18(), map::AppendixA15(), map::GoodMap(), map::GoodMap(), GoodFile("configs/maps/roundabout.motors")}, [](const std::string& text) -> std::optional<base::Error> {
-    const auto file = map::ParseMap(text, "fuzz.motors");
+  Fuzz("motors", {traffic_map::Figure18(), traffic_map::AppendixA15(), traffic_map::GoodMap(), traffic_map::GoodMap(), GoodFile("configs/maps/roundabout.motors")}, [](const std::string& text) -> std::optional<base::Error> {
+    const auto file = traffic_map::ParseMap(text, "fuzz.motors");
     if (!file) return file.error();
-    EXPECT_EQ(map::WriteMap(file.value()), text);
+    EXPECT_EQ(traffic_map::WriteMap(file.value()), text);
     bool errors = false;
-    for (const map::Finding& finding : map::CheckMap(file.value(), {})) {
-      errors = errors || finding.severity == map::Severity::kError;
+    for (const traffic_map::Finding& finding : traffic_map::CheckMap(file.value(), {})) {
+      errors = errors || finding.severity == traffic_map::Severity::kError;
       EXPECT_FALSE(finding.Text().empty());
-      EXPECT_TRUE(finding.element == map::Element::kMap || finding.line > 0) << finding.Text();
+      EXPECT_TRUE(finding.element == traffic_map::Element::kMap || finding.line > 0) << finding.Text();
     }
-    const auto made = map::MakeLaneMap(file.value(), {}, "fuzz.motors");
+    const auto made = traffic_map::MakeLaneMap(file.value(), {}, "fuzz.motors");
     EXPECT_EQ(made.ok(), !errors);
     if (!made) return std::nullopt;
-    for (const map::MapLane& lane : made.value().lanes) {
+    for (const traffic_map::MapLane& lane : made.value().lanes) {
       for (const double share : {0.0, 0.3, 1.0}) {
-        const map::LanePoint at = lane.shape.At(share * lane.shape.length_m());
+        const traffic_map::LanePoint at = lane.shape.At(share * lane.shape.length_m());
         EXPECT_TRUE(at.p_W.allFinite() && std::isfinite(at.width_m()) && std::isfinite(at.curvature_1pm));
       }
     }
-    EXPECT_FALSE(map::PlotMap(made.value()).empty());
+    EXPECT_FALSE(traffic_map::PlotMap(made.value()).empty());
     return std::nullopt;
   });
 }
@@ -334,16 +334,16 @@ TEST(TextFiles, Maps) {
 TEST(TextFiles, MapHeights) {
   Fuzz("heights", {GoodFile("configs/maps/overpass.motors.yaml"), "rodeira: motors/1\nheights_m: {1: [0, 1, 2, 3], -4: [0, 0, 0, 1]}\n",
                    "# by hand\nrodeira: motors/1\nheights_m:\n  1: [0, 1, 2, 3]  # ramp\nlights:\n  - phases:\n      - {green: [1, 2], for_s: 20}\nsigns:\n  - {lane: 1, kind: speed_limit, limit_kmh: 30}\n  - lane: 2\n    kind: stop\nflows_vehph:\n  1: 300\n"}, [](const std::string& text) -> std::optional<base::Error> {
-    const auto heights = map::ParseHeights(text, "fuzz.motors.yaml");
+    const auto heights = traffic_map::ParseHeights(text, "fuzz.motors.yaml");
     if (!heights) return heights.error();
     for (const auto& one : heights.value().curves) EXPECT_EQ(heights.value().Of(one.curve), one.z_m);
     // Unedited it keeps its bytes; edited it says what it should.
-    EXPECT_EQ(map::CompanionText(heights.value(), heights.value(), text), text);
-    map::Heights edited = heights.value();
+    EXPECT_EQ(traffic_map::CompanionText(heights.value(), heights.value(), text), text);
+    traffic_map::Heights edited = heights.value();
     edited.curves.clear();
-    edited.signs.push_back({7, map::SignKind::kGiveWay, 2.5, 0.0, 0});
-    const auto again = map::ParseHeights(map::CompanionText(edited, heights.value(), text), "again.motors.yaml");
-    EXPECT_TRUE(again.ok() && map::CompanionText(again.value()) == map::CompanionText(edited)) << text;
+    edited.signs.push_back({7, traffic_map::SignKind::kGiveWay, 2.5, 0.0, 0});
+    const auto again = traffic_map::ParseHeights(traffic_map::CompanionText(edited, heights.value(), text), "again.motors.yaml");
+    EXPECT_TRUE(again.ok() && traffic_map::CompanionText(again.value()) == traffic_map::CompanionText(edited)) << text;
     return std::nullopt;
   });
 }
@@ -354,7 +354,7 @@ TEST(TextFiles, InputScripts) {
          const auto script = nodes::Script::Parse(text, "fuzz.csv");
          if (!script) return script.error();
          for (const double t : {-1.0, 0.0, 0.3, 6.5, 1e7, 1e9}) {
-           const vehicle::Controls controls = script.value().At(t);
+           const dynamics::Controls controls = script.value().At(t);
            EXPECT_TRUE(std::isfinite(controls.steering_wheel_rad));
            EXPECT_TRUE(controls.throttle >= 0.0 && controls.throttle <= 1.0 && controls.brake >= 0.0 && controls.brake <= 1.0);
          }

@@ -128,9 +128,9 @@ TEST(TrafficFiles, LightsOfMaps) {
   const std::string flows = good.value() + "flows_vehph:\n  1: 300\n";
   Fuzz("lights", {good.value(), good.value(), flows}, [&](const std::string& text) -> std::optional<base::Error> {
     std::ofstream(companion, std::ios::binary | std::ios::trunc) << text;
-    const auto heights = map::LoadHeightsOf(map);
+    const auto heights = traffic_map::LoadHeightsOf(map);
     if (!heights) return heights.error();
-    const auto network = map::LoadNetwork(map);
+    const auto network = traffic_map::LoadNetwork(map);
     if (!network) return network.error();
     traffic::TrafficSettings settings;
     settings.vehicles = 6;
@@ -154,11 +154,11 @@ TEST(TrafficFiles, MapsChangedByBytes) {
   ASSERT_TRUE(crossing.ok() && roundabout.ok());
   int driven = 0;
   Fuzz("motors, driven", {crossing.value(), roundabout.value()}, [&](const std::string& text) -> std::optional<base::Error> {
-    const auto file = map::ParseMap(text, "fuzz.motors");
+    const auto file = traffic_map::ParseMap(text, "fuzz.motors");
     if (!file) return file.error();
-    const auto made = map::MakeLaneMap(file.value(), {}, "fuzz.motors");
+    const auto made = traffic_map::MakeLaneMap(file.value(), {}, "fuzz.motors");
     if (!made) return made.error();
-    const auto network = map::ToNetwork(made.value(), "fuzz.motors");
+    const auto network = traffic_map::ToNetwork(made.value(), "fuzz.motors");
     if (!network) return network.error();
     traffic::TrafficSettings settings;
     settings.vehicles = 6;

@@ -120,7 +120,7 @@ roads:
 
 // Everything of a world that stands at a point, and at the places that its own network names.
 void AskWorld(const road::World& world) {
-  std::vector<terrain::GroundQuery> queries;
+  std::vector<ground::GroundQuery> queries;
   const auto ask = [&](double x, double y) { queries.push_back({x, y, 3.0}); };
   for (const double x : {-140.0, -71.0, -40.25, 37.5, 1e6, -1e300}) {
     for (const double y : {0.0, 6.5, 40.0}) ask(x, y);
@@ -143,7 +143,7 @@ void AskWorld(const road::World& world) {
     for (const auto& run : standing->runs) EXPECT_GE(run.points_W.size(), 2u);
   }
   const auto ground = world.MakeGround();
-  std::vector<terrain::GroundPoint> points(queries.size());
+  std::vector<ground::GroundPoint> points(queries.size());
   ground->Query(queries, points);
   for (const auto& point : points) {
     EXPECT_TRUE(!point.inside || (std::isfinite(point.z_m) && std::isfinite(point.normal_W.x()) && point.friction > 0.0)) << point.z_m;

@@ -69,7 +69,7 @@ class BuiltWorld : public ::testing::Test {
     ASSERT_TRUE(base::WriteWhole(manifest, std::string_view(text)).ok());
   }
 
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
   const fs::path out_ = folder_.path() / "out";
 };
 

@@ -40,7 +40,7 @@ class Control : public ::testing::Test {
     }
     return "it has not begun";
   }
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
 };
 
 // Every step of a run of `last` steps was granted once, in order, at a time that does not go back.

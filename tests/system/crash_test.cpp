@@ -64,7 +64,7 @@ TEST_F(Crash, IntoAHouseIsRecordedAndComputedAgain) {
   EXPECT_LT(story.first->normal_x(), -0.99f);
   EXPECT_NEAR(story.first->position_x_m(), 294.0, 0.1);
   EXPECT_GT(story.speed_before_mps, 15.0);
-  const auto model = vehicle::LoadVehicle(SourceDir() + "/configs/vehicles/default.yaml");
+  const auto model = dynamics::LoadVehicle(SourceDir() + "/configs/vehicles/default.yaml");
   // The house takes all of its momentum; what the engine goes on pushing comes on top.
   const double momentum = model.value()->dimensions().mass_kg * story.speed_before_mps;
   EXPECT_LT(story.impulse_x_Ns, -0.98 * momentum);

@@ -32,7 +32,7 @@ bool WaitForBytes(const std::string& path, std::uintmax_t bytes, std::chrono::se
 
 class DemoFault : public ::testing::TestWithParam<std::tuple<std::string, int>> {
  protected:
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
 };
 
 TEST_P(DemoFault, IsNamedWithinASecondAndTheRecordingIsReadable) {

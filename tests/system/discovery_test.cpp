@@ -40,7 +40,7 @@ TEST(Discovery, OverUdpEveryKindGivesTheDigestOfSharedMemory) {
 
 // Of itself Fast DDS looks for the first four participants of a peer.
 TEST(Discovery, ByPeersTenNodesMeet) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   std::string text = "rodeira: launch/1\ntransport: udp\ndiscovery: {kind: peers, addresses: [127.0.0.1]}\nduration_s: 0.1\nnodes:\n";
   for (int i = 0; i < 10; ++i) text += "  n" + std::to_string(i) + ": {kind: empty}\n";
   const Ended ended = RunCommand({Bin("rodeira"), "run", folder.Write("ten.yaml", text).string()});
@@ -68,15 +68,15 @@ class TakenPort {
 
 TEST(Discovery, AServersPortInUseIsOneSentence) {
   const TakenPort port;
-  const front::TemporaryFolder folder;
-  const auto before = front::SharedMemoryFiles();
+  const cli::TemporaryFolder folder;
+  const auto before = cli::SharedMemoryFiles();
   const std::string recording = (folder.path() / "never.mcap").string();
   const Ended ended = Empty({"--set", "transport=udp", "--set", "discovery={kind: server, address: 127.0.0.1, port: " + port.number() + "}", "--run", "taken", "--record", recording});
   EXPECT_EQ(ended.status, 2) << ended.out;
   EXPECT_EQ(ended.out, "rodeira: run 'taken': UDP port " + port.number() + " of the discovery server is in use by another program; end that one, or name another 'discovery.port'\n");
   EXPECT_TRUE(ProcessesWith("--run taken").empty());
   EXPECT_FALSE(std::filesystem::exists(recording));
-  for (const std::string& file : front::SharedMemoryFiles()) EXPECT_TRUE(before.contains(file)) << file << " was left";
+  for (const std::string& file : cli::SharedMemoryFiles()) EXPECT_TRUE(before.contains(file)) << file << " was left";
 }
 
 class LabRefusal : public ::testing::Test {
@@ -90,7 +90,7 @@ class LabRefusal : public ::testing::Test {
     EXPECT_TRUE(ProcessesWith("--run lab-refusal").empty());
     return ended.out;
   }
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
   const std::string lab_ = folder_.Write("rig.yaml", "rodeira: lab/1\ndomain: 5\nhosts: {left: {address: 127.0.0.1}, right: {address: 203.0.113.7}}\n").string();
 };
 
@@ -118,15 +118,15 @@ class DeadRun : public ::testing::Test {
  protected:
   // A node on its own, killed: its files stay. Their names.
   static std::set<std::string> Die() {
-    const auto before = front::SharedMemoryFiles();
+    const auto before = cli::SharedMemoryFiles();
     Started node({Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "dead", "--domain", "77", "--node", "a"});
     const auto until = std::chrono::steady_clock::now() + 10s;
-    while (front::SharedMemoryFiles().size() < before.size() + 4 && std::chrono::steady_clock::now() < until) ::usleep(5000);
+    while (cli::SharedMemoryFiles().size() < before.size() + 4 && std::chrono::steady_clock::now() < until) ::usleep(5000);
     std::this_thread::sleep_for(300ms);
     ::kill(node.pid(), SIGKILL);
     node.Wait(5s);
     std::set<std::string> left;
-    std::ranges::set_difference(front::SharedMemoryFiles(), before, std::inserter(left, left.end()));
+    std::ranges::set_difference(cli::SharedMemoryFiles(), before, std::inserter(left, left.end()));
     return left;
   }
 };
@@ -136,7 +136,7 @@ TEST_F(DeadRun, IsClearedAwayByTheNextStartAndALivingRunIsNot) {
   const auto until = std::chrono::steady_clock::now() + 20s;
   while (ProcessesWith("--run living", "bin/rodeira-").size() < 5 && std::chrono::steady_clock::now() < until) ::usleep(5000);
   std::this_thread::sleep_for(1s);
-  const auto alive = front::SharedMemoryFiles();
+  const auto alive = cli::SharedMemoryFiles();
   ASSERT_GT(alive.size(), 5u);
   const auto dead = Die();
   ASSERT_GE(dead.size(), 4u);
@@ -150,7 +150,7 @@ TEST_F(DeadRun, IsClearedAwayByTheNextStartAndALivingRunIsNot) {
   }
   const Ended next = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "0.1"});
   EXPECT_EQ(next.status, 0) << next.out;
-  const auto now = front::SharedMemoryFiles();
+  const auto now = cli::SharedMemoryFiles();
   for (const std::string& file : dead) EXPECT_FALSE(now.contains(file)) << file << " of the dead run is still there";
   for (const std::string& file : alive) EXPECT_TRUE(now.contains(file)) << file << " of the living run is gone";
   EXPECT_TRUE(std::filesystem::exists(stranger));
@@ -173,13 +173,13 @@ TEST_F(DeadRun, ALivingRunOutsideTheContainerIsLeftAlone) {
   const auto until = std::chrono::steady_clock::now() + 20s;
   while (ProcessesWith("--run outside", "bin/rodeira-").size() < 5 && std::chrono::steady_clock::now() < until) ::usleep(5000);
   std::this_thread::sleep_for(1s);
-  const auto alive = front::SharedMemoryFiles();
+  const auto alive = cli::SharedMemoryFiles();
   ASSERT_GT(alive.size(), 5u);
   std::vector<std::string> next = inside;
   next.insert(next.end(), {Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "0.1"});
   const Ended other = RunCommand(next);
   EXPECT_EQ(other.status, 0) << other.out;
-  const auto now = front::SharedMemoryFiles();
+  const auto now = cli::SharedMemoryFiles();
   for (const std::string& file : alive) EXPECT_TRUE(now.contains(file)) << file << " of the living run is gone";
   ::kill(living.pid(), SIGINT);
   EXPECT_EQ(living.Wait(10s).status, 0);

@@ -29,7 +29,7 @@ using ::testing::HasSubstr;
 class Endurance : public ::testing::Test {
  protected:
   std::string File(const std::string& name) const { return (folder_.path() / name).string(); }
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
 };
 
 // The number behind `word` in a closing table.

@@ -55,7 +55,7 @@ class FirstRoad : public ::testing::Test {
     ADD_FAILURE() << "no command says " << part;
     return "false";
   }
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
   std::string world_, sentence_;
   std::vector<std::string> commands_;
 };

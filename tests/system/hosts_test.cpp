@@ -77,7 +77,7 @@ class Hosts : public ::testing::Test {
   }
   void ExpectNobodyLeft() const { EXPECT_TRUE(ProcessesWith("--run rig", "bin/rodeira").empty()); }
 
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
   std::unique_ptr<Rig> rig_;
   std::string lab_, launch_;
 };

@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 class Leftover : public ::testing::Test {
  protected:
-  Leftover() : before_(front::SharedMemoryFiles()) {}
+  Leftover() : before_(cli::SharedMemoryFiles()) {}
 
   std::vector<std::string> Demo(const std::string& run_name, std::vector<std::string> more) const {
     more.insert(more.begin(), {Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--headless", "--run", run_name, "--record", (folder_.path() / "a.mcap").string(), "--set",
@@ -35,11 +35,11 @@ class Leftover : public ::testing::Test {
   // Files of DDS in /dev/shm that were not there before.
   std::set<std::string> Left() const {
     std::set<std::string> left;
-    std::ranges::set_difference(front::SharedMemoryFiles(), before_, std::inserter(left, left.end()));
+    std::ranges::set_difference(cli::SharedMemoryFiles(), before_, std::inserter(left, left.end()));
     return left;
   }
   const std::set<std::string> before_;
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
 };
 
 TEST_F(Leftover, OfANormalEnd) {

@@ -64,7 +64,7 @@ Point PointOf(const std::string& answer) {
 TEST(Query, OnARealElevationFileItIsTheOraclesPoint) {
   const fs::path crater = kRoot / "../shared/data/road/bt/crater_0513.bt";
   if (!fs::exists(crater)) GTEST_SKIP() << crater << " is not on this machine";
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const auto world = folder.Write("crater.yaml", "rodeira: world/1\nname: crater\nterrain: {file: " + fs::weakly_canonical(crater).string() + ", surface: soil}\n");
   const std::string answer = Query(world.string(), 566300, 4754000);
   EXPECT_EQ(Value(answer, "inside"), "true");
@@ -108,7 +108,7 @@ class Ground : public ::testing::Test {
     EXPECT_EQ(ended.status, 0) << ended.out;
     return MessagesOf<msg::VehicleState>(recording, idl::topics::kVehicleState);
   }
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
 };
 
 // The server's answers over DDS, as the wheels of a car that stands in its lane felt them.

@@ -44,7 +44,7 @@ class Recordings : public ::testing::Test {
     return RunCommand(words);
   }
   base::Bytes Bytes(const std::string& name) const { return base::ReadBytes(Path(name)).value(); }
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
 };
 
 TEST_F(Recordings, ARunWithoutARecorderIsRecordedInTheUsersDataFolder) {

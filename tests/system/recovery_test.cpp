@@ -82,7 +82,7 @@ class Recovery : public ::testing::Test {
     const Ended info = RunCommand({Bin("rodeira"), "info", recording});
     EXPECT_EQ(info.status, 0) << info.out;
   }
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
   std::string digest_;
   std::vector<Recorded> samples_;
 };

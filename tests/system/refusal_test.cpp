@@ -25,7 +25,7 @@ class Refusal : public ::testing::Test {
  protected:
   // The one line that a run with these words says.
   std::string Of(std::vector<std::string> more, const std::string& launch = LaunchFile("demo.yaml")) const {
-    const auto before = front::SharedMemoryFiles();
+    const auto before = cli::SharedMemoryFiles();
     const std::string run_name = "refusal-" + folder_.path().filename().string();
     const fs::path recording = folder_.path() / "never.mcap";
     more.insert(more.begin(), {"/usr/bin/env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", Bin("rodeira"), "run", launch, "--for", "0.1", "--run", run_name, "--record", recording.string()});
@@ -35,7 +35,7 @@ class Refusal : public ::testing::Test {
     EXPECT_TRUE(ProcessesWith("--run " + run_name).empty());
     EXPECT_FALSE(fs::exists(recording)) << "a recording of nothing";
     std::set<std::string> left;
-    std::ranges::set_difference(front::SharedMemoryFiles(), before, std::inserter(left, left.end()));
+    std::ranges::set_difference(cli::SharedMemoryFiles(), before, std::inserter(left, left.end()));
     EXPECT_TRUE(left.empty()) << *left.begin() << " and " << left.size() - 1 << " more stay in /dev/shm";
     EXPECT_EQ(std::ranges::count(ended.out, '\n'), 1) << "one sentence was expected:\n" << ended.out;
     return ended.out;
@@ -53,7 +53,7 @@ class Refusal : public ::testing::Test {
   std::string Vehicle(const std::string& old_text, const std::string& new_text) const {
     return Set("nodes.ego.config.vehicle", Changed("configs/vehicles/default.yaml", old_text, new_text));
   }
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
 };
 
 TEST_F(Refusal, LaunchFiles) {

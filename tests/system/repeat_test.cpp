@@ -44,7 +44,7 @@ class Repeat : public ::testing::Test {
     }
     return left;
   }
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
 };
 
 TEST_F(Repeat, TenRunsOfTheDemoUnderLoadAndOneInOneProcessAreTheSame) {

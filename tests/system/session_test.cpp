@@ -72,7 +72,7 @@ constexpr int kWidth = 1280, kHeight = 720;  // of the run's window
 
 // How much of the lower left corner, where a chosen vehicle's panel stands (nodes/view/overlays/instruments), is as it was behind glass of
 // the panel's colour, 0.05 of green, that lets 0.45 through: all of it but its letters, which are less than a quarter.
-double BehindGlass(const view::Image& before, const view::Image& after) {
+double BehindGlass(const nodes::Image& before, const nodes::Image& after) {
   int behind = 0, all = 0;
   for (int y = kHeight - 130; y < kHeight - 25; ++y) {
     for (int x = 25; x < 410; ++x, ++all) behind += std::abs(after.At(x, y)[1] - (0.45 * before.At(x, y)[1] + 0.55 * 0.05 * 255.0)) < 4.0 ? 1 : 0;
@@ -81,7 +81,7 @@ double BehindGlass(const view::Image& before, const view::Image& after) {
 }
 
 // Red, yellow and green from left to right, where the legend's bar is (nodes/view/overlays/heat_node).
-bool HasLegend(const view::Image& image) {
+bool HasLegend(const nodes::Image& image) {
   constexpr int kBar = 157;
   const std::uint8_t *red = image.At(32, kBar), *yellow = image.At(208, kBar), *green = image.At(384, kBar);
   return red[0] > 150 && red[1] < 90 && red[2] < 90 && yellow[0] > 150 && yellow[1] > 150 && yellow[2] < 90 && green[0] < 90 && green[1] > 120 && green[2] < 90;
@@ -173,7 +173,7 @@ TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
   };
   EXPECT_TRUE(becomes("paused at "));
   std::this_thread::sleep_for(2s);  // the window has come up with the run: all its pictures are of one moment
-  const auto picture = [&]() -> view::Image {
+  const auto picture = [&]() -> nodes::Image {
     const auto before = FilesOn(pictures, ".png");
     Do({"key", "F12"});
     EXPECT_TRUE(Until(60s, [&] { return whole_pictures() > static_cast<std::ptrdiff_t>(before.size()); })) << "a picture";
@@ -181,11 +181,11 @@ TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
       if (std::find(before.begin(), before.end(), file) != before.end()) continue;
       // For people, where they ask for it.
       if (const char* kept = std::getenv("RODEIRA_PICTURES")) fs::copy_file(file, fs::path(kept) / ("session_" + std::to_string(before.size()) + ".png"), fs::copy_options::overwrite_existing);
-      return view::ReadPng(file);
+      return nodes::ReadPng(file);
     }
     return {};
   };
-  const view::Image plain = picture();
+  const nodes::Image plain = picture();
   ASSERT_EQ(std::pair(plain.width_px, plain.height_px), std::pair(kWidth, kHeight));
   EXPECT_FALSE(HasLegend(plain));
   const auto after = [&](const std::function<void()>& hand) {
@@ -196,12 +196,12 @@ TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
   const auto click = [&](int y_px) { return [this, y_px] { Click(kScreenWidth / 2, (kScreenHeight - kHeight) / 2 + y_px); }; };
   const auto key = [&](const char* name) { return [this, name] { Do({"key", name}); }; };
   constexpr int kOwnCar = 470, kSky = 20;  // of the camera behind the car
-  const view::Image clicked = after(click(kOwnCar));
+  const nodes::Image clicked = after(click(kOwnCar));
   EXPECT_GT(BehindGlass(plain, clicked), 0.75) << "the panel of the car that was clicked on";
   EXPECT_LT(BehindGlass(plain, plain), 0.05);
   EXPECT_TRUE(std::equal(plain.rgb.begin(), plain.rgb.begin() + 3 * kWidth * 200, clicked.rgb.begin())) << "and nothing else above it";
   EXPECT_EQ(after(click(kSky)).rgb, plain.rgb) << "nobody is chosen";
-  const view::Image next = after(key("Tab")), followed = after(click(kSky));
+  const nodes::Image next = after(key("Tab")), followed = after(click(kSky));
   EXPECT_GT(BehindGlass(followed, next), 0.75) << "the panel of the vehicle that was chosen by the key";
   EXPECT_NE(followed.rgb, plain.rgb) << "which is still followed";
   EXPECT_EQ(after(key("shift+Tab")).rgb, plain.rgb) << "home again";

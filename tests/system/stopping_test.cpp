@@ -46,7 +46,7 @@ std::vector<Box> Everybody(const msg::VehicleState& wreck, const msg::VehicleSta
 }
 
 TEST(Stopping, ABlockedLaneStopsTrafficAndAutopilotWithoutATouch) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const std::string recording = (folder.path() / "blocked.mcap").string();
   const Ended ended = RunCommand({Bin("rodeira"), "run", SourceDir() + "/tests/data/blocked_lane.yaml", "--in-process", "--record", recording});
   ASSERT_EQ(ended.status, 0) << ended.out;

@@ -68,7 +68,7 @@ class Streams : public ::testing::Test {
     const auto launch = launch::Launch::Load(launch_);
     ASSERT_TRUE(launch.ok()) << launch.error().Text();
     const auto& roster = launch.value().roster();
-    auto nodes = front::LocalNodes::Make(launch.value(), [&](lockstep::NodeIndex n) { return roster.node(n).is_sink() ? replay::MakeNullSink() : nullptr; });
+    auto nodes = cli::LocalNodes::Make(launch.value(), [&](lockstep::NodeIndex n) { return roster.node(n).is_sink() ? replay::MakeNullSink() : nullptr; });
     ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
     std::vector<Recorded> samples;
     lockstep::InProcessSettings settings;
@@ -103,7 +103,7 @@ class Streams : public ::testing::Test {
 
   const lockstep::Step steps_;
   const std::uint64_t seed_;
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
   const std::string launch_ = folder_.Write("launch.yaml", kLaunch).string();
   std::vector<Recorded> stream_;  // of the first run
 };

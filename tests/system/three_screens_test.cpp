@@ -25,7 +25,7 @@ std::string View(const std::string& screen) {
 }
 
 // How far the colours at one picture's right edge are from those at the left edge of the next, 0 to 255.
-double Seam(const view::Image& left, const view::Image& right) {
+double Seam(const nodes::Image& left, const nodes::Image& right) {
   double sum = 0.0;
   for (int y = 0; y < kHeight; ++y) {
     for (int part = 0; part < 3; ++part) sum += std::abs(left.At(kWidth - 1, y)[part] - right.At(0, y)[part]);
@@ -45,9 +45,9 @@ TEST(ThreeScreens, OfARunShowTheSameSteps) {
   const Ended run = RunCommand({Bin("rodeira"), "run", file.string(), "--pace", "max", "--no-record", "--quiet"});
   if (run.out.find("OpenGL") != std::string::npos) GTEST_SKIP() << run.out;
   ASSERT_EQ(run.status, 0) << run.out;
-  const auto picture = [&](const char* screen, const char* step) { return view::ReadPng(folder.path() / screen / ("step_00000" + std::string(step) + ".png")); };
+  const auto picture = [&](const char* screen, const char* step) { return nodes::ReadPng(folder.path() / screen / ("step_00000" + std::string(step) + ".png")); };
   for (const auto& [step, other] : {std::pair("2000", "5000"), std::pair("5000", "2000")}) {
-    const view::Image left = picture("left", step), centre = picture("centre", step), right = picture("right", step);
+    const nodes::Image left = picture("left", step), centre = picture("centre", step), right = picture("right", step);
     ASSERT_EQ(std::pair(centre.width_px, centre.height_px), std::pair(kWidth, kHeight));
     const double one = Seam(left, centre), two = Seam(centre, right);
     EXPECT_LT(one, 6.0) << step;

@@ -5,7 +5,7 @@
 #include "common/core/base/assert.hpp"
 #include "common/core/tessellation/triangulation.hpp"
 
-namespace rodeira::partition {
+namespace rodeira::tessellation {
 
 // The side from a to b, in the triangle to its left (or, on the square's edge, from b to a); none where there is none.
 Triangulation::Side Triangulation::SideBetween(std::uint32_t a, std::uint32_t b) const {
@@ -153,4 +153,4 @@ bool Triangulation::Force(std::uint32_t a, std::uint32_t b, std::vector<std::arr
   return true;
 }
 
-}  // namespace rodeira::partition
+}  // namespace rodeira::tessellation

@@ -5,7 +5,7 @@
 #include <vector>
 
 // Pieces of the plane cut up by lines, on a grid of whole numbers: every question about them has an exact answer.
-namespace rodeira::partition {
+namespace rodeira::tessellation {
 
 // A point of a square piece of the plane, in steps of its grid. Both coordinates lie in [0, kMost].
 struct GridPoint {
@@ -37,4 +37,4 @@ inline bool InCircle(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
   return a2 * (bx * cy - cx * by) - b2 * (ax * cy - cx * ay) + c2 * (ax * by - bx * ay) > 0;
 }
 
-}  // namespace rodeira::partition
+}  // namespace rodeira::tessellation

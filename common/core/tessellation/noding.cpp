@@ -8,7 +8,7 @@
 
 #include "common/core/base/assert.hpp"
 
-namespace rodeira::partition {
+namespace rodeira::tessellation {
 namespace {
 
 GEOSGeometry* ToGeos(GEOSContextHandle_t geos, const GridLine& line) {
@@ -89,4 +89,4 @@ std::vector<GridSegment> Node(std::span<const GridLine> lines) {
   return segments;
 }
 
-}  // namespace rodeira::partition
+}  // namespace rodeira::tessellation

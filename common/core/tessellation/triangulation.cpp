@@ -3,7 +3,7 @@
 
 #include "common/core/base/assert.hpp"
 
-namespace rodeira::partition {
+namespace rodeira::tessellation {
 
 Triangulation::Triangulation(std::int32_t size) {
   RODEIRA_ASSERT(size > 0 && size <= GridPoint::kMost);
@@ -205,4 +205,4 @@ std::vector<std::uint32_t> Triangulation::Faces() const {
   return faces;
 }
 
-}  // namespace rodeira::partition
+}  // namespace rodeira::tessellation

@@ -7,7 +7,7 @@
 
 #include "common/core/tessellation/grid_point.hpp"
 
-namespace rodeira::partition {
+namespace rodeira::tessellation {
 
 // A square in triangles: the constrained Delaunay triangulation of the points and sides that are put into it. Exact: no
 // rounding decides anything, so that the same calls give the same triangles everywhere.
@@ -73,4 +73,4 @@ class Triangulation {
   mutable std::uint32_t last_ = 0;
 };
 
-}  // namespace rodeira::partition
+}  // namespace rodeira::tessellation

@@ -78,7 +78,7 @@ double Autopilot::SteeringWheel(const DriverView& view, const Way::Place& place,
   return steering_wheel_rad_ + std::clamp(move, -most, most);
 }
 
-vehicle::Controls Autopilot::Step(const DriverView& view, double dt_s) {
+dynamics::Controls Autopilot::Step(const DriverView& view, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0);
   const auto place = path_->Locate(view.own.p_WB_W.x(), view.own.p_WB_W.y(), view.own.p_WB_W.z());
   leader_.reset();
@@ -90,17 +90,17 @@ vehicle::Controls Autopilot::Step(const DriverView& view, double dt_s) {
     allowed_mps_ = 0.0;
   }
   pedals_.Step(settings_.pedals, wanted, view.own.speed_mps(), -std::tan(view.own.pitch_rad()), dt_s);
-  vehicle::Controls controls;
+  dynamics::Controls controls;
   controls.steering_wheel_rad = steering_wheel_rad_;
   controls.throttle = pedals_.throttle();
   controls.brake = pedals_.brake();
   controls.gear = 1;
-  controls.gearbox = vehicle::GearboxMode::kAutomatic;
+  controls.gearbox = dynamics::GearboxMode::kAutomatic;
   return controls;
 }
 
 // Allowed speed and leader are for displays and found anew each step, but they are published: kept too.
-void Autopilot::TakeOver(const vehicle::Controls& last) {
+void Autopilot::TakeOver(const dynamics::Controls& last) {
   pedals_.TakeOver(last.throttle, last.brake);
   steering_wheel_rad_ = last.steering_wheel_rad;
   allowed_mps_ = 0.0;

@@ -42,8 +42,8 @@ base::Result<AutopilotSettings> LoadDriver(const std::filesystem::path& path);
 
 // What the driver perceives.
 struct DriverView {
-  const vehicle::VehicleState& own;
-  const vehicle::VehicleDimensions& dimensions;
+  const dynamics::VehicleState& own;
+  const dynamics::VehicleDimensions& dimensions;
   std::span<const Footprint> others;  // without the own car
   std::span<const LightAhead> lights = {};  // on its way, ascending; behind it too
 };
@@ -73,9 +73,9 @@ class Autopilot {
   Autopilot(const AutopilotSettings& settings, std::unique_ptr<const Way> way);
 
   // The controls for the coming dt_s (over 0), from what is seen now.
-  vehicle::Controls Step(const DriverView& view, double dt_s);
+  dynamics::Controls Step(const DriverView& view, double dt_s);
   // Goes on from where others have left steering wheel and pedals.
-  void TakeOver(const vehicle::Controls& last);
+  void TakeOver(const dynamics::Controls& last);
 
   // What Step would steer and drive by there; keeps nothing. Nothing beside the way's ends.
   std::optional<Aim> AimOf(const CarMotion& car) const;

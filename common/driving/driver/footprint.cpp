@@ -4,7 +4,7 @@
 
 namespace rodeira::driver {
 
-Footprint FootprintOf(std::uint32_t id, const vehicle::VehicleState& state, const vehicle::VehicleDimensions& dimensions) {
+Footprint FootprintOf(std::uint32_t id, const dynamics::VehicleState& state, const dynamics::VehicleDimensions& dimensions) {
   Footprint footprint;
   footprint.id = id;
   footprint.heading_rad = state.heading_rad();

@@ -9,7 +9,7 @@
 namespace rodeira::manoeuvres {
 namespace {
 
-using vehicle::Controls;
+using dynamics::Controls;
 
 constexpr double kDegrees = 180.0 / geometry::kPi;
 constexpr double kG_mps2 = 9.81;
@@ -61,7 +61,7 @@ struct Steered {
 };
 
 // A step of the steering wheel to `wheel_rad`, to the left, at a held speed.
-base::Result<Steered> Steer(vehicle::VehicleModel& car, double speed_mps, double wheel_rad, double for_s, double step_s) {
+base::Result<Steered> Steer(dynamics::VehicleModel& car, double speed_mps, double wheel_rad, double for_s, double step_s) {
   auto begun = Trial::Begin(car, {}, speed_mps, step_s);
   if (!begun) return begun.error();
   Steered steered{std::move(begun).value()};
@@ -93,7 +93,7 @@ base::Result<Steered> Steer(vehicle::VehicleModel& car, double speed_mps, double
 }
 
 // The angle of the steering wheel that ends at a lateral acceleration.
-base::Result<double> AngleFor(vehicle::VehicleModel& car, double speed_mps, double lateral_mps2, double step_s) {
+base::Result<double> AngleFor(dynamics::VehicleModel& car, double speed_mps, double lateral_mps2, double step_s) {
   constexpr int kMost = 8;
   double wheel_rad = 0.1;
   for (int i = 0; i < kMost; ++i) {
@@ -110,7 +110,7 @@ base::Result<double> AngleFor(vehicle::VehicleModel& car, double speed_mps, doub
 
 }  // namespace
 
-base::Result<Outcome> ConstantRadius(vehicle::VehicleModel& car, double step_s) {
+base::Result<Outcome> ConstantRadius(dynamics::VehicleModel& car, double step_s) {
   constexpr double kRadius_m = 40.0, kFirst_mps = 5.0, kFaster_mps2 = 0.15, kLost_m = 2.0, kLow_mps2 = 1.0, kHigh_mps2 = 4.0;
   auto begun = Trial::Begin(car, {}, kFirst_mps, step_s);
   if (!begun) return begun.error();
@@ -120,7 +120,7 @@ base::Result<Outcome> ConstantRadius(vehicle::VehicleModel& car, double step_s) 
   double integral = 0.0, most = 0.0, last_off_m = 0.0;
   double wanted_mps = kFirst_mps;
   while (true) {
-    const vehicle::VehicleState& s = t.state();
+    const dynamics::VehicleState& s = t.state();
     // How far outside of the circle about (0, radius). A car answers as off'' = -V²/L (angle - L/R): two rad/s, well damped.
     const double off_m = std::hypot(s.p_WB_W.x(), s.p_WB_W.y() - kRadius_m) - kRadius_m;
     const double rate_mps = t.time_s() > 0.0 ? (off_m - last_off_m) / step_s : 0.0;
@@ -150,7 +150,7 @@ base::Result<Outcome> ConstantRadius(vehicle::VehicleModel& car, double step_s) 
   return outcome;
 }
 
-base::Result<Outcome> StepSteer(vehicle::VehicleModel& car, double step_s) {
+base::Result<Outcome> StepSteer(dynamics::VehicleModel& car, double step_s) {
   constexpr double kSpeed_mps = 100.0 / 3.6, kLateral_mps2 = 4.0;
   const auto angle = AngleFor(car, kSpeed_mps, kLateral_mps2, step_s);
   if (!angle) return angle.error();
@@ -166,7 +166,7 @@ base::Result<Outcome> StepSteer(vehicle::VehicleModel& car, double step_s) {
   return outcome;
 }
 
-base::Result<Outcome> Sine(vehicle::VehicleModel& car, double step_s) {
+base::Result<Outcome> Sine(dynamics::VehicleModel& car, double step_s) {
   constexpr double kSpeed_mps = 80.0 / 3.6, kFrequency_Hz = 0.5, kLateral_mps2 = 2.0;
   constexpr double kTurning_radps = 2.0 * geometry::kPi * kFrequency_Hz, kFrom_s = 2.0 / kFrequency_Hz, kUntil_s = 8.0 / kFrequency_Hz;
   const auto angle = AngleFor(car, kSpeed_mps, kLateral_mps2, step_s);

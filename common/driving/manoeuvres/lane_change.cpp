@@ -11,7 +11,7 @@
 namespace rodeira::manoeuvres {
 namespace {
 
-using vehicle::Controls;
+using dynamics::Controls;
 
 constexpr double kDegrees = 180.0 / geometry::kPi;
 constexpr double kRunUp_m = 25.0, kOffset_m = 3.5;
@@ -47,7 +47,7 @@ double Outside(double x_m, double y_m, double car_width_m) {
   return std::fabs(y_m - middle) - 0.5 * width;
 }
 
-double WorstCorner(const vehicle::VehicleState& s, const vehicle::VehicleDimensions& d) {
+double WorstCorner(const dynamics::VehicleState& s, const dynamics::VehicleDimensions& d) {
   const double c = std::cos(s.heading_rad()), n = std::sin(s.heading_rad());
   double worst = -1.0;
   for (const double along : {d.front_m, -d.rear_m}) {
@@ -59,7 +59,7 @@ double WorstCorner(const vehicle::VehicleState& s, const vehicle::VehicleDimensi
 }
 
 // The autopilot's way of steering, a little quicker of eye.
-double WheelAngle(const vehicle::VehicleState& s, const vehicle::VehicleDimensions& d) {
+double WheelAngle(const dynamics::VehicleState& s, const dynamics::VehicleDimensions& d) {
   constexpr double kAhead_s = 0.55;
   driver::SteeringSettings settings;
   settings.preview_s = kAhead_s;
@@ -71,7 +71,7 @@ double WheelAngle(const vehicle::VehicleState& s, const vehicle::VehicleDimensio
 
 }  // namespace
 
-base::Result<Outcome> LaneChange(vehicle::VehicleModel& car, double step_s) {
+base::Result<Outcome> LaneChange(dynamics::VehicleModel& car, double step_s) {
   constexpr double kSpeed_mps = 80.0 / 3.6, kHands_radps = 15.0, kLongest_s = 30.0;
   auto begun = Trial::Begin(car, {}, kSpeed_mps, step_s);
   if (!begun) return begun.error();

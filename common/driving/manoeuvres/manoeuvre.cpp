@@ -38,7 +38,7 @@ base::Result<const Manoeuvre*> FindManoeuvre(const std::string& name) {
   return base::WrongInput(fmt::format("'{}' was found; {} was expected{}", name, fmt::join(names, ", "), base::DidYouMean(name, names)), "--manoeuvre");
 }
 
-base::Result<Outcome> Drive(const Manoeuvre& manoeuvre, vehicle::VehicleModel& car, double step_s) {
+base::Result<Outcome> Drive(const Manoeuvre& manoeuvre, dynamics::VehicleModel& car, double step_s) {
   auto outcome = manoeuvre.drive(car, step_s);
   if (const base::Status problem = car.problem(); !problem) return problem.error();
   return outcome;

@@ -31,7 +31,7 @@ struct Manoeuvre {
   std::string name;
   std::string what;  // for people, in a line
   // Drives the model, which is placed anew. Failed where the car cannot be placed or does not come to what is to be measured.
-  std::function<base::Result<Outcome>(vehicle::VehicleModel& car, double step_s)> drive;
+  std::function<base::Result<Outcome>(dynamics::VehicleModel& car, double step_s)> drive;
 };
 
 // In the order in which they are shown.
@@ -40,28 +40,28 @@ const std::vector<Manoeuvre>& Manoeuvres();
 base::Result<const Manoeuvre*> FindManoeuvre(const std::string& name);
 
 // Drives it. Failed, with the model's own word, where the model has failed on the way (VehicleModel::problem).
-base::Result<Outcome> Drive(const Manoeuvre& manoeuvre, vehicle::VehicleModel& car, double step_s);
+base::Result<Outcome> Drive(const Manoeuvre& manoeuvre, dynamics::VehicleModel& car, double step_s);
 
 // Acceleration from rest with the throttle on the floor, in automatic mode: 0-100 km/h, 0-400 m, top speed.
-base::Result<Outcome> Acceleration(vehicle::VehicleModel& car, double step_s);
+base::Result<Outcome> Acceleration(dynamics::VehicleModel& car, double step_s);
 // From 100 km/h to rest with the brake on the floor: distance, mean deceleration v²/2d, drift.
-base::Result<Outcome> Braking(vehicle::VehicleModel& car, double step_s);
+base::Result<Outcome> Braking(dynamics::VehicleModel& car, double step_s);
 // The same from 80 km/h with the right wheels on ice of friction 0.3 and the steering held straight.
-base::Result<Outcome> SplitFriction(vehicle::VehicleModel& car, double step_s);
+base::Result<Outcome> SplitFriction(dynamics::VehicleModel& car, double step_s);
 // A circle of 40 m, faster and faster (after ISO 4138): understeer gradient (change of the front wheels' angle over that of
 // lateral acceleration) and roll gradient between 1 and 4 m/s², largest lateral acceleration.
-base::Result<Outcome> ConstantRadius(vehicle::VehicleModel& car, double step_s);
+base::Result<Outcome> ConstantRadius(dynamics::VehicleModel& car, double step_s);
 // At 100 km/h the steering wheel is turned in 0.1 s to the angle that ends at 4 m/s² (after ISO 7401): gain, overshoot, times.
-base::Result<Outcome> StepSteer(vehicle::VehicleModel& car, double step_s);
+base::Result<Outcome> StepSteer(dynamics::VehicleModel& car, double step_s);
 // At 80 km/h the steering wheel goes to and fro at 0.5 Hz, for about 2 m/s²: gain and delay of yaw rate and lateral
 // acceleration, from the third period on.
-base::Result<Outcome> Sine(vehicle::VehicleModel& car, double step_s);
+base::Result<Outcome> Sine(dynamics::VehicleModel& car, double step_s);
 // At 80 km/h into the lane 3.5 m to the left and back, sections of 15, 30, 25, 25 and 30 m (after ISO 3888-1), by a driver who looks
 // ahead: how far it strays, largest lateral acceleration and steering speed.
-base::Result<Outcome> LaneChange(vehicle::VehicleModel& car, double step_s);
+base::Result<Outcome> LaneChange(dynamics::VehicleModel& car, double step_s);
 // A minute on a slope of 20 % with the handbrake pulled: how far it creeps.
-base::Result<Outcome> Park(vehicle::VehicleModel& car, double step_s);
+base::Result<Outcome> Park(dynamics::VehicleModel& car, double step_s);
 // At 40 km/h over a bump of 5 cm, half a metre long: accelerations, loads, when it has calmed down.
-base::Result<Outcome> Bump(vehicle::VehicleModel& car, double step_s);
+base::Result<Outcome> Bump(dynamics::VehicleModel& car, double step_s);
 
 }  // namespace rodeira::manoeuvres

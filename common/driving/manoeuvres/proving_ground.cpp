@@ -6,10 +6,10 @@
 
 namespace rodeira::manoeuvres {
 
-void ProvingGround::Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) {
+void ProvingGround::Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) {
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const double x = queries[i].x_m;
-    terrain::GroundPoint& point = points[i];
+    ground::GroundPoint& point = points[i];
     point = {};
     point.z_m = settings_.slope * x;
     double slope = settings_.slope;
@@ -21,7 +21,7 @@ void ProvingGround::Query(std::span<const terrain::GroundQuery> queries, std::sp
     }
     point.normal_W = Eigen::Vector3d(-slope, 0.0, 1.0).normalized();
     point.friction = queries[i].y_m > 0.0 ? settings_.friction_left : settings_.friction_right;
-    point.surface = terrain::Surface::kAsphalt;
+    point.surface = ground::Surface::kAsphalt;
     point.inside = true;
   }
 }

@@ -18,10 +18,10 @@ struct ProvingGroundSettings {
   double bump_at_m = std::numeric_limits<double>::infinity();
 };
 
-class ProvingGround final : public terrain::Ground {
+class ProvingGround final : public ground::Ground {
  public:
   explicit ProvingGround(const ProvingGroundSettings& settings) : settings_(settings) {}
-  void Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) override;
+  void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override;
 
  private:
   ProvingGroundSettings settings_;

@@ -9,7 +9,7 @@
 namespace rodeira::manoeuvres {
 namespace {
 
-using vehicle::Controls;
+using dynamics::Controls;
 
 constexpr double kDegrees = 180.0 / geometry::kPi;
 constexpr double kHundred_mps = 100.0 / 3.6;
@@ -35,7 +35,7 @@ class Passing {
   bool passed_ = false;
 };
 
-base::Result<Outcome> BrakeFrom(vehicle::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps, double step_s) {
+base::Result<Outcome> BrakeFrom(dynamics::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps, double step_s) {
   constexpr double kLongest_s = 120.0;
   auto trial = Trial::Begin(car, ground, speed_mps, step_s);
   if (!trial) return trial.error();
@@ -62,7 +62,7 @@ base::Result<Outcome> BrakeFrom(vehicle::VehicleModel& car, const ProvingGroundS
 
 }  // namespace
 
-base::Result<Outcome> Acceleration(vehicle::VehicleModel& car, double step_s) {
+base::Result<Outcome> Acceleration(dynamics::VehicleModel& car, double step_s) {
   constexpr double kLongest_s = 180.0, kSteady_mps2 = 0.02, kSteady_s = 3.0;
   auto trial = Trial::Begin(car, {}, 0.0, step_s);
   if (!trial) return trial.error();
@@ -88,22 +88,22 @@ base::Result<Outcome> Acceleration(vehicle::VehicleModel& car, double step_s) {
   return outcome;
 }
 
-base::Result<Outcome> Braking(vehicle::VehicleModel& car, double step_s) { return BrakeFrom(car, {}, kHundred_mps, step_s); }
+base::Result<Outcome> Braking(dynamics::VehicleModel& car, double step_s) { return BrakeFrom(car, {}, kHundred_mps, step_s); }
 
-base::Result<Outcome> SplitFriction(vehicle::VehicleModel& car, double step_s) {
+base::Result<Outcome> SplitFriction(dynamics::VehicleModel& car, double step_s) {
   ProvingGroundSettings ground;
   ground.friction_right = 0.3;
   return BrakeFrom(car, ground, 80.0 / 3.6, step_s);
 }
 
-base::Result<Outcome> Park(vehicle::VehicleModel& car, double step_s) {
+base::Result<Outcome> Park(dynamics::VehicleModel& car, double step_s) {
   ProvingGroundSettings ground;
   ground.slope = 0.2;
   auto trial = Trial::Begin(car, ground, 0.0, step_s);
   if (!trial) return trial.error();
   Trial& t = trial.value();
   Controls controls;
-  controls.gearbox = vehicle::GearboxMode::kManual;
+  controls.gearbox = dynamics::GearboxMode::kManual;
   controls.gear = 0;
   controls.handbrake = 1.0;
   while (t.time_s() < 5.0) t.Step(controls);  // it settles on its springs first
@@ -114,7 +114,7 @@ base::Result<Outcome> Park(vehicle::VehicleModel& car, double step_s) {
   return outcome;
 }
 
-base::Result<Outcome> Bump(vehicle::VehicleModel& car, double step_s) {
+base::Result<Outcome> Bump(dynamics::VehicleModel& car, double step_s) {
   constexpr double kCalm_mps2 = 0.2, kSpeed_mps = 40.0 / 3.6, kFor_s = 6.0;
   ProvingGroundSettings ground;
   ground.bump_height_m = 0.05;
@@ -129,7 +129,7 @@ base::Result<Outcome> Bump(vehicle::VehicleModel& car, double step_s) {
     Controls controls;
     foot.Press(kSpeed_mps, t, controls);
     t.Step(controls);
-    const vehicle::VehicleState& s = t.state();
+    const dynamics::VehicleState& s = t.state();
     if (s.p_WB_W.x() + 0.5 * t.dimensions().wheelbase_m < ground.bump_at_m) continue;
     if (reached_s == 0.0) reached_s = t.time_s();
     const double vertical = s.a_WB_W.z();

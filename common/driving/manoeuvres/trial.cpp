@@ -13,23 +13,23 @@ constexpr double kDegrees = 180.0 / geometry::kPi;
 
 }  // namespace
 
-Trial::Trial(vehicle::VehicleModel& car, const ProvingGroundSettings& ground, double step_s) : car_(&car), ground_(ground), step_s_(step_s) {
+Trial::Trial(dynamics::VehicleModel& car, const ProvingGroundSettings& ground, double step_s) : car_(&car), ground_(ground), step_s_(step_s) {
   table_.names = {"time_s",      "x_m",          "y_m",       "heading_deg", "speed_kmph", "acceleration_mps2", "lateral_mps2", "yaw_rate_degps",
                   "sideslip_deg", "roll_deg",    "pitch_deg", "height_m",    "steering_wheel_deg", "throttle", "brake",         "gear",
                   "engine_rpm",  "load_fl_N",    "load_fr_N", "load_rl_N",   "load_rr_N"};
   for (const std::string& name : car.output_names()) table_.names.push_back(name);
 }
 
-base::Result<Trial> Trial::Begin(vehicle::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps, double step_s) {
+base::Result<Trial> Trial::Begin(dynamics::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps, double step_s) {
   Trial trial(car, ground, step_s);
-  vehicle::InitialCondition initial;
+  dynamics::InitialCondition initial;
   initial.speed_mps = speed_mps;
   if (auto status = car.Initialise(initial, trial.ground_); !status) return status.error();
   trial.Write();
   return trial;
 }
 
-void Trial::Step(const vehicle::Controls& controls) {
+void Trial::Step(const dynamics::Controls& controls) {
   controls_ = controls;
   car_->Step(controls, ground_, step_s_);
   ++steps_;
@@ -43,7 +43,7 @@ double Trial::lateral_mps2() const {
 
 void Trial::Write() {
   ++rows_;
-  const vehicle::VehicleState& s = state();
+  const dynamics::VehicleState& s = state();
   const Eigen::Vector3d v_WB_B = s.v_WB_B();
   const double heading = s.heading_rad();
   const double along = std::cos(heading) * s.a_WB_W.x() + std::sin(heading) * s.a_WB_W.y();
@@ -57,7 +57,7 @@ void Trial::Write() {
   for (const double value : car_->Outputs()) table_.values.push_back(value);
 }
 
-void SpeedHold::Press(double wanted_mps, const Trial& trial, vehicle::Controls& controls) {
+void SpeedHold::Press(double wanted_mps, const Trial& trial, dynamics::Controls& controls) {
   constexpr double kProportional_spm = 0.35, kIntegral_pm = 0.12, kBrake = 0.3;
   const double error = wanted_mps - trial.state().speed_mps();
   const double unbound = kProportional_spm * error + integral_;

@@ -11,28 +11,28 @@ namespace rodeira::manoeuvres {
 class Trial {
  public:
   // The model is placed anew, heading along x, with B's origin above the world's.
-  static base::Result<Trial> Begin(vehicle::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps, double step_s);
+  static base::Result<Trial> Begin(dynamics::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps, double step_s);
 
-  void Step(const vehicle::Controls& controls);
+  void Step(const dynamics::Controls& controls);
 
   double time_s() const { return static_cast<double>(steps_) * step_s_; }
   double step_s() const { return step_s_; }
-  const vehicle::VehicleState& state() const { return car_->state(); }
-  const vehicle::VehicleDimensions& dimensions() const { return car_->dimensions(); }
+  const dynamics::VehicleState& state() const { return car_->state(); }
+  const dynamics::VehicleDimensions& dimensions() const { return car_->dimensions(); }
   // Horizontal acceleration across the car, positive to the left: yaw rate times speed and the change of sideslip.
   double lateral_mps2() const;
   const plot::Table& table() const { return table_; }
 
  private:
-  Trial(vehicle::VehicleModel& car, const ProvingGroundSettings& ground, double step_s);
+  Trial(dynamics::VehicleModel& car, const ProvingGroundSettings& ground, double step_s);
   void Write();
 
-  vehicle::VehicleModel* car_;
+  dynamics::VehicleModel* car_;
   ProvingGround ground_;
   double step_s_;
   long steps_ = 0;
   long rows_ = 0;
-  vehicle::Controls controls_;
+  dynamics::Controls controls_;
   plot::Table table_;
 };
 
@@ -40,7 +40,7 @@ class Trial {
 class SpeedHold {
  public:
   // The wanted speed may change from step to step.
-  void Press(double wanted_mps, const Trial& trial, vehicle::Controls& controls);
+  void Press(double wanted_mps, const Trial& trial, dynamics::Controls& controls);
 
  private:
   double integral_ = 0.0;

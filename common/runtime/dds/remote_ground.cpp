@@ -27,7 +27,7 @@ base::Result<std::unique_ptr<RemoteGround>> RemoteGround::Open(Participant& part
   return ground;
 }
 
-void RemoteGround::Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) {
+void RemoteGround::Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) {
   RODEIRA_ASSERT(queries.size() == points.size());
   msg::GroundRequest request;
   request.asker(asker_);
@@ -53,7 +53,7 @@ void RemoteGround::Query(std::span<const terrain::GroundQuery> queries, std::spa
     lock.lock();
     if (woken_.wait_for(lock, patience, [this] { return answered_; })) break;
     if (over_()) {
-      for (terrain::GroundPoint& point : points) point = {};
+      for (ground::GroundPoint& point : points) point = {};
       answered_ = true;
     }
     patience = std::min(2 * patience, std::chrono::milliseconds(100));
@@ -76,7 +76,7 @@ void RemoteGround::OnReply(base::Bytes&& payload) {
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const auto& answer = answers[i];
     points_[i] = {answer.z_m(), {answer.normal_x(), answer.normal_y(), answer.normal_z()}, answer.friction(),
-                  static_cast<terrain::Surface>(answer.surface()), answer.inside() != 0};
+                  static_cast<ground::Surface>(answer.surface()), answer.inside() != 0};
   }
   answered_ = true;
   woken_.notify_all();

@@ -13,11 +13,11 @@ namespace rodeira::dds {
 
 // SUELO over request and reply. Waits for the answer on the caller's thread, asks again where none comes (the server may
 // have been restarted), and gives "outside" once `over` says that the run is.
-class RemoteGround final : public terrain::Ground {
+class RemoteGround final : public ground::Ground {
  public:
   static base::Result<std::unique_ptr<RemoteGround>> Open(Participant& participant, lockstep::NodeIndex asker, std::uint32_t incarnation,
                                                           std::function<bool()> over);
-  void Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) override;
+  void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override;
   // Whose heartbeat says "waits for a server" meanwhile; may be null.
   void Follow(lockstep::Runner* runner) { runner_ = runner; }
 
@@ -36,7 +36,7 @@ class RemoteGround final : public terrain::Ground {
   std::condition_variable woken_;
   std::uint64_t number_ = 0;       // of the newest request
   bool answered_ = true;
-  std::span<terrain::GroundPoint> points_;  // where its answer goes
+  std::span<ground::GroundPoint> points_;  // where its answer goes
 };
 
 }  // namespace rodeira::dds

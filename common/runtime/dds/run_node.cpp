@@ -38,7 +38,7 @@ class ProcessContext final : public launch::NodeContext {
                  std::uint32_t incarnation)
       : NodeContext(launch, index), participant_(participant), mailbox_(mailbox), bus_(bus), incarnation_(incarnation) {}
 
-  terrain::Ground& Ground() override {
+  ground::Ground& Ground() override {
     if (ground_ == nullptr) {
       auto ground = RemoteGround::Open(participant_, index(), incarnation_, [this] { return mailbox_.grant().abort; });
       RODEIRA_ASSERT(ground.ok());  // fails only where Fast DDS has no memory left

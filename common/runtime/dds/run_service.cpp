@@ -20,7 +20,7 @@ namespace topics = idl::topics;
 class ServiceContext final : public launch::NodeContext {
  public:
   using NodeContext::NodeContext;
-  terrain::Ground& Ground() override {
+  ground::Ground& Ground() override {
     RODEIRA_ASSERT(!"a server asks nobody");
   }
   base::Result<launch::WorldSummary> World() override {

@@ -37,7 +37,7 @@ class NodeContext {
   config::Map config() const { return launch_.node(index_).config->OptionalChild("config"); }
 
   // SUELO of the run's world: remote or in this process, with the same bits.
-  virtual terrain::Ground& Ground() = 0;
+  virtual ground::Ground& Ground() = 0;
   // It is in this process: asking it costs no round trip.
   virtual bool ground_is_here() const { return false; }
   // From the road server, waited for; Failed where it does not come.

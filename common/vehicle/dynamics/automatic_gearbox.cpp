@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kWalking_mps = 1.5;        // above it the car does not go from D to R or back
@@ -175,4 +175,4 @@ void AutomaticGearbox::Restore(base::StateReader& reader) {
   reader.Get("weak_throttle", weak_throttle_);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -6,7 +6,7 @@
 #include "common/vehicle/dynamics/engine.hpp"
 #include "common/vehicle/dynamics/gearbox.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // A manual gearbox worked by the car. Engine speeds in rad/s; the law's speeds lie on a line between a light and a full
 // throttle pedal.
@@ -83,4 +83,4 @@ class AutomaticGearbox {
   double weak_throttle_ = 0.0;   // … at this pedal
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -5,7 +5,7 @@
 
 #include "common/core/geometry/angle.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kGravity_mps2 = 9.81;
@@ -246,4 +246,4 @@ void BicycleCar::Restore(base::StateReader& reader) {
   reader.Get("forward_mps2", forward_mps2);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -10,7 +10,7 @@
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/vehicle/dynamics/wheel_ground.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // What all cars of one file share: settings, and what follows from them.
 struct BicycleChassis {
@@ -96,4 +96,4 @@ struct BicycleCar {
 // The plane under the car: parallel to both diagonals of the contact points, which for four points of a plane is theirs.
 Eigen::Vector3d RoadNormal(const BicycleContacts& contacts);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -9,7 +9,7 @@
 #include "common/vehicle/dynamics/bicycle_model.hpp"
 #include "common/vehicle/dynamics/cruise.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kGravity_mps2 = 9.81;
@@ -26,7 +26,7 @@ class BicycleEquilibrium {
  public:
   BicycleEquilibrium(BicycleModel& model, const InitialCondition& initial) : model_(model), initial_(initial) {}
 
-  base::Status Find(terrain::Ground& ground);
+  base::Status Find(ground::Ground& ground);
   void SetInMotion();
 
  private:
@@ -185,8 +185,8 @@ BicycleEquilibrium::Unknowns BicycleEquilibrium::Balance(Unknowns unknowns) {
   return unknowns;
 }
 
-base::Status BicycleEquilibrium::Find(terrain::Ground& ground) {
-  const terrain::GroundPoint start = ground.At(initial_.x_m, initial_.y_m, initial_.z_hint_m);
+base::Status BicycleEquilibrium::Find(ground::Ground& ground) {
+  const ground::GroundPoint start = ground.At(initial_.x_m, initial_.y_m, initial_.z_hint_m);
   const auto refusal = [&](const std::string& what) {
     return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}", initial_.x_m,
                                         initial_.y_m, initial_.heading_rad, what));
@@ -244,7 +244,7 @@ void BicycleEquilibrium::SetInMotion() {
   else model_.car_.powertrain.Start(model_.chassis_.settings.powertrain, rests ? 0.0 : turning);
 }
 
-base::Status BicycleModel::Initialise(const InitialCondition& initial, terrain::Ground& ground) {
+base::Status BicycleModel::Initialise(const InitialCondition& initial, ground::Ground& ground) {
   if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
   BicycleModel trial(settings());
   BicycleEquilibrium equilibrium(trial, initial);
@@ -255,4 +255,4 @@ base::Status BicycleModel::Initialise(const InitialCondition& initial, terrain::
   return {};
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

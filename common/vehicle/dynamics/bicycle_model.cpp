@@ -5,14 +5,14 @@
 #include "common/core/base/assert.hpp"
 #include "common/vehicle/dynamics/enveloping.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kMostStep_s = 0.1;
 
 }  // namespace
 
-void BicycleModel::AskGround(terrain::Ground& ground, double steering_wheel_rad) {
+void BicycleModel::AskGround(ground::Ground& ground, double steering_wheel_rad) {
   WheelPlaces places;
   std::array<WheelGround*, kWheels> wheels{};
   for (std::size_t i = 0; i < kWheels; ++i) {
@@ -21,10 +21,10 @@ void BicycleModel::AskGround(terrain::Ground& ground, double steering_wheel_rad)
     places.axles_W[i] = car_.body.q_WG * Eigen::Vector3d(-std::sin(steer), std::cos(steer), 0.0);
     wheels[i] = &car_.wheels[i];
   }
-  vehicle::AskGround(ground, settings().wheel.enveloping, settings().wheel.radius_m, places, wheels);
+  dynamics::AskGround(ground, settings().wheel.enveloping, settings().wheel.radius_m, places, wheels);
 }
 
-void BicycleModel::Step(const Controls& controls, terrain::Ground& ground, double dt_s) {
+void BicycleModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
   const Controls cut = Cut(controls);
   AskGround(ground, cut.steering_wheel_rad);
@@ -33,4 +33,4 @@ void BicycleModel::Step(const Controls& controls, terrain::Ground& ground, doubl
   Publish(cut, dt_s);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

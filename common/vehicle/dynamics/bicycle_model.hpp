@@ -3,7 +3,7 @@
 #include "common/vehicle/dynamics/bicycle_car.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // The single-track car on four wheels. In plan both wheels of an axle share the motion of the axle's middle, so one slip
 // angle an axle, and their horizontal forces act there; each wheel has its own load, friction and spin. The body is a rigid
@@ -15,8 +15,8 @@ class BicycleModel final : public VehicleModel {
  public:
   explicit BicycleModel(const BicycleSettings& settings) : chassis_(settings) {}
 
-  base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) override;
-  void Step(const Controls& controls, terrain::Ground& ground, double dt_s) override;
+  base::Status Initialise(const InitialCondition& initial, ground::Ground& ground) override;
+  void Step(const Controls& controls, ground::Ground& ground, double dt_s) override;
   void SetPush(const Wrench& push) override { push_ = push; }
   bool can_be_pushed() const override { return true; }
   const VehicleState& state() const override { return state_; }
@@ -33,7 +33,7 @@ class BicycleModel final : public VehicleModel {
 
   Eigen::Vector3d p_WB_W() const { return car_.p_WB_W(chassis_); }
   Eigen::Vector3d v_WB_W() const { return car_.body.VelocityAt(p_WB_W()); }
-  void AskGround(terrain::Ground& ground, double steering_wheel_rad);
+  void AskGround(ground::Ground& ground, double steering_wheel_rad);
   void Publish(const Controls& controls, double dt_s);
   double SteeringTorque() const;
 
@@ -44,4 +44,4 @@ class BicycleModel final : public VehicleModel {
   VehicleState state_;
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

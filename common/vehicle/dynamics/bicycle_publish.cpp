@@ -6,7 +6,7 @@
 #include "common/vehicle/dynamics/bicycle_model.hpp"
 #include "common/vehicle/dynamics/powertrain_publish.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // The front tyres turn their carriers by side force × trail; the pneumatic part vanishes as the tyre slides.
 double BicycleModel::SteeringTorque() const {
@@ -76,4 +76,4 @@ void BicycleModel::Restore(base::StateReader& reader) {
   reader.Get("published", state_);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -2,7 +2,7 @@
 
 #include "common/vehicle/dynamics/parts_file.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 using config::Map;
@@ -75,4 +75,4 @@ BicycleSettings ReadBicycle(const Map& root) {
   return bicycle;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -8,7 +8,7 @@
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/vehicle/dynamics/wheel.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 struct BodySettings {
   double mass_kg = 1050.0;  // of the whole car with its wheels and driver
@@ -44,4 +44,4 @@ struct BicycleSettings {
 
 BicycleSettings ReadBicycle(const config::Map& root);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -5,7 +5,7 @@
 #include "common/core/base/assert.hpp"
 #include "common/vehicle/dynamics/bicycle_model.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kMostStep_s = 0.1;
@@ -18,7 +18,7 @@ base::Result<std::uint32_t> CarArray::AddKind(const BicycleSettings& settings) {
   return static_cast<std::uint32_t>(chassis_.size() - 1);
 }
 
-base::Result<std::size_t> CarArray::Add(std::uint32_t kind, const InitialCondition& initial, terrain::Ground& ground) {
+base::Result<std::size_t> CarArray::Add(std::uint32_t kind, const InitialCondition& initial, ground::Ground& ground) {
   Resize(size() + 1);
   if (const base::Status status = Place(size() - 1, kind, initial, ground); !status) {
     Resize(size() - 1);
@@ -34,7 +34,7 @@ void CarArray::Resize(std::size_t places) {
   findings_.resize(places);
 }
 
-base::Status CarArray::Place(std::size_t i, std::uint32_t kind, const InitialCondition& initial, terrain::Ground& ground) {
+base::Status CarArray::Place(std::size_t i, std::uint32_t kind, const InitialCondition& initial, ground::Ground& ground) {
   RODEIRA_ASSERT(kind < chassis_.size() && i < size());
   BicycleModel alone(chassis_[kind]->settings);
   if (const base::Status status = alone.Initialise(initial, ground); !status) return status;
@@ -45,7 +45,7 @@ base::Status CarArray::Place(std::size_t i, std::uint32_t kind, const InitialCon
   return {};
 }
 
-void CarArray::AskGround(terrain::Ground& ground) {
+void CarArray::AskGround(ground::Ground& ground) {
   queries_.clear();
   for (std::size_t i = 0; i < cars_.size(); ++i) {
     if (!present(i)) continue;
@@ -69,7 +69,7 @@ void CarArray::StepRange(std::span<const Controls> controls, double dt_s, std::s
   }
 }
 
-void CarArray::Step(std::span<const Controls> controls, terrain::Ground& ground, double dt_s, base::Crew* crew) {
+void CarArray::Step(std::span<const Controls> controls, ground::Ground& ground, double dt_s, base::Crew* crew) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
   RODEIRA_ASSERT(controls.size() == cars_.size());
   AskGround(ground);
@@ -98,4 +98,4 @@ void CarArray::Restore(base::StateReader& reader) {
   }
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

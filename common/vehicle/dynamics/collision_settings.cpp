@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 BodyBox BoxOf(const VehicleDimensions& d, const CollisionSettings& settings) {
   return {{0.5 * (d.front_m - d.rear_m), 0.0, 0.5 * (d.height_m + settings.clearance_m)},
@@ -16,4 +16,4 @@ Eigen::Vector3d ContactForce(const CollisionSettings& settings, const Eigen::Vec
   return bears * normal_W - settings.friction * bears / std::max(sliding.norm(), settings.sticking_mps) * sliding;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -4,7 +4,7 @@
 
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // How bodies give way where they touch. Chosen: at 50 km/h against a wall a car of 1000 kg is pressed in by 0.3 m.
 struct CollisionSettings {
@@ -28,4 +28,4 @@ BodyBox BoxOf(const VehicleDimensions& dimensions, const CollisionSettings& sett
 // along the normal (unit, onto the body), at least 0, and Coulomb friction across. `v_W`: of the body against the other there.
 Eigen::Vector3d ContactForce(const CollisionSettings& settings, const Eigen::Vector3d& normal_W, double depth_m, const Eigen::Vector3d& v_W, double share);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

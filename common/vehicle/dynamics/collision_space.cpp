@@ -8,7 +8,7 @@
 
 #include "common/vehicle/dynamics/ode_library.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr int kMostContacts = 8;
@@ -92,4 +92,4 @@ Wrench WrenchOf(std::span<const Impact> impacts) {
   return sum;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

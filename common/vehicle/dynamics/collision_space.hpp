@@ -10,7 +10,7 @@
 #include "common/vehicle/dynamics/collision_settings.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // A box that the car may hit: another vehicle, an object beside the road, a piece of a barrier.
 struct Obstacle {
@@ -56,4 +56,4 @@ class CollisionSpace {
 // What all of them do to the car.
 Wrench WrenchOf(std::span<const Impact> impacts);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

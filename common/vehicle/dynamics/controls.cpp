@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 double CutTo(double value, double low, double high) { return std::isnan(value) ? 0.0 : std::clamp(value, low, high); }
@@ -45,4 +45,4 @@ void Controls::Restore(base::StateReader& reader) {
   reader.Get("starter", starter);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

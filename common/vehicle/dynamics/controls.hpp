@@ -4,7 +4,7 @@
 
 #include "common/core/base/state.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // Who works clutch and gears. The number is on the wire and in recordings: never renumber.
 enum class GearboxMode : std::uint32_t {
@@ -31,4 +31,4 @@ struct Controls {
 // The same controls with each value in its range, NaN replaced by 0, an unknown mode by automatic.
 Controls Cut(const Controls& controls);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kStandstill_mps = 1e-6;
@@ -27,4 +27,4 @@ CruiseForces PushAlong(double total_N, const std::array<double, kWheels>& loads_
   return forces;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

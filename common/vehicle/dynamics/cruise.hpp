@@ -5,7 +5,7 @@
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/vehicle/dynamics/wheel.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // Straight ahead at a speed, which INI solves as it does the standstill. Turning, or slipping sideways, is no equilibrium: there the wheels roll.
 bool IsCruise(const InitialCondition& initial);
@@ -18,4 +18,4 @@ struct CruiseForces {
 };
 CruiseForces PushAlong(double total_N, const std::array<double, kWheels>& loads_N, const WheelSettings& wheel, bool front_driven, double speed_mps);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

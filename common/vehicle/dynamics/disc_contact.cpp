@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 DiscContact MeetPlane(const Eigen::Vector3d& hub_W, const Eigen::Vector3d& axle_W, double radius_m, const Eigen::Vector3d& plane_W,
                       const Eigen::Vector3d& normal_W) {
@@ -22,4 +22,4 @@ DiscContact MeetPlane(const Eigen::Vector3d& hub_W, const Eigen::Vector3d& axle_
   return contact;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // Where a thin disc meets a plane: its lowest point.
 struct DiscContact {
@@ -18,4 +18,4 @@ struct DiscContact {
 DiscContact MeetPlane(const Eigen::Vector3d& hub_W, const Eigen::Vector3d& axle_W, double radius_m, const Eigen::Vector3d& plane_W,
                       const Eigen::Vector3d& normal_W);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -6,7 +6,7 @@
 
 #include "common/vehicle/dynamics/friction.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 // The friction elements, and a give that keeps their matrix definite when all five stick (five ties on three rotors). It is
@@ -103,4 +103,4 @@ void DrivelineMotion::Restore(base::StateReader& reader) {
   reader.Get("friction_torque_Nm", std::span<double>(friction_torque_Nm));
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -5,7 +5,7 @@
 #include "common/core/base/state.hpp"
 #include "common/vehicle/dynamics/engine.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // A friction clutch: what it can pass falls linearly with the pedal.
 struct ClutchSettings {
@@ -62,4 +62,4 @@ DrivelineMotion StepDriveline(const EngineSettings& settings, const Engine& engi
 // A wheel by itself, without a drive shaft. Returns its new speed; `friction_Nm` becomes what acted.
 double StepFreeWheel(double wheel_radps, double inertia_kgm2, double road_torque_Nm, double& friction_Nm, double dt_s);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kIdleGain_Nmspr = 0.6;
@@ -126,4 +126,4 @@ void Engine::Restore(base::StateReader& reader) {
   reader.Get("fuel_kg", fuel_kg_);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

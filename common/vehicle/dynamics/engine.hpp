@@ -4,7 +4,7 @@
 
 #include "common/core/base/state.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 inline constexpr double kPetrol_kgpl = 0.745;
 
@@ -78,4 +78,4 @@ class Engine {
   double fuel_kg_ = 0.0;
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

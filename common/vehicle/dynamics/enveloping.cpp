@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 using Eigen::Vector3d;
@@ -29,11 +29,11 @@ struct Touch {
   double ahead_m = 0.0;
   double slope = 0.0;      // of the plane, along the wheel
   bool tangent = false;    // to the ground's own plane there; otherwise the ring stands on an edge
-  const terrain::GroundPoint* point = nullptr;
+  const ground::GroundPoint* point = nullptr;
 };
 
 // Where a ring touches one cell's plane: at its lowest point against it, or at the end of the cell that is nearer to that.
-Touch TouchCell(const terrain::GroundPoint& point, double middle_m, const Vector3d& heading, double radius_m) {
+Touch TouchCell(const ground::GroundPoint& point, double middle_m, const Vector3d& heading, double radius_m) {
   const double half = 0.5 * kCell * radius_m;
   const double slope = std::clamp(-point.normal_W.dot(heading) / point.normal_W.z(), -kSteepest, kSteepest);
   const double lowest = radius_m * slope / std::sqrt(1.0 + slope * slope);
@@ -48,14 +48,14 @@ Touch TouchCell(const terrain::GroundPoint& point, double middle_m, const Vector
   return touch;
 }
 
-void Stand(const Vector3d& hub_W, const Vector3d& heading, double radius_m, std::span<const terrain::GroundPoint> points, WheelGround& wheel) {
-  const terrain::GroundPoint& below = points[kRingPoints / 2];
+void Stand(const Vector3d& hub_W, const Vector3d& heading, double radius_m, std::span<const ground::GroundPoint> points, WheelGround& wheel) {
+  const ground::GroundPoint& below = points[kRingPoints / 2];
   wheel.inside = below.inside;
   wheel.surface = below.surface;
   if (!wheel.inside) return;
   Touch first;
   for (int i = 0; i < kRingPoints; ++i) {
-    const terrain::GroundPoint& point = points[static_cast<std::size_t>(i)];
+    const ground::GroundPoint& point = points[static_cast<std::size_t>(i)];
     if (!point.inside) continue;
     const Touch touch = TouchCell(point, Ahead(i, radius_m), heading, radius_m);
     if (touch.hub_z_m > first.hub_z_m) first = touch;
@@ -71,9 +71,9 @@ void Stand(const Vector3d& hub_W, const Vector3d& heading, double radius_m, std:
   wheel.surface = first.point->surface;
 }
 
-void AskGroundByRing(terrain::Ground& ground, double radius_m, const WheelPlaces& places, const std::array<WheelGround*, kWheels>& wheels) {
-  std::array<terrain::GroundQuery, kWheels * kRingPoints> queries;
-  std::array<terrain::GroundPoint, kWheels * kRingPoints> points;
+void AskGroundByRing(ground::Ground& ground, double radius_m, const WheelPlaces& places, const std::array<WheelGround*, kWheels>& wheels) {
+  std::array<ground::GroundQuery, kWheels * kRingPoints> queries;
+  std::array<ground::GroundPoint, kWheels * kRingPoints> points;
   std::array<Vector3d, kWheels> headings;
   for (std::size_t i = 0; i < kWheels; ++i) {
     const Vector3d& hub = places.hubs_W[i];
@@ -91,9 +91,9 @@ void AskGroundByRing(terrain::Ground& ground, double radius_m, const WheelPlaces
 
 }  // namespace
 
-void AskGround(terrain::Ground& ground, Enveloping enveloping, double radius_m, const WheelPlaces& places, const std::array<WheelGround*, kWheels>& wheels) {
+void AskGround(ground::Ground& ground, Enveloping enveloping, double radius_m, const WheelPlaces& places, const std::array<WheelGround*, kWheels>& wheels) {
   if (enveloping == Enveloping::kNone) AskGround(ground, places.hubs_W, wheels);
   else AskGroundByRing(ground, radius_m, places, wheels);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

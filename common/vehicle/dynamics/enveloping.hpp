@@ -7,7 +7,7 @@
 #include "common/vehicle/dynamics/wheel.hpp"
 #include "common/vehicle/dynamics/wheel_ground.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // The ring stands upright in the wheel's plane. Over the ground at kRingPoints places along the wheel, within kRingReach of the radius to both sides,
 // it comes to rest where it touches first: with its hub at
@@ -25,6 +25,6 @@ struct WheelPlaces {
 };
 
 // Asks for the ground under the four wheels as `enveloping` says, in one batch (law L4). Outside of the world a wheel goes on upon the plane that it knows.
-void AskGround(terrain::Ground& ground, Enveloping enveloping, double radius_m, const WheelPlaces& places, const std::array<WheelGround*, kWheels>& wheels);
+void AskGround(ground::Ground& ground, Enveloping enveloping, double radius_m, const WheelPlaces& places, const std::array<WheelGround*, kWheels>& wheels);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

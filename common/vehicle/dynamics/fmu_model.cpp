@@ -10,7 +10,7 @@
 #include "common/core/geometry/angle.hpp"
 #include "common/vehicle/dynamics/enveloping.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kMostStep_s = 0.1;
@@ -46,7 +46,7 @@ Eigen::Vector3d FmuModel::HubAtRest_B(std::size_t wheel) const {
   return {(wheel < kRearLeft ? 0.5 : -0.5) * d.wheelbase_m, wheel % 2 == 0 ? half_track : -half_track, d.wheel_radius_m};
 }
 
-void FmuModel::AskGround(terrain::Ground& ground) {
+void FmuModel::AskGround(ground::Ground& ground) {
   WheelPlaces places;
   std::array<WheelGround*, kWheels> wheels{};
   for (std::size_t i = 0; i < kWheels; ++i) {
@@ -55,7 +55,7 @@ void FmuModel::AskGround(terrain::Ground& ground) {
     places.axles_W[i] = state_.q_WB * Eigen::Vector3d(-std::sin(wheel.steer_rad), std::cos(wheel.steer_rad), 0.0);
     wheels[i] = &wheels_[i];
   }
-  vehicle::AskGround(ground, settings_.enveloping, settings_.dimensions.wheel_radius_m, places, wheels);
+  dynamics::AskGround(ground, settings_.enveloping, settings_.dimensions.wheel_radius_m, places, wheels);
 }
 
 base::Status FmuModel::Set(const fmi::Variable* variable, double value) { return variable == nullptr ? base::Status() : instance_->Set(*variable, value); }
@@ -124,12 +124,12 @@ base::Status FmuModel::SetStart(const InitialCondition& initial) {
   return {};
 }
 
-base::Status FmuModel::Begin(const InitialCondition& initial, terrain::Ground& ground) {
+base::Status FmuModel::Begin(const InitialCondition& initial, ground::Ground& ground) {
   const auto refusal = [&](const std::string& what) {
     return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}", initial.x_m,
                                         initial.y_m, initial.heading_rad, what));
   };
-  const terrain::GroundPoint start = ground.At(initial.x_m, initial.y_m, initial.z_hint_m);
+  const ground::GroundPoint start = ground.At(initial.x_m, initial.y_m, initial.z_hint_m);
   if (!start.inside) return refusal("that is outside of the world");
   state_ = VehicleState();
   for (std::size_t i = 0; i < kWheels; ++i) state_.wheels[i].hub_B = HubAtRest_B(i);
@@ -155,7 +155,7 @@ base::Status FmuModel::Begin(const InitialCondition& initial, terrain::Ground& g
   return Publish(Controls{}, 0.0);
 }
 
-base::Status FmuModel::Initialise(const InitialCondition& initial, terrain::Ground& ground) {
+base::Status FmuModel::Initialise(const InitialCondition& initial, ground::Ground& ground) {
   if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
   auto instance = std::move(instance_);
   const auto wheels = wheels_;
@@ -239,7 +239,7 @@ base::Status FmuModel::Advance(const Controls& controls, double dt_s) {
   return Publish(controls, dt_s);
 }
 
-void FmuModel::Step(const Controls& controls, terrain::Ground& ground, double dt_s) {
+void FmuModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
   AskGround(ground);
   if (problem_) problem_ = Advance(Cut(controls), dt_s);
@@ -278,4 +278,4 @@ void FmuModel::Restore(base::StateReader& reader) {
   if (problem_ && !raw.empty()) problem_ = instance_->SetState(std::as_bytes(std::span(raw)));
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -12,7 +12,7 @@
 #include "common/vehicle/dynamics/wheel.hpp"
 #include "common/vehicle/dynamics/wheel_ground.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // All that a vehicle file of model `fmu` says.
 struct FmuSettings {
@@ -34,8 +34,8 @@ class FmuModel final : public VehicleModel {
   // Wrong input where the file is no FMU that drives here.
   base::Status Build();
 
-  base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) override;
-  void Step(const Controls& controls, terrain::Ground& ground, double dt_s) override;
+  base::Status Initialise(const InitialCondition& initial, ground::Ground& ground) override;
+  void Step(const Controls& controls, ground::Ground& ground, double dt_s) override;
   base::Status problem() const override { return problem_; }
   void SetPush(const Wrench& push) override { push_ = push; }
   // It has all inputs push_….
@@ -48,13 +48,13 @@ class FmuModel final : public VehicleModel {
 
  private:
   Eigen::Vector3d HubAtRest_B(std::size_t wheel) const;
-  void AskGround(terrain::Ground& ground);
+  void AskGround(ground::Ground& ground);
   base::Status Set(const fmi::Variable* variable, double value);
   base::Status SetGround();
   base::Status SetPushInputs();
   base::Status SetControls(const Controls& controls);
   base::Status SetStart(const InitialCondition& initial);
-  base::Status Begin(const InitialCondition& initial, terrain::Ground& ground);
+  base::Status Begin(const InitialCondition& initial, ground::Ground& ground);
   base::Result<double> Get(const fmi::Variable* variable, double otherwise = 0.0);
   base::Status Publish(const Controls& controls, double dt_s);
   base::Status Advance(const Controls& controls, double dt_s);
@@ -70,4 +70,4 @@ class FmuModel final : public VehicleModel {
   base::Status problem_;
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

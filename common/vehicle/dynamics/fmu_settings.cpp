@@ -1,7 +1,7 @@
 #include "common/vehicle/dynamics/fmu_model.hpp"
 #include "common/vehicle/dynamics/parts_file.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 using config::Range;
 
@@ -31,4 +31,4 @@ FmuSettings ReadFmu(const config::Map& root) {
   return fmu;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

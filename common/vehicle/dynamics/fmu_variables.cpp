@@ -7,7 +7,7 @@
 
 #include "common/core/base/suggest.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 enum class Way { kStart, kInput, kOutput };
@@ -130,4 +130,4 @@ base::Result<FmuVariables> FindVariables(const fmi::Description& description, co
   return v;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

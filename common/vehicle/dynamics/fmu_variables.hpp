@@ -9,7 +9,7 @@
 #include "common/vehicle/fmi/description.hpp"
 #include "common/vehicle/dynamics/vehicle_state.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // The border between a vehicle and an FMU (docs/vehicle.md): names, units, and the FMU's variables that bear them; null where the FMU
 // has none, which only those that are asked for may not be.
@@ -42,4 +42,4 @@ struct FmuVariables {
 base::Result<FmuVariables> FindVariables(const fmi::Description& description, const std::map<std::string, std::string>& names,
                                          const std::string& context);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 enum class Role { kSticks, kAtPlus, kAtMinus };
@@ -57,4 +57,4 @@ FrictionVector SolveFriction(const FrictionMatrix& a, const FrictionVector& s_fr
   return p.cwiseMin(bound).cwiseMax(-bound);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

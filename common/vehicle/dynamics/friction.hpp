@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // Dry friction elements that act together during one step: brakes, clutch, drag, differential. Element i lets its parts slide with the
 // relative speed s_i and passes an angular impulse p_i (torque × dt) of at most bound_i:
@@ -14,4 +14,4 @@ using FrictionMatrix = Eigen::Matrix<double, kFrictionElements, kFrictionElement
 
 FrictionVector SolveFriction(const FrictionMatrix& a, const FrictionVector& s_free, const FrictionVector& bound);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kClutchPressed = 0.6;
@@ -27,4 +27,4 @@ int ShiftByHand(const GearboxSettings& gearbox, int engaged, int lever, double c
   return against ? 0 : wanted;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 struct GearboxSettings {
   std::vector<double> forward{3.46, 1.96, 1.39, 1.03, 0.85};
@@ -20,4 +20,4 @@ double TotalRatio(const GearboxSettings& gearbox, int gear);
 // (or forward out of reverse) not above walking speed.
 int ShiftByHand(const GearboxSettings& gearbox, int engaged, int lever, double clutch_pedal, double speed_mps);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 using S = MagicFormulaSettings;
@@ -165,4 +165,4 @@ double LateralPeak(const MagicFormulaSettings& tyre, double load_N, double frict
   return Muy(tyre, o, 0.0, friction) * o.fz;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // Pacejka's Magic Formula, version 6.1 (H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed., 2012, chapter 4.3), forces Fx
 // and Fy with combined slip, camber and inflation pressure; turn slip and the moments are left out. Version
@@ -72,4 +72,4 @@ double CorneringStiffness(const MagicFormulaSettings& tyre, double load_N);
 double LongitudinalPeak(const MagicFormulaSettings& tyre, double load_N, double friction);
 double LateralPeak(const MagicFormulaSettings& tyre, double load_N, double friction);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 using Eigen::Vector3d;
@@ -40,4 +40,4 @@ double BodyLoad::Force(const multibody::Motion& motion) const {
   return force;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -7,7 +7,7 @@
 #include "common/vehicle/dynamics/collision_settings.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // What the chassis takes from outside but for its wheels: a push that is set before the step, and the ground under the corners of the
 // car's box, by which the car lies on its side or its roof. The ground's force follows the motion within the step.
@@ -39,4 +39,4 @@ class BodyLoad final : public multibody::Load {
   Eigen::Vector3d normal_W_ = Eigen::Vector3d::UnitZ();
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

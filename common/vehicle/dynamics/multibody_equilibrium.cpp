@@ -11,7 +11,7 @@
 #include "common/vehicle/dynamics/cruise.hpp"
 #include "common/vehicle/dynamics/multibody_model.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr int kGroundTurns = 40;  // the wheels move a little as the car settles, and with them the ground's answers
@@ -155,8 +155,8 @@ Eigen::Isometry3d MultibodyModel::MoveTo(const InitialCondition& initial, double
   return way;
 }
 
-base::Status MultibodyModel::Settle(const InitialCondition& initial, terrain::Ground& ground, Cruise& cruise) {
-  const terrain::GroundPoint start = ground.At(initial.x_m, initial.y_m, initial.z_hint_m);
+base::Status MultibodyModel::Settle(const InitialCondition& initial, ground::Ground& ground, Cruise& cruise) {
+  const ground::GroundPoint start = ground.At(initial.x_m, initial.y_m, initial.z_hint_m);
   if (!start.inside) return Refusal(initial, "that is outside of the world");
   Place(Standing(initial, start.z_m, start.normal_W) * X_CB_.inverse());
   column_load_->SetHands(0.0, 0.0);
@@ -180,7 +180,7 @@ base::Status MultibodyModel::Settle(const InitialCondition& initial, terrain::Gr
 }
 
 // At rest the wheels are locked, and what holds them is not asked; at a speed (cruise) they roll, and at last the tyres hold all.
-base::Status MultibodyModel::Balance(const InitialCondition& initial, terrain::Ground& ground, Cruise* cruise) {
+base::Status MultibodyModel::Balance(const InitialCondition& initial, ground::Ground& ground, Cruise* cruise) {
   // The springs that hold the hubs are stretched on a slope: they go with the car when it is moved.
   std::array<Eigen::Vector3d, kWheels> anchors;
   for (std::size_t i = 0; i < kWheels; ++i) anchors[i] = Hub_W(i);
@@ -263,7 +263,7 @@ void MultibodyModel::Turn(const Eigen::Vector3d& about_W, const Eigen::Vector3d&
   }
 }
 
-base::Status MultibodyModel::Initialise(const InitialCondition& initial, terrain::Ground& ground) {
+base::Status MultibodyModel::Initialise(const InitialCondition& initial, ground::Ground& ground) {
   if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
   base::StateWriter before;
   Save(before);
@@ -280,4 +280,4 @@ base::Status MultibodyModel::Initialise(const InitialCondition& initial, terrain
   return {};
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

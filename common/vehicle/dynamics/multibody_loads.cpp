@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 using Eigen::Vector3d;
@@ -92,4 +92,4 @@ void ColumnLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) con
   sink.Stiffen(pairs_, &gradient, stiffness_Nmprad_, damping_Nmsprad_);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -4,7 +4,7 @@
 #include "common/vehicle/multibody/load.hpp"
 #include "common/vehicle/dynamics/disc_contact.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // What acts on a wheel's carrier: the tyre on the plane under it, the brake's reaction, the wheel's spin. The vertical
 // force follows the motion within a step; the tangential ones are set before it.
@@ -97,4 +97,4 @@ class ColumnLoad final : public multibody::Load {
   double hands_radps_ = 0.0;
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

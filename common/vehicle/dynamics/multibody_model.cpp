@@ -7,7 +7,7 @@
 #include "common/core/geometry/angle.hpp"
 #include "common/vehicle/dynamics/enveloping.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kMostStep_s = 0.1;
@@ -53,7 +53,7 @@ base::Status MultibodyModel::Build() {
   ahead_qd_ = ahead_q_;
   if (auto status = system_->Start(); !status) return status;
   // Where the car stands level on z = 0 is the published frame.
-  terrain::PlaneGround level;
+  ground::PlaneGround level;
   if (auto status = Initialise({}, level); !status) return status;
   const Eigen::Isometry3d X_WC = X_WB();  // X_CB is the identity as yet
   X_CB_ = X_WC.inverse();
@@ -86,7 +86,7 @@ void MultibodyModel::GiveGround(std::size_t wheel) {
   wheels_[wheel].load->SetPlane(wheels_[wheel].plane_W, wheels_[wheel].normal_W);
 }
 
-void MultibodyModel::AskGround(terrain::Ground& ground) {
+void MultibodyModel::AskGround(ground::Ground& ground) {
   WheelPlaces places;
   std::array<WheelGround*, kWheels> wheels{};
   for (std::size_t i = 0; i < kWheels; ++i) {
@@ -94,10 +94,10 @@ void MultibodyModel::AskGround(terrain::Ground& ground) {
     places.axles_W[i] = system_->motion().At(settings_.wheels[i].axle);
     wheels[i] = &wheels_[i];
   }
-  vehicle::AskGround(ground, settings_.wheel.enveloping, settings_.wheel.radius_m, places, wheels);
+  dynamics::AskGround(ground, settings_.wheel.enveloping, settings_.wheel.radius_m, places, wheels);
 }
 
-void MultibodyModel::Step(const Controls& controls, terrain::Ground& ground, double dt_s) {
+void MultibodyModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
   const Controls cut = Cut(controls);
   AskGround(ground);
@@ -226,4 +226,4 @@ void MultibodyModel::Advance(double dt_s, int depth) {
   (void)system_->FindAccelerations();
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

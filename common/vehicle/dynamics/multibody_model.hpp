@@ -12,7 +12,7 @@
 #include "common/vehicle/dynamics/multibody_settings.hpp"
 #include "common/vehicle/dynamics/wheel_ground.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // A car whose body, suspensions and steering are a multibody mechanism in natural coordinates, stepped by the index-3
 // augmented Lagrangian (common/vehicle/multibody), on tyres by the Magic Formula with camber. Wheels spin as rotors about their
@@ -28,8 +28,8 @@ class MultibodyModel final : public VehicleModel {
   // After it: the file's `mechanism: outputs`, as of a mechanism file but none where it names none. Problems stay in the file's collection.
   void ReadOutputs(const config::Map& root);
 
-  base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) override;
-  void Step(const Controls& controls, terrain::Ground& ground, double dt_s) override;
+  base::Status Initialise(const InitialCondition& initial, ground::Ground& ground) override;
+  void Step(const Controls& controls, ground::Ground& ground, double dt_s) override;
   void SetPush(const Wrench& push) override { push_ = push; }
   bool can_be_pushed() const override { return true; }
   const VehicleState& state() const override { return state_; }
@@ -67,7 +67,7 @@ class MultibodyModel final : public VehicleModel {
   Eigen::Vector3d Hub_W(std::size_t wheel) const;
   Eigen::Vector3d Forward_W() const;
   Eigen::Vector3d Turning_W(const multibody::Frame& frame, const multibody::Motion& motion) const;  // angular velocity
-  void AskGround(terrain::Ground& ground);
+  void AskGround(ground::Ground& ground);
   void GiveGround(std::size_t wheel);
   // One substep.
   void Substep(const Controls& controls, double dt_s);
@@ -80,8 +80,8 @@ class MultibodyModel final : public VehicleModel {
   void Advance(double dt_s, int depth);
   // INI.
   struct Cruise;  // of a car that keeps its speed
-  base::Status Settle(const InitialCondition& initial, terrain::Ground& ground, Cruise& cruise);
-  base::Status Balance(const InitialCondition& initial, terrain::Ground& ground, Cruise* cruise);
+  base::Status Settle(const InitialCondition& initial, ground::Ground& ground, Cruise& cruise);
+  base::Status Balance(const InitialCondition& initial, ground::Ground& ground, Cruise* cruise);
   Eigen::Isometry3d MoveTo(const InitialCondition& initial, double& by);
   double UpdateCruise(const InitialCondition& initial, Cruise& cruise);
   void FillTranslation(const Eigen::Vector3d& v_W, std::span<double> rates) const;
@@ -114,4 +114,4 @@ class MultibodyModel final : public VehicleModel {
   VehicleState state_;
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

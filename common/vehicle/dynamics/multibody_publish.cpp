@@ -7,7 +7,7 @@
 #include "common/vehicle/dynamics/multibody_model.hpp"
 #include "common/vehicle/dynamics/powertrain_publish.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 void MultibodyModel::ReadOutputs(const config::Map& root) {
   const config::Map mechanism = root.Child("mechanism");
@@ -109,4 +109,4 @@ void MultibodyModel::Restore(base::StateReader& reader) {
   reader.Get("published", state_);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

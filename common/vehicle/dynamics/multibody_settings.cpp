@@ -7,7 +7,7 @@
 #include "common/vehicle/multibody/drawing_reader.hpp"
 #include "common/vehicle/dynamics/parts_file.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 using config::Map;
@@ -113,4 +113,4 @@ MultibodySettings ReadMultibody(const Map& root) {
   return car;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -8,7 +8,7 @@
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/vehicle/dynamics/wheel.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // How a wheel hangs on the mechanism.
 struct MultibodyWheelSettings {
@@ -49,4 +49,4 @@ struct MultibodySettings {
 
 MultibodySettings ReadMultibody(const config::Map& root);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

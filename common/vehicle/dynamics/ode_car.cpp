@@ -7,7 +7,7 @@
 
 #include "common/vehicle/dynamics/ode_library.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kGravity_mps2 = 9.81;
@@ -189,4 +189,4 @@ void OdeCar::Step(double dt_s) {
   Read();
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -9,7 +9,7 @@
 #include "common/vehicle/dynamics/rigid_body.hpp"
 #include "common/vehicle/dynamics/vehicle_state.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // The car in the Open Dynamics Engine: a chassis with a box around it, and four wheels on hinge-2 joints whose springs and dampers are
 // the suspension's. The joints turn the steered wheels to their angles and every wheel at the speed that the driveline found.
@@ -54,4 +54,4 @@ class OdeCar {
 // What the spring bears where the car rests on level ground: the wheel's load without its own weight, N.
 double PreloadOf(const OdeSettings& settings, std::size_t wheel);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -9,7 +9,7 @@
 #include "common/vehicle/dynamics/cruise.hpp"
 #include "common/vehicle/dynamics/ode_model.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kGravity_mps2 = 9.81;
@@ -25,7 +25,7 @@ class OdeEquilibrium {
  public:
   OdeEquilibrium(OdeModel& model, const InitialCondition& initial) : model_(model), initial_(initial) {}
 
-  base::Status Find(terrain::Ground& ground);
+  base::Status Find(ground::Ground& ground);
   void SetInMotion();
 
  private:
@@ -193,8 +193,8 @@ OdeEquilibrium::Vector OdeEquilibrium::Balance(Vector unknowns) {
   return unknowns;
 }
 
-base::Status OdeEquilibrium::Find(terrain::Ground& ground) {
-  const terrain::GroundPoint start = ground.At(initial_.x_m, initial_.y_m, initial_.z_hint_m);
+base::Status OdeEquilibrium::Find(ground::Ground& ground) {
+  const ground::GroundPoint start = ground.At(initial_.x_m, initial_.y_m, initial_.z_hint_m);
   const auto refusal = [&](const std::string& what) {
     return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}", initial_.x_m,
                                         initial_.y_m, initial_.heading_rad, what));
@@ -258,7 +258,7 @@ void OdeEquilibrium::SetInMotion() {
   model_.now_.forward_mps2 = 0.0;
 }
 
-base::Status OdeModel::Initialise(const InitialCondition& initial, terrain::Ground& ground) {
+base::Status OdeModel::Initialise(const InitialCondition& initial, ground::Ground& ground) {
   if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
   const Motion before = now_;
   const Contacts contacts_before = contacts_;
@@ -277,4 +277,4 @@ base::Status OdeModel::Initialise(const InitialCondition& initial, terrain::Grou
   return {};
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

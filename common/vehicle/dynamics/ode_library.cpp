@@ -4,7 +4,7 @@
 
 #include <mutex>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 void PrepareOde() {
   static std::once_flag once;
@@ -17,4 +17,4 @@ void PrepareOde() {
   (void)thread;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

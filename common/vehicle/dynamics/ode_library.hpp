@@ -1,8 +1,8 @@
 #pragma once
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // Before anything of ODE's is used on a thread: its tables are made once a process, its collision buffers once a thread.
 void PrepareOde();
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

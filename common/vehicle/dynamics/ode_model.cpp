@@ -7,7 +7,7 @@
 #include "common/core/geometry/angle.hpp"
 #include "common/vehicle/dynamics/enveloping.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kMostStep_s = 0.1;
@@ -20,7 +20,7 @@ std::size_t AxleOf(std::size_t wheel) { return wheel / 2; }
 base::Status OdeModel::Build() {
   measures_ = ChassisOf(settings_);
   car_ = std::make_unique<OdeCar>(settings_);
-  terrain::PlaneGround level;
+  ground::PlaneGround level;
   return Initialise({}, level);
 }
 
@@ -48,7 +48,7 @@ double OdeModel::StrutExtra(std::size_t wheel) const {
   return PreloadOf(settings_, wheel) + suspension.anti_roll_Npm * (travel - Travel(wheel ^ 1u)) + settings_.stop_Npm * beyond;
 }
 
-void OdeModel::AskGround(terrain::Ground& ground) {
+void OdeModel::AskGround(ground::Ground& ground) {
   WheelPlaces places;
   std::array<WheelGround*, kWheels> wheels{};
   for (std::size_t i = 0; i < kWheels; ++i) {
@@ -56,7 +56,7 @@ void OdeModel::AskGround(terrain::Ground& ground) {
     places.axles_W[i] = now_.bodies[i].q_WG * Eigen::Vector3d::UnitY();
     wheels[i] = &now_.wheels[i];
   }
-  vehicle::AskGround(ground, settings_.car.wheel.enveloping, settings_.car.wheel.radius_m, places, wheels);
+  dynamics::AskGround(ground, settings_.car.wheel.enveloping, settings_.car.wheel.radius_m, places, wheels);
 }
 
 OdeModel::Contact OdeModel::ContactOf(std::size_t wheel) const {
@@ -86,7 +86,7 @@ TyreMotion OdeModel::MotionOf(std::size_t wheel, const Contact& contact) const {
   return motion;
 }
 
-void OdeModel::Step(const Controls& controls, terrain::Ground& ground, double dt_s) {
+void OdeModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
   const Controls cut = Cut(controls);
   car_->Give(now_.bodies);  // what a snapshot knows, and nothing else
@@ -165,4 +165,4 @@ OdeModel::WheelTorques OdeModel::TurnWheels(const Controls& controls, const Cont
   return torques;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -11,7 +11,7 @@
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/vehicle/dynamics/wheel_ground.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // The car as five rigid bodies in the Open Dynamics Engine (ode_car.hpp): chassis and wheels with mass on hinge-2 joints. Tyres are no
 // contact joints of ODE's: their forces, by slip curve or Magic Formula with transient slip, are pushed onto the wheels where these
@@ -23,8 +23,8 @@ class OdeModel final : public VehicleModel {
   explicit OdeModel(const OdeSettings& settings) : settings_(settings), tyres_(OnWheels(settings.car.tyre)) {}
   base::Status Build();
 
-  base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) override;
-  void Step(const Controls& controls, terrain::Ground& ground, double dt_s) override;
+  base::Status Initialise(const InitialCondition& initial, ground::Ground& ground) override;
+  void Step(const Controls& controls, ground::Ground& ground, double dt_s) override;
   void SetPush(const Wrench& push) override { push_ = push; }
   bool can_be_pushed() const override { return true; }
   const VehicleState& state() const override { return state_; }
@@ -68,7 +68,7 @@ class OdeModel final : public VehicleModel {
   double Travel(std::size_t wheel) const;      // compression from rest, m
   double TravelRate(std::size_t wheel) const;  // m/s
   double StrutExtra(std::size_t wheel) const;  // preload, anti-roll bar and stops, N; the spring is the joint's
-  void AskGround(terrain::Ground& ground);
+  void AskGround(ground::Ground& ground);
   Contact ContactOf(std::size_t wheel) const;
   TyreMotion MotionOf(std::size_t wheel, const Contact& contact) const;
   void Substep(const Controls& controls, double dt_s);
@@ -88,4 +88,4 @@ class OdeModel final : public VehicleModel {
   VehicleState state_;
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -5,7 +5,7 @@
 #include "common/vehicle/dynamics/ode_model.hpp"
 #include "common/vehicle/dynamics/powertrain_publish.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // The front tyres turn their carriers by side force × trail; the pneumatic part vanishes as the tyre slides.
 double OdeModel::SteeringTorque() const {
@@ -100,4 +100,4 @@ void OdeModel::Restore(base::StateReader& reader) {
   reader.Get("published", state_);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -3,7 +3,7 @@
 #include "common/vehicle/dynamics/parts_file.hpp"
 #include "common/vehicle/dynamics/vehicle_state.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 using config::Range;
@@ -69,4 +69,4 @@ OdeSettings ReadOde(const config::Map& root) {
   return ode;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -4,7 +4,7 @@
 
 #include "common/vehicle/dynamics/bicycle_settings.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // All that a vehicle file of model `ode` says: the measures of model `bicycle`, of the whole car with its wheels, and these.
 struct OdeSettings {
@@ -32,4 +32,4 @@ Eigen::Vector3d HubAtRest_B(const BicycleSettings& car, std::size_t wheel);
 // Load of that wheel then, N.
 double LoadAtRest(const BicycleSettings& car, std::size_t wheel);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

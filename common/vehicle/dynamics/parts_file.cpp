@@ -7,7 +7,7 @@
 #include "common/core/geometry/angle.hpp"
 #include "common/vehicle/dynamics/tir_file.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 using config::Map;
@@ -192,4 +192,4 @@ TyreSettings ReadTyre(const Map& map) {
   return tyre;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

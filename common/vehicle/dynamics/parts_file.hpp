@@ -7,7 +7,7 @@
 #include "common/vehicle/dynamics/wheel.hpp"
 
 // The parts of a vehicle file that every model shares. Each reads one mapping; problems stay in the file's collection.
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // engine, clutch, gearbox and, where it is there, automatic.
 PowertrainSettings ReadPowertrain(const config::Map& root);
@@ -17,4 +17,4 @@ Enveloping ReadEnveloping(const config::Map& map);
 BrakeSettings ReadBrakes(const config::Map& map);
 TyreSettings ReadTyre(const config::Map& map);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

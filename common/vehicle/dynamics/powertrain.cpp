@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 void Powertrain::Start(const PowertrainSettings& settings, double wheel_radps) {
   *this = Powertrain();
@@ -86,4 +86,4 @@ void Powertrain::Restore(base::StateReader& reader) {
   reader.Get("driveline", motion_);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

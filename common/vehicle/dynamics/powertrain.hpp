@@ -10,7 +10,7 @@
 #include "common/vehicle/dynamics/engine.hpp"
 #include "common/vehicle/dynamics/gearbox.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 struct PowertrainSettings {
   EngineSettings engine;
@@ -60,4 +60,4 @@ class Powertrain {
   DrivelineMotion motion_;  // of the last step; its clutch torque sets the next step's losses
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -2,7 +2,7 @@
 
 #include "common/core/base/assert.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 void StepPowertrains(std::span<const PowertrainSettings* const> settings, std::span<const Controls> controls, std::span<const PowertrainInput> inputs,
                      double dt_s, std::span<Powertrain> cars) {
@@ -10,4 +10,4 @@ void StepPowertrains(std::span<const PowertrainSettings* const> settings, std::s
   for (std::size_t i = 0; i < cars.size(); ++i) (void)cars[i].Step(*settings[i], controls[i], inputs[i], dt_s);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -1,6 +1,6 @@
 #include "common/vehicle/dynamics/powertrain_publish.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 void PublishPowertrain(const Powertrain& powertrain, VehicleState& state) {
   const Engine& engine = powertrain.engine();
@@ -17,4 +17,4 @@ void PublishPowertrain(const Powertrain& powertrain, VehicleState& state) {
   state.fuel_kg = engine.fuel_kg();
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -3,9 +3,9 @@
 #include "common/vehicle/dynamics/powertrain.hpp"
 #include "common/vehicle/dynamics/vehicle_state.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // What a published state says of engine, clutch, gear and fuel.
 void PublishPowertrain(const Powertrain& powertrain, VehicleState& state);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <span>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 // The turn by an angle vector: (cos |a|/2, sin |a|/2 a/|a|).
@@ -42,4 +42,4 @@ void RigidBody::Restore(base::StateReader& reader) {
   reader.Get("w_WG_G", std::span<double>(w_WG_G.data(), 3));
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -5,7 +5,7 @@
 
 #include "common/core/base/state.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // A free rigid body G at its centre of gravity, axes parallel to the vehicle's. Newton and Euler, semi-implicit.
 struct RigidBody {
@@ -26,4 +26,4 @@ struct RigidBody {
   void Restore(base::StateReader& reader);
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

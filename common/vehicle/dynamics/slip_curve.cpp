@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 // The parabola's slope at the origin, over the load.
@@ -44,4 +44,4 @@ double LateralPeak(const SlipCurveSettings& tyre, double load_N, double friction
   return friction * std::max(0.0, load_N) * tyre.lateral.extremum_value;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -2,7 +2,7 @@
 
 #include "common/vehicle/dynamics/magic_formula.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // One direction of a slip-curve tyre: force over load against slip, through (0, 0), the extremum and the asymptote, flat from
 // there on. Between the points it is smooth: a parabola to the extremum, a cubic that is level at both ends to the asymptote.
@@ -31,4 +31,4 @@ double CorneringStiffness(const SlipCurveSettings& tyre, double load_N);
 double LongitudinalPeak(const SlipCurveSettings& tyre, double load_N, double friction);
 double LateralPeak(const SlipCurveSettings& tyre, double load_N, double friction);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // Balance along the strut, with travel d, damping c (0 when static), lean the cosine between strut and normal:
 //   F0 + k d + k_b (d - d_other) + c (d - d_before) = lean · k_t · max(0, gap - lean · d)
@@ -39,4 +39,4 @@ void Corner::Restore(base::StateReader& reader) {
   reader.Get("damper_N", damper_N_);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

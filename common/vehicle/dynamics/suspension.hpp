@@ -2,7 +2,7 @@
 
 #include "common/core/base/state.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // One axle's springs, a wheel; rates are those at the wheel.
 struct SuspensionSettings {
@@ -48,4 +48,4 @@ class Corner {
   double damper_N_ = 0.0;
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -14,7 +14,7 @@
 #include "common/core/base/files.hpp"
 #include "common/core/base/suggest.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr std::size_t kMostBytes = 1u << 20;
@@ -168,4 +168,4 @@ base::Result<MagicFormulaSettings> LoadTir(const std::filesystem::path& path) {
   return ParseTir(text.value(), path.string());
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

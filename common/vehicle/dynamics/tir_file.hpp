@@ -6,7 +6,7 @@
 #include "common/core/base/result.hpp"
 #include "common/vehicle/dynamics/magic_formula.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // Tyre property files of the Magic Formula as test benches deliver them (.tir): sections in brackets, KEY = value, comments behind
 // $ or !. Taken are the coefficients of MagicFormulaCoefficients(), whatever their section; what the formula here has no use for
@@ -17,4 +17,4 @@ base::Result<MagicFormulaSettings> LoadTir(const std::filesystem::path& path);
 // The same from a text; `name` stands for the file in messages.
 base::Result<MagicFormulaSettings> ParseTir(std::string_view text, std::string_view name);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

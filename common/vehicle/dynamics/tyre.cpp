@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kPeakReach = 3.0;      // peaks lie at two to three times D / K
@@ -170,4 +170,4 @@ void Tyre::Restore(base::StateReader& reader) {
   reader.Get("slip_angle_tan", slip_angle_tan_);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

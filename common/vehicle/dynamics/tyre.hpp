@@ -7,7 +7,7 @@
 #include "common/vehicle/dynamics/magic_formula.hpp"
 #include "common/vehicle/dynamics/slip_curve.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 struct TyreSettings {
   MagicFormulaSettings formula;
@@ -81,4 +81,4 @@ class Tyre {
   double slip_angle_tan_ = 0.0;
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -12,7 +12,7 @@
 #include "common/vehicle/dynamics/multibody_model.hpp"
 #include "common/vehicle/dynamics/ode_model.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 bool IsFinite(const InitialCondition& initial) {
   return std::isfinite(initial.x_m) && std::isfinite(initial.y_m) && std::isfinite(initial.heading_rad) && std::isfinite(initial.speed_mps) &&
@@ -109,4 +109,4 @@ base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::p
   return Load(path, wanted, false, more);
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

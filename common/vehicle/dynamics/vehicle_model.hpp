@@ -16,7 +16,7 @@
 #include "common/vehicle/dynamics/controls.hpp"
 #include "common/vehicle/dynamics/vehicle_state.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // Where and how the car begins. z, pitch, roll, suspension and loads are found by Initialise, on the ground.
 struct InitialCondition {
@@ -68,11 +68,11 @@ class VehicleModel {
   // INI: places the car in equilibrium on the ground. The engine idles or turns with the wheels in a gear that suits the
   // speed; counters are zero. May ask the ground several times. Refused where a wheel would stand outside the world or a
   // number is not finite; the model is then as before.
-  virtual base::Status Initialise(const InitialCondition& initial, terrain::Ground& ground) = 0;
+  virtual base::Status Initialise(const InitialCondition& initial, ground::Ground& ground) = 0;
 
   // CALCULO: advances by dt_s (over 0, at most 0.1 s) with the controls held. Asks the ground exactly once, one batch for
   // four wheels (law L4). Outside of the world a wheel goes on upon the last plane that it knew.
-  virtual void Step(const Controls& controls, terrain::Ground& ground, double dt_s) = 0;
+  virtual void Step(const Controls& controls, ground::Ground& ground, double dt_s) = 0;
 
   // What the next Step holds against the body from outside; a second call replaces the first, and after the step it is gone: no part
   // of the state. A model that cannot be pushed takes no notice.
@@ -110,4 +110,4 @@ struct ModelKind {
 base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::path& path, std::string_view wanted = {},
                                                         std::span<const ModelKind> more = {});
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -5,7 +5,7 @@
 
 #include "common/vehicle/dynamics/engine.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 // One list of fields for both directions: `visit(name, field)`.
@@ -115,4 +115,4 @@ void WheelState::Restore(base::StateReader& reader) { VisitWheel(*this, Reading{
 void VehicleState::Save(base::StateWriter& writer) const { VisitState(*this, Writing{writer}); }
 void VehicleState::Restore(base::StateReader& reader) { VisitState(*this, Reading{reader}); }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -12,7 +12,7 @@
 // (x forward, y left, z up). B's origin is fixed to the body: in the plane of symmetry, midway between the axles, at the
 // height of the road when the car stands at rest on a level plane. So a car at rest on z = 0 has p_WB_W.z = 0, and a
 // visual body drawn around B stays right when the model is exchanged. Quantities of motion belong to B's origin.
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // The order of wheels everywhere.
 enum WheelIndex : std::size_t { kFrontLeft = 0, kFrontRight = 1, kRearLeft = 2, kRearRight = 3 };
@@ -37,7 +37,7 @@ struct WheelState {
   Eigen::Vector3d contact_W = Eigen::Vector3d::Zero();          // point of the ground under the wheel
   Eigen::Vector3d contact_normal_W = Eigen::Vector3d::UnitZ();  // unit, upward
   double friction = 0.0;                                        // of that ground, 1: dry asphalt
-  terrain::Surface surface = terrain::Surface::kOutside;
+  ground::Surface surface = ground::Surface::kOutside;
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
@@ -90,4 +90,4 @@ struct VehicleState {
   void Restore(base::StateReader& reader);
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

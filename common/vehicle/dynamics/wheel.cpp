@@ -2,7 +2,7 @@
 
 #include "common/vehicle/dynamics/vehicle_state.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 double BrakeTorque(const BrakeSettings& brakes, std::size_t wheel, double pedal, double handbrake) {
   if (wheel == kFrontLeft || wheel == kFrontRight) return brakes.front_Nm * pedal;
@@ -13,4 +13,4 @@ double AirDrag(double air_density_kgpm3, double drag_area_m2, double speed_mps) 
   return 0.5 * air_density_kgpm3 * drag_area_m2 * speed_mps * speed_mps;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // What a wheel feels of ground that is rougher than it is round (common/vehicle/dynamics/enveloping).
 enum class Enveloping {
@@ -33,4 +33,4 @@ double BrakeTorque(const BrakeSettings& brakes, std::size_t wheel, double pedal,
 // Air drag along the motion: ½ rho CdA v², in N.
 double AirDrag(double air_density_kgpm3, double drag_area_m2, double speed_mps);
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

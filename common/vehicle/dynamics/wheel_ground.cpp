@@ -2,7 +2,7 @@
 
 #include <span>
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 void WheelGround::Save(base::StateWriter& writer) const {
   writer.Put("plane_W", std::span<const double>(plane_W.data(), 3));
@@ -20,7 +20,7 @@ void WheelGround::Restore(base::StateReader& reader) {
   reader.Get("inside", inside);
 }
 
-void WheelGround::Take(const terrain::GroundQuery& query, const terrain::GroundPoint& point) {
+void WheelGround::Take(const ground::GroundQuery& query, const ground::GroundPoint& point) {
   inside = point.inside;
   surface = point.surface;
   if (!inside) return;
@@ -29,9 +29,9 @@ void WheelGround::Take(const terrain::GroundQuery& query, const terrain::GroundP
   friction = point.friction;
 }
 
-void AskGround(terrain::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W, const std::array<WheelGround*, kWheels>& wheels) {
-  std::array<terrain::GroundQuery, kWheels> queries;
-  std::array<terrain::GroundPoint, kWheels> points;
+void AskGround(ground::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W, const std::array<WheelGround*, kWheels>& wheels) {
+  std::array<ground::GroundQuery, kWheels> queries;
+  std::array<ground::GroundPoint, kWheels> points;
   for (std::size_t i = 0; i < kWheels; ++i) queries[i] = {hubs_W[i].x(), hubs_W[i].y(), hubs_W[i].z()};
   ground.Query(queries, points);
   for (std::size_t i = 0; i < kWheels; ++i) wheels[i]->Take(queries[i], points[i]);
@@ -48,4 +48,4 @@ Plane PlaneUnder(const std::array<const WheelGround*, kWheels>& wheels) {
   return plane;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

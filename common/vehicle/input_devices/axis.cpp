@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 constexpr double kMoved = 0.01;  // share of the whole way; less is noise
@@ -48,4 +48,4 @@ void AxisWatch::Restore(base::StateReader& in) {
   in.Get("first", first_);
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -6,7 +6,7 @@
 
 #include "common/core/base/state.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 // One axis of one device and what its numbers mean.
 struct AxisUse {
@@ -43,4 +43,4 @@ class AxisWatch {
   double first_ = 0.0;
 };
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 void ForceDriver::Tell(const ForceMoment& moment, double now_s) {
   if (device_ == nullptr || (now_s >= told_s_ && now_s - told_s_ < kAgain_s)) return;
@@ -15,4 +15,4 @@ void ForceDriver::Change(std::unique_ptr<ForceDevice> device) {
   law_.Forget();
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

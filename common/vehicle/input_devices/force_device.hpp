@@ -5,7 +5,7 @@
 
 #include "common/vehicle/input_devices/force_feedback.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 // The motor of a wheel. Whatever is asked of it ends by itself, so that a run that pauses, stops or dies lets go of the driver's hands.
 class ForceDevice {
@@ -38,4 +38,4 @@ class ForceDriver {
   double told_s_ = -1e9;
 };
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 constexpr double kSmooth_s = 0.03;
@@ -37,4 +37,4 @@ double ForceFeedback::Step(const ForceMoment& moment, double now_s) {
   return std::clamp(torque_Nm, -settings_.most_Nm, settings_.most_Nm) / settings_.device_Nm;
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -3,7 +3,7 @@
 #include <optional>
 
 // What a driver feels in a steering wheel with motors.
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 // `force` of a wheel file. All torques at the rim's axis; the values are choices of this project.
 struct ForceSettings {
@@ -60,4 +60,4 @@ class ForceFeedback {
   double slow_N_ = 0.0;       // the loads' difference, smoothed
 };
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

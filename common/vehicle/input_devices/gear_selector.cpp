@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
-using vehicle::GearboxMode;
+using dynamics::GearboxMode;
 
 void GearSelector::Step(const LeverRequests& requests) {
   if (requests.mode % 2 == 1) {
@@ -17,12 +17,12 @@ void GearSelector::Step(const LeverRequests& requests) {
   gear_ = static_cast<std::int32_t>(std::clamp<std::int64_t>(wished, -1, top));
 }
 
-void GearSelector::Show(vehicle::Controls& controls) const {
+void GearSelector::Show(dynamics::Controls& controls) const {
   controls.gear = gear_;
   controls.gearbox = mode_;
 }
 
-void GearSelector::TakeOver(const vehicle::Controls& last) {
+void GearSelector::TakeOver(const dynamics::Controls& last) {
   mode_ = last.gearbox;
   gear_ = std::clamp(last.gear, -1, mode_ == GearboxMode::kAutomatic ? 1 : forward_gears_);
 }
@@ -37,4 +37,4 @@ void GearSelector::Restore(base::StateReader& in) {
   in.Get("mode", mode_);
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

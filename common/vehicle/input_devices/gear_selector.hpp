@@ -5,7 +5,7 @@
 #include "common/core/base/state.hpp"
 #include "common/vehicle/dynamics/controls.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 // What a driver asked of the lever during one step.
 struct LeverRequests {
@@ -19,15 +19,15 @@ struct LeverRequests {
 // the gear that is in, so that asking for the manual mode changes none.
 class GearSelector {
  public:
-  explicit GearSelector(std::int32_t forward_gears, vehicle::GearboxMode mode = vehicle::GearboxMode::kAutomatic)
+  explicit GearSelector(std::int32_t forward_gears, dynamics::GearboxMode mode = dynamics::GearboxMode::kAutomatic)
       : forward_gears_(forward_gears), mode_(mode) {}
 
   void Step(const LeverRequests& requests);
   // A lever with places of its own: the gear, whatever the mode.
   void Put(std::int32_t gear) { gear_ = gear; }
-  void Show(vehicle::Controls& controls) const;
+  void Show(dynamics::Controls& controls) const;
   // The lever and mode that other hands have left; gears that this one does not have: its nearest.
-  void TakeOver(const vehicle::Controls& last);
+  void TakeOver(const dynamics::Controls& last);
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);
@@ -35,7 +35,7 @@ class GearSelector {
  private:
   std::int32_t forward_gears_;
   std::int32_t gear_ = 1;
-  vehicle::GearboxMode mode_;
+  dynamics::GearboxMode mode_;
 };
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 struct Named {
@@ -139,4 +139,4 @@ const WindowKey* FindWindowKey(Key key) {
   return found == kWindow.end() ? nullptr : &*found;
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

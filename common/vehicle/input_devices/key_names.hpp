@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 // A key by its place on the keyboard: the usage number of page 7 of the USB HID tables, which is SDL's scancode too. Names
 // are those of a US keyboard: where a French one prints z and q, w and a are found. From kMouse on: buttons of the mouse.
@@ -33,4 +33,4 @@ std::string WindowKeysText(const std::function<bool(const WindowKey&)>& wanted);
 // Null where the key may drive.
 const WindowKey* FindWindowKey(Key key);
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -5,7 +5,7 @@
 #include "common/core/base/assert.hpp"
 #include "common/vehicle/input_devices/turn_wheel.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 double MovePedal(double value, bool held, const PedalRates& rates, double dt_s) {
@@ -15,7 +15,7 @@ double MovePedal(double value, bool held, const PedalRates& rates, double dt_s) 
 
 }  // namespace
 
-vehicle::Controls KeyboardDriver::Step(const KeyboardInput& input, double dt_s) {
+dynamics::Controls KeyboardDriver::Step(const KeyboardInput& input, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0);
   const auto held = [&](Action action) { return input.held[static_cast<std::size_t>(action)]; };
   const double lock = LockAt(settings_.lock_rad, input.speed_mps, settings_.half_lock_speed_mps);
@@ -31,8 +31,8 @@ vehicle::Controls KeyboardDriver::Step(const KeyboardInput& input, double dt_s) 
   return controls();
 }
 
-vehicle::Controls KeyboardDriver::controls() const {
-  vehicle::Controls controls;
+dynamics::Controls KeyboardDriver::controls() const {
+  dynamics::Controls controls;
   controls.steering_wheel_rad = wheel_rad_;
   controls.throttle = throttle_;
   controls.brake = brake_;
@@ -43,7 +43,7 @@ vehicle::Controls KeyboardDriver::controls() const {
   return controls;
 }
 
-void KeyboardDriver::TakeOver(const vehicle::Controls& last, const Signals& signals) {
+void KeyboardDriver::TakeOver(const dynamics::Controls& last, const Signals& signals) {
   wheel_rad_ = last.steering_wheel_rad;
   throttle_ = last.throttle;
   brake_ = last.brake;
@@ -76,4 +76,4 @@ void KeyboardDriver::Restore(base::StateReader& in) {
   in.Get("signals", signals_);
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -13,7 +13,7 @@
 #include "common/vehicle/input_devices/signals.hpp"
 #include "common/vehicle/dynamics/controls.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 enum class Action : std::size_t {
   kSteerLeft,
@@ -52,7 +52,7 @@ struct KeyboardSettings {
   PedalRates brake{0.4, 0.15, 0.85};
   PedalRates clutch{0.1, 0.4, 1.0};
   std::int32_t gears = 5;
-  vehicle::GearboxMode gearbox = vehicle::GearboxMode::kAutomatic;
+  dynamics::GearboxMode gearbox = dynamics::GearboxMode::kAutomatic;
 
   const std::vector<Key>& KeysOf(Action action) const { return keys[static_cast<std::size_t>(action)]; }
 };
@@ -81,12 +81,12 @@ class KeyboardDriver {
   explicit KeyboardDriver(const KeyboardSettings& settings) : settings_(settings), lever_(settings.gears, settings.gearbox) {}
 
   // The controls dt_s (over 0) later.
-  vehicle::Controls Step(const KeyboardInput& input, double dt_s);
+  dynamics::Controls Step(const KeyboardInput& input, double dt_s);
   // The controls as they are.
-  vehicle::Controls controls() const;
+  dynamics::Controls controls() const;
   Signals signals() const { return signals_.signals(); }
   // Goes on from where others have left hands, feet and levers.
-  void TakeOver(const vehicle::Controls& last, const Signals& signals = {});
+  void TakeOver(const dynamics::Controls& last, const Signals& signals = {});
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);
@@ -103,4 +103,4 @@ class KeyboardDriver {
   bool starter_ = false;
 };
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -8,7 +8,7 @@
 #include "common/core/base/suggest.hpp"
 #include "common/vehicle/input_devices/keyboard_driver.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 constexpr std::array<const char*, kActions> kNames{"steer_left",   "steer_right",   "throttle",       "brake",  "clutch",
@@ -72,7 +72,7 @@ KeyboardSettings ReadKeyboard(const config::Map& root) {
   s.clutch = ReadRates(root.OptionalChild("clutch"), s.clutch);
   s.gears = static_cast<std::int32_t>(root.Integer("gears", 1, 20, s.gears));
   const bool manual = root.Choice("gearbox", {"automatic", "manual"}, "automatic") == "manual";
-  s.gearbox = manual ? vehicle::GearboxMode::kManual : vehicle::GearboxMode::kAutomatic;
+  s.gearbox = manual ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
   return s;
 }
 
@@ -94,4 +94,4 @@ std::string KeyboardHelp(const KeyboardSettings& settings) {
   return text;
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

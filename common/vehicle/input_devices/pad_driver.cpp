@@ -6,7 +6,7 @@
 #include "common/core/base/assert.hpp"
 #include "common/vehicle/input_devices/turn_wheel.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 // 0 within the dead zone, from there evenly to 1.
@@ -22,7 +22,7 @@ std::uint32_t PadDriver::Presses(const PadReading& pad, PadButton button) {
   return pressed ? 1 : 0;
 }
 
-vehicle::Controls PadDriver::Step(const PadReading& pad, std::int32_t engaged, double speed_mps, double dt_s) {
+dynamics::Controls PadDriver::Step(const PadReading& pad, std::int32_t engaged, double speed_mps, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0);
   if (!pad.connected) {
     TakeOver(controls_, signals());
@@ -52,12 +52,12 @@ vehicle::Controls PadDriver::Step(const PadReading& pad, std::int32_t engaged, d
   return controls_;
 }
 
-void PadDriver::TakeOver(const vehicle::Controls& last, const Signals& signals) {
+void PadDriver::TakeOver(const dynamics::Controls& last, const Signals& signals) {
   const double steering_wheel_rad = last.steering_wheel_rad;
   std::fill(std::begin(down_), std::end(down_), false);
   lever_.TakeOver(last);
   signals_.TakeOver(signals);
-  controls_ = vehicle::Controls();
+  controls_ = dynamics::Controls();
   controls_.steering_wheel_rad = steering_wheel_rad;
   lever_.Show(controls_);
 }
@@ -76,4 +76,4 @@ void PadDriver::Restore(base::StateReader& in) {
   in.Get("controls", controls_);
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -7,7 +7,7 @@
 #include "common/vehicle/input_devices/signals.hpp"
 #include "common/vehicle/dynamics/controls.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 enum class PadButton : std::size_t {
   kGearUp, kGearDown, kGearboxMode, kHandbrake, kStarter, kIndicateLeft, kIndicateRight, kHazard, kHeadlights, kHorn, kCamera, kPause
@@ -44,11 +44,11 @@ class PadDriver {
   explicit PadDriver(const PadSettings& settings = {}) : settings_(settings), lever_(settings.gears) { lever_.Show(controls_); }
 
   // The controls dt_s (over 0) later; `engaged` is the gear that is in, `speed_mps` the car's, forward.
-  vehicle::Controls Step(const PadReading& pad, std::int32_t engaged, double speed_mps, double dt_s);
-  const vehicle::Controls& controls() const { return controls_; }
+  dynamics::Controls Step(const PadReading& pad, std::int32_t engaged, double speed_mps, double dt_s);
+  const dynamics::Controls& controls() const { return controls_; }
   Signals signals() const { return signals_.signals(); }
   // Goes on from where others have left steering and lever; pedals are released.
-  void TakeOver(const vehicle::Controls& last, const Signals& signals = {});
+  void TakeOver(const dynamics::Controls& last, const Signals& signals = {});
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);
@@ -60,7 +60,7 @@ class PadDriver {
   GearSelector lever_;
   SignalSwitch signals_;
   bool down_[kPadButtons] = {};
-  vehicle::Controls controls_;
+  dynamics::Controls controls_;
 };
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -4,7 +4,7 @@
 
 #include "common/vehicle/input_devices/wheel_names.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 constexpr double kPedalDeadZone = 0.02;
@@ -44,4 +44,4 @@ std::string AxesText(const WheelSettings& settings) {
   return text;
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

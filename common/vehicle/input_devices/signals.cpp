@@ -1,6 +1,6 @@
 #include "common/vehicle/input_devices/signals.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 void SignalSwitch::Press(Indicators side, std::uint32_t presses) {
   if (presses == 0) return;
@@ -52,4 +52,4 @@ void SignalSwitch::Restore(base::StateReader& in) {
   in.Get("in_bend", in_bend_);
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

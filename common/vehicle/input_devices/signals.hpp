@@ -5,7 +5,7 @@
 #include "common/core/base/state.hpp"
 
 // What a driver tells the others: lamps and horn. No car model needs it, so it goes beside the controls.
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 enum class Indicators : std::uint32_t { kOff = 0, kLeft = 1, kRight = 2, kHazard = 3 };
 enum class Headlights : std::uint32_t { kOff = 0, kDipped = 1, kFull = 2 };
@@ -50,4 +50,4 @@ class SignalSwitch {
   bool in_bend_ = false;
 };
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 double TurnWheel(double wheel_rad, double target_rad, double out_radps, double back_radps, double dt_s) {
   const bool across = wheel_rad * target_rad < 0.0;
@@ -23,4 +23,4 @@ double LockAt(double lock_rad, double speed_mps, double half_lock_speed_mps) {
   return lock_rad / (1.0 + ratio * ratio);
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 // A steering wheel that a key or a thumb turns, dt_s later: first back towards the middle, where the target lies there, then outwards with
 // what is left of dt_s. All angles are positive to the left.
@@ -10,4 +10,4 @@ double TurnWheel(double wheel_rad, double target_rad, double out_radps, double b
 // walking pace on.
 double LockAt(double lock_rad, double speed_mps, double half_lock_speed_mps);
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -5,7 +5,7 @@
 
 #include "common/core/base/assert.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 // Empty where the axis is not used, its device does not have it, or it has not moved yet.
 std::optional<double> WheelDriver::Raw(std::span<const DeviceReading> devices, WheelAxis axis) {
@@ -49,7 +49,7 @@ void WheelDriver::ReleasePedals() {
   for (AxisWatch& watch : watches_) watch.Forget();
 }
 
-vehicle::Controls WheelDriver::Step(std::span<const DeviceReading> devices, std::int32_t engaged) {
+dynamics::Controls WheelDriver::Step(std::span<const DeviceReading> devices, std::int32_t engaged) {
   RODEIRA_ASSERT(devices.size() == settings_.devices.size());
   if (std::any_of(devices.begin(), devices.end(), [](const DeviceReading& device) { return !device.connected; })) {
     ReleasePedals();
@@ -108,7 +108,7 @@ void WheelDriver::StepSignals(std::span<const DeviceReading> devices) {
   (void)signals_.Step(requests, controls_.steering_wheel_rad);
 }
 
-void WheelDriver::TakeOver(const vehicle::Controls& last, const Signals& signals) {
+void WheelDriver::TakeOver(const dynamics::Controls& last, const Signals& signals) {
   ReleasePedals();
   std::fill(std::begin(down_), std::end(down_), false);
   controls_.steering_wheel_rad = last.steering_wheel_rad;
@@ -133,4 +133,4 @@ void WheelDriver::Restore(base::StateReader& in) {
   in.Get("controls", controls_);
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -18,7 +18,7 @@
 #include "common/vehicle/input_devices/signals.hpp"
 #include "common/vehicle/dynamics/controls.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 struct ButtonUse {
   std::size_t device = 0;
@@ -50,7 +50,7 @@ struct WheelSettings {
   std::map<std::int32_t, ButtonUse> lever;  // places of a lever: gear → button that is down there; none down is neutral
   double lock_rad = 7.85;                   // of the car's steering wheel where the axis is at its end
   std::int32_t gears = 5;
-  vehicle::GearboxMode gearbox = vehicle::GearboxMode::kAutomatic;
+  dynamics::GearboxMode gearbox = dynamics::GearboxMode::kAutomatic;
   ForceSettings force;          // of the steering's device, where it has motors
   double force_lock_rad = 7.85;  // where they hold the wheel: at the car's own lock
   bool has_force = true;        // false: its motors rest
@@ -83,14 +83,14 @@ class WheelDriver {
 
   // From the readings of all devices, in the settings' order; `engaged` is the gear that is in. Steering is positive to the
   // left, a device's axis to the right.
-  vehicle::Controls Step(std::span<const DeviceReading> devices, std::int32_t engaged);
-  const vehicle::Controls& controls() const { return controls_; }
+  dynamics::Controls Step(std::span<const DeviceReading> devices, std::int32_t engaged);
+  const dynamics::Controls& controls() const { return controls_; }
   Signals signals() const { return signals_.signals(); }
   // Of the rim itself, from its axis, beyond the car's lock too; nothing before it has moved.
   std::optional<double> rim_rad() const { return rim_rad_; }
   // Goes on from where others have left steering and lever: the steering stays there until the wheel is moved. Pedals are
   // released.
-  void TakeOver(const vehicle::Controls& last, const Signals& signals = {});
+  void TakeOver(const dynamics::Controls& last, const Signals& signals = {});
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);
@@ -110,8 +110,8 @@ class WheelDriver {
   SignalSwitch signals_;
   AxisWatch watches_[kWheelAxes];
   bool down_[kWheelButtons] = {};
-  vehicle::Controls controls_;
+  dynamics::Controls controls_;
   std::optional<double> rim_rad_;  // no state: only the hands feel it
 };
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

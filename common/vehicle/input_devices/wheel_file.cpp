@@ -9,7 +9,7 @@
 #include "common/vehicle/input_devices/wheel_driver.hpp"
 #include "common/vehicle/input_devices/wheel_names.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 constexpr const char* kNoGuid = "'{}' is '{}'; a GUID of 32 hexadecimal digits was expected, as `rodeira joysticks` lists them";
@@ -108,7 +108,7 @@ WheelSettings ReadWheel(const config::Map& root) {
   (void)root.Text("name", "");
   s.gears = static_cast<std::int32_t>(root.Integer("gears", 1, 20, s.gears));
   const bool manual = root.Choice("gearbox", {"automatic", "manual"}, "automatic") == "manual";
-  s.gearbox = manual ? vehicle::GearboxMode::kManual : vehicle::GearboxMode::kAutomatic;
+  s.gearbox = manual ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
   s.devices = ReadDevices(root.Child("devices"));
   if (root.Has("devices") && s.devices.empty()) root.Problem("devices", "'devices' names none; at least one device with its GUID was expected");
   const config::Map steering = root.Child("steering");
@@ -148,4 +148,4 @@ base::Result<WheelSettings> LoadWheel(const std::filesystem::path& path) {
   return settings;
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -4,7 +4,7 @@
 
 #include "common/vehicle/input_devices/wheel_driver.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 // As wheel files call them, in the order of WheelAxis and WheelButton.
 inline constexpr std::array<const char*, kWheelAxes> kAxisNames{"steering", "throttle", "brake", "clutch", "handbrake", "pedals"};
@@ -13,4 +13,4 @@ inline constexpr std::array<const char*, kWheelButtons> kButtonNames{
     "indicate_right", "hazard_lights", "headlights",   "horn",   "reverse",   "neutral", "drive",
     "camera",         "pause"};
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -6,7 +6,7 @@
 
 #include "common/core/base/assert.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 constexpr double kWhole = 65535.0;            // an axis' whole range
@@ -289,4 +289,4 @@ WheelSettings WheelSetup::settings() const {
   return out;
 }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -8,7 +8,7 @@
 
 #include "common/vehicle/input_devices/wheel_driver.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 // Finds out what turns, what is pressed and where its ends are, by asking for one movement after the other. A movement counts when
 // everything has stood still for half a second after it; no key is needed. What a device says before it first moves is not believed.
@@ -79,4 +79,4 @@ std::string WheelText(const WheelSettings& settings, const std::string& name);
 std::filesystem::path WheelFolder();
 std::filesystem::path WheelFileOf(const std::string& guid);
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -7,7 +7,7 @@
 #include "common/vehicle/input_devices/wheel_names.hpp"
 #include "common/vehicle/input_devices/wheel_setup.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 
 namespace {
 
@@ -39,11 +39,11 @@ std::string WheelText(const WheelSettings& s, const std::string& name) {
   if (!buttons.empty()) text += "buttons:\n" + buttons;
   if (!s.lever.empty()) text += "lever:\n";
   for (const auto& [gear, use] : s.lever) text += fmt::format("  {}: {{{}button: {}}}\n", gear < 0 ? "reverse" : std::to_string(gear), device(use.device), use.button);
-  return text + fmt::format("gears: {}\ngearbox: {}\n", s.gears, s.gearbox == vehicle::GearboxMode::kManual ? "manual" : "automatic");
+  return text + fmt::format("gears: {}\ngearbox: {}\n", s.gears, s.gearbox == dynamics::GearboxMode::kManual ? "manual" : "automatic");
 }
 
 std::filesystem::path WheelFolder() { return base::UserConfigFolder() / "wheels"; }
 
 std::filesystem::path WheelFileOf(const std::string& guid) { return WheelFolder() / (guid + ".yaml"); }
 
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

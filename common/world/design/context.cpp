@@ -9,7 +9,7 @@
 namespace rodeira::design {
 namespace {
 
-using terrain::Surface;
+using ground::Surface;
 
 // Widths after the habits of European guidelines for these kinds of road; a motorway is one carriageway.
 constexpr const char* kTemplates = R"(

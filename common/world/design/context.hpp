@@ -14,7 +14,7 @@ namespace rodeira::design {
 
 // What a lane is made of.
 struct Material {
-  terrain::Surface surface = terrain::Surface::kAsphalt;
+  ground::Surface surface = ground::Surface::kAsphalt;
   double friction = 1.0;
   std::string texture;  // a picture's file; empty: the surface's usual look
   double texture_width_m = 0.0, texture_height_m = 0.0;  // of the picture on the ground

@@ -78,7 +78,7 @@ network::Patch ReadPatch(const Map& item, const Context& context, double length_
   if (!item.Has("material") && !item.Has("friction")) item.Problem("", "a patch is of another 'material', or has another 'friction', or both");
   if (item.Has("material")) {
     const Material& material = context.MaterialOf(item, "material", "asphalt");
-    patch.surface = terrain::SurfaceName(material.surface);
+    patch.surface = ground::SurfaceName(material.surface);
     patch.friction = material.friction;
   }
   if (item.Has("friction")) patch.friction = item.Number("friction", {0.01, 2.0});

@@ -13,7 +13,7 @@ namespace rodeira::road {
 struct BareTerrain {
   std::shared_ptr<const terrain::ElevationGrid> grid;  // one of these two, or neither
   std::optional<PlaneSpec> plane;
-  terrain::Surface surface = terrain::Surface::kGrass;
+  ground::Surface surface = ground::Surface::kGrass;
   double friction = 0.0;
 
   SurfacePoint At(double x_m, double y_m) const;

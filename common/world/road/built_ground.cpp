@@ -62,7 +62,7 @@ SurfacePoint BuiltGround::OnRoad(const network::Surfacing& surfacing) const {
   network::SurfaceSample sample = surfacing.sample;
   LaneGround ground = grounds_.At(*network_, place.lane, place.s_m);
   if (paint_.At(place.lane.road, place.s_m, place.t_m)) {
-    ground.surface = terrain::Surface::kRoadMark;
+    ground.surface = ground::Surface::kRoadMark;
     ground.friction = friction_[static_cast<std::size_t>(ground.surface)];
   }
   if (!detail_.empty()) {
@@ -106,14 +106,14 @@ void BuiltGround::LayOnJunction(std::span<const network::Surfacing> surfaces, Su
 
 SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W, std::span<const network::Surfacing> surfaces) const {
   const design::JunctionHeight height = junction.At(p_W);
-  terrain::Surface surface = junction.IsPaved(p_W) ? terrain::Surface::kAsphalt : terrain::Surface::kGrass;
+  ground::Surface surface = junction.IsPaved(p_W) ? ground::Surface::kAsphalt : ground::Surface::kGrass;
   // What is painted belongs to the ways through it: to the one that a question of the network would find there.
   const network::Surfacing* way = nullptr;
   for (const network::Surfacing& surfacing : surfaces) {
     if (std::fabs(surfacing.place.z_m - height.z_m) > network::Network::kLevel_m) continue;
     if (way == nullptr || surfacing.claim.Before(way->claim)) way = &surfacing;
   }
-  if (way != nullptr && in_junction_[way->place.lane.road] && paint_.At(way->place.lane.road, way->place.s_m, way->place.t_m)) surface = terrain::Surface::kRoadMark;
+  if (way != nullptr && in_junction_[way->place.lane.road] && paint_.At(way->place.lane.road, way->place.s_m, way->place.t_m)) surface = ground::Surface::kRoadMark;
   SurfacePoint point{height.z_m, height.slope_x, height.slope_y, friction_[static_cast<std::size_t>(surface)], surface, true};
   if (!detail_.empty()) LayOnJunction(surfaces, point);
   return point;
@@ -141,7 +141,7 @@ std::optional<SurfacePoint> BuiltGround::FloorBeside(const Eigen::Vector2d& p_W,
   const auto covers = [&](const Layer& layer) { return layer.z_m > floor->z_m; };
   const auto takes_its_place = [&](const Layer& layer) { return layer.ground == nullptr && std::fabs(layer.z_m - floor->z_m) < network::Network::kLevel_m; };
   if (std::none_of(layers.begin(), layers.end(), covers) || std::any_of(layers.begin(), layers.end(), takes_its_place)) return std::nullopt;
-  constexpr terrain::Surface kFloor = terrain::Surface::kConcrete;
+  constexpr ground::Surface kFloor = ground::Surface::kConcrete;
   return SurfacePoint{floor->z_m, floor->slope_W.x(), floor->slope_W.y(), friction_[static_cast<std::size_t>(kFloor)], kFloor, true};
 }
 
@@ -190,7 +190,7 @@ SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
   std::stable_sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.z_m > b.z_m; });
   const Layer* chosen = &layers.back();
   for (const Layer& layer : layers) {
-    if (layer.z_m > z_hint_m + terrain::kHintAbove_m) continue;  // NaN: the first
+    if (layer.z_m > z_hint_m + ground::kHintAbove_m) continue;  // NaN: the first
     chosen = &layer;
     break;
   }

@@ -25,7 +25,7 @@ bool BuiltGround::OneRoadAlone(const network::Cluster& cluster) const {
   });
 }
 
-bool BuiltGround::Together(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) const {
+bool BuiltGround::Together(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) const {
   network::Cluster cluster;
   SetPlaces(queries, cluster);
   if (!network_->Together(cluster) || !OneRoadAlone(cluster)) return false;
@@ -35,8 +35,8 @@ bool BuiltGround::Together(std::span<const terrain::GroundQuery> queries, std::s
   if (!paint_.MayBe(cluster.road, cluster.low_s_m, cluster.high_s_m, cluster.low_t_m, cluster.high_t_m)) return true;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!paint_.At(cluster.road, cluster.s_m[i], cluster.feet.t_m[i])) continue;
-    points[i].surface = terrain::Surface::kRoadMark;
-    points[i].friction = friction_[static_cast<std::size_t>(terrain::Surface::kRoadMark)];
+    points[i].surface = ground::Surface::kRoadMark;
+    points[i].friction = friction_[static_cast<std::size_t>(ground::Surface::kRoadMark)];
   }
   return true;
 }

@@ -2,7 +2,7 @@
 
 namespace rodeira::road {
 
-void SetPlaces(std::span<const terrain::GroundQuery> queries, network::Cluster& cluster) {
+void SetPlaces(std::span<const ground::GroundQuery> queries, network::Cluster& cluster) {
   cluster.feet.count = queries.size();
   for (std::size_t i = 0; i < queries.size(); ++i) {
     cluster.feet.x_m[i] = queries[i].x_m;
@@ -11,7 +11,7 @@ void SetPlaces(std::span<const terrain::GroundQuery> queries, network::Cluster& 
 }
 
 void PutPoints(const network::Network& network, const LaneGrounds& grounds, const network::Cluster& cluster, const ClusterNormals& normals,
-               std::span<terrain::GroundPoint> points) {
+               std::span<ground::GroundPoint> points) {
   const auto ground_at = [&](int lane, double s) -> const LaneGround& { return grounds.At(network, {cluster.road, cluster.section, lane}, s); };
   const LaneGround* common = nullptr;
   if (cluster.lane != 0 && &ground_at(cluster.lane, cluster.low_s_m) == &ground_at(cluster.lane, cluster.high_s_m)) {

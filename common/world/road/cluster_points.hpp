@@ -38,9 +38,9 @@ void SetNormals(const network::Cluster& cluster, const Slope& slope, ClusterNorm
 }
 
 // Copies where the points lie.
-void SetPlaces(std::span<const terrain::GroundQuery> queries, network::Cluster& cluster);
+void SetPlaces(std::span<const ground::GroundQuery> queries, network::Cluster& cluster);
 // SUELO's answers from heights, normals and what the lanes are made of.
 void PutPoints(const network::Network& network, const LaneGrounds& grounds, const network::Cluster& cluster, const ClusterNormals& normals,
-               std::span<terrain::GroundPoint> points);
+               std::span<ground::GroundPoint> points);
 
 }  // namespace rodeira::road

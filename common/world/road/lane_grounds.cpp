@@ -5,20 +5,20 @@
 namespace rodeira::road {
 namespace {
 
-terrain::Surface SurfaceOf(network::LaneType type) {
+ground::Surface SurfaceOf(network::LaneType type) {
   switch (type) {
     case network::LaneType::kNone:
-    case network::LaneType::kMedian: return terrain::Surface::kGrass;
+    case network::LaneType::kMedian: return ground::Surface::kGrass;
     case network::LaneType::kSidewalk:
     case network::LaneType::kWalking:
-    case network::LaneType::kCurb: return terrain::Surface::kConcrete;
-    default: return terrain::Surface::kAsphalt;
+    case network::LaneType::kCurb: return ground::Surface::kConcrete;
+    default: return ground::Surface::kAsphalt;
   }
 }
 
-terrain::Surface SurfaceOf(const network::LaneMaterial& material, network::LaneType type) {
-  for (const terrain::Surface known : {terrain::Surface::kAsphalt, terrain::Surface::kConcrete, terrain::Surface::kGravel,
-                                       terrain::Surface::kGrass, terrain::Surface::kSoil}) {
+ground::Surface SurfaceOf(const network::LaneMaterial& material, network::LaneType type) {
+  for (const ground::Surface known : {ground::Surface::kAsphalt, ground::Surface::kConcrete, ground::Surface::kGravel,
+                                       ground::Surface::kGrass, ground::Surface::kSoil}) {
     if (material.surface == SurfaceName(known)) return known;
   }
   return SurfaceOf(type);
@@ -27,13 +27,13 @@ terrain::Surface SurfaceOf(const network::LaneMaterial& material, network::LaneT
 }  // namespace
 
 LaneGrounds::LaneGrounds(const network::Network& network, const FrictionTable& friction) {
-  const auto usual = [&](terrain::Surface surface) { return friction[static_cast<std::size_t>(surface)]; };
+  const auto usual = [&](ground::Surface surface) { return friction[static_cast<std::size_t>(surface)]; };
   const auto add = [&](const network::Lane& lane) {
     first_.push_back(grounds_.size());
-    const terrain::Surface surface = SurfaceOf(lane.type);
+    const ground::Surface surface = SurfaceOf(lane.type);
     grounds_.push_back({-std::numeric_limits<double>::infinity(), surface, usual(surface)});
     for (const network::LaneMaterial& material : lane.materials) {
-      const terrain::Surface named = SurfaceOf(material, lane.type);
+      const ground::Surface named = SurfaceOf(material, lane.type);
       grounds_.push_back({material.s_m, named, material.friction.value_or(usual(named))});
     }
   };

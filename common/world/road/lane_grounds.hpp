@@ -10,7 +10,7 @@ namespace rodeira::road {
 // What a lane is made of from a station on.
 struct LaneGround {
   double s_m = 0.0;
-  terrain::Surface surface = terrain::Surface::kAsphalt;
+  ground::Surface surface = ground::Surface::kAsphalt;
   double friction = 0.0;
 };
 

@@ -32,7 +32,7 @@ base::Result<base::Digest> HashOfFiles(const std::filesystem::path& file) {
 bool IsTrafficMap(const std::filesystem::path& file) { return file.extension() == ".motors"; }
 
 base::Result<WorldSpec> ReadMapWorld(const std::filesystem::path& file) {
-  auto network = map::LoadNetwork(file);
+  auto network = traffic_map::LoadNetwork(file);
   if (!network) return network.error();
   const auto hash = HashOfFiles(file);
   if (!hash) return hash.error();

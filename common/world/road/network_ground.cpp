@@ -39,7 +39,7 @@ SurfacePoint OnLayer(const Source& source, const Layer& layer) {
   const network::Place& place = layer.named->place;
   LaneGround ground = grounds.At(network, place.lane, place.s_m);
   if (paint != nullptr && paint->At(place.lane.road, place.lane.section, place.s_m, place.t_m)) {
-    ground.surface = terrain::Surface::kRoadMark;
+    ground.surface = ground::Surface::kRoadMark;
     ground.friction = friction[static_cast<std::size_t>(ground.surface)];
   }
   if (detail != nullptr) {
@@ -52,11 +52,11 @@ SurfacePoint OnLayer(const Source& source, const Layer& layer) {
 // Within a junction that has a ground of its own, between its connecting roads.
 SurfacePoint OnJunction(const network::JunctionGround& ground, const FrictionTable& friction, const Eigen::Vector2d& p) {
   const network::GroundHeight at = ground.At(p);
-  return {at.z_m, at.slope_x, at.slope_y, friction[static_cast<std::size_t>(terrain::Surface::kAsphalt)], terrain::Surface::kAsphalt, true};
+  return {at.z_m, at.slope_x, at.slope_y, friction[static_cast<std::size_t>(ground::Surface::kAsphalt)], ground::Surface::kAsphalt, true};
 }
 
 SurfacePoint OnLand(const PlaneHeight& land, const FrictionTable& friction) {
-  return {land.z_m, land.slope_W.x(), land.slope_W.y(), friction[static_cast<std::size_t>(terrain::Surface::kGrass)], terrain::Surface::kGrass, true};
+  return {land.z_m, land.slope_W.x(), land.slope_W.y(), friction[static_cast<std::size_t>(ground::Surface::kGrass)], ground::Surface::kGrass, true};
 }
 
 // What answers at a point: a layer of roads, a junction's own ground, or the land; none of them: nothing is there.
@@ -72,7 +72,7 @@ Answer Find(const Network& network, const NetworkLand& land, const Eigen::Vector
   network.Surfaces(p_W.x(), p_W.y(), surfaces);
   const network::JunctionGround* open = network.GroundAt(p_W);
   const double between_z = open == nullptr ? 0.0 : open->At(p_W).z_m;
-  const bool meant = open != nullptr && !(between_z > z_hint_m + terrain::kHintAbove_m);
+  const bool meant = open != nullptr && !(between_z > z_hint_m + ground::kHintAbove_m);
   thread_local std::vector<Layer> layers;
   std::size_t count;
   FindLayers(network, surfaces, open == nullptr, layers, count);  // where a road goes on over a gap, the junction lies
@@ -80,7 +80,7 @@ Answer Find(const Network& network, const NetworkLand& land, const Eigen::Vector
   for (const Layer& layer : std::span(layers).first(count)) {
     const bool its_own = open != nullptr && network.roads()[layer.named->place.lane.road].spec().ground.get() == open;
     if (meant && between_z > layer.z_m && !its_own) return {nullptr, open, {}};
-    if (!(layer.z_m > z_hint_m + terrain::kHintAbove_m)) return {&layer, nullptr, {}};  // NaN: the first
+    if (!(layer.z_m > z_hint_m + ground::kHintAbove_m)) return {&layer, nullptr, {}};  // NaN: the first
     lowest = &layer;
   }
   if (meant) return {nullptr, open, {}};

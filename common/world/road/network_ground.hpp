@@ -22,7 +22,7 @@ std::optional<network::Place> NetworkPlace(const network::Network& network, cons
 // NetworkGround says of each. False, and then nothing is written, where that is not so or not told so quickly. Spans of equal length, of
 // Cluster::kMost at most.
 bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& grounds, const FrictionTable& friction, const MarkPaint* paint, const SurfaceDetail* detail,
-                           std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points);
+                           std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points);
 
 // The roads and their verges.
 Extents NetworkExtents(const network::Network& network);

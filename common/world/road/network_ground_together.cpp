@@ -6,12 +6,12 @@
 namespace rodeira::road {
 
 bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& grounds, const FrictionTable& friction, const MarkPaint* paint, const SurfaceDetail* detail,
-                           std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) {
+                           std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) {
   network::Cluster cluster;
   SetPlaces(queries, cluster);
   if (!network.Together(cluster) || (detail != nullptr && detail->On(cluster.road, cluster.low_s_m, cluster.high_s_m))) return false;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (cluster.z_m[i] > queries[i].z_hint_m + terrain::kHintAbove_m) return false;  // what is below is asked for
+    if (cluster.z_m[i] > queries[i].z_hint_m + ground::kHintAbove_m) return false;  // what is below is asked for
     if (network.GroundAt({queries[i].x_m, queries[i].y_m}) != nullptr) return false;
   }
   ClusterNormals normals;
@@ -19,8 +19,8 @@ bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& g
   PutPoints(network, grounds, cluster, normals, points);
   for (std::size_t i = 0; paint != nullptr && i < points.size(); ++i) {
     if (!paint->At(cluster.road, cluster.section, cluster.s_m[i], cluster.feet.t_m[i])) continue;
-    points[i].surface = terrain::Surface::kRoadMark;
-    points[i].friction = friction[static_cast<std::size_t>(terrain::Surface::kRoadMark)];
+    points[i].surface = ground::Surface::kRoadMark;
+    points[i].friction = friction[static_cast<std::size_t>(ground::Surface::kRoadMark)];
   }
   return true;
 }

@@ -210,7 +210,7 @@ void FindLayers(const Network& network, std::span<const Surfacing> surfaces, boo
     for (std::size_t i = 1; i < left.size(); ++i) {
       const double below = top - left[i]->sample.p_W.z();
       const network::RoadSpec& spec = network.roads()[left[i]->place.lane.road].spec();
-      const bool one = below <= terrain::kHintAbove_m || (below < Network::kLevel_m && std::any_of(layer.roads.begin(), layer.roads.end(), [&](const Surfacing* road) {
+      const bool one = below <= ground::kHintAbove_m || (below < Network::kLevel_m && std::any_of(layer.roads.begin(), layer.roads.end(), [&](const Surfacing* road) {
         return AreOfOne(network.roads()[road->place.lane.road].spec(), spec);
       }));
       if (one) layer.roads.push_back(left[i]);

@@ -38,7 +38,7 @@ network::LateralProfile Lateral(const Road& road) {
   return lateral;
 }
 
-network::Lane Strip(int id, network::LaneType type, double width_m, terrain::Surface surface, const FrictionTable& friction) {
+network::Lane Strip(int id, network::LaneType type, double width_m, ground::Surface surface, const FrictionTable& friction) {
   network::Lane lane;
   lane.id = id;
   lane.type = type;

@@ -92,14 +92,14 @@ void ReadLanes(const Map& map, SectionSpec& section) {
 Shoulder ReadShoulder(const Map& map, double lane_fall) {
   Shoulder shoulder;
   shoulder.width_m = map.Number("width_m", {0.0, 20.0}, 0.0);
-  shoulder.surface = ReadSurface(map, "surface", terrain::Surface::kAsphalt);
+  shoulder.surface = ReadSurface(map, "surface", ground::Surface::kAsphalt);
   shoulder.fall = map.Number("fall", kFall, lane_fall);
   return shoulder;
 }
 
 void ReadSection(const Map& map, SectionSpec& section) {
   ReadLanes(map, section);
-  section.surface = ReadSurface(map, "surface", terrain::Surface::kAsphalt);
+  section.surface = ReadSurface(map, "surface", ground::Surface::kAsphalt);
   const Map crossfall = map.OptionalChild("crossfall");
   const std::string kind = crossfall.Choice("kind", {"crown", "left", "right"}, "crown");
   const double fall = crossfall.Number("fall", {0.0, 0.2}, 0.025);
@@ -111,7 +111,7 @@ void ReadSection(const Map& map, SectionSpec& section) {
   const Map verge = map.OptionalChild("verge");
   section.verge.width_m = verge.Number("width_m", {0.0, 50.0}, 1.0);
   section.verge.fall = verge.Number("fall", {-0.5, 0.5}, 0.08);
-  section.verge.surface = ReadSurface(verge, "surface", terrain::Surface::kGrass);
+  section.verge.surface = ReadSurface(verge, "surface", ground::Surface::kGrass);
   section.blend_m = map.Number("blend_m", {0.5, 1000.0}, 10.0);
 }
 
@@ -136,8 +136,8 @@ void ReadMarks(const Map& map, double length_m, std::vector<Mark>& marks) {
 
 }  // namespace
 
-terrain::Surface ReadSurface(const Map& map, std::string_view key, terrain::Surface otherwise) {
-  using terrain::Surface;
+ground::Surface ReadSurface(const Map& map, std::string_view key, ground::Surface otherwise) {
+  using ground::Surface;
   const std::vector<Surface> surfaces = {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil};
   std::vector<std::string> names;
   for (const Surface surface : surfaces) names.emplace_back(SurfaceName(surface));

@@ -11,6 +11,6 @@ namespace rodeira::road {
 RoadSpec ReadRoad(const config::Map& map);
 
 // One of the surfaces that a person may name (asphalt, concrete, gravel, grass, soil).
-terrain::Surface ReadSurface(const config::Map& map, std::string_view key, terrain::Surface otherwise);
+ground::Surface ReadSurface(const config::Map& map, std::string_view key, ground::Surface otherwise);
 
 }  // namespace rodeira::road

@@ -15,7 +15,7 @@ std::vector<Band> SideBands(const SectionSpec& spec, double sign, double lanes_e
   std::vector<Band> bands;
   double width = 0.0;  // from the axis
   double z = 0.0;
-  const auto add = [&](double strip_m, double fall, terrain::Surface surface) {
+  const auto add = [&](double strip_m, double fall, ground::Surface surface) {
     if (strip_m <= 0.0) return;
     const double next = z - fall * strip_m;
     const double slope = -fall * sign;  // dz/dt

@@ -27,28 +27,28 @@ struct Band {
   double to_t_m = 0.0;
   double from_z_m = 0.0;
   double slope = 0.0;  // dz/dt, positive: rising to the left
-  terrain::Surface surface = terrain::Surface::kAsphalt;
+  ground::Surface surface = ground::Surface::kAsphalt;
 };
 
 // The strip beside the lanes on one side.
 struct Shoulder {
   double width_m = 0.0;
   double fall = 0.0;  // positive: falling outward
-  terrain::Surface surface = terrain::Surface::kAsphalt;
+  ground::Surface surface = ground::Surface::kAsphalt;
 };
 
 // The strip between the shoulder (or the lanes) and the terrain, the same on both sides.
 struct Verge {
   double width_m = 0.0;
   double fall = 0.0;  // positive: falling outward
-  terrain::Surface surface = terrain::Surface::kGrass;
+  ground::Surface surface = ground::Surface::kGrass;
 };
 
 struct SectionSpec {
   std::vector<Lane> lanes;    // id, direction, width, speed limit; the edges are found by Section
   double fall_left = 0.025;   // crossfall of the lanes left of the axis, positive: falling to the left
   double fall_right = 0.025;  // and right of it, positive: falling to the right. One-sided: of opposite signs
-  terrain::Surface surface = terrain::Surface::kAsphalt;
+  ground::Surface surface = ground::Surface::kAsphalt;
   Shoulder left, right;
   Verge verge;
   double blend_m = 10.0;  // > 0: over this width beyond the verge the ground passes into the terrain

@@ -60,10 +60,10 @@ void PutLaid(const network::Laid& laid, base::ByteWriter& out) {
   }
 }
 
-std::optional<terrain::Surface> SurfaceByName(std::string_view name) {
-  for (const terrain::Surface surface : {terrain::Surface::kAsphalt, terrain::Surface::kConcrete, terrain::Surface::kGravel, terrain::Surface::kGrass,
-                                         terrain::Surface::kSoil}) {
-    if (name == terrain::SurfaceName(surface)) return surface;
+std::optional<ground::Surface> SurfaceByName(std::string_view name) {
+  for (const ground::Surface surface : {ground::Surface::kAsphalt, ground::Surface::kConcrete, ground::Surface::kGravel, ground::Surface::kGrass,
+                                         ground::Surface::kSoil}) {
+    if (name == ground::SurfaceName(surface)) return surface;
   }
   return std::nullopt;
 }

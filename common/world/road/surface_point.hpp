@@ -12,7 +12,7 @@ struct SurfacePoint {
   double slope_x = 0.0;  // dz/dx
   double slope_y = 0.0;  // dz/dy
   double friction = 0.0;
-  terrain::Surface surface = terrain::Surface::kOutside;
+  ground::Surface surface = ground::Surface::kOutside;
   bool inside = false;
 };
 

@@ -20,15 +20,15 @@ namespace {
 constexpr std::size_t kFew = 12;  // are asked sooner one by one
 
 // Answers for points close to one another as World::At does for each; false, and writes nothing, where it cannot.
-using Together = std::function<bool(std::span<const terrain::GroundQuery>, std::span<terrain::GroundPoint>)>;
+using Together = std::function<bool(std::span<const ground::GroundQuery>, std::span<ground::GroundPoint>)>;
 
 // SUELO on a world: nothing but World::At, a point at a time, or the same faster where many lie together on a road.
-class WorldGround final : public terrain::Ground {
+class WorldGround final : public ground::Ground {
  public:
   WorldGround(std::shared_ptr<const World> world, Together together)
       : world_(std::move(world)), together_(std::move(together)), ahead_(world_->grid()) {}
 
-  void Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) override {
+  void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override {
     RODEIRA_ASSERT(queries.size() == points.size());
     for (std::size_t from = 0; from < queries.size(); from += network::Cluster::kMost) {
       const std::size_t count = std::min(network::Cluster::kMost, queries.size() - from);
@@ -39,7 +39,7 @@ class WorldGround final : public terrain::Ground {
   }
 
  private:
-  void OneByOne(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) const {
+  void OneByOne(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) const {
     const auto fetch = [&](std::size_t i) {
       if (ahead_.any() && i < queries.size()) ahead_.Fetch(queries[i].x_m, queries[i].y_m);
     };
@@ -104,7 +104,7 @@ Extents World::extents() const {
   return {-infinity, -infinity, infinity, infinity};
 }
 
-std::unique_ptr<terrain::Ground> World::MakeGround() const {
+std::unique_ptr<ground::Ground> World::MakeGround() const {
   Together together;
   if (built_ != nullptr) {
     together = [this](auto queries, auto points) { return built_->Together(queries, points); };
@@ -157,7 +157,7 @@ void World::LayRoad(const Road& road, double x_m, double y_m, SurfacePoint& poin
   const Eigen::Vector2d slope = profile.grade * stretch * along_W + band.slope * left_W;
   if (excess == 0.0) {
     const bool painted = road.IsPainted(foot.s_m, foot.t_m, foot.at.heading_rad);
-    const terrain::Surface surface = painted ? terrain::Surface::kRoadMark : band.surface;
+    const ground::Surface surface = painted ? ground::Surface::kRoadMark : band.surface;
     point = {z, slope.x(), slope.y(), Friction(surface), surface, true};
     return;
   }

@@ -60,7 +60,7 @@ class World : public std::enable_shared_from_this<World> {
   const NetworkLand* land() const { return land_.get(); }
   Extents extents() const;
   const StartPose& start() const { return start_; }
-  terrain::Surface terrain_surface() const { return terrain_.surface; }
+  ground::Surface terrain_surface() const { return terrain_.surface; }
   double terrain_friction() const { return terrain_.friction; }
   // What lies on the terrain to be seen, and changes no answer; null: nothing.
   const terrain::LaidPicture* ground_picture() const { return ground_picture_ ? &*ground_picture_ : nullptr; }
@@ -70,11 +70,11 @@ class World : public std::enable_shared_from_this<World> {
   base::Digest DetailDigest(std::uint32_t road, double from_s_m, double to_s_m) const;
   // The surfaces of the junctions of a network that is built into a terrain.
   std::span<const std::shared_ptr<const design::JunctionSurface>> junctions() const;
-  double Friction(terrain::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
+  double Friction(ground::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
 
   // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. Where surfaces lie over one
   // another, the height hint chooses; a world file of version 1 has one surface everywhere.
-  std::unique_ptr<terrain::Ground> MakeGround() const;
+  std::unique_ptr<ground::Ground> MakeGround() const;
   // One of its answers: the road within its verges, and beside it the terrain, cut and filled to meet it (BuiltGround). Beside
   // a road of version 1, over its blend, both, weighted by 3 u^2 - 2 u^3 of the distance from the verge over the blend's width.
   SurfacePoint At(double x_m, double y_m, double z_hint_m = std::numeric_limits<double>::quiet_NaN()) const;

@@ -106,7 +106,7 @@ base::Result<std::string> BuildWorld(const World& wanted, const std::filesystem:
   }
   auto elevation = target;
   elevation.replace_extension(".bt");
-  const auto surface = terrain::SurfaceName(wanted.terrain_surface());
+  const auto surface = ground::SurfaceName(wanted.terrain_surface());
   std::string terrain = fmt::format("terrain:\n  surface: {}\n  file: {}\n", surface, elevation.filename().string());
   if (wanted.ground_picture() != nullptr) terrain += TextureText(*wanted.ground_picture(), world_yaml);
   const std::string text = WithTerrain(WithWholePaths(file.value().text(), file.value()), terrain);

@@ -12,7 +12,7 @@ class Canonical {
   void Put(double value) { out_.Put(value + 0.0); }  // -0 is 0
   void Put(int value) { out_.Put(static_cast<std::int64_t>(value)); }
   void Put(std::size_t value) { out_.Put(static_cast<std::uint64_t>(value)); }
-  void Put(terrain::Surface value) { out_.Put(static_cast<std::uint64_t>(value)); }
+  void Put(ground::Surface value) { out_.Put(static_cast<std::uint64_t>(value)); }
   void Put(MarkColour value) { out_.Put(static_cast<std::uint64_t>(value)); }
   template <class... Values>
   void PutAll(Values... values) {

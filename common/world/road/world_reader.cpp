@@ -70,7 +70,7 @@ HillsSpec ReadHills(const Map& map) {
 }
 
 void ReadFriction(const Map& map, WorldSpec& spec) {
-  using terrain::Surface;
+  using ground::Surface;
   for (const Surface surface : {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil, Surface::kRoadMark}) {
     double& friction = spec.friction[static_cast<std::size_t>(surface)];
     friction = map.Number(SurfaceName(surface), {0.01, 2.0}, friction);
@@ -81,7 +81,7 @@ void ReadPlane(const Map& map, WorldSpec& spec) {
   (void)map.Choice("kind", {"plane"});
   spec.plane = PlaneSpec{map.Number("z_m", {-12'000.0, 12'000.0}, 0.0), map.Number("slope_x", {-1.0, 1.0}, 0.0),
                          map.Number("slope_y", {-1.0, 1.0}, 0.0)};
-  spec.terrain_surface = ReadSurface(map, "surface", terrain::Surface::kAsphalt);
+  spec.terrain_surface = ReadSurface(map, "surface", ground::Surface::kAsphalt);
   if (map.Has("friction")) spec.terrain_friction = map.Number("friction", {0.01, 2.0});
 }
 
@@ -154,7 +154,7 @@ Keys ReadKeys(const Map& root) {
   }
   const Map terrain = root.OptionalChild("terrain");
   if (root.Has("terrain")) {
-    keys.spec.terrain_surface = ReadSurface(terrain, "surface", terrain::Surface::kGrass);
+    keys.spec.terrain_surface = ReadSurface(terrain, "surface", ground::Surface::kGrass);
     keys.spec.ground_picture = ReadGroundPicture(terrain, keys.missing);
     keys.elevation_file = terrain.OptionalPath("file");
     keys.elevation_place = terrain.Place("file");

@@ -206,7 +206,7 @@ std::string DescribeWorld(const World& world) {
 }
 
 std::string DescribePoint(const World& world, double x_m, double y_m, std::optional<double> z_hint_m) {
-  const terrain::GroundPoint at = world.MakeGround()->At(x_m, y_m, z_hint_m.value_or(std::numeric_limits<double>::quiet_NaN()));
+  const ground::GroundPoint at = world.MakeGround()->At(x_m, y_m, z_hint_m.value_or(std::numeric_limits<double>::quiet_NaN()));
   std::string text = fmt::format("x_m: {}\ny_m: {}\n", x_m, y_m) + DescribeEarth(world, x_m, y_m);
   if (!at.inside) {
     const Extents extents = world.extents();

@@ -48,7 +48,7 @@ struct WorldSpec {
   std::vector<std::shared_ptr<const design::JunctionSurface>> junctions;  // of a network that is built into the terrain
   std::shared_ptr<const network::Standing> standing;  // what stands at no road; null: nothing
   std::shared_ptr<const SurfaceDetail> detail;      // what stands on the network's roads; null: nothing
-  terrain::Surface terrain_surface = terrain::Surface::kGrass;
+  ground::Surface terrain_surface = ground::Surface::kGrass;
   std::optional<terrain::LaidPicture> ground_picture;  // only to be seen
   std::optional<double> terrain_friction;  // otherwise its surface's
   FrictionTable friction = kUsualFriction;

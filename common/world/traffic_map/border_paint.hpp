@@ -5,7 +5,7 @@
 #include "common/world/traffic_map/map_file.hpp"
 #include "common/world/network/line_kinds.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // How a border is painted, in the picture and in OpenDRIVE alike: as a world file's lines of the same name.
 constexpr const network::LineKind& PaintOf(BorderType type) {
@@ -17,4 +17,4 @@ constexpr const network::LineKind& PaintOf(BorderType type) {
 // The middle of a line across a lane lies so far before its sign or light, or the lane's end.
 inline constexpr double kLineBefore_m = 0.3;
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

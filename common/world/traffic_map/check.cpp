@@ -4,7 +4,7 @@
 
 #include "common/world/traffic_map/check_rules.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 std::string NameOf(const Finding& finding) {
@@ -39,4 +39,4 @@ std::vector<Finding> CheckMap(const MapFile& map, const Heights& heights) {
   return findings.all();
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

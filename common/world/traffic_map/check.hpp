@@ -7,7 +7,7 @@
 #include "common/world/traffic_map/heights.hpp"
 #include "common/world/traffic_map/map_file.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 enum class Severity { kError, kWarning };  // an error: no traffic can use the map; a warning: it can, but is that meant?
 enum class Element { kMap, kCurve, kLane, kConnection, kHeights, kLights, kSign, kFlow };
@@ -31,4 +31,4 @@ struct Finding {
 // A map without errors can be made a LaneMap.
 std::vector<Finding> CheckMap(const MapFile& map, const Heights& heights);
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -8,7 +8,7 @@
 #include "common/world/traffic_map/check_rules.hpp"
 #include "common/world/traffic_map/lane_map.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 template <class Value>
@@ -139,4 +139,4 @@ void CheckNumbers(const MapFile& map, const Heights& heights, Findings& findings
   }
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

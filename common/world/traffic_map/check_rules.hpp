@@ -6,7 +6,7 @@
 
 #include "common/world/traffic_map/check.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // Findings are added by element, whatever it is.
 class Findings {
@@ -50,4 +50,4 @@ void CheckWays(const MapFile& map, Findings& findings);
 // Curves, lanes, and how lanes fit together; the picture.
 void CheckShapes(const MapFile& map, const Heights& heights, Findings& findings);
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

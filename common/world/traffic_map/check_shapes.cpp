@@ -8,7 +8,7 @@
 #include "common/world/traffic_map/lane_map.hpp"
 #include "common/world/traffic_map/picture.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 constexpr double kShortest_m = 0.01;  // of a curve
@@ -147,4 +147,4 @@ void CheckShapes(const MapFile& map, const Heights& heights, Findings& findings)
   CheckPicture(map, findings);
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

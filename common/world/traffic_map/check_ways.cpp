@@ -3,7 +3,7 @@
 #include "common/world/traffic_map/check_rules.hpp"
 #include "common/world/traffic_map/lane_map.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 using Ways = std::vector<std::vector<std::size_t>>;  // a lane: the lanes next to it
@@ -67,4 +67,4 @@ void CheckWays(const MapFile& map, Findings& findings) {
   }
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 constexpr std::string_view kFirst = "rodeira: motors/1\n";
@@ -201,4 +201,4 @@ std::string CompanionText(const Heights& heights, const Heights& loaded, const s
   return comments + (anew.empty() ? std::string(kFirst) : anew);
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

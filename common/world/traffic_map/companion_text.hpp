@@ -4,7 +4,7 @@
 
 #include "common/world/traffic_map/heights.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // The companion file anew (docs/formats.md); empty where there is nothing to say. Numbers are the shortest that read the same.
 std::string CompanionText(const Heights& heights);
@@ -14,4 +14,4 @@ std::string CompanionText(const Heights& heights);
 // the parts cannot be told apart (`{…}` in one line) is written anew whole, its comments above it. What comes back always reads as `heights`.
 std::string CompanionText(const Heights& heights, const Heights& loaded, const std::string& text);
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 // Nodes and weights of the eight-point Gauss-Legendre rule on [-1, 1] (Abramowitz and Stegun, table 25.4).
@@ -107,4 +107,4 @@ double ArcTable::ParameterAt(double s_m) const {
   return t;
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

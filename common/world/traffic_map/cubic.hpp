@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // A cubic Bézier curve in plan, B(t) = (1−t)³p0 + 3(1−t)²t p1 + 3(1−t)t² p2 + t³p3, 0 ≤ t ≤ 1; metres.
 struct Cubic {
@@ -44,4 +44,4 @@ class ArcTable {
   std::vector<double> begin_m_;  // one more than panels
 };
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 constexpr double kShortest_m = 0.05;
@@ -111,4 +111,4 @@ base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double from
   return pieces;
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

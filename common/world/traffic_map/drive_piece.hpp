@@ -7,7 +7,7 @@
 #include "common/core/base/result.hpp"
 #include "common/world/traffic_map/lane_shape.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // a + b d + c d² + d d³ of the distance d from where it begins, m.
 using Cubic1 = std::array<double, 4>;
@@ -44,4 +44,4 @@ struct FitBounds {
 // remains. Wrong input where a piece of 5 cm is not near enough yet.
 base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double from_m, double to_m, const FitBounds& bounds, DriveError& error);
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -8,7 +8,7 @@
 
 #include "common/world/traffic_map/border_paint.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 bool Stops(const LaneMap& map, const MapLane& lane) {
@@ -129,4 +129,4 @@ void WriteController(const LaneMap& map, std::size_t light, pugi::xml_node root)
   Set(data, "value", fmt::format("{} {} {} {} {}", times.cycle_s, times.green_from_s, times.green_s, times.amber_s, times.red_amber_s));
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -6,7 +6,7 @@
 #include "common/world/traffic_map/lane_map.hpp"
 #include "common/world/traffic_map/road_plan.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // Attributes as OpenDRIVE's files have them: numbers that read back to the same bits.
 void Set(pugi::xml_node node, const char* name, double value);
@@ -19,4 +19,4 @@ void WriteSignals(const LaneMap& map, const PlannedRoad& plan, pugi::xml_node ro
 // The light's times, which OpenDRIVE has no place for, stand in the data of users.
 void WriteController(const LaneMap& map, std::size_t light, pugi::xml_node root);
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -8,7 +8,7 @@
 
 #include "common/core/config/config.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 constexpr double kMostHeight_m = 1e4;
@@ -116,4 +116,4 @@ base::Result<Heights> LoadHeightsOf(const std::filesystem::path& map_file) {
   return Read(file.value());
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -10,7 +10,7 @@
 #include "common/core/base/result.hpp"
 #include "common/world/lights/light_plan.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // Elevation of a curve: z at its four control points, m; between them z(t) is the cubic with the plan's own parameter.
 struct CurveHeights {
@@ -58,4 +58,4 @@ base::Result<Heights> ParseHeights(std::string_view text, const std::filesystem:
 // The companion of a map; none of it where there is no such file.
 base::Result<Heights> LoadHeightsOf(const std::filesystem::path& map_file);
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

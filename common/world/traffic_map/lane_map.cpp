@@ -9,7 +9,7 @@
 
 #include "common/world/traffic_map/picture.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 std::optional<std::size_t> NumberIndex::Find(std::int32_t number) const {
   const auto at = std::lower_bound(places_.begin(), places_.end(), std::pair(number, std::size_t{0}));
@@ -108,4 +108,4 @@ base::Result<LaneMap> LoadLaneMap(const std::filesystem::path& path) {
   return MakeLaneMap(file.value(), heights.value(), path.string());
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -12,7 +12,7 @@
 #include "common/world/traffic_map/lane_shape.hpp"
 #include "common/world/traffic_map/map_file.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // Where a number stands: the index of the first element with it.
 class NumberIndex {
@@ -86,4 +86,4 @@ base::Result<LaneMap> MakeLaneMap(const MapFile& file, const Heights& heights, c
 // Reads the file and its companion with the heights.
 base::Result<LaneMap> LoadLaneMap(const std::filesystem::path& path);
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

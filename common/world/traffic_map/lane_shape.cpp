@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 Cubic Mean(const Cubic& a, const Cubic& b) {
@@ -75,4 +75,4 @@ LanePoint LaneShape::AtParameter(double t) const {
   return at;
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -5,7 +5,7 @@
 
 #include "common/world/traffic_map/cubic.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // A lane's side, in the direction of its traffic: a cubic in plan, and heights with the same parameter.
 struct Border {
@@ -54,4 +54,4 @@ class LaneShape {
   ArcTable along_;
 };
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -10,7 +10,7 @@
 
 #include "common/core/base/result.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // What is painted along a side of a lane; the numbers are the file's (MOTORS, appendix A.8).
 enum class BorderType : std::int8_t {
@@ -117,4 +117,4 @@ base::Result<MapFile> LoadMap(const std::filesystem::path& path);
 std::string WriteMap(const MapFile& map);
 base::Status SaveMap(const MapFile& map, const std::filesystem::path& path);
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

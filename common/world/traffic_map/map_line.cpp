@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 // The fields of a line, one after the other; after the first problem all answers are zeros.
@@ -175,4 +175,4 @@ std::string_view WithoutLineEnd(std::string_view line) {
   return line;
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

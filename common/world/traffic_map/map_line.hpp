@@ -5,7 +5,7 @@
 
 #include "common/world/traffic_map/map_file.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // A line without its line end, beginning with its letter; the error is a sentence without a place.
 template <class Value>
@@ -28,4 +28,4 @@ std::string LineText(const Scale& scale);
 // Without "\n" or "\r\n" at its end.
 std::string_view WithoutLineEnd(std::string_view line);
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

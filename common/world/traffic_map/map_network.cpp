@@ -3,7 +3,7 @@
 #include "common/world/traffic_map/open_drive.hpp"
 #include "common/world/opendrive/import.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 base::Result<std::shared_ptr<const network::Network>> ToNetwork(const LaneMap& map, const std::string& name) {
   const auto drive = ToOpenDrive(map, name, Junctions::kDirect);
@@ -21,4 +21,4 @@ base::Result<std::shared_ptr<const network::Network>> LoadNetwork(const std::fil
   return ToNetwork(made.value(), path.string());
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

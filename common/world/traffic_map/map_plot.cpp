@@ -8,7 +8,7 @@
 
 #include "common/world/traffic_map/border_paint.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 constexpr double kWidth_px = 1000.0;
@@ -131,4 +131,4 @@ std::string PlotMap(const LaneMap& map) {
   return svg + DrawRule(paper) + "</svg>\n";
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -4,7 +4,7 @@
 #include "common/world/traffic_map/map_file.hpp"
 #include "common/world/traffic_map/map_line.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 std::string At(const std::string& name, std::size_t number) { return fmt::format("{}:{}", name, number); }
@@ -70,4 +70,4 @@ base::Result<MapFile> LoadMap(const std::filesystem::path& path) {
   return ParseMap(bytes.value(), path.string());
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -7,7 +7,7 @@
 #include "common/world/traffic_map/lane_map.hpp"
 #include "common/world/traffic_map/picture.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 std::string Row(std::string_view name, const std::string& value) { return fmt::format("{:<13}{}\n", name, value); }
@@ -49,4 +49,4 @@ std::string DescribeMap(const MapFile& map, const Heights& heights, const std::v
          Row("found", fmt::format("{} errors, {} warnings", errors, static_cast<std::ptrdiff_t>(findings.size()) - errors));
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

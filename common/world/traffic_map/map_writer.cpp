@@ -5,7 +5,7 @@
 #include "common/world/traffic_map/map_file.hpp"
 #include "common/world/traffic_map/map_line.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 template <class Value>
@@ -48,4 +48,4 @@ std::string WriteMap(const MapFile& map) {
 
 base::Status SaveMap(const MapFile& map, const std::filesystem::path& path) { return base::WriteWhole(path, WriteMap(map)); }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

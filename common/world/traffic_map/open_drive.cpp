@@ -11,7 +11,7 @@
 #include "common/world/traffic_map/drive_signals.hpp"
 #include "common/world/network/marking.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 constexpr double kLength_m = 0.5e-3;  // ASAM allows twice that between a curve and its element
@@ -266,4 +266,4 @@ class Writer {
 
 base::Result<OpenDrive> ToOpenDrive(const LaneMap& map, const std::string& name, Junctions junctions) { return Writer(map, name, junctions).Write(); }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -6,7 +6,7 @@
 #include "common/world/traffic_map/lane_map.hpp"
 #include "common/world/traffic_map/road_plan.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // The map as OpenDRIVE 1.7, and how far it is from the map at most (measured at points between those that it was fitted to).
 struct OpenDrive {
@@ -27,4 +27,4 @@ struct OpenDrive {
 // every error is below 5 mm. Wrong input where a lane cannot be fitted so (a cusp).
 base::Result<OpenDrive> ToOpenDrive(const LaneMap& map, const std::string& name, Junctions junctions = Junctions::kCommon);
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 // Big-endian; the caller has seen that the bytes are there.
@@ -69,4 +69,4 @@ std::optional<PictureInfo> ReadPictureInfo(std::string_view bytes) {
   return std::nullopt;
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // What the first bytes of a picture say of it.
 struct PictureInfo {
@@ -17,4 +17,4 @@ struct PictureInfo {
 // Nothing where the bytes are no PNG (ISO/IEC 15948) or JPEG (ITU-T T.81) file, or end before they say their size.
 std::optional<PictureInfo> ReadPictureInfo(std::string_view bytes);
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 constexpr double kEnd_m = 5.0;  // of a lane, that becomes a connecting road; at most a third of it
@@ -141,4 +141,4 @@ class Planner {
 
 RoadPlan PlanRoads(const LaneMap& map, Junctions kind) { return Planner(map, kind).Plan(); }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

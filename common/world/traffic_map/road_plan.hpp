@@ -7,7 +7,7 @@
 
 #include "common/world/traffic_map/lane_map.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // How connections become junctions of OpenDRIVE, where they are no simple links.
 enum class Junctions : std::uint8_t {
@@ -55,4 +55,4 @@ struct RoadPlan {
 
 RoadPlan PlanRoads(const LaneMap& map, Junctions kind);
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

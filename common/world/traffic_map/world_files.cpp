@@ -6,7 +6,7 @@
 
 #include "common/core/base/files.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 // A YAML text in quotes.
@@ -38,4 +38,4 @@ base::Result<OpenDrive> WriteWorld(const LaneMap& map, const std::filesystem::pa
   return drive;
 }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -2,7 +2,7 @@
 
 namespace rodeira::weather {
 
-using terrain::Surface;
+using ground::Surface;
 
 double FrictionLeft(Surface surface) {
   switch (surface) {
@@ -17,10 +17,10 @@ double FrictionLeft(Surface surface) {
   return 1.0;
 }
 
-void WetGround::Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) {
+void WetGround::Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) {
   dry_.Query(queries, points);
   if (wetness_ <= 0.0) return;
-  for (terrain::GroundPoint& point : points) point.friction *= 1.0 - wetness_ * (1.0 - FrictionLeft(point.surface));
+  for (ground::GroundPoint& point : points) point.friction *= 1.0 - wetness_ * (1.0 - FrictionLeft(point.surface));
 }
 
 }  // namespace rodeira::weather

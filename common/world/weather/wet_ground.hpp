@@ -5,21 +5,21 @@
 namespace rodeira::weather {
 
 // What is left of a dry surface's friction under a closed film of water, from 0 to 1 (docs/vehicle.md: chosen).
-double FrictionLeft(terrain::Surface surface);
+double FrictionLeft(ground::Surface surface);
 
 // SUELO as a tyre feels it: SUELO's friction is the dry surface's (law L4); here it is
 //   mu = mu_dry (1 - wetness (1 - FrictionLeft(surface))).
 // All else is SUELO's answer, bit by bit; so is the friction where the wetness is 0.
-class WetGround final : public terrain::Ground {
+class WetGround final : public ground::Ground {
  public:
   // The ground must outlive it.
-  explicit WetGround(terrain::Ground& dry) : dry_(dry) {}
+  explicit WetGround(ground::Ground& dry) : dry_(dry) {}
 
   void set_wetness(double wetness) { wetness_ = wetness; }
-  void Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) override;
+  void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override;
 
  private:
-  terrain::Ground& dry_;
+  ground::Ground& dry_;
   double wetness_ = 0.0;  // 0 dry … 1
 };
 

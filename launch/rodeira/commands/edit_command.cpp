@@ -2,8 +2,8 @@
 
 #include "nodes/editor/desk.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
-int Edit(const EditOptions& options) { return desk::RunDesk(options.file); }
+int Edit(const EditOptions& options) { return nodes::RunDesk(options.file); }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 struct EditOptions {
   bool asked = false;
@@ -12,4 +12,4 @@ struct EditOptions {
 // `rodeira edit`: the path editor in its window. The exit status.
 int Edit(const EditOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -10,7 +10,7 @@
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 // What is done, on a terminal and after two seconds.
@@ -63,4 +63,4 @@ int Export(const ExportOptions& options) {
   return 1;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira export --csv DIR FILE.mcap`
 struct ExportOptions {
@@ -15,4 +15,4 @@ struct ExportOptions {
 // could be read.
 int Export(const ExportOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -10,7 +10,7 @@
 #include "launch/rodeira/replay/recording_audit.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 void PrintWhatItIs(const record::McapReader& in, const std::string& file) {
@@ -79,4 +79,4 @@ int Info(const std::string& file) {
   return whole && audit.lossless() ? 0 : 1;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -2,9 +2,9 @@
 
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira info FILE.mcap`: what a recording holds, and its condition. Status 2 where it is none.
 int Info(const std::string& file);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -9,7 +9,7 @@
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/commands/wheel_wizard.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 constexpr double kTick_s = 0.01;
@@ -57,4 +57,4 @@ int SetUpInput(const InputOptions& options) {
   });
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira input setup`: finds out by at most five movements what turns and what is pressed, and writes a wheel file.
 struct InputOptions {
@@ -19,4 +19,4 @@ int SetUpInput(const InputOptions& options, const std::function<void(const std::
 // The same at the terminal, until Ctrl-C.
 int SetUpInput(const InputOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -10,7 +10,7 @@
 
 #include "launch/rodeira/interrupt.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using WallClock = std::chrono::steady_clock;
@@ -22,7 +22,7 @@ void Watch(nodes::Joysticks& joysticks, const std::vector<nodes::JoystickInfo>& 
   std::vector<std::string> guids;
   for (const nodes::JoystickInfo& info : connected) guids.push_back(info.guid);
   joysticks.Use(guids);
-  std::vector<hands::DeviceReading> before;
+  std::vector<input_devices::DeviceReading> before;
   for (std::size_t place = 0; place < guids.size(); ++place) before.push_back(joysticks.reading(place));
   const auto begin = WallClock::now();
   while (!Interrupted() && (!duration_s || std::chrono::duration<double>(WallClock::now() - begin).count() < *duration_s)) {
@@ -45,7 +45,7 @@ std::string JoystickTable(const std::vector<nodes::JoystickInfo>& connected) {
   return text;
 }
 
-std::string JoystickMoves(const std::string& device, hands::DeviceReading& before, const hands::DeviceReading& now) {
+std::string JoystickMoves(const std::string& device, input_devices::DeviceReading& before, const input_devices::DeviceReading& now) {
   std::string text;
   if (before.connected != now.connected) text += fmt::format("{}: {}\n", device, now.connected ? "is there" : "was unplugged");
   if (before.connected != now.connected || before.axes.size() != now.axes.size() || before.buttons.size() != now.buttons.size()) {
@@ -103,4 +103,4 @@ Finding CheckJoysticks(const std::vector<nodes::JoystickInfo>& connected, const 
   return Ok(check, names);
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -8,7 +8,7 @@
 #include "launch/rodeira/doctor/finding.hpp"
 #include "nodes/input/joysticks.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira joysticks [--watch]`: what is plugged in, by the GUIDs that a wheel file names, and what moves.
 struct JoysticksOptions {
@@ -22,10 +22,10 @@ int ListJoysticks(const JoysticksOptions& options);
 std::string JoystickTable(const std::vector<nodes::JoystickInfo>& connected);
 // "axis 2: 32767 -> 1200" and "button 4: down", a line each, for what differs by more than a hundredth of an axis' way;
 // `before` is brought up to date for those.
-std::string JoystickMoves(const std::string& device, hands::DeviceReading& before, const hands::DeviceReading& now);
+std::string JoystickMoves(const std::string& device, input_devices::DeviceReading& before, const input_devices::DeviceReading& now);
 
 // The line of `rodeira doctor`: information, and a warning where devices are there that this person may not read.
 Finding CheckJoysticks(const std::vector<nodes::JoystickInfo>& connected,
                        const std::filesystem::path& input_folder = "/dev/input");
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -16,7 +16,7 @@
 #include "common/world/traffic_map/world_files.hpp"
 #include "common/traffic/map_lights.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 int Complain(const base::Error& error) {
@@ -25,30 +25,30 @@ int Complain(const base::Error& error) {
 }
 
 // What only a network of the map shows: a shape that no road can have, lights that are green together where ways cross.
-std::optional<map::Finding> CheckDriven(const map::MapFile& file, const map::Heights& companion, const std::string& path) {
-  const auto wrong = [](const base::Error& error) { return map::Finding{map::Severity::kError, map::Element::kMap, 0, 0, 0, error.message}; };
-  const auto made = map::MakeLaneMap(file, companion, path);
+std::optional<traffic_map::Finding> CheckDriven(const traffic_map::MapFile& file, const traffic_map::Heights& companion, const std::string& path) {
+  const auto wrong = [](const base::Error& error) { return traffic_map::Finding{traffic_map::Severity::kError, traffic_map::Element::kMap, 0, 0, 0, error.message}; };
+  const auto made = traffic_map::MakeLaneMap(file, companion, path);
   if (!made) return wrong(made.error());
-  const auto network = map::ToNetwork(made.value(), path);
+  const auto network = traffic_map::ToNetwork(made.value(), path);
   if (!network) return wrong(network.error());
   return traffic::LightsTogether(made.value(), companion, *network.value());
 }
 
 int Check(const std::string& path) {
-  const auto file = map::LoadMap(path);
+  const auto file = traffic_map::LoadMap(path);
   if (!file) return Complain(file.error());
-  const auto heights = map::LoadHeightsOf(path);
+  const auto heights = traffic_map::LoadHeightsOf(path);
   if (!heights) return Complain(heights.error());
-  auto findings = map::CheckMap(file.value(), heights.value());
-  const bool whole = std::none_of(findings.begin(), findings.end(), [](const map::Finding& finding) { return finding.severity == map::Severity::kError; });
+  auto findings = traffic_map::CheckMap(file.value(), heights.value());
+  const bool whole = std::none_of(findings.begin(), findings.end(), [](const traffic_map::Finding& finding) { return finding.severity == traffic_map::Severity::kError; });
   if (auto driven = whole ? CheckDriven(file.value(), heights.value(), path) : std::nullopt) findings.push_back(std::move(*driven));
   int status = 0;
-  for (const map::Finding& finding : findings) {
-    const bool is_error = finding.severity == map::Severity::kError;
+  for (const traffic_map::Finding& finding : findings) {
+    const bool is_error = finding.severity == traffic_map::Severity::kError;
     fmt::print(stderr, "rodeira: {}: {}{}\n", base::Printable(finding.Place(path)), is_error ? "" : "warning: ", finding.Text());
     if (is_error) status = 2;
   }
-  fmt::print("{}", map::DescribeMap(file.value(), heights.value(), findings));
+  fmt::print("{}", traffic_map::DescribeMap(file.value(), heights.value(), findings));
   return status;
 }
 
@@ -59,23 +59,23 @@ int Convert(const MapOptions& options) {
     return Complain(
         base::WrongInput(fmt::format("the file's name ends with '{}'; .svg, .xodr or, for a world, .yaml was expected", kind), options.out));
   }
-  const auto made = map::LoadLaneMap(options.file);
+  const auto made = traffic_map::LoadLaneMap(options.file);
   if (!made) return Complain(made.error());
   if (kind == ".svg") {
-    if (auto status = base::WriteWhole(out, map::PlotMap(made.value())); !status) return Complain(status.error());
+    if (auto status = base::WriteWhole(out, traffic_map::PlotMap(made.value())); !status) return Complain(status.error());
     fmt::print("wrote {}\n", options.out);
     return 0;
   }
-  const auto written = map::WriteWorld(made.value(), out, "made of " + from.filename().string());
+  const auto written = traffic_map::WriteWorld(made.value(), out, "made of " + from.filename().string());
   if (!written) return Complain(written.error().context.empty() ? base::WrongInput(written.error().message, options.file) : written.error());
-  const auto companion = map::LoadHeightsOf(options.file);
+  const auto companion = traffic_map::LoadHeightsOf(options.file);
   if (companion && !companion.value().flows.empty()) {
     fmt::print(stderr, "rodeira: warning: the flows beside {} are not in it: a world has none; a file of traffic settings takes them (`flows`)\n", from.filename().string());
   }
-  if (!map::BeginsAndEndsAtItsEdge(made.value())) {
+  if (!traffic_map::BeginsAndEndsAtItsEdge(made.value())) {
     fmt::print(stderr, "rodeira: warning: vehicles begin or end elsewhere than at the edge of {}; OpenDRIVE has no word for that: it stands in userData, which other programs pass over\n", from.filename().string());
   }
-  const map::OpenDrive& drive = written.value();
+  const traffic_map::OpenDrive& drive = written.value();
   fmt::print("wrote {}{}: {} roads in {} pieces, {} junctions; off by at most {:.2f} mm (middle), {:.2f} mm (borders), {:.2f} mm (height)\n", options.out,
              kind == ".yaml" ? " and " + std::filesystem::path(out).replace_extension(".xodr").string() : "", drive.roads, drive.pieces, drive.junctions,
              1e3 * drive.middle_error_m, 1e3 * drive.border_error_m, 1e3 * drive.height_error_m);
@@ -86,4 +86,4 @@ int Convert(const MapOptions& options) {
 
 int MapCommand(const MapOptions& options) { return options.command == "check" ? Check(options.file) : Convert(options); }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira map check FILE.motors`, `rodeira map convert FILE.motors -o OUT.svg|OUT.xodr|OUT.yaml`
 struct MapOptions {
@@ -14,4 +14,4 @@ struct MapOptions {
 // Status 2 where the map has errors; warnings alone are told and hinder nothing.
 int MapCommand(const MapOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -9,7 +9,7 @@
 #include "common/core/base/files.hpp"
 #include "common/vehicle/multibody/run.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -70,4 +70,4 @@ int RunMechanismFile(const MechanismOptions& options) {
   return 0;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

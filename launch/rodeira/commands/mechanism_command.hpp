@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 struct MechanismOptions {
   bool asked = false;
@@ -17,4 +17,4 @@ struct MechanismOptions {
 // `rodeira mechanism run`: a mechanism file alone, without a network. Returns the exit status.
 int RunMechanismFile(const MechanismOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

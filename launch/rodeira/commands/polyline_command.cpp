@@ -9,7 +9,7 @@
 #include "common/core/geometry/polyline_offset.hpp"
 #include "launch/rodeira/commands/world_axis.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using geometry::Polyline;
@@ -80,4 +80,4 @@ int Polylines(const PolylineOptions& options) {
   return 0;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 struct PolylineOptions {
   std::string command;  // join, translate, rotate, scale, offset; empty: not asked
@@ -26,4 +26,4 @@ struct PolylineOptions {
 // `rodeira polyline`: chains of points in CSV files, and axes of roads ("WORLD.yaml#ROAD"), put together and moved. Returns the exit status.
 int Polylines(const PolylineOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

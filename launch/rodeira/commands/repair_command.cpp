@@ -9,7 +9,7 @@
 #include "common/runtime/replay/repaired_end.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 int RepairRecording(const std::string& recording, const std::string& out) {
   ::signal(SIGXFSZ, SIG_IGN);
@@ -24,4 +24,4 @@ int RepairRecording(const std::string& recording, const std::string& out) {
   return 0;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

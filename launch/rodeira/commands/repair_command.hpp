@@ -2,9 +2,9 @@
 
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira repair FILE.mcap --out FILE`: writes what is left of a recording as a whole one and says what is lost.
 int RepairRecording(const std::string& recording, const std::string& out);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -7,7 +7,7 @@
 #include "common/core/base/files.hpp"
 #include "common/world/surface/crg_report.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 int Complain(const base::Error& error) {
@@ -29,4 +29,4 @@ int Surface(const SurfaceOptions& options) {
   return 0;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 struct SurfaceOptions {
   std::string command;  // check; empty: not asked
@@ -13,4 +13,4 @@ struct SurfaceOptions {
 // `rodeira surface check`: a surface file alone, without a world. Returns the exit status.
 int Surface(const SurfaceOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

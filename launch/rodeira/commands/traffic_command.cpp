@@ -19,7 +19,7 @@
 #include "common/traffic/tight_bends.hpp"
 #include "launch/rodeira/commands/traffic_files.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -51,7 +51,7 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
     settings.physics = traffic::Physics::kFull;
   }
   if (settings.demand.flows.empty() && road::IsTrafficMap(options.map)) {
-    const auto companion = map::LoadHeightsOf(options.map);
+    const auto companion = traffic_map::LoadHeightsOf(options.map);
     if (!companion) return companion.error();
     settings.demand.flows = traffic::DemandOf(companion.value(), options.map + ".yaml").flows;
     if (!settings.demand.flows.empty()) settings.vehicles = traffic::TrafficSettings::kMostOfFlows;
@@ -138,4 +138,4 @@ int TrafficRun(const TrafficOptions& options) {
   return 0;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira traffic run MAP --vehicles N --for S [--driver standard|motors] [--physics planar|full] [--settings FILE] [--csv DIR [--every S]] [--warm S] [--heat FILE [--pixel M]] [--fcd FILE] [--diagram FILE --lane ROAD:LANE]`
 struct TrafficOptions {
@@ -31,4 +31,4 @@ struct TrafficOptions {
 // The traffic model alone on a map's roads: no network, no other node. Status 2 where the map or an option is wrong.
 int TrafficRun(const TrafficOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -15,7 +15,7 @@
 #include "common/traffic/floating_cars.hpp"
 #include "common/traffic/lane_tables.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 constexpr double kRowEvery_s = 0.5;
@@ -145,4 +145,4 @@ base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Networ
   return written;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

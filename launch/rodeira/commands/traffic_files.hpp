@@ -9,7 +9,7 @@
 #include "common/traffic/trajectory_diagram.hpp"
 #include "launch/rodeira/commands/traffic_command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // What `rodeira traffic run` writes: some of it moment by moment, the rest at the end.
 class TrafficFiles {
@@ -33,4 +33,4 @@ class TrafficFiles {
   double next_s_ = 0.0;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -9,7 +9,7 @@
 #include "common/core/base/files.hpp"
 #include "common/driving/manoeuvres/manoeuvre.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 int Complain(const base::Error& error) {
@@ -58,7 +58,7 @@ base::Status Write(const VehicleOptions& options, const manoeuvres::Manoeuvre& m
 int TestVehicle(const VehicleOptions& options) {
   const auto chosen = Chosen(options);
   if (!chosen) return Complain(chosen.error());
-  auto car = vehicle::LoadVehicle(options.file);
+  auto car = dynamics::LoadVehicle(options.file);
   if (!car) return Complain(car.error());
   const bool shown = !options.quiet && ::isatty(STDERR_FILENO) == 1;
   int status = 0;
@@ -80,4 +80,4 @@ int TestVehicle(const VehicleOptions& options) {
   return status;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 struct VehicleOptions {
   bool asked = false;
@@ -20,4 +20,4 @@ struct VehicleOptions {
 // could not be driven, 2 for wrong input.
 int TestVehicle(const VehicleOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -8,7 +8,7 @@
 #include "common/core/base/suggest.hpp"
 #include "launch/rodeira/start_window/start_window.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 base::Result<RunOptions> RunOf(const ViewOptions& options) {
   const auto launch = launch::Launch::Load(options.launch_file, {});
@@ -51,4 +51,4 @@ int View(const ViewOptions& options) {
   return run.error().exit_status();
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -5,7 +5,7 @@
 
 #include "launch/rodeira/run/run_command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira view LAUNCH.yaml [--screen NAME] [--headset]`: a run's picture on this PC.
 struct ViewOptions {
@@ -22,4 +22,4 @@ base::Result<RunOptions> RunOf(const ViewOptions& options);
 // The exit status of the program comes back.
 int View(const ViewOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

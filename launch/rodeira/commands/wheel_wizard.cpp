@@ -8,11 +8,11 @@
 
 #include "common/core/base/files.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
-std::vector<hands::DeviceUse> UsesOf(const std::vector<nodes::JoystickInfo>& connected) {
-  std::vector<hands::DeviceUse> uses;
+std::vector<input_devices::DeviceUse> UsesOf(const std::vector<nodes::JoystickInfo>& connected) {
+  std::vector<input_devices::DeviceUse> uses;
   for (const nodes::JoystickInfo& info : connected) uses.push_back({fmt::format("device{}", uses.size() + 1), info.guid, ""});
   return uses;
 }
@@ -29,7 +29,7 @@ base::Result<std::unique_ptr<WheelWizard>> WheelWizard::Begin() {
 }
 
 WheelWizard::WheelWizard(std::unique_ptr<nodes::Joysticks> joysticks, std::vector<nodes::JoystickInfo> connected)
-    : joysticks_(std::move(joysticks)), connected_(std::move(connected)), setup_(UsesOf(connected_), hands::WheelSettings().lock_rad), readings_(connected_.size()) {
+    : joysticks_(std::move(joysticks)), connected_(std::move(connected)), setup_(UsesOf(connected_), input_devices::WheelSettings().lock_rad), readings_(connected_.size()) {
   std::vector<std::string> guids;
   for (const nodes::JoystickInfo& info : connected_) guids.push_back(info.guid);
   joysticks_->Use(guids);
@@ -38,7 +38,7 @@ WheelWizard::WheelWizard(std::unique_ptr<nodes::Joysticks> joysticks, std::vecto
 base::Status WheelWizard::Step(double dt_s) {
   joysticks_->Update();
   for (std::size_t place = 0; place < readings_.size(); ++place) readings_[place] = joysticks_->reading(place);
-  if (std::none_of(readings_.begin(), readings_.end(), [](const hands::DeviceReading& device) { return device.connected; })) {
+  if (std::none_of(readings_.begin(), readings_.end(), [](const input_devices::DeviceReading& device) { return device.connected; })) {
     return base::Failed("the wheel was unplugged; nothing was written");
   }
   const auto before = setup_.stage();
@@ -53,15 +53,15 @@ base::Status WheelWizard::Step(double dt_s) {
 }
 
 base::Result<std::filesystem::path> WheelWizard::Write(const std::optional<std::filesystem::path>& out, double lock_deg) const {
-  hands::WheelSettings settings = setup_.settings();
+  input_devices::WheelSettings settings = setup_.settings();
   settings.lock_rad = lock_deg * std::numbers::pi / 180.0;
-  const std::string& guid = settings.devices[settings.AxisOf(hands::WheelAxis::kSteering)->device].guid;
+  const std::string& guid = settings.devices[settings.AxisOf(input_devices::WheelAxis::kSteering)->device].guid;
   const auto wheel = std::find_if(connected_.begin(), connected_.end(), [&](const nodes::JoystickInfo& info) { return info.guid == guid; });
-  const std::filesystem::path file = out.value_or(hands::WheelFileOf(guid));
+  const std::filesystem::path file = out.value_or(input_devices::WheelFileOf(guid));
   std::error_code problem;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), problem);
-  if (const auto written = base::WriteWhole(file, hands::WheelText(settings, wheel->name)); !written) return written.error();
+  if (const auto written = base::WriteWhole(file, input_devices::WheelText(settings, wheel->name)); !written) return written.error();
   return file;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

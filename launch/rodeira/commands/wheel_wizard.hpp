@@ -10,7 +10,7 @@
 #include "common/vehicle/input_devices/wheel_setup.hpp"
 #include "nodes/input/joysticks.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // Setting up a wheel, whoever shows it, a terminal or a window: reads the devices, asks for one movement after the other, writes the file.
 class WheelWizard {
@@ -24,7 +24,7 @@ class WheelWizard {
   // What the devices say now, dt_s after the step before. Failed where nothing that was asked for has happened for kPatience_s, or no
   // device is there any more.
   base::Status Step(double dt_s);
-  bool done() const { return setup_.stage() == hands::WheelSetup::Stage::kDone; }
+  bool done() const { return setup_.stage() == input_devices::WheelSetup::Stage::kDone; }
 
   // The movement that is asked for, from 1 on; what to do, and why the last one did not do.
   int number() const { return number_; }
@@ -32,7 +32,7 @@ class WheelWizard {
   const std::string& remark() const { return setup_.remark(); }
   // What is plugged in, and what it says: of the same order.
   const std::vector<nodes::JoystickInfo>& devices() const { return connected_; }
-  const std::vector<hands::DeviceReading>& readings() const { return readings_; }
+  const std::vector<input_devices::DeviceReading>& readings() const { return readings_; }
 
   // Once done: the file that was written, `out` or the user's by the steering wheel's GUID. `lock_deg`: of the car's steering wheel where the
   // device's is at its end.
@@ -43,10 +43,10 @@ class WheelWizard {
 
   std::unique_ptr<nodes::Joysticks> joysticks_;
   std::vector<nodes::JoystickInfo> connected_;
-  hands::WheelSetup setup_;
-  std::vector<hands::DeviceReading> readings_;
+  input_devices::WheelSetup setup_;
+  std::vector<input_devices::DeviceReading> readings_;
   int number_ = 1;
   double waited_s_ = 0.0;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

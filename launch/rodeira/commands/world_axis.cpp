@@ -8,7 +8,7 @@
 #include "common/world/road/road_chains.hpp"
 #include "common/world/road/world.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 template <class PointAt>
@@ -60,4 +60,4 @@ base::Result<geometry::Polyline> AxisOf(const AxisName& name, double step_m) {
   return base::WrongInput(fmt::format("there is no road '{}'{}", name.road, base::DidYouMean(name.road, ids)), name.file);
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -7,7 +7,7 @@
 #include "common/core/base/result.hpp"
 #include "common/core/geometry/polyline.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // "WORLD.yaml#ROAD" or "FILE.xodr#ROAD": the file and the road's id; nothing for other names.
 struct AxisName {
@@ -19,4 +19,4 @@ std::optional<AxisName> AxisNameOf(std::string_view text);
 // cannot be read or has no such road (with the nearest name).
 base::Result<geometry::Polyline> AxisOf(const AxisName& name, double step_m);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

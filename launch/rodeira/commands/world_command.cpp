@@ -25,7 +25,7 @@
 #include "nodes/view/visual_database/database.hpp"
 #include "nodes/view/visual_database/visual_files.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 int Complain(const base::Error& error) {
@@ -60,14 +60,14 @@ int CheckBuilt(const WorldOptions& options) {
   auto problems = road::LogicalProblems(folder);
   const std::string hash = road::LogicalContentHash(folder);
   if (!hash.empty()) {  // otherwise it is no built folder, which is said
-    const auto seen = view::VisualProblems(folder, hash);
+    const auto seen = nodes::VisualProblems(folder, hash);
     problems.insert(problems.end(), seen.begin(), seen.end());
   }
   for (const base::Error& problem : problems) fmt::print(stderr, "rodeira: {}\n", problem.Text());
   if (!problems.empty()) return problems.front().exit_status();
   std::error_code none;
-  const bool is_seen = std::filesystem::exists(folder / view::kManifest, none);
-  fmt::print("{}: every file of '{}'{} is as it was written\n", options.world_file, road::kLogicalManifest, is_seen ? fmt::format(" and '{}'", view::kManifest) : "");
+  const bool is_seen = std::filesystem::exists(folder / nodes::kManifest, none);
+  fmt::print("{}: every file of '{}'{} is as it was written\n", options.world_file, road::kLogicalManifest, is_seen ? fmt::format(" and '{}'", nodes::kManifest) : "");
   return 0;
 }
 
@@ -131,7 +131,7 @@ int WriteWorldFile(const WorldOptions& options, const road::World& world, std::v
 
 // What a world looks like, tile by tile.
 int BuildDatabase(const WorldOptions& options, const road::World& world) {
-  view::DatabaseOptions database;
+  nodes::DatabaseOptions database;
   database.folder = options.out;
   database.threads = options.threads;
   if (!options.quiet && ::isatty(STDERR_FILENO) != 0) {
@@ -140,7 +140,7 @@ int BuildDatabase(const WorldOptions& options, const road::World& world) {
       fmt::print(stderr, "\r[{:<{}}] {} of {} tiles{}", std::string(done * kWidth / of, '='), kWidth, done, of, done == of ? "\n" : "");
     };
   }
-  const auto report = view::WriteDatabase(world, database);
+  const auto report = nodes::WriteDatabase(world, database);
   if (!report) return Complain(report.error());
   fmt::print("{}: {} tiles, {} built, {} as they were\n", (database.folder / "world.osgb").string(), report.value().tiles, report.value().built,
              report.value().tiles - report.value().built);
@@ -219,4 +219,4 @@ int World(const WorldOptions& options) {
   return 0;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira world check | info | map | query | build | export WORLD …`
 struct WorldOptions {
@@ -23,4 +23,4 @@ struct WorldOptions {
 
 int World(const WorldOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -5,11 +5,11 @@
 #include <vector>
 
 // What the build knows and `rodeira doctor` asks for.
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // The text of tools/packages.txt, as it was when this program was built.
 std::string_view PackageList();
 // The programs that were built with this one and belong beside it: "rodeira-clock", …
 const std::vector<std::string>& NodePrograms();
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -9,7 +9,7 @@
 
 #include <cerrno>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using WallClock = std::chrono::steady_clock;
@@ -84,4 +84,4 @@ Captured CaptureProgram(const std::vector<std::string>& command, std::chrono::mi
       limit);
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

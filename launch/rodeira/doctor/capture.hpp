@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // How a child process ended, with all that it wrote to standard output and error.
 struct Captured {
@@ -24,4 +24,4 @@ Captured CaptureFork(const std::function<int()>& body, std::chrono::milliseconds
 // The same of another program; status 127 where it cannot be started.
 Captured CaptureProgram(const std::vector<std::string>& command, std::chrono::milliseconds limit);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -19,7 +19,7 @@
 #include "common/core/base/user_folders.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using Check = std::function<Finding()>;
@@ -94,4 +94,4 @@ int Doctor(const DoctorOptions& options) {
   return StatusOf(findings);
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

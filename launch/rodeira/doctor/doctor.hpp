@@ -7,7 +7,7 @@
 #include "common/runtime/launch/launch.hpp"
 #include "launch/rodeira/doctor/finding.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira doctor …`: is this PC ready?
 struct DoctorOptions {
@@ -27,4 +27,4 @@ int StatusOf(std::span<const Finding> findings);
 // Prints a line a check (with --quiet only what is not well). The exit status comes back.
 int Doctor(const DoctorOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -17,7 +17,7 @@
 #include "common/core/base/result.hpp"
 #include "launch/rodeira/doctor/capture.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using namespace std::chrono_literals;
@@ -187,4 +187,4 @@ Finding CheckGl(const GlSettings& settings) {
   return Fault("GL", fmt::format("no off-screen picture can be drawn: {}; without it the view node cannot run: {}", why, kInstall));
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

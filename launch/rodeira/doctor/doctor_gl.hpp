@@ -6,7 +6,7 @@
 
 #include "launch/rodeira/doctor/finding.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 struct GlSettings {
   std::string library = "libEGL.so.1";
@@ -18,4 +18,4 @@ struct GlSettings {
 // crashes or hangs is a finding too, and `rodeira` links no OpenGL.
 Finding CheckGl(const GlSettings& settings = {});
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -21,7 +21,7 @@
 #include "launch/rodeira/run/processes.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using namespace std::chrono_literals;
@@ -189,4 +189,4 @@ int AnswerLoopBack(const std::string& run, std::uint32_t domain, launch::Transpo
   }
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -19,7 +19,7 @@
 
 #include "launch/rodeira/doctor/capture.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using namespace std::chrono_literals;
@@ -213,4 +213,4 @@ Finding CheckDisk(const std::filesystem::path& folder, std::uint64_t wanted_byte
   return Warning(check, fmt::format("{}; at least {:.0f} MB were expected: make room, or set XDG_DATA_HOME", found, static_cast<double>(wanted_bytes) / kMega));
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -11,7 +11,7 @@
 
 // The checks of `rodeira doctor` that look at this PC: what is installed, what the processor and the disk give. What a
 // check looks at is in its arguments, so that a test can break it.
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // The system's reason why no file can be made in a folder; empty where one can (it is tried).
 std::string WriteProblem(const std::filesystem::path& folder);
@@ -53,4 +53,4 @@ Finding CheckMemory(const std::filesystem::path& proc = "/proc");
 // The folder that recordings go to, or where it will be made, takes files and has room.
 Finding CheckDisk(const std::filesystem::path& folder, std::uint64_t wanted_bytes = 2'000'000'000);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -8,7 +8,7 @@
 #include "launch/rodeira/doctor/doctor_machine.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 constexpr double kMega = 1e6;
@@ -86,4 +86,4 @@ Finding CheckLoopBack(const LoopBackSettings& settings) {
                                settings.round_trips, measured.value().median_us, measured.value().worst_percent_us));
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

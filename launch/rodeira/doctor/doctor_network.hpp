@@ -12,7 +12,7 @@
 #include "launch/rodeira/doctor/finding.hpp"
 
 // The checks of `rodeira doctor` that look at how processes reach one another.
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // The folder exists, a file can be made in it, it has room for the segments of a run; files of Fast DDS that dead
 // processes of this user left there are a warning.
@@ -40,4 +40,4 @@ base::Result<LoopBack> MeasureLoopBack(const LoopBackSettings& settings);
 int AnswerLoopBack(const std::string& run, std::uint32_t domain, launch::Transport transport);
 Finding CheckLoopBack(const LoopBackSettings& settings);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

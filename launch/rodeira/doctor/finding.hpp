@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 enum class Verdict {
   kOk,
@@ -22,4 +22,4 @@ inline Finding Ok(std::string check, std::string sentence) { return {std::move(c
 inline Finding Warning(std::string check, std::string sentence) { return {std::move(check), Verdict::kWarning, std::move(sentence)}; }
 inline Finding Fault(std::string check, std::string sentence) { return {std::move(check), Verdict::kFault, std::move(sentence)}; }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

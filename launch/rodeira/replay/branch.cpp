@@ -14,7 +14,7 @@
 #include "launch/rodeira/replay/recording_text.hpp"
 #include "launch/rodeira/replay/verify.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using lockstep::NodeIndex;
@@ -247,4 +247,4 @@ base::Result<std::vector<std::string>> DrivenLive(const BranchWish& wish) {
   return NamesOf(changed.value().launch(), Persons(changed.value().launch(), wish.changes));
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

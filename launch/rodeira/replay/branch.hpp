@@ -10,7 +10,7 @@
 #include "common/runtime/replay/comparison.hpp"
 #include "common/runtime/replay/recorded_run.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 struct BranchWish {
   std::string parent;               // recording
@@ -46,4 +46,4 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish);
 // The names of the nodes that a person would drive, without computing anything.
 base::Result<std::vector<std::string>> DrivenLive(const BranchWish& wish);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

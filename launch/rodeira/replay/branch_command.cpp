@@ -14,7 +14,7 @@
 #include "launch/rodeira/run/operator.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using lockstep::Step;
@@ -105,4 +105,4 @@ int MakeBranch(const ReplayOptions& options) {
   return 0;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -4,7 +4,7 @@
 
 #include "common/core/base/assert.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 void ContinuedNode::Follow(lockstep::Node& node, std::vector<lockstep::Sample> published, const lockstep::Roster& roster) {
   RODEIRA_ASSERT(!published.empty());
@@ -24,4 +24,4 @@ base::Status ContinuedNode::Step(const lockstep::StepInfo& step, const lockstep:
 void ContinuedNode::Save(base::StateWriter& out) const { node_->Save(out); }
 void ContinuedNode::Restore(base::StateReader&) { RODEIRA_ASSERT(!"its state cannot be saved"); }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -4,7 +4,7 @@
 
 #include "common/runtime/lockstep/node.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // In a branch at step T: a node of the parent's that cannot save its state goes on itself. It has done its activation at T already,
 // on the same samples and so with the same result: that one is said again, and only those behind it are computed.
@@ -25,4 +25,4 @@ class ContinuedNode final : public lockstep::Node {
   std::vector<lockstep::Sample> published_;  // empty behind T
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -9,7 +9,7 @@
 #include "common/core/base/result.hpp"
 #include "nodes/view/playback/replay_window.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // Reads a recording's marks (MarksOf) beside the window that shows it, by a thread and a reader of its own: of an hour with a scenario all
 // chunks are read.
@@ -21,11 +21,11 @@ class MarksReader {
   MarksReader& operator=(const MarksReader&) = delete;
 
   // All of them, or why they cannot be read: once, when that is known.
-  std::optional<base::Result<std::vector<view::ReplayMark>>> Take();
+  std::optional<base::Result<std::vector<nodes::ReplayMark>>> Take();
 
  private:
   std::atomic<bool> stop_ = false;
-  std::future<base::Result<std::vector<view::ReplayMark>>> marks_;
+  std::future<base::Result<std::vector<nodes::ReplayMark>>> marks_;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

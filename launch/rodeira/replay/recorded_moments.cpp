@@ -6,7 +6,7 @@
 
 #include "nodes/view/run_connection/from_wire.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 using lockstep::Step;
 
@@ -20,12 +20,12 @@ RecordedMoments::RecordedMoments(const replay::RecordedRun& run, std::vector<loc
 base::Result<scene::Moment> RecordedMoments::Exactly(Step step) {
   auto samples = tape_.At(step);
   if (!samples) return samples.error();
-  view::NewestSamples newest;
+  nodes::NewestSamples newest;
   for (auto& sample : samples.value()) {
     if (auto status = FindWhatSays(sample); !status) return status.error();
     if (sample) newest[sample->source()] = sample->payload;
   }
-  auto moment = view::MakeMoment(run_.roster(), step, newest);
+  auto moment = nodes::MakeMoment(run_.roster(), step, newest);
   if (!moment) return base::Error{moment.error().code, moment.error().Text(), run_.path().string()};
   return moment;
 }
@@ -35,7 +35,7 @@ base::Status RecordedMoments::FindWhatSays(std::optional<lockstep::Sample>& samp
   const lockstep::Source& source = run_.roster().source(sample->source());
   const Step longest = std::llround(kSaidAgain_s * 1e9 / static_cast<double>(run_.roster().base_step_ns()));
   const Step oldest = std::max<Step>(0, sample->valid() - longest);
-  while (sample && !view::SaysSomething(source.topic, *sample->payload)) {
+  while (sample && !nodes::SaysSomething(source.topic, *sample->payload)) {
     const Step before = sample->valid() - source.period;
     if (before < oldest) return {};
     auto found = tape_.Newest(sample->source(), before);
@@ -61,4 +61,4 @@ base::Result<scene::Moment> RecordedMoments::At(std::int64_t time_ns) {
   return between_.At(static_cast<double>(time_ns));
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

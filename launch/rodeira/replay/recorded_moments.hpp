@@ -6,7 +6,7 @@
 #include "common/runtime/replay/tape.hpp"
 #include "common/view/scene/vehicles/moment.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // What a view of a recorded run shows at any time, without any node of the run: as the view of the live run did.
 class RecordedMoments {
@@ -30,4 +30,4 @@ class RecordedMoments {
   scene::PoseHistory between_;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

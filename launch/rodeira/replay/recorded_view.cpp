@@ -15,7 +15,7 @@
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 namespace topics = idl::topics;
@@ -38,7 +38,7 @@ void AddSource(const lockstep::Roster& roster, lockstep::SourceIndex source, See
 }
 
 // "1280x720"
-base::Status TakeSize(const std::string& text, view::ViewSettings& settings) {
+base::Status TakeSize(const std::string& text, nodes::ViewSettings& settings) {
   const char* end = text.data() + text.size();
   const auto [cross, first] = std::from_chars(text.data(), end, settings.width_px);
   const bool crossed = first == std::errc{} && cross != end && *cross == 'x';
@@ -63,8 +63,8 @@ base::Status TakeWishes(const lockstep::Roster& roster, const WatchOptions& opti
     seen.settings.camera = *camera;
   }
   if (options.quality) {
-    const auto names = view::QualityNames();
-    seen.settings.quality = view::QualityOf(*options.quality);
+    const auto names = nodes::QualityNames();
+    seen.settings.quality = nodes::QualityOf(*options.quality);
     if (!seen.settings.quality) {
       return base::WrongInput(fmt::format("'{}' was found; {} was expected{}", *options.quality, fmt::join(names, ", "),
                                           base::DidYouMean(*options.quality, {names.begin(), names.end()})),
@@ -72,7 +72,7 @@ base::Status TakeWishes(const lockstep::Roster& roster, const WatchOptions& opti
     }
   }
   if (options.follow) {
-    const auto followed = view::FindFollowed(roster, seen.cars, *options.follow);
+    const auto followed = nodes::FindFollowed(roster, seen.cars, *options.follow);
     if (!followed) return base::WrongInput(followed.error().message, "--follow");
     seen.settings.followed = followed.value();
   }
@@ -137,7 +137,7 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
   const auto& roster = run.roster();
   Seen seen;
   if (const auto view = ViewOf(roster)) {
-    auto settings = view::ReadWindowSettings(run.launch(), *view);
+    auto settings = nodes::ReadWindowSettings(run.launch(), *view);
     if (!settings) return run.Named(settings.error());
     seen.settings = std::move(settings).value();
     seen.period = roster.node(*view).period;
@@ -148,7 +148,7 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
     seen.period = std::max<Step>(1, std::llround(kViewPeriod_s * 1e9 / static_cast<double>(roster.base_step_ns())));
     for (lockstep::SourceIndex source = 0; source < roster.sources().size(); ++source) AddSource(roster, source, seen);
     for (const lockstep::SourceIndex car : seen.cars) {
-      if (auto autopilot = view::AutopilotOf(run.launch(), roster.source(car).node)) seen.settings.autopilots[car] = std::move(*autopilot);
+      if (auto autopilot = nodes::AutopilotOf(run.launch(), roster.source(car).node)) seen.settings.autopilots[car] = std::move(*autopilot);
     }
   }
   if (seen.sources.empty())
@@ -157,19 +157,19 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
   return seen;
 }
 
-base::Result<std::vector<view::ReplayMark>> MarksOf(const replay::RecordedRun& run, const std::function<bool()>& stop) {
-  std::vector<view::ReplayMark> marks;
+base::Result<std::vector<nodes::ReplayMark>> MarksOf(const replay::RecordedRun& run, const std::function<bool()>& stop) {
+  std::vector<nodes::ReplayMark> marks;
   auto status = ForEachOf<msg::Remark>(run, topics::kRemarks, stop, [&](const msg::Remark& remark, std::int64_t) {
     if (remark.kind() != "mark" && remark.kind() != "fault") return;
     marks.push_back({std::max<std::int64_t>(remark.time_ns(), 0), Shortened(remark.text().empty() ? remark.kind() : remark.text())});
   });
   if (!status) return status.error();
   status = ForEachOf<msg::ScenarioEvents>(run, topics::kScenarioEvents, stop, [&](const msg::ScenarioEvents& events, std::int64_t time_ns) {
-    for (const msg::ScenarioEvent& event : events.events()) marks.push_back({time_ns, TextOf(event), view::MarkKind::kEvent});
+    for (const msg::ScenarioEvent& event : events.events()) marks.push_back({time_ns, TextOf(event), nodes::MarkKind::kEvent});
   });
   if (!status) return status.error();
-  std::ranges::stable_sort(marks, {}, &view::ReplayMark::time_ns);
+  std::ranges::stable_sort(marks, {}, &nodes::ReplayMark::time_ns);
   return marks;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -8,11 +8,11 @@
 #include "nodes/view/playback/replay_window.hpp"
 #include "nodes/view/view_settings.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // What a view of the run looks at, and how.
 struct Seen {
-  view::ViewSettings settings;
+  nodes::ViewSettings settings;
   std::vector<lockstep::SourceIndex> cars;
   std::vector<lockstep::SourceIndex> sources;  // cars, traffic, lights
   lockstep::Step period = 1;                   // of the view
@@ -24,6 +24,6 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
 
 // The operator's marks, what failed, and the events of scenarios, those included that people asked for: weather, places, texts. Of a run without a
 // scenario only the chunks are read in which somebody remarked something. Those found so far where `stop`, asked between two messages, says so.
-base::Result<std::vector<view::ReplayMark>> MarksOf(const replay::RecordedRun& run, const std::function<bool()>& stop = {});
+base::Result<std::vector<nodes::ReplayMark>> MarksOf(const replay::RecordedRun& run, const std::function<bool()>& stop = {});
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -11,7 +11,7 @@
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 // The entries of a metadata record; none where it is not there.
@@ -131,4 +131,4 @@ RecordingAudit Audit(const record::McapReader& reader) {
   return result;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

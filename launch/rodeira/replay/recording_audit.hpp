@@ -10,7 +10,7 @@
 #include "common/data/record/audit.hpp"
 #include "common/data/record/mcap_reader.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // What a recording holds of one source on one topic.
 struct RecordedSource {
@@ -43,4 +43,4 @@ struct RecordingAudit {
 // from step 0 to the run's end where that was reached.
 RecordingAudit Audit(const record::McapReader& reader);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -8,7 +8,7 @@
 #include "common/data/record/mcap_reader.hpp"
 #include "nodes/recorder/program.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 // The time of the last sample of the lockstep, s; 0 where there is none.
@@ -73,4 +73,4 @@ std::string RecordedByAnother(const std::string& version, const std::string& com
                      nodes::ProgramVersion(), nodes::ProgramCommit());
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

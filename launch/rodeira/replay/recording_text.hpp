@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // "871 B", "12.3 kB", "4.5 MB", "1.2 GB".
 std::string Size(std::uint64_t bytes);
@@ -21,4 +21,4 @@ std::string ComputedFromTheStart(const std::vector<std::string>& nodes);
 // the same release and commit.
 std::string RecordedByAnother(const std::string& version, const std::string& commit);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -13,7 +13,7 @@
 #include "launch/rodeira/replay/recording_text.hpp"
 #include "launch/rodeira/replay/verify.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using lockstep::Step;
@@ -93,4 +93,4 @@ int Replay(const ReplayOptions& options) {
   return 0;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

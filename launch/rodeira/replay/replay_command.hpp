@@ -7,7 +7,7 @@
 
 #include "launch/rodeira/replay/watch_command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 struct ReplayOptions {
   std::string file;
@@ -25,4 +25,4 @@ struct ReplayOptions {
 // `rodeira replay`: exit status 0, 1 where a verification found a difference, 2 for wrong input.
 int Replay(const ReplayOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -8,7 +8,7 @@
 #include "common/runtime/lockstep/in_process.hpp"
 #include "common/runtime/replay/recorded_node.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from, const std::function<void(lockstep::Step)>& on_progress,
                              const std::function<bool()>& stop_requested) {
@@ -112,4 +112,4 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   return recomputed;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -11,7 +11,7 @@
 #include "common/runtime/replay/recorded_run.hpp"
 #include "launch/rodeira/run/local_nodes.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 struct Verdict {
   lockstep::Step first_step = 0;  // where the computation began: a snapshot at or before what was asked
@@ -48,4 +48,4 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
 base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from, const std::function<void(lockstep::Step)>& on_progress = {},
                              const std::function<bool()>& stop_requested = {});
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

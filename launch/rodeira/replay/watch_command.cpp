@@ -13,7 +13,7 @@
 #include "nodes/view/playback/replay_window.hpp"
 #include "nodes/view/window/stage.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using lockstep::Step;
@@ -41,16 +41,16 @@ base::Status Watch(const WatchOptions& options) {
   if (auto status = CheckTime(run.value(), "--from", options.from_s); !status) return status;
   const auto seen = LookAt(run.value(), options);
   if (!seen) return seen.error();
-  if (!view::HasDisplay()) {
+  if (!nodes::HasDisplay()) {
     return base::WrongInput(
         "a window is wanted, but no display answers; set DISPLAY, or let --frames FOLDER --at S write pictures without one",
         "--view");
   }
   MarksReader marks(options.file);
-  auto window = view::ReplayWindow::Open(seen.value().settings, [&]() -> base::Result<view::ReadWorld> {
-    auto world = view::WorldOf(run.value().launch());
+  auto window = nodes::ReplayWindow::Open(seen.value().settings, [&]() -> base::Result<nodes::ReadWorld> {
+    auto world = nodes::WorldOf(run.value().launch());
     if (!world) return run.value().Named(world.error());
-    return view::ReadWorld{std::move(world).value(), {}};
+    return nodes::ReadWorld{std::move(world).value(), {}};
   });
   if (!window) return window.error();
   const std::int64_t base_step_ns = run.value().roster().base_step_ns();
@@ -68,7 +68,7 @@ base::Result<std::vector<Step>> FrameSteps(const replay::RecordedRun& run, const
   std::vector<Step> steps;
   for (const double time_s : at_s) {
     if (auto status = CheckTime(run, "--at", time_s); !status) return status.error();
-    const auto step = view::FrameStep(run.roster(), cars, time_s);
+    const auto step = nodes::FrameStep(run.roster(), cars, time_s);
     if (!step) return base::WrongInput(step.error().message, "--at");
     steps.push_back(step.value());
   }
@@ -83,7 +83,7 @@ base::Result<std::vector<Step>> StepsOf(const replay::RecordedRun& run, const st
   if (!options.fps) return base::WrongInput("--at S or --fps N was expected beside it", "--frames");
   if (auto status = CheckTime(run, "--from", options.from_s); !status) return status.error();
   const double last_s = static_cast<double>(run.last_step() * run.roster().base_step_ns()) * 1e-9;
-  auto steps = view::FilmSteps(run.roster(), cars, *options.fps, options.from_s, std::min(last_s, options.from_s + options.for_s.value_or(last_s)));
+  auto steps = nodes::FilmSteps(run.roster(), cars, *options.fps, options.from_s, std::min(last_s, options.from_s + options.for_s.value_or(last_s)));
   if (!steps) return base::WrongInput(steps.error().message, "--fps");
   std::erase_if(steps.value(), [&](Step step) { return step > run.last_step(); });  // the sample nearest to the run's end may lie behind it
   return steps;
@@ -94,24 +94,24 @@ base::Status WriteFrames(const WatchOptions& options) {
   if (!run) return run.error();
   auto seen = LookAt(run.value(), options);
   if (!seen) return seen.error();
-  view::ViewSettings& settings = seen.value().settings;
+  nodes::ViewSettings& settings = seen.value().settings;
   auto steps = StepsOf(run.value(), seen.value().cars, options);
   if (!steps) return steps.error();
   settings.frame_steps = std::move(steps).value();
   settings.folder = options.frames;
-  settings.window = view::WindowWish::kNever;
-  if (auto status = view::PrepareFolder(settings.folder); !status) return base::WrongInput(status.error().message, "--frames");
-  auto world = view::WorldOf(run.value().launch());
+  settings.window = nodes::WindowWish::kNever;
+  if (auto status = nodes::PrepareFolder(settings.folder); !status) return base::WrongInput(status.error().message, "--frames");
+  auto world = nodes::WorldOf(run.value().launch());
   if (!world) return run.value().Named(world.error());
-  auto stage = view::Stage::Open(settings, std::move(world).value());
+  auto stage = nodes::Stage::Open(settings, std::move(world).value());
   if (!stage) return stage.error();
   RecordedMoments moments(run.value(), seen.value().sources, seen.value().period);
   for (const Step step : settings.frame_steps) {
     if (Interrupted()) break;
     auto moment = moments.Exactly(step);
     if (!moment) return moment.error();
-    const auto file = settings.folder / view::FrameName(step);
-    if (auto status = stage.value()->Order(view::PictureOf(settings, std::move(moment).value()), file); !status) return status;
+    const auto file = settings.folder / nodes::FrameName(step);
+    if (auto status = stage.value()->Order(nodes::PictureOf(settings, std::move(moment).value()), file); !status) return status;
   }
   return stage.value()->Drain();
 }
@@ -128,4 +128,4 @@ int InOrder(base::Status (*work)(const WatchOptions&), const WatchOptions& optio
 int WatchRecording(const WatchOptions& options) { return InOrder(Watch, options); }
 int WriteRecordedFrames(const WatchOptions& options) { return InOrder(WriteFrames, options); }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 struct WatchOptions {
   std::string file;
@@ -17,7 +17,7 @@ struct WatchOptions {
   std::optional<double> for_s;        // … for so long; otherwise to the run's end
   std::optional<std::string> camera;  // instead of the recorded view's; scene::CameraNames()
   std::optional<std::string> follow;  // name of a vehicle node
-  std::optional<std::string> quality;  // likewise; view::QualityNames()
+  std::optional<std::string> quality;  // likewise; nodes::QualityNames()
   std::optional<std::string> size;     // "1280x720"
 };
 
@@ -27,4 +27,4 @@ int WatchRecording(const WatchOptions& options);
 // `rodeira replay --frames FOLDER --at S…` or `--fps N`: the frames that the recorded view would have written at these times.
 int WriteRecordedFrames(const WatchOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

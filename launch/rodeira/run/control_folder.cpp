@@ -13,7 +13,7 @@
 
 #include "common/core/base/hash.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 base::Result<std::filesystem::path> ControlFolder() {
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
@@ -64,4 +64,4 @@ std::vector<std::filesystem::path> LivingRuns(const std::filesystem::path& folde
   return living;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -6,7 +6,7 @@
 
 #include "common/core/base/result.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // Where this user's runs on this PC have their control sockets: $XDG_RUNTIME_DIR/rodeira, else /tmp/rodeira-UID. Made
 // where it is not there; failed where it belongs to somebody else or is open to others.
@@ -19,4 +19,4 @@ int ConnectTo(const std::filesystem::path& socket);
 // The sockets on which somebody listens, by name.
 std::vector<std::filesystem::path> LivingRuns(const std::filesystem::path& folder);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -11,7 +11,7 @@
 
 #include "launch/rodeira/run/control_folder.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 constexpr std::size_t kMostConnections = 32;
@@ -90,4 +90,4 @@ std::optional<AskedLine> ControlServer::Next() {
   return std::nullopt;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -9,7 +9,7 @@
 
 #include "common/core/base/result.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // A line that somebody asks, and where its answer ("ok …", "wrong …", "failed …") goes. The answer may be given later and
 // even when who asked has gone.
@@ -49,4 +49,4 @@ class ControlServer {
   std::vector<std::shared_ptr<Connection>> connections_;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using namespace std::chrono_literals;
@@ -123,4 +123,4 @@ void Crew::EndAll(bool orderly, std::optional<WallClock::time_point> interrupted
   }
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -12,7 +12,7 @@
 #include "launch/rodeira/run/processes.hpp"
 #include "launch/rodeira/run/run_command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // The processes of a run on this PC: the clock, or who follows it, and the nodes. Started, started again, ended.
 class Crew {
@@ -58,4 +58,4 @@ class Crew {
   std::vector<Child> children_;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

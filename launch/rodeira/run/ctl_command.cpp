@@ -13,7 +13,7 @@
 #include "common/runtime/launch/command_text.hpp"
 #include "launch/rodeira/run/control_folder.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 constexpr std::chrono::seconds kPatience(5);
@@ -82,4 +82,4 @@ int Ctl(const CtlOptions& options) {
   return 0;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

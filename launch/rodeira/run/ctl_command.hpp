@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira ctl COMMAND …`: asks a run of this user on this PC, and prints its answer.
 struct CtlOptions {
@@ -13,4 +13,4 @@ struct CtlOptions {
 // 0 done, 1 the run cannot, 2 nonsense, no such run, or several.
 int Ctl(const CtlOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

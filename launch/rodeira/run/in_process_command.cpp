@@ -13,7 +13,7 @@
 #include "launch/rodeira/run/operator.hpp"
 #include "launch/rodeira/run/run_report.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& roster, double wall_s) {
@@ -67,4 +67,4 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   return outcome.ok ? 0 : 1;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

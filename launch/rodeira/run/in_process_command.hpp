@@ -2,10 +2,10 @@
 
 #include "launch/rodeira/run/run_command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira run --in-process`: the same nodes, runner and mailboxes, one thread a node, no DDS. The digests equal those
 // of separate processes.
 int RunInProcess(const RunOptions& options, const launch::Launch& launch);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

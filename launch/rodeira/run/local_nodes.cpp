@@ -5,7 +5,7 @@
 #include "launch/rodeira/run/node_factories.hpp"
 #include "nodes/road/road_service.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 class LocalContext final : public launch::NodeContext {
@@ -15,7 +15,7 @@ class LocalContext final : public launch::NodeContext {
       : NodeContext(launch, index), world_(std::move(world)), keys_(keys), requests_(requests), log_(log) {
     if (world_ != nullptr) ground_ = world_->MakeGround();
   }
-  terrain::Ground& Ground() override {
+  ground::Ground& Ground() override {
     RODEIRA_ASSERT(ground_ != nullptr);  // World() comes first and refuses
     return *ground_;
   }
@@ -32,7 +32,7 @@ class LocalContext final : public launch::NodeContext {
 
  private:
   std::shared_ptr<const road::World> world_;
-  std::unique_ptr<terrain::Ground> ground_;
+  std::unique_ptr<ground::Ground> ground_;
   launch::LiveKeysBoard& keys_;
   launch::LiveRequestsBoard& requests_;
   launch::RunLogBoard* log_;
@@ -79,4 +79,4 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const St
   return made;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -6,7 +6,7 @@
 
 #include "common/runtime/launch/node_context.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // All stepped nodes of a launch file in this process, with SUELO from the library on one common world.
 class LocalNodes {
@@ -38,4 +38,4 @@ class LocalNodes {
   base::Digest world_hash_ = 0;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -8,7 +8,7 @@
 #include "nodes/vehicle/vehicle_node.hpp"
 #include "nodes/view/view_node.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 launch::NodeFactory FactoryOf(std::string_view kind) {
   if (kind == "empty") return nodes::MakeEmptyNode;
@@ -21,4 +21,4 @@ launch::NodeFactory FactoryOf(std::string_view kind) {
   return nullptr;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -4,9 +4,9 @@
 
 #include "common/runtime/launch/node_context.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // What makes a node of a kind, for runs in one process and for checks before a run; null for kinds that are services.
 launch::NodeFactory FactoryOf(std::string_view kind);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

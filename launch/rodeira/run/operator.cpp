@@ -11,7 +11,7 @@
 #include "launch/rodeira/run/control_folder.hpp"
 #include "nodes/view/run_connection/run_desk.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 std::string CommandOfKey(char key) {
   switch (key) {
@@ -36,7 +36,7 @@ Operator::Operator(const std::string& run, bool quiet) : quiet_(quiet) {
   auto server = folder ? ControlServer::Open(socket) : base::Result<std::unique_ptr<ControlServer>>(folder.error());
   if (server) {
     server_ = std::move(server).value();
-    ::setenv(view::RunDesk::kVariable, socket.c_str(), 1);  // windows of the run pause it too
+    ::setenv(nodes::RunDesk::kVariable, socket.c_str(), 1);  // windows of the run pause it too
   } else if (!quiet) {
     fmt::print(stderr, "rodeira: no `rodeira ctl` for this run: {}\n", server.error().Text());
   }
@@ -81,4 +81,4 @@ std::optional<lockstep::Asked> NextCommand(Operator& desk) {
   return std::nullopt;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

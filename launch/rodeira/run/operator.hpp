@@ -10,7 +10,7 @@
 #include "launch/rodeira/run/pause_buttons.hpp"
 #include "launch/rodeira/run/terminal_keys.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // What a key of the terminal asks for: space "toggle", Enter "step", + "faster", - "slower", m "mark key m", q "stop".
 // Empty: nothing.
@@ -43,4 +43,4 @@ class Operator {
 // The next command of theirs for a run in this process; who asks for what cannot be read gets an answer at once.
 std::optional<lockstep::Asked> NextCommand(Operator& desk);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

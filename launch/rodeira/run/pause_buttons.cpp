@@ -7,7 +7,7 @@
 #include "common/vehicle/input_devices/wheel_driver.hpp"
 #include "common/vehicle/input_devices/wheel_setup.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 bool NamesWheel(const launch::LaunchNode& node) {
@@ -16,16 +16,16 @@ bool NamesWheel(const launch::LaunchNode& node) {
 }
 
 // As the input finds its own.
-std::optional<hands::WheelSettings> WheelOf(const launch::Launch& launch, const launch::LaunchNode& node, nodes::Joysticks& joysticks) {
+std::optional<input_devices::WheelSettings> WheelOf(const launch::Launch& launch, const launch::LaunchNode& node, nodes::Joysticks& joysticks) {
   std::filesystem::path file;
   if (NamesWheel(node)) {
     file = (launch.path().parent_path() / *node.config->Peek({"config", "wheel"})).lexically_normal();
   } else {
     for (const nodes::JoystickInfo& info : joysticks.Connected()) {
-      if (const auto own = hands::WheelFileOf(info.guid); file.empty() && std::filesystem::exists(own)) file = own;
+      if (const auto own = input_devices::WheelFileOf(info.guid); file.empty() && std::filesystem::exists(own)) file = own;
     }
   }
-  return hands::PeekWheel(file, [&](const std::string& device) { return node.config->Peek({"config", "devices", device}); });
+  return input_devices::PeekWheel(file, [&](const std::string& device) { return node.config->Peek({"config", "devices", device}); });
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ std::unique_ptr<PauseButtons> PauseButtons::Open(const launch::Launch& launch) {
     }
     const auto wheel = WheelOf(launch, node, *made->joysticks_);
     if (!wheel && !NamesWheel(node) && !made->TakePad()) return nullptr;  // as the input goes on without one
-    const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(hands::WheelButton::kPause)] : std::optional<hands::ButtonUse>();
+    const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(input_devices::WheelButton::kPause)] : std::optional<input_devices::ButtonUse>();
     if (!use) continue;
     made->buttons_.push_back({guids.size(), use->button, true});
     guids.push_back(wheel->devices[use->device].guid);
@@ -68,12 +68,12 @@ bool PauseButtons::Pressed() {
   bool any = false;
   if (pad_ != nullptr) {
     pad_->Update();
-    const hands::PadReading& pad = pad_->reading();
-    any = pad.connected && pad.Down(hands::PadButton::kPause) && !pad_down_;
-    pad_down_ = !pad.connected || pad.Down(hands::PadButton::kPause);
+    const input_devices::PadReading& pad = pad_->reading();
+    any = pad.connected && pad.Down(input_devices::PadButton::kPause) && !pad_down_;
+    pad_down_ = !pad.connected || pad.Down(input_devices::PadButton::kPause);
   }
   for (Button& button : buttons_) {
-    const hands::DeviceReading& reading = joysticks_->reading(button.place);
+    const input_devices::DeviceReading& reading = joysticks_->reading(button.place);
     const bool down = reading.connected && button.button < reading.buttons.size() && reading.buttons[button.button] != 0;
     any = any || (down && !button.down);
     button.down = down;
@@ -81,4 +81,4 @@ bool PauseButtons::Pressed() {
   return any;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -7,7 +7,7 @@
 #include "nodes/input/game_pad.hpp"
 #include "nodes/input/joysticks.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // Buttons of steering wheels (`pause` of a wheel file) and game pads (start) that pause the run and let it go on, on the PC where the clock is. As the terminal's
 // keys they are the operator's: the clock stands, and what it does is a remark, no sample.
@@ -32,4 +32,4 @@ class PauseButtons {
   std::vector<Button> buttons_;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -6,7 +6,7 @@
 
 #include "common/runtime/dds/udp_port.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 // Until all PCs are there: somebody walks from one to the next.
@@ -61,4 +61,4 @@ std::string Placement::ClocksPlace() const {
   return fmt::format("host '{}' ({})", lab_->clock(), lab_->Host(lab_->clock()).value().address);
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -6,7 +6,7 @@
 #include "common/runtime/launch/lab.hpp"
 #include "launch/rodeira/run/run_command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // What of a run belongs to this PC: everything, unless --host and a laboratory file say less.
 class Placement {
@@ -27,4 +27,4 @@ class Placement {
   std::string host_;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -21,7 +21,7 @@
 #include "launch/rodeira/run/run_report.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using namespace std::chrono_literals;
@@ -267,4 +267,4 @@ int RunProcesses(const RunOptions& options, const Placement& placement, const la
   return ProcessRun(options, placement, launch, std::move(overrides)).Run();
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 base::Result<Child> Child::Start(const std::string& name, const std::vector<std::string>& command, bool with_pipes) {
   int to_child[2] = {-1, -1};
@@ -122,4 +122,4 @@ std::string ProgramFolder() {
   return problem ? "." : self.parent_path().string();
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

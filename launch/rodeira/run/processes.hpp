@@ -9,7 +9,7 @@
 
 #include "common/core/base/result.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // A child process of `rodeira run`, in a process group of its own (a terminal's Ctrl-C reaches only the parent), told by
 // SIGTERM when the parent dies, however it dies.
@@ -58,4 +58,4 @@ class Child {
 // The folder of the running program, where its fellow programs lie too.
 std::string ProgramFolder();
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

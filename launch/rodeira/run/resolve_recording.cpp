@@ -10,7 +10,7 @@
 
 #include "common/core/base/user_folders.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 // NAME-DATE-TIME-PROCESS.mcap: runs that start in the same second have names of their own.
@@ -75,4 +75,4 @@ base::Status ResolveRecording(const launch::Launch& launch, const Placement& pla
   return {};
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -5,7 +5,7 @@
 #include "launch/rodeira/run/placement.hpp"
 #include "launch/rodeira/run/run_command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // Where the recording goes: --record, else the launch file's own, else a dated file in the user's data folder. A recorder
 // that the launch file does not have is added; --no-record takes those away that it has. On a PC of a laboratory only its own
@@ -13,4 +13,4 @@ namespace rodeira::front {
 // the overrides.
 base::Status ResolveRecording(const launch::Launch& launch, const Placement& placement, RunOptions& options, launch::Overrides& overrides);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -13,7 +13,7 @@
 #include "launch/rodeira/run/resolve_recording.hpp"
 #include "launch/rodeira/run/run_meta.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 int Complain(const base::Error& error) {
@@ -59,4 +59,4 @@ int Run(const RunOptions& options) {
   return RunProcesses(resolved, placement, launch.value(), std::move(overrides));
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -8,7 +8,7 @@
 #include "common/core/base/result.hpp"
 #include "common/runtime/launch/launch.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // `rodeira run LAUNCH.yaml …`
 struct RunOptions {
@@ -32,4 +32,4 @@ struct RunOptions {
 // Runs it and prints progress and the closing table; the exit status of the program comes back.
 int Run(const RunOptions& options);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

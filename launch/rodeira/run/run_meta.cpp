@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 // A YAML text in double quotes, whatever it holds.
@@ -51,4 +51,4 @@ base::Status AddMeta(const launch::Launch& launch, const std::vector<std::string
   return {};
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -7,7 +7,7 @@
 
 #include "launch/rodeira/replay/recording_text.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 // The value of "key=" in a line of words, or an empty text.
@@ -121,4 +121,4 @@ std::string RunReport::Table(double base_step_s, const std::string& recording) c
   return text + WrittenFile(recording, simulated_s);
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // What the clock says line by line (common/runtime/dds/run_clock.cpp), gathered for the closing table.
 struct RunReport {
@@ -56,4 +56,4 @@ struct RunReport {
   std::string Table(double base_step_s, const std::string& recording) const;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

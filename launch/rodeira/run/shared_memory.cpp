@@ -8,7 +8,7 @@
 #include <cctype>
 #include <fstream>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 bool IsFastDds(const std::string& name) {
@@ -109,4 +109,4 @@ int RemoveLeftOvers(const std::set<std::string>& before, const std::filesystem::
   return removed;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

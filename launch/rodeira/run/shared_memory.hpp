@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // Names of Fast DDS's files in /dev/shm (segments, ports and their semaphores).
 std::set<std::string> SharedMemoryFiles(const std::filesystem::path& folder = "/dev/shm");
@@ -16,4 +16,4 @@ std::set<std::string> DeadFiles(const std::set<std::string>& before, const std::
 // Removes them. Returns how many.
 int RemoveLeftOvers(const std::set<std::string>& before, const std::filesystem::path& folder = "/dev/shm");
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

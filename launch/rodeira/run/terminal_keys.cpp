@@ -11,7 +11,7 @@
 #include <cstring>
 #include <utility>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 bool Same(const termios& a, const termios& b) {
@@ -100,4 +100,4 @@ std::optional<char> TerminalKeys::Next() {
   return key;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

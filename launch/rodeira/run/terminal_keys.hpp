@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // Single keys of a terminal, without echo and without waiting for Enter. Ctrl-C, Ctrl-Z and the rest keep their meaning.
 // The terminal is put back as it was by the destructor, and by a guardian process however this process ends (kill -9 too).
@@ -33,4 +33,4 @@ class TerminalKeys {
   int guarded_ = -1;  // closed at our end, whatever end that is
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

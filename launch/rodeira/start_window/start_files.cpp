@@ -7,7 +7,7 @@
 
 #include "common/core/base/files.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -115,4 +115,4 @@ std::string ShownName(const fs::path& root, const fs::path& file) {
   return file.string();
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // What may be chosen in the start window.
 struct StartFiles {
@@ -33,4 +33,4 @@ inline constexpr const char* kStartLaunch = "launch/keyboard.yaml";  // road, dr
 // A file as a person reads it in a list: what stands behind configs/worlds or configs/vehicles, a neighbour of launch by its name, others whole.
 std::string ShownName(const std::filesystem::path& root, const std::filesystem::path& file);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -98,4 +98,4 @@ std::string ShellText(const std::vector<std::string>& arguments) {
   return text;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

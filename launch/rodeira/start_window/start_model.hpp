@@ -6,7 +6,7 @@
 
 #include "launch/rodeira/start_window/start_files.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 enum class StartDriver { kKeyboard, kWheel, kPad, kAutopilot };
 enum class StartWay { kDrive, kWatch };
@@ -32,4 +32,4 @@ std::vector<std::string> CommandOf(const StartFiles& files, const StartChoice& c
 // As a person would type it in a shell.
 std::string ShellText(const std::vector<std::string>& arguments);
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -16,7 +16,7 @@
 #include "launch/rodeira/interrupt.hpp"
 #include "nodes/view/frame/surface.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 constexpr std::size_t kMostLines = 200;
@@ -201,7 +201,7 @@ void StartWindow::DrawRun() {
   ImGui::EndChild();
 }
 
-bool CanStartByWindow() { return view::HasDisplay(); }
+bool CanStartByWindow() { return nodes::HasDisplay(); }
 
 int StartByWindow() {
   std::error_code problem;
@@ -223,4 +223,4 @@ int StartByWindow() {
   return 0;
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -10,7 +10,7 @@
 #include "launch/rodeira/start_window/start_model.hpp"
 #include "launch/rodeira/start_window/wheel_panel.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // A run or a replay that the start window has begun, and what it says.
 class StartedRun {
@@ -74,4 +74,4 @@ int StartByWindow();
 // Whether there is a display for it.
 bool CanStartByWindow();
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -8,7 +8,7 @@
 
 #include "common/core/base/printable.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 constexpr float kMostStep_s = 0.1F;  // a window that was held up has seen nothing meanwhile
@@ -58,7 +58,7 @@ void WheelPanel::Draw() {
 
 void WheelPanel::DrawDevices() const {
   for (std::size_t place = 0; place < wizard_->devices().size(); ++place) {
-    const hands::DeviceReading& reading = wizard_->readings()[place];
+    const input_devices::DeviceReading& reading = wizard_->readings()[place];
     ImGui::TextUnformatted(base::Printable(wizard_->devices()[place].name).c_str());
     if (!reading.connected) ImGui::TextUnformatted("  was unplugged");
     if (!reading.connected) continue;
@@ -76,4 +76,4 @@ void WheelPanel::DrawDevices() const {
   }
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

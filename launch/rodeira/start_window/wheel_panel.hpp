@@ -7,7 +7,7 @@
 
 #include "launch/rodeira/commands/wheel_wizard.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // The wizard for steering wheels as panels of Dear ImGui: what is asked for, the axes as they move, cancel.
 class WheelPanel {
@@ -35,4 +35,4 @@ class WheelPanel {
   std::optional<std::filesystem::path> written_;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -9,7 +9,7 @@
 #include "common/view/scene/camera/camera.hpp"
 #include "nodes/view/materials/face_texture.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kDial_px = 512, kGear_px = 64;
@@ -113,4 +113,4 @@ void CabinNode::Show(const scene::CarPose* car) {
   wheel_->setMatrix(osg::Matrixd::rotate(car->steering_wheel_rad, osg::Vec3d(0.0, 0.0, 1.0)));
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

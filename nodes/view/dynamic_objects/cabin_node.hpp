@@ -11,7 +11,7 @@
 #include "common/view/scene/vehicles/moment.hpp"
 #include "nodes/view/materials/look.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The inside of a car: doors, posts, roof and seats, and the dashboard with needles of speed, engine and fuel, the gear, the steering wheel that turns.
 class CabinNode {
@@ -34,4 +34,4 @@ class CabinNode {
   std::optional<scene::CabinShape> built_for_;  // none: nothing is built yet
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -13,7 +13,7 @@
 
 #include "nodes/view/materials/model_file.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr double kPulse_Hz = 1.25;
@@ -264,4 +264,4 @@ void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside,
   });
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

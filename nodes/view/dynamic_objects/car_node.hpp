@@ -14,7 +14,7 @@
 #include "common/view/scene/vehicles/person_mesh.hpp"
 #include "nodes/view/materials/look.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // One car in OpenSceneGraph's scene.
 class CarNode {
@@ -88,4 +88,4 @@ class Fleet {
   std::map<std::uint64_t, PersonNode> people_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

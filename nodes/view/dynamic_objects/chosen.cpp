@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr double kMoving_mps = 1.0, kDriven_m = 10.0;  // less says nothing of litres for 100 km
@@ -84,4 +84,4 @@ std::string Chosen::AgentPanel(const scene::Moment& moment, const scene::AgentPo
                      100.0 * detail.clutch, wheels_deg, Now(detail.fuel_lph, agent.speed_mps), Mean(detail.fuel_used_l - since_l_, seen_m_));
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 
 #include "common/view/scene/vehicles/moment.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The vehicle that a person looks at, and what is said of it.
 class Chosen {
@@ -35,4 +35,4 @@ class Chosen {
   double seen_m_ = 0.0;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 #include "common/driving/driver/way_from_start.hpp"
 #include "idl/topics.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 std::unique_ptr<driver::Autopilot> Make(const CarAutopilot& autopilot, const road::World& world) {
@@ -51,4 +51,4 @@ std::optional<DriverAim> DriverAims::Of(const scene::CarPose& car) {
                    aim->look_ahead_W};
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -13,7 +13,7 @@
 #include "common/view/scene/vehicles/moment.hpp"
 #include "nodes/view/frame/picture.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // An autopilot that drives a car of the run: its driver's file, and the lane that it was told.
 struct CarAutopilot {
@@ -40,4 +40,4 @@ class DriverAims {
   std::map<std::uint64_t, std::unique_ptr<driver::Autopilot>> made_;  // null: none can be
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

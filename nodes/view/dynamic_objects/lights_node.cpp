@@ -7,7 +7,7 @@
 #include "common/view/scene/road_furniture/light_heads.hpp"
 #include "common/view/scene/road_furniture/models.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 using network::LightColour;
@@ -47,4 +47,4 @@ void LightsNode::Show(const std::vector<scene::LightShown>& lights) {
   }
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

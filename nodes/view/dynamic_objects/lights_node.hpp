@@ -10,7 +10,7 @@
 #include "common/view/scene/vehicles/moment.hpp"
 #include "nodes/view/materials/look.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The lit lights of a world's signals; the dark ones belong to what stands there.
 class LightsNode {
@@ -30,4 +30,4 @@ class LightsNode {
   std::vector<Head> heads_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -10,7 +10,7 @@
 
 #include "common/core/base/suggest.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr std::array kNamed = std::to_array<std::pair<std::string_view, std::uint32_t>>({
@@ -45,4 +45,4 @@ void PaintCars(scene::Moment& moment, const CarPaints& paints) {
   }
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

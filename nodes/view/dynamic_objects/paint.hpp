@@ -9,7 +9,7 @@
 #include "common/view/scene/mesh/mesh.hpp"
 #include "common/view/scene/vehicles/moment.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // A colour by its name (red, blue, yellow, green, white, silver, grey, black), or by six hexadecimal digits, red, green and blue, with or without
 // a # before them. Wrong input with the nearest name otherwise.
@@ -19,4 +19,4 @@ base::Result<scene::Colour> PaintOf(std::string_view text);
 using CarPaints = std::map<std::uint64_t, scene::Colour>;
 void PaintCars(scene::Moment& moment, const CarPaints& paints);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 #include "common/view/scene/mesh/loft.hpp"
 #include "common/view/scene/mesh/solids.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr scene::Colour kPoints = scene::Colour::Of(0x20c040), kPath = scene::Colour::Of(0xf0c020), kTarget = scene::Colour::Of(0xe020d0), kAhead = scene::Colour::Of(0x20d0f0);
@@ -118,4 +118,4 @@ void VectorsNode::Place(const scene::Body& body, const DriverAim& aim) {
   }
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -9,7 +9,7 @@
 #include "nodes/view/materials/look.hpp"
 #include "nodes/view/frame/picture.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // What the driver of a chosen car goes by: where his car points (green, from above its roof, as long as it would drive in a second at the
 // speed that he plans), the point that he steers for (a magenta ball on a stick) and the line to it, where his path leads (yellow, from the car's front),
@@ -38,4 +38,4 @@ class VectorsNode {
   osg::ref_ptr<osg::MatrixTransform> line_, target_, stick_, ahead_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

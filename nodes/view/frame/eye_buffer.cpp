@@ -4,7 +4,7 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 EyeBuffer::EyeBuffer(int width_px, int height_px, int samples, unsigned format) : target_{0, width_px, height_px} {
   const auto buffer = [&](unsigned& name, unsigned of_format) {
@@ -40,4 +40,4 @@ void EyeBuffer::HandOverInto(unsigned texture) {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -2,7 +2,7 @@
 
 #include "nodes/view/frame/picture_target.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // Pixels of one size, with as many samples as the quality wants, that are then handed over into somebody's texture. Made, used and
 // destroyed while the same OpenGL context is current.
@@ -26,4 +26,4 @@ class EyeBuffer {
   bool whole_ = false;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 base::Result<std::unique_ptr<FrameLog>> FrameLog::Open(const std::filesystem::path& file) {
   std::ofstream out(file);
@@ -18,4 +18,4 @@ void FrameLog::Add(double wall_s, const scene::Moment& moment, std::size_t follo
   file_ << fmt::format("{:.6f},{:.9f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", wall_s, static_cast<double>(moment.time_ns) * 1e-9, p.x(), p.y(), p.z(), eye.x(), eye.y(), eye.z());
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 #include "common/view/scene/camera/camera.hpp"
 #include "common/view/scene/vehicles/moment.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // What a window showed and when, a line (CSV) a picture: the time on the wall at which it was handed to the display, the simulated time that it shows, where the
 // followed vehicle is in it, and the eye. For the proof that motion is even.
@@ -24,4 +24,4 @@ class FrameLog {
   std::ofstream file_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

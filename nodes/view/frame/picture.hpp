@@ -13,7 +13,7 @@
 #include "common/view/scene/camera/mirror.hpp"
 #include "common/view/scene/vehicles/moment.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The bar of a recording's time at the bottom of a picture. Places are shares of the run, from 0 to 1.
 struct Timeline {
@@ -68,4 +68,4 @@ struct Image {
   const std::uint8_t* At(int x_px, int y_px) const { return &rgb[3 * (static_cast<std::size_t>(y_px) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x_px))]; }
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

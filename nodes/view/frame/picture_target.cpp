@@ -4,8 +4,8 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 void Bind(const PictureTarget& target) { glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer); }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // Where a picture is drawn: a framebuffer of the current OpenGL context (0: the surface's own) and its size.
 struct PictureTarget {
@@ -12,4 +12,4 @@ struct PictureTarget {
 // What is drawn and read from now on is drawn and read there.
 void Bind(const PictureTarget& target);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 
 #include "common/core/base/files.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 base::Status WritePng(const std::filesystem::path& path, const Image& image) {
   png_image header;
@@ -25,4 +25,4 @@ base::Status WritePng(const std::filesystem::path& path, const Image& image) {
   return base::WriteWhole(path, bytes);
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr std::array<std::string_view, 3> kNames = {"low", "medium", "high"};
@@ -24,4 +24,4 @@ std::optional<Quality> QualityOf(std::string_view name) {
 
 const QualityTraits& TraitsOf(Quality quality) { return kTraits[static_cast<std::size_t>(quality)]; }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

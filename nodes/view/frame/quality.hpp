@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // What a picture may cost; docs/view.md lists what each of them leaves out.
 enum class Quality { kLow, kMedium, kHigh };
@@ -28,4 +28,4 @@ struct QualityTraits {
 };
 const QualityTraits& TraitsOf(Quality quality);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

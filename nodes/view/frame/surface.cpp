@@ -5,7 +5,7 @@
 
 #include "common/view/window/display.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr const char* kNoDisplay = "a window is wanted, but there is no display; set DISPLAY, or 'window: never'";
@@ -145,4 +145,4 @@ void Surface::ToggleFullScreen() {
 
 void Surface::Hide() { SDL_HideWindow(window_); }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -10,7 +10,7 @@
 
 struct SDL_Window;
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 enum class SurfaceKind { kWindow, kOffscreen };
 
@@ -64,4 +64,4 @@ class Surface {
 // Whether a window could be opened: a display server answers. Cheap; must not be called while a Surface is open.
 bool HasDisplay();
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -9,7 +9,7 @@
 #include "nodes/view/frame/picture_target.hpp"
 #include "nodes/view/frame/quality.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // A headset's two eyes, by whatever OpenXR runtime this PC has. For one thread: its OpenGL context is current from before it is opened until
 // after it is gone.
@@ -31,4 +31,4 @@ class Headset {
   virtual const std::string& gone() const = 0;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -12,7 +12,7 @@
 #include <openxr/openxr.h>
 #include <openxr/openxr_platform.h>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // Of a context that was made of a visual, which knows no configuration: one with its window's visual. Null: there is none.
@@ -74,4 +74,4 @@ std::optional<HeadsetBinding> BindingOfCurrentContext() {
   return std::nullopt;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

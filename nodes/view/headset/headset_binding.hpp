@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // What an OpenXR session has to know of the OpenGL context that is current on this thread.
 struct HeadsetBinding {
@@ -15,4 +15,4 @@ struct HeadsetBinding {
 // None where there is no context, or one by neither GLX nor EGL.
 std::optional<HeadsetBinding> BindingOfCurrentContext();
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

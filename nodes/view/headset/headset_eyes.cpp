@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr XrViewConfigurationType kTwoEyes = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
@@ -115,4 +115,4 @@ base::Result<std::optional<HeadsetEyes::Views>> HeadsetEyes::Draw(XrTime time, c
   return std::optional<Views>(views);
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

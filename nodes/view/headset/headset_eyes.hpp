@@ -10,7 +10,7 @@
 #include "nodes/view/frame/eye_buffer.hpp"
 #include "nodes/view/headset/headset.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // One of OpenXR's structures, empty but for what it is.
 template <class Structure>
@@ -50,4 +50,4 @@ class HeadsetEyes {
   std::array<Eye, 2> eyes_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

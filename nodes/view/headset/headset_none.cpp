@@ -1,9 +1,9 @@
 #include "nodes/view/headset/headset.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 base::Result<std::unique_ptr<Headset>> Headset::Open(Quality) {
   return base::WrongInput("this Rodeira was built without OpenXR (package libopenxr-dev, CMake's RODEIRA_OPENXR)");
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

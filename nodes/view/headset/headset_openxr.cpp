@@ -10,7 +10,7 @@
 #include "nodes/view/headset/headset_binding.hpp"
 #include "nodes/view/headset/headset_eyes.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr XrViewConfigurationType kTwoEyes = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
@@ -173,4 +173,4 @@ base::Result<std::unique_ptr<Headset>> Headset::Open(Quality quality) {
   return std::unique_ptr<Headset>(std::move(headset));
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -3,7 +3,7 @@
 #include "common/core/base/assert.hpp"
 #include "common/view/scene/road_furniture/sign_face.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 namespace {
 
@@ -44,4 +44,4 @@ osg::ref_ptr<osg::Vec2Array> PlacesOnFace(const scene::Mesh& mesh) {
   return places;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

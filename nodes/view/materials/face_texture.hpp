@@ -9,7 +9,7 @@
 #include "common/view/scene/raster/canvas.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The picture of a sign's face (scene::DrawFace).
 osg::ref_ptr<osg::Image> MakeFaceImage(const std::string& face);
@@ -19,4 +19,4 @@ osg::ref_ptr<osg::Texture2D> MakeTexture(const scene::Raster& picture);
 // Where on the face each vertex of a mesh of kSign or kPicture lies.
 osg::ref_ptr<osg::Vec2Array> PlacesOnFace(const scene::Mesh& mesh);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -22,7 +22,7 @@
 #include "nodes/view/materials/plain_geometry.hpp"
 #include "nodes/view/shaders/shaders.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kNoiseSize = 256;
@@ -282,4 +282,4 @@ osg::ref_ptr<osg::Node> Look::MakeShadow(float rear_m, float front_m, float half
   return geometry;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -18,7 +18,7 @@
 #include "common/view/scene/mesh/repeated.hpp"
 #include "nodes/view/frame/quality.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The bits of node masks by which geometries are in the sun's shadow maps: what stands and moves, in the near one alone, and the ground, in both. The sky
 // and what lies flat on the ground have neither.
@@ -77,4 +77,4 @@ class Look {
   std::map<std::pair<std::string, bool>, osg::ref_ptr<osg::StateSet>> pictures_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

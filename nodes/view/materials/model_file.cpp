@@ -6,7 +6,7 @@
 #include <map>
 #include <mutex>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 namespace {
 
@@ -46,4 +46,4 @@ osg::ref_ptr<osg::Group> PlaceModels(const std::vector<scene::PlacedModel>& mode
   return group;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

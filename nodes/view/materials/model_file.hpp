@@ -9,7 +9,7 @@
 #include "common/core/base/result.hpp"
 #include "common/view/scene/road_furniture/things.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // Reads a model by OpenSceneGraph, each file once. Wrong input where it cannot be read. Several threads may ask.
 base::Status ReadModel(const std::string& file);
@@ -20,4 +20,4 @@ osg::ref_ptr<osg::Node> CopyOfModel(const std::string& file);
 // The models at their places, in copies of their own. Those that cannot be read are left out: ask ReadModel first.
 osg::ref_ptr<osg::Group> PlaceModels(const std::vector<scene::PlacedModel>& models);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

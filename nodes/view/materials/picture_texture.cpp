@@ -4,7 +4,7 @@
 
 #include "common/world/terrain/picture_file.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 base::Result<osg::ref_ptr<osg::Texture2D>> MakePictureTexture(const std::string& file, bool repeats) {
   const auto picture = terrain::ReadPicture(file);
@@ -32,4 +32,4 @@ osg::ref_ptr<osg::Image> NoPicture() {
   return image;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -7,7 +7,7 @@
 
 #include "common/core/base/result.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // A picture that lies on the ground, to be drawn at any distance. Wrong input where it cannot be read.
 base::Result<osg::ref_ptr<osg::Texture2D>> MakePictureTexture(const std::string& file, bool repeats);
@@ -15,4 +15,4 @@ base::Result<osg::ref_ptr<osg::Texture2D>> MakePictureTexture(const std::string&
 // One pixel, where an image is wanted whose pixels are elsewhere.
 osg::ref_ptr<osg::Image> NoPicture();
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -9,7 +9,7 @@
 
 #include "common/core/base/assert.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 osg::ref_ptr<osg::Vec4ubArray> ColoursOf(const scene::Mesh& mesh) {
@@ -94,4 +94,4 @@ void Spread(osg::Geometry& repeated) {
 
 bool CanRepeat() { return SDL_GL_ExtensionSupported("GL_ARB_draw_instanced") == SDL_TRUE && SDL_GL_ExtensionSupported("GL_ARB_instanced_arrays") == SDL_TRUE; }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

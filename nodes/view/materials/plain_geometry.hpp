@@ -6,7 +6,7 @@
 #include "common/view/scene/mesh/mesh.hpp"
 #include "common/view/scene/mesh/repeated.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // A mesh's vertices and triangles without its origin, and without a state.
 osg::ref_ptr<osg::Geometry> PlainGeometry(const scene::Mesh& mesh);
@@ -22,4 +22,4 @@ bool CanRepeat();
 // as wide and as high as the model it is. Numbers which no fixed attribute has.
 inline constexpr unsigned kPlaceSlot = 6, kShapeSlot = 7;
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr unsigned kUnit = 4;  // of textures; noise, faces and the sun's maps have those before it
@@ -106,4 +106,4 @@ void HeatNode::ShowLegend(const HeatPicture* heat, float high) {
   high_->setPosition({left + width, low + 8.0F, 0.0F});
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -12,7 +12,7 @@
 #include "nodes/view/overlays/overlay.hpp"
 #include "nodes/view/frame/picture.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // What a legend says: "speed, % of the limit, of 12 s" over the bar, numbers at its red end, middle and green end below it.
 struct HeatLegend {
@@ -45,4 +45,4 @@ class HeatNode {
   osg::ref_ptr<osgText::Text> title_, low_, middle_, high_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // In the panels' units.
@@ -70,4 +70,4 @@ void Instruments::Show(const Picture& picture, const PanelSize& size, float low)
   time_->setPosition({right - 14.0F, low + 12.0F, 0.0F});
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

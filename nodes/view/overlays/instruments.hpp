@@ -6,7 +6,7 @@
 #include "nodes/view/overlays/overlay.hpp"
 #include "nodes/view/frame/picture.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // Speed, gear and time in the lower right corner of an overlay, lines of text in its upper left one, and those about a chosen vehicle in the lower left one.
 class Instruments {
@@ -23,4 +23,4 @@ class Instruments {
   osg::ref_ptr<osgText::Text> speed_, unit_, gear_, time_, lines_, about_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -15,7 +15,7 @@
 #include "common/world/weather/named_weather.hpp"
 #include "common/view/window/font.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr float kWidth_px = 236.0F, kMargin_px = 8.0F;
@@ -194,4 +194,4 @@ MenuWish Menu::DrawEntries(const MenuSight& sight) {
   return wish;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

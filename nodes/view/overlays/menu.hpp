@@ -8,7 +8,7 @@
 
 union SDL_Event;
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // What a menu shows as being so.
 struct MenuSight {
@@ -62,4 +62,4 @@ class Menu {
   int width_px_ = 0;   // of the window, likewise
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -9,7 +9,7 @@
 
 #include "common/core/base/font_file.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kTextLayer = 10;
@@ -109,4 +109,4 @@ void Boxes::Set(const std::vector<Box>& boxes) {
   triangles_->dirty();
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // What lies flat over a picture, in pixels from its lower left corner. The typeface is DejaVu Sans where it is installed, otherwise OpenSceneGraph's own.
 
@@ -40,4 +40,4 @@ class Boxes {
   osg::ref_ptr<osg::Geometry> geometry_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

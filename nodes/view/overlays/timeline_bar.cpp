@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // In the panels' units.
@@ -66,4 +66,4 @@ void TimelineBar::Show(const std::optional<Timeline>& timeline, const PanelSize&
   keys_->setPosition({place.XOf(1.0), kTextLow, 0.0F});
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

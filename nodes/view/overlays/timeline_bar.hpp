@@ -6,7 +6,7 @@
 #include "nodes/view/overlays/overlay.hpp"
 #include "nodes/view/frame/picture.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // Where on a picture the bar of a recording's time lies, in the panels' units from the picture's left and lower edge.
 struct TimelinePlace {
@@ -35,4 +35,4 @@ class TimelineBar {
   osg::ref_ptr<osgText::Text> where_, note_, keys_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

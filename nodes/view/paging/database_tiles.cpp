@@ -8,7 +8,7 @@
 #include "common/view/scene/visual_world/ground_digest.hpp"
 #include "common/view/scene/visual_world/world_scene.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 std::string TileName(std::int64_t column, std::int64_t row, int level) { return fmt::format("tiles/{}_{}_{}.osgb", column, row, level); }
@@ -100,4 +100,4 @@ std::unique_ptr<DatabaseTiles> TilesOf(const road::World& world, unsigned thread
   return std::make_unique<NetworkTiles>(world, threads, std::move(is_there));
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

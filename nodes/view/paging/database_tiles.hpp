@@ -10,7 +10,7 @@
 #include "common/world/road/world.hpp"
 #include "common/view/scene/visual_world/ground_tile.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // A tile at a level as a file, and from how far to how far off it is seen.
 struct TileLevel {
@@ -44,4 +44,4 @@ class DatabaseTiles {
 // Not for roads of version 1, which are drawn in another way. `is_there`: which models from files stand there; without it all.
 std::unique_ptr<DatabaseTiles> TilesOf(const road::World& world, unsigned threads, scene::ModelIsThere is_there = {});
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

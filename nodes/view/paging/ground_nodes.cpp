@@ -6,7 +6,7 @@
 
 #include "nodes/view/materials/model_file.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr float kMarksSeen_m = 650.0F;
@@ -87,4 +87,4 @@ PlacedNode TreesNode(Look& look, const std::vector<scene::Repeated>& trees) {
   return {feet_W.center().head<2>(), lod};
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -12,7 +12,7 @@
 #include "nodes/view/materials/look.hpp"
 #include "nodes/view/paging/tile_tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // What stands still, as the look draws it. Several threads may ask for levels once it has made its states (Look::MakeStates).
 
@@ -27,4 +27,4 @@ PlacedNode TreesNode(Look& look, const std::vector<scene::Repeated>& trees);
 // A piece of a road of version 1.
 void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -13,7 +13,7 @@
 #include "nodes/view/paging/database_tiles.hpp"
 #include "nodes/view/paging/ground_nodes.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // Answers the pager, which asks for files by their names, with tiles. Its threads call it at once.
@@ -54,4 +54,4 @@ PagedWorld MakeAsSeen(const road::World& world, Look& look, scene::ModelIsThere 
   return paged;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 
 #include "nodes/view/paging/tile_tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 PagedWorld PagedTree(const std::vector<TileFiles>& tiles) {
   PagedWorld paged;
@@ -74,4 +74,4 @@ bool IsReading(osgDB::DatabasePager& pager) {
   return false;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

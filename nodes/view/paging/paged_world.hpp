@@ -10,7 +10,7 @@
 
 #include "nodes/view/paging/database_tiles.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // Ground whose tiles come where the eye comes near, by the pager's threads: read from a built database, or made.
 struct PagedWorld {
@@ -31,4 +31,4 @@ void AskAhead(const PagedWorld& paged, osgDB::DatabasePager& pager, const osg::F
 // Whether the pager still reads, or makes, what it was asked for; what is there waits for the next picture.
 bool IsReading(osgDB::DatabasePager& pager);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr std::size_t kFew = 4;         // parts that are no longer divided
@@ -35,4 +35,4 @@ osg::ref_ptr<osg::Group> TileTree(const std::vector<PlacedNode>& parts) {
   return Divide(parts, low_W, (high_W - low_W).maxCoeff());
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

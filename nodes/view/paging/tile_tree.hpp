@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // A part of what stands still, and about where it is.
 struct PlacedNode {
@@ -18,4 +18,4 @@ struct PlacedNode {
 // that a picture costs with the logarithm of how large the world is. The same parts in the same order give the same tree.
 osg::ref_ptr<osg::Group> TileTree(const std::vector<PlacedNode>& parts);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

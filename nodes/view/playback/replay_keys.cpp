@@ -9,7 +9,7 @@
 #include "common/vehicle/input_devices/key_names.hpp"
 #include "nodes/view/window/screen.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
@@ -72,14 +72,14 @@ std::string ReplayHelp() {
       "+ -  faster, slower: 0.1 to 10 x\n"
       "r  the other way\n"
       "mouse on the bar  there\n";
-  const auto is_a_recordings = [](const hands::WindowKey& key) {
+  const auto is_a_recordings = [](const input_devices::WindowKey& key) {
     const bool own = key.name == "space" || key.name == "return" || key.name == "escape", asks = key.name == "f2" || key.name == "f6" || key.name == "f7";  // of a run that goes on
     return !own && !asks;
   };
-  text += "\n" + hands::WindowKeysText(is_a_recordings);
+  text += "\n" + input_devices::WindowKeysText(is_a_recordings);
   return text + MouseHelp(kLeftButton) + "\nescape  end";
 }
 
 std::string ReplayKeysInShort() { return "space  left right  + -  r  h: keys"; }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 
 #include "common/view/scene/playback/player.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // What the keys of a window do in which a recording is watched. `symbol` and `modifiers` are SDL's; `marks_ns` ascend.
 // False where the key does nothing to the player.
@@ -16,4 +16,4 @@ std::string ReplayHelp();
 // The most important ones, in a few words.
 std::string ReplayKeysInShort();
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

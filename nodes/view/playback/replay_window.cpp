@@ -12,7 +12,7 @@
 #include "nodes/view/playback/replay_keys.hpp"
 #include "nodes/view/overlays/timeline_bar.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr double kLongestTick_s = 0.25;  // a machine that stalls slips; it does not leap
@@ -156,4 +156,4 @@ void ReplayWindow::Drag(int x_px, scene::Player& player) {
   player.Seek(static_cast<std::int64_t>(share * static_cast<double>(player.end_ns())));
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -12,7 +12,7 @@
 
 union SDL_Event;
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 struct TimelinePlace;
 
@@ -59,4 +59,4 @@ class ReplayWindow {
 // What the bar shows of a player: "0:05.42 / 1:30.00   x -2  paused" (backward), and the mark within a second.
 Timeline TimelineOf(const scene::Player& player, const std::vector<ReplayMark>& marks);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

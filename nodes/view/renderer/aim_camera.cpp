@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -23,4 +23,4 @@ void AimCamera(osg::Camera& eye, const scene::Camera& camera, double aspect, dou
   }
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -11,7 +11,7 @@
 #include "nodes/view/renderer/aim_camera.hpp"
 #include "nodes/view/shaders/air_uniforms.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr double kFar_m = 1'500.0;
@@ -138,4 +138,4 @@ void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& bod
   frames_.Set(frames);
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -15,7 +15,7 @@
 #include "nodes/view/frame/picture.hpp"
 #include "nodes/view/renderer/sun_shadow.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The driver's mirrors: each draws the scene backward into a picture of its own, which is shown reversed over the large one.
 class Mirrors {
@@ -50,4 +50,4 @@ class Mirrors {
   std::size_t turn_ = 0;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -40,7 +40,7 @@
 #include "nodes/view/overlays/timeline_bar.hpp"
 #include "nodes/view/dynamic_objects/vectors_node.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr double kFar_m = 15'000.0;
@@ -268,7 +268,7 @@ void Painter::DrawWhole(const Picture& picture, const scene::Progress& progress)
   }
 }
 
-std::size_t Painter::HeldLevels() const { return view::HeldLevels(parts_->paged); }
+std::size_t Painter::HeldLevels() const { return nodes::HeldLevels(parts_->paged); }
 
 PictureCost Painter::CostOfLast() const {
   auto& renderer = dynamic_cast<osgViewer::Renderer&>(*parts_->viewer.getCamera()->getRenderer());
@@ -318,4 +318,4 @@ base::Result<Image> RenderStill(const road::World& world, const Picture& picture
   return painter.value()->Read();
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

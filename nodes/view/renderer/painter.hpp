@@ -10,7 +10,7 @@
 #include "nodes/view/frame/picture_target.hpp"
 #include "nodes/view/frame/surface.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 struct PagedWorld;
 
@@ -68,4 +68,4 @@ base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::W
 base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px, const std::filesystem::path& built = {},
                                 Quality quality = Quality::kMedium);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

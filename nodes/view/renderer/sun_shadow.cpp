@@ -6,7 +6,7 @@
 #include "nodes/view/materials/look.hpp"
 #include "nodes/view/shaders/shaders.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr unsigned kNearUnit = 2, kWideUnit = 3;  // of textures; noise and faces have those before them
@@ -103,4 +103,4 @@ void SunShadow::SetEye(osg::StateSet& state, const osg::Matrixd& view) const {
   if (near_) state.getOrCreateUniform("eye_to_sun", osg::Uniform::FLOAT_MAT4)->set(osg::Matrixd::inverse(view) * world_to_map_);
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

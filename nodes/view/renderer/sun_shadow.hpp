@@ -10,7 +10,7 @@
 #include "common/view/scene/lighting/sun_view.hpp"
 #include "nodes/view/frame/quality.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // What the sun sees, as depths: what it does not see lies in shadow. Two maps: a sharp one of all that stands, moves or is ground, about the place that is looked
 // at, and a wide one of the ground alone, for what hills and bridges shade beyond it.
@@ -30,4 +30,4 @@ class SunShadow {
   osg::Matrixd world_to_map_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -5,13 +5,13 @@
 #include "common/core/geometry/angle.hpp"
 #include "common/view/scene/camera/placing.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr const char* kOutside = "there is no ground of this world: the car stays where it is";
 
 // Under all of the car's corners.
-bool HasGround(terrain::Ground& ground, const scene::CarPlace& place, const scene::CarPose& car) {
+bool HasGround(ground::Ground& ground, const scene::CarPlace& place, const scene::CarPose& car) {
   const Eigen::Vector2d along(std::cos(place.heading_rad), std::sin(place.heading_rad)), left(-along.y(), along.x());
   for (const double forward_m : {car.front_m, car.front_m - car.length_m}) {
     for (const double aside_m : {0.5 * car.width_m, -0.5 * car.width_m}) {
@@ -65,4 +65,4 @@ base::Result<scenario::Request> AskStart(const road::World& world, const scene::
   return scenario::PlaceRequest({names.at(found.value()->id), start.x_m, start.y_m, std::nullopt}, start.heading_deg);
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -11,7 +11,7 @@
 #include "common/view/scene/vehicles/moment.hpp"
 #include "common/view/scene/camera/pick.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The vehicle nodes by the ids of their cars in a moment.
 using CarNames = std::map<std::uint64_t, std::string>;
@@ -33,4 +33,4 @@ base::Result<scenario::Request> AskPlace(const road::World& world, const scene::
 // The same car where it began: at its own start, or the world's. Wrong input where there is no car.
 base::Result<scenario::Request> AskStart(const road::World& world, const scene::Moment& moment, std::size_t followed, const CarNames& names, const CarStarts& starts);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

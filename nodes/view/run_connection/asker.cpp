@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 bool Asker::Ask(const scenario::Request& request) {
   const auto becomes = scenario::EventOf(request);
@@ -32,4 +32,4 @@ void Asker::Tell(double now_s) {
   told_s_ = now_s;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

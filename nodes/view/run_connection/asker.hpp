@@ -7,7 +7,7 @@
 #include "common/runtime/launch/live_requests.hpp"
 #include "common/driving/scenario/request.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // Asks the run for something, and again every kRepeat_s until the run's own events say that it has happened: a message may be lost, and
 // a run that stands takes nothing. Used on the thread of the window.
@@ -37,4 +37,4 @@ class Asker {
   double told_s_ = -1.0e9;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

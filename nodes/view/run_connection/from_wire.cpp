@@ -10,7 +10,7 @@
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr std::array<scene::Colour, 4> kPaints = {scene::Colour::Of(0xb01e26), scene::Colour::Of(0x1e4fa0), scene::Colour::Of(0xd9b11e), scene::Colour::Of(0x2b7a3d)};
@@ -190,4 +190,4 @@ base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep:
   return moment;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

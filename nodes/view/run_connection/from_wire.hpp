@@ -10,7 +10,7 @@
 #include "common/view/scene/vehicles/moment.hpp"
 #include "idl/messages.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // A car's pose from its message; `source` is the number of its stream, `order` its place among the cars (for its paint).
 scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, std::size_t order);
@@ -28,4 +28,4 @@ using NewestSamples = std::map<lockstep::SourceIndex, std::shared_ptr<const base
 // Everything as they tell it, at a step. Wrong input where one of them cannot be read.
 base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep::Step step, const NewestSamples& newest);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // SDL's numbers of the buttons, in ours: left, middle, right, back, forward.
-hands::Key MouseKey(Uint8 button) { return hands::kMouse + button; }
+input_devices::Key MouseKey(Uint8 button) { return input_devices::kMouse + button; }
 
 }  // namespace
 
@@ -17,7 +17,7 @@ void KeyForwarder::Take(const SDL_Event& event) {
   switch (event.type) {
     case SDL_KEYDOWN:
     case SDL_KEYUP:
-      if (event.key.repeat == 0) Set(static_cast<hands::Key>(event.key.keysym.scancode), event.type == SDL_KEYDOWN);
+      if (event.key.repeat == 0) Set(static_cast<input_devices::Key>(event.key.keysym.scancode), event.type == SDL_KEYDOWN);
       break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
@@ -31,7 +31,7 @@ void KeyForwarder::Take(const SDL_Event& event) {
   }
 }
 
-void KeyForwarder::Set(hands::Key key, bool held) {
+void KeyForwarder::Set(input_devices::Key key, bool held) {
   const auto known = keys_.find(key);
   if (known == keys_.end() && !held) return;
   launch::LiveKey& entry = keys_[key];
@@ -55,4 +55,4 @@ void KeyForwarder::Tell(double now_s) {
   told_s_ = now_s;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

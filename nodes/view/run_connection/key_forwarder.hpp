@@ -8,7 +8,7 @@
 
 union SDL_Event;
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // Gathers what is held in the window and says it to whoever drives: at every change, and again every kRepeat_s, because a
 // message may be lost. Without the keyboard's focus nothing is held. Used on the thread of the window.
@@ -25,12 +25,12 @@ class KeyForwarder {
   void Tell(double now_s);
 
  private:
-  void Set(hands::Key key, bool held);
+  void Set(input_devices::Key key, bool held);
 
   std::unique_ptr<launch::LiveKeysSender> sender_;
-  std::map<hands::Key, launch::LiveKey> keys_;
+  std::map<input_devices::Key, launch::LiveKey> keys_;
   bool changed_ = true;
   double told_s_ = -1.0e9;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 std::unique_ptr<RunDesk> RunDesk::Open() {
   const char* named = std::getenv(kVariable);
@@ -41,4 +41,4 @@ std::optional<std::string> RunDesk::Answer() {
   return line;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

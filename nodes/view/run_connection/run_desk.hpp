@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The run's control socket (docs/formats.md), as a window asks it: what it says is an operator's word, no sample. It has no thread.
 class RunDesk {
@@ -28,4 +28,4 @@ class RunDesk {
   std::string pending_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr std::string_view kPaused = "ok paused";
@@ -34,4 +34,4 @@ std::string Standing::See(std::int64_t time_ns, double now_s) {
   return why_.empty() ? "the run's time stands" : why_ + kKeys;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

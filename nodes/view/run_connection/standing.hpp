@@ -5,7 +5,7 @@
 
 #include "nodes/view/run_connection/run_desk.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // Whether the run's time stands, and why, for a window of a live run: told what it shows, it asks the run's control socket where that comes to
 // rest.
@@ -32,4 +32,4 @@ class Standing {
   std::string why_;  // "paused at …", as the clock says it; empty: it has not said so
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

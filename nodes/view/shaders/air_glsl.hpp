@@ -1,6 +1,6 @@
 #pragma once
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The sky over a direction given by its height (1: zenith), without sun and clouds; haze and fog have its horizon's colour.
 inline constexpr const char* kAirGlsl = R"(
@@ -13,4 +13,4 @@ vec3 SkyColour(float up) { return mix(horizon_colour, zenith_colour, pow(clamp(u
 float Clear(float distance_m) { return exp(-pow(distance_m * 1.6e-4, 1.3) - fog_per_m * distance_m); }
 )";
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -2,7 +2,7 @@
 
 #include <osg/Uniform>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr double kLampHeight_m = 0.65;
@@ -60,4 +60,4 @@ void SetRain(osg::StateSet& state, std::int64_t time_ns, double aspect) {
   Set(state, "aspect", static_cast<float>(aspect));
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 #include "common/view/scene/lighting/air.hpp"
 #include "common/view/scene/vehicles/moment.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The shaders' uniforms that are the same for all that is drawn. OpenSceneGraph takes the one of the state nearest to what is drawn.
 
@@ -19,4 +19,4 @@ void SetEye(osg::StateSet& state, const scene::Air& air, const scene::CarPose* c
 // Of the falling rain.
 void SetRain(osg::StateSet& state, std::int64_t time_ns, double aspect);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

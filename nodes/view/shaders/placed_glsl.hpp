@@ -1,6 +1,6 @@
 #pragma once
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // Of a vertex shader: where a vertex is, its normal and its colour. INSTANCED: those of a model at one of its places (RepeatedGeometry).
 inline constexpr const char* kPlacedGlsl = R"(
@@ -28,4 +28,4 @@ vec4 PlacedColour() { return gl_Color; }
 #endif
 )";
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

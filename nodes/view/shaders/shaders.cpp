@@ -8,7 +8,7 @@
 #include "nodes/view/shaders/air_glsl.hpp"
 #include "nodes/view/shaders/placed_glsl.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr const char* kHead = R"(#version 120
@@ -309,4 +309,4 @@ void main() {
 )";
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

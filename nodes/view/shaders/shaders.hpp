@@ -4,7 +4,7 @@
 
 #include "common/view/scene/mesh/mesh.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // GLSL 1.20, which every OpenGL from 2.1 on understands. Uniforms: those of AirUniforms, noise (a texture that repeats), glow (of
 // lamps), glows (of a vehicle's, by scene::Lamp; which one: texture coordinate 1), pulse (of a chosen car, 0 to 1), face (a sign's picture; where on it: texture coordinates 1), and of the rain time_s and aspect (width by height).
@@ -20,4 +20,4 @@ std::string DepthFragmentShader();
 std::string RainVertexShader();
 std::string RainFragmentShader();
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -2,7 +2,7 @@
 #include "nodes/view/shaders/placed_glsl.hpp"
 #include "nodes/view/shaders/shaders.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 std::string ShadowVertexShader() {
   return R"(#version 120
@@ -43,4 +43,4 @@ void main() { gl_FragColor = vec4(1.0); }
 )";
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

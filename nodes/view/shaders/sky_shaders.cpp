@@ -2,7 +2,7 @@
 #include "nodes/view/shaders/air_glsl.hpp"
 #include "nodes/view/shaders/shaders.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // The sky without the sun itself. `FINE`: asked at every pixel, otherwise at the dome's vertices.
@@ -100,4 +100,4 @@ void main() {
 )";
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 #include "common/view/scene/lighting/air.hpp"
 #include "common/view/scene/camera/camera.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr std::size_t kNearest = 4;
@@ -59,4 +59,4 @@ sound::Heard HeardBy(const scene::Moment& moment, std::size_t followed, double v
   return heard;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr double kLeast_s = 0.05, kMost_s = 0.30;  // kept in the queue
@@ -60,4 +60,4 @@ void Speaker::Play(const sound::Heard& heard, double interval_s) {
   SDL_QueueAudio(device_, samples_.data(), static_cast<Uint32>(samples_.size() * sizeof(float)));
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 #include "common/core/base/result.hpp"
 #include "common/view/sound/synth.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The PC's sound, through SDL.
 class Speaker {
@@ -32,4 +32,4 @@ class Speaker {
   std::vector<float> samples_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -14,7 +14,7 @@
 #include "nodes/view/materials/picture_texture.hpp"
 #include "nodes/view/materials/plain_geometry.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // Gives geometries of the database the look of those that are built in memory.
@@ -139,4 +139,4 @@ base::Result<PagedWorld> ReadBuilt(const std::filesystem::path& folder, Look& lo
   return built;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -6,10 +6,10 @@
 #include "nodes/view/materials/look.hpp"
 #include "nodes/view/paging/paged_world.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // Reads `world.osgb` of a folder that FindBuilt found: its tiles are read where the eye comes near. Every tile gets this look as it is read, which must outlive
 // the root. A failure where OpenSceneGraph cannot read the file.
 base::Result<PagedWorld> ReadBuilt(const std::filesystem::path& folder, Look& look);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

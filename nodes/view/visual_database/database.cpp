@@ -28,7 +28,7 @@
 #include "nodes/view/materials/picture_texture.hpp"
 #include "nodes/view/materials/plain_geometry.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -237,4 +237,4 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
   return report;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 #include "common/core/base/result.hpp"
 #include "common/world/road/world.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 struct DatabaseOptions {
   std::filesystem::path folder;
@@ -41,4 +41,4 @@ inline constexpr const char* kPictureFolder = "pictures/";
 // the world's roads are of version 1 (they are drawn in another way), a model or picture cannot be read, or the folder cannot be written.
 base::Result<DatabaseReport> WriteDatabase(const road::World& world, const DatabaseOptions& options);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -7,7 +7,7 @@
 #include "nodes/view/visual_database/database.hpp"
 #include "nodes/view/visual_database/visual_files.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,4 +45,4 @@ FoundBuilt FindBuilt(const fs::path& world_file, const road::World& world) {
   return found;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -5,7 +5,7 @@
 
 #include "common/world/road/world.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // A database (`rodeira world build`) beside a world's file: in its folder, or in the folder that is named as it is without its ending.
 struct FoundBuilt {
@@ -17,4 +17,4 @@ struct FoundBuilt {
 // it was written.
 FoundBuilt FindBuilt(const std::filesystem::path& world_file, const road::World& world);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -10,7 +10,7 @@
 #include "common/core/base/files.hpp"
 #include "nodes/view/visual_database/database.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -66,4 +66,4 @@ std::vector<base::Error> VisualProblems(const fs::path& folder, const std::strin
   return problems;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 #include "common/core/base/result.hpp"
 
 // What `visual.txt` (kManifest) says: the files of what is seen of a world, and what they were written from.
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 struct VisualContents {
   struct Listed {
@@ -27,4 +27,4 @@ VisualContents ReadVisualContents(const std::filesystem::path& manifest);
 // hexadecimal digits; what was written from another one is a problem too.
 std::vector<base::Error> VisualProblems(const std::filesystem::path& folder, const std::string& content_hash);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

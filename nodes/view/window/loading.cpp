@@ -9,7 +9,7 @@
 
 #include "common/runtime/launch/live_keys.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr double kBarShare = 0.6;
@@ -71,4 +71,4 @@ void Loading::ShowWork(double seconds, const std::string& what) {
 
 void Loading::End(const std::string& title) { SDL_SetWindowTitle(SDL_GL_GetCurrentWindow(), title.c_str()); }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -4,7 +4,7 @@
 
 #include "nodes/view/frame/surface.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // What a window shows before its first picture: how far it has come as a bar, and in words in its title.
 class Loading {
@@ -36,4 +36,4 @@ void DrawLoadingBar(int width_px, int height_px, double share);
 // The same with a fifth of it bright, which goes to its right end in a second, and back in another.
 void DrawWorkBar(int width_px, int height_px, double seconds);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 #include "common/runtime/launch/live_keys.hpp"
 #include "nodes/view/window/loading.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr const char* kTitle = "Rodeira";  // the world has no name yet
@@ -30,4 +30,4 @@ base::Result<ReadWorld> ReadBefore(Surface* surface, const WorldReader& reader) 
   return read.get();
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -9,7 +9,7 @@
 #include "nodes/view/frame/surface.hpp"
 #include "nodes/view/view_settings.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // What a view is to show.
 struct ReadWorld {
@@ -26,4 +26,4 @@ base::Result<std::unique_ptr<Surface>> OpenSurface(SurfaceKind kind, const ViewS
 // window, and has ended when this returns. `surface`: null, or no window: only reads.
 base::Result<ReadWorld> ReadBefore(Surface* surface, const WorldReader& reader);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

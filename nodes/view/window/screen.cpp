@@ -20,7 +20,7 @@
 #include "nodes/view/frame/png.hpp"
 #include "nodes/view/window/reading.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr double kNote_s = 3.0;      // how long a note stands
@@ -61,7 +61,7 @@ std::string MouseHelp(int mouse_button) {
 }
 
 std::string WindowHelp(int mouse_button) {
-  return hands::WindowKeysText([](const hands::WindowKey&) { return true; }) + MouseHelp(mouse_button);
+  return input_devices::WindowKeysText([](const input_devices::WindowKey&) { return true; }) + MouseHelp(mouse_button);
 }
 
 base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
@@ -396,4 +396,4 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
   shown_wall_s_ = end_s;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

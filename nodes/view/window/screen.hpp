@@ -23,7 +23,7 @@
 
 union SDL_Event;
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // A surface with a world on it, and what the person before it chose to see. For one thread, as its surface.
 class Screen {
@@ -136,4 +136,4 @@ std::string MouseHelp(int mouse_button);
 // The window's own keys, and what its button of the mouse does (0: it has none), a line each.
 std::string WindowHelp(int mouse_button);
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -10,7 +10,7 @@
 #include "nodes/view/frame/png.hpp"
 #include "nodes/view/window/screen.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 struct Stage::Hand {
   std::unique_ptr<Screen> screen;
@@ -205,4 +205,4 @@ bool Stage::ReadKeys(Hand& hand) {
   return open;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -17,7 +17,7 @@
 #include "nodes/view/window/reading.hpp"
 #include "nodes/view/view_settings.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // The thread that draws. OpenGL and the window live there and nowhere else. The run's thread only hands over values: what
 // is drawn depends on them alone, not on when.
@@ -82,4 +82,4 @@ class Stage {
   std::thread thread_;  // last: it starts when all else is there
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -9,7 +9,7 @@
 #include "common/vehicle/input_devices/wheel_driver.hpp"
 #include "common/vehicle/input_devices/wheel_setup.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr Uint32 kSubsystems = SDL_INIT_JOYSTICK | SDL_INIT_GAMECONTROLLER;
@@ -45,11 +45,11 @@ void WheelButtons::FindOwn(Button& button) {
   button.seen = SDL_NumJoysticks();
   button.use.guid.clear();
   for (int index = 0; index < button.seen && button.use.guid.empty(); ++index) {
-    const std::filesystem::path file = hands::WheelFileOf(GuidOf(index));
+    const std::filesystem::path file = input_devices::WheelFileOf(GuidOf(index));
     std::error_code problem;
     if (!std::filesystem::exists(file, problem)) continue;
-    const auto wheel = hands::PeekWheel(file, [](const std::string&) { return std::optional<std::string>(); });
-    const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(hands::WheelButton::kCamera)] : std::optional<hands::ButtonUse>();
+    const auto wheel = input_devices::PeekWheel(file, [](const std::string&) { return std::optional<std::string>(); });
+    const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(input_devices::WheelButton::kCamera)] : std::optional<input_devices::ButtonUse>();
     if (use) button.use = {wheel->devices[use->device].guid, static_cast<int>(use->button), true};
   }
 }
@@ -91,4 +91,4 @@ bool WheelButtons::Pressed() {
   return any;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -7,7 +7,7 @@
 struct _SDL_Joystick;
 struct _SDL_GameController;
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // A button of a steering wheel on the window's PC; without a GUID: of the first game pad, by SDL's numbers of their buttons. `own`: what the
 // files of the wheels that are plugged in (`rodeira input setup`) call `camera`, whichever these are, and the rest of it is not looked at.
@@ -46,4 +46,4 @@ class WheelButtons {
   std::vector<Button> buttons_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -54,14 +54,14 @@ editor::Document Map(std::string picture) {
     const Eigen::Vector2d at(25.0 * (i % 32) - 400.0, 25.0 * (i / 32) - 400.0);
     const auto middle = editor::CurveBetween(at, 0.0, at + Eigen::Vector2d(20.0, 12.0), 1.1);
     editor::LaneLook look;
-    look.mode = static_cast<map::LaneMode>(i % 3);
+    look.mode = static_cast<traffic_map::LaneMode>(i % 3);
     if (!editor::LaneAlong(document, middle, look)) std::abort();
   }
   if (!editor::SetPicture(document, std::move(picture), 80.0f)) std::abort();
   return document;
 }
 
-void Measure(desk::Desk& desk, const char* what, int frames, const std::function<void(int)>& act) {
+void Measure(nodes::Desk& desk, const char* what, int frames, const std::function<void(int)>& act) {
   std::vector<double> all;
   const double processor = Processor();
   for (int i = 0; i < frames; ++i) {
@@ -80,14 +80,14 @@ void Try(const char* kind, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "large.motors";
   {
     const auto document = Map(Photograph(kind, folder / "photo"));
-    if (!map::SaveMap(document.map, file)) std::abort();
+    if (!traffic_map::SaveMap(document.map, file)) std::abort();
     fmt::print("{}: {} curves, a map of {:.0f} MB\n", kind, document.map.curves.size(), static_cast<double>(std::filesystem::file_size(file)) / 1e6);
   }
   auto window = window::Window::Open({window::Kind::kOffscreen, 1280, 800, "bench"});
   if (!window) return fmt::print("{}\n", window.error().Text());
   const double processor = Processor();
   const auto begin = Clock::now();
-  desk::Desk desk(*window.value(), file, {});
+  nodes::Desk desk(*window.value(), file, {});
   desk.Frame(0);
   fmt::print("{:28} {:.0f} ms\n", "opened, the map is seen", Milliseconds(begin));
   bool seen = false;
@@ -101,11 +101,11 @@ void Try(const char* kind, const std::filesystem::path& folder) {
   auto& view = desk.work().view;
   Measure(desk, "standing, all of it", 60, [](int) {});
   Measure(desk, "panning, all of it", 120, [&](int i) { view.Go({i < 60 ? 2.0 : -2.0, 1.0}); });
-  desk::ShowAll(desk.work());
+  nodes::ShowAll(desk.work());
   Measure(desk, "zooming in and out", 240, [&](int i) { view.Zoom(i < 120 ? 1.04 : 1.0 / 1.04, {400.0, 300.0}); });
   view.metres_per_px = 0.1;
   Measure(desk, "panning, pixel by pixel", 240, [&](int i) { view.Go({i < 120 ? 3.0 : -3.0, 1.0}); });
-  desk::ShowAll(desk.work());
+  nodes::ShowAll(desk.work());
   auto& session = desk.work().session;
   Measure(desk, "a handle dragged, all of it", 60, [&](int i) {
     const auto move = [i](editor::Document& document) { return editor::MoveHandles(document, {{1000, 0}}, {0.01 * (i + 1), 0.0}); };

@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
 
   const auto launch = launch::Launch::Parse(LaunchText(guid, argc > 2 ? argv[2] : "10", argc > 3 ? argv[3] : "20", size, world), SourceDir() + "/latency.yaml");
   if (!launch) Fail(launch.error().Text());
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   if (!nodes) Fail(nodes.error().Text());
   lockstep::InProcessSettings settings;
   settings.pace = 1.0;

@@ -110,7 +110,7 @@ int main(int argc, char** argv) {
   if (!launch) Fail(launch.error().Text());
   std::map<std::int64_t, Sample> samples;
   {
-    auto nodes = front::LocalNodes::Make(launch.value());
+    auto nodes = cli::LocalNodes::Make(launch.value());
     if (!nodes) Fail(nodes.error().Text());
     lockstep::InProcessSettings settings;
     settings.pace = 1.0;

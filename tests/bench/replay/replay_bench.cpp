@@ -16,7 +16,7 @@
 #include "nodes/view/renderer/painter.hpp"
 #include "tests/common/runtime/replay/made_recording.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using lockstep::Step;
@@ -153,17 +153,17 @@ void SeekAndDraw(benchmark::State& state) {
   if (real == nullptr) return state.SkipWithError("a world is needed: RODEIRA_RECORDING=FILE");
   RecordedMoments moments = MomentsOf(TheHour());
   const auto recorded = replay::Must(replay::RecordedRun::Open(real));
-  const auto world = replay::Must(view::WorldOf(recorded.launch()));
+  const auto world = replay::Must(nodes::WorldOf(recorded.launch()));
   auto settings = replay::Must(LookAt(recorded, {})).settings;
-  auto surface = replay::Must(view::Surface::Open(view::SurfaceKind::kOffscreen, 1280, 720, "bench"));
-  const auto painter = replay::Must(view::PainterOf(*surface, *world, {}));
-  painter->DrawWhole(view::PictureOf(settings, replay::Must(moments.At(0))));
+  auto surface = replay::Must(nodes::Surface::Open(nodes::SurfaceKind::kOffscreen, 1280, 720, "bench"));
+  const auto painter = replay::Must(nodes::PainterOf(*surface, *world, {}));
+  painter->DrawWhole(nodes::PictureOf(settings, replay::Must(moments.At(0))));
   std::uint64_t n = 0;
   double worst_s = 0.0;
   for (auto _ : state) {
     const auto time_ns = static_cast<std::int64_t>(base::RandomUniform({7, n++}) * 3.6e12);
     const auto begin = std::chrono::steady_clock::now();
-    painter->Draw(view::PictureOf(settings, replay::Must(moments.At(time_ns))));
+    painter->Draw(nodes::PictureOf(settings, replay::Must(moments.At(time_ns))));
     benchmark::DoNotOptimize(painter->Read());
     worst_s = std::max(worst_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
@@ -201,4 +201,4 @@ void Open(benchmark::State& state) {
 BENCHMARK(Open)->Iterations(20)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -26,8 +26,8 @@ std::shared_ptr<const World> N222OfVersion1() {
   return world;
 }
 
-std::vector<terrain::GroundQuery> OnRoad(const World& world, double from_t_m, double to_t_m) {
-  std::vector<terrain::GroundQuery> queries;
+std::vector<ground::GroundQuery> OnRoad(const World& world, double from_t_m, double to_t_m) {
+  std::vector<ground::GroundQuery> queries;
   const network::Road& road = world.network()->roads()[0];
   for (std::uint64_t i = 0; i < kPoints; ++i) {
     const Eigen::Vector3d p = road.Surface(base::RandomUniform({i, 1}, 0.0, road.length_m()), base::RandomUniform({i, 2}, from_t_m, to_t_m)).p_W;
@@ -36,8 +36,8 @@ std::vector<terrain::GroundQuery> OnRoad(const World& world, double from_t_m, do
   return queries;
 }
 
-void Ask(benchmark::State& state, terrain::Ground& ground, const std::vector<terrain::GroundQuery>& queries, std::size_t batch) {
-  std::vector<terrain::GroundPoint> points(batch);
+void Ask(benchmark::State& state, ground::Ground& ground, const std::vector<ground::GroundQuery>& queries, std::size_t batch) {
+  std::vector<ground::GroundPoint> points(batch);
   std::size_t at = 0;
   for (auto _ : state) {
     ground.Query({queries.data() + at, batch}, points);
@@ -56,7 +56,7 @@ void TerrainAloneRandom(benchmark::State& state) {
   std::vector<float> heights(static_cast<std::size_t>(posts) * static_cast<std::size_t>(posts));
   for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(i % 1009) * 0.5F;
   spec.grid = std::make_shared<terrain::ElevationGrid>(terrain::ElevationGrid::Frame{posts, posts, 0.0, 0.0, edge, edge}, std::move(heights));
-  std::vector<terrain::GroundQuery> queries;
+  std::vector<ground::GroundQuery> queries;
   for (std::uint64_t i = 0; i < kPoints; ++i) queries.push_back({base::RandomUniform({i, 1}, 0.0, edge), base::RandomUniform({i, 2}, 0.0, edge)});
   Ask(state, *World::Make(spec)->MakeGround(), queries, 64);
 }
@@ -66,14 +66,14 @@ BENCHMARK(TerrainAloneRandom)->Arg(513)->Arg(8193);
 void N222Patch(benchmark::State& state) {
   const auto world = N222();
   const auto ground = world->MakeGround();
-  std::vector<terrain::GroundPatch> patches;
+  std::vector<ground::GroundPatch> patches;
   for (std::uint64_t i = 0; i < 1024; ++i) {
     const network::Road& road = world->network()->roads()[0];
     const double s = base::RandomUniform({i, 1}, 1.0, road.length_m() - 1.0);
     const Eigen::Vector3d p = road.Surface(s, base::RandomUniform({i, 2}, -2.5, 2.5)).p_W;
     patches.push_back({p.x(), p.y(), road.axis().Evaluate(s).heading_rad, 0.2, 0.18, 20, 20, p.z()});
   }
-  std::vector<terrain::GroundPoint> points(400);
+  std::vector<ground::GroundPoint> points(400);
   std::size_t i = 0;
   for (auto _ : state) {
     ground->Patch(patches[i++ & 1023], points);
@@ -95,14 +95,14 @@ void AskPatches(benchmark::State& state, const std::string& text, double to_s_m)
   const auto world = World::Parse(text, "one.yaml");
   if (!world) return state.SkipWithError(world.error().Text().c_str());
   const network::Road& on = world.value()->network()->roads()[0];
-  std::vector<terrain::GroundPatch> patches;
+  std::vector<ground::GroundPatch> patches;
   for (std::uint64_t i = 0; i < 1024; ++i) {
     const double s = base::RandomUniform({i, 1}, 1.0, std::min(to_s_m, on.length_m()) - 1.0);
     const Eigen::Vector3d p = on.Surface(s, base::RandomUniform({i, 2}, -2.5, 2.5)).p_W;
     patches.push_back({p.x(), p.y(), on.axis().Evaluate(s).heading_rad, 0.2, 0.18, 20, 20, p.z()});
   }
   const auto ground = world.value()->MakeGround();
-  std::vector<terrain::GroundPoint> points(400);
+  std::vector<ground::GroundPoint> points(400);
   std::size_t i = 0;
   for (auto _ : state) {
     ground->Patch(patches[i++ & 1023], points);
@@ -139,7 +139,7 @@ void FilePatch(benchmark::State& state, const char* name, bool overlapping) {
   if (!world) return state.SkipWithError("no such file");
   const network::Network& network = *world.value()->network();
   const auto lanes = network.Lanes();
-  std::vector<terrain::GroundPatch> patches;
+  std::vector<ground::GroundPatch> patches;
   std::vector<network::Surfacing> surfaces;
   for (std::uint64_t i = 0; patches.size() < 1024; ++i) {
     const network::LaneKey key = lanes[base::RandomBits({i, 1}) % lanes.size()];
@@ -147,11 +147,11 @@ void FilePatch(benchmark::State& state, const char* name, bool overlapping) {
     const double s = base::RandomUniform({i, 2}, network.Section(key).s_m, network.Section(key).end_s_m);
     const Eigen::Vector3d p = network.Centre(key, s);
     network.Surfaces(p.x(), p.y(), surfaces);
-    if (overlapping && !(surfaces.size() > 1 && surfaces[0].place.z_m - surfaces[1].place.z_m < terrain::kHintAbove_m)) continue;
+    if (overlapping && !(surfaces.size() > 1 && surfaces[0].place.z_m - surfaces[1].place.z_m < ground::kHintAbove_m)) continue;
     patches.push_back({p.x(), p.y(), network.roads()[key.road].axis().Evaluate(s).heading_rad, 0.2, 0.18, 20, 20, p.z()});
   }
   const auto ground = world.value()->MakeGround();
-  std::vector<terrain::GroundPoint> points(400);
+  std::vector<ground::GroundPoint> points(400);
   std::size_t i = 0;
   for (auto _ : state) {
     ground->Patch(patches[i++ & 1023], points);
@@ -164,7 +164,7 @@ BENCHMARK_CAPTURE(FilePatch, BankedStraight, "esmini_straight_500_superelevation
 BENCHMARK_CAPTURE(FilePatch, RolledBy45Degrees, "esmini_two_pitched_and_rolled_roads.xodr", false)->Unit(benchmark::kMicrosecond);
 
 void N222TerrainRandom(benchmark::State& state) {
-  std::vector<terrain::GroundQuery> queries;
+  std::vector<ground::GroundQuery> queries;
   for (std::uint64_t i = 0; i < kPoints; ++i) queries.push_back({base::RandomUniform({i, 1}, -2560.0, 2560.0), base::RandomUniform({i, 2}, -2560.0, 2560.0)});
   Ask(state, *N222()->MakeGround(), queries, 64);
 }
@@ -187,7 +187,7 @@ BENCHMARK(N222OfVersion1BlendRandom);
 
 void N222FourWheels(benchmark::State& state) {
   const auto world = N222();
-  std::vector<terrain::GroundQuery> queries;
+  std::vector<ground::GroundQuery> queries;
   for (std::size_t i = 0; i < kPoints / 4; ++i) {  // 20 m/s at 1 kHz
     for (const auto& [forward, left] : {std::pair{2.6, 0.75}, {2.6, -0.75}, {0.0, 0.75}, {0.0, -0.75}}) {
       const Eigen::Vector3d p = world->network()->roads()[0].Surface(100.0 + 0.02 * static_cast<double>(i) + forward, -1.45 + left).p_W;

@@ -93,9 +93,9 @@ std::optional<Driven> Drive(const std::string& folder, double until_s, double fr
 void BM_Sumo(benchmark::State& state) {
   if (std::system("command -v netconvert sumo >/dev/null") != 0) return state.SkipWithError("SUMO is not installed (package sumo)");
   ::setenv("SUMO_HOME", "/usr/share/sumo", 0);  // where Debian puts the types without which netconvert reads no OpenDRIVE
-  const auto map = map::LoadLaneMap(Grid(state.range(0)));
+  const auto map = traffic_map::LoadLaneMap(Grid(state.range(0)));
   if (!map) return state.SkipWithError(kNoGrids);
-  const auto drawn = map::ToOpenDrive(map.value(), "grid");
+  const auto drawn = traffic_map::ToOpenDrive(map.value(), "grid");
   const auto scratch = base::TemporaryFolder::Make("sumo");
   if (!drawn || !scratch) return state.SkipWithError("no OpenDRIVE of the grid could be written");
   const std::string folder = scratch.value().path().string();

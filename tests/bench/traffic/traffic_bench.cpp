@@ -23,7 +23,7 @@ double HeapBytes() {
 
 // A town with so many streets each way and so many vehicles, after 20 simulated seconds; nothing, and the state says why, where there is no town.
 std::optional<TrafficModel> Warm(benchmark::State& state) {
-  const auto network = map::LoadNetwork(Grid(state.range(0)));
+  const auto network = traffic_map::LoadNetwork(Grid(state.range(0)));
   if (!network) {
     state.SkipWithError(kNoGrids);
     return std::nullopt;
@@ -77,7 +77,7 @@ BENCHMARK(BM_PlanarStepFromFarMemory)->Args({4, 100})->Args({10, 1000})->Args({3
 // Full physics, 1 kHz below decisions of 100 Hz, SUELO under every wheel: 10 ms of the town of 10 × 10 on one thread, and how many of such cars one core
 // drives in real time.
 void BM_FullPhysics(benchmark::State& state) {
-  const auto network = map::LoadNetwork(Grid(10));
+  const auto network = traffic_map::LoadNetwork(Grid(10));
   if (!network) return state.SkipWithError(kNoGrids);
   TrafficSettings settings;
   settings.vehicles = static_cast<std::uint32_t>(state.range(0));
@@ -119,7 +119,7 @@ BENCHMARK(BM_HeatMapOfAMetre)->Args({4, 100})->Args({10, 1000})->Args({32, 10000
 
 // The heap that vehicles take beyond the map, a vehicle.
 void BM_Memory(benchmark::State& state) {
-  const auto network = map::LoadNetwork(Grid(10));
+  const auto network = traffic_map::LoadNetwork(Grid(10));
   if (!network) return state.SkipWithError(kNoGrids);
   const auto bytes = [&](std::uint32_t vehicles) {
     TrafficSettings settings;

@@ -14,10 +14,10 @@
 #include "common/vehicle/dynamics/multibody_model.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
-BicycleModel DefaultCar(terrain::Ground& ground, double speed_mps) {
+BicycleModel DefaultCar(ground::Ground& ground, double speed_mps) {
   auto loaded = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml");
   BicycleModel car = static_cast<BicycleModel&>(*loaded.value());
   (void)car.Initialise({.speed_mps = speed_mps}, ground);
@@ -25,7 +25,7 @@ BicycleModel DefaultCar(terrain::Ground& ground, double speed_mps) {
 }
 
 void Drive(benchmark::State& state, const Controls& controls, double speed_mps) {
-  terrain::PlaneGround ground;
+  ground::PlaneGround ground;
   BicycleModel car = DefaultCar(ground, speed_mps);
   for (auto _ : state) car.Step(controls, ground, 0.001);
   state.SetItemsProcessed(state.iterations());
@@ -35,7 +35,7 @@ void BM_StepStanding(benchmark::State& state) { Drive(state, {.brake = 1.0}, 0.0
 void BM_StepDriving(benchmark::State& state) { Drive(state, {.steering_wheel_rad = 0.3, .throttle = 0.5}, 20.0); }
 
 void BM_StepWithDigest(benchmark::State& state) {
-  terrain::PlaneGround ground;
+  ground::PlaneGround ground;
   BicycleModel car = DefaultCar(ground, 20.0);
   base::StateWriter writer(base::StateWriter::Names::kWithout);
   for (auto _ : state) {
@@ -47,7 +47,7 @@ void BM_StepWithDigest(benchmark::State& state) {
 }
 
 void BM_Initialise(benchmark::State& state) {
-  terrain::PlaneGround ground(Eigen::Vector3d::Zero(), 0.1, 0.05);
+  ground::PlaneGround ground(Eigen::Vector3d::Zero(), 0.1, 0.05);
   BicycleModel car = DefaultCar(ground, 0.0);
   for (auto _ : state) benchmark::DoNotOptimize(car.Initialise({.heading_rad = 0.3}, ground).ok());
 }
@@ -56,7 +56,7 @@ void BM_Initialise(benchmark::State& state) {
 void BM_PrototypeLaneChange(benchmark::State& state) {
   auto loaded = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/prototype.yaml");
   auto& car = static_cast<MultibodyModel&>(*loaded.value());
-  terrain::PlaneGround ground;
+  ground::PlaneGround ground;
   std::vector<double> microseconds;
   double iterations = 0.0, projections = 0.0, factorisations = 0.0, most = 0.0;
   int step = 0;
@@ -88,7 +88,7 @@ void BM_PrototypeLaneChange(benchmark::State& state) {
 
 void BM_PrototypeInitialise(benchmark::State& state) {
   auto loaded = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/prototype.yaml");
-  terrain::PlaneGround ground(Eigen::Vector3d::Zero(), 0.1, 0.05);
+  ground::PlaneGround ground(Eigen::Vector3d::Zero(), 0.1, 0.05);
   for (auto _ : state) benchmark::DoNotOptimize(loaded.value()->Initialise({.heading_rad = 0.3}, ground).ok());
 }
 
@@ -105,7 +105,7 @@ void BM_MagicFormula(benchmark::State& state) {
 // Counter: how many cars go in real time on this core.
 void BM_CarArray(benchmark::State& state) {
   constexpr double kDecision_s = 0.01;
-  terrain::PlaneGround ground;
+  ground::PlaneGround ground;
   auto loaded = LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml");
   BicycleSettings settings = static_cast<BicycleModel&>(*loaded.value()).settings();
   if (state.range(1) != 0) {
@@ -142,4 +142,4 @@ BENCHMARK(BM_PrototypeInitialise)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_MagicFormula);
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

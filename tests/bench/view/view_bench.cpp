@@ -20,7 +20,7 @@
 #include "nodes/view/frame/png.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 const road::World& N222() {
@@ -299,4 +299,4 @@ void Png(benchmark::State& state) {
 BENCHMARK(Png)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

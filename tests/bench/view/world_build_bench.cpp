@@ -11,7 +11,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,7 +38,7 @@ void Count(benchmark::State& state, const DatabaseReport& report) {
 }
 
 void Fresh(benchmark::State& state, const fs::path& file) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   DatabaseReport report;
   int times = 0;
   for (auto _ : state) {
@@ -48,7 +48,7 @@ void Fresh(benchmark::State& state, const fs::path& file) {
 }
 
 void Unchanged(benchmark::State& state, const fs::path& file) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   DatabaseReport report;
   if (!Build(state, file, folder.path() / "out", report)) return;
   for (auto _ : state) {
@@ -59,7 +59,7 @@ void Unchanged(benchmark::State& state, const fs::path& file) {
 
 // One sign of HASTE's main road, a metre farther each time.
 void AMovedSign(benchmark::State& state) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   std::string text = base::ReadText(fs::path(SourceDir()) / "configs/worlds/haste.yaml").value();
   const std::string sign = "{type: town, text: Alvite, s_m: 3918.204}";
   const std::size_t at = text.find(sign);
@@ -95,4 +95,4 @@ BENCHMARK(AMovedSign)->Arg(0)->Iterations(1)->Unit(benchmark::kSecond)->UseRealT
 BENCHMARK(FreshTown04)->Arg(0)->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime()->MeasureProcessCPUTime();
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

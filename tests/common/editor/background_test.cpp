@@ -48,7 +48,7 @@ TEST_P(APicture, ComesInWithItsPixels) {
   Write(path, kind, bands);
   const auto bytes = ImportPicture(path);
   ASSERT_TRUE(bytes.ok()) << bytes.error().Text();
-  const auto info = map::ReadPictureInfo(bytes.value());
+  const auto info = traffic_map::ReadPictureInfo(bytes.value());
   ASSERT_TRUE(info) << "neither PNG nor JPEG";
   EXPECT_EQ(info->width_px, kWidth);
   EXPECT_EQ(info->height_px, kHeight);

@@ -12,37 +12,37 @@ const std::string kBeside =
     "rodeira: motors/1\nheights_m:\n  1: [0, 0, 1, 1]\nlights:\n  - phases:\n      - {green: [1], for_s: 20}\n      - {green: [2, 3], for_s: 10}\n"
     "signs:\n  - {lane: 2, kind: give_way}\nflows_vehph:\n  1: 300\n";
 
-History Good() { return History(Parsed(map::GoodMap(), kBeside)); }
+History Good() { return History(Parsed(traffic_map::GoodMap(), kBeside)); }
 
 TEST(Command, TheThesisExampleGivesTheFileThatItDescribes) {
   History history(EmptyDocument());
   // Two parallel curves, numbered by themselves; a start lane between them with the number 1 (figures 12 to 14).
   ExpectUndone(history, [](Document& d) { return NewCurve(d, Straight({0, 3}, {40, 3})); });
   ExpectUndone(history, [](Document& d) { return NewCurve(d, Straight({0, 0}, {40, 0})); });
-  ExpectUndone(history, [](Document& d) { return NewLane(d, Side(1), Side(2, false, map::BorderType::kDashedSame), map::LaneMode::kStart); });
+  ExpectUndone(history, [](Document& d) { return NewLane(d, Side(1), Side(2, false, traffic_map::BorderType::kDashedSame), traffic_map::LaneMode::kStart); });
   ExpectUndone(history, [](Document& d) { return NewCurve(d, Straight({40, 3}, {80, 3})); });
   ExpectUndone(history, [](Document& d) { return NewCurve(d, Straight({80, 0}, {40, 0})); });
-  ExpectUndone(history, [](Document& d) { return NewLane(d, Side(3), Side(4, true), map::LaneMode::kEnd); });
+  ExpectUndone(history, [](Document& d) { return NewLane(d, Side(3), Side(4, true), traffic_map::LaneMode::kEnd); });
   ExpectUndone(history, [](Document& d) { return NewConnection(d, 1, 2, true); });
-  ExpectUndone(history, [](Document& d) { return SetPicture(d, map::kPng2x1, 7.5f); });
-  EXPECT_EQ(map::WriteMap(history.document().map),
+  ExpectUndone(history, [](Document& d) { return SetPicture(d, traffic_map::kPng2x1, 7.5f); });
+  EXPECT_EQ(traffic_map::WriteMap(history.document().map),
             "p,1,0,14.70026,3,13.333333,14.70026,3,26.666666,14.70026,3,40,14.70026,3\n"
             "p,2,0,14.70026,0,13.333333,14.70026,0,26.666666,14.70026,0,40,14.70026,0\n"
             "p,3,40,14.70026,3,53.333332,14.70026,3,66.666664,14.70026,3,80,14.70026,3\n"
             "p,4,80,14.70026,0,66.666664,14.70026,0,53.333332,14.70026,0,40,14.70026,0\n"
             "l,1,1,False,1,2,False,4,1\nl,2,3,False,1,4,True,1,2\nc,1,2,True,0,0,0\ns,7.5\ni\n" +
-                map::kPng2x1);
-  for (const map::Finding& finding : map::CheckMap(history.document().map, history.document().companion))
-    EXPECT_NE(finding.severity, map::Severity::kError) << finding.Text();
+                traffic_map::kPng2x1);
+  for (const traffic_map::Finding& finding : traffic_map::CheckMap(history.document().map, history.document().companion))
+    EXPECT_NE(finding.severity, traffic_map::Severity::kError) << finding.Text();
   while (history.CanUndo()) history.Undo();
-  EXPECT_EQ(map::WriteMap(history.document().map), "s,10\ni\n");
-  ExpectRefused(history, [](Document& d) { return NewLane(d, Side(5), Side(6), map::LaneMode::kNone); }, "no lane was made: the left curve 5 does not exist");  // figure 16
+  EXPECT_EQ(traffic_map::WriteMap(history.document().map), "s,10\ni\n");
+  ExpectRefused(history, [](Document& d) { return NewLane(d, Side(5), Side(6), traffic_map::LaneMode::kNone); }, "no lane was made: the left curve 5 does not exist");  // figure 16
 }
 
 TEST(Command, EveryOneIsUndoneToTheByte) {
   History history = Good();
   ExpectUndone(history, [](Document& d) { return MoveHandles(d, {{3, 3}, {1, 3}, {3, 0}}, {0.25, -1.5}); });
-  ExpectUndone(history, [](Document& d) { return SetLane(d, {2, Side(3, true), Side(4), map::LaneMode::kNone}); });
+  ExpectUndone(history, [](Document& d) { return SetLane(d, {2, Side(3, true), Side(4), traffic_map::LaneMode::kNone}); });
   ExpectUndone(history, [](Document& d) { return SetStop(d, 1, 2, true); });
   ExpectUndone(history, [](Document& d) { return SetScale(d, 12.5f); });
   ExpectUndone(history, [](Document& d) { return SetPicture(d, "", 3.0f); });
@@ -50,7 +50,7 @@ TEST(Command, EveryOneIsUndoneToTheByte) {
   EXPECT_EQ(history.document().map.scale.value.value, 12.0f);
   ExpectUndone(history, [](Document& d) { return SetHeights(d, 2, {1, 2, 3, 4.5}); });
   ExpectUndone(history, [](Document& d) { return SetHeights(d, 1, {}); });
-  ExpectUndone(history, [](Document& d) { return SetSigns(d, {{3, map::SignKind::kSpeedLimit, 5.0, 30.0, 0}}); });
+  ExpectUndone(history, [](Document& d) { return SetSigns(d, {{3, traffic_map::SignKind::kSpeedLimit, 5.0, 30.0, 0}}); });
   ExpectUndone(history, [](Document& d) { return SetFlow(d, 1, 720.0); });
   ExpectUndone(history, [](Document& d) { return SetFlow(d, 1, 0.0); });
   ExpectUndone(history, [](Document& d) { return SetLights(d, {}); });
@@ -63,7 +63,7 @@ TEST(Command, EveryOneIsUndoneToTheByte) {
   EXPECT_TRUE(history.document().map.curves.empty());
   while (history.CanUndo()) history.Undo();
   EXPECT_EQ(BytesOf(history.document()), BytesOf(Good().document()));
-  EXPECT_EQ(map::WriteMap(history.document().map), map::GoodMap());
+  EXPECT_EQ(traffic_map::WriteMap(history.document().map), traffic_map::GoodMap());
 }
 
 TEST(Command, ADeletedElementTakesAlongWhatHangsOnIt) {
@@ -83,8 +83,8 @@ TEST(Command, ADeletedElementTakesAlongWhatHangsOnIt) {
 
 TEST(Command, WhatCannotBeIsRefusedWithASentence) {
   History history = Good();
-  ExpectRefused(history, [](Document& d) { return NewLane(d, Side(1), Side(1), map::LaneMode::kNone); }, "curve 1 is on both sides");
-  ExpectRefused(history, [](Document& d) { return SetLane(d, {9, Side(1), Side(2), map::LaneMode::kNone}); }, "lane 9 does not exist");
+  ExpectRefused(history, [](Document& d) { return NewLane(d, Side(1), Side(1), traffic_map::LaneMode::kNone); }, "curve 1 is on both sides");
+  ExpectRefused(history, [](Document& d) { return SetLane(d, {9, Side(1), Side(2), traffic_map::LaneMode::kNone}); }, "lane 9 does not exist");
   ExpectRefused(history, [](Document& d) { return NewConnection(d, 1, 9, false); }, "lane 9 does not exist");
   ExpectRefused(history, [](Document& d) { return NewConnection(d, 1, 1, false); }, "back into it");
   ExpectRefused(history, [](Document& d) { return NewConnection(d, 1, 2, true); }, "connected to lane 2 already");
@@ -99,8 +99,8 @@ TEST(Command, WhatCannotBeIsRefusedWithASentence) {
   ExpectRefused(history, [](Document& d) { return SetFlow(d, 2, 5.0); }, "no start lane");
   ExpectRefused(history, [](Document& d) { return SetFlow(d, 1, -5.0); }, "the flow is -5");
   ExpectRefused(history, [](Document& d) { return SetHeights(d, 1, {0, 0, 0, 1e5}); }, "the height is 100000 m");
-  ExpectRefused(history, [](Document& d) { return SetSigns(d, {{9, map::SignKind::kStop, 0, 0, 0}}); }, "lane 9 does not exist");
-  ExpectRefused(history, [](Document& d) { return SetSigns(d, {{1, map::SignKind::kSpeedLimit, 0, 0, 0}}); }, "the limit is 0 km/h");
+  ExpectRefused(history, [](Document& d) { return SetSigns(d, {{9, traffic_map::SignKind::kStop, 0, 0, 0}}); }, "lane 9 does not exist");
+  ExpectRefused(history, [](Document& d) { return SetSigns(d, {{1, traffic_map::SignKind::kSpeedLimit, 0, 0, 0}}); }, "the limit is 0 km/h");
   ExpectRefused(history, [](Document& d) { return SetLights(d, {lights::LightPlan{}}); }, "without a phase");
   ExpectRefused(history, [](Document& d) { return LaneAlong(d, Straight({0, 0}, {9, 0}), {.width_m = 0.1}); }, "the lane is 0.1 m wide");
   ExpectRefused(history, [](Document& d) { return LaneAlong(d, Straight({0, 0}, {0, 0}), {}); }, "has no length");

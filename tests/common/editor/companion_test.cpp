@@ -5,7 +5,7 @@
 
 #include "tests/common/editor/drawing.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 const std::string kText =
@@ -77,4 +77,4 @@ TEST(Companion, WhatIsWrongIsSaid) {
 }
 
 }  // namespace
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -12,11 +12,11 @@ namespace rodeira::editor {
 
 inline Document Parsed(const std::string& bytes, const std::string& companion = "") {
   Document document;
-  auto map = map::ParseMap(bytes, "x.motors");
+  auto map = traffic_map::ParseMap(bytes, "x.motors");
   EXPECT_TRUE(map.ok()) << (map.ok() ? "" : map.error().Text());
   if (map.ok()) document.map = std::move(map).value();
   if (companion.empty()) return document;
-  const auto heights = map::ParseHeights(companion, "x.motors.yaml");
+  const auto heights = traffic_map::ParseHeights(companion, "x.motors.yaml");
   EXPECT_TRUE(heights.ok()) << (heights.ok() ? "" : heights.error().Text());
   if (heights.ok()) document.companion = heights.value();
   return document;
@@ -24,7 +24,7 @@ inline Document Parsed(const std::string& bytes, const std::string& companion = 
 
 inline Points Straight(const Eigen::Vector2d& from, const Eigen::Vector2d& to) { return {from, from + (to - from) / 3.0, to - (to - from) / 3.0, to}; }
 
-inline map::LaneSide Side(std::int32_t curve, bool inverted = false, map::BorderType type = map::BorderType::kBoundary) { return {curve, inverted, type}; }
+inline traffic_map::LaneSide Side(std::int32_t curve, bool inverted = false, traffic_map::BorderType type = traffic_map::BorderType::kBoundary) { return {curve, inverted, type}; }
 
 // The command does something, undo gives the same bytes again, redo those after it.
 template <class Command>

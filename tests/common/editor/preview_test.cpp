@@ -20,11 +20,11 @@ TEST(Preview, ItIsTheModelWhateverTheFramesAre) {
   ASSERT_TRUE(preview.ok()) << preview.error().Text();
   for (int i = 0; i < 300; ++i) preview.value().Run(0.033);
   for (int i = 0; i < 100; ++i) preview.value().Run(0.001);
-  const auto lanes = map::MakeLaneMap(history.document().map, history.document().companion, "map");
+  const auto lanes = traffic_map::MakeLaneMap(history.document().map, history.document().companion, "map");
   traffic::TrafficSettings settings;
   settings.vehicles = 12;
   settings.seed = 7;
-  auto model = traffic::TrafficModel::Make(settings, map::ToNetwork(lanes.value(), "map").value(), {});
+  auto model = traffic::TrafficModel::Make(settings, traffic_map::ToNetwork(lanes.value(), "map").value(), {});
   ASSERT_TRUE(model.ok());
   const auto steps = static_cast<int>(std::lround(preview.value().time_s() / Preview::kStep_s));
   EXPECT_NEAR(preview.value().time_s(), 10.0, 0.011);
@@ -34,7 +34,7 @@ TEST(Preview, ItIsTheModelWhateverTheFramesAre) {
 }
 
 TEST(Preview, HeatLiesWhereSomebodyDrove) {
-  History history(Parsed(map::GoodMap()));
+  History history(Parsed(traffic_map::GoodMap()));
   auto preview = Preview::Start(history.document(), {2, 1});
   ASSERT_TRUE(preview.ok()) << preview.error().Text();
   EXPECT_TRUE(preview.value().Heat().empty());
@@ -52,7 +52,7 @@ TEST(Preview, HeatLiesWhereSomebodyDrove) {
 
 // Signs of the companion, as traffic reads them from the roads that the map becomes.
 TEST(Preview, SignsAreObeyed) {
-  Document document = Parsed(map::GoodMap(), "rodeira: motors/1\nsigns:\n  - {lane: 1, kind: give_way}\n  - {lane: 2, kind: speed_limit, limit_kmh: 18, before_end_m: 20}\n  - {lane: 3, kind: priority}\n");
+  Document document = Parsed(traffic_map::GoodMap(), "rodeira: motors/1\nsigns:\n  - {lane: 1, kind: give_way}\n  - {lane: 2, kind: speed_limit, limit_kmh: 18, before_end_m: 20}\n  - {lane: 3, kind: priority}\n");
   document.map.connections[1].value.stop = false;
   const auto preview = Preview::Start(document, {2, 1});
   ASSERT_TRUE(preview.ok()) << preview.error().Text();
@@ -75,7 +75,7 @@ TEST(Preview, SignsAreObeyed) {
 
 // Nobody is there before somebody has arrived, and who arrives is whom the flow's own law says.
 TEST(Preview, FlowsOfStartLanesBringTheVehicles) {
-  const Document document = Parsed(map::GoodMap(), "rodeira: motors/1\nflows_vehph: {1: 600}\n");
+  const Document document = Parsed(traffic_map::GoodMap(), "rodeira: motors/1\nflows_vehph: {1: 600}\n");
   auto preview = Preview::Start(document, {20, 5});
   ASSERT_TRUE(preview.ok()) << preview.error().Text();
   traffic::FlowSettings flow;
@@ -95,8 +95,8 @@ TEST(Preview, FlowsOfStartLanesBringTheVehicles) {
 }
 
 TEST(Preview, AFaultyMapIsRefusedWithTheFault) {
-  Document document = Parsed(map::GoodMap());
-  document.map.lanes[0].value.mode = map::LaneMode::kNone;
+  Document document = Parsed(traffic_map::GoodMap());
+  document.map.lanes[0].value.mode = traffic_map::LaneMode::kNone;
   const auto preview = Preview::Start(document, {});
   ASSERT_FALSE(preview.ok());
   EXPECT_NE(preview.error().Text().find("no lane is a start lane"), std::string::npos) << preview.error().Text();

@@ -15,7 +15,7 @@ namespace {
 
 class Walk {
  public:
-  explicit Walk(std::uint64_t seed) : seed_(seed), history_(Parsed(map::GoodMap())) {}
+  explicit Walk(std::uint64_t seed) : seed_(seed), history_(Parsed(traffic_map::GoodMap())) {}
 
   void Step() {
     switch (Below(24)) {
@@ -30,7 +30,7 @@ class Walk {
       case 11: if (Below(40) == 0) Do([&](Document& d) { return Reset(d); }); break;
       case 12: Do([&](Document& d) { return SetHeights(d, Number(), {0, 0, double(Below(3)), 0}); }); break;
       case 13: Do([&](Document& d) { return SetFlow(d, Number(), double(Below(3)) * 100.0); }); break;
-      case 14: Do([&](Document& d) { return SetSigns(d, {{Number(), map::SignKind(Below(4)), 3.0, 50.0, 0}, {Number(), map::SignKind::kStop, 0, 0, 0}}); }); break;
+      case 14: Do([&](Document& d) { return SetSigns(d, {{Number(), traffic_map::SignKind(Below(4)), 3.0, 50.0, 0}, {Number(), traffic_map::SignKind::kStop, 0, 0, 0}}); }); break;
       case 15: Do([&](Document& d) { return SetLights(d, {AnyLights()}); }); break;
       case 16: Do([&](Document& d) { return SetPicture(d, std::string(Below(9), 'i'), 1.0f + float(Below(5))); }); break;
       case 17: Do([&](Document& d) { return ScaleByDistance(d, Point(), Point(), double(Below(100))); }); break;
@@ -58,8 +58,8 @@ class Walk {
   std::uint64_t Below(std::uint64_t end) { return base::RandomBits({seed_, count_++}) % end; }
   std::int32_t Number() { return static_cast<std::int32_t>(Below(14)); }
   Eigen::Vector2d Point() { return {double(Below(4000)) * 0.05 - 100.0, double(Below(4000)) * 0.05 - 100.0}; }
-  map::LaneSide AnySide() { return {Number(), Below(2) == 1, map::BorderType(Below(map::kBorderTypes))}; }
-  map::LaneMode AnyMode() { return map::LaneMode(Below(3)); }
+  traffic_map::LaneSide AnySide() { return {Number(), Below(2) == 1, traffic_map::BorderType(Below(traffic_map::kBorderTypes))}; }
+  traffic_map::LaneMode AnyMode() { return traffic_map::LaneMode(Below(3)); }
   lights::LightPlan AnyLights() {
     lights::LightPlan plan;
     for (int i = 0; i < 2; ++i) plan.phases.push_back({{std::to_string(Number())}, 5.0 + double(Below(20)), ""});
@@ -95,17 +95,17 @@ void ExpectWhole(const Document& document) {
 
 // The files of this document, read again, say the same.
 void ExpectReadAgain(const Document& document) {
-  const std::string bytes = map::WriteMap(document.map);
+  const std::string bytes = traffic_map::WriteMap(document.map);
   EXPECT_EQ(bytes.find('i'), bytes.find("\ni\n") + 1) << "where the original program looks for the picture (A.17)";
-  const auto map = map::ParseMap(bytes, "x.motors");
+  const auto map = traffic_map::ParseMap(bytes, "x.motors");
   ASSERT_TRUE(map.ok()) << map.error().Text();
-  EXPECT_EQ(map::WriteMap(map.value()), bytes);
+  EXPECT_EQ(traffic_map::WriteMap(map.value()), bytes);
   EXPECT_EQ(map.value().picture, document.map.picture);
-  const std::string text = map::CompanionText(document.companion);
+  const std::string text = traffic_map::CompanionText(document.companion);
   if (text.empty()) return;
-  const auto heights = map::ParseHeights(text, "x.motors.yaml");
+  const auto heights = traffic_map::ParseHeights(text, "x.motors.yaml");
   ASSERT_TRUE(heights.ok()) << heights.error().Text();
-  EXPECT_EQ(map::CompanionText(heights.value()), text);
+  EXPECT_EQ(traffic_map::CompanionText(heights.value()), text);
 }
 
 TEST(RandomWalk, TenThousandActionsKeepTheMapWholeAndAreAllUndone) {
@@ -123,8 +123,8 @@ TEST(RandomWalk, TenThousandActionsKeepTheMapWholeAndAreAllUndone) {
   while (walk.history().CanRedo()) walk.history().Redo();
   const std::string last = BytesOf(walk.history().document());
   while (walk.history().CanUndo()) walk.history().Undo();
-  EXPECT_EQ(map::WriteMap(walk.history().document().map), map::GoodMap());
-  EXPECT_EQ(map::CompanionText(walk.history().document().companion), "");
+  EXPECT_EQ(traffic_map::WriteMap(walk.history().document().map), traffic_map::GoodMap());
+  EXPECT_EQ(traffic_map::CompanionText(walk.history().document().companion), "");
   while (walk.history().CanRedo()) walk.history().Redo();
   EXPECT_TRUE(BytesOf(walk.history().document()) == last);
 }

@@ -10,7 +10,7 @@ namespace rodeira::editor {
 namespace {
 
 // Two lanes one behind the other from x = 0 to 60, a turn to the left from (30, 0); sample_map.hpp.
-Document Good() { return Parsed(map::GoodMap()); }
+Document Good() { return Parsed(traffic_map::GoodMap()); }
 
 TEST(Selection, WhatIsUnderThePointer) {
   const Document document = Good();
@@ -43,7 +43,7 @@ TEST(Selection, AFindingChoosesItsElement) {
   document.map.lanes[1].value.left.curve = 77;
   document.map.connections.push_back({{3, 99, false, {}}, "", 0});
   bool lane = false, connection = false;
-  for (const map::Finding& finding : map::CheckMap(document.map, document.companion)) {
+  for (const traffic_map::Finding& finding : traffic_map::CheckMap(document.map, document.companion)) {
     const Selection chosen = Chosen(finding);
     if (finding.sentence == "its left curve 77 does not exist") lane = chosen.lanes == std::set<std::int32_t>{2};
     if (finding.sentence == "lane 99 does not exist") connection = chosen.connections.contains({3, 99});

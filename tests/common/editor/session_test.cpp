@@ -27,7 +27,7 @@ TEST_F(ASession, TheLastActionIsSaid) {
   EXPECT_TRUE(session_.Do([](Document& d) { return NewCurve(d, Straight({0, 0}, {9, 0})); }));
   EXPECT_EQ(session_.said().text, "curve 1 made");
   EXPECT_TRUE(session_.said().good);
-  EXPECT_FALSE(session_.Do([](Document& d) { return NewLane(d, Side(5), Side(6), map::LaneMode::kNone); }));
+  EXPECT_FALSE(session_.Do([](Document& d) { return NewLane(d, Side(5), Side(6), traffic_map::LaneMode::kNone); }));
   EXPECT_EQ(session_.said().text, "no lane was made: the left curve 5 does not exist");
   EXPECT_FALSE(session_.said().good);
   session_.Undo();
@@ -39,27 +39,27 @@ TEST_F(ASession, TheLastActionIsSaid) {
 }
 
 TEST_F(ASession, AFaultyMapIsNotSavedAndTheFaultyElementIsChosen) {
-  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
+  ASSERT_TRUE(base::WriteWhole(At("a.motors"), traffic_map::GoodMap()).ok());
   ASSERT_TRUE(session_.Open(At("a.motors")));
   EXPECT_TRUE(session_.said().good);
   EXPECT_FALSE(session_.unsaved());
-  ASSERT_TRUE(session_.Do([](Document& d) { return NewLane(d, Side(1), Side(4), map::LaneMode::kStart); }));
+  ASSERT_TRUE(session_.Do([](Document& d) { return NewLane(d, Side(1), Side(4), traffic_map::LaneMode::kStart); }));
   EXPECT_TRUE(session_.unsaved());
   EXPECT_FALSE(session_.Save(At("a.motors")));
   EXPECT_EQ(session_.said().text, "not saved: lane 4: no connection comes or goes");
   EXPECT_EQ(session_.selection.lanes, std::set<std::int32_t>{4});
-  EXPECT_EQ(base::ReadText(At("a.motors")).value(), map::GoodMap());
+  EXPECT_EQ(base::ReadText(At("a.motors")).value(), traffic_map::GoodMap());
   EXPECT_TRUE(session_.Save(At("draft.motors"), true)) << "a draft is saved despite errors";
   EXPECT_FALSE(session_.unsaved());
   session_.Undo();
   EXPECT_TRUE(session_.unsaved());
   EXPECT_TRUE(session_.Save(At("a.motors")));
-  EXPECT_EQ(base::ReadText(At("a.motors")).value(), map::GoodMap());
+  EXPECT_EQ(base::ReadText(At("a.motors")).value(), traffic_map::GoodMap());
   EXPECT_EQ(session_.path(), At("a.motors"));
 }
 
 TEST_F(ASession, WhatCannotBeOpenedLeavesWhatIsOpen) {
-  ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
+  ASSERT_TRUE(base::WriteWhole(At("a.motors"), traffic_map::GoodMap()).ok());
   ASSERT_TRUE(base::WriteWhole(At("b.motors"), "Once upon a time").ok());
   ASSERT_TRUE(session_.Open(At("a.motors")));
   ASSERT_TRUE(session_.Do([](Document& d) { return SetScale(d, 3.0f); }));
@@ -73,7 +73,7 @@ TEST_F(ASession, WhatCannotBeOpenedLeavesWhatIsOpen) {
 
 TEST_F(ASession, ThePictureIsTold) {
   const auto first = session_.picture_state();
-  ASSERT_TRUE(session_.SetPicture(map::kPng2x1, 4.0f));
+  ASSERT_TRUE(session_.SetPicture(traffic_map::kPng2x1, 4.0f));
   const auto second = session_.picture_state();
   EXPECT_NE(second, first);
   ASSERT_TRUE(session_.Do([](Document& d) { return SetScale(d, 5.0f); }));
@@ -83,7 +83,7 @@ TEST_F(ASession, ThePictureIsTold) {
   EXPECT_NE(session_.picture_state(), second);
   EXPECT_TRUE(session_.document().map.picture.empty());
   session_.Redo();
-  EXPECT_EQ(session_.document().map.picture, map::kPng2x1);
+  EXPECT_EQ(session_.document().map.picture, traffic_map::kPng2x1);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ class Store : public testing::Test {
 };
 
 TEST_F(Store, OpenedAndSavedIsTheSameToTheByte) {
-  for (const std::string& bytes : {map::Figure18(), map::AppendixA15(), map::GoodMap()}) {
+  for (const std::string& bytes : {traffic_map::Figure18(), traffic_map::AppendixA15(), traffic_map::GoodMap()}) {
     const fs::path path = Written("a.motors", bytes, kBeside);
     const auto opened = Open(path);
     ASSERT_TRUE(opened.ok()) << opened.error().Text();
@@ -56,7 +56,7 @@ TEST_F(Store, OpenedAndSavedIsTheSameToTheByte) {
 }
 
 TEST_F(Store, AnEditLeavesEverythingElseToTheByte) {
-  const fs::path path = Written("a.motors", map::AppendixA15(), kBeside);
+  const fs::path path = Written("a.motors", traffic_map::AppendixA15(), kBeside);
   auto opened = Open(path);
   ASSERT_TRUE(opened.ok());
   History history(opened.value().document);
@@ -64,19 +64,19 @@ TEST_F(Store, AnEditLeavesEverythingElseToTheByte) {
   ASSERT_TRUE(history.Do([](Document& d) { return SetFlow(d, 1, 200.0); }).ok());
   const auto written = Save(history.document(), opened.value().companion, path);
   ASSERT_TRUE(written.ok()) << written.error().Text();
-  std::string expected = map::AppendixA15();
+  std::string expected = traffic_map::AppendixA15();
   expected.replace(expected.find("c,1,4,False\n"), 12, "c,1,4,True,0,0,0\n");
   EXPECT_EQ(Text(path), expected);
   EXPECT_EQ(Text(CompanionPath(path)), kBeside + "flows_vehph:\n  1: 200\n");
   history.Undo();
   history.Undo();
   ASSERT_TRUE(Save(history.document(), written.value(), path).ok());
-  EXPECT_EQ(Text(path), map::AppendixA15());
+  EXPECT_EQ(Text(path), traffic_map::AppendixA15());
 }
 
 TEST_F(Store, AnotherMapsCompanionDoesNotStay) {
-  const fs::path path = Written("a.motors", map::Figure18(), kBeside);
-  ASSERT_TRUE(Save(Parsed(map::GoodMap()), {}, path).ok());
+  const fs::path path = Written("a.motors", traffic_map::Figure18(), kBeside);
+  ASSERT_TRUE(Save(Parsed(traffic_map::GoodMap()), {}, path).ok());
   EXPECT_FALSE(fs::exists(CompanionPath(path)));
   ASSERT_TRUE(Open(path).ok());
 }
@@ -98,7 +98,7 @@ class FullDisk {
 };
 
 TEST_F(Store, AFullDiskLeavesBothOldFilesWhole) {
-  const fs::path path = Written("a.motors", map::Figure18(), kBeside);
+  const fs::path path = Written("a.motors", traffic_map::Figure18(), kBeside);
   auto opened = Open(path);
   ASSERT_TRUE(opened.ok());
   History history(opened.value().document);
@@ -113,7 +113,7 @@ TEST_F(Store, AFullDiskLeavesBothOldFilesWhole) {
     ASSERT_FALSE(written.ok());
     EXPECT_EQ(written.error().exit_status(), 1);
     EXPECT_NE(written.error().Text().find("a.motors: the file cannot be written: File too large"), std::string::npos) << written.error().Text();
-    EXPECT_EQ(Text(path), map::Figure18());
+    EXPECT_EQ(Text(path), traffic_map::Figure18());
     EXPECT_EQ(Text(CompanionPath(path)), kBeside);
     EXPECT_EQ(Files(), 2u);
   }
@@ -123,8 +123,8 @@ TEST_F(Store, AFullDiskLeavesBothOldFilesWhole) {
 TEST_F(Store, BrokenForeignAndHugeFilesAreRefused) {
   EXPECT_NE(Open(At("none.motors")).error().Text().find("there is no such file"), std::string::npos);
   EXPECT_NE(Open(folder_->path()).error().Text().find("this is a folder"), std::string::npos);
-  EXPECT_NE(Open(Written("a.png", map::kPng2x1)).error().Text().find("a.png"), std::string::npos);
-  EXPECT_NE(Open(Written("bad.motors", map::GoodMap(), "rodeira: motors/1\nheigths_m: {}\n")).error().Text().find("bad.motors.yaml:2"), std::string::npos);
+  EXPECT_NE(Open(Written("a.png", traffic_map::kPng2x1)).error().Text().find("a.png"), std::string::npos);
+  EXPECT_NE(Open(Written("bad.motors", traffic_map::GoodMap(), "rodeira: motors/1\nheigths_m: {}\n")).error().Text().find("bad.motors.yaml:2"), std::string::npos);
   const fs::path huge = At("huge.motors");
   std::ofstream(huge).put('p');
   fs::resize_file(huge, (std::uintmax_t{1} << 28) + 1);
@@ -135,7 +135,7 @@ TEST_F(Store, BrokenForeignAndHugeFilesAreRefused) {
 TEST_F(Store, MutatedFilesAreRefusedOrEditable) {
   int opened_count = 0;
   for (std::uint64_t number = 0; number < 400; ++number) {
-    std::string bytes = map::Figure18(), beside = kBeside;
+    std::string bytes = traffic_map::Figure18(), beside = kBeside;
     const std::uint64_t times = 1 + base::RandomBits({number, 0}) % 2;
     for (std::uint64_t i = 1; i <= times; ++i) {
       std::string& text = base::RandomBits({number, i, 1}) % 4 == 0 ? beside : bytes;
@@ -164,13 +164,13 @@ TEST_F(Store, MutatedFilesAreRefusedOrEditable) {
     ASSERT_TRUE(again.ok()) << again.error().Text();
     EXPECT_EQ(BytesOf(again.value().document), BytesOf(history.document()));
     while (history.CanUndo()) history.Undo();
-    EXPECT_EQ(map::WriteMap(history.document().map), bytes);
+    EXPECT_EQ(traffic_map::WriteMap(history.document().map), bytes);
   }
   EXPECT_GT(opened_count, 40);
 }
 
 TEST_F(Store, UnsavedWorkOutlivesAKilledEditor) {
-  const Document document = Parsed(map::Figure18(), kBeside);
+  const Document document = Parsed(traffic_map::Figure18(), kBeside);
   const fs::path kept = At("kept");
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
@@ -198,7 +198,7 @@ TEST_F(Store, ALivingEditorsWorkIsItsOwnAndSavedWorkIsForgotten) {
   const fs::path kept = At("kept");
   auto first = Keeper::Make(kept), second = Keeper::Make(kept);
   ASSERT_TRUE(first.ok() && second.ok());
-  ASSERT_TRUE(first.value().Keep(Parsed(map::GoodMap()), "", 1).ok());
+  ASSERT_TRUE(first.value().Keep(Parsed(traffic_map::GoodMap()), "", 1).ok());
   EXPECT_TRUE(second.value().Found().empty());
   first.value().Forget();
   { const Keeper gone(std::move(first).value()); }

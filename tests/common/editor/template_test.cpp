@@ -16,7 +16,7 @@ TEST_P(ATemplate, IsWholeWhereverItIsPlaced) {
   for (const TemplatePlace& place : {TemplatePlace{}, TemplatePlace{{-300.0, 250.0}, 0.7, 3.5, 25.0}, TemplatePlace{{40.0, 0.0}, -2.0, 2.75, 200.0}}) {
     History history(EmptyDocument());
     ExpectUndone(history, [&](Document& d) { return Place(d, GetParam(), place); });
-    const auto findings = map::CheckMap(history.document().map, history.document().companion);
+    const auto findings = traffic_map::CheckMap(history.document().map, history.document().companion);
     EXPECT_TRUE(findings.empty()) << findings.front().Text();
   }
 }
@@ -24,9 +24,9 @@ TEST_P(ATemplate, IsWholeWhereverItIsPlaced) {
 TEST_P(ATemplate, IsDrivenOn) {
   History history(EmptyDocument());
   ASSERT_TRUE(history.Do([](Document& d) { return Place(d, GetParam(), {}); }).ok());
-  const auto lanes = map::MakeLaneMap(history.document().map, history.document().companion, "map");
+  const auto lanes = traffic_map::MakeLaneMap(history.document().map, history.document().companion, "map");
   ASSERT_TRUE(lanes.ok()) << lanes.error().Text();
-  const auto network = map::ToNetwork(lanes.value(), "map");
+  const auto network = traffic_map::ToNetwork(lanes.value(), "map");
   ASSERT_TRUE(network.ok()) << network.error().Text();
   traffic::StudySettings settings;
   settings.traffic.vehicles = 10;
@@ -41,10 +41,10 @@ TEST_P(ATemplate, IsDrivenOn) {
 INSTANTIATE_TEST_SUITE_P(All, ATemplate, testing::Values(Template::kCrossing, Template::kRoundabout, Template::kMerge));
 
 TEST(Templates, TwoBesideEachOtherAreTwo) {
-  History history(Parsed(map::GoodMap()));
+  History history(Parsed(traffic_map::GoodMap()));
   ASSERT_TRUE(history.Do([](Document& d) { return Place(d, Template::kMerge, {{0.0, 300.0}, 0.0, 3.25, 60.0}); }).ok());
   ASSERT_TRUE(history.Do([](Document& d) { return Place(d, Template::kCrossing, {{400.0, 300.0}, 0.3, 3.25, 60.0}); }).ok());
-  for (const map::Finding& finding : map::CheckMap(history.document().map, history.document().companion)) EXPECT_NE(finding.severity, map::Severity::kError) << finding.Text();
+  for (const traffic_map::Finding& finding : traffic_map::CheckMap(history.document().map, history.document().companion)) EXPECT_NE(finding.severity, traffic_map::Severity::kError) << finding.Text();
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;
 
-vehicle::BicycleSettings Car() {
+dynamics::BicycleSettings Car() {
   AgentTraits car;
   car.mass_kg = 1050.0;
   car.wheel_radius_m = 0.29;
@@ -37,7 +37,7 @@ double FullLoad(double radps) {
 // the throttle is neither.
 TEST(Drivetrain, TheEngineMovesTheCar) {
   constexpr std::array<double, 5> kGears{3.46, 1.96, 1.39, 1.03, 0.85};
-  const vehicle::BicycleSettings car = Car();
+  const dynamics::BicycleSettings car = Car();
   int compared = 0, overrun = 0;
   for (double v = 0.5; v < 45.0; v += 0.25) {
     for (double a = -3.0; a <= 1.6; a += 0.1) {
@@ -74,7 +74,7 @@ TEST(Drivetrain, TheEngineMovesTheCar) {
 
 // Where a lower gear could pull harder no gear is kept that cannot: full throttle only at the engine's end.
 TEST(Drivetrain, ShiftsDownWhereTheEngineIsTooWeak) {
-  const vehicle::BicycleSettings car = Car();
+  const dynamics::BicycleSettings car = Car();
   const Driving easy = DrivingFor(car, 20.0, 0.0, 0.0), hard = DrivingFor(car, 20.0, 1.4, 0.05);
   EXPECT_EQ(easy.gear, 5);
   EXPECT_LT(hard.gear, 4);
@@ -107,7 +107,7 @@ TEST(Drivetrain, DoesNotHuntBetweenGears) {
   constexpr double kStep_s = 0.01;
   int up = 0, down = 0;
   for (std::uint32_t body = 0; body < kBodies; ++body) {
-    const vehicle::BicycleSettings& car = CarOfBody(body);
+    const dynamics::BicycleSettings& car = CarOfBody(body);
     for (const double grade : {-0.04, 0.0, 0.03, 0.06, 0.1}) {
       for (double wanted = 0.2; wanted < 2.0; wanted += 0.3) {  // as far as it comes
         Driving driving;
@@ -141,7 +141,7 @@ TEST(Drivetrain, DoesNotHuntBetweenGears) {
 
 // A foot that is lifted for a moment changes no gear; one that stays on the throttle comes to the highest gear after the pause.
 TEST(Drivetrain, ALiftedFootChangesNoGear) {
-  const vehicle::BicycleSettings car = Car();
+  const dynamics::BicycleSettings car = Car();
   Driving driving = DrivingFor(car, 12.0, 1.2, 0.0);
   const int pulls = driving.gear;
   ASSERT_LT(pulls, DrivingFor(car, 12.0, -1.5, 0.0).gear);
@@ -156,7 +156,7 @@ TEST(Drivetrain, ALiftedFootChangesNoGear) {
 
 // Willans' line through the engine: burnt power = (net + drag) / efficiency, with the drag alone while idling, and nothing in overrun.
 TEST(Drivetrain, FuelIsWillansLine) {
-  const vehicle::BicycleSettings car = Car();
+  const dynamics::BicycleSettings car = Car();
   const double at_50 = [&] {
     const double v = 50.0 / 3.6, force = 1050.0 * 9.81 * 0.012 + 0.3 * v * v;
     const Driving d = DrivingFor(car, v, 0.0, 0.0);
@@ -171,7 +171,7 @@ TEST(Drivetrain, FuelIsWillansLine) {
   for (double v = 5.0; v < 40.0; v += 1.0) EXPECT_EQ(FuelFlow_mgps(car, DrivingFor(car, v, -1.5, 0.0)), 0.0) << v;
   const AgentTraits lorry = TraitsOfBody(6);
   ASSERT_EQ(lorry.mass_kg, 11000.0);
-  const vehicle::BicycleSettings heavy = CarOfBody(6);
+  const dynamics::BicycleSettings heavy = CarOfBody(6);
   const double per_100_km = FuelFlow_mgps(heavy, DrivingFor(heavy, 20.0, 0.0, 0.0)) / 832e3 / 20.0 * 1e5;  // diesel
   EXPECT_GT(per_100_km, 12.0);  // lorries of this size take 15 to 25 litres
   EXPECT_LT(per_100_km, 30.0);

@@ -53,8 +53,8 @@ struct Course {
 class FourCars : public testing::Test {
  protected:
   FourCars() : settings_(Identical(4, 1.4)) {
-    const auto file = map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps/lights.motors");
-    network_ = map::ToNetwork(map::MakeLaneMap(file.value(), {}, "crossing").value(), "crossing").value();  // without its lights
+    const auto file = traffic_map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps/lights.motors");
+    network_ = traffic_map::ToNetwork(traffic_map::MakeLaneMap(file.value(), {}, "crossing").value(), "crossing").value();  // without its lights
     model_ = std::make_unique<TrafficModel>(TrafficModel::Make(settings_, network_, {}).value());
     for (std::uint32_t track = 0; track < model_->graph().tracks().size(); ++track) {
       const lanes::Track& t = model_->graph()[track];

@@ -54,7 +54,7 @@ TEST(FullDrive, BrakesHardOnlyWhileAGearTakesHold) {
       b.acceleration_mps2 = pose.acceleration_mps2, b.trip = pose.trip;
       if (pose.speed_mps < 0.5) continue;  // who stands has his foot on the brake
       if (same_trip) (b.since_s < kTakesHold_s ? shifting_mps3 : jerks_mps3).push_back(jerk_mps3);
-      const vehicle::BicycleSettings& car = CarOfBody(model.traits(pose.id).body);
+      const dynamics::BicycleSettings& car = CarOfBody(model.traits(pose.id).body);
       foot_mps2 = std::max(foot_mps2, driving.brake * FullBrake_N(car) / car.body.mass_kg);
       if (pose.acceleration_mps2 > -kHard_mps2) continue;
       ++hard;

@@ -45,13 +45,13 @@ TEST(FullPhysics, ACarIsThatOfTheVehicleLibrary) {
   const auto network = lanes::MapNetwork("overpass");
   TrafficModel model = TrafficModel::Make(Full(30), network, {}).value();
   const auto ground = WorldOf(network)->MakeGround();
-  std::vector<std::pair<std::uint32_t, vehicle::BicycleModel>> alone;
+  std::vector<std::pair<std::uint32_t, dynamics::BicycleModel>> alone;
   for (const AgentPose& pose : model.poses()) {
     const Agent& agent = model.agent(pose.id);
     const double half = 0.5 * model.traits(pose.id).wheelbase_m;
     const Eigen::Vector3d front = FrameAt(model.graph(), agent.path, agent.o_m + half).p_W, rear = FrameAt(model.graph(), agent.path, agent.o_m - half).p_W;
     const Eigen::Vector3d middle = 0.5 * (front + rear), along = front - rear;
-    alone.emplace_back(pose.id, vehicle::BicycleModel(CarOfBody(model.traits(pose.id).body)));
+    alone.emplace_back(pose.id, dynamics::BicycleModel(CarOfBody(model.traits(pose.id).body)));
     ASSERT_TRUE(alone.back().second.Initialise({.x_m = middle.x(), .y_m = middle.y(), .z_hint_m = middle.z(), .heading_rad = std::atan2(along.y(), along.x()), .speed_mps = agent.speed_mps * along.norm() / along.head<2>().norm()}, *ground).ok());
   }
   std::size_t compared = 0, steepest = 0;
@@ -150,7 +150,7 @@ TEST(FullPhysics, TheTankLosesTheIntegralOfTheFlow) {
   const auto ground = WorldOf(network)->MakeGround();
   struct Alone {
     std::uint32_t id;
-    vehicle::BicycleModel car;
+    dynamics::BicycleModel car;
     double burnt_kg = 0.0;
   };
   std::vector<Alone> alone;
@@ -159,7 +159,7 @@ TEST(FullPhysics, TheTankLosesTheIntegralOfTheFlow) {
     const double half = 0.5 * model.traits(pose.id).wheelbase_m;
     const Eigen::Vector3d front = FrameAt(model.graph(), agent.path, agent.o_m + half).p_W, rear = FrameAt(model.graph(), agent.path, agent.o_m - half).p_W;
     const Eigen::Vector3d middle = 0.5 * (front + rear), along = front - rear;
-    alone.push_back({pose.id, vehicle::BicycleModel(CarOfBody(model.traits(pose.id).body))});
+    alone.push_back({pose.id, dynamics::BicycleModel(CarOfBody(model.traits(pose.id).body))});
     ASSERT_TRUE(alone.back().car.Initialise({.x_m = middle.x(), .y_m = middle.y(), .z_hint_m = middle.z(), .heading_rad = std::atan2(along.y(), along.x()), .speed_mps = agent.speed_mps * along.norm() / along.head<2>().norm()}, *ground).ok());
   }
   int compared = 0, overrun = 0, changed = 0;
@@ -168,7 +168,7 @@ TEST(FullPhysics, TheTankLosesTheIntegralOfTheFlow) {
     for (Alone& one : alone) {
       const Agent& agent = model.agent(one.id);
       if (!agent.on_road || agent.trip != 0) continue;
-      const vehicle::Engine& engine = one.car.car().powertrain.engine();
+      const dynamics::Engine& engine = one.car.car().powertrain.engine();
       double first = -1.0;
       for (int k = 0; k < std::lround(kStep_s / kSubstep_s); ++k) {
         one.car.Step(model.full()->controls(one.id), *ground, kSubstep_s);
@@ -213,14 +213,14 @@ TEST(FullPhysics, ClimbsWithTheThrottleOfTheClosedForm) {
     if (i < 4000 || i % 100 != 0) continue;
     for (const AgentPose& pose : model.poses()) {
       const Agent& agent = model.agent(pose.id);
-      const vehicle::BicycleCar& car = model.full()->cars().car(pose.id);
+      const dynamics::BicycleCar& car = model.full()->cars().car(pose.id);
       if (agent.grade < 0.0 || std::fabs(agent.acceleration_mps2) > 2e-3 || agent.driving.clutch > 0.0) continue;
-      const vehicle::BicycleSettings& of = CarOfBody(model.traits(pose.id).body);
+      const dynamics::BicycleSettings& of = CarOfBody(model.traits(pose.id).body);
       const double slope = std::atan(kGrade), v = agent.speed_mps / std::cos(slope);
       const double force_N = of.body.mass_kg * 9.81 * (std::sin(slope) + 0.012 * std::cos(slope)) + 0.5 * 1.2 * 0.5 * v * v;
       const double ratio = 4.19 * std::array{3.46, 1.96, 1.39, 1.03, 0.85}[static_cast<std::size_t>(agent.driving.gear - 1)];
       const double torque_Nm = force_N * of.wheel.rolling_radius_m / (0.93 * ratio), radps = car.powertrain.engine().speed_radps();
-      const double full_Nm = vehicle::FullLoadTorque(of.powertrain.engine, radps), drag_Nm = of.body.mass_kg / 1050.0 * (14.0 + 0.012 * radps);
+      const double full_Nm = dynamics::FullLoadTorque(of.powertrain.engine, radps), drag_Nm = of.body.mass_kg / 1050.0 * (14.0 + 0.012 * radps);
       EXPECT_NEAR(car.powertrain.engine().throttle(), (torque_Nm + drag_Nm) / (full_Nm + drag_Nm), 0.01) << "car " << pose.id << " in gear " << agent.driving.gear;
       ++compared;
     }

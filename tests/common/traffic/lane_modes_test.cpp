@@ -16,21 +16,21 @@
 namespace rodeira::traffic {
 namespace {
 
-using map::LaneMode;
+using traffic_map::LaneMode;
 using NetworkPointer = std::shared_ptr<const network::Network>;
 
 // One of the project's maps with other modes.
-map::LaneMap MapWith(const std::string& name, const std::map<std::int32_t, LaneMode>& modes) {
-  auto file = map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value();
+traffic_map::LaneMap MapWith(const std::string& name, const std::map<std::int32_t, LaneMode>& modes) {
+  auto file = traffic_map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value();
   for (auto& lane : file.lanes) {
     if (const auto mode = modes.find(lane.value.id); mode != modes.end()) lane.value.mode = mode->second;
   }
-  auto made = map::MakeLaneMap(file, {}, name);
+  auto made = traffic_map::MakeLaneMap(file, {}, name);
   EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().Text());
   return made.value();
 }
 
-NetworkPointer NetworkWith(const std::string& name, const std::map<std::int32_t, LaneMode>& modes) { return map::ToNetwork(MapWith(name, modes), name).value(); }
+NetworkPointer NetworkWith(const std::string& name, const std::map<std::int32_t, LaneMode>& modes) { return traffic_map::ToNetwork(MapWith(name, modes), name).value(); }
 
 // On which roads trips began and were last seen, how many of each; whoever is on the road at first has begun before.
 struct Trips {
@@ -129,13 +129,13 @@ TEST(LaneModes, HoldOnARing) {
 // What the modes of the project's maps say is what their edges say.
 TEST(LaneModes, OfTheEdgesChangeNoBit) {
   for (const std::string& name : lanes::MapNames()) {
-    const auto made = map::LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value();
-    EXPECT_TRUE(map::BeginsAndEndsAtItsEdge(made)) << name;
-    std::string xml = map::ToOpenDrive(made, name, map::Junctions::kDirect).value().xml;
+    const auto made = traffic_map::LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value();
+    EXPECT_TRUE(traffic_map::BeginsAndEndsAtItsEdge(made)) << name;
+    std::string xml = traffic_map::ToOpenDrive(made, name, traffic_map::Junctions::kDirect).value().xml;
     for (std::size_t at = 0; (at = xml.find("rodeira:traffic", at)) != std::string::npos;) xml.replace(at, 15, "somebody's");
     const auto import = opendrive::Read(xml, name).value();
     ASSERT_TRUE(import.errors.empty());
-    auto told = TrafficModel::Make(Vehicles(30), map::ToNetwork(made, name).value(), {}).value();
+    auto told = TrafficModel::Make(Vehicles(30), traffic_map::ToNetwork(made, name).value(), {}).value();
     auto silent = TrafficModel::Make(Vehicles(30), import.network, {}).value();
     EXPECT_TRUE(told.graph().says_entries());
     EXPECT_FALSE(silent.graph().says_entries());
@@ -146,9 +146,9 @@ TEST(LaneModes, OfTheEdgesChangeNoBit) {
 
 // A world that a map is converted to lets vehicles begin and end where the map does; the files of other maps say nothing of it.
 TEST(LaneModes, GoWithAConvertedMap) {
-  const map::LaneMap made = MapWith("crossing", {{13, LaneMode::kStart}, {9, LaneMode::kEnd}, {1, LaneMode::kNone}});
-  EXPECT_FALSE(map::BeginsAndEndsAtItsEdge(made));
-  const auto import = opendrive::Read(map::ToOpenDrive(made, "crossing").value().xml, "crossing.xodr").value();
+  const traffic_map::LaneMap made = MapWith("crossing", {{13, LaneMode::kStart}, {9, LaneMode::kEnd}, {1, LaneMode::kNone}});
+  EXPECT_FALSE(traffic_map::BeginsAndEndsAtItsEdge(made));
+  const auto import = opendrive::Read(traffic_map::ToOpenDrive(made, "crossing").value().xml, "crossing.xodr").value();
   ASSERT_TRUE(import.errors.empty());
   const lanes::Graph graph(*import.network);
   std::set<std::string> begins, ends;
@@ -162,7 +162,7 @@ TEST(LaneModes, GoWithAConvertedMap) {
   }
   EXPECT_EQ(begins, (std::set<std::string>{"3", "5", "7", "13"}));
   EXPECT_EQ(ends, (std::set<std::string>{"2", "4", "6", "8", "9"}));
-  EXPECT_EQ(map::ToOpenDrive(MapWith("crossing", {}), "crossing").value().xml.find("rodeira:traffic"), std::string::npos);
+  EXPECT_EQ(traffic_map::ToOpenDrive(MapWith("crossing", {}), "crossing").value().xml.find("rodeira:traffic"), std::string::npos);
 }
 
 // A flow into the middle of a crossing, and others that come to it: from the arm from which its lane leads on, and from those that cross its way within its

@@ -248,9 +248,9 @@ TEST(Lights, NobodyYieldsToACarThatComesToARedLight) {
 }
 
 TEST(Lights, ConflictingGreensAreRefused) {
-  const auto file = map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps/lights.motors");
-  const auto heights = map::ParseHeights("rodeira: motors/1\nlights: [{phases: [{green: [1, 3], for_s: 20}, {green: [5, 7], for_s: 9}]}]\n", "x.yaml");
-  const auto network = map::ToNetwork(map::MakeLaneMap(file.value(), heights.value(), "x").value(), "x").value();
+  const auto file = traffic_map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps/lights.motors");
+  const auto heights = traffic_map::ParseHeights("rodeira: motors/1\nlights: [{phases: [{green: [1, 3], for_s: 20}, {green: [5, 7], for_s: 9}]}]\n", "x.yaml");
+  const auto network = traffic_map::ToNetwork(traffic_map::MakeLaneMap(file.value(), heights.value(), "x").value(), "x").value();
   const auto model = TrafficModel::Make({}, network, {});
   ASSERT_FALSE(model.ok());
   EXPECT_EQ(model.error().exit_status(), 2);

@@ -18,7 +18,7 @@
 namespace rodeira::traffic {
 namespace {
 
-using map::BorderType;
+using traffic_map::BorderType;
 using NetworkPointer = std::shared_ptr<const network::Network>;
 
 constexpr double kLength_m = 700.0;  // of a piece
@@ -29,7 +29,7 @@ std::string Straight(int id, double from_m, double y_m) {
 
 // Two lanes of 3.6 m to the east or, `two_way`, one of them to the west, of two pieces each: lanes 1 and 3, from west to east, lie to the south, 2 and 4 to the north. Between them what each of both has for
 // a border there.
-map::LaneMap TwoLanes(bool two_way, BorderType of_south, BorderType of_north, bool left_hand = false) {
+traffic_map::LaneMap TwoLanes(bool two_way, BorderType of_south, BorderType of_north, bool left_hand = false) {
   std::string text;
   for (int piece = 0; piece < 2; ++piece) {
     for (int k = 0; k < 3; ++k) text += Straight(3 * piece + k + 1, piece * kLength_m, 3.6 * (1 - k));  // from north to south
@@ -48,16 +48,16 @@ map::LaneMap TwoLanes(bool two_way, BorderType of_south, BorderType of_north, bo
   }
   text += south_west ? "c,3,1,False,0,0,0\n" : "c,1,3,False,0,0,0\n";
   text += north_west ? "c,4,2,False,0,0,0\n" : "c,2,4,False,0,0,0\n";
-  const auto file = map::ParseMap(text + "s,10\ni\n", "two");
+  const auto file = traffic_map::ParseMap(text + "s,10\ni\n", "two");
   EXPECT_TRUE(file.ok()) << (file.ok() ? "" : file.error().Text());
-  map::Heights beside;
+  traffic_map::Heights beside;
   beside.left_hand = left_hand;
-  const auto made = map::MakeLaneMap(file.value(), beside, "two");
+  const auto made = traffic_map::MakeLaneMap(file.value(), beside, "two");
   EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().Text());
   return made.value();
 }
-NetworkPointer NetworkOf(const map::LaneMap& map) {
-  const auto network = map::ToNetwork(map, "two");
+NetworkPointer NetworkOf(const traffic_map::LaneMap& map) {
+  const auto network = traffic_map::ToNetwork(map, "two");
   EXPECT_TRUE(network.ok()) << (network.ok() ? "" : network.error().Text());
   return network.value();
 }
@@ -88,7 +88,7 @@ TEST(MapNeighbours, AreThoseThatShareABorder) {
 TEST(MapNeighbours, PlacesBesideAreFeet) {
   int pairs = 0;
   for (const char* name : {"crossing", "lights", "overpass", "ramp", "roundabout", "town"}) {
-    const auto network = map::LoadNetwork(std::filesystem::path(SourceDir()) / "configs/maps" / (std::string(name) + ".motors"));
+    const auto network = traffic_map::LoadNetwork(std::filesystem::path(SourceDir()) / "configs/maps" / (std::string(name) + ".motors"));
     ASSERT_TRUE(network.ok());
     const lanes::Graph graph(*network.value());
     for (std::uint32_t i = 0; i < graph.tracks().size(); ++i) {
@@ -207,7 +207,7 @@ TEST(MapNeighbours, TrafficOvertakesWhereItMay) {
 
 // A converted map says the same: through text and back.
 TEST(MapNeighbours, AConvertedMapHasThemToo) {
-  const auto made = map::ToOpenDrive(TwoLanes(false, BorderType::kDashedSame, BorderType::kSingle), "two", map::Junctions::kCommon);
+  const auto made = traffic_map::ToOpenDrive(TwoLanes(false, BorderType::kDashedSame, BorderType::kSingle), "two", traffic_map::Junctions::kCommon);
   ASSERT_TRUE(made.ok());
   const auto import = opendrive::Read(made.value().xml, "two.xodr");
   ASSERT_TRUE(import.ok() && import.value().errors.empty());

@@ -73,7 +73,7 @@ TEST(Motors, GearsGoUpAndDownWithTheirPause) {
   MotorsView view;
   view.engine_radps = 1600.0 * kRpm;
   view.limit_mps = 17.0;
-  vehicle::Controls controls = driver.Step(view, {}, 0.02);
+  dynamics::Controls controls = driver.Step(view, {}, 0.02);
   EXPECT_EQ(controls.gear, 2);
   for (int frame = 1; frame <= 12; ++frame) {
     controls = driver.Step(view, {}, 0.02);
@@ -173,7 +173,7 @@ TEST(Motors, HisSpeedHasNoStepsWhereHeSlides) {
     for (int i = 0; i < 6000; ++i) {
       model.Step(kStep_s, {});
       for (const AgentPose& pose : model.poses()) {
-        const vehicle::RigidBody& body = model.full()->cars().car(pose.id).body;
+        const dynamics::RigidBody& body = model.full()->cars().car(pose.id).body;
         const Eigen::Vector2d v = body.VelocityAt(pose.p_WB_W).head<2>();
         const Eigen::Vector3d ahead = pose.q_WB * Eigen::Vector3d::UnitX();
         const double course = std::atan2(ahead.y(), ahead.x()) + std::atan(0.5 * std::tan(pose.steer_rad));

@@ -63,7 +63,7 @@ void AnswersAtOnce(const TrafficModel& model, const std::shared_ptr<const networ
     EXPECT_LT(with.acceleration_mps2, without.acceleration_mps2 - 0.02) << what;
     EXPECT_LT(with.speed_mps, without.speed_mps) << what;
   } else {
-    const vehicle::Controls &feet = both[0].full()->controls(0), &now = both[1].full()->controls(0);
+    const dynamics::Controls &feet = both[0].full()->controls(0), &now = both[1].full()->controls(0);
     EXPECT_TRUE(now.throttle < feet.throttle || now.brake > feet.brake) << what << ": throttle " << feet.throttle << ", brake " << feet.brake;
     EXPECT_LE(with.acceleration_mps2, without.acceleration_mps2) << what;
   }

@@ -188,7 +188,7 @@ TEST_P(Meeting, WhoHasAStopSignComesToRestAndYields) {
 
 TEST_P(Meeting, WhoDrivesOnARingGoesBeforeWhoEnters) {
   constexpr double kRing_m = 16.0;
-  Draw(lanes::Drawn(lanes::MapText("roundabout", true, map::Junctions::kDirect)));
+  Draw(lanes::Drawn(lanes::MapText("roundabout", true, traffic_map::Junctions::kDirect)));
   const auto on_ring = [&](std::uint32_t track) { return std::fabs(graph()[track].curve.At(0.5 * graph()[track].length_m()).p_W.head<2>().norm() - kRing_m) < 0.5; };
   int met = 0;
   for (std::uint32_t into = 0; into < graph().tracks().size(); ++into) {

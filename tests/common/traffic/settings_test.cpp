@@ -100,7 +100,7 @@ class TrafficSettingsFile : public testing::Test {
     if (dot == std::string::npos) return Load(fmt::format("{}: {}\n", key, value) + (other.empty() ? "" : other.substr(2) + "\n"));
     return Load(fmt::format("{}: {{{}: {}{}}}\n", key.substr(0, dot), key.substr(dot + 1), value, other));
   }
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
 };
 
 TEST_F(TrafficSettingsFile, TheDocumentTellsOfEveryKey) {

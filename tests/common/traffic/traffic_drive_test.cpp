@@ -20,7 +20,7 @@ TEST(TrafficDrive, TwoMinutesAmongSixtyCarsWithoutTouching) {
   const std::filesystem::path source = SourceDir();
   const auto world = N222();
   const auto ground = world->MakeGround();
-  auto car = vehicle::LoadVehicle(source / "configs/vehicles/default.yaml").value();
+  auto car = dynamics::LoadVehicle(source / "configs/vehicles/default.yaml").value();
   driver::Autopilot autopilot(driver::AutopilotSettings{}, std::make_unique<driver::RoutePath>(*world->network(), driver::StraightOn(*world->network(), {0, 0, -1}, 1e5)));
   const driver::LaneFrame start = autopilot.path().At(400.0);
   ASSERT_TRUE(car->Initialise({.x_m = start.p_W.x(), .y_m = start.p_W.y(), .heading_rad = start.heading_rad, .speed_mps = 8.0}, *ground).ok());
@@ -28,7 +28,7 @@ TEST(TrafficDrive, TwoMinutesAmongSixtyCarsWithoutTouching) {
   TrafficSettings settings;
   settings.vehicles = 60;
   TrafficModel traffic = TrafficModel::Make(settings, world, driver_car).value();
-  vehicle::Controls controls;
+  dynamics::Controls controls;
   double followed_s = 0.0;
   for (int k = 0; k < 120000; ++k) {
     if (k % 10 == 0) {

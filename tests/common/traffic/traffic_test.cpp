@@ -140,7 +140,7 @@ TEST(Traffic, StandsOnTheGroundOfSuelo) {
     for (const double along : {0.5, -0.5}) {
       for (const double across : {0.4, -0.4}) {
         const Eigen::Vector3d foot = pose.p_WB_W + pose.q_WB * Eigen::Vector3d(along * traits.wheelbase_m, across * traits.width_m, 0.0);
-        const terrain::GroundPoint point = ground->At(foot.x(), foot.y(), foot.z());
+        const ground::GroundPoint point = ground->At(foot.x(), foot.y(), foot.z());
         ASSERT_TRUE(point.inside);
         EXPECT_NEAR(foot.z(), point.z_m, 0.02) << pose.id;
       }

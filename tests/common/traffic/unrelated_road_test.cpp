@@ -29,8 +29,8 @@ std::string FarRoad() {
 
 // The crossing as OpenDRIVE, and the same with a road far away behind or before all others.
 std::shared_ptr<const network::Network> CrossingAnd(const std::string& before, const std::string& behind) {
-  const auto map = map::LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps/crossing.motors");
-  std::string text = map::ToOpenDrive(map.value(), "crossing").value().xml;
+  const auto map = traffic_map::LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps/crossing.motors");
+  std::string text = traffic_map::ToOpenDrive(map.value(), "crossing").value().xml;
   text.insert(text.find("<road "), before);
   text.insert(text.rfind("</OpenDRIVE>"), behind);
   return opendrive::MustRead(text);

@@ -11,7 +11,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using system_test::Bin;
@@ -91,4 +91,4 @@ TEST(OptionErrors, HelpAndVersionAreNoErrors) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

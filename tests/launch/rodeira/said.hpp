@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // What a command of the front door answers, and prints to both of its streams.
 struct Said {
@@ -21,4 +21,4 @@ Said SaidBy(int (*command)(const Options&), const Options& options) {
   return {status, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // A folder of its own, gone with the test; its path is the real one, without symbolic links.
 class TemporaryFolder {
@@ -33,4 +33,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

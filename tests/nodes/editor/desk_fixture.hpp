@@ -12,7 +12,7 @@
 #include "tests/common/world/traffic_map/sample_map.hpp"
 #include "tests/common/view/window/hands.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 
 namespace hands = window::hands;
 
@@ -57,20 +57,20 @@ class ADesk : public testing::Test {
     return {static_cast<int>(std::lround(px.x() + kLeft_px)), static_cast<int>(std::lround(px.y() + kTop_px))};
   }
   void Drag(const Eigen::Vector2i& from, const Eigen::Vector2i& to, Uint8 button = SDL_BUTTON_LEFT) {
-    hands::MoveTo(from.x(), from.y());
+    input_devices::MoveTo(from.x(), from.y());
     Show();
-    hands::Button(from.x(), from.y(), true, button);
+    input_devices::Button(from.x(), from.y(), true, button);
     for (int i = 1; i <= 2; ++i) {
       const Eigen::Vector2i at = from + (to - from) * i / 2;
       Show();
-      hands::MoveTo(at.x(), at.y());
+      input_devices::MoveTo(at.x(), at.y());
     }
     Show();
-    hands::Button(to.x(), to.y(), false, button);
+    input_devices::Button(to.x(), to.y(), false, button);
     Show();
   }
   void Press(SDL_Scancode key, Uint16 modifiers = KMOD_NONE) {
-    hands::Press(key, modifiers);
+    input_devices::Press(key, modifiers);
     Show();
   }
   // By the wheel over the panels, until an item is seen there.
@@ -78,8 +78,8 @@ class ADesk : public testing::Test {
     constexpr double kLowest_px = 740.0;
     const auto seen = [&] { return work().places.contains(place) && work().places[place].y() < kLowest_px; };
     for (int i = 0; i < 40 && !seen(); ++i) {
-      hands::MoveTo(294, 500);
-      hands::Wheel(-1);
+      input_devices::MoveTo(294, 500);
+      input_devices::Wheel(-1);
       Show();
     }
   }
@@ -87,14 +87,14 @@ class ADesk : public testing::Test {
     Reveal(place);
     ASSERT_TRUE(work().places.contains(place)) << place;
     const Eigen::Vector2d at = work().places[place];
-    hands::Click(static_cast<int>(at.x()), static_cast<int>(at.y()));
+    input_devices::Click(static_cast<int>(at.x()), static_cast<int>(at.y()));
     Show();
   }
   // Over what stands in the field that has the keys.
   void Write(const std::string& text) {
-    hands::Press(SDL_SCANCODE_A, KMOD_CTRL);
+    input_devices::Press(SDL_SCANCODE_A, KMOD_CTRL);
     Show();
-    hands::Type(text);
+    input_devices::Type(text);
     Show();
   }
   // One of a list that opens.
@@ -111,11 +111,11 @@ class ADesk : public testing::Test {
   // On the ground.
   void ClickOn(double x_m, double y_m) {
     const Eigen::Vector2i at = On(x_m, y_m);
-    hands::Click(at.x(), at.y());
+    input_devices::Click(at.x(), at.y());
     Show();
   }
   void OpenTheGoodMap() {
-    ASSERT_TRUE(base::WriteWhole(At("a.motors"), map::GoodMap()).ok());
+    ASSERT_TRUE(base::WriteWhole(At("a.motors"), traffic_map::GoodMap()).ok());
     Sit(At("a.motors"));
   }
   // Writes the picture where RODEIRA_PICTURES names a folder.
@@ -132,4 +132,4 @@ class ADesk : public testing::Test {
   bool open_ = true;
 };
 
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -4,7 +4,7 @@
 #include "common/world/traffic_map/check.hpp"
 #include "tests/nodes/editor/desk_fixture.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 // A picture with something on it, as a PPM made into PNG by the window's own writer.
@@ -52,7 +52,7 @@ TEST_F(ADesk, TheThesisExampleIsDrawnByHand) {
   Click("mode start");
   Press(SDL_SCANCODE_RETURN);
   EXPECT_EQ(Said(), "lane 1 made");
-  EXPECT_EQ(document().map.lanes.at(0).value.mode, map::LaneMode::kStart);
+  EXPECT_EQ(document().map.lanes.at(0).value.mode, traffic_map::LaneMode::kStart);
   // Curves that do not exist are told in red.
   Press(SDL_SCANCODE_N);
   Write("5");
@@ -91,11 +91,11 @@ TEST_F(ADesk, TheThesisExampleIsDrawnByHand) {
   Write(At("example").string());
   Press(SDL_SCANCODE_RETURN);
   EXPECT_EQ(Said(), "saved example.motors");
-  const auto lanes = map::LoadLaneMap(At("example.motors"));
+  const auto lanes = traffic_map::LoadLaneMap(At("example.motors"));
   ASSERT_TRUE(lanes.ok()) << lanes.error().Text();
   EXPECT_EQ(lanes.value().connections.size(), 1u);
   EXPECT_EQ(lanes.value().picture_height_m, 125.0);
-  EXPECT_EQ(map::LoadMap(At("example.motors")).value().picture, base::ReadText(At("photo.png")).value());
+  EXPECT_EQ(traffic_map::LoadMap(At("example.motors")).value().picture, base::ReadText(At("photo.png")).value());
   // Traffic on it.
   work().traffic.vehicles = 4;
   Press(SDL_SCANCODE_SPACE);
@@ -118,17 +118,17 @@ TEST_F(ADesk, UndoByKeys) {
 TEST_F(ADesk, PanAndZoomHoldThePlane) {
   const Eigen::Vector2d middle = work().view.middle_W;
   const double finest = work().view.metres_per_px;
-  hands::MoveTo(700, 300);
-  hands::Wheel(3);
+  input_devices::MoveTo(700, 300);
+  input_devices::Wheel(3);
   Show();
   EXPECT_LT(work().view.metres_per_px, finest);
   const Eigen::Vector2d held = work().view.ToWorld({600.0 - kLeft_px, 400.0 - kTop_px});
   Drag({600, 400}, {700, 350});
   EXPECT_LT((work().view.ToWorld({700.0 - kLeft_px, 350.0 - kTop_px}) - held).norm(), 1e-6);
   const double before = work().view.middle_W.x();
-  hands::Key(SDL_SCANCODE_D, true);
+  input_devices::Key(SDL_SCANCODE_D, true);
   for (int i = 0; i < 30; ++i) desk_->Frame(0);
-  hands::Key(SDL_SCANCODE_D, false);
+  input_devices::Key(SDL_SCANCODE_D, false);
   Show();
   EXPECT_GT(work().view.middle_W.x(), before);
   EXPECT_NE(work().view.middle_W, middle);
@@ -144,7 +144,7 @@ TEST_F(ADesk, ALaneInOneGestureAndTheProposedConnection) {
   Press(SDL_SCANCODE_ESCAPE);
   Press(SDL_SCANCODE_P);
   EXPECT_EQ(Said(), "connection 1 to 2 made");
-  for (const map::Finding& finding : work().session.Findings()) EXPECT_EQ(finding.sentence.find("jumps"), std::string::npos) << finding.Text();
+  for (const traffic_map::Finding& finding : work().session.Findings()) EXPECT_EQ(finding.sentence.find("jumps"), std::string::npos) << finding.Text();
   Keep("editor_gesture.png");
 }
 
@@ -168,13 +168,13 @@ TEST_F(ADesk, ATemplateIsPlacedTurnedAndDrivenOn) {
 
 TEST_F(ADesk, ARectangleChoosesAndDeleteTakesAlong) {
   Press(SDL_SCANCODE_1);
-  hands::Click(On(0.0, 0.0).x(), On(0.0, 0.0).y());
+  input_devices::Click(On(0.0, 0.0).x(), On(0.0, 0.0).y());
   Show();
   ASSERT_EQ(Said(), "crossing made");
   Press(SDL_SCANCODE_F);
-  hands::Key(SDL_SCANCODE_LSHIFT, true, KMOD_LSHIFT);
+  input_devices::Key(SDL_SCANCODE_LSHIFT, true, KMOD_LSHIFT);
   Drag(On(-76.0, -76.0), On(76.0, 76.0));
-  hands::Key(SDL_SCANCODE_LSHIFT, false);
+  input_devices::Key(SDL_SCANCODE_LSHIFT, false);
   Show();
   EXPECT_EQ(work().session.selection.lanes.size(), document().map.lanes.size());
   Press(SDL_SCANCODE_DELETE);
@@ -193,9 +193,9 @@ TEST_F(ADesk, JoinedHandlesMoveTogetherAndInOneStepBack) {
   EXPECT_EQ(point(5, 0), point(1, 3));
   Press(SDL_SCANCODE_Z, KMOD_CTRL);
   EXPECT_EQ(editor::BytesOf(document()), before);
-  hands::Key(SDL_SCANCODE_LALT, true, KMOD_LALT);
+  input_devices::Key(SDL_SCANCODE_LALT, true, KMOD_LALT);
   Drag(On(30.0, 1.5), On(31.0, 4.0));
-  hands::Key(SDL_SCANCODE_LALT, false);
+  input_devices::Key(SDL_SCANCODE_LALT, false);
   Show();
   int moved = 0;
   for (const auto& [curve, index] : {std::pair(1, 3u), std::pair(3, 3u), std::pair(5, 0u)}) moved += point(curve, index).y_m > 2.0f ? 1 : 0;
@@ -250,7 +250,7 @@ TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
 // White where the road has it: a bar of 0.3 m before a STOP, strokes of 0.5 m with gaps of 0.3 m where one gives way (4 on a lane of 3 m).
 TEST_F(ADesk, LinesWhereOneStopsOrGivesWayArePainted) {
   OpenTheGoodMap();
-  work().session.Do([](editor::Document& document) { return editor::SetSigns(document, {{2, map::SignKind::kGiveWay, 0.0, 0.0, 0}}); });
+  work().session.Do([](editor::Document& document) { return editor::SetSigns(document, {{2, traffic_map::SignKind::kGiveWay, 0.0, 0.0, 0}}); });
   work().handles = work().numbers = work().centre = false;
   work().view.metres_per_px = 0.02;
   const auto white = [&](double x_m, double y_m) {
@@ -296,7 +296,7 @@ TEST_F(ADesk, ABrokenFileAndAPictureThatIsNoneAreSaidInTheStatusLine) {
   EXPECT_FALSE(work().session.said().good);
   EXPECT_TRUE(work().session.history().CanRedo());
   // A map whose background is none opens, and says so.
-  ASSERT_TRUE(base::WriteWhole(At("odd.motors"), map::GoodMap() + "no picture at all").ok());
+  ASSERT_TRUE(base::WriteWhole(At("odd.motors"), traffic_map::GoodMap() + "no picture at all").ok());
   Sit(At("odd.motors"));
   EXPECT_EQ(document().map.lanes.size(), 3u);
   EXPECT_NE(Said().find("the background cannot be shown"), std::string::npos) << Said();
@@ -317,4 +317,4 @@ TEST_F(ADesk, WorkIsKeptWhileItIsUnsaved) {
 }
 
 }  // namespace
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

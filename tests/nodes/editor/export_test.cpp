@@ -9,7 +9,7 @@
 #include "tests/nodes/editor/desk_fixture.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 // Of `rodeira WORDS`, run in `folder`; what it says goes into the file said.txt there.
@@ -122,4 +122,4 @@ TEST_F(AnExport, OfAMapThatCannotBeDrivenOnIsRefused) {
 }
 
 }  // namespace
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

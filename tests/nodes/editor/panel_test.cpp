@@ -1,10 +1,10 @@
 // The panels beside the map, by mouse and keyboard.
 #include "tests/nodes/editor/desk_fixture.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
-const map::Lane& LaneOf(const editor::Document& document, std::int32_t number) { return document.map.lanes[*editor::Find(document.map.lanes, number)].value; }
+const traffic_map::Lane& LaneOf(const editor::Document& document, std::int32_t number) { return document.map.lanes[*editor::Find(document.map.lanes, number)].value; }
 
 TEST_F(ADesk, ListsShowChooseAndDelete) {
   OpenTheGoodMap();
@@ -21,7 +21,7 @@ TEST_F(ADesk, ListsShowChooseAndDelete) {
   EXPECT_EQ(work().session.selection.connections, (std::set<std::pair<std::int32_t, std::int32_t>>{{1, 2}}));
   EXPECT_TRUE(work().session.selection.lanes.empty());
   // The chosen connection's STOP, above in its own panel.
-  for (int i = 0; i < 40; ++i) hands::MoveTo(294, 500), hands::Wheel(1);
+  for (int i = 0; i < 40; ++i) input_devices::MoveTo(294, 500), input_devices::Wheel(1);
   Show();
   Click("STOP");
   EXPECT_TRUE(document().map.connections[0].value.stop);
@@ -46,8 +46,8 @@ TEST_F(ADesk, OfAListOnlyWhatIsSeenIsDrawn) {
   EXPECT_FALSE(work().places.contains("lane 20"));
   const Eigen::Vector2d inside = work().places["lane 1"];
   for (int i = 0; i < 40 && !work().places.contains("lane 20"); ++i) {
-    hands::MoveTo(static_cast<int>(inside.x()), static_cast<int>(inside.y()));
-    hands::Wheel(-1);
+    input_devices::MoveTo(static_cast<int>(inside.x()), static_cast<int>(inside.y()));
+    input_devices::Wheel(-1);
     Show();
   }
   Click("lane 20");
@@ -60,13 +60,13 @@ TEST_F(ADesk, TheChosenLaneIsChanged) {
   ClickOn(15.0, 0.0);
   ASSERT_EQ(work().session.selection.lanes, (std::set<std::int32_t>{1}));
   ChooseOne("left border", "DashedWarn");
-  EXPECT_EQ(LaneOf(document(), 1).left.type, map::BorderType::kDashedWarn);
+  EXPECT_EQ(LaneOf(document(), 1).left.type, traffic_map::BorderType::kDashedWarn);
   ChooseOne("right border", "DoubleDashed");
-  EXPECT_EQ(LaneOf(document(), 1).right.type, map::BorderType::kDoubleDashed);
+  EXPECT_EQ(LaneOf(document(), 1).right.type, traffic_map::BorderType::kDoubleDashed);
   Click("right inverted");
   EXPECT_TRUE(LaneOf(document(), 1).right.inverted);
   ChooseOne("mode", "none");
-  EXPECT_EQ(LaneOf(document(), 1).mode, map::LaneMode::kNone);
+  EXPECT_EQ(LaneOf(document(), 1).mode, traffic_map::LaneMode::kNone);
   for (int i = 0; i < 4; ++i) Press(SDL_SCANCODE_Z, KMOD_CTRL);
   EXPECT_EQ(editor::BytesOf(document()), before);
   Click("delete chosen");
@@ -78,11 +78,11 @@ TEST_F(ADesk, SignsAndFlowsOfALane) {
   ClickOn(15.0, 0.0);
   Click("add sign");
   ASSERT_EQ(document().companion.signs.size(), 1u);
-  EXPECT_EQ(document().companion.signs[0].kind, map::SignKind::kGiveWay);
+  EXPECT_EQ(document().companion.signs[0].kind, traffic_map::SignKind::kGiveWay);
   EXPECT_EQ(document().companion.signs[0].lane, 1);
   Click("add sign");
   ChooseOne("sign 2", "speed limit");
-  EXPECT_EQ(document().companion.signs[1].kind, map::SignKind::kSpeedLimit);
+  EXPECT_EQ(document().companion.signs[1].kind, traffic_map::SignKind::kSpeedLimit);
   Fill("sign 2 limit", "50");
   EXPECT_EQ(document().companion.signs[1].limit_kmh, 50.0);
   ChooseOne("sign 1", "STOP");
@@ -97,26 +97,26 @@ TEST_F(ADesk, SignsAndFlowsOfALane) {
   EXPECT_EQ(document().companion.flows[0].vehph, 420.0);
   Click("flow");
   Write("360");
-  hands::MoveTo(900, 700);
-  hands::Button(900, 700, true);
+  input_devices::MoveTo(900, 700);
+  input_devices::Button(900, 700, true);
   Show();
   EXPECT_EQ(document().companion.flows[0].vehph, 360.0);
-  hands::Button(900, 700, false);
+  input_devices::Button(900, 700, false);
   Show();
   EXPECT_TRUE(work().session.selection.empty());
   EXPECT_FALSE(work().places.contains("flow"));
   // Saved, and read again from the companion.
   Press(SDL_SCANCODE_S, KMOD_CTRL);
-  const auto companion = map::LoadHeightsOf(At("a.motors"));
+  const auto companion = traffic_map::LoadHeightsOf(At("a.motors"));
   ASSERT_TRUE(companion.ok()) << companion.error().Text();
   ASSERT_EQ(companion.value().signs.size(), 2u);
-  EXPECT_EQ(companion.value().signs[0].kind, map::SignKind::kStop);
+  EXPECT_EQ(companion.value().signs[0].kind, traffic_map::SignKind::kStop);
   EXPECT_EQ(companion.value().signs[1].limit_kmh, 50.0);
   EXPECT_EQ(companion.value().flows[0].vehph, 360.0);
   ClickOn(15.0, 0.0);
   Click("delete sign 1");
   ASSERT_EQ(document().companion.signs.size(), 1u);
-  EXPECT_EQ(document().companion.signs[0].kind, map::SignKind::kSpeedLimit);
+  EXPECT_EQ(document().companion.signs[0].kind, traffic_map::SignKind::kSpeedLimit);
   // A lane where nothing starts has no flow.
   ClickOn(45.0, 0.0);
   ASSERT_EQ(work().session.selection.lanes, (std::set<std::int32_t>{2}));
@@ -227,7 +227,7 @@ TEST_F(ADesk, NewElementsByTheirButtons) {
   ChooseOne("lane mode", "start");
   Drag(On(-30.0, -10.0), On(20.0, -10.0));
   ASSERT_EQ(document().map.lanes.size(), 1u);
-  EXPECT_EQ(document().map.lanes[0].value.mode, map::LaneMode::kStart);
+  EXPECT_EQ(document().map.lanes[0].value.mode, traffic_map::LaneMode::kStart);
   const auto borders = editor::BordersOf(document(), document().map.lanes[0].value);
   EXPECT_NEAR((borders->left.At(0.5) - borders->right.At(0.5)).norm(), 4.5, 1e-5);
   ChooseOne("lane mode", "end");
@@ -270,7 +270,7 @@ TEST_F(ADesk, TheMenusDoWhatTheirKeysDo) {
 TEST_F(ADesk, NamesInGreekAndPortugueseAreOpenedFromTheList) {
   // Files that a person sees in the list and clicks on; the status line says their names.
   for (const char* name : {"Πάτρα.motors", "São João.motors"}) {
-    ASSERT_TRUE(base::WriteWhole(At(name), map::GoodMap()).ok());
+    ASSERT_TRUE(base::WriteWhole(At(name), traffic_map::GoodMap()).ok());
     Press(SDL_SCANCODE_O, KMOD_CTRL);
     ASSERT_TRUE(work().files.open());
     Write(At(name).string());
@@ -324,4 +324,4 @@ TEST_F(ADesk, TheBackgroundByItsPanel) {
 }
 
 }  // namespace
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

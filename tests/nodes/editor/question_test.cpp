@@ -1,7 +1,7 @@
 // What is asked before something could be lost, and what becomes of each answer.
 #include "tests/nodes/editor/desk_fixture.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 class AQuestion : public ADesk {
@@ -21,7 +21,7 @@ class AQuestion : public ADesk {
     event.type = SDL_QUIT;
     SDL_PushEvent(&event);
   }
-  bool IsSaved() { return base::ReadText(At("a.motors")).value() != map::GoodMap(); }
+  bool IsSaved() { return base::ReadText(At("a.motors")).value() != traffic_map::GoodMap(); }
 };
 
 TEST_F(AQuestion, NothingIsAskedWhereNothingIsUnsaved) {
@@ -68,7 +68,7 @@ TEST_F(AQuestion, NoNewMapAfterAll) {
 
 TEST_F(AQuestion, AnotherMapIsOpenedAfterTheAnswer) {
   Change();
-  ASSERT_TRUE(base::WriteWhole(At("b.motors"), map::GoodMap()).ok());
+  ASSERT_TRUE(base::WriteWhole(At("b.motors"), traffic_map::GoodMap()).ok());
   Press(SDL_SCANCODE_O, KMOD_CTRL);
   ASSERT_EQ(work().form, Form::kUnsaved);
   Press(SDL_SCANCODE_ESCAPE);
@@ -221,4 +221,4 @@ TEST_F(WorkLeftBehind, OneIsTakenUpAndTheOthersStay) {
 }
 
 }  // namespace
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -20,7 +20,7 @@
 #include "tests/nodes/editor/desk_fixture.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::desk {
+namespace rodeira::nodes {
 namespace {
 
 const std::string kRodeira = BinaryDir() + "/bin/rodeira";
@@ -175,12 +175,12 @@ TEST_F(ARealWindow, TheThesisExampleIsDrawnSavedAndDrivenOn) {
   Key("ctrl+q");
   EXPECT_EQ(editor_->Ends(60.0), 0);
   // The saved map is the one that was drawn.
-  const auto map = map::LoadMap(At("example.motors"));
+  const auto map = traffic_map::LoadMap(At("example.motors"));
   ASSERT_TRUE(map.ok()) << map.error().Text();
   ASSERT_EQ(map.value().curves.size(), 4u);
   ASSERT_EQ(map.value().lanes.size(), 2u);
-  EXPECT_EQ(map.value().lanes[0].value.mode, map::LaneMode::kStart);
-  EXPECT_EQ(map.value().lanes[1].value.mode, map::LaneMode::kEnd);
+  EXPECT_EQ(map.value().lanes[0].value.mode, traffic_map::LaneMode::kStart);
+  EXPECT_EQ(map.value().lanes[1].value.mode, traffic_map::LaneMode::kEnd);
   ASSERT_EQ(map.value().connections.size(), 1u);
   EXPECT_EQ(map.value().picture, base::ReadText(At("photo.png")).value());
   EXPECT_EQ(map.value().curves[0].value.points[3], map.value().curves[2].value.points[0]) << "ends catch each other";
@@ -195,4 +195,4 @@ TEST_F(ARealWindow, TheThesisExampleIsDrawnSavedAndDrivenOn) {
 }
 
 }  // namespace
-}  // namespace rodeira::desk
+}  // namespace rodeira::nodes

@@ -43,8 +43,8 @@ class FoundSource : public testing::Test {
     return launch::Launch::Parse(LiveLaunch(config), std::filesystem::path(SourceDir()) / "launch/live.yaml").value();
   }
   static void WriteOwn(const std::string& guid, const std::string& text) {
-    std::filesystem::create_directories(hands::WheelFolder());
-    ASSERT_TRUE(base::WriteWhole(hands::WheelFileOf(guid), text).ok());
+    std::filesystem::create_directories(input_devices::WheelFolder());
+    ASSERT_TRUE(base::WriteWhole(input_devices::WheelFileOf(guid), text).ok());
   }
   // What was said while the nodes were made and driven.
   struct Told {
@@ -55,7 +55,7 @@ class FoundSource : public testing::Test {
     Told told;
     const launch::Launch launch = LaunchOf(config);
     testing::internal::CaptureStderr();
-    auto nodes = front::LocalNodes::Make(launch);
+    auto nodes = cli::LocalNodes::Make(launch);
     if (nodes.ok()) told.drive = DriveLive(launch, nodes.value(), last, hands);
     else told.refused = nodes.error().Text();
     told.said = testing::internal::GetCapturedStderr();
@@ -84,7 +84,7 @@ TEST_F(FoundSource, ABrokenFileIsOneSentenceAndTheDeviceDrivesByAGuess) {
   EXPECT_GT(told.drive.controls.at(110).throttle(), 0.99);
   EXPECT_NEAR(told.drive.controls.at(210).steering_wheel_rad(), 7.85, 1e-6);
   // Named, it is the person's word, and wrong input.
-  const Told named = Drive("{source: joystick, wheel: \"" + hands::WheelFileOf(wheel.guid()).string() + "\", keyboard: " + kKeys + "}", 10, nullptr);
+  const Told named = Drive("{source: joystick, wheel: \"" + input_devices::WheelFileOf(wheel.guid()).string() + "\", keyboard: " + kKeys + "}", 10, nullptr);
   EXPECT_THAT(named.refused, HasSubstr(wheel.guid() + ".yaml:3: "));
   EXPECT_EQ(named.said, "");
 }
@@ -121,10 +121,10 @@ TEST_F(FoundSource, WithoutAnyDeviceTheWindowsKeysDriveWhereTheyAreNamed) {
   const auto window_keys = [](const std::string& config) {
     const launch::Launch launch = LaunchOf(config);
     testing::internal::CaptureStderr();
-    auto nodes = front::LocalNodes::Make(launch);
+    auto nodes = cli::LocalNodes::Make(launch);
     if (!nodes.ok()) return "refused: " + nodes.error().Text() + testing::internal::GetCapturedStderr();
     const auto window = nodes.value().keys().MakeSender();
-    const LiveDrive drive = DriveLive(launch, nodes.value(), 1000, [&](lockstep::Step) { window->Say({{hands::KeyOf("up").value(), true, 1}}); });
+    const LiveDrive drive = DriveLive(launch, nodes.value(), 1000, [&](lockstep::Step) { window->Say({{input_devices::KeyOf("up").value(), true, 1}}); });
     EXPECT_EQ(drive.controls.at(1000).throttle(), 1.0);
     return testing::internal::GetCapturedStderr();
   };
@@ -215,7 +215,7 @@ TEST_F(FoundSource, AWheelThatWasSetUpStandsAboveAGamePad) {
 TEST_F(FoundSource, APadsStartPausesAndItsYIsTheCamera) {
   VirtualPad pad;
   for (const char* config : {"{source: joystick}", "{source: gamepad}"}) {
-    const auto pause = front::PauseButtons::Open(LaunchOf(config));
+    const auto pause = cli::PauseButtons::Open(LaunchOf(config));
     ASSERT_NE(pause, nullptr);
     EXPECT_FALSE(pause->Pressed());
     pad.Button(SDL_CONTROLLER_BUTTON_START, true);
@@ -228,7 +228,7 @@ TEST_F(FoundSource, APadsStartPausesAndItsYIsTheCamera) {
     pad.Attach();
     EXPECT_FALSE(pause->Pressed());
   }
-  const auto camera = view::WheelButtons::Open({{"", view::kPadCameraButton}});
+  const auto camera = nodes::WheelButtons::Open({{"", nodes::kPadCameraButton}});
   ASSERT_NE(camera, nullptr);
   EXPECT_FALSE(camera->Pressed());
   pad.Button(SDL_CONTROLLER_BUTTON_Y, true);
@@ -240,7 +240,7 @@ TEST_F(FoundSource, APadsStartPausesAndItsYIsTheCamera) {
 
 // The window finds its button as the input finds its wheel: by the file of what is plugged in, also later and again.
 TEST_F(FoundSource, AWheelsOwnFileNamesTheCamerasButton) {
-  const auto camera = view::WheelButtons::Open({{"", 0, true}});
+  const auto camera = nodes::WheelButtons::Open({{"", 0, true}});
   ASSERT_NE(camera, nullptr);
   EXPECT_FALSE(camera->Pressed()) << "nothing is plugged in";
   VirtualWheel wheel;

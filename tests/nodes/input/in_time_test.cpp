@@ -52,7 +52,7 @@ struct MotorLog {
   }
 };
 
-class LoggedMotor final : public hands::ForceDevice {
+class LoggedMotor final : public input_devices::ForceDevice {
  public:
   explicit LoggedMotor(MotorLog& log) : log_(log) {}
   bool Push(double share, double for_s) override {
@@ -96,14 +96,14 @@ class InTime : public testing::Test {
     wheel.Axis(2, -32768);
     const launch::Launch launch =
         launch::Launch::Parse(LiveLaunch("{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}"), std::filesystem::path(SourceDir()) / "launch/live.yaml").value();
-    hands::WheelSettings use;
+    input_devices::WheelSettings use;
     use.devices = {{"rim", wheel.guid(), ""}};
-    use.axes[static_cast<std::size_t>(hands::WheelAxis::kSteering)].emplace();
-    use.axes[static_cast<std::size_t>(hands::WheelAxis::kThrottle)].emplace().axis = 2;
+    use.axes[static_cast<std::size_t>(input_devices::WheelAxis::kSteering)].emplace();
+    use.axes[static_cast<std::size_t>(input_devices::WheelAxis::kThrottle)].emplace().axis = 2;
     const auto driver = launch.roster().Find("driver"), ego = launch.roster().Find("ego");
-    auto nodes = front::LocalNodes::Make(launch, [&](lockstep::NodeIndex node) -> std::unique_ptr<lockstep::Node> {
+    auto nodes = cli::LocalNodes::Make(launch, [&](lockstep::NodeIndex node) -> std::unique_ptr<lockstep::Node> {
       if (node != driver) return nullptr;
-      auto source = nodes::OpenWheel(use, "driver", [&](_SDL_Joystick* joystick, bool) -> std::unique_ptr<hands::ForceDevice> {
+      auto source = nodes::OpenWheel(use, "driver", [&](_SDL_Joystick* joystick, bool) -> std::unique_ptr<input_devices::ForceDevice> {
         if (joystick == nullptr) return nullptr;
         return std::make_unique<LoggedMotor>(log_);
       });

@@ -58,16 +58,16 @@ TEST_F(InputSetup, WritesAFileThatARunFindsByTheWheelItself) {
     ++tick;
     return tick < 3000;
   };
-  ASSERT_EQ(front::SetUpInput({}, [&](const std::string& line) { said += line + "\n"; }, wait), 0) << said;
+  ASSERT_EQ(cli::SetUpInput({}, [&](const std::string& line) { said += line + "\n"; }, wait), 0) << said;
   EXPECT_NE(said.find("1. Turn the steering wheel"), std::string::npos) << said;
   EXPECT_NE(said.find("5. Press the button for a higher gear"), std::string::npos) << said;
   EXPECT_NE(said.find("6. Press the button for another camera"), std::string::npos) << said;
   EXPECT_EQ(said.find("7. "), std::string::npos) << said;
   const auto file = folder_->path() / "rodeira/wheels" / (wheel.guid() + ".yaml");
-  EXPECT_EQ(hands::WheelFileOf(wheel.guid()), file);
+  EXPECT_EQ(input_devices::WheelFileOf(wheel.guid()), file);
   EXPECT_NE(said.find("written: " + file.string()), std::string::npos) << said;
   const launch::Launch launch = launch::Launch::Parse(LiveLaunch("{source: joystick}"), std::filesystem::path(SourceDir()) / "launch/live.yaml").value();
-  auto nodes = front::LocalNodes::Make(launch);
+  auto nodes = cli::LocalNodes::Make(launch);
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   const LiveDrive drive = DriveLive(launch, nodes.value(), 1500, [&](lockstep::Step step) {
     if (step == 100) wheel.Axis(2, -32768);
@@ -80,11 +80,11 @@ TEST_F(InputSetup, WritesAFileThatARunFindsByTheWheelItself) {
 TEST_F(InputSetup, WhoGivesUpOrHasNoWheelIsToldAndNothingIsWritten) {
   const auto say = [](const std::string&) {};
   const bool none = joysticks_->Connected().empty();
-  EXPECT_EQ(front::SetUpInput({}, say, [] { return true; }), none ? 2 : 1);
+  EXPECT_EQ(cli::SetUpInput({}, say, [] { return true; }), none ? 2 : 1);
   VirtualWheel wheel;
   int ticks = 0;
-  EXPECT_EQ(front::SetUpInput({}, say, [&] { return ++ticks < 100; }), 1);
-  EXPECT_EQ(front::SetUpInput({}, say, [] { return true; }), 1) << "a minute without a movement";
+  EXPECT_EQ(cli::SetUpInput({}, say, [&] { return ++ticks < 100; }), 1);
+  EXPECT_EQ(cli::SetUpInput({}, say, [] { return true; }), 1) << "a minute without a movement";
   EXPECT_FALSE(std::filesystem::exists(folder_->path() / "rodeira"));
 }
 
@@ -92,7 +92,7 @@ TEST_F(InputSetup, WhoGivesUpOrHasNoWheelIsToldAndNothingIsWritten) {
 TEST_F(InputSetup, WithoutAFileARunNamesTheSetup) {
   const VirtualWheel stick(SDL_JOYSTICK_TYPE_UNKNOWN);
   const launch::Launch launch = launch::Launch::Parse(LiveLaunch("{source: joystick}"), std::filesystem::path(SourceDir()) / "launch/live.yaml").value();
-  const auto nodes = front::LocalNodes::Make(launch);
+  const auto nodes = cli::LocalNodes::Make(launch);
   ASSERT_FALSE(nodes.ok());
   EXPECT_EQ(nodes.error().exit_status(), 2);
   EXPECT_NE(nodes.error().Text().find("no 'wheel' is named, and none of the devices was set up (`rodeira input setup`)"), std::string::npos) << nodes.error().Text();
@@ -102,7 +102,7 @@ TEST_F(InputSetup, WithoutAFileARunNamesTheSetup) {
 TEST_F(InputSetup, WithoutAFileAWheelDrivesAtOnce) {
   const VirtualWheel wheel;
   const launch::Launch launch = launch::Launch::Parse(LiveLaunch("{source: joystick}"), std::filesystem::path(SourceDir()) / "launch/live.yaml").value();
-  const auto nodes = front::LocalNodes::Make(launch);
+  const auto nodes = cli::LocalNodes::Make(launch);
   EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
 }
 

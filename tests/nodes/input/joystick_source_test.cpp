@@ -39,7 +39,7 @@ class JoystickSource : public testing::Test {
   }
   static std::string Complaint(const std::string& config) {
     const launch::Launch launch = LaunchOf(config);
-    const auto nodes = front::LocalNodes::Make(launch);
+    const auto nodes = cli::LocalNodes::Make(launch);
     if (nodes.ok()) return {};
     EXPECT_EQ(nodes.error().exit_status(), 2);
     return nodes.error().Text();
@@ -75,7 +75,7 @@ TEST_F(JoystickSource, TheWheelDrivesTheCar) {
   wheel.Axis(2, 32767);
   wheel.Axis(3, 32767);
   const launch::Launch launch = LaunchOf("{source: joystick, wheel: " + WheelFile(wheel.guid()) + "}");
-  auto nodes = front::LocalNodes::Make(launch);
+  auto nodes = cli::LocalNodes::Make(launch);
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   const LiveDrive drive = DriveLive(launch, nodes.value(), 4000, [&](lockstep::Step step) {
     if (step == 100) wheel.Axis(2, -32768);
@@ -96,7 +96,7 @@ TEST_F(JoystickSource, UnpluggedInTheRunThePedalsAreReleasedTheSteeringStaysAndT
   VirtualWheel wheel;
   wheel.Axis(2, 32767);
   const launch::Launch launch = LaunchOf("{source: joystick, wheel: " + WheelFile(wheel.guid()) + "}");
-  auto nodes = front::LocalNodes::Make(launch);
+  auto nodes = cli::LocalNodes::Make(launch);
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   testing::internal::CaptureStderr();
   const LiveDrive drive = DriveLive(launch, nodes.value(), 2000, [&](lockstep::Step step) {
@@ -135,9 +135,9 @@ TEST_F(JoystickSource, ButtonsForPauseAndCameraArePressesAndNoControls) {
   const launch::Launch launch = LaunchOf(config);
   EXPECT_EQ(Complaint(config), "");
   wheel.Button(6, true);
-  const auto pause = front::PauseButtons::Open(launch);
+  const auto pause = cli::PauseButtons::Open(launch);
   ASSERT_NE(pause, nullptr);
-  const auto camera = view::WheelButtons::Open({{wheel.guid(), 7}});
+  const auto camera = nodes::WheelButtons::Open({{wheel.guid(), 7}});
   ASSERT_NE(camera, nullptr);
   EXPECT_FALSE(pause->Pressed()) << "held as it begins";
   wheel.Button(6, false);
@@ -164,8 +164,8 @@ TEST_F(JoystickSource, ButtonsForPauseAndCameraArePressesAndNoControls) {
   wheel.Button(6, true);
   EXPECT_TRUE(camera->Pressed());
   EXPECT_TRUE(pause->Pressed());
-  EXPECT_EQ(front::PauseButtons::Open(LaunchOf("{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}")), nullptr);
-  EXPECT_EQ(view::WheelButtons::Open({}), nullptr);
+  EXPECT_EQ(cli::PauseButtons::Open(LaunchOf("{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}")), nullptr);
+  EXPECT_EQ(nodes::WheelButtons::Open({}), nullptr);
 }
 
 TEST_F(JoystickSource, AMissingDeviceIsOneSentenceThatListsWhatIsThere) {

@@ -16,7 +16,7 @@ LiveDrive Drive(const KeyScript& script, lockstep::Step last) { return DriveByKe
 
 // Held when the sample valid at 100 appears (activation 90): activation 100 sees it first, its sample is valid at 110.
 TEST(KeyboardSource, AKeyBecomesControlsAtTheNextActivation) {
-  const auto settings = hands::LoadKeyboard(std::filesystem::path(SourceDir()) / "configs/drivers/keyboard.yaml").value();
+  const auto settings = input_devices::LoadKeyboard(std::filesystem::path(SourceDir()) / "configs/drivers/keyboard.yaml").value();
   const LiveDrive drive = Drive({{100, {"w"}}, {2000, {}}}, 3000);
   for (const auto& [step, controls] : drive.controls) {
     const double held_s = std::clamp(static_cast<double>(step - 100), 0.0, 1900.0) * 1e-3;
@@ -69,7 +69,7 @@ TEST(KeyboardSource, NobodyTouchesAKeyAndTwoRunsAreEqual) {
   EXPECT_EQ(Drive({}, 1500).outcome.digest, digest);
   // Which window speaks, and how often, is in no state: only what is held.
   const auto launch = launch::Launch::Parse(LiveLaunch(kConfig), std::filesystem::path(SourceDir()) / "launch/live.yaml");
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   EXPECT_EQ(DriveLive(launch.value(), nodes.value(), 1500, nullptr).outcome.digest, digest) << "without any window";
   EXPECT_NE(Drive({{100, {"w"}}}, 1500).outcome.digest, digest);
   EXPECT_EQ(Drive({{100, {"w"}}}, 1500).outcome.digest, Drive({{100, {"up"}}}, 1500).outcome.digest)
@@ -80,7 +80,7 @@ TEST(KeyboardSource, WrongFilesAreRefused) {
   const auto complaint = [](const std::string& config) {
     const auto launch = launch::Launch::Parse(LiveLaunch(config), std::filesystem::path(SourceDir()) / "launch/live.yaml");
     if (!launch) return launch.error().Text();
-    auto nodes = front::LocalNodes::Make(launch.value());
+    auto nodes = cli::LocalNodes::Make(launch.value());
     if (nodes.ok()) return std::string();
     EXPECT_EQ(nodes.error().exit_status(), 2);
     return nodes.error().Text();

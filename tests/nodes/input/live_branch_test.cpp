@@ -18,7 +18,7 @@
 #include "tests/system/command.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using lockstep::Step;
@@ -146,4 +146,4 @@ TEST_F(LiveBranch, AnyDriverGoesOnWithTheHandsOfAnyOther) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

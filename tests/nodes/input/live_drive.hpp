@@ -33,7 +33,7 @@ struct LiveDrive {
 
 // `hands` is called with each of the input's samples, on its thread, before its next activation: what a test does there
 // comes at the same step every time.
-inline LiveDrive DriveLive(const launch::Launch& launch, front::LocalNodes& nodes, lockstep::Step last,
+inline LiveDrive DriveLive(const launch::Launch& launch, cli::LocalNodes& nodes, lockstep::Step last,
                            const std::function<void(lockstep::Step)>& hands) {
   LiveDrive drive;
   lockstep::InProcessSettings settings;
@@ -59,16 +59,16 @@ using KeyScript = std::map<lockstep::Step, std::vector<std::string>>;
 inline LiveDrive DriveByKeys(const std::string& launch_text, const KeyScript& script, lockstep::Step last) {
   const auto launch = launch::Launch::Parse(launch_text, std::filesystem::path(SourceDir()) / "launch/live.yaml");
   EXPECT_TRUE(launch.ok()) << launch.error().Text();
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
   const auto window = nodes.value().keys().MakeSender();
-  std::map<hands::Key, launch::LiveKey> keys;
+  std::map<input_devices::Key, launch::LiveKey> keys;
   return DriveLive(launch.value(), nodes.value(), last, [&](lockstep::Step step) {
     if (const auto now = script.find(step); now != script.end()) {
       for (auto& [key, entry] : keys) entry.held = false;
       for (const std::string& name : now->second) {
-        launch::LiveKey& entry = keys[hands::KeyOf(name).value()];
-        entry.key = hands::KeyOf(name).value();
+        launch::LiveKey& entry = keys[input_devices::KeyOf(name).value()];
+        entry.key = input_devices::KeyOf(name).value();
         entry.held = true;
         ++entry.presses;
       }

@@ -38,7 +38,7 @@ std::vector<Seen> DriveStraight() {
                            "\"}}\n  ego: {kind: vehicle, config: {vehicle: ../configs/vehicles/default.yaml, start: {x_m: -498, y_m: -122, heading_deg: 0, speed_mps: 20}}}\n";
   auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/road_feel.yaml");
   EXPECT_TRUE(launch.ok()) << launch.error().Text();
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
   std::vector<Seen> seen;
   lockstep::InProcessSettings settings;
@@ -54,8 +54,8 @@ std::vector<Seen> DriveStraight() {
 }
 
 // The rim's torque where the car is between two stations: its root mean square, in Nm.
-double Felt_Nm(const std::vector<Seen>& drive, const hands::ForceSettings& settings, double from_m, double to_m) {
-  hands::ForceFeedback law(settings);
+double Felt_Nm(const std::vector<Seen>& drive, const input_devices::ForceSettings& settings, double from_m, double to_m) {
+  input_devices::ForceFeedback law(settings);
   double squares = 0.0;
   int count = 0;
   for (const Seen& seen : drive) {
@@ -77,7 +77,7 @@ TEST(RoadFeel, ARoughRoadIsFeltWithTheWheelStraightAndASmoothOneIsNot) {
     ASSERT_NEAR(seen.aside_m, 0.0, 0.5) << "on its lane at " << seen.s_m;
     ASSERT_NEAR(seen.car.speed_mps, kSpeed_mps, 5.0) << seen.s_m;
   }
-  hands::ForceSettings settings;
+  input_devices::ForceSettings settings;
   const double smooth = Felt_Nm(drive, settings, 175.0, 195.0), a = Felt_Nm(drive, settings, 60.0, 150.0), c = Felt_Nm(drive, settings, 210.0, 300.0), e = Felt_Nm(drive, settings, 360.0, 450.0);
   EXPECT_LT(smooth, 0.002);
   EXPECT_GT(a, 5.0 * smooth);

@@ -22,7 +22,7 @@ namespace {
 class Context final : public launch::NodeContext {
  public:
   using launch::NodeContext::NodeContext;
-  terrain::Ground& Ground() override { std::abort(); }  // who serves it does not ask for it
+  ground::Ground& Ground() override { std::abort(); }  // who serves it does not ask for it
   base::Result<launch::WorldSummary> World() override { return base::Failed("nobody asks the server for its own world", ""); }
 };
 
@@ -68,7 +68,7 @@ msg::WorldInfo AnnouncedOf(const std::string& world) {
 
 // What the server announces of a world, whichever kind of file it is: counted by hand.
 TEST(RoadServerAnnounces, TheRoadsOfEveryKindOfWorld) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const std::string straight = "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"60\"><line/></geometry></planView><lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center>"
                                "<right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>\n";
   const auto open_drive = folder.Write("two.xodr", "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" length=\"60\" junction=\"-1\">" + straight +
@@ -82,7 +82,7 @@ TEST(RoadServerAnnounces, TheRoadsOfEveryKindOfWorld) {
 }
 
 bool Same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-bool Same(const terrain::GroundPoint& a, const terrain::GroundPoint& b) {
+bool Same(const ground::GroundPoint& a, const ground::GroundPoint& b) {
   return a.inside == b.inside && Same(a.z_m, b.z_m) && Same(a.normal_W.x(), b.normal_W.x()) && Same(a.normal_W.y(), b.normal_W.y()) && Same(a.normal_W.z(), b.normal_W.z()) &&
          Same(a.friction, b.friction) && a.surface == b.surface;
 }
@@ -108,7 +108,7 @@ class RoadServer : public testing::Test {
   std::unique_ptr<launch::Launch> launch_;
   std::unique_ptr<launch::Service> service_;
   std::unique_ptr<Wire> wire_;
-  std::unique_ptr<terrain::Ground> remote_, here_;
+  std::unique_ptr<ground::Ground> remote_, here_;
   std::shared_ptr<const road::World> world_;
 };
 
@@ -119,8 +119,8 @@ TEST_F(RoadServer, PatchesAreTheSameBits) {
     for (double s = 1.0; s < road.length_m(); s += 3.7, ++patches) {
       const Eigen::Vector3d p = road.Surface(s, base::RandomUniform({static_cast<std::uint64_t>(patches), 1}, -4.0, 4.0)).p_W;
       const double hint = patches % 2 == 0 ? p.z() : std::numeric_limits<double>::quiet_NaN();
-      const terrain::GroundPatch patch{p.x(), p.y(), base::RandomUniform({static_cast<std::uint64_t>(patches), 2}, -3.0, 3.0), 0.25, 0.2, 9, 7, hint};
-      std::vector<terrain::GroundPoint> there(patch.size()), here(patch.size());
+      const ground::GroundPatch patch{p.x(), p.y(), base::RandomUniform({static_cast<std::uint64_t>(patches), 2}, -3.0, 3.0), 0.25, 0.2, 9, 7, hint};
+      std::vector<ground::GroundPoint> there(patch.size()), here(patch.size());
       const int before = wire_->asked;
       remote_->Patch(patch, there);
       EXPECT_EQ(wire_->asked, before + 1);

@@ -61,7 +61,7 @@ class Requests : public testing::Test {
   // `hands` is called with each of the story's samples, on its thread, before its next activation.
   static Driven Drive(const launch::Launch& launch, Step last, const std::function<void(Step, launch::LiveRequestsSender&)>& hands) {
     launch::RunLogBoard log;
-    auto nodes = front::LocalNodes::Make(launch, {}, &log);
+    auto nodes = cli::LocalNodes::Make(launch, {}, &log);
     EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
     const auto window = nodes.value().requests().MakeSender();
     Driven run;
@@ -88,7 +88,7 @@ class Requests : public testing::Test {
     const auto run = replay::RecordedRun::Open(File());
     ASSERT_TRUE(run.ok()) << run.error().Text();
     for (const Step from : steps) {
-      const auto verdict = front::Verify(run.value(), from);
+      const auto verdict = cli::Verify(run.value(), from);
       ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
       EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
       EXPECT_EQ(verdict.value().substituted, std::vector<std::string>{"story"});
@@ -139,7 +139,7 @@ TEST_F(Requests, TheCarGoesBackToWhereItBegan) {
   scene::Moment moment;
   moment.cars.resize(1);
   moment.cars[0].id = 5;
-  const auto request = view::AskStart(*world, moment, 0, {{5, "ego"}}, {});
+  const auto request = nodes::AskStart(*world, moment, 0, {{5, "ego"}}, {});
   ASSERT_TRUE(request.ok()) << request.error().Text();
   const auto launch = LaunchOf("{requests: true}");
   const Driven run = Drive(launch, 2600, [&](Step step, launch::LiveRequestsSender& window) {
@@ -207,7 +207,7 @@ TEST_F(Requests, AScenarioFilePlacesACarToo) {
   EXPECT_EQ(run.weather.at(1200).visibility_m(), 120.0);
   const auto recorded = replay::RecordedRun::Open(File());
   ASSERT_TRUE(recorded.ok()) << recorded.error().Text();
-  const auto verdict = front::Verify(recorded.value(), 0);
+  const auto verdict = cli::Verify(recorded.value(), 0);
   ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
   EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
   EXPECT_TRUE(verdict.value().substituted.empty());

@@ -58,7 +58,7 @@ class Scenario : public testing::Test {
     return std::move(launch).value();
   }
   static Driven Drive(const launch::Launch& launch, Step last, Step snapshot_every = 0) {
-    auto nodes = front::LocalNodes::Make(launch);
+    auto nodes = cli::LocalNodes::Make(launch);
     EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
     Driven run;
     lockstep::InProcessSettings settings;
@@ -90,7 +90,7 @@ class Scenario : public testing::Test {
   }
   static std::string Complaint(const std::string& text) {
     const launch::Launch launch = LaunchOf(text);
-    const auto nodes = front::LocalNodes::Make(launch);
+    const auto nodes = cli::LocalNodes::Make(launch);
     if (nodes.ok()) return {};
     EXPECT_EQ(nodes.error().exit_status(), 2);
     return nodes.error().Text();
@@ -247,7 +247,7 @@ TEST_F(Scenario, RestoredAnywhereItGoesOnWithTheSameDigest) {
     const Driven whole = Drive(launch, 9000, at);
     ASSERT_TRUE(whole.outcome.ok) << whole.outcome.fault;
     EXPECT_GE(whole.events.size(), 3u);
-    auto nodes = front::LocalNodes::Make(launch);
+    auto nodes = cli::LocalNodes::Make(launch);
     ASSERT_TRUE(nodes.ok());
     lockstep::InProcessSettings settings;
     settings.last_step = 9000;
@@ -277,7 +277,7 @@ TEST_F(Scenario, WhatCannotBeIsRefusedAtTheStart) {
 
 TEST_F(Scenario, AnAgentThatIsNotThereIsRefusedWithItsLine) {
   const auto refused = [this](const std::string& event) {
-    const auto nodes = front::LocalNodes::Make(LaunchOf(Text(File("  - " + event + "\n"))));
+    const auto nodes = cli::LocalNodes::Make(LaunchOf(Text(File("  - " + event + "\n"))));
     EXPECT_FALSE(nodes.ok());
     return nodes.ok() ? "" : nodes.error().Text();
   };

@@ -20,13 +20,13 @@ using lockstep::Step;
 
 // Plane and scenario; the published weather by step.
 std::map<Step, msg::WeatherState> WeatherIn(const std::string& world_keys, const std::string& scenario, Step last) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const auto world = folder.Write("w.yaml", "rodeira: world/2\nname: w\nground: {kind: plane}\n" + world_keys);
   const auto story = folder.Write("story.yaml", "rodeira: scenario/1\n" + scenario);
   auto launch = launch::Launch::Parse("rodeira: launch/1\nworld: " + world.string() + "\nnodes:\n  road: {kind: road}\n  story: {kind: scenario, config: {scenario: " + story.string() + "}}\n",
                                       folder.path() / "launch.yaml");
   EXPECT_TRUE(launch.ok()) << launch.error().Text();
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
   std::map<Step, msg::WeatherState> published;
   lockstep::InProcessSettings settings;

@@ -41,7 +41,7 @@ void ExpectTheSame(const std::string& world, const std::string& config, const st
                                        world, config);
   auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/alone.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   std::size_t samples = 0, agents = 0;
   lockstep::InProcessSettings run;
@@ -76,7 +76,7 @@ TEST(TrafficAlone, ARunTellsOfLanesThatAreTooNarrow) {
     auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/alone.yaml");
     ASSERT_TRUE(launch.ok()) << launch.error().Text();
     testing::internal::CaptureStderr();
-    const auto nodes = front::LocalNodes::Make(launch.value());
+    const auto nodes = cli::LocalNodes::Make(launch.value());
     const std::string said = testing::internal::GetCapturedStderr();
     ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
     EXPECT_EQ(said.find("rodeira: node 'others': warning: ") != std::string::npos && said.find("a bus of 10.5 m") != std::string::npos, told) << said;

@@ -26,7 +26,7 @@ TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
       "  others: {kind: traffic, config: {vehicles: 20}}\n";
   auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/details.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   struct Burnt {
     std::uint32_t trip;

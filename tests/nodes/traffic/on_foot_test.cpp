@@ -24,7 +24,7 @@ TEST(OnFoot, WhoIsCalledCrosses) {
       "  story: {kind: scenario, config: {scenario: ../tests/data/somebody_crosses.yaml}}\n";
   auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/on_foot_test.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   struct At {
     double x_m, y_m, heading_rad, spin_rad;

@@ -45,7 +45,7 @@ class ScriptedTraffic : public testing::Test {
     auto launch = LaunchOf(traffic, events);
     EXPECT_TRUE(launch.ok()) << launch.error().Text();
     if (!launch) return run;
-    auto nodes = front::LocalNodes::Make(launch.value());
+    auto nodes = cli::LocalNodes::Make(launch.value());
     EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
     if (!nodes) return run;
     lockstep::InProcessSettings settings;
@@ -62,7 +62,7 @@ class ScriptedTraffic : public testing::Test {
     run.ok = outcome.ok, run.fault = outcome.fault;
     return run;
   }
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
 };
 
 // Two appear at their steps, one behind the other; the second is told to overtake and does, back on its lane before the first.
@@ -100,7 +100,7 @@ TEST_F(ScriptedTraffic, AppearsAndOvertakesAsTheScenarioSays) {
 TEST_F(ScriptedTraffic, TheExampleDoesWhatItSays) {
   auto launch = launch::Launch::Load(std::filesystem::path(SourceDir()) / "launch/scripted.yaml", {{"nodes.recorder.kind", "none"}});
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   std::map<std::uint32_t, double> last_x, least_mps;
   bool passed = false;
@@ -130,7 +130,7 @@ TEST_F(ScriptedTraffic, WhatCannotBeObeyedIsNamedBeforeTheRun) {
   const auto refused = [&](const std::string& event) -> std::string {
     auto launch = LaunchOf("{vehicles: 3, scripted: [car]}", "  - {at_s: 1, name: traffic.release, agent: all}\n  - {" + event + "}\n");
     EXPECT_TRUE(launch.ok()) << launch.error().Text();
-    const auto nodes = front::LocalNodes::Make(launch.value());
+    const auto nodes = cli::LocalNodes::Make(launch.value());
     if (nodes.ok()) return "";
     EXPECT_EQ(nodes.error().code, base::ErrorCode::kWrongInput);
     return nodes.error().Text();

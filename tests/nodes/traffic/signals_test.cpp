@@ -35,7 +35,7 @@ template <class Look>
 void Drive(const std::string& text, Step last, const Look& look) {
   auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/signals.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   lockstep::InProcessSettings settings;
   settings.last_step = last;

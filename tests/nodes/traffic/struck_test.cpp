@@ -26,7 +26,7 @@ TEST(StruckCar, TakesTheImpulseOfTheCollisionAndStays) {
   const std::filesystem::path path = std::filesystem::path(SourceDir()) / "tests/data/crash_traffic.yaml";
   auto launch = launch::Launch::Load(path, {{"nodes.recorder.kind", "none"}});
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
-  auto nodes = front::LocalNodes::Make(launch.value());
+  auto nodes = cli::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   struct At { Eigen::Vector2d p; double speed; };
   std::map<Step, std::map<std::uint32_t, At>> seen;

@@ -27,7 +27,7 @@ TEST(ObstacleMap, HousesTreesAndRailsStandWhereTheirFileSays) {
   double rail_m = 0.0;
   int houses = 0, trees = 0;
   for (std::size_t i = 0; i < map.all().size(); ++i) {
-    const vehicle::Obstacle& box = map.all()[i];
+    const dynamics::Obstacle& box = map.all()[i];
     EXPECT_EQ(box.id, i);
     EXPECT_LT(box.centre_W.z() - box.half_m.z(), -0.9) << "founded";
     EXPECT_GT(box.centre_W.z() + box.half_m.z(), 1.5) << "2 m over the ground, which falls beside the road";
@@ -61,7 +61,7 @@ TEST(ObstacleMap, WhatIsInReachIsNear) {
     const ObstacleMap map = MapOf(file);
     ASSERT_FALSE(map.all().empty()) << file;
     for (std::size_t i = 0; i < map.all().size(); ++i) {
-      const vehicle::Obstacle& box = map.all()[i];
+      const dynamics::Obstacle& box = map.all()[i];
       for (int k = 0; k < 8; ++k) {
         const double around = 0.999 * (box.half_m.head<2>().norm() + kReach_m), angle = 0.785 * k;
         const auto near = map.Near(box.centre_W + around * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0));
@@ -78,7 +78,7 @@ TEST(ObstacleMap, WhatStandsAtNoRoadStopsACarToo) {
   ASSERT_TRUE(world.ok()) << world.error().Text();
   const ObstacleMap map(*world.value(), kReach_m);
   ASSERT_EQ(map.all().size(), 4u);  // the wall is two pieces
-  const vehicle::Obstacle& house = map.all()[0];
+  const dynamics::Obstacle& house = map.all()[0];
   EXPECT_EQ(map.NameOf(0), "object0");
   EXPECT_NEAR((house.centre_W.head<2>() - Eigen::Vector2d(50.0, 20.0)).norm(), 0.0, 1e-9);
   EXPECT_NEAR(house.centre_W.z() - house.half_m.z(), 8.0 - 1.0, 1e-9);
@@ -88,7 +88,7 @@ TEST(ObstacleMap, WhatStandsAtNoRoadStopsACarToo) {
   EXPECT_NEAR(map.all()[1].centre_W.z() - map.all()[1].half_m.z(), 3.0 - 3.0 - 1.0, 1e-9);
   double wall_m = 0.0;
   for (std::size_t i = 2; i < 4; ++i) {
-    const vehicle::Obstacle& wall = map.all()[i];
+    const dynamics::Obstacle& wall = map.all()[i];
     EXPECT_NEAR(wall.centre_W.x(), 0.0, 1e-9);
     EXPECT_NEAR(wall.half_m.y(), 0.2, 1e-12);
     wall_m += 2.0 * wall.half_m.x();
@@ -118,7 +118,7 @@ TEST(ObstacleMap, WhatLiesOnTheRoadIsNoBodyAndASkeletonIsItsBars) {
   std::size_t bars = 0;
   const Eigen::Vector2d begin(106.0 * std::sin(0.4), 100.0 - 106.0 * std::cos(0.4)), end(106.0 * std::sin(0.8), 100.0 - 106.0 * std::cos(0.8)), way = (end - begin).normalized();
   for (std::size_t i = 0; i < map.all().size(); ++i) {
-    const vehicle::Obstacle& box = map.all()[i];
+    const dynamics::Obstacle& box = map.all()[i];
     if (map.NameOf(i) == "w") {
       wall_m += 2.0 * box.half_m.x();
       EXPECT_NEAR((box.centre_W.head<2>() - begin).dot(Eigen::Vector2d(-way.y(), way.x())), 0.0, 1e-9);

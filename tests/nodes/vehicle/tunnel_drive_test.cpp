@@ -19,7 +19,7 @@ std::shared_ptr<const road::World> Bend() {
   return world.ok() ? world.value() : nullptr;
 }
 
-class InATunnel : public ::testing::TestWithParam<vehicle::ModelCase> {};
+class InATunnel : public ::testing::TestWithParam<dynamics::ModelCase> {};
 
 // Steps of 1 ms from a start until the car has come to s = 340 m or the time is over.
 struct Drive {
@@ -27,32 +27,32 @@ struct Drive {
   double highest_m = -1e9, farthest_m = 0.0, farthest_wheel_m = 0.0;  // of B over 0, of B and of a wheel from the road's axis
 };
 
-Drive Through(const road::World& world, vehicle::VehicleModel& car, const vehicle::InitialCondition& start, double throttle, double seconds) {
+Drive Through(const road::World& world, dynamics::VehicleModel& car, const dynamics::InitialCondition& start, double throttle, double seconds) {
   Drive drive;
   const auto ground = world.MakeGround();
-  const ObstacleMap map(world, vehicle::BoxOf(car.dimensions(), {}).reach_m());
-  const vehicle::CollisionSpace space(car.dimensions(), {});
+  const ObstacleMap map(world, dynamics::BoxOf(car.dimensions(), {}).reach_m());
+  const dynamics::CollisionSpace space(car.dimensions(), {});
   EXPECT_TRUE(car.Initialise(start, *ground).ok());
-  vehicle::Controls controls;
-  controls.gearbox = vehicle::GearboxMode::kManual, controls.gear = 2;
+  dynamics::Controls controls;
+  controls.gearbox = dynamics::GearboxMode::kManual, controls.gear = 2;
   controls.throttle = throttle;
   const network::Network& network = *world.network();
   for (int i = 0; i < static_cast<int>(1000.0 * seconds); ++i) {
-    std::vector<vehicle::Obstacle> near;
+    std::vector<dynamics::Obstacle> near;
     for (const std::uint32_t number : map.Near(car.state().p_WB_W)) near.push_back(map.all()[number]);
     const auto touched = space.Touch(car.state(), near);
-    for (const vehicle::Impact& impact : touched) {
+    for (const dynamics::Impact& impact : touched) {
       ++drive.hits;
       EXPECT_EQ(map.NameOf(impact.id), "a-tunnel0");
     }
-    car.SetPush(vehicle::WrenchOf(touched));
+    car.SetPush(dynamics::WrenchOf(touched));
     car.Step(controls, *ground, 0.001);
     const Eigen::Vector3d& p = car.state().p_WB_W;
     if (!p.allFinite()) ADD_FAILURE() << "at step " << i;
     const auto place = network.Locate(p.x(), p.y(), 0.0);
     if (!place || place->s_m > 340.0) break;
     drive.highest_m = std::max(drive.highest_m, p.z()), drive.farthest_m = std::max(drive.farthest_m, std::fabs(place->t_m));
-    for (const vehicle::WheelState& wheel : car.state().wheels) {
+    for (const dynamics::WheelState& wheel : car.state().wheels) {
       if (const auto of_wheel = network.Locate(wheel.contact_W.x(), wheel.contact_W.y(), 0.0)) drive.farthest_wheel_m = std::max(drive.farthest_wheel_m, std::fabs(of_wheel->t_m));
     }
   }
@@ -63,7 +63,7 @@ Drive Through(const road::World& world, vehicle::VehicleModel& car, const vehicl
 TEST_P(InATunnel, WhoGoesStraightOnInABendHitsItsWallAndStaysInside) {
   const auto world = Bend();
   ASSERT_NE(world, nullptr);
-  auto car = vehicle::MakeModel(GetParam());
+  auto car = dynamics::MakeModel(GetParam());
   const Drive drive = Through(*world, *car, {.x_m = 130.0, .y_m = -1.75, .z_hint_m = 0.0, .speed_mps = 20.0}, 1.0, 12.0);
   EXPECT_GT(drive.hits, 20);
   EXPECT_LT(drive.highest_m, 1.0) << "thrown up";
@@ -74,7 +74,7 @@ TEST_P(InATunnel, WhoGoesStraightOnInABendHitsItsWallAndStaysInside) {
 TEST_P(InATunnel, WhoIsPressedIntoItsWallStandsOnItsFloor) {
   const auto world = Bend();
   ASSERT_NE(world, nullptr);
-  auto car = vehicle::MakeModel(GetParam());
+  auto car = dynamics::MakeModel(GetParam());
   const Drive drive = Through(*world, *car, {.x_m = 110.0, .y_m = 2.0, .z_hint_m = 0.0, .heading_rad = -1.5708, .speed_mps = 60.0}, 0.0, 3.0);
   EXPECT_GT(drive.hits, 20);
   EXPECT_GT(drive.farthest_wheel_m, 5.78) << "else it shows nothing";
@@ -82,7 +82,7 @@ TEST_P(InATunnel, WhoIsPressedIntoItsWallStandsOnItsFloor) {
   EXPECT_LT(drive.farthest_m, 6.0) << "through the wall";
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, InATunnel, ::testing::Values(vehicle::kBicycle, vehicle::kOde, vehicle::kMultibody), vehicle::NameOf);
+INSTANTIATE_TEST_SUITE_P(Models, InATunnel, ::testing::Values(dynamics::kBicycle, dynamics::kOde, dynamics::kMultibody), dynamics::NameOf);
 
 }  // namespace
 }  // namespace rodeira::nodes

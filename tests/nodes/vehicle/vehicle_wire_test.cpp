@@ -13,7 +13,7 @@ namespace {
 // What instruments read is right to 2^-16 and has no noise in its last bits; what a run goes on from is there to the bit.
 TEST(VehicleWire, RoundsWhatIsReadAndNotWhatGoesOn) {
   for (std::uint64_t n = 0; n < 2000; ++n) {
-    vehicle::VehicleState state;
+    dynamics::VehicleState state;
     const auto drawn = [n](std::uint64_t which) { return base::RandomUniform({n, which}, -1.0, 1.0) * std::pow(10.0, base::RandomUniform({n, which, 1}, -6.0, 6.0)); };
     state.p_WB_W = {drawn(0), drawn(1), drawn(2)};
     state.engine_speed_radps = drawn(3);
@@ -29,7 +29,7 @@ TEST(VehicleWire, RoundsWhatIsReadAndNotWhatGoesOn) {
       EXPECT_EQ(std::bit_cast<std::uint32_t>(read) & 0xFFU, 0u);
     }
   }
-  vehicle::VehicleState infinite;
+  dynamics::VehicleState infinite;
   infinite.drag_N = INFINITY;
   EXPECT_EQ(ToWire(infinite, {}).drag_n(), INFINITY);
 }

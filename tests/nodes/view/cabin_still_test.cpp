@@ -8,7 +8,7 @@
 #include "common/view/scene/vehicles/cabin_body.hpp"
 #include "tests/nodes/view/driver_still.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
@@ -122,4 +122,4 @@ TEST_F(CabinStill, OnlyTheDriverSeesItAndOnlyWhereItIsWanted) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -17,7 +17,7 @@
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -190,4 +190,4 @@ TEST_F(CarModel, WhichCannotBeReadIsASentenceAndTheProceduralCarStays) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -18,7 +18,7 @@
 #include "tests/nodes/view/screen_hands.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // A window's screen on a plane, or in another world.
@@ -34,8 +34,8 @@ class Choosing : public testing::Test {
     ASSERT_TRUE(screen.ok()) << screen.error().Text();
     screen_ = std::move(screen).value();
   }
-  Image Shown(const scene::Moment& moment) { return view::Shown(*screen_, moment); }
-  bool Click(const Eigen::Vector2d& at, int button = SDL_BUTTON_LEFT) { return view::Click(*screen_, at, button); }
+  Image Shown(const scene::Moment& moment) { return nodes::Shown(*screen_, moment); }
+  bool Click(const Eigen::Vector2d& at, int button = SDL_BUTTON_LEFT) { return nodes::Click(*screen_, at, button); }
 
   ViewSettings settings_;
   std::shared_ptr<const road::World> world_;
@@ -147,7 +147,7 @@ TEST_F(Choosing, ChoosingAndTurningHaveAButtonThatDoesNotDrive) {
 // With the keys of the project's keyboard file below it, a window of 720 pixels has room for 34 lines.
 TEST(WindowHelp, HasEveryKeyOnceAndRoomInAWindow) {
   const std::string help = WindowHelp(kLeftButton);
-  for (const hands::WindowKey& key : hands::WindowKeys()) {
+  for (const input_devices::WindowKey& key : input_devices::WindowKeys()) {
     int lines = 0;
     std::istringstream all(help);
     for (std::string line; std::getline(all, line);) {
@@ -157,9 +157,9 @@ TEST(WindowHelp, HasEveryKeyOnceAndRoomInAWindow) {
     }
     EXPECT_EQ(lines, 1) << key.name << " in:\n" << help;
   }
-  const auto keyboard = hands::LoadKeyboard(SourceDir() + "/configs/drivers/keyboard.yaml");
+  const auto keyboard = input_devices::LoadKeyboard(SourceDir() + "/configs/drivers/keyboard.yaml");
   ASSERT_TRUE(keyboard.ok());
-  const std::string whole = help + "\n\n" + hands::KeyboardHelp(keyboard.value());
+  const std::string whole = help + "\n\n" + input_devices::KeyboardHelp(keyboard.value());
   EXPECT_LE(std::count(whole.begin(), whole.end(), '\n') + 1, 34) << whole;
 }
 
@@ -334,4 +334,4 @@ TEST(Chosen, SaysOfTheTrafficWhatItPublishes) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -12,7 +12,7 @@
 #include "tests/setting.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // One edit of a world file, and where it is: what lies farther than reach_m from a road between two stations is as it was.
@@ -150,4 +150,4 @@ roads:
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

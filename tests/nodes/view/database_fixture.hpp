@@ -18,7 +18,7 @@
 #include "nodes/view/visual_database/database.hpp"
 #include "tests/common/view/scene/ground_worlds.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 namespace fs = std::filesystem;
 
@@ -79,4 +79,4 @@ inline std::string BendWithThings(double sign_s_m = 90.0) {
   return text;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -10,7 +10,7 @@
 #include "tests/nodes/view/database_fixture.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // Hills without any road, and a plane: what is seen of them is written too, found, and shown as from memory.
@@ -119,4 +119,4 @@ TEST_F(Database, BareLandHasOneFileForLevelsThatAreAlike) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

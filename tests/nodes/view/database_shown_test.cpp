@@ -8,7 +8,7 @@
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 TEST_F(Database, AModelFromAFileStandsAtItsPlace) {
@@ -174,4 +174,4 @@ TEST_F(Database, OnlyThatOfTheWorldAsItIsIsFound) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

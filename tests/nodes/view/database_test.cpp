@@ -8,7 +8,7 @@
 #include "tests/nodes/view/database_fixture.hpp"
 #include "tests/setting.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 TEST_F(Database, AMovedSignBuildsItsOwnTilesAlone) {
@@ -187,4 +187,4 @@ TEST_F(Database, RealFilesAreWrittenAndReadAgain) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

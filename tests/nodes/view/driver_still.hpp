@@ -5,7 +5,7 @@
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // One surface and painter for all of a test, the driver's camera, nothing over the picture. `SetUp` of a test that derives begins with this one's.
 class DriverStill : public ::testing::Test {
@@ -44,4 +44,4 @@ class DriverStill : public ::testing::Test {
   const char* file_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

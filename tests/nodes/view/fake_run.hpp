@@ -12,16 +12,16 @@
 #include "idl/topics.hpp"
 
 // A car and an agent on known ways, for the view to look at: no vehicle or traffic model is needed.
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 class PlainContext final : public launch::NodeContext {
  public:
   using NodeContext::NodeContext;
-  terrain::Ground& Ground() override { return ground_; }
+  ground::Ground& Ground() override { return ground_; }
   base::Result<launch::WorldSummary> World() override { return base::WrongInput("no road server here"); }
 
  private:
-  terrain::PlaneGround ground_;
+  ground::PlaneGround ground_;
 };
 
 inline double HeadingAt(double time_s) { return 0.2 * time_s; }
@@ -101,4 +101,4 @@ inline std::string LaunchText(const std::string& view_config, const std::string&
          "}\n  others: {kind: traffic}\n  picture:\n    kind: view\n    config: " + view_config + "\n";
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -4,7 +4,7 @@
 #include "tests/nodes/view/driver_still.hpp"
 #include "tests/n222.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 class FlickerStill : public DriverStill {
@@ -52,4 +52,4 @@ TEST_F(FlickerStill, AnEdgeLineIsThereInEveryPicture) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 #include "common/runtime/launch/launch.hpp"
 #include "tests/nodes/view/fake_run.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // A car drives north at 20 m/s. What its driver steers for was said at 0.1 s, when the car was at y = 2: 3 m before it and 1 m to its left. That is where it is
@@ -51,4 +51,4 @@ TEST(FromWire, WhatIsHeldOfADriverGoesOnWithHisCar) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -11,7 +11,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -60,7 +60,7 @@ class GroundPicture : public testing::Test {
     return probes;
   }
 
-  front::TemporaryFolder folder_;
+  cli::TemporaryFolder folder_;
 };
 
 bool IsGreen(const Probe& p) { return p.green > 1.8 * p.red && p.green > 1.8 * p.blue && p.green > 60.0; }
@@ -169,4 +169,4 @@ TEST_F(GroundPicture, WithoutTheFileTheViewGoesOnAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

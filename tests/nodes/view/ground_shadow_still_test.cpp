@@ -10,7 +10,7 @@
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/n222.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 800, kHeight = 600;
@@ -136,4 +136,4 @@ TEST(GroundShadow, OfABridgeOnTheRoadBelow) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 #include "tests/nodes/view/driver_still.hpp"
 #include "tests/n222.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 class HeatStill : public DriverStill {
@@ -108,4 +108,4 @@ TEST_F(HeatStill, OfAnotherSurfaceNothingIsSeen) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 
 #include "common/runtime/launch/live_keys.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 SDL_Event KeyEvent(SDL_Scancode scancode, bool down, bool repeat = false) {
@@ -56,7 +56,7 @@ TEST_F(Forwarder, SaysEveryChangeAtOnceAndTheSameAgainSomeTimesASecond) {
   forwarder_.Tell(1.02);
   ASSERT_EQ(said_.size(), 2u);
   ASSERT_EQ(said_.back().size(), 1u);
-  EXPECT_EQ(said_.back()[0].key, hands::KeyOf("up"));
+  EXPECT_EQ(said_.back()[0].key, input_devices::KeyOf("up"));
   EXPECT_TRUE(said_.back()[0].held);
   EXPECT_EQ(said_.back()[0].presses, 1u);
   forwarder_.Tell(1.02 + 0.9 * KeyForwarder::kRepeat_s);
@@ -75,7 +75,7 @@ TEST_F(Forwarder, CountsPressesAndNotTheRepeatsOfAHeldKey) {
   forwarder_.Take(KeyEvent(SDL_SCANCODE_W, false));  // pressed elsewhere
   forwarder_.Tell(1.0);
   ASSERT_EQ(said_.back().size(), 1u);
-  EXPECT_EQ(said_.back()[0].key, hands::KeyOf("e"));
+  EXPECT_EQ(said_.back()[0].key, input_devices::KeyOf("e"));
   EXPECT_FALSE(said_.back()[0].held);
   EXPECT_EQ(said_.back()[0].presses, 2u);
 }
@@ -84,7 +84,7 @@ TEST_F(Forwarder, MouseButtonsAreKeysToo) {
   forwarder_.Take(ButtonEvent(SDL_BUTTON_X2, true));
   forwarder_.Tell(1.0);
   ASSERT_EQ(said_.back().size(), 1u);
-  EXPECT_EQ(said_.back()[0].key, hands::KeyOf("mouse_forward"));
+  EXPECT_EQ(said_.back()[0].key, input_devices::KeyOf("mouse_forward"));
 }
 
 TEST_F(Forwarder, WithoutTheFocusNothingIsHeld) {
@@ -97,4 +97,4 @@ TEST_F(Forwarder, WithoutTheFocusNothingIsHeld) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

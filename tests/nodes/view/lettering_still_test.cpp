@@ -8,7 +8,7 @@
 #include "tests/common/view/scene/ground_worlds.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
@@ -107,4 +107,4 @@ TEST_F(Lettering, IsReversedInEachMirrorThatShowsIt) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

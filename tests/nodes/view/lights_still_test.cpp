@@ -8,7 +8,7 @@
 #include "common/view/scene/vehicles/person_mesh.hpp"
 #include "tests/nodes/view/driver_still.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 480;
@@ -140,4 +140,4 @@ TEST_F(LightsStill, LegsMoveWithTheWayThatIsWalked) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 #include "tests/nodes/view/database_fixture.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 using namespace std::chrono_literals;
@@ -121,4 +121,4 @@ TEST(MadeFarWorld, HoldsWhatIsSeenAndNoMore) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -14,7 +14,7 @@
 #include "tests/nodes/view/screen_hands.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 600;
@@ -80,7 +80,7 @@ class MenuTest : public ::testing::Test {
     if (at.x() == 0.0) return false;
     (void)Settled();
     EXPECT_TRUE(screen_->TakeMouse(MotionTo(static_cast<int>(at.x()), static_cast<int>(at.y()))));
-    EXPECT_TRUE(view::Click(*screen_, at)) << "a click on the menu is the menu's";
+    EXPECT_TRUE(nodes::Click(*screen_, at)) << "a click on the menu is the menu's";
     for (int i = 0; i < 3; ++i) (void)Frame();
     (void)MoveTo(kWidth / 4, kHeight / 2);
     return true;
@@ -191,7 +191,7 @@ TEST_F(MenuTest, WhatChangesTheRunIsAskedFor) {
   EXPECT_EQ(asked[1].x_m, world_->start().x_m);
   ASSERT_TRUE(Click("###place the car by a click"));
   EXPECT_EQ(asked.size(), 2u) << "that click was the menu's";
-  EXPECT_TRUE(view::Click(*screen_, {150.0, 500.0}));
+  EXPECT_TRUE(nodes::Click(*screen_, {150.0, 500.0}));
   ASSERT_EQ(asked.size(), 3u);
   EXPECT_EQ(asked[2].name, "place");
 }
@@ -219,10 +219,10 @@ TEST_F(MenuTest, ItsButtonComesWhereTheMouseIsNearTheCorner) {
   EXPECT_EQ(Frame().rgb, bare.rgb);
   EXPECT_FALSE(MoveTo(kWidth - 40, 25));
   (void)Settled();
-  EXPECT_TRUE(view::Click(*screen_, {kWidth - 40.0, 25.0}));
+  EXPECT_TRUE(nodes::Click(*screen_, {kWidth - 40.0, 25.0}));
   (void)Settled();
   EXPECT_TRUE(Click("###close")) << "it is open";
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

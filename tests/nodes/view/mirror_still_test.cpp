@@ -8,7 +8,7 @@
 #include "nodes/view/view_settings.hpp"
 #include "tests/nodes/view/driver_still.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
@@ -189,4 +189,4 @@ TEST_F(MirrorsInTurn, WhatIsKeptOrDoesNotGoOnIsDrawnWhole) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

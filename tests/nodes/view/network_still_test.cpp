@@ -10,7 +10,7 @@
 #include "tests/common/view/scene/ground_worlds.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 960, kHeight = 540;
@@ -117,4 +117,4 @@ TEST(NetworkStill, LightsShineAsTheMomentSays) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -9,7 +9,7 @@
 #include "tests/nodes/view/virtual_display.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // Each in a process of its own: graphics libraries look round once.
@@ -82,4 +82,4 @@ TEST_F(DisplayWithoutGl, PicturesForFilesAreDrawnAllTheSame) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -11,7 +11,7 @@
 #include "nodes/view/frame/picture.hpp"
 #include "tests/nodes/view/read_png.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // Empty where pictures can be drawn here; otherwise why not.
 inline std::string WhyNoPictures() {
@@ -77,4 +77,4 @@ inline scene::CarPose CarOn(const road::Road& road, double s_m, double t_m) {
   return CarAt(road.Position(s_m, t_m), frame.heading_rad, -std::atan(frame.grade));
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

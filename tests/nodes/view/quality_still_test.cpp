@@ -7,7 +7,7 @@
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/n222.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 480;
@@ -112,4 +112,4 @@ TEST(Quality, AWindowOfTheProcessorIsLowAndFilesAreMedium) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -8,7 +8,7 @@
 
 #include "nodes/view/frame/picture.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 inline Image ReadPng(const std::filesystem::path& path) {
   Image image;
@@ -24,4 +24,4 @@ inline Image ReadPng(const std::filesystem::path& path) {
   return image;
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -14,7 +14,7 @@
 #include "tests/nodes/view/virtual_display.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 using namespace std::chrono_literals;
@@ -112,4 +112,4 @@ TEST(ReadingNothing, WithoutADisplay) {
 TEST(ReadingTitle, SaysHowLongItHasTaken) { EXPECT_EQ(WorkTitle("Rodeira", 2.9, "the world is read"), "Rodeira, 2 s: the world is read"); }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

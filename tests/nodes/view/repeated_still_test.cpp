@@ -7,7 +7,7 @@
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 960, kHeight = 540;
@@ -85,4 +85,4 @@ TEST_F(RepeatedStill, NotAtLowQuality) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

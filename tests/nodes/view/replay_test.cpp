@@ -8,7 +8,7 @@
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000, kS = 1000 * kMs;
@@ -260,4 +260,4 @@ TEST(ReplayWindow, StandsStillWhereTheFileIsDamaged) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

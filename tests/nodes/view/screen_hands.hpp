@@ -7,7 +7,7 @@
 #include "nodes/view/window/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 inline SDL_Event ButtonAt(const Eigen::Vector2d& at, bool down, int button = SDL_BUTTON_LEFT) {
   SDL_Event event{};
@@ -33,4 +33,4 @@ inline Image Shown(Screen& screen, const scene::Moment& moment) {
   return screen.painter().Read();
 }
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -11,7 +11,7 @@
 #include "tests/nodes/view/screen_hands.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 class ScreenKeys : public ::testing::Test {
@@ -31,7 +31,7 @@ class ScreenKeys : public ::testing::Test {
     ASSERT_TRUE(screen.ok()) << screen.error().Text();
     screen_ = std::move(screen).value();
   }
-  Image Shown() { return view::Shown(*screen_, moment_); }
+  Image Shown() { return nodes::Shown(*screen_, moment_); }
   bool Press(int symbol, bool driven = true) { return screen_->TakeKey(symbol, driven); }
   // How many pixels of the upper left corner, where lines of text stand, are not as they were.
   static int Written(const Image& before, const Image& after) {
@@ -158,4 +158,4 @@ TEST_F(ScreenKeys, EachStatisticHasItsLegend) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

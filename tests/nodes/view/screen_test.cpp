@@ -15,7 +15,7 @@
 #include "tests/nodes/view/screen_hands.hpp"
 #include "tests/n222.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 TEST(Screen, APictureIsWrittenAsItIsSeenAndNoneIsLost) {
@@ -338,4 +338,4 @@ TEST(Screen, MirrorsGoAndComeBackByTheirKey) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

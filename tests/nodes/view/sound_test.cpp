@@ -7,7 +7,7 @@
 #include "nodes/view/sound/heard.hpp"
 #include "nodes/view/sound/speaker.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 scene::Moment Among() {
@@ -103,4 +103,4 @@ TEST(Speaker, PlaysWhereThereIsADeviceAndSaysWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

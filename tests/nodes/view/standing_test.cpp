@@ -16,7 +16,7 @@
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 class StandingRun : public testing::Test {
@@ -32,7 +32,7 @@ class StandingRun : public testing::Test {
   void TearDown() override { ::unsetenv(RunDesk::kVariable); }
 
   void Serve() {
-    auto server = front::ControlServer::Open(folder_->path() / "run.ctl");
+    auto server = cli::ControlServer::Open(folder_->path() / "run.ctl");
     ASSERT_TRUE(server.ok()) << server.error().Text();
     server_ = std::move(server).value();
     ::setenv(RunDesk::kVariable, (folder_->path() / "run.ctl").c_str(), 1);
@@ -51,7 +51,7 @@ class StandingRun : public testing::Test {
     return screen_->painter().Read();
   }
   // The next line that the window asks, while it goes on showing the same.
-  front::AskedLine Asked() {
+  cli::AskedLine Asked() {
     for (int i = 0; i < 2000; ++i) {
       if (auto line = server_->Next()) return *line;
       screen_->Show(moment_, 1.0);
@@ -63,7 +63,7 @@ class StandingRun : public testing::Test {
 
   std::optional<base::TemporaryFolder> folder_;
   std::shared_ptr<const road::World> world_;
-  std::unique_ptr<front::ControlServer> server_;
+  std::unique_ptr<cli::ControlServer> server_;
   std::unique_ptr<Screen> screen_;
   scene::Moment moment_;
 };
@@ -75,7 +75,7 @@ TEST_F(StandingRun, SpacePausesAndTheWindowSaysWhatTheClockSays) {
   EXPECT_FALSE(screen_->TakeKey(SDLK_SPACE, true)) << "nothing is shown yet";
   const Image running = Shown();
   EXPECT_TRUE(screen_->TakeKey(SDLK_SPACE, true));
-  front::AskedLine asked = Asked();
+  cli::AskedLine asked = Asked();
   EXPECT_EQ(asked.line, "toggle");
   asked.answer("ok paused at 1.500 s (step 1500)");
   const Image paused = Shown();
@@ -132,4 +132,4 @@ TEST(Loading, TheBarIsAsLongAsTheWay) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

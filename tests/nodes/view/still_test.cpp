@@ -7,7 +7,7 @@
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/n222.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 960, kHeight = 540;
@@ -112,7 +112,7 @@ TEST(Still, OnN222) {
     picture.camera = scene::CameraKind::kDriver;
     painter.Draw(picture);
     const Eigen::Vector3d middle = road.Position(s + 11.0, 0.0);
-    const bool painted = world->At(middle.x(), middle.y()).surface == terrain::Surface::kRoadMark;
+    const bool painted = world->At(middle.x(), middle.y()).surface == ground::Surface::kRoadMark;
     ++middles.asked;
     middles.right += painted == ProbeAt(painter.Read(), scene::DriverCamera(car), middle, 0).IsWhite();
   }
@@ -219,4 +219,4 @@ TEST(Still, TheSameMomentGivesTheSamePicture) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

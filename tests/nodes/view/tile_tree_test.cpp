@@ -5,7 +5,7 @@
 
 #include "tests/nodes/view/database_fixture.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // Squares of squares: no group has many children, all tiles are below it, and each group's ball holds them.
@@ -48,4 +48,4 @@ TEST(TileTree, HasSquaresOfSquares) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

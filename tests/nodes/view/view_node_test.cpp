@@ -13,7 +13,7 @@
 #include "tests/nodes/view/fake_run.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 360;
@@ -78,7 +78,7 @@ class ViewNode : public testing::Test {
     picture.moment.agents.push_back(agent);
     road::WorldSpec level;
     level.plane = road::PlaneSpec{};
-    level.terrain_surface = terrain::Surface::kAsphalt;
+    level.terrain_surface = ground::Surface::kAsphalt;
     auto image = RenderStill(*road::World::Make(std::move(level)), picture, kWidth, kHeight);
     EXPECT_TRUE(image.ok());
     return image.value();
@@ -213,4 +213,4 @@ TEST(FromWire, AnotherTripIsAnotherAppearance) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

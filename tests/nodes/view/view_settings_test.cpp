@@ -13,7 +13,7 @@
 #include "tests/nodes/view/fake_run.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 // What the node says to a configuration; empty where it takes it.
@@ -206,4 +206,4 @@ TEST(ViewNodeWithoutDisplay, AWindowThatMustBeIsRefused) {
 TEST(FrameName, HasTheStep) { EXPECT_EQ(FrameName(12340), "step_000012340.png"); }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 
 // A display of its own (Xvfb), named by DISPLAY as long as this lives; no name where Xvfb is not there.
 class VirtualDisplay {
@@ -54,4 +54,4 @@ class VirtualDisplay {
   std::string number_;
 };
 
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -6,7 +6,7 @@
 #include "tests/nodes/view/driver_still.hpp"
 #include "tests/n222.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 960, kHeight = 540;
@@ -101,4 +101,4 @@ TEST_F(WeatherStill, RainFallsAndLeavesNothingBehind) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

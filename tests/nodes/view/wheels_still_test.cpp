@@ -7,7 +7,7 @@
 #include "common/view/scene/vehicles/car_mesh.hpp"
 #include "tests/nodes/view/driver_still.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr int kWidth = 960, kHeight = 540;
@@ -112,4 +112,4 @@ TEST_F(WheelsStill, AWheelMovesWithItsSuspension) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes

@@ -17,14 +17,14 @@ constexpr double kMet_m = 1e-4;
 constexpr int kHalvings = 40;
 
 // How high a point is over the ground on whose level it is; nothing outside of the world.
-std::optional<double> Over(terrain::Ground& ground, const Vector3d& p_W) {
-  const terrain::GroundPoint at = ground.At(p_W.x(), p_W.y(), p_W.z());
+std::optional<double> Over(ground::Ground& ground, const Vector3d& p_W) {
+  const ground::GroundPoint at = ground.At(p_W.x(), p_W.y(), p_W.z());
   if (at.inside) return p_W.z() - at.z_m;
   return std::nullopt;
 }
 
 // Between a point over the ground and one below it, on the level that lies at the first one.
-Vector3d Meet(terrain::Ground& ground, const Ray& ray, double above_m, double below_m) {
+Vector3d Meet(ground::Ground& ground, const Ray& ray, double above_m, double below_m) {
   for (int i = 0; i < kHalvings; ++i) {
     const double middle_m = 0.5 * (above_m + below_m);
     const auto over = Over(ground, ray.from_W + middle_m * ray.along_W);
@@ -35,7 +35,7 @@ Vector3d Meet(terrain::Ground& ground, const Ray& ray, double above_m, double be
 
 }  // namespace
 
-std::optional<Vector3d> GroundOn(terrain::Ground& ground, const Ray& ray, double far_m) {
+std::optional<Vector3d> GroundOn(ground::Ground& ground, const Ray& ray, double far_m) {
   const double closing = std::max(-ray.along_W.z(), 0.0) + kSteepest * std::hypot(ray.along_W.x(), ray.along_W.y());
   std::optional<double> above_m;  // the last place over the ground
   for (double way_m = 0.0; way_m <= far_m;) {

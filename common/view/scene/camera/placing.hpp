@@ -10,7 +10,7 @@ namespace rodeira::scene {
 
 // Where a ray from above first meets the ground, on the level that lies there, within 1 cm in height; nothing where it does not within
 // `far_m`, or begins below the ground.
-std::optional<Eigen::Vector3d> GroundOn(terrain::Ground& ground, const Ray& ray, double far_m = 5'000.0);
+std::optional<Eigen::Vector3d> GroundOn(ground::Ground& ground, const Ray& ray, double far_m = 5'000.0);
 
 // Where a car is to stand.
 struct CarPlace {

@@ -16,8 +16,8 @@ using network::LaneType;
 constexpr double kSame_m = 0.5;
 constexpr double kSlippery = 0.5;  // coefficients of friction below it are those of ice and snow
 
-Colour PavedColour(LaneType type, terrain::Surface surface) {
-  if (surface == terrain::Surface::kGravel || surface == terrain::Surface::kSoil) return SurfaceColour(surface);
+Colour PavedColour(LaneType type, ground::Surface surface) {
+  if (surface == ground::Surface::kGravel || surface == ground::Surface::kSoil) return SurfaceColour(surface);
   switch (type) {
     case LaneType::kShoulder:
     case LaneType::kStop:
@@ -63,19 +63,19 @@ void Patch(double friction, Skin& skin) {
 
 }  // namespace
 
-Material MaterialOf(terrain::Surface surface) {
+Material MaterialOf(ground::Surface surface) {
   switch (surface) {
-    case terrain::Surface::kConcrete: return Material::kConcrete;
-    case terrain::Surface::kGravel: return Material::kGravel;
-    case terrain::Surface::kAsphalt:
-    case terrain::Surface::kRoadMark: return Material::kRoad;
+    case ground::Surface::kConcrete: return Material::kConcrete;
+    case ground::Surface::kGravel: return Material::kGravel;
+    case ground::Surface::kAsphalt:
+    case ground::Surface::kRoadMark: return Material::kRoad;
     default: return Material::kGround;
   }
 }
 
 Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::SurfacePoint& level) {
   Skin skin;
-  skin.surface = level.surface == terrain::Surface::kOutside ? terrain::Surface::kGrass : level.surface;
+  skin.surface = level.surface == ground::Surface::kOutside ? ground::Surface::kGrass : level.surface;
   LaneType type = LaneType::kNone;
   bool patched = false;
   if (world.network() != nullptr && level.inside) {
@@ -96,7 +96,7 @@ Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::Su
   const bool paved = skin.material != Material::kGround;
   skin.grown = !paved;
   if (skin.land && world.ground_picture() != nullptr) skin.picture = *world.ground_picture();
-  skin.colour = paved ? PavedColour(type, skin.surface == terrain::Surface::kRoadMark ? terrain::Surface::kAsphalt : skin.surface)
+  skin.colour = paved ? PavedColour(type, skin.surface == ground::Surface::kRoadMark ? ground::Surface::kAsphalt : skin.surface)
                       : SurfaceColour(skin.surface);
   if (patched) Patch(level.friction, skin);
   return skin;

@@ -13,7 +13,7 @@ namespace rodeira::scene {
 struct Skin {
   Material material = Material::kGround;
   Colour colour;
-  terrain::Surface surface = terrain::Surface::kGrass;
+  ground::Surface surface = ground::Surface::kGrass;
   bool land = true;    // beside all roads
   bool grown = true;   // its colour changes from place to place
   std::optional<terrain::LaidPicture> picture;
@@ -21,7 +21,7 @@ struct Skin {
 };
 
 // How a surface is drawn where it has no picture.
-Material MaterialOf(terrain::Surface surface);
+Material MaterialOf(ground::Surface surface);
 
 // Of one of SUELO's levels at a place: by what it is made of, and by the type of the lane there.
 Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::SurfacePoint& level);

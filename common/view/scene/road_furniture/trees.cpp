@@ -48,7 +48,7 @@ void PlantField(const road::World& world, std::uint64_t seed, std::int64_t field
       const double wood = SmoothNoise(x, y, 190.0, seed) + 0.5 * SmoothNoise(x, y, 60.0, seed + 1);
       if (draw(2, 0.0, 1.0) > (wood > 0.25 ? 0.6 : 0.07)) continue;
       const road::SurfacePoint ground = world.At(x, y);
-      if (!ground.inside || ground.surface != terrain::Surface::kGrass) continue;
+      if (!ground.inside || ground.surface != ground::Surface::kGrass) continue;
       if (ground.slope_x * ground.slope_x + ground.slope_y * ground.slope_y > 0.6) continue;  // too steep
       Tree tree = Grow(seed, column, row);
       if (near_road && RoomBeside(world, x, y) < kClear_m + tree.crown_m) continue;
@@ -92,7 +92,7 @@ void AddRings(const Profile& profile, int sides, const Colour* own, Repeated& tr
 
 std::vector<Tree> PlantTrees(const road::World& world, std::uint64_t seed) {
   std::vector<Tree> trees;
-  if (world.grid() == nullptr || world.terrain_surface() != terrain::Surface::kGrass) return trees;
+  if (world.grid() == nullptr || world.terrain_surface() != ground::Surface::kGrass) return trees;
   const double field_m = kPlot_m * kPlotsAField;
   const double across_m = field_m * std::sqrt(0.5);
   const road::Extents extents = world.extents();

@@ -80,7 +80,7 @@ Colour PaintColour(std::string_view name) {
   if (name == "orange") return Colour::Of(0xe58a2e);
   if (name == "violet") return Colour::Of(0x8a4fb5);
   if (name == "black") return Colour::Of(0x202020);
-  return SurfaceColour(terrain::Surface::kRoadMark);  // white, standard, unsaid
+  return SurfaceColour(ground::Surface::kRoadMark);  // white, standard, unsaid
 }
 
 void AddPaint(const PaintPiece& piece, TilePaint& paint) {

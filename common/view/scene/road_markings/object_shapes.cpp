@@ -30,7 +30,7 @@ Vector2d Mitre(const Vector2d& left_before, const Vector2d& left_after) {
 }  // namespace
 
 std::optional<Colour> FillColour(std::string_view fill) {
-  using terrain::Surface;
+  using ground::Surface;
   if (fill == "grass") return SurfaceColour(Surface::kGrass);
   if (fill == "concrete") return SurfaceColour(Surface::kConcrete);
   if (fill == "asphalt") return SurfaceColour(Surface::kAsphalt);
@@ -42,7 +42,7 @@ std::optional<Colour> FillColour(std::string_view fill) {
   return std::nullopt;
 }
 
-Colour BorderColour(std::string_view type) { return type == "curb" ? Colour::Of(0xbab7b0) : SurfaceColour(terrain::Surface::kConcrete); }
+Colour BorderColour(std::string_view type) { return type == "curb" ? Colour::Of(0xbab7b0) : SurfaceColour(ground::Surface::kConcrete); }
 
 std::vector<FramePiece> FrameOf(std::span<const Vector2d> outline, bool closed, std::span<const std::size_t> along, double width_m) {
   const std::size_t count = outline.size();

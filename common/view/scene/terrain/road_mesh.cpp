@@ -17,7 +17,7 @@ struct Strip {
   double from_t_m;
   double to_t_m;
   Material material;
-  terrain::Surface surface;  // of the road's band, or of the verge that the blend begins with
+  ground::Surface surface;  // of the road's band, or of the verge that the blend begins with
   bool outer_right = false;  // its right edge is the ribbon's
   bool outer_left = false;
 };
@@ -27,7 +27,7 @@ std::vector<Strip> StripsOf(const road::Section& section, Material ground) {
   static constexpr double kBlendParts[] = {0.0, 0.15, 0.3, 0.5, 0.7, 0.85, 1.0};
   constexpr int kCount = static_cast<int>(std::size(kBlendParts)) - 1;
   const double blend = section.spec().blend_m;
-  const terrain::Surface verge = section.spec().verge.surface;
+  const ground::Surface verge = section.spec().verge.surface;
   std::vector<Strip> strips;
   for (int k = kCount; k > 0; --k) {
     strips.push_back({section.verge_right_m() - blend * kBlendParts[k], section.verge_right_m() - blend * kBlendParts[k - 1], ground, verge});
@@ -115,7 +115,7 @@ class Weaver {
       const double wildness = Wildness(t_m, line.beyond_m);
       Colour verge = GroundColour(strip.surface, p_W.x(), p_W.y(), Eigen::Vector3d::UnitZ());
       const double beside = std::max(t_m - section_.paved_left_m(), section_.paved_right_m() - t_m);
-      if (beside < 0.5) verge = Mix(verge, SurfaceColour(terrain::Surface::kGravel), 0.6);  // little grows right beside the road
+      if (beside < 0.5) verge = Mix(verge, SurfaceColour(ground::Surface::kGravel), 0.6);  // little grows right beside the road
       colour = Mix(verge, wild.colour, std::max(wildness, line.beyond_m != 0.0 ? 0.5 : 0.0));
       normal = ((1.0 - wildness) * normal + wildness * wild.normal_W).normalized();
     }
@@ -184,7 +184,7 @@ void Paint(const road::World& world, const road::Road& road, const Ribbon& ribbo
     if (s > from_s + 1e-6 && s < to_s - 1e-6) stations.push_back(s);
   }
   stations.push_back(to_s);
-  const Colour colour = mark.colour == road::MarkColour::kYellow ? Colour::Of(0xe5b52e) : SurfaceColour(terrain::Surface::kRoadMark);
+  const Colour colour = mark.colour == road::MarkColour::kYellow ? Colour::Of(0xe5b52e) : SurfaceColour(ground::Surface::kRoadMark);
   const std::vector<double> cuts = CutsOf(mark, road.section());
   std::vector<std::uint32_t> row, before;
   for (const double s : stations) {

@@ -12,7 +12,7 @@
 namespace rodeira::scene {
 namespace {
 
-using partition::GridPoint;
+using tessellation::GridPoint;
 
 constexpr BendRange kEdge = {0.003, 0.02, 2.0};
 

@@ -54,7 +54,7 @@ void LevelsAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t 
     if (world.network() == nullptr) return;
     const auto place = world.network()->Locate(p_W.x(), p_W.y());
     if (!place || !std::isfinite(place->z_m)) return;
-    top = {place->z_m, 0.0, 0.0, 0.0, terrain::Surface::kGrass, false};
+    top = {place->z_m, 0.0, 0.0, 0.0, ground::Surface::kGrass, false};
     levels.push_back(top);
     return;
   }
@@ -64,7 +64,7 @@ void LevelsAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t 
     const double z = levels.back().z_m;
     bool deeper = false;
     if (IsDeck(world, p_W, z)) {
-      const road::SurfacePoint below = world.At(p_W.x(), p_W.y(), z - terrain::kHintAbove_m - kSameLevel_m);
+      const road::SurfacePoint below = world.At(p_W.x(), p_W.y(), z - ground::kHintAbove_m - kSameLevel_m);
       if (!below.inside || !(below.z_m < z - kSameLevel_m)) break;
       levels.push_back(below);
       continue;

@@ -8,8 +8,8 @@
 namespace rodeira::scene {
 namespace {
 
-using partition::GridPoint;
-using partition::GridSegment;
+using tessellation::GridPoint;
+using tessellation::GridSegment;
 
 bool OnEdge(const GridPoint& p) { return p.x == 0 || p.y == 0 || p.x == kTileSteps || p.y == kTileSteps; }
 
@@ -23,7 +23,7 @@ class Follower {
     }
   }
 
-  std::vector<partition::GridLine> Take() {
+  std::vector<tessellation::GridLine> Take() {
     for (auto& [p, others] : around_) {
       while (IsKnot(p) && !others.empty()) Follow(p);
     }
@@ -60,13 +60,13 @@ class Follower {
 
   std::map<GridPoint, std::vector<GridPoint>> around_;
   std::map<GridPoint, bool> knots_;
-  std::vector<partition::GridLine> lines_;
+  std::vector<tessellation::GridLine> lines_;
 };
 
 }  // namespace
 
 TileChains::TileChains(std::span<const GridSegment> segments, const TileKey& key, const road::World& world) {
-  for (const partition::GridLine& line : Follower(segments).Take()) {
+  for (const tessellation::GridLine& line : Follower(segments).Take()) {
     Chain& chain = chains_.emplace_back();
     for (const GridPoint& p : line) {
       const Eigen::Vector2d at_W = ToWorld(key, p);
@@ -76,12 +76,12 @@ TileChains::TileChains(std::span<const GridSegment> segments, const TileKey& key
 }
 
 std::vector<GridSegment> TileChains::Simplified(const Tolerance& tolerance) const {
-  std::vector<partition::GridLine> lines;
+  std::vector<tessellation::GridLine> lines;
   for (const Chain& chain : chains_) lines.push_back(Thin(chain, tolerance));
-  return partition::Node(lines);
+  return tessellation::Node(lines);
 }
 
-partition::GridLine TileChains::Thin(const Chain& chain, const Tolerance& tolerance) {
+tessellation::GridLine TileChains::Thin(const Chain& chain, const Tolerance& tolerance) {
   std::vector<bool> kept(chain.size(), false);
   kept.front() = kept.back() = true;
   if (chain.front().p == chain.back().p && chain.size() > 2) kept[chain.size() / 2] = true;
@@ -91,7 +91,7 @@ partition::GridLine TileChains::Thin(const Chain& chain, const Tolerance& tolera
     Keep(chain, from, i, tolerance, kept);
     from = i;
   }
-  partition::GridLine line;
+  tessellation::GridLine line;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     if (kept[i]) line.push_back(chain[i].p);
   }

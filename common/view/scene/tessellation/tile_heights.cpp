@@ -9,14 +9,14 @@
 namespace rodeira::scene {
 namespace {
 
-bool IsCorner(const partition::GridPoint& p) { return (p.x == 0 || p.x == kTileSteps) && (p.y == 0 || p.y == kTileSteps); }
+bool IsCorner(const tessellation::GridPoint& p) { return (p.x == 0 || p.x == kTileSteps) && (p.y == 0 || p.y == kTileSteps); }
 bool Before(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); }
 
 }  // namespace
 
 TileHeights::TileHeights(const road::World& world, const TilePlan& plan) : world_(world), plan_(plan) {
   const std::size_t count = plan_.triangles.points().size();
-  first_.assign(count, partition::Triangulation::kNone);
+  first_.assign(count, tessellation::Triangulation::kNone);
   edge_of_.assign(count, 0);
   FindSides();
   FindAims();
@@ -27,7 +27,7 @@ TileHeights::TileHeights(const road::World& world, const TilePlan& plan) : world
 }
 
 std::span<const CornerHeight> TileHeights::At(std::uint32_t point, std::uint32_t face) const {
-  for (std::uint32_t i = first_[point]; i != partition::Triangulation::kNone; i = corners_[i].next) {
+  for (std::uint32_t i = first_[point]; i != tessellation::Triangulation::kNone; i = corners_[i].next) {
     if (corners_[i].face == face) return std::span(heights_).subspan(corners_[i].first, corners_[i].count);
   }
   return {};
@@ -35,7 +35,7 @@ std::span<const CornerHeight> TileHeights::At(std::uint32_t point, std::uint32_t
 
 std::vector<double> TileHeights::Way(std::uint32_t point, double from_m, double to_m) const {
   std::vector<double> way = {from_m, to_m};
-  for (std::uint32_t k = first_[point]; k != partition::Triangulation::kNone; k = corners_[k].next) {
+  for (std::uint32_t k = first_[point]; k != tessellation::Triangulation::kNone; k = corners_[k].next) {
     for (const CornerHeight& height : std::span(heights_).subspan(corners_[k].first, corners_[k].count)) {
       if (height.z_m > std::min(from_m, to_m) && height.z_m < std::max(from_m, to_m)) way.push_back(height.z_m);
     }
@@ -47,7 +47,7 @@ std::vector<double> TileHeights::Way(std::uint32_t point, double from_m, double 
 }
 
 TileHeights::Corner& TileHeights::CornerOf(std::uint32_t point, std::uint32_t face) {
-  for (std::uint32_t i = first_[point]; i != partition::Triangulation::kNone; i = corners_[i].next) {
+  for (std::uint32_t i = first_[point]; i != tessellation::Triangulation::kNone; i = corners_[i].next) {
     if (corners_[i].face == face) return corners_[i];
   }
   corners_.push_back({face, first_[point]});
@@ -65,9 +65,9 @@ TileHeights::OnEdge& TileHeights::EdgeOf(std::uint32_t point) {
 
 void TileHeights::FindSides() {
   const auto points = plan_.triangles.points();
-  for (const partition::Triangulation::Triangle& t : plan_.triangles.triangles()) {
+  for (const tessellation::Triangulation::Triangle& t : plan_.triangles.triangles()) {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (t.across[k] != partition::Triangulation::kNone) continue;
+      if (t.across[k] != tessellation::Triangulation::kNone) continue;
       const std::array<std::uint32_t, 2> ends = {t.corner[k], t.corner[(k + 1) % 3]};
       const Eigen::Vector2d half = 0.5 * (ToWorld(plan_.key, points[ends[0]]) + ToWorld(plan_.key, points[ends[1]]));
       for (const std::uint32_t end : ends) EdgeOf(end).halves_W.push_back(half);
@@ -90,7 +90,7 @@ void TileHeights::FindAims() {
       if (thickness > corner.thickness) corner.thickness = thickness, corner.towards_W = (at[0] + at[1] + at[2]) / 3.0;
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      if (t.across[k] != partition::Triangulation::kNone) continue;
+      if (t.across[k] != tessellation::Triangulation::kNone) continue;
       const Eigen::Vector2d half = 0.5 * (at[k] + at[(k + 1) % 3]);
       for (const std::size_t c : {k, (k + 1) % 3}) {
         const int side = EdgeOf(t.corner[c]).halves_W.front() == half ? 0 : 1;
@@ -166,7 +166,7 @@ void TileHeights::AskInside(std::uint32_t point) {
 
 // Both tiles ask along the sides on their common edge and nothing else; what else meets there is welded to that.
 void TileHeights::AskOnEdge(std::uint32_t point) {
-  const partition::GridPoint p = plan_.triangles.points()[point];
+  const tessellation::GridPoint p = plan_.triangles.points()[point];
   const Eigen::Vector2d p_W = ToWorld(plan_.key, p);
   thread_local std::vector<CornerHeight> sides;
   sides.clear();

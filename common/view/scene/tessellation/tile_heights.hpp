@@ -34,7 +34,7 @@ class TileHeights {
   // A face at a point: from where it is asked there, and what it then has.
   struct Corner {
     std::uint32_t face = 0;
-    std::uint32_t next = partition::Triangulation::kNone;  // of the same point
+    std::uint32_t next = tessellation::Triangulation::kNone;  // of the same point
     int on_edge = -1;  // which of the point's sides on the tile's edge the face has
     double thickness = -1.0;
     Eigen::Vector2d towards_W = Eigen::Vector2d::Zero();
@@ -47,7 +47,7 @@ class TileHeights {
   // Calls use(corner) for each face at a point.
   template <class Use>
   void ForEachCorner(std::uint32_t point, const Use& use) {
-    for (std::uint32_t i = first_[point]; i != partition::Triangulation::kNone; i = corners_[i].next) use(corners_[i]);
+    for (std::uint32_t i = first_[point]; i != tessellation::Triangulation::kNone; i = corners_[i].next) use(corners_[i]);
   }
   Corner& CornerOf(std::uint32_t point, std::uint32_t face);
   OnEdge& EdgeOf(std::uint32_t point);

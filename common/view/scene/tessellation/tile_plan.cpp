@@ -9,8 +9,8 @@
 namespace rodeira::scene {
 namespace {
 
-using partition::GridPoint;
-using partition::Triangulation;
+using tessellation::GridPoint;
+using tessellation::Triangulation;
 
 constexpr std::uint32_t kNone = Triangulation::kNone;
 constexpr double kTerrainsRoom_m = 0.002;  // where the terrain's own triangles are kept no post is left out but as near to another point
@@ -21,11 +21,11 @@ class Planner {
     plan_.key = key;
   }
 
-  TilePlan Plan(std::span<const partition::GridSegment> segments, std::span<const GridPoint> edge) {
+  TilePlan Plan(std::span<const tessellation::GridSegment> segments, std::span<const GridPoint> edge) {
     Triangulation& t = plan_.triangles;
     for (const GridPoint& p : edge) t.Insert(p);
     const bool decks = land_.decks.contains(plan_.key);
-    for (const partition::GridSegment& segment : segments) {
+    for (const tessellation::GridSegment& segment : segments) {
       const std::vector<GridPoint> line = decks ? LineOverGround(world_, plan_.key, segment, static_cast<int>(level_)) : std::vector<GridPoint>{segment.a, segment.b};
       for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         const std::uint32_t a = t.Insert(line[i]), b = t.Insert(line[i + 1]);
@@ -140,10 +140,10 @@ double ThicknessOf(const Triangulation& triangles, const Triangulation::Triangle
     const GridPoint &a = p[triangle.corner[k]], &b = p[triangle.corner[(k + 1) % 3]];
     longest = std::max(longest, Squared(a, b));
   }
-  return static_cast<double>(partition::Turn(p[triangle.corner[0]], p[triangle.corner[1]], p[triangle.corner[2]])) / std::sqrt(longest);
+  return static_cast<double>(tessellation::Turn(p[triangle.corner[0]], p[triangle.corner[1]], p[triangle.corner[2]])) / std::sqrt(longest);
 }
 
-TilePlan PlanTile(const road::World& world, const Land& land, const TileKey& key, std::span<const partition::GridSegment> segments,
+TilePlan PlanTile(const road::World& world, const Land& land, const TileKey& key, std::span<const tessellation::GridSegment> segments,
                   std::span<const GridPoint> edge, int level) {
   return Planner(world, land, key, level).Plan(segments, edge);
 }

@@ -34,14 +34,14 @@ struct Face {
 // A tile in triangles, seen from above: lanes, and the land around them.
 struct TilePlan {
   TileKey key;
-  partition::Triangulation triangles{static_cast<std::int32_t>(kTileSteps)};
+  tessellation::Triangulation triangles{static_cast<std::int32_t>(kTileSteps)};
   std::vector<std::uint32_t> face_of;  // by triangle
   std::vector<Face> faces;
   int left_out = 0;  // lines that crossed others after all; 0 but for mistakes
 };
 
 // A triangle's smallest height, in steps.
-double ThicknessOf(const partition::Triangulation& triangles, const partition::Triangulation::Triangle& triangle);
+double ThicknessOf(const tessellation::Triangulation& triangles, const tessellation::Triangulation::Triangle& triangle);
 
 // Of what the land in tiles is made: the terrain's posts, and where roads and their slopes change it.
 struct Land {
@@ -62,26 +62,26 @@ struct Land {
 };
 
 // segments: noded, of the finest level. edge: all points on the tile's edges.
-TilePlan PlanTile(const road::World& world, const Land& land, const TileKey& key, std::span<const partition::GridSegment> segments,
-                  std::span<const partition::GridPoint> edge, int level);
+TilePlan PlanTile(const road::World& world, const Land& land, const TileKey& key, std::span<const tessellation::GridSegment> segments,
+                  std::span<const tessellation::GridPoint> edge, int level);
 
 // A tile's lines, to be drawn with fewer points at coarser levels.
 class TileChains {
  public:
   // segments: noded.
-  TileChains(std::span<const partition::GridSegment> segments, const TileKey& key, const road::World& world);
+  TileChains(std::span<const tessellation::GridSegment> segments, const TileKey& key, const road::World& world);
 
   // The same lines, noded, with fewer points, none farther from what it leaves out than the tolerance; ends, crossings and points on
   // the tile's edge stay.
-  std::vector<partition::GridSegment> Simplified(const Tolerance& tolerance) const;
+  std::vector<tessellation::GridSegment> Simplified(const Tolerance& tolerance) const;
 
  private:
   struct Point {
-    partition::GridPoint p;
+    tessellation::GridPoint p;
     Eigen::Vector3d at_W = Eigen::Vector3d::Zero();  // on the ground
   };
   using Chain = std::vector<Point>;
-  static partition::GridLine Thin(const Chain& chain, const Tolerance& tolerance);
+  static tessellation::GridLine Thin(const Chain& chain, const Tolerance& tolerance);
   static void Keep(const Chain& chain, std::size_t from, std::size_t to, const Tolerance& tolerance, std::vector<bool>& kept);
 
   std::vector<Chain> chains_;  // from a knot to the next one, or around

@@ -11,8 +11,8 @@
 namespace rodeira::scene {
 namespace {
 
-using partition::GridPoint;
-using partition::Triangulation;
+using tessellation::GridPoint;
+using tessellation::Triangulation;
 
 constexpr double kLongSide = 8.0;  // times as long as the thinnest triangle is thick: such a side of a thin one is looked at
 constexpr std::uint32_t kNone = Triangulation::kNone;
@@ -363,7 +363,7 @@ void MeetTheGround(const road::World& world, const Land& land, int level, const 
   Rounds(world, land, level, followed, plan).Run(followed);
 }
 
-std::vector<GridPoint> LineOverGround(const road::World& world, const TileKey& key, const partition::GridSegment& segment, int level) {
+std::vector<GridPoint> LineOverGround(const road::World& world, const TileKey& key, const tessellation::GridSegment& segment, int level) {
   const BendRange below = BelowRange(static_cast<std::size_t>(level));
   std::vector<road::SurfacePoint> levels;
   std::vector<GridPoint> line = {segment.a, segment.b};

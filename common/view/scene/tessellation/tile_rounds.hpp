@@ -19,15 +19,15 @@ struct Followed {
 void MeetTheGround(const road::World& world, const Land& land, int level, const Followed& followed, TilePlan& plan);
 
 // A line on a deck or at its edge, with points where what lies below bends.
-std::vector<partition::GridPoint> LineOverGround(const road::World& world, const TileKey& key, const partition::GridSegment& segment, int level);
+std::vector<tessellation::GridPoint> LineOverGround(const road::World& world, const TileKey& key, const tessellation::GridSegment& segment, int level);
 
 // A triangle's middle, to whole steps.
-partition::GridPoint MiddleOf(const partition::Triangulation& triangles, const partition::Triangulation::Triangle& triangle);
+tessellation::GridPoint MiddleOf(const tessellation::Triangulation& triangles, const tessellation::Triangulation::Triangle& triangle);
 
 // New triangles belong to the face that they were cut from.
 void CarryFaces(TilePlan& plan);
 
-inline double Squared(const partition::GridPoint& a, const partition::GridPoint& b) {
+inline double Squared(const tessellation::GridPoint& a, const tessellation::GridPoint& b) {
   const double dx = a.x - b.x, dy = a.y - b.y;
   return dx * dx + dy * dy;
 }

@@ -14,7 +14,7 @@
 namespace rodeira::scene {
 namespace {
 
-using partition::Triangulation;
+using tessellation::Triangulation;
 
 constexpr double kApron_m = 0.9;    // of a bridge's side, and as deep its underside lies
 constexpr double kKerb_m = 0.35;    // lower steps are stone, higher ones earth
@@ -124,7 +124,7 @@ class Weaver {
   // Of a deck, as deep as its sides: seen from the road below it.
   void Underside(std::uint32_t triangle, std::size_t level) {
     const auto& corner = plan_.triangles.triangles()[triangle].corner;
-    const Colour concrete = SurfaceColour(terrain::Surface::kConcrete);
+    const Colour concrete = SurfaceColour(ground::Surface::kConcrete);
     std::array<std::uint32_t, 3> index{};
     for (std::size_t k = 0; k < 3; ++k) {
       index[k] = wall_.Add(Place(corner[k], heights_.At(corner[k], plan_.face_of[triangle])[level].z_m - kApron_m), -Eigen::Vector3d::UnitZ(), concrete);
@@ -180,8 +180,8 @@ class Weaver {
       }
       const double high = std::max(z(0) - foot[0], z(1) - foot[1]);
       const Skin& skin = plan_.faces[face].skins[level];
-      Colour colour = SurfaceColour(terrain::Surface::kSoil);
-      if (partner == kNobody || (high < kKerb_m && !skin.grown)) colour = SurfaceColour(terrain::Surface::kConcrete);
+      Colour colour = SurfaceColour(ground::Surface::kSoil);
+      if (partner == kNobody || (high < kKerb_m && !skin.grown)) colour = SurfaceColour(ground::Surface::kConcrete);
       if (partner != kNobody && high < kKerb_m && plan_.faces[other].skins[partner].colour == skin.colour) colour = skin.colour;
       Wall(side, {heights_.Way(side[0], z(0), foot[0]), heights_.Way(side[1], z(1), foot[1])}, colour);
     }

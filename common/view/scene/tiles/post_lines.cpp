@@ -74,8 +74,8 @@ std::vector<std::int32_t> PostLines::OnSouth(const TileKey& tile) const {
   return places;
 }
 
-std::vector<std::array<partition::GridPoint, 2>> PostLines::Sides(const TileKey& tile) const {
-  using partition::GridPoint;
+std::vector<std::array<tessellation::GridPoint, 2>> PostLines::Sides(const TileKey& tile) const {
+  using tessellation::GridPoint;
   const auto size = static_cast<std::int32_t>(kTileSteps);
   const std::vector<std::int32_t> columns = Columns(tile, 1), rows = Rows(tile, 1);
   std::vector<std::array<GridPoint, 2>> sides;

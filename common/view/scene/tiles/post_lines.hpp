@@ -30,7 +30,7 @@ class PostLines {
   std::vector<std::int32_t> OnSouth(const TileKey& tile) const;
   // The sides of the terrain's triangles, cut off at the tile's edge: from a post or a place on that edge to the next one. Those along the edge
   // itself are none of them.
-  std::vector<std::array<partition::GridPoint, 2>> Sides(const TileKey& tile) const;
+  std::vector<std::array<tessellation::GridPoint, 2>> Sides(const TileKey& tile) const;
 
  private:
   // In steps, and strictly within a tile that begins at `begin_m`: the places k + shift spacings behind the first post, for every whole k that is

@@ -34,7 +34,7 @@ void SlopeSquares::Add(std::span<const Line3> lines, double reach_m) {
   }
 }
 
-bool SlopeSquares::Touch(const TileKey& tile, const partition::GridPoint& low, const partition::GridPoint& high) const {
+bool SlopeSquares::Touch(const TileKey& tile, const tessellation::GridPoint& low, const tessellation::GridPoint& high) const {
   const auto found = squares_.find(tile);
   if (found == squares_.end()) return false;
   const auto number = [](std::int32_t at) { return std::min(at / static_cast<std::int32_t>(kTileSteps / kSide), kSide - 1); };

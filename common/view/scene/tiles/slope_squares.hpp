@@ -20,7 +20,7 @@ class SlopeSquares {
   // Whether any of a tile's squares is one.
   bool InTile(const TileKey& tile) const { return squares_.contains(tile); }
   // Whether one of them touches a rectangle of a tile.
-  bool Touch(const TileKey& tile, const partition::GridPoint& low, const partition::GridPoint& high) const;
+  bool Touch(const TileKey& tile, const tessellation::GridPoint& low, const tessellation::GridPoint& high) const;
 
  private:
   static constexpr int kSide = 16;  // squares of a tile

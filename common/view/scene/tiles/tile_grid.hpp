@@ -34,10 +34,10 @@ struct WorldStep {
 inline WorldStep ToSteps(const Eigen::Vector2d& p_W) { return {std::llround(p_W.x() / kStep_m), std::llround(p_W.y() / kStep_m)}; }
 inline double RoundToStep(double z_m) { return std::round(z_m / kStep_m) * kStep_m; }
 
-inline partition::GridPoint InTile(const TileKey& tile, const WorldStep& p) {
+inline tessellation::GridPoint InTile(const TileKey& tile, const WorldStep& p) {
   return {static_cast<std::int32_t>(p.x - tile.column * kTileSteps), static_cast<std::int32_t>(p.y - tile.row * kTileSteps)};
 }
-inline Eigen::Vector2d ToWorld(const TileKey& tile, const partition::GridPoint& p) {
+inline Eigen::Vector2d ToWorld(const TileKey& tile, const tessellation::GridPoint& p) {
   return {static_cast<double>(tile.column * kTileSteps + p.x) * kStep_m, static_cast<double>(tile.row * kTileSteps + p.y) * kStep_m};
 }
 // The tile's number along an axis; of a place on an edge the one that begins there.

@@ -6,8 +6,8 @@
 namespace rodeira::scene {
 namespace {
 
-using partition::GridLine;
-using partition::GridPoint;
+using tessellation::GridLine;
+using tessellation::GridPoint;
 
 // Where the way from a to b meets the line on which its first coordinate is `at`: the second one, rounded. a.x != b.x.
 std::int64_t Crossing(std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by, std::int64_t at) {
@@ -91,8 +91,8 @@ void AddToTiles(std::span<const Line3> lines, TileLines& tiles) {
   }
 }
 
-void TileEdges::Add(const TileKey& tile, std::span<const partition::GridSegment> segments) {
-  for (const partition::GridSegment& segment : segments) {
+void TileEdges::Add(const TileKey& tile, std::span<const tessellation::GridSegment> segments) {
+  for (const tessellation::GridSegment& segment : segments) {
     for (const GridPoint& p : {segment.a, segment.b}) {
       if (p.x == 0) places_[{tile, true}].insert(p.y);
       if (p.y == 0) places_[{tile, false}].insert(p.x);

@@ -12,7 +12,7 @@
 
 namespace rodeira::scene {
 
-using TileLines = std::map<TileKey, std::vector<partition::GridLine>>;
+using TileLines = std::map<TileKey, std::vector<tessellation::GridLine>>;
 
 // Adds the lines' parts to the tiles that they run through, cut where they pass from one to another. What runs along a
 // common edge is in both tiles.
@@ -27,9 +27,9 @@ class TileEdges {
   TileEdges() = default;
   explicit TileEdges(const PostLines& posts) : posts_(posts) {}
 
-  void Add(const TileKey& tile, std::span<const partition::GridSegment> segments);
+  void Add(const TileKey& tile, std::span<const tessellation::GridSegment> segments);
   // All points on the tile's four edges.
-  std::vector<partition::GridPoint> Of(const TileKey& tile) const;
+  std::vector<tessellation::GridPoint> Of(const TileKey& tile) const;
 
  private:
   struct Edge {

@@ -137,10 +137,10 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
   sources_ = TileSources(world_, lines);
   land_digest_ = LandDigest(world);
   tiles_.assign(tiles.begin(), tiles.end());
-  std::vector<std::pair<const TileKey, std::vector<partition::GridLine>>*> open;
+  std::vector<std::pair<const TileKey, std::vector<tessellation::GridLine>>*> open;
   for (auto& piece : pieces) open.push_back(&piece);
-  std::vector<std::vector<partition::GridSegment>> noded(open.size());
-  ForEachAtOnce(open.size(), threads, [&](std::size_t i) { noded[i] = partition::Node(open[i]->second); });
+  std::vector<std::vector<tessellation::GridSegment>> noded(open.size());
+  ForEachAtOnce(open.size(), threads, [&](std::size_t i) { noded[i] = tessellation::Node(open[i]->second); });
   for (std::size_t i = 0; i < open.size(); ++i) {
     edges_.Add(open[i]->first, noded[i]);
     segments_[open[i]->first] = std::move(noded[i]);
@@ -171,17 +171,17 @@ std::size_t GroundPlan::PiecesIn(const TileKey& key) const {
 
 struct GroundPlan::Begun {
   TileKey key;
-  std::span<const partition::GridSegment> finest;
+  std::span<const tessellation::GridSegment> finest;
   TileChains lines;
   bool bare;
-  std::vector<partition::GridPoint> edge;
+  std::vector<tessellation::GridPoint> edge;
   WovenTile woven;
   int woven_level;  // -1: none yet
 };
 
 GroundPlan::Begun GroundPlan::Begin(const TileKey& key) const {
   const auto found = segments_.find(key);
-  const auto finest = found == segments_.end() ? std::span<const partition::GridSegment>() : std::span(found->second);
+  const auto finest = found == segments_.end() ? std::span<const tessellation::GridSegment>() : std::span(found->second);
   Begun begun{key, finest, TileChains(finest, key, world_), IsBare(key), edges_.Of(key), {}, -1};
   if (!begun.bare) RefineEdges(world_, key, begun.edge, land_.DecksAtEdges(key));  // the terrain's triangles have their points there
   return begun;
@@ -193,7 +193,7 @@ GroundLevel GroundPlan::LevelOf(Begun& begun, int level) const {
   int as = level;
   while (begun.bare && as > 0 && land_.EveryPost(as) == 1) --as;  // as the level before
   if (begun.woven_level != as) {
-    const auto simplified = as == 0 || begun.finest.empty() ? std::vector<partition::GridSegment>() : begun.lines.Simplified(kRoadTolerances[static_cast<std::size_t>(as)]);
+    const auto simplified = as == 0 || begun.finest.empty() ? std::vector<tessellation::GridSegment>() : begun.lines.Simplified(kRoadTolerances[static_cast<std::size_t>(as)]);
     begun.woven = WeaveTile(world_, PlanTile(world_, land_, key, as == 0 ? begun.finest : std::span(simplified), begun.edge, as));
     begun.woven_level = as;
   }

@@ -76,7 +76,7 @@ class GroundPlan {
   const road::World& world_;  // as it is seen
   Things things_;
   std::vector<TileKey> tiles_;  // ascending
-  std::map<TileKey, std::vector<partition::GridSegment>> segments_;
+  std::map<TileKey, std::vector<tessellation::GridSegment>> segments_;
   Land land_;
   TileEdges edges_;
   TileSources sources_;

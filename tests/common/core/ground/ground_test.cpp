@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace rodeira::terrain {
+namespace rodeira::ground {
 namespace {
 
 TEST(PlaneGround, IsThePlaneEverywhere) {
@@ -75,4 +75,4 @@ TEST(Surface, EveryKindHasItsName) {
 }
 
 }  // namespace
-}  // namespace rodeira::terrain
+}  // namespace rodeira::ground

@@ -7,7 +7,7 @@
 
 #include "common/core/base/random.hpp"
 
-namespace rodeira::partition {
+namespace rodeira::tessellation {
 namespace {
 
 TEST(Noding, ACrossingIsAPointOfBoth) {
@@ -66,4 +66,4 @@ TEST(Noding, NothingCrossesAfterwards) {
 }
 
 }  // namespace
-}  // namespace rodeira::partition
+}  // namespace rodeira::tessellation

@@ -9,7 +9,7 @@
 #include "common/core/base/random.hpp"
 #include "common/core/tessellation/noding.hpp"
 
-namespace rodeira::partition {
+namespace rodeira::tessellation {
 namespace {
 
 constexpr std::int32_t kSize = 1 << 21;
@@ -158,4 +158,4 @@ TEST(Triangulation, FindsWhereAPointLies) {
 }
 
 }  // namespace
-}  // namespace rodeira::partition
+}  // namespace rodeira::tessellation

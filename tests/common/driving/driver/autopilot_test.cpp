@@ -25,7 +25,7 @@ struct Drive {
   Drive(std::shared_ptr<const road::World> in, std::unique_ptr<const Way> way, double start_m, double speed_mps)
       : world(std::move(in)),
         ground(world->MakeGround()),
-        car(std::move(vehicle::LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml")).value()),
+        car(std::move(dynamics::LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml")).value()),
         autopilot(AutopilotSettings{}, std::move(way)) {
     const LaneFrame start = autopilot.path().At(start_m);
     const auto placed = car->Initialise(
@@ -52,11 +52,11 @@ struct Drive {
   }
 
   std::shared_ptr<const road::World> world;
-  std::unique_ptr<terrain::Ground> ground;
-  std::unique_ptr<vehicle::VehicleModel> car;
+  std::unique_ptr<ground::Ground> ground;
+  std::unique_ptr<dynamics::VehicleModel> car;
   Autopilot autopilot;
   std::vector<Footprint> others;
-  vehicle::Controls controls;
+  dynamics::Controls controls;
   int k = 0;
 };
 
@@ -96,7 +96,7 @@ TEST(AutopilotAim, IsWhatItSteersAndDrivesBy) {
   const auto& size = drive.car->dimensions();
   const CarMotion motion{s.p_WB_W, s.heading_rad(), s.speed_mps(), size.wheelbase_m, size.front_m};
   const Aim aim = drive.autopilot.AimOf(motion).value();
-  vehicle::Controls controls;
+  dynamics::Controls controls;
   for (int i = 0; i < 200; ++i) controls = drive.autopilot.Step({s, size, {}}, 0.02);  // hands have the time that they need
   const Eigen::Vector2d ahead(std::cos(s.heading_rad()), std::sin(s.heading_rad()));
   const double wheels = PursuitAngle(SteeringSettings{}, s.p_WB_W.head<2>() - 0.5 * size.wheelbase_m * ahead, s.heading_rad(), aim.target_W, size.wheelbase_m, s.speed_mps());

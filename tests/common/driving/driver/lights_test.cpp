@@ -56,11 +56,11 @@ Passage Come(const Street& street, double gap_m) {
   EXPECT_EQ(lines.size(), 1u);
   EXPECT_NEAR(lines.at(0).d_m, kLine_m, 1e-9);
   auto ground = street.world->MakeGround();
-  auto car = vehicle::LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml").value();
+  auto car = dynamics::LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml").value();
   const Eigen::Vector3d at = route->Position(kLine_m - gap_m - 60.0, 0.0);
   EXPECT_TRUE(car->Initialise({.x_m = at.x(), .y_m = at.y(), .speed_mps = 0.98 * kLimit_mps}, *ground).ok());
   Autopilot autopilot(AutopilotSettings{}, std::move(route));
-  vehicle::Controls controls;
+  dynamics::Controls controls;
   Passage told;
   double amber_s = -1.0;
   std::array<double, 500> speeds{};

@@ -70,10 +70,10 @@ void Drive(const std::shared_ptr<const road::World>& world, double for_s, const 
   auto path = std::make_unique<RoutePath>(network, StraightOn(network, at->lane, 5000.0));
   const RoutePath& way = *path;
   auto ground = world->MakeGround();
-  auto car = vehicle::LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml").value();
+  auto car = dynamics::LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml").value();
   ASSERT_TRUE(car->Initialise({.x_m = start.x_m, .y_m = start.y_m, .heading_rad = start.heading_rad}, *ground).ok());
   Autopilot autopilot(AutopilotSettings{}, std::move(path));
-  vehicle::Controls controls;
+  dynamics::Controls controls;
   double aside = 0.0, farthest = 0.0;
   for (int k = 0; k < static_cast<int>(for_s * 1000.0); ++k) {
     const Eigen::Vector3d p = car->state().p_WB_W;

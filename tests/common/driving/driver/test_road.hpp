@@ -21,8 +21,8 @@ inline road::RoadSpec TwoLanes(std::vector<geometry::PlanPiece> pieces, double l
     lane.speed_limit_mps = limit_mps;
     spec.section.lanes.push_back(lane);
   }
-  spec.section.left = spec.section.right = {0.5, 0.025, terrain::Surface::kAsphalt};
-  spec.section.verge = {1.0, 0.05, terrain::Surface::kGrass};
+  spec.section.left = spec.section.right = {0.5, 0.025, ground::Surface::kAsphalt};
+  spec.section.verge = {1.0, 0.05, ground::Surface::kGrass};
   return spec;
 }
 

@@ -19,9 +19,9 @@
 namespace rodeira::manoeuvres {
 namespace {
 
-using vehicle::BicycleModel;
-using vehicle::BicycleSettings;
-using vehicle::kG_mps2;
+using dynamics::BicycleModel;
+using dynamics::BicycleSettings;
+using dynamics::kG_mps2;
 
 constexpr double kStep_s = 0.001;
 constexpr double kDegrees = 180.0 / geometry::kPi;
@@ -43,7 +43,7 @@ struct LinearCar {
   double front_Nprad = 8e4, rear_Nprad = 1e5;
 
   BicycleModel Make() const {
-    BicycleSettings s = vehicle::DefaultSettings();
+    BicycleSettings s = dynamics::DefaultSettings();
     s.body = {.mass_kg = mass_kg, .roll_inertia_kgm2 = 400, .pitch_inertia_kgm2 = 2000, .yaw_inertia_kgm2 = inertia_kgm2, .cg_height_m = 0.05,
               .cg_to_front_axle_m = a_m, .wheelbase_m = a_m + b_m, .drag_area_m2 = 0.0, .air_density_kgpm3 = 1.2};
     s.dimensions.wheelbase_m = a_m + b_m;
@@ -124,7 +124,7 @@ TEST(Manoeuvres, ASineAnswersAsTheLinearModelsFrequencyResponse) {
 
 // No car is faster than its engine's power allows: half m v² <= P t; at its top speed power and resistance are in balance.
 TEST(Manoeuvres, AccelerationKeepsToTheEnginesPower) {
-  BicycleModel car(vehicle::DefaultSettings());
+  BicycleModel car(dynamics::DefaultSettings());
   const Outcome outcome = Driven(Acceleration(car, kStep_s));
   const auto& s = car.settings();
   double power_W = 0.0;
@@ -147,7 +147,7 @@ TEST(Manoeuvres, AccelerationKeepsToTheEnginesPower) {
 }
 
 TEST(Manoeuvres, BrakingKeepsToFriction) {
-  BicycleModel car(vehicle::DefaultSettings());
+  BicycleModel car(dynamics::DefaultSettings());
   const Outcome outcome = Driven(Braking(car, kStep_s));
   const double mean = Value(outcome, "mean deceleration");
   EXPECT_LT(mean, 1.15 * kG_mps2);
@@ -159,7 +159,7 @@ TEST(Manoeuvres, BrakingKeepsToFriction) {
 
 // With ice on the right a car of four wheels turns to the left.
 TEST(Manoeuvres, BrakingHalfOnIceTurnsToTheSideWithGrip) {
-  auto car = vehicle::LoadVehicle(SourceDir() + "/configs/vehicles/prototype.yaml");
+  auto car = dynamics::LoadVehicle(SourceDir() + "/configs/vehicles/prototype.yaml");
   ASSERT_TRUE(car.ok());
   const Outcome outcome = Driven(SplitFriction(*car.value(), kStep_s));
   double heading = 0.0;
@@ -169,7 +169,7 @@ TEST(Manoeuvres, BrakingHalfOnIceTurnsToTheSideWithGrip) {
 }
 
 TEST(Manoeuvres, TheHandbrakeHolds) {
-  BicycleModel car(vehicle::DefaultSettings());
+  BicycleModel car(dynamics::DefaultSettings());
   EXPECT_LT(Value(Driven(Park(car, kStep_s)), "creep"), 1.0);
 }
 
@@ -183,24 +183,24 @@ TEST(Manoeuvres, TheBumpIsSmooth) {
   double climbed = 0.0, highest = 0.0;
   constexpr double kApart = 1e-4;
   for (double x = 2.9; x < 3.6; x += kApart) {
-    terrain::GroundQuery query{x + kApart / 2, 0.0};
-    terrain::GroundPoint point;
+    ground::GroundQuery query{x + kApart / 2, 0.0};
+    ground::GroundPoint point;
     ground.Query({&query, 1}, {&point, 1});
     climbed += -point.normal_W.x() / point.normal_W.z() * kApart;
     highest = std::max(highest, point.z_m);
     EXPECT_NEAR(climbed, point.z_m, 1e-4);
   }
   EXPECT_NEAR(highest, 0.05, 1e-6);
-  BicycleModel car(vehicle::DefaultSettings());
+  BicycleModel car(dynamics::DefaultSettings());
   const Outcome outcome = Driven(Bump(car, kStep_s));
   EXPECT_GT(Value(outcome, "largest acceleration upward"), 1.0);
   EXPECT_LT(Value(outcome, "calm again after"), 4.0);
 }
 
-class EveryCar : public ::testing::TestWithParam<vehicle::ModelCase> {};
+class EveryCar : public ::testing::TestWithParam<dynamics::ModelCase> {};
 
 TEST_P(EveryCar, GoesThroughEveryManoeuvreTwiceTheSame) {
-  auto first = vehicle::MakeModel(GetParam()), second = vehicle::MakeModel(GetParam());
+  auto first = dynamics::MakeModel(GetParam()), second = dynamics::MakeModel(GetParam());
   for (const Manoeuvre& manoeuvre : Manoeuvres()) {
     SCOPED_TRACE(manoeuvre.name);
     const Outcome a = Driven(Drive(manoeuvre, *first, 0.002));
@@ -216,12 +216,12 @@ TEST_P(EveryCar, GoesThroughEveryManoeuvreTwiceTheSame) {
     EXPECT_EQ(Driven(Drive(manoeuvre, *second, 0.002)).table.values, a.table.values);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Models, EveryCar, ::testing::Values(vehicle::kBicycle, vehicle::kOde, vehicle::kMultibody, vehicle::kSecondMultibody, vehicle::kFmu),
-                         vehicle::NameOf);
+INSTANTIATE_TEST_SUITE_P(Models, EveryCar, ::testing::Values(dynamics::kBicycle, dynamics::kOde, dynamics::kMultibody, dynamics::kSecondMultibody, dynamics::kFmu),
+                         dynamics::NameOf);
 
 // The tests' FMU is a point with dv/dt = 3 - v/20 and the yaw rate v tan(steering wheel / 16) / 2.5: its figures are closed forms.
 TEST(Manoeuvres, AnFmusFiguresAreThoseOfItsEquations) {
-  auto car = vehicle::MakeModel(vehicle::kFmu);
+  auto car = dynamics::MakeModel(dynamics::kFmu);
   const Outcome fast = Driven(Acceleration(*car, kStep_s));
   EXPECT_NEAR(Value(fast, "0 to 100 km/h"), -20.0 * std::log(1.0 - 100.0 / 3.6 / 60.0), 0.01);
   const Outcome turned = Driven(StepSteer(*car, kStep_s));
@@ -233,10 +233,10 @@ TEST(Manoeuvres, AnFmusFiguresAreThoseOfItsEquations) {
 
 // The multibody car with undivided steps of 10 ms: the same drive as at 1 ms, 1 cm nearer to or farther from the cones at most.
 TEST(Manoeuvres, AtTenMillisecondsTheMultibodyCarStillDrivesTheLaneChange) {
-  auto fine = vehicle::MakeModel(vehicle::kMultibody);
-  vehicle::MultibodySettings settings = static_cast<vehicle::MultibodyModel&>(*fine).settings();
+  auto fine = dynamics::MakeModel(dynamics::kMultibody);
+  dynamics::MultibodySettings settings = static_cast<dynamics::MultibodyModel&>(*fine).settings();
   settings.longest_substep_s = 0.01;
-  vehicle::MultibodyModel coarse(settings);
+  dynamics::MultibodyModel coarse(settings);
   ASSERT_TRUE(coarse.Build().ok());
   const Outcome expected = Driven(LaneChange(*fine, 0.001)), found = Driven(LaneChange(coarse, 0.01));
   EXPECT_NEAR(Value(found, "room left to the cones"), Value(expected, "room left to the cones"), 0.01);
@@ -245,7 +245,7 @@ TEST(Manoeuvres, AtTenMillisecondsTheMultibodyCarStillDrivesTheLaneChange) {
 }
 
 TEST(Manoeuvres, AModelThatFailsOnTheWayIsToldInItsOwnWords) {
-  auto car = vehicle::MakeModel(vehicle::kFmu, "parameters: {fail_at_s: 1.5}\n");
+  auto car = dynamics::MakeModel(dynamics::kFmu, "parameters: {fail_at_s: 1.5}\n");
   const auto outcome = Drive(*FindManoeuvre("acceleration").value(), *car, kStep_s);
   ASSERT_FALSE(outcome.ok());
   EXPECT_EQ(outcome.error().exit_status(), 1);

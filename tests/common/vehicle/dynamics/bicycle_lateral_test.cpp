@@ -5,10 +5,10 @@
 
 #include "tests/common/vehicle/dynamics/test_car.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
-using terrain::PlaneGround;
+using ground::PlaneGround;
 
 Controls Steering(double wheel_rad) {
   Controls controls;
@@ -153,4 +153,4 @@ TEST(BicycleLateral, FrictionBoundsTheLateralAcceleration) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -7,10 +7,10 @@
 
 #include "tests/common/vehicle/dynamics/test_car.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
-using terrain::PlaneGround;
+using ground::PlaneGround;
 
 Controls InNeutral(double brake = 0.0) {
   Controls controls;
@@ -322,14 +322,14 @@ TEST(BicycleDriving, TheClutchWorkIsAccountedFor) {
 
 // Ice under the left wheels. An open differential gives both the little that ice bears; with plates of locking value S the right
 // one gets (1 + S)/(1 - S) of it.
-class SplitGround final : public terrain::Ground {
+class SplitGround final : public ground::Ground {
  public:
-  void Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) override {
+  void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override {
     for (std::size_t i = 0; i < queries.size(); ++i) {
       points[i] = {};
       points[i].normal_W = Eigen::Vector3d::UnitZ();
       points[i].friction = queries[i].y_m > 0.0 ? 0.1 : 1.0;
-      points[i].surface = terrain::Surface::kAsphalt;
+      points[i].surface = ground::Surface::kAsphalt;
       points[i].inside = true;
     }
   }
@@ -362,4 +362,4 @@ TEST(BicycleOnSplitFriction, PlatesHelpAsMuchAsTheirLockingValueSays) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -7,10 +7,10 @@
 #include "tests/common/vehicle/dynamics/test_car.hpp"
 #include "tests/common/vehicle/dynamics/test_ground.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
-using terrain::PlaneGround;
+using ground::PlaneGround;
 
 // Controls that change a few times a second, with everything that is allowed and some that is not.
 Controls WildControls(std::uint64_t seed, int step) {
@@ -192,4 +192,4 @@ TEST(BicycleProperty, AMovingCarIsHandedOver) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -10,7 +10,7 @@
 #include "tests/common/vehicle/dynamics/test_car.hpp"
 #include "tests/common/vehicle/dynamics/test_ground.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kDecision_s = 0.01;
@@ -46,7 +46,7 @@ Controls Hands(std::size_t car, int step) {
 
 // The cars whose numbers are given, every third of them a van.
 struct Cars {
-  explicit Cars(std::vector<std::size_t> of, terrain::Ground& on) : numbers(std::move(of)), ground(on) {
+  explicit Cars(std::vector<std::size_t> of, ground::Ground& on) : numbers(std::move(of)), ground(on) {
     const auto small = array.AddKind(DefaultSettings()), van = array.AddKind(Van());
     for (const std::size_t number : numbers) {
       const auto added = array.Add(number % 3 == 0 ? van.value() : small.value(), Place(number), ground);
@@ -70,7 +70,7 @@ struct Cars {
   }
 
   std::vector<std::size_t> numbers;
-  terrain::Ground& ground;
+  ground::Ground& ground;
   CarArray array;
   std::vector<Controls> controls;
 };
@@ -136,7 +136,7 @@ TEST(CarArray, RestoredItGoesOnWithTheSameBits) {
 
 // Slopes are felt: on one of 10 % without engine and brakes a car gains g sin less what rolling takes.
 TEST(CarArray, RollsDownASlope) {
-  terrain::PlaneGround ground(Eigen::Vector3d::Zero(), -0.1, 0.0);
+  ground::PlaneGround ground(Eigen::Vector3d::Zero(), -0.1, 0.0);
   CarArray array;
   const auto kind = array.AddKind(DefaultSettings());
   ASSERT_TRUE(array.Add(kind.value(), {}, ground).ok());
@@ -166,4 +166,4 @@ TEST(CarArray, RefusesWhatIsNoCarAmongMany) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -11,10 +11,10 @@
 #include "tests/common/vehicle/dynamics/every_model.hpp"
 #include "tests/common/vehicle/dynamics/same_bits.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
-using terrain::PlaneGround;
+using ground::PlaneGround;
 
 constexpr double kStep = 0.001;
 
@@ -159,4 +159,4 @@ TEST_P(Overturned, LiesAboveTheGround) {
 INSTANTIATE_TEST_SUITE_P(Models, Overturned, ::testing::Values(kOde, kMultibody, kSecondMultibody), NameOf);
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

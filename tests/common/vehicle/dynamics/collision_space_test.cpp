@@ -7,7 +7,7 @@
 #include "common/vehicle/dynamics/collision_space.hpp"
 #include "common/vehicle/dynamics/rigid_body.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 const VehicleDimensions kCar{.front_m = 2.0, .rear_m = 1.8, .width_m = 1.6, .height_m = 1.4};
@@ -125,4 +125,4 @@ TEST(CollisionSpace, TheSameQuestionHasTheSameBits) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -13,17 +13,17 @@
 #include "tests/common/vehicle/dynamics/test_car.hpp"
 #include "tests/common/vehicle/dynamics/test_ground.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 using Eigen::Vector3d;
-using terrain::PlaneGround;
+using ground::PlaneGround;
 
 constexpr double kRadius = 0.3;
 constexpr double kHalfCell_m = kRingReach / kRingPoints * kRadius;
 
 // A height and a slope by the way along x.
-class Profile final : public terrain::Ground {
+class Profile final : public ground::Ground {
  public:
   struct At {
     double z_m = 0.0;
@@ -31,10 +31,10 @@ class Profile final : public terrain::Ground {
     double friction = 1.0;
   };
   explicit Profile(std::function<At(double x)> of) : of_(std::move(of)) {}
-  void Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) override {
+  void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override {
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const At at = of_(queries[i].x_m);
-      points[i] = {at.z_m, Vector3d(-at.slope, 0.0, 1.0).normalized(), at.friction, terrain::Surface::kAsphalt, true};
+      points[i] = {at.z_m, Vector3d(-at.slope, 0.0, 1.0).normalized(), at.friction, ground::Surface::kAsphalt, true};
     }
   }
 
@@ -46,7 +46,7 @@ Profile Step(double x_m, double height_m) {
   return Profile([=](double x) { return Profile::At{x >= x_m ? height_m : 0.0, 0.0, x >= x_m ? 0.5 : 1.0}; });
 }
 
-WheelGround Under(terrain::Ground& ground, const Vector3d& hub_W, const Vector3d& axle_W = Vector3d::UnitY()) {
+WheelGround Under(ground::Ground& ground, const Vector3d& hub_W, const Vector3d& axle_W = Vector3d::UnitY()) {
   std::array<WheelGround, kWheels> all;
   WheelPlaces places;
   places.hubs_W.fill(hub_W);
@@ -207,4 +207,4 @@ TEST(Enveloping, AnFmuIsToldTheRingsPlane) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

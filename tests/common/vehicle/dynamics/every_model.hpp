@@ -12,7 +12,7 @@
 #include "tests/tree.hpp"
 
 // One car in each model, for what holds whatever the model is.
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 struct ModelCase {
   const char* name;
@@ -47,11 +47,11 @@ inline Controls Neutral(double brake = 0.0) {
   return controls;
 }
 
-inline void DriveFor(VehicleModel& car, terrain::Ground& ground, const Controls& controls, double seconds, double step_s = 0.001) {
+inline void DriveFor(VehicleModel& car, ground::Ground& ground, const Controls& controls, double seconds, double step_s = 0.001) {
   const auto steps = static_cast<int>(std::lround(seconds / step_s));
   for (int i = 0; i < steps; ++i) car.Step(controls, ground, step_s);
 }
 
 inline std::string NameOf(const ::testing::TestParamInfo<ModelCase>& info) { return info.param.name; }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

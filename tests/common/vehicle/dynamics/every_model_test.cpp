@@ -10,10 +10,10 @@
 #include "tests/common/vehicle/dynamics/same_bits.hpp"
 #include "tests/common/vehicle/dynamics/test_ground.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
-using terrain::PlaneGround;
+using ground::PlaneGround;
 
 constexpr double kStep = 0.001;
 constexpr double kG = 9.81;
@@ -311,4 +311,4 @@ INSTANTIATE_TEST_SUITE_P(Models, EveryModel, ::testing::Values(kBicycle, kOde, k
 INSTANTIATE_TEST_SUITE_P(Models, EveryBody, ::testing::Values(kBicycle, kOde, kMultibody, kSecondMultibody), NameOf);
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -8,10 +8,10 @@
 #include "tests/common/vehicle/fmi/test_fmu.hpp"
 #include "tests/common/vehicle/dynamics/test_ground.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
-using terrain::PlaneGround;
+using ground::PlaneGround;
 using ::testing::HasSubstr;
 
 constexpr double kStep = 0.001;
@@ -173,4 +173,4 @@ TEST_F(FmuCar, OneThatCannotBeginInMotionRefusesTo) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -11,7 +11,7 @@
 #include "common/vehicle/dynamics/multibody_model.hpp"
 #include "tests/common/vehicle/dynamics/test_ground.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // A rig that the multibody car drives on: a field of acceleration acts on all bodies as a bend's would, so that it rolls
 // and shifts its loads as in a bend, but keeps it going straight ahead at a heading of its own. Axle forces over slip
@@ -86,7 +86,7 @@ inline AxleStiffness MeasureAxles(MultibodySettings settings, double speed_mps) 
   MultibodyModel car(settings);
   EXPECT_TRUE(car.Build().ok());
   const auto drive = [&](double heading_rad, double wheel_rad, double friction) {
-    terrain::PlaneGround ground(Eigen::Vector3d::Zero(), 0.0, 0.0, friction);
+    ground::PlaneGround ground(Eigen::Vector3d::Zero(), 0.0, 0.0, friction);
     rig->Hold(0.0, 0.0);
     EXPECT_TRUE(car.Initialise({.heading_rad = heading_rad, .speed_mps = speed_mps}, ground).ok());
     rig->Hold(heading_rad, speed_mps);
@@ -125,4 +125,4 @@ inline AxleStiffness MeasureAxles(MultibodySettings settings, double speed_mps) 
   return axles;
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -14,7 +14,7 @@
 #include "tests/common/vehicle/dynamics/test_car.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 const std::filesystem::path kTir = std::filesystem::path(SourceDir()) / "../shared/data/tyre/mfeval_MagicFormula61_Parameters.tir";
@@ -119,4 +119,4 @@ TEST(Tyre, SetToBearBearsWhatFrictionAllows) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -15,10 +15,10 @@
 #include "tests/common/vehicle/dynamics/test_ground.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
-using terrain::PlaneGround;
+using ground::PlaneGround;
 
 constexpr double kStep = 0.001;
 constexpr double kG = 9.81;
@@ -31,7 +31,7 @@ std::unique_ptr<VehicleModel> Prototype() {
 
 MultibodyModel& Multibody(VehicleModel& model) { return static_cast<MultibodyModel&>(model); }
 
-void DriveFor(VehicleModel& car, terrain::Ground& ground, const Controls& controls, double seconds) {
+void DriveFor(VehicleModel& car, ground::Ground& ground, const Controls& controls, double seconds) {
   const auto steps = static_cast<int>(std::lround(seconds / kStep));
   for (int i = 0; i < steps; ++i) car.Step(controls, ground, kStep);
 }
@@ -374,4 +374,4 @@ TEST(ASecondCar, WrongFilesAreRefused) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

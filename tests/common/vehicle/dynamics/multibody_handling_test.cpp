@@ -3,7 +3,7 @@
 #include "tests/common/vehicle/dynamics/handling_rig.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kDegreesPerG = 9.81 * 180.0 / 3.14159265358979323846;
@@ -23,7 +23,7 @@ struct Bend {
 
 // Steadily, with the steering wheel held and the foot keeping the speed.
 Bend DriveRound(VehicleModel& car, double speed_mps, double wheel_rad) {
-  terrain::PlaneGround ground;
+  ground::PlaneGround ground;
   EXPECT_TRUE(car.Initialise({.speed_mps = speed_mps}, ground).ok());
   Controls controls;
   double integral = 0.0;
@@ -93,4 +93,4 @@ TEST(PrototypeHandling, TheBarLetsTheCarLeanLess) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -9,7 +9,7 @@
 #include "common/vehicle/dynamics/multibody_model.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 using Eigen::Vector3d;
@@ -165,4 +165,4 @@ TEST_F(Linkage, SpringingInTurnsFrontWheelsOutAndRearWheelsIn) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -14,10 +14,10 @@
 #include "tests/common/vehicle/dynamics/test_ground.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
-using terrain::PlaneGround;
+using ground::PlaneGround;
 using ::testing::HasSubstr;
 
 constexpr double kStep = 0.001;
@@ -36,7 +36,7 @@ std::unique_ptr<OdeModel> Car(const OdeSettings& settings = Settings()) {
   return car;
 }
 
-void DriveFor(VehicleModel& car, terrain::Ground& ground, const Controls& controls, double seconds) {
+void DriveFor(VehicleModel& car, ground::Ground& ground, const Controls& controls, double seconds) {
   const auto steps = static_cast<int>(std::lround(seconds / kStep));
   for (int i = 0; i < steps; ++i) car.Step(controls, ground, kStep);
 }
@@ -285,4 +285,4 @@ TEST(VehicleModels, AFileNamesTheSameCarInOtherModels) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

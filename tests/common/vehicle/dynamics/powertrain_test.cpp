@@ -12,7 +12,7 @@
 #include "common/vehicle/dynamics/powertrain_array.hpp"
 #include "tests/common/vehicle/dynamics/test_car.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 constexpr double kRpm = geometry::kPi / 30.0;
@@ -363,4 +363,4 @@ TEST(PowertrainArray, EachCarHasTheBitsThatItHasAlone) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

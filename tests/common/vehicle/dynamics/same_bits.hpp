@@ -5,7 +5,7 @@
 #include "common/core/base/state.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // Restores `second` from a snapshot of `first` and steps both, `step(car, i)` each: their states must agree to the bit behind every one of
 // `steps` steps.
@@ -26,4 +26,4 @@ void ExpectTheSameBitsFromASnapshot(VehicleModel& first, VehicleModel& second, i
   }
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

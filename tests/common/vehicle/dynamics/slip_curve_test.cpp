@@ -5,7 +5,7 @@
 
 #include "common/vehicle/dynamics/tyre.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 const SlipCurve kCurve{.extremum_slip = 0.1, .extremum_value = 1.1, .asymptote_slip = 0.5, .asymptote_value = 0.7};
@@ -79,4 +79,4 @@ TEST(SlipCurve, TheSteadyTransientIsTheTableAndBearsWhatItIsSetTo) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

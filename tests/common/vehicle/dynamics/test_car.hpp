@@ -10,7 +10,7 @@
 #include "common/vehicle/dynamics/bicycle_model.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 inline constexpr double kStep_s = 0.001;
 inline constexpr double kG_mps2 = 9.81;
@@ -25,7 +25,7 @@ inline BicycleSettings DefaultSettings() {
 }
 
 // A car that has been placed on the ground.
-inline BicycleModel PlacedCar(const BicycleSettings& settings, terrain::Ground& ground, const InitialCondition& initial = {}) {
+inline BicycleModel PlacedCar(const BicycleSettings& settings, ground::Ground& ground, const InitialCondition& initial = {}) {
   BicycleModel car(settings);
   const base::Status status = car.Initialise(initial, ground);
   EXPECT_TRUE(status.ok()) << (status.ok() ? "" : status.error().Text());
@@ -33,14 +33,14 @@ inline BicycleModel PlacedCar(const BicycleSettings& settings, terrain::Ground& 
 }
 
 template <class Until>
-void Drive(BicycleModel& car, terrain::Ground& ground, const Controls& controls, double seconds, Until&& each) {
+void Drive(BicycleModel& car, ground::Ground& ground, const Controls& controls, double seconds, Until&& each) {
   const int steps = static_cast<int>(seconds / kStep_s + 0.5);
   for (int i = 0; i < steps; ++i) {
     car.Step(controls, ground, kStep_s);
     each(i + 1);
   }
 }
-inline void Drive(BicycleModel& car, terrain::Ground& ground, const Controls& controls, double seconds) {
+inline void Drive(BicycleModel& car, ground::Ground& ground, const Controls& controls, double seconds) {
   Drive(car, ground, controls, seconds, [](int) {});
 }
 
@@ -50,4 +50,4 @@ inline base::Digest DigestOf(const VehicleModel& car) {
   return writer.digest();
 }
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -6,11 +6,11 @@
 #include "common/core/base/random.hpp"
 #include "common/core/ground/ground.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 
 // Seeded hills: three sines each way; amplitude and steepness by the seed. Optionally cut into terraces (vertical steps),
 // with a world's edge, and with ice here and there. Counts the batches.
-class HillGround final : public terrain::Ground {
+class HillGround final : public ground::Ground {
  public:
   struct Kind {
     double amplitude_m = 2.0;
@@ -21,7 +21,7 @@ class HillGround final : public terrain::Ground {
   };
   HillGround(std::uint64_t seed, const Kind& kind) : seed_(seed), kind_(kind) {}
 
-  void Query(std::span<const terrain::GroundQuery> queries, std::span<terrain::GroundPoint> points) override {
+  void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override {
     ++batches;
     for (std::size_t i = 0; i < queries.size(); ++i) points[i] = Point(queries[i].x_m, queries[i].y_m);
   }
@@ -29,9 +29,9 @@ class HillGround final : public terrain::Ground {
   int batches = 0;
 
  private:
-  terrain::GroundPoint Point(double x, double y) const {
+  ground::GroundPoint Point(double x, double y) const {
     if (std::hypot(x, y) > kind_.edge_m) return {};
-    terrain::GroundPoint point;
+    ground::GroundPoint point;
     double slope_x = 0.0, slope_y = 0.0;
     for (std::uint64_t k = 0; k < 3; ++k) {
       const double wave = kind_.wave_m * base::RandomUniform({seed_, k, 0}, 0.5, 1.5);
@@ -49,7 +49,7 @@ class HillGround final : public terrain::Ground {
       point.normal_W = Eigen::Vector3d::UnitZ();
     }
     point.friction = kind_.ice && std::sin(0.3 * x) > 0.0 ? 0.05 : 1.0;
-    point.surface = terrain::Surface::kAsphalt;
+    point.surface = ground::Surface::kAsphalt;
     point.inside = true;
     return point;
   }
@@ -58,4 +58,4 @@ class HillGround final : public terrain::Ground {
   Kind kind_;
 };
 
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

@@ -12,7 +12,7 @@
 #include "common/vehicle/dynamics/tyre.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 using testing::HasSubstr;
@@ -160,4 +160,4 @@ TEST(TirFile, CamberThrustHasItsSlopeInBothVersions) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

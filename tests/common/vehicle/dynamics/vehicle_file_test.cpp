@@ -9,7 +9,7 @@
 #include "tests/common/vehicle/dynamics/test_car.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::vehicle {
+namespace rodeira::dynamics {
 namespace {
 
 using testing::HasSubstr;
@@ -97,4 +97,4 @@ TEST(VehicleFile, AFurtherKindOfModelIsFound) {
 }
 
 }  // namespace
-}  // namespace rodeira::vehicle
+}  // namespace rodeira::dynamics

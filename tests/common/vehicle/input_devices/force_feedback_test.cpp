@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 ForceSettings Bare() {
@@ -166,4 +166,4 @@ TEST(ForceDriver, AWheelThatIsUnpluggedIsLetGoOf) {
 }
 
 }  // namespace
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

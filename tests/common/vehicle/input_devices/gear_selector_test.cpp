@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
-using vehicle::GearboxMode;
+using dynamics::GearboxMode;
 
-vehicle::Controls Shown(const GearSelector& lever) {
-  vehicle::Controls controls;
+dynamics::Controls Shown(const GearSelector& lever) {
+  dynamics::Controls controls;
   lever.Show(controls);
   return controls;
 }
@@ -50,4 +50,4 @@ TEST(GearSelector, UpAndDownBetweenTwoStepsBothCount) {
 }
 
 }  // namespace
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

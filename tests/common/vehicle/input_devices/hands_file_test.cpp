@@ -5,7 +5,7 @@
 #include "common/vehicle/input_devices/wheel_driver.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 const std::filesystem::path kDrivers = std::filesystem::path(SourceDir()) / "configs/drivers";
@@ -89,4 +89,4 @@ TEST(WheelFile, WrongOnesAreRefusedWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

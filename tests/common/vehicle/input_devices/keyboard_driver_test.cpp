@@ -7,7 +7,7 @@
 
 #include "common/core/base/random.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 KeyboardSettings Settings() {
@@ -158,4 +158,4 @@ TEST(KeyboardDriver, RestoredAnywhereItGoesOnWithTheSameBits) {
 }
 
 }  // namespace
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

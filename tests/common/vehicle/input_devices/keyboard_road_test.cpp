@@ -12,7 +12,7 @@
 #include "tests/common/driving/driver/test_road.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 const std::filesystem::path kConfigs = std::filesystem::path(SourceDir()) / "configs";
@@ -28,7 +28,7 @@ struct Person {
 };
 
 // Left, right or neither; throttle, brake or neither.
-KeyboardInput Look(const Person& person, const vehicle::VehicleState& state, const driver::LanePath& path, double d_m,
+KeyboardInput Look(const Person& person, const dynamics::VehicleState& state, const driver::LanePath& path, double d_m,
                    double allowed_mps) {
   const Eigen::Vector3d v_B = state.q_WB.conjugate() * state.v_WB_W;
   const double ahead_m = std::max(5.0, person.preview_s * v_B.x());
@@ -57,7 +57,7 @@ Drive DriveBy(const Person& person, const KeyboardSettings& settings) {
   const auto ground = world->MakeGround();
   const driver::LanePath path(world->roads()[0], -1);
   const driver::SpeedPlan plan(path, {.lateral_mps2 = 2.0, .stop_at_end = true});
-  auto car = vehicle::LoadVehicle(kConfigs / "vehicles/default.yaml").value();
+  auto car = dynamics::LoadVehicle(kConfigs / "vehicles/default.yaml").value();
   const driver::LaneFrame start = path.At(5.0);
   EXPECT_TRUE(
       car->Initialise({.x_m = start.p_W.x(), .y_m = start.p_W.y(), .z_hint_m = start.p_W.z(), .heading_rad = start.heading_rad},
@@ -107,4 +107,4 @@ TEST(KeyboardRoad, WithAWheelThatCentresSlowlyTheyDoNot) {
 }
 
 }  // namespace
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -6,7 +6,7 @@
 
 #include "common/vehicle/input_devices/plain_wheel.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 constexpr double kDt_s = 0.01;
@@ -87,7 +87,7 @@ TEST(PadDriver, TriggersArePedalsAndButtonsDoWhatTheySay) {
   (void)driver.Step(Held(PadButton::kHeadlights), 1, 0.0, kDt_s);
   EXPECT_EQ(driver.signals().headlights, Headlights::kDipped);
   EXPECT_EQ(driver.Step(Held(PadButton::kGearUp), 1, 0.0, kDt_s).gear, 1);
-  EXPECT_EQ(driver.Step(Held(PadButton::kGearboxMode), 2, 0.0, kDt_s).gearbox, vehicle::GearboxMode::kManual);
+  EXPECT_EQ(driver.Step(Held(PadButton::kGearboxMode), 2, 0.0, kDt_s).gearbox, dynamics::GearboxMode::kManual);
   EXPECT_EQ(driver.controls().gear, 2) << "the gear that is in";
 }
 
@@ -100,7 +100,7 @@ TEST(PadDriver, AwayThePedalsAreReleasedAndTheSteeringStays) {
   const double wheel = driver.controls().steering_wheel_rad;
   EXPECT_LT(wheel, 0.0);
   for (int i = 0; i < 50; ++i) {
-    const vehicle::Controls controls = driver.Step(PadReading(), 1, 0.0, kDt_s);
+    const dynamics::Controls controls = driver.Step(PadReading(), 1, 0.0, kDt_s);
     ASSERT_EQ(controls.steering_wheel_rad, wheel);
     ASSERT_EQ(controls.throttle, 0.0);
     ASSERT_EQ(controls.gear, 1);
@@ -155,4 +155,4 @@ TEST(PlainWheel, IsAGuessByTheNumberOfAxes) {
 }
 
 }  // namespace
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 SignalRequests Left(std::uint32_t presses = 1) {
@@ -87,4 +87,4 @@ TEST(Signals, TheStateIsAllThereIs) {
 }
 
 }  // namespace
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -7,7 +7,7 @@
 
 #include "common/core/base/random.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 // Wheel with a combined lever, and pedals of their own.
@@ -175,7 +175,7 @@ TEST(WheelDriver, ButtonsForLampsHornAndGearsDoWhatTheySay) {
 
 TEST(WheelDriver, ALeverWithPlacesIsWhereItStands) {
   WheelSettings s = Settings();
-  s.gearbox = vehicle::GearboxMode::kManual;
+  s.gearbox = dynamics::GearboxMode::kManual;
   s.lever = {{-1, {0, 2, ""}}, {1, {0, 0, ""}}, {2, {0, 1, ""}}};
   s.buttons[static_cast<std::size_t>(WheelButton::kGearUp)].reset();
   s.buttons[static_cast<std::size_t>(WheelButton::kGearDown)].reset();
@@ -239,4 +239,4 @@ TEST(WheelDriver, RestoredAnywhereItGoesOnWithTheSameBits) {
 }
 
 }  // namespace
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

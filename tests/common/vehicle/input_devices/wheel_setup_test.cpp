@@ -10,7 +10,7 @@
 #include "common/core/base/random.hpp"
 #include "common/core/base/temporary_folder.hpp"
 
-namespace rodeira::hands {
+namespace rodeira::input_devices {
 namespace {
 
 using Stage = WheelSetup::Stage;
@@ -79,9 +79,9 @@ void Steer(Person& person, std::size_t device, std::size_t axis, double left, do
 }
 
 // What those settings make of raw numbers.
-vehicle::Controls Driven(const WheelSettings& settings, const std::vector<std::vector<std::vector<double>>>& positions) {
+dynamics::Controls Driven(const WheelSettings& settings, const std::vector<std::vector<std::vector<double>>>& positions) {
   WheelDriver driver(settings);
-  vehicle::Controls controls;
+  dynamics::Controls controls;
   for (const auto& axes : positions) {
     std::vector<DeviceReading> readings;
     for (const auto& values : axes) readings.push_back({true, values, std::vector<std::uint8_t>(8, 0)});
@@ -119,11 +119,11 @@ TEST(WheelSetup, AnOrdinaryWheelInSixMovements) {
   EXPECT_EQ(settings.buttons[static_cast<std::size_t>(WheelButton::kPause)]->button, 7u);
   EXPECT_FALSE(settings.AxisOf(WheelAxis::kClutch));
   const std::vector<std::vector<double>> rest = {{0.0, 500.0, 32767.0, 32767.0}};
-  const vehicle::Controls left = Driven(settings, {rest, {{-32000.0, 500.0, -32768.0, 32767.0}}});
+  const dynamics::Controls left = Driven(settings, {rest, {{-32000.0, 500.0, -32768.0, 32767.0}}});
   EXPECT_NEAR(left.steering_wheel_rad, 450.0 * kDegree, 0.05);
   EXPECT_EQ(left.throttle, 1.0);
   EXPECT_EQ(left.brake, 0.0);
-  const vehicle::Controls right = Driven(settings, {rest, {{32300.0, 500.0, 32767.0, -20000.0}}});
+  const dynamics::Controls right = Driven(settings, {rest, {{32300.0, 500.0, 32767.0, -20000.0}}});
   EXPECT_NEAR(right.steering_wheel_rad, -450.0 * kDegree, 0.05);
   EXPECT_EQ(right.throttle, 0.0);
   EXPECT_EQ(right.brake, 1.0);
@@ -147,7 +147,7 @@ TEST(WheelSetup, SeveralDevicesAndInvertedAxes) {
   ASSERT_EQ(settings.devices.size(), 2u) << "the second one has nothing to do";
   EXPECT_EQ(settings.devices[1].guid, std::string(32, 'c'));
   EXPECT_FALSE(settings.buttons[0]);
-  const vehicle::Controls c = Driven(settings, {{{0.0}, {-32768.0, -32768.0, 32767.0}}, {{30000.0}, {32767.0, -32768.0, -32768.0}}});
+  const dynamics::Controls c = Driven(settings, {{{0.0}, {-32768.0, -32768.0, 32767.0}}, {{30000.0}, {32767.0, -32768.0, -32768.0}}});
   EXPECT_GT(c.steering_wheel_rad, 400.0 * kDegree);
   EXPECT_EQ(c.throttle, 1.0);
   EXPECT_EQ(c.brake, 0.0);
@@ -172,7 +172,7 @@ TEST(WheelSetup, TwoPedalsOnOneAxis) {
     const WheelSettings settings = person.setup().settings();
     EXPECT_TRUE(settings.buttons[static_cast<std::size_t>(WheelButton::kCamera)]);
     EXPECT_FALSE(settings.buttons[static_cast<std::size_t>(WheelButton::kPause)]);
-    const vehicle::Controls go = Driven(settings, {{{0.0, 0.0}}, {{0.0, throttle}}}), stop = Driven(settings, {{{0.0, 0.0}}, {{0.0, -throttle}}});
+    const dynamics::Controls go = Driven(settings, {{{0.0, 0.0}}, {{0.0, throttle}}}), stop = Driven(settings, {{{0.0, 0.0}}, {{0.0, -throttle}}});
     EXPECT_EQ(go.throttle, 1.0);
     EXPECT_EQ(go.brake, 0.0);
     EXPECT_EQ(stop.throttle, 0.0);
@@ -192,7 +192,7 @@ TEST(WheelSetup, WhatADeviceSaysBeforeItMovesIsNotBelieved) {
   ASSERT_EQ(person.setup().stage(), Stage::kClutch) << person.setup().remark();
   person.Press(0, 0);
   for (const std::size_t button : {1, 2, 3, 4}) person.Press(0, button);
-  const vehicle::Controls c = Driven(person.setup().settings(), {{{0.0, 32767.0, 32767.0}}, {{0.0, -32768.0, 30000.0}}});
+  const dynamics::Controls c = Driven(person.setup().settings(), {{{0.0, 32767.0, 32767.0}}, {{0.0, -32768.0, 30000.0}}});
   EXPECT_EQ(c.throttle, 1.0);
   EXPECT_LT(c.brake, 0.05);
 }
@@ -218,7 +218,7 @@ TEST(WheelSetup, APedalThatIsHeldIsWaitedFor) {
     for (const std::size_t button : {1, 2, 3, 4}) person.Press(0, button);
     const WheelSettings settings = person.setup().settings();
     const std::vector<std::vector<double>> rest = {{0.0, up, up, up}};
-    const vehicle::Controls free = Driven(settings, {rest}), floor = Driven(settings, {rest, {{0.0, -up, -up, -up}}});
+    const dynamics::Controls free = Driven(settings, {rest}), floor = Driven(settings, {rest, {{0.0, -up, -up, -up}}});
     EXPECT_EQ(free.throttle, 0.0);
     EXPECT_EQ(free.brake, 0.0);
     EXPECT_EQ(free.clutch, 0.0);
@@ -272,4 +272,4 @@ TEST(WheelText, IsReadAsTheSame) {
 }
 
 }  // namespace
-}  // namespace rodeira::hands
+}  // namespace rodeira::input_devices

@@ -178,7 +178,7 @@ TEST(Pictures, OnlyTheHashOfWhatIsSeenKnowsThem) {
   std::set<base::Digest> seen;
   for (const auto& world : {bare, repeated, wider, other, worn, left}) seen.insert(SeenDigest(*world));
   EXPECT_EQ(seen.size(), 6u);
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   fs::copy_file(kExample / "fields.png", folder.path() / "fields.png");
   const auto moved = Plane(fmt::format(", texture: {{file: {}, repeat_m: 64}}", (folder.path() / "fields.png").string()));
   EXPECT_EQ(SeenDigest(*moved), SeenDigest(*repeated));

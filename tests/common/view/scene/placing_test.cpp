@@ -16,7 +16,7 @@ Ray Through(const Vector3d& from, const Vector3d& to) { return {from, (to - from
 
 // Of an inclined plane the place is known: from + t along where n (from + t along) = d.
 TEST(Placing, ARayMeetsAPlaneWhereItsFormulaSays) {
-  terrain::PlaneGround plane({3.0, -2.0, 7.0}, 0.08, -0.05);
+  ground::PlaneGround plane({3.0, -2.0, 7.0}, 0.08, -0.05);
   const Vector3d normal(-0.08, 0.05, 1.0);
   const double level = normal.dot(Vector3d(3.0, -2.0, 7.0));
   for (const Vector3d& along : {Vector3d(0.0, 0.0, -1.0), Vector3d(1.0, 0.3, -0.4), Vector3d(-2.0, 1.0, -0.35), Vector3d(0.2, -5.0, -0.4)}) {

@@ -36,7 +36,7 @@ TEST_P(RoadMesh, EveryVertexLiesOnSuelo) {
   const auto look = [&](const Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i, ++vertices) {
       const Eigen::Vector3d p = mesh.PositionW(i);
-      const terrain::GroundPoint at = ground->At(p.x(), p.y());
+      const ground::GroundPoint at = ground->At(p.x(), p.y());
       ASSERT_TRUE(at.inside);
       worst = std::max(worst, std::fabs(p.z() - at.z_m));
     }
@@ -111,7 +111,7 @@ TEST_P(RoadMesh, PaintsWhatSueloCallsPaint) {
     const double t = mark.t_m + base::RandomUniform({5, k}, -1.0, 1.0) * mark.width_m;
     const Eigen::Vector3d p = road.Position(s, t);
     const bool on_picture = !marks.HeightsOver(p.x(), p.y()).empty();
-    const bool on_suelo = world->At(p.x(), p.y()).surface == terrain::Surface::kRoadMark;
+    const bool on_suelo = world->At(p.x(), p.y()).surface == ground::Surface::kRoadMark;
     painted += on_suelo;
     differ += on_picture != on_suelo;
   }

@@ -19,10 +19,10 @@ TEST(TileLines, ALineAcrossAllTilesIsCutAtEachOfTheirEdges) {
     const auto passed = [](std::int64_t p, std::int64_t q) { return static_cast<std::size_t>(std::abs(TileOf(q) - TileOf(p))); };
     std::size_t pieces = 0, through_corners = 0;
     for (const auto& [key, lines] : tiles) {
-      for (const partition::GridLine& piece : lines) {
+      for (const tessellation::GridLine& piece : lines) {
         ASSERT_EQ(piece.size(), 2u);
         ++pieces;
-        for (const partition::GridPoint& p : piece) {
+        for (const tessellation::GridPoint& p : piece) {
           ASSERT_TRUE(p.x >= 0 && p.y >= 0 && p.x <= kTileSteps && p.y <= kTileSteps);
           through_corners += (p.x == 0 || p.x == kTileSteps) && (p.y == 0 || p.y == kTileSteps) ? 1 : 0;
         }

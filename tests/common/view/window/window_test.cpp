@@ -56,12 +56,12 @@ TEST_F(AWindow, ClicksAndLettersArriveHoweverFastTheyCome) {
   char text[32] = "";
   const auto draw = [&] { Panel(clicks, text, sizeof(text)); };
   Show(draw);
-  hands::Click(40, 25);
-  hands::Click(40, 25);
-  hands::Click(300, 190);  // beside it
-  hands::Click(40, 70);
-  hands::Type("N222");
-  hands::Press(SDL_SCANCODE_BACKSPACE);
+  input_devices::Click(40, 25);
+  input_devices::Click(40, 25);
+  input_devices::Click(300, 190);  // beside it
+  input_devices::Click(40, 70);
+  input_devices::Type("N222");
+  input_devices::Press(SDL_SCANCODE_BACKSPACE);
   Show(draw);
   Show(draw);
   EXPECT_EQ(clicks, 2);

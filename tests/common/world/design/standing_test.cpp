@@ -76,7 +76,7 @@ TEST(Standing, WhatDoesNotFitIsASentence) {
 
 // A model is found from wherever the program stands: its name is a whole path, at roads too.
 TEST(Standing, AModelIsNamedByItsWholePath) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const std::filesystem::path before = std::filesystem::current_path();
   folder.Write("hut.obj", "v 0 0 0\n");
   std::filesystem::current_path(folder.path());

@@ -25,15 +25,15 @@ class ClosedGrid {
   static std::shared_ptr<const network::Network> Make(int count, bool lit = false) {
     ClosedGrid grid;
     grid.Lay(count);
-    const auto heights = map::ParseHeights("rodeira: motors/1\n" + (lit ? "lights:\n" + grid.lights_ : ""), "grid.motors.yaml");
+    const auto heights = traffic_map::ParseHeights("rodeira: motors/1\n" + (lit ? "lights:\n" + grid.lights_ : ""), "grid.motors.yaml");
     RODEIRA_ASSERT(heights.ok());
-    const auto file = map::ParseMap(grid.text_ + grid.lanes_ + grid.connections_ + "s,10\ni\n", "grid.motors");
+    const auto file = traffic_map::ParseMap(grid.text_ + grid.lanes_ + grid.connections_ + "s,10\ni\n", "grid.motors");
     RODEIRA_ASSERT(file.ok());
-    auto lanes = map::MakeLaneMap(file.value(), lit ? heights.value() : map::Heights(), "grid");
+    auto lanes = traffic_map::MakeLaneMap(file.value(), lit ? heights.value() : traffic_map::Heights(), "grid");
     RODEIRA_ASSERT(lanes.ok());
     // A map's file has a start and an end lane, and there vehicles would come and go.
-    for (map::MapLane& lane : lanes.value().lanes) lane.mode = map::LaneMode::kNone;
-    const auto network = map::ToNetwork(lanes.value(), "grid");
+    for (traffic_map::MapLane& lane : lanes.value().lanes) lane.mode = traffic_map::LaneMode::kNone;
+    const auto network = traffic_map::ToNetwork(lanes.value(), "grid");
     RODEIRA_ASSERT(network.ok());
     return network.value();
   }

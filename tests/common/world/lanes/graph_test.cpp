@@ -15,7 +15,7 @@ namespace {
 
 TEST(LaneGraph, HasTheMapsLanesAndConnections) {
   for (const std::string& name : MapNames()) {
-    const auto map = map::LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value();
+    const auto map = traffic_map::LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value();
     const auto network = MapNetwork(name);
     const Graph graph(*network);
     ASSERT_EQ(graph.tracks().size(), map.lanes.size()) << name;

@@ -15,7 +15,7 @@
 namespace rodeira::lanes {
 
 inline std::shared_ptr<const network::Network> MapNetwork(const std::string& name) {
-  auto made = map::LoadNetwork(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors"));
+  auto made = traffic_map::LoadNetwork(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors"));
   RODEIRA_ASSERT(made.ok());
   return made.value();
 }

@@ -14,12 +14,12 @@ using testing::HasSubstr;
 
 // The crossing with lights, whose lanes 1, 3, 5 and 7 come from the east, north, west and south.
 std::shared_ptr<const network::Network> Crossing(const std::string& lights) {
-  const auto file = map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps/lights.motors");
-  const auto heights = map::ParseHeights("rodeira: motors/1\nlights:\n" + lights, "lights.motors.yaml");
+  const auto file = traffic_map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps/lights.motors");
+  const auto heights = traffic_map::ParseHeights("rodeira: motors/1\nlights:\n" + lights, "lights.motors.yaml");
   EXPECT_TRUE(heights.ok()) << heights.error().Text();
-  const auto made = map::MakeLaneMap(file.value(), heights.value(), "lights.motors");
+  const auto made = traffic_map::MakeLaneMap(file.value(), heights.value(), "lights.motors");
   EXPECT_TRUE(made.ok()) << made.error().Text();
-  return map::ToNetwork(made.value(), "lights").value();
+  return traffic_map::ToNetwork(made.value(), "lights").value();
 }
 
 std::string Said(const network::Network& network) {

@@ -16,10 +16,10 @@
 namespace rodeira::lanes {
 
 // With the map's companion (lights, signs), or without.
-inline std::string MapText(const std::string& name, bool companion = true, map::Junctions junctions = map::Junctions::kCommon) {
+inline std::string MapText(const std::string& name, bool companion = true, traffic_map::Junctions junctions = traffic_map::Junctions::kCommon) {
   const auto path = std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors");
-  const auto map = companion ? map::LoadLaneMap(path).value() : map::MakeLaneMap(map::LoadMap(path).value(), {}, name).value();
-  return map::ToOpenDrive(map, name, junctions).value().xml;
+  const auto map = companion ? traffic_map::LoadLaneMap(path).value() : traffic_map::MakeLaneMap(traffic_map::LoadMap(path).value(), {}, name).value();
+  return traffic_map::ToOpenDrive(map, name, junctions).value().xml;
 }
 
 class Drawn {

@@ -236,12 +236,12 @@ TEST(BuiltWorld, APatchIsItsPointsBitByBit) {
     const double place = i % 3 == 0 ? base::RandomUniform({i, 0}, 125.0, 155.0) : i % 3 == 1 ? base::RandomUniform({i, 0}, 322.0, 338.0) : base::RandomUniform({i, 0}, 1.0, 480.0);
     const auto [road, s] = chain.At(*world.network(), place);
     const Eigen::Vector3d p = road->Surface(s, base::RandomUniform({i, 1}, -9.0, 9.0)).p_W;
-    const terrain::GroundPatch patch{p.x(), p.y(), base::RandomUniform({i, 2}, -3.0, 3.0), i % 5 == 0 ? 6.0 : 0.2, 0.18, 11, 9, i % 2 == 0 ? kNone : p.z() + 0.1};
-    std::vector<terrain::GroundPoint> points(patch.size());
+    const ground::GroundPatch patch{p.x(), p.y(), base::RandomUniform({i, 2}, -3.0, 3.0), i % 5 == 0 ? 6.0 : 0.2, 0.18, 11, 9, i % 2 == 0 ? kNone : p.z() + 0.1};
+    std::vector<ground::GroundPoint> points(patch.size());
     asked->Patch(patch, points);
     for (std::size_t k = points.size(); k-- > 0;) {  // backward
-      const terrain::GroundQuery query = terrain::PatchPoint(patch, static_cast<int>(k) / patch.across, static_cast<int>(k) % patch.across);
-      const terrain::GroundPoint alone = fresh->At(query.x_m, query.y_m, query.z_hint_m);
+      const ground::GroundQuery query = ground::PatchPoint(patch, static_cast<int>(k) / patch.across, static_cast<int>(k) % patch.across);
+      const ground::GroundPoint alone = fresh->At(query.x_m, query.y_m, query.z_hint_m);
       ASSERT_EQ(points[k].inside, alone.inside);
       EXPECT_TRUE(points[k].z_m == alone.z_m && points[k].normal_W == alone.normal_W && points[k].friction == alone.friction && points[k].surface == alone.surface)
           << "patch " << i << " point " << k;
@@ -267,7 +267,7 @@ roads:
 )");
   ASSERT_NE(world, nullptr);
   const std::shared_ptr<const network::Network> network(world, world->network());
-  const BuiltGround built(network, {}, kUsualFriction, SurfaceDetail(), {nullptr, world->plane(), terrain::Surface::kGrass, 0.5});
+  const BuiltGround built(network, {}, kUsualFriction, SurfaceDetail(), {nullptr, world->plane(), ground::Surface::kGrass, 0.5});
   const auto ground = world->MakeGround();
   const network::Road& road = network->roads()[0];
   const auto same = [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); };
@@ -276,15 +276,15 @@ roads:
   for (std::uint64_t i = 0; i < kPatches; ++i) {
     const double s = base::RandomUniform({i, 0}, 0.5, road.length_m() - 0.5);
     const Eigen::Vector3d p = road.Surface(s, base::RandomUniform({i, 1}, -4.0, 5.0)).p_W;
-    const terrain::GroundPatch patch{p.x(), p.y(), base::RandomUniform({i, 2}, -3.0, 3.0), 0.2, 0.18, 14, 14, i % 2 == 0 ? kNone : p.z()};
-    std::vector<terrain::GroundQuery> queries;
-    for (int k = 0; k < 196; ++k) queries.push_back(terrain::PatchPoint(patch, k / 14, k % 14));
-    std::vector<terrain::GroundPoint> points(queries.size());
+    const ground::GroundPatch patch{p.x(), p.y(), base::RandomUniform({i, 2}, -3.0, 3.0), 0.2, 0.18, 14, 14, i % 2 == 0 ? kNone : p.z()};
+    std::vector<ground::GroundQuery> queries;
+    for (int k = 0; k < 196; ++k) queries.push_back(ground::PatchPoint(patch, k / 14, k % 14));
+    std::vector<ground::GroundPoint> points(queries.size());
     if (!built.Together(queries, points)) continue;
     ++together;
     for (std::size_t k = 0; k < queries.size(); ++k) {
-      const terrain::GroundPoint alone = ground->At(queries[k].x_m, queries[k].y_m, queries[k].z_hint_m);
-      painted += alone.surface == terrain::Surface::kRoadMark;
+      const ground::GroundPoint alone = ground->At(queries[k].x_m, queries[k].y_m, queries[k].z_hint_m);
+      painted += alone.surface == ground::Surface::kRoadMark;
       ASSERT_TRUE(alone.inside && points[k].inside);
       ASSERT_TRUE(same(points[k].z_m, alone.z_m) && same(points[k].normal_W.x(), alone.normal_W.x()) && same(points[k].normal_W.y(), alone.normal_W.y()) &&
                   same(points[k].normal_W.z(), alone.normal_W.z()) && same(points[k].friction, alone.friction) && points[k].surface == alone.surface)

@@ -100,9 +100,9 @@ TEST(Kerbs, StepWhereTheyStand) {
       "              {id: 3, type: biking, width_m: 1.5, kerb_m: -0.08, fall: 0}]\n");
   const auto suelo = world->MakeGround();
   const double low = 1.0 - 3.5 * 0.02, kept = 1e-6;
-  const auto expect = [&](double y, double z_m, double slope, terrain::Surface surface) {
+  const auto expect = [&](double y, double z_m, double slope, ground::Surface surface) {
     for (const double x : {0.5, 33.3, 99.5}) {
-      const terrain::GroundPoint at = suelo->At(x, y);
+      const ground::GroundPoint at = suelo->At(x, y);
       ASSERT_TRUE(at.inside);
       EXPECT_NEAR(at.z_m, z_m, 1e-7) << x << " " << y;
       EXPECT_NEAR(-at.normal_W.y() / at.normal_W.z(), slope, 1e-9) << x << " " << y;
@@ -110,7 +110,7 @@ TEST(Kerbs, StepWhereTheyStand) {
       EXPECT_EQ(at.surface, surface) << x << " " << y;
     }
   };
-  using enum terrain::Surface;
+  using enum ground::Surface;
   expect(-3.5 + kept, low, 0.02, kAsphalt);  // on the right slopes are by y, which grows towards the axis
   expect(-3.5 - kept, low + 0.12, -0.01, kConcrete);
   expect(-5.5 + kept, low + 0.12 + 0.02, -0.01, kConcrete);
@@ -123,10 +123,10 @@ TEST(Kerbs, StepWhereTheyStand) {
   expect(7.0 + kept, low + 0.12 + 0.02 - 0.08, 0.0, kGrass);
   // A patch of points over the kerb, a metre to each side of it.
   constexpr int kAcross = 20;
-  std::vector<terrain::GroundPoint> points(7 * kAcross);
+  std::vector<ground::GroundPoint> points(7 * kAcross);
   suelo->Patch({20.0, -3.5, 0.0, 0.3, 2.0, 7, kAcross, 1.0}, points);
   std::multiset<double> found, expected;
-  for (const terrain::GroundPoint& point : points) found.insert(point.z_m);
+  for (const ground::GroundPoint& point : points) found.insert(point.z_m);
   for (int j = 0; j < kAcross; ++j) {
     const double out = -1.0 + 2.0 * j / (kAcross - 1);  // beyond the kerb
     for (int i = 0; i < 7; ++i) expected.insert(out > 0.0 ? low + 0.12 + 0.01 * out : low - 0.02 * out);

@@ -67,7 +67,7 @@ struct Tee {
   }
 };
 
-std::shared_ptr<const World> MustLoad(const front::TemporaryFolder& folder, const std::string& text) {
+std::shared_ptr<const World> MustLoad(const cli::TemporaryFolder& folder, const std::string& text) {
   const auto world = World::Load(folder.Write("tee.xodr", text));
   EXPECT_TRUE(world.ok()) << world.error().Text();
   return world.ok() ? world.value() : nullptr;
@@ -77,7 +77,7 @@ std::shared_ptr<const World> MustLoad(const front::TemporaryFolder& folder, cons
 bool Inside(double x, double y) { return std::fabs(x) < 10.0 && y > -10.0 && y < 3.5 && y > std::fabs(x) - 13.5; }
 
 TEST(JunctionGround, IsTheGridsOnTheWaysThroughAndBetweenThem) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const auto world = MustLoad(folder, Tee().Text());
   ASSERT_NE(world, nullptr);
   int between = 0;
@@ -88,7 +88,7 @@ TEST(JunctionGround, IsTheGridsOnTheWaysThroughAndBetweenThem) {
     EXPECT_NEAR(at.z_m, Height(x, y), 1e-10) << x << " " << y;
     EXPECT_NEAR(at.slope_x, 0.03 + 0.002 * y + 0.0012 * x * x, 1e-9);
     EXPECT_NEAR(at.slope_y, -0.02 + 0.002 * x - 0.0009 * y * y, 1e-9);
-    EXPECT_EQ(at.surface, terrain::Surface::kAsphalt);
+    EXPECT_EQ(at.surface, ground::Surface::kAsphalt);
     std::vector<network::Surfacing> surfaces;
     world->network()->Surfaces(x, y, surfaces);
     between += surfaces.empty();
@@ -102,7 +102,7 @@ TEST(JunctionGround, IsTheGridsOnTheWaysThroughAndBetweenThem) {
 }
 
 TEST(JunctionGround, ARoadGoesOverIntoItWithoutStepOrKink) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   Tee tee;
   tee.transition = "transitionLength=\"3\"";
   const auto world = MustLoad(folder, tee.Text());

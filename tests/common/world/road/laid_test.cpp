@@ -41,7 +41,7 @@ TEST(Laid, APatchOfIceIsWhereItIsSaid) {
     const bool across = x >= 100.0 && x <= 110.0 && std::fabs(y) <= 3.5;  // all lanes that are driven on
     const SurfacePoint at = world->At(x, y);
     EXPECT_EQ(at.friction, mud ? 0.4 : ice ? 0.12 : across ? 0.3 : 1.0) << x << " " << y;
-    EXPECT_EQ(at.surface, mud ? terrain::Surface::kSoil : terrain::Surface::kAsphalt) << x << " " << y;
+    EXPECT_EQ(at.surface, mud ? ground::Surface::kSoil : ground::Surface::kAsphalt) << x << " " << y;
     EXPECT_NEAR(at.z_m, 5.0, 1e-12);
     iced += ice && !mud;
   }
@@ -51,10 +51,10 @@ TEST(Laid, APatchOfIceIsWhereItIsSaid) {
 TEST(Laid, APatchCoversPaint) {
   const std::string lines = "    lines: [{lane: 0, kind: continuous, width_m: 0.2}]\n";
   const auto world = MustParse(Straight(lines + "    patches: [{from_s_m: 50, to_s_m: 60, friction: 0.1}, {from_s_m: 70, to_s_m: 80, material: mud}]\n"));
-  EXPECT_EQ(world->At(45.0, 0.0).surface, terrain::Surface::kRoadMark);
+  EXPECT_EQ(world->At(45.0, 0.0).surface, ground::Surface::kRoadMark);
   EXPECT_EQ(world->At(55.0, 0.0).friction, 0.1);
-  EXPECT_EQ(world->At(55.0, 0.0).surface, terrain::Surface::kRoadMark);  // under the ice
-  EXPECT_EQ(world->At(75.0, 0.0).surface, terrain::Surface::kSoil);
+  EXPECT_EQ(world->At(55.0, 0.0).surface, ground::Surface::kRoadMark);  // under the ice
+  EXPECT_EQ(world->At(75.0, 0.0).surface, ground::Surface::kSoil);
 }
 
 // Three kinds of profile, each with its formula.
@@ -107,9 +107,9 @@ TEST(Laid, APatchOfPointsIsItsPoints) {
   const auto world = MustParse(Straight("    patches: [{from_s_m: 50, to_s_m: 60, friction: 0.1}]\n    bumps: [{from_s_m: 80, to_s_m: 84, height_m: 0.1}]\n"));
   const auto ground = world->MakeGround();
   for (const double x : {30.0, 49.9, 55.0, 60.0, 79.95, 82.0, 90.0}) {
-    std::vector<terrain::GroundQuery> queries;
+    std::vector<ground::GroundQuery> queries;
     for (int i = 0; i < 400; ++i) queries.push_back({x + 0.01 * (i % 20), -1.5 + 0.01 * (i / 20), 5.2});
-    std::vector<terrain::GroundPoint> points(queries.size());
+    std::vector<ground::GroundPoint> points(queries.size());
     ground->Query(queries, points);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const SurfacePoint alone = world->At(queries[i].x_m, queries[i].y_m, queries[i].z_hint_m);
@@ -149,7 +149,7 @@ TEST(Laid, PatchesGoOnThroughJunctions) {
       const bool mud = x >= 98.0 && x <= 99.0;
       EXPECT_EQ(at.friction, mud ? 0.4 : 0.1) << x << " " << y;
       if (mud) {
-        EXPECT_EQ(at.surface, terrain::Surface::kSoil);
+        EXPECT_EQ(at.surface, ground::Surface::kSoil);
       }
       EXPECT_EQ(at.z_m, before.z_m);
     }
@@ -238,7 +238,7 @@ TEST(Laid, PatchesOfOpenDriveHaveTheirFriction) {
     }
     const SurfacePoint at = theirs->At(x, y);
     EXPECT_EQ(at.friction, expected) << x << " " << y;
-    EXPECT_EQ(at.surface, expected == 0.6 ? terrain::Surface::kGravel : terrain::Surface::kAsphalt);
+    EXPECT_EQ(at.surface, expected == 0.6 ? ground::Surface::kGravel : ground::Surface::kAsphalt);
   }
   std::filesystem::remove_all(folder);
 }

@@ -65,7 +65,7 @@ TEST_F(Sides, TheGroundIsTheMirrorImage) {
     EXPECT_NEAR(a.slope_y, -b.slope_y, 1e-6) << p.transpose();
     EXPECT_EQ(a.surface, b.surface) << p.transpose();
     EXPECT_EQ(a.friction, b.friction) << p.transpose();
-    road += a.surface == terrain::Surface::kAsphalt, paint += a.surface == terrain::Surface::kRoadMark;
+    road += a.surface == ground::Surface::kAsphalt, paint += a.surface == ground::Surface::kRoadMark;
   }
   EXPECT_GT(road, 5000);
   EXPECT_GT(paint, 300);
@@ -152,13 +152,13 @@ TEST(Templates, AreRoadsOfTheirKind) {
     for (const network::Lane& lane : section.right) EXPECT_EQ(lane.direction, 1) << kind.name;
     for (const network::Lane& lane : section.left) EXPECT_EQ(lane.direction, -1) << kind.name;
     const auto paved = [&](double y) {
-      const terrain::Surface surface = world->At(100.0, y).surface;
-      return surface == terrain::Surface::kAsphalt || surface == terrain::Surface::kRoadMark;
+      const ground::Surface surface = world->At(100.0, y).surface;
+      return surface == ground::Surface::kAsphalt || surface == ground::Surface::kRoadMark;
     };
     EXPECT_TRUE(paved(-kind.right_m + 0.01)) << kind.name;
-    EXPECT_EQ(world->At(100.0, -kind.right_m - 0.01).surface, terrain::Surface::kGrass) << kind.name;
+    EXPECT_EQ(world->At(100.0, -kind.right_m - 0.01).surface, ground::Surface::kGrass) << kind.name;
     EXPECT_TRUE(paved(kind.left_m - 0.01)) << kind.name;
-    EXPECT_EQ(world->At(100.0, kind.left_m + 0.01).surface, terrain::Surface::kGrass) << kind.name;
+    EXPECT_EQ(world->At(100.0, kind.left_m + 0.01).surface, ground::Surface::kGrass) << kind.name;
     EXPECT_NEAR(world->At(100.0, 0.0).z_m - world->At(100.0, -2.0).z_m, kind.middle_fall_m, 1e-9) << kind.name;
     EXPECT_FALSE(world->network()->roads()[0].spec().lines.empty()) << kind.name;
   }

@@ -16,7 +16,7 @@ namespace {
 
 // A straight road to the east whose middle has dashes of 3 m every 12 m, 0.16 m wide, and whose right edge, 3.5 m off, a solid line of 0.2 m.
 TEST(MarkPaint, DashesAreRoadMarkWhereTheyAreByClosedForm) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const auto file = folder.Write("straight.xodr",
       "<OpenDRIVE><header revMajor=\"1\" revMinor=\"7\"/><road id=\"1\" length=\"120\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"120\"><line/></geometry></planView>"
       "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane></left>"
@@ -32,7 +32,7 @@ TEST(MarkPaint, DashesAreRoadMarkWhereTheyAreByClosedForm) {
     if (std::min({into, std::fabs(into - 3.0), 12.0 - into, std::fabs(std::fabs(y) - 0.08), std::fabs(y + 3.4), std::fabs(x - 40.0)}) < 1e-6) continue;
     const bool dash = std::fabs(y) < 0.08 && into < 3.0, edge = y < -3.4 && x > 40.0;
     const SurfacePoint at = world.value()->At(x, y);
-    EXPECT_EQ(at.surface == terrain::Surface::kRoadMark, dash || edge) << x << " " << y;
+    EXPECT_EQ(at.surface == ground::Surface::kRoadMark, dash || edge) << x << " " << y;
     EXPECT_EQ(at.friction, dash || edge ? 0.9 : y < 0.0 ? 0.7 : 1.0) << x << " " << y;
     painted += dash || edge;
   }

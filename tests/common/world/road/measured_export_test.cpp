@@ -47,7 +47,7 @@ class MeasuredExport : public testing::Test {
     for (const auto& finding : import.value().errors) ADD_FAILURE() << finding.Text();
     return Load("moved/it.xodr");
   }
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
 };
 
 // A straight, a clothoid and a bend that climb, with what is laid on them.

@@ -69,7 +69,7 @@ TEST_F(N222, IsPaintedAsItWasInVersion1) {
   for (std::uint64_t i = 0; i < 40'000; ++i) {
     const double s = base::RandomUniform({i, 3}, 0.0, road_.length_m()), t = (i % 3 == 0 ? -2.96 : i % 3 == 1 ? 2.96 : 0.0) + base::RandomUniform({i, 4}, -0.08, 0.08);
     const Eigen::Vector3d p = N222Road().Position(s, t);
-    const bool is = now->At(p.x(), p.y()).surface == terrain::Surface::kRoadMark, was = before->At(p.x(), p.y()).surface == terrain::Surface::kRoadMark;
+    const bool is = now->At(p.x(), p.y()).surface == ground::Surface::kRoadMark, was = before->At(p.x(), p.y()).surface == ground::Surface::kRoadMark;
     painted += is, differ += is != was;
   }
   EXPECT_GT(painted, 10'000);
@@ -143,9 +143,9 @@ TEST_F(N222, TheRoadIsWhereTheGroundIs) {
   for (std::uint64_t i = 0; i < 5000; ++i) {
     const double s = base::RandomUniform({i, 1}, 0.0, road_.length_m()), t = base::RandomUniform({i, 2}, -3.39, 3.39);
     const Eigen::Vector3d p = road_.Surface(s, t).p_W;
-    const terrain::GroundPoint at = ground->At(p.x(), p.y());
+    const ground::GroundPoint at = ground->At(p.x(), p.y());
     EXPECT_NEAR(at.z_m, p.z(), 1e-9);
-    EXPECT_TRUE(at.surface == terrain::Surface::kAsphalt || at.surface == terrain::Surface::kRoadMark);
+    EXPECT_TRUE(at.surface == ground::Surface::kAsphalt || at.surface == ground::Surface::kRoadMark);
   }
 }
 

@@ -49,7 +49,7 @@ class NetworkExport : public testing::TestWithParam<const char*> {
   const Network& ours() const { return *world_->network(); }
   static bool IsExample() { return std::string(GetParam()).starts_with("example"); }
 
-  const front::TemporaryFolder folder_;
+  const cli::TemporaryFolder folder_;
   const std::filesystem::path file_ = folder_.path() / "it.xodr";
   std::shared_ptr<const World> world_;
   std::shared_ptr<const Network> again_;
@@ -288,7 +288,7 @@ TEST(NetworkExportIds, HaveNoBlanksAndNamesAreKept) {
   const std::size_t begin = document.find("```yaml\n") + 8;
   const auto world = World::Parse(document.substr(begin, document.find("\n```\n", begin) + 1 - begin), "first_road.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   ASSERT_TRUE(WriteOpenDrive(*world.value(), folder.path() / "it.xodr").ok());
   const auto again = opendrive::LoadNetwork(folder.path() / "it.xodr", opendrive::Tolerance::Strict());
   ASSERT_TRUE(again.ok()) << again.error().Text();
@@ -308,7 +308,7 @@ TEST(NetworkExportIds, StayDifferent) {
                                   "  - {id: \"a,b\", start: {x_m: 200, y_m: 0}, axis: [line: {length_m: 100}], z_m: 0, section: {template: rural}}\n",
                                   "odd.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   ASSERT_TRUE(WriteOpenDrive(*world.value(), folder.path() / "it.xodr").ok());
   const auto again = opendrive::LoadNetwork(folder.path() / "it.xodr", opendrive::Tolerance::Strict());
   ASSERT_TRUE(again.ok()) << again.error().Text();

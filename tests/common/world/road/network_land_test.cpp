@@ -22,7 +22,7 @@ using Eigen::Vector2d;
 using network::Network;
 
 std::shared_ptr<const World> Load(const std::string& roads) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   return World::Load(folder.Write("land.xodr", opendrive::Document(roads))).value();
 }
 
@@ -45,7 +45,7 @@ TEST(NetworkLand, BetweenRoadsOfDifferentHeightsABankOfOneInTwoLies) {
     if (std::fabs(away - 14.0) > 1e-3 && std::fabs(away - 26.0) > 1e-3) {
       EXPECT_NEAR(at.slope_y, away > 14.0 && away < 26.0 ? -0.5 : 0.0, 1e-9) << away;
     }
-    EXPECT_EQ(at.surface, terrain::Surface::kGrass);
+    EXPECT_EQ(at.surface, ground::Surface::kGrass);
   }
 }
 

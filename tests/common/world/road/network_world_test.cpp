@@ -65,11 +65,11 @@ TEST_F(NetworkWorld, SueloIsThePlaneOfALeaningRoad) {
   const Eigen::Vector3d normal = std::cos(0.05) * up - std::sin(0.05) * Eigen::Vector3d::UnitY();
   for (std::uint64_t i = 0; i < 500; ++i) {
     const double x = base::RandomUniform({i, 1}, 1.0, 40.0), y = base::RandomUniform({i, 2}, -5.4, 3.4);
-    const terrain::GroundPoint at = ground->At(x, y);
+    const ground::GroundPoint at = ground->At(x, y);
     ASSERT_TRUE(at.inside);
     EXPECT_NEAR(at.z_m, -(normal.x() * x + normal.y() * y) / normal.z(), 1e-10);
     EXPECT_NEAR((at.normal_W - normal).norm(), 0.0, 1e-10);
-    EXPECT_EQ(at.surface, y < -3.5 ? terrain::Surface::kConcrete : terrain::Surface::kAsphalt);
+    EXPECT_EQ(at.surface, y < -3.5 ? ground::Surface::kConcrete : ground::Surface::kAsphalt);
   }
   EXPECT_EQ(ground->At(70.0, -1.0).friction, 0.15);
   EXPECT_EQ(ground->At(70.0, 1.0).friction, 1.0);
@@ -106,7 +106,7 @@ TEST_F(NetworkWorld, TheVergeGoesOnFromTheRoadsEdge) {
     const double slope = 5.0 / (100.0 - t);  // metres up a radian over metres along a radian
     EXPECT_NEAR((at.normal_W - Eigen::Vector3d(-slope * std::cos(angle), -slope * std::sin(angle), 1.0).normalized()).norm(), 0.0,
                 1e-9);
-    EXPECT_EQ(at.surface, terrain::Surface::kGrass);
+    EXPECT_EQ(at.surface, ground::Surface::kGrass);
   }
   // Near the road's ends the tightest bound on one side lies past the end: g² d / 2, 0.05² 40 / 2 = 5 cm and a little more within the bend, is the most that is missing.
   for (std::uint64_t i = 0; i < 300; ++i) {
@@ -128,12 +128,12 @@ void ExpectPatchesAreTheirPoints(const World& world, std::uint64_t patches) {
     const double s = base::RandomUniform({i, 2}, 0.0, road.length_m());
     const Eigen::Vector3d p = road.Surface(s, base::RandomUniform({i, 3}, -5.0, 5.0)).p_W;
     const double hint = i % 3 == 0 ? kNan : i % 3 == 1 ? p.z() : p.z() - 3.0;
-    const terrain::GroundPatch patch{p.x(), p.y(), base::RandomUniform({i, 4}, -3.0, 3.0), 0.2, 0.18, 9, 7, hint};
-    std::vector<terrain::GroundPoint> points(patch.size());
+    const ground::GroundPatch patch{p.x(), p.y(), base::RandomUniform({i, 4}, -3.0, 3.0), 0.2, 0.18, 9, 7, hint};
+    std::vector<ground::GroundPoint> points(patch.size());
     ground->Patch(patch, points);
     for (int k = 0; k < 63; ++k) {
-      const terrain::GroundQuery query = terrain::PatchPoint(patch, k / 7, k % 7);
-      const terrain::GroundPoint alone = fresh->At(query.x_m, query.y_m, query.z_hint_m), &at = points[static_cast<std::size_t>(k)];
+      const ground::GroundQuery query = ground::PatchPoint(patch, k / 7, k % 7);
+      const ground::GroundPoint alone = fresh->At(query.x_m, query.y_m, query.z_hint_m), &at = points[static_cast<std::size_t>(k)];
       ASSERT_TRUE(same(at.z_m, alone.z_m) && same(at.normal_W.x(), alone.normal_W.x()) && same(at.normal_W.y(), alone.normal_W.y()) &&
                   same(at.normal_W.z(), alone.normal_W.z()) && same(at.friction, alone.friction) && at.surface == alone.surface && at.inside == alone.inside)
           << "road " << road.id() << " s " << s << " patch " << i << " point " << k;
@@ -146,8 +146,8 @@ TEST_F(NetworkWorld, APatchIsItsPointsBitByBit) {
   // What is asked together agrees with no hint above the road, and says nothing where the hint lies below it.
   const auto flat = MustLoad(Document(RoadText().Text()));
   const LaneGrounds grounds(*flat->network(), kUsualFriction);
-  std::vector<terrain::GroundQuery> queries(20, {40.0, 1.5, 0.2});
-  std::vector<terrain::GroundPoint> points(queries.size());
+  std::vector<ground::GroundQuery> queries(20, {40.0, 1.5, 0.2});
+  std::vector<ground::GroundPoint> points(queries.size());
   EXPECT_TRUE(NetworkGroundTogether(*flat->network(), grounds, kUsualFriction, nullptr, nullptr, queries, points));
   queries[7].z_hint_m = -0.6;
   EXPECT_FALSE(NetworkGroundTogether(*flat->network(), grounds, kUsualFriction, nullptr, nullptr, queries, points));
@@ -233,12 +233,12 @@ TEST_F(NetworkWorld, SueloOnRealFiles) {
     const network::Network& network = *world.value()->network();
     auto ground = world.value()->MakeGround();
     const auto lanes = network.Lanes();
-    std::vector<terrain::GroundQuery> queries;
+    std::vector<ground::GroundQuery> queries;
     for (std::uint64_t i = 0; i < 500; ++i) {
       const network::LaneKey key = lanes[base::RandomBits({i}) % lanes.size()];
       const network::LaneSection& section = network.Section(key);
       const Eigen::Vector3d p = network.Centre(key, base::RandomUniform({i, 1}, section.s_m, section.end_s_m));
-      const terrain::GroundPoint at = ground->At(p.x(), p.y(), p.z());
+      const ground::GroundPoint at = ground->At(p.x(), p.y(), p.z());
       EXPECT_TRUE(at.inside);
       // Where roads lie over one another they are one ground, and what is not drivable gives way; kerbs step.
       const double below_m = network::IsDrivable(network.Find(key)->type) ? 0.2 : 1.0;
@@ -246,10 +246,10 @@ TEST_F(NetworkWorld, SueloOnRealFiles) {
       EXPECT_LE(at.z_m, p.z() + 0.5 + 1e-9);
       queries.push_back({p.x(), p.y(), p.z()});
     }
-    std::vector<terrain::GroundPoint> points(queries.size());
+    std::vector<ground::GroundPoint> points(queries.size());
     ground->Query(queries, points);
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      const terrain::GroundPoint alone = ground->At(queries[i].x_m, queries[i].y_m, queries[i].z_hint_m);
+      const ground::GroundPoint alone = ground->At(queries[i].x_m, queries[i].y_m, queries[i].z_hint_m);
       EXPECT_TRUE(points[i].z_m == alone.z_m && points[i].normal_W == alone.normal_W && points[i].friction == alone.friction);
     }
   }

@@ -31,7 +31,7 @@ std::shared_ptr<const World> Crossing(double above_m) {
   across.elevation = fmt::format(R"(<elevation s="0" a="{}" b="0" c="0" d="0"/>)", above_m);
   across.left += R"(<lane id="2" type="shoulder"><width sOffset="0" a="2" b="0" c="0" d="0"/></lane>)";
   across.right += R"(<lane id="-2" type="shoulder"><width sOffset="0" a="2" b="0" c="0" d="0"/></lane>)";
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   return World::Load(folder.Write("crossing.xodr", opendrive::Document(level.Text() + across.Text()))).value();
 }
 
@@ -47,7 +47,7 @@ TEST(Overlap, IsTheMeanOfBothByTheDistancesToTheirEdges) {
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const double x = base::RandomUniform({i, 1}, 44.6, 55.4), y = base::RandomUniform({i, 2}, -3.4, 3.4);
     const SurfacePoint at = world->At(x, y);
-    EXPECT_EQ(at.surface, terrain::Surface::kAsphalt);
+    EXPECT_EQ(at.surface, ground::Surface::kAsphalt);
     if (std::fabs(x - 50.0) >= 3.5) {
       EXPECT_EQ(at.z_m, 0.0) << x << " " << y;  // a shoulder, though higher, does not stand over a lane
       continue;
@@ -197,7 +197,7 @@ TEST(Overlap, DrivingLanesAreNamedAsTheyAreLocated) {
           ++points;
           others += named->lane != located->lane || named->s_m != located->s_m;
           EXPECT_TRUE(network::IsDrivable(network.Find(named->lane)->type)) << file.filename() << " road " << road.id() << " s " << s;
-          EXPECT_NE(at.surface, terrain::Surface::kGrass) << file.filename() << " road " << road.id() << " s " << s;
+          EXPECT_NE(at.surface, ground::Surface::kGrass) << file.filename() << " road " << road.id() << " s " << s;
         }
       }
     }

@@ -23,7 +23,7 @@ using testing::Not;
 
 // What is said of a world file with this text.
 std::vector<std::string> Said(const std::string& text) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const auto file = folder.path() / "w.yaml";
   EXPECT_TRUE(base::WriteWhole(file, text).ok());
   for (const base::Error& problem : WorldProblems(file)) ADD_FAILURE() << problem.Text();

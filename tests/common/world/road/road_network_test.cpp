@@ -46,7 +46,7 @@ void ExpectTheSame(const World& world) {
       EXPECT_EQ(lane.direction, theirs->direction);
       EXPECT_NEAR(*ours.SpeedLimitAt(lane, s), theirs->speed_limit_mps, 1e-12);
     }
-    if (at.surface != terrain::Surface::kRoadMark) {
+    if (at.surface != ground::Surface::kRoadMark) {
       EXPECT_EQ(ours.MaterialAt(lane, s)->surface, SurfaceName(at.surface));
       EXPECT_EQ(*ours.MaterialAt(lane, s)->friction, at.friction);
     }

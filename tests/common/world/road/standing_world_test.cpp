@@ -22,11 +22,11 @@ TEST(StandingWorld, TheGroundIsTheBareGrids) {
   const auto bare = MustParse(kHills), planted = MustParse(kHills + kObjects);
   ASSERT_NE(planted->standing(), nullptr);
   EXPECT_EQ(bare->standing(), nullptr);
-  std::vector<terrain::GroundQuery> queries;
+  std::vector<ground::GroundQuery> queries;
   for (std::uint64_t i = 0; i < 4000; ++i) {
     queries.push_back({base::RandomUniform({i, 1}, -10.0, 410.0), base::RandomUniform({i, 2}, -10.0, 410.0), i % 3 == 0 ? base::RandomUniform({i, 3}, -10.0, 10.0) : std::nan("")});
   }
-  std::vector<terrain::GroundPoint> ours(queries.size()), theirs(queries.size());
+  std::vector<ground::GroundPoint> ours(queries.size()), theirs(queries.size());
   bare->MakeGround()->Query(queries, theirs);
   planted->MakeGround()->Query(queries, ours);
   int outside = 0;

@@ -13,9 +13,9 @@
 namespace rodeira::road {
 namespace {
 
-using terrain::GroundPoint;
-using terrain::GroundQuery;
-using terrain::Surface;
+using ground::GroundPoint;
+using ground::GroundQuery;
+using ground::Surface;
 
 bool SameBits(const GroundPoint& a, const GroundPoint& b) {
   return std::memcmp(&a.z_m, &b.z_m, sizeof(double)) == 0 && std::memcmp(a.normal_W.data(), b.normal_W.data(), 3 * sizeof(double)) == 0 &&
@@ -144,12 +144,12 @@ TEST(Suelo, SlopesAreTheDerivativesOfTheHeight) {
 RC_GTEST_PROP(Suelo, APatchIsItsPoints, (std::uint64_t seed)) {
   const auto world = Sample();
   const GroundQuery middle = AnyPoint(*world, seed, 2 + seed % 2);
-  const terrain::GroundPatch patch{middle.x_m, middle.y_m, base::RandomUniform({seed, 1}, -3.0, 3.0), 0.2, 0.18, 20, 20, middle.z_hint_m};
+  const ground::GroundPatch patch{middle.x_m, middle.y_m, base::RandomUniform({seed, 1}, -3.0, 3.0), 0.2, 0.18, 20, 20, middle.z_hint_m};
   std::vector<GroundPoint> points(patch.size());
   world->MakeGround()->Patch(patch, points);
   for (int row = 0; row < patch.along; ++row) {
     for (int column = 0; column < patch.across; ++column) {
-      const GroundQuery query = terrain::PatchPoint(patch, row, column);
+      const GroundQuery query = ground::PatchPoint(patch, row, column);
       RC_ASSERT(SameBits(points[static_cast<std::size_t>(row * patch.across + column)], world->MakeGround()->At(query.x_m, query.y_m, query.z_hint_m)));
     }
   }

@@ -40,7 +40,7 @@ TEST(TerrainFit, HillsEndWhereTheirGridDoes) {
 
 // Heights in the middle of pixels of 10 m from 0 to 400 m, so the ground goes from 5 to 395; none in those from 180 to 220 east, 250 to 270 north.
 TEST(TerrainFit, AVoidOfAnElevationFileIsNoTerrain) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   std::string heights = "ncols 40\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999\n";
   for (int row = 39; row >= 0; --row) {  // from north to south
     for (int column = 0; column < 40; ++column) heights += column >= 18 && column < 22 && (row == 25 || row == 26) ? "-9999 " : "7.5 ";

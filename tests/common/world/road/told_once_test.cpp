@@ -43,7 +43,7 @@ class ToldOnce : public testing::Test {
     for (const std::string& warning : WorldWarnings(folder_ / "w.yaml")) said.push_back(Plain(warning));
     return said;
   }
-  const front::TemporaryFolder temporary_;
+  const cli::TemporaryFolder temporary_;
   const fs::path& folder_ = temporary_.path();
 };
 

@@ -47,7 +47,7 @@ roads:
         EXPECT_LE(layers[0].z_m, 9.0 + 1e-9);
         roofs += std::fabs(layers[0].z_m - p.z() - 5.0) < 1e-9;
       }
-      EXPECT_EQ(layers[0].surface, terrain::Surface::kSoil);
+      EXPECT_EQ(layers[0].surface, ground::Surface::kSoil);
       EXPECT_NEAR(layers[1].z_m, p.z(), 1e-9);
       EXPECT_EQ(world->At(p.x(), p.y(), 0.0).z_m, layers[1].z_m);
       EXPECT_EQ(world->At(p.x(), p.y(), 9.0).z_m, layers[0].z_m);
@@ -91,16 +91,16 @@ TEST(Tunnel, BesideATunnelsRoadItsFloorGoesOnUnderTheHill) {
         const Eigen::Vector2d p = edge.head<2>() + side * beside * axis.left_W();
         const double near_mouth = std::min(s - 60.0, 230.0 - s);
         const SurfacePoint at = world->At(p.x(), p.y(), edge.z());
-        if (std::hypot(near_mouth, beside) < 0.75 + 1e-6 && at.surface == terrain::Surface::kGrass) continue;  // the cut before the mouth begins lower than a step
+        if (std::hypot(near_mouth, beside) < 0.75 + 1e-6 && at.surface == ground::Surface::kGrass) continue;  // the cut before the mouth begins lower than a step
         ASSERT_TRUE(at.inside);
         ASSERT_NEAR(at.z_m, edge.z(), 1e-9) << s << " " << side * beside;
-        ASSERT_EQ(at.surface, terrain::Surface::kConcrete);
+        ASSERT_EQ(at.surface, ground::Surface::kConcrete);
         const Eigen::Vector2d slope(at.slope_x, at.slope_y);
         EXPECT_NEAR(slope.dot(axis.left_W()), 0.0, 1e-9) << "level across";
         EXPECT_NEAR(slope.dot(axis.tangent_W), 0.02 / (1.0 - side * axis.curvature_1pm * (std::fabs(side > 0.0 ? left : right) + beside)), 1e-6) << s;
         // Nothing else is changed: who asks without a hint, or from the hill, is on the hill.
         const SurfacePoint top = world->At(p.x(), p.y());
-        EXPECT_EQ(top.surface, terrain::Surface::kGrass);
+        EXPECT_EQ(top.surface, ground::Surface::kGrass);
         EXPECT_EQ(world->At(p.x(), p.y(), top.z_m).z_m, top.z_m);
         EXPECT_TRUE(near_mouth <= 40.0 || top.z_m == 20.0);
         const auto layers = ground->Layers(p.x(), p.y());
@@ -135,11 +135,11 @@ TEST(Tunnel, AFloorBesideATunnelTakesNoRoadsPlace) {
   }
   // Many points on the road over it, near the tunnel: together as one by one.
   for (const double hint : {0.0, 20.0, std::numeric_limits<double>::quiet_NaN()}) {
-    const terrain::GroundPatch patch{100.0, 8.0, 0.3, 0.2, 0.18, 11, 9, hint};
-    std::vector<terrain::GroundPoint> points(patch.size());
+    const ground::GroundPatch patch{100.0, 8.0, 0.3, 0.2, 0.18, 11, 9, hint};
+    std::vector<ground::GroundPoint> points(patch.size());
     ground->Patch(patch, points);
     for (std::size_t k = 0; k < points.size(); ++k) {
-      const terrain::GroundQuery query = terrain::PatchPoint(patch, static_cast<int>(k) / patch.across, static_cast<int>(k) % patch.across);
+      const ground::GroundQuery query = ground::PatchPoint(patch, static_cast<int>(k) / patch.across, static_cast<int>(k) % patch.across);
       EXPECT_EQ(points[k].z_m, world->At(query.x_m, query.y_m, query.z_hint_m).z_m);
     }
   }

@@ -65,7 +65,7 @@ TEST(Overlaps, OfRoadsThatOnlyTouchAreToldSo) {
 }
 
 TEST(Overlaps, AreWarningsOfWorldCheckOfBothKindsOfFiles) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const auto yaml = folder.path() / "w.yaml", xodr = folder.path() / "w.xodr";
   ASSERT_TRUE(base::WriteWhole(yaml, Crossing(0.0)).ok());
   EXPECT_THAT(WorldWarnings(yaml), ElementsAre(HasSubstr("w.yaml:5: road 'a' at s = 147.0 m and road 'b' at s = 51.8 m lie on one another")));

@@ -46,7 +46,7 @@ void ExpectTheSameRoad(const World& world) {
     EXPECT_NEAR(ours.z_m, theirs.z_m, 1e-8);
     EXPECT_NEAR(ours.slope_x, theirs.slope_x, 1e-8);
     EXPECT_NEAR(ours.slope_y, theirs.slope_y, 1e-8);
-    const bool paint = ours.surface == terrain::Surface::kRoadMark;
+    const bool paint = ours.surface == ground::Surface::kRoadMark;
     EXPECT_TRUE(paint || ours.friction == theirs.friction);
     const Lane* lane = road.LaneAt(s, t);
     const auto place = network.Locate(p.x(), p.y());

@@ -163,7 +163,7 @@ TEST(WorldFile, WhatAWorldNamesIsToldToBeNone) {
 }
 
 TEST(WorldFile, WhereTheHeightsOfAFileStandCanBeSaid) {
-  const front::TemporaryFolder temporary;
+  const cli::TemporaryFolder temporary;
   const std::filesystem::path& folder = temporary.path();
   const terrain::ElevationGrid grid({3, 3, 0.0, 0.0, 30.0, 30.0}, {0.0F, 0.0F, 0.0F, 3.0F, 3.0F, 3.0F, 6.0F, 6.0F, 6.0F});
   ASSERT_TRUE(terrain::WriteBt(folder / "hills.bt", grid).ok());

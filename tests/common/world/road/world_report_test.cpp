@@ -32,7 +32,7 @@ using ::testing::Not;
 class WorldReport : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(base::WriteWhole(folder_ / "w.yaml", kSample).ok()); }
-  const front::TemporaryFolder temporary_;
+  const cli::TemporaryFolder temporary_;
   const fs::path& folder_ = temporary_.path();
 };
 
@@ -41,7 +41,7 @@ TEST_F(WorldReport, QueryTellsTheCratersOracle) {
   if (!fs::exists(crater)) GTEST_SKIP() << crater << " is not on this machine";
   const auto world = World::Parse("rodeira: world/1\nname: crater\nterrain: {file: \"" + fs::absolute(crater).string() + "\"}\n", "crater.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
-  const terrain::GroundPoint at = world.value()->MakeGround()->At(566300.0, 4754000.0);
+  const ground::GroundPoint at = world.value()->MakeGround()->At(566300.0, 4754000.0);
   EXPECT_NEAR(at.z_m, 2123.4310516, 1e-6);
   EXPECT_NEAR((at.normal_W - Eigen::Vector3d(-0.191350, -0.176795, 0.965468)).norm(), 0.0, 1e-6);
   const std::string text = DescribePoint(*world.value(), 566300.0, 4754000.0);

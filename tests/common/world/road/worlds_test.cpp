@@ -83,7 +83,7 @@ TEST(Motorway, HasTwoCarriagewaysAndABridgeAboveThem) {
   }
   // Grass between the carriageways, rails on it.
   const Eigen::Vector3d middle = road.Surface(4'000.0, 1.0).p_W;
-  EXPECT_EQ(world->At(middle.x(), middle.y()).surface, terrain::Surface::kGrass);
+  EXPECT_EQ(world->At(middle.x(), middle.y()).surface, ground::Surface::kGrass);
   const Eigen::Vector3d below = road.Surface(4'800.0, 6.0).p_W;
   const auto layers = world->MakeGround()->Layers(below.x(), below.y());
   ASSERT_EQ(layers.size(), 2u);
@@ -197,7 +197,7 @@ RawHeights ReadRaw(const std::filesystem::path& file) {
 TEST(Crater, IsTheElevationFileBesideIt) {
   const std::filesystem::path elevations = std::filesystem::path(SourceDir()) / "../shared/data/road/bt/crater_0513.bt";
   if (!std::filesystem::exists(elevations)) GTEST_SKIP() << elevations << " is not on this machine";
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "crater.yaml";
   std::filesystem::copy_file(std::filesystem::path(SourceDir()) / "configs/worlds/crater.yaml", file);
   std::filesystem::create_symlink(std::filesystem::canonical(elevations), folder.path() / elevations.filename());
@@ -211,10 +211,10 @@ TEST(Crater, IsTheElevationFileBesideIt) {
   const double step_x = (raw.east_m - raw.west_m) / 512.0, step_y = (raw.north_m - raw.south_m) / 512.0;
   const auto suelo = world.MakeGround();
   const auto expect = [&](double column, double row, double z_m) {
-    const terrain::GroundPoint at = suelo->At(raw.west_m + column * step_x, raw.south_m + row * step_y);
+    const ground::GroundPoint at = suelo->At(raw.west_m + column * step_x, raw.south_m + row * step_y);
     ASSERT_TRUE(at.inside);
     EXPECT_NEAR(at.z_m, z_m, 1e-6) << column << " " << row;
-    EXPECT_EQ(at.surface, terrain::Surface::kSoil);
+    EXPECT_EQ(at.surface, ground::Surface::kSoil);
     EXPECT_EQ(at.friction, 0.65);
   };
   int uneven = 0;

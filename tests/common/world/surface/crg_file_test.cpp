@@ -99,7 +99,7 @@ TEST(CrgFile, AFileMayNameAnotherRelativeToItself) {
         HasSubstr(
             "testOptionBorderMode.crg: $ROAD_CRG_FILE names '../../../crg-txt/handmade_sloped_opt.crg': there is no such file"));
   }
-  const front::TemporaryFolder temporary;
+  const cli::TemporaryFolder temporary;
   const fs::path& folder = temporary.path();
   fs::create_directory(folder / "numbers");
   MadeCrg made;

@@ -37,7 +37,7 @@ class ElevationFile : public ::testing::Test {
     EXPECT_EQ(loaded.error().exit_status(), 2);
     return loaded.error().Text();
   }
-  const front::TemporaryFolder temporary_;
+  const cli::TemporaryFolder temporary_;
   const fs::path& folder_ = temporary_.path();
 };
 

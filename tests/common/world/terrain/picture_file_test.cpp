@@ -35,7 +35,7 @@ void Write(const char* driver_name, const std::filesystem::path& path, const std
 }
 
 TEST(PictureFile, LosslessFormatsGiveTheirPixels) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   for (const auto& [driver, name] : {std::pair("PNG", "a.png"), std::pair("BMP", "a.bmp"), std::pair("GTiff", "a.tif")}) {
     Write(driver, folder.path() / name, kPixels, kWidth, kHeight);
     if (HasFatalFailure()) return;
@@ -48,7 +48,7 @@ TEST(PictureFile, LosslessFormatsGiveTheirPixels) {
 }
 
 TEST(PictureFile, AJpegGivesNearlyItsPixels) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   std::vector<std::uint8_t> even;
   for (int i = 0; i < 16 * 16; ++i) even.insert(even.end(), {200, 120, 40});
   Write("JPEG", folder.path() / "a.jpg", even, 16, 16);
@@ -60,7 +60,7 @@ TEST(PictureFile, AJpegGivesNearlyItsPixels) {
 
 // Two pixels of a table of two colours, after the format's description: rows from below, each filled up to four bytes.
 TEST(PictureFile, ATableOfColoursIsLookedUp) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   std::string bytes = "BM";
   const auto put = [&](std::uint32_t value, int size) {
     for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
@@ -77,7 +77,7 @@ TEST(PictureFile, ATableOfColoursIsLookedUp) {
 
 // A world file says the size of a pixel and the middle of the upper left one.
 TEST(PictureFile, AWorldFileSaysWhereItLies) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const auto file = folder.path() / "a.png";
   Write("PNG", file, kPixels, kWidth, kHeight);
   ASSERT_FALSE(HasFatalFailure());
@@ -95,7 +95,7 @@ TEST(PictureFile, AWorldFileSaysWhereItLies) {
 }
 
 TEST(PictureFile, WhatIsNoPictureIsRefusedWithASentence) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const auto text = folder.Write("meadow.jpg", "no picture");
   EXPECT_THAT(LookAtPicture(text).error().Text(), HasSubstr("meadow.jpg' is no picture that can be read (JPEG, PNG, BMP, TIFF)"));
   EXPECT_THAT(ReadPicture(folder.path() / "medow.jpg").error().Text(), HasSubstr("medow.jpg'; did you mean 'meadow.jpg'?"));

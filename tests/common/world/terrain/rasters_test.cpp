@@ -77,7 +77,7 @@ class Rasters : public ::testing::Test {
     return loaded.ok() ? "" : loaded.error().Text();
   }
 
-  const front::TemporaryFolder temporary_;
+  const cli::TemporaryFolder temporary_;
   const fs::path& folder_ = temporary_.path();
 };
 

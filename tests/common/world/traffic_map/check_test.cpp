@@ -8,7 +8,7 @@
 #include "common/world/traffic_map/lane_map.hpp"
 #include "tests/common/world/traffic_map/sample_map.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 using testing::ElementsAre;
@@ -217,4 +217,4 @@ TEST(LaneMap, EveryNumberIsResolved) {
 }
 
 }  // namespace
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

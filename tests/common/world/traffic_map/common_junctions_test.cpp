@@ -15,7 +15,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 LaneMap Load(const std::string& name) { return LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value(); }
@@ -147,7 +147,7 @@ double CentreLength(const network::Road& road) {
 // SUMO's edges before it cuts them by shapes of junctions of its own, and all of its connections.
 TEST_P(CommonJunctions, NetconvertReadsThemWithTheSameLengthsAndWays) {
   if (std::system("command -v netconvert > /dev/null 2>&1") != 0) GTEST_SKIP() << "SUMO's netconvert is not installed";
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   folder.Write("it.xodr", xml_);
   const std::string command = "cd " + folder.path().string() +
                               " && { [ -n \"$SUMO_HOME\" ] || [ ! -d /usr/share/sumo ] || export SUMO_HOME=/usr/share/sumo; } && netconvert --opendrive-files it.xodr "
@@ -174,4 +174,4 @@ TEST_P(CommonJunctions, NetconvertReadsThemWithTheSameLengthsAndWays) {
 INSTANTIATE_TEST_SUITE_P(Maps, CommonJunctions, testing::Values("crossing", "roundabout", "ramp", "town", "overpass", "lights"), [](const auto& made) { return made.param; });
 
 }  // namespace
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

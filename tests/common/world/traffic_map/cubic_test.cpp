@@ -8,7 +8,7 @@
 
 #include "common/core/base/random.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 using V = Eigen::Vector2d;
@@ -117,4 +117,4 @@ TEST(Cubic, APointIsNoTrouble) {
 }
 
 }  // namespace
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 using V = Eigen::Vector2d;
@@ -81,4 +81,4 @@ TEST(LaneShape, AHairpinHasItsOwnWidthEverywhere) {
 }
 
 }  // namespace
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

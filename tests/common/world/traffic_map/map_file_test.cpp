@@ -10,7 +10,7 @@
 #include "common/core/base/files.hpp"
 #include "tests/common/world/traffic_map/sample_map.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 using testing::HasSubstr;
@@ -180,4 +180,4 @@ TEST(MapFile, WhatIsWrongIsSaid) {
 }
 
 }  // namespace
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -21,7 +21,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 using V = Eigen::Vector2d;
@@ -243,7 +243,7 @@ TEST(OpenDrive, EveryBorderTypeIsReadAgainWithItsMeasures) {
 }
 
 TEST(OpenDrive, EveryBorderTypeIsPaintToSuelo) {
-  const front::TemporaryFolder folder;
+  const cli::TemporaryFolder folder;
   const auto world = road::World::Load(folder.Write("types.xodr", ToOpenDrive(MapOfAllTypes(), "types").value().xml));
   ASSERT_TRUE(world.ok()) << world.error().Text();
   int painted = 0;
@@ -257,7 +257,7 @@ TEST(OpenDrive, EveryBorderTypeIsPaintToSuelo) {
       const bool paint = expected.lines > 0 && off < 0.5 * expected.width_m && (expected.gap_m == 0.0 || into < expected.stroke_m);
       const double side = i % 2 == 0 ? 1.5 - in : in - 1.5;
       const road::SurfacePoint at = world.value()->At(x, kRow_m * static_cast<double>(row) + side);
-      EXPECT_EQ(at.surface == terrain::Surface::kRoadMark, paint) << "type " << row << " at " << x << ", " << in << " from the edge";
+      EXPECT_EQ(at.surface == ground::Surface::kRoadMark, paint) << "type " << row << " at " << x << ", " << in << " from the edge";
       painted += paint;
     }
   }
@@ -277,4 +277,4 @@ TEST(OpenDrive, ACuspIsRefused) {
 }
 
 }  // namespace
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -11,7 +11,7 @@
 #include "common/world/traffic_map/map_report.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 namespace {
 
 const std::filesystem::path kMaps = std::filesystem::path(SourceDir()) / "configs/maps";
@@ -95,4 +95,4 @@ TEST(Overpass, IsAnOverpass) {
 }
 
 }  // namespace
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace rodeira::map {
+namespace rodeira::traffic_map {
 
 // Figure 18 of the thesis, completed to a whole map: curves 1 and 15, lanes 1 and 8, the connections of lanes 1, 2 and 6,
 // the scale and the picture's first bytes are the figure's as far as it prints them; what it leaves out is ours. Behind the
@@ -53,4 +53,4 @@ inline const std::string kGoodLines =
     "c,1,3,True,0,0,0\n";
 inline std::string GoodMap() { return kGoodLines + "s,10\ni\n"; }
 
-}  // namespace rodeira::map
+}  // namespace rodeira::traffic_map

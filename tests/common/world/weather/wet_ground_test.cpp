@@ -12,12 +12,12 @@
 namespace rodeira::weather {
 namespace {
 
-using terrain::Surface;
+using ground::Surface;
 
 TEST(WetGround, DryItIsTheGroundBitByBit) {
-  terrain::PlaneGround plane({0.0, 0.0, 3.0}, 0.05, -0.02, 0.83, Surface::kGravel);
+  ground::PlaneGround plane({0.0, 0.0, 3.0}, 0.05, -0.02, 0.83, Surface::kGravel);
   WetGround ground(plane);
-  const terrain::GroundPoint a = ground.At(12.0, 7.0), b = plane.At(12.0, 7.0);
+  const ground::GroundPoint a = ground.At(12.0, 7.0), b = plane.At(12.0, 7.0);
   EXPECT_EQ(a.friction, b.friction);
   EXPECT_EQ(a.z_m, b.z_m);
   EXPECT_EQ(a.normal_W, b.normal_W);
@@ -25,7 +25,7 @@ TEST(WetGround, DryItIsTheGroundBitByBit) {
 
 TEST(WetGround, OnlyTheFrictionBecomesLess) {
   for (const Surface surface : {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil, Surface::kRoadMark}) {
-    terrain::PlaneGround plane({0.0, 0.0, 3.0}, 0.05, -0.02, 0.9, surface);
+    ground::PlaneGround plane({0.0, 0.0, 3.0}, 0.05, -0.02, 0.9, surface);
     WetGround ground(plane);
     const double left = FrictionLeft(surface);
     EXPECT_GT(left, 0.3);
@@ -33,7 +33,7 @@ TEST(WetGround, OnlyTheFrictionBecomesLess) {
     double before = 0.9;
     for (const double wetness : {0.25, 0.5, 1.0}) {
       ground.set_wetness(wetness);
-      const terrain::GroundPoint point = ground.At(12.0, 7.0);
+      const ground::GroundPoint point = ground.At(12.0, 7.0);
       EXPECT_DOUBLE_EQ(point.friction, 0.9 * (1.0 - wetness * (1.0 - left)));
       EXPECT_LT(point.friction, before);
       EXPECT_EQ(point.z_m, plane.At(12.0, 7.0).z_m);
@@ -47,16 +47,16 @@ TEST(WetGround, OnlyTheFrictionBecomesLess) {
 // From 20 m/s with all wheels at their limit, d = v^2 / (2 mu g): on the wet road as much longer as its friction is less. The car's
 // drag (some 2 % of the wet deceleration at this speed) and its tyres' rise to full force are in both.
 double StoppingDistance_m(const std::string& file, double wetness) {
-  auto loaded = vehicle::LoadVehicle(SourceDir() + "/configs/vehicles/" + file);
+  auto loaded = dynamics::LoadVehicle(SourceDir() + "/configs/vehicles/" + file);
   EXPECT_TRUE(loaded.ok()) << loaded.error().Text();
-  terrain::PlaneGround plane;
+  ground::PlaneGround plane;
   WetGround ground(plane);
   ground.set_wetness(wetness);
-  vehicle::VehicleModel& car = *loaded.value();
-  vehicle::InitialCondition start;
+  dynamics::VehicleModel& car = *loaded.value();
+  dynamics::InitialCondition start;
   start.speed_mps = 20.0;
   EXPECT_TRUE(car.Initialise(start, ground).ok());
-  vehicle::Controls controls;
+  dynamics::Controls controls;
   controls.brake = 1.0;
   controls.gear = 0;
   for (int i = 0; i < 20'000 && car.state().v_WB_W.norm() > 0.05; ++i) car.Step(controls, ground, 0.001);

@@ -9,7 +9,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using system_test::Bin;
@@ -29,7 +29,7 @@ TEST(JoysticksCommand, ListsWhatIsThere) {
 }
 
 TEST(JoysticksCommand, SaysWhatMoves) {
-  hands::DeviceReading before{true, {0.0, 32767.0}, {0, 0}};
+  input_devices::DeviceReading before{true, {0.0, 32767.0}, {0, 0}};
   EXPECT_EQ(JoystickMoves("A wheel", before, {true, {300.0, 32767.0}, {0, 0}}), "") << "noise";
   EXPECT_EQ(JoystickMoves("A wheel", before, {true, {700.0, 32767.0}, {0, 1}}),
             "A wheel: axis 0: 0 -> 700\nA wheel: button 1: down\n");
@@ -51,4 +51,4 @@ TEST(JoysticksCommand, TheDoctorNamesThemAndTheDevicesThatMayNotBeRead) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -17,7 +17,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using testing::HasSubstr;
@@ -38,11 +38,11 @@ TEST(MapCommand, ChecksAMap) {
 TEST(MapCommand, NamesWhatIsWrong) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "a.motors";
-  ASSERT_TRUE(base::WriteWhole(file, map::kGoodLines + "p,9,0,0,0,1,0,0,2,0,0,3,0,0\ns,10\ni\n").ok());
+  ASSERT_TRUE(base::WriteWhole(file, traffic_map::kGoodLines + "p,9,0,0,0,1,0,0,2,0,0,3,0,0\ns,10\ni\n").ok());
   Said said = Asked({"check", file, ""});
   EXPECT_EQ(said.status, 0);
   EXPECT_EQ(said.errors, "rodeira: " + file + ":12: warning: curve 9: no lane uses it\n");
-  ASSERT_TRUE(base::WriteWhole(file, map::kGoodLines + "c,1,7,False\ns,10\ni\n").ok());
+  ASSERT_TRUE(base::WriteWhole(file, traffic_map::kGoodLines + "c,1,7,False\ns,10\ni\n").ok());
   said = Asked({"check", file, ""});
   EXPECT_EQ(said.status, 2);
   EXPECT_EQ(said.errors, "rodeira: " + file + ":12: connection 1 to 7: lane 7 does not exist\n");
@@ -59,7 +59,7 @@ TEST(MapCommand, SaysThatFlowsStayBehind) {
   const std::filesystem::path file = folder.path() / "a.motors";
   std::filesystem::copy(kCrossing, file);
   ASSERT_EQ(Asked({"convert", file, folder.path() / "a.yaml"}).errors, "");
-  const auto map = map::LoadLaneMap(file).value();
+  const auto map = traffic_map::LoadLaneMap(file).value();
   ASSERT_TRUE(base::WriteWhole(folder.path() / "a.motors.yaml", "rodeira: motors/1\nflows_vehph:\n  " + std::to_string(map.lanes[map.start_lanes.front()].id) + ": 300\n").ok());
   const Said said = Asked({"convert", file, folder.path() / "a.yaml"});
   EXPECT_EQ(said.status, 0);
@@ -92,7 +92,7 @@ TEST(MapCommand, FindsWhatCannotBeDriven) {
   ASSERT_EQ(Asked({"check", file, ""}).status, 0);
   // Start lanes of all four arms green at once.
   std::string lanes;
-  const auto map = map::LoadLaneMap(file).value();
+  const auto map = traffic_map::LoadLaneMap(file).value();
   for (const std::size_t lane : map.start_lanes) lanes += (lanes.empty() ? "" : ", ") + std::to_string(map.lanes[lane].id);
   ASSERT_TRUE(base::WriteWhole(beside, good.substr(0, good.find("lights:")) + "lights:\n  - phases: [{green: [" + lanes + "], for_s: 20}, {green: [], for_s: 10}]\n").ok());
   const Said said = Asked({"check", file, ""});
@@ -110,7 +110,7 @@ TEST(MapCommand, FindsWhatCannotBeDriven) {
   EXPECT_EQ(driven.status, 2);
   EXPECT_THAT(driven.errors, HasSubstr(there));
   // A lane that turns on the spot: nobody finds its errors at the place of another file.
-  std::string sharp = map::kGoodLines;
+  std::string sharp = traffic_map::kGoodLines;
   sharp.replace(sharp.find("p,5,30,1,1.5,34,1,1.5,38.5,1,6,38.5,1,10"), 40, "p,5,30,1,1.5,30.1,1,1.5,29,1,1.5,29,1,2");
   sharp.replace(sharp.find("36,1,-1.5,41.5,1,4,41.5,1,10"), 28, "32,1,-1.5,33,1,0,33,1,2");
   std::filesystem::remove(beside);
@@ -159,4 +159,4 @@ TEST(MapCommand, WritesAWorldOfThisProject) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -13,7 +13,7 @@
 #include "launch/rodeira/commands/world_axis.hpp"
 #include "tests/n222.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 const std::string kWorlds = SourceDir() + "/configs/worlds/";
@@ -78,4 +78,4 @@ TEST(Polylines, MoveAnAxisAndRefuseARoadThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

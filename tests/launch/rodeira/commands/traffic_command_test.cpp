@@ -12,7 +12,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using testing::HasSubstr;
@@ -79,4 +79,4 @@ TEST_F(TrafficCommand, AFileWhereTablesShouldGoIsNamed) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

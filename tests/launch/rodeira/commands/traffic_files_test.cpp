@@ -21,7 +21,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using testing::HasSubstr;
@@ -398,4 +398,4 @@ TEST_F(TrafficFilesTest, AMapThatIsWrongIsRefused) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -8,7 +8,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 const std::string kThreeScreens = SourceDir() + "/launch/three_screens.yaml";
@@ -77,4 +77,4 @@ TEST(ViewCommand, WhatIsNotThereIsRefused) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

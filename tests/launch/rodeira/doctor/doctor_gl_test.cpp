@@ -6,7 +6,7 @@
 
 #include "tests/launch/rodeira/temporary_folder.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using ::testing::EndsWith;
@@ -43,4 +43,4 @@ TEST(GlCheck, WithoutMesasDriversItIsAFault) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -12,7 +12,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using ::testing::HasSubstr;
@@ -158,4 +158,4 @@ TEST(Disk, TheFolderOfRecordingsMustTakeThem) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

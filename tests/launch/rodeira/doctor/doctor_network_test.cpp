@@ -11,7 +11,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using namespace std::chrono_literals;
@@ -135,4 +135,4 @@ TEST(LoopBack, CanBeStopped) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -7,7 +7,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using system_test::Bin;
@@ -53,4 +53,4 @@ TEST(Doctor, WrongOptionsAreStatusTwo) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -10,7 +10,7 @@
 #include "common/data/record/mcap_reader.hpp"
 #include "common/data/record/mcap_writer.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // A copy of a recording, its metadata and messages changed on the way; a message or an embedded file for which `keep` says no is left
 // out.
@@ -53,4 +53,4 @@ inline void CopyRecording(const std::string& file, const std::string& copy, cons
   EXPECT_TRUE(writer.value().Close().ok());
 }
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

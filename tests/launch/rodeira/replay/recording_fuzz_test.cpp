@@ -25,7 +25,7 @@
 #include "tests/system/command.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using lockstep::Step;
@@ -190,4 +190,4 @@ TEST_F(RecordingFuzz, NoChangedRecordingCrashesOrPasses) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -14,7 +14,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 using system_test::Bin;
 using system_test::LaunchFile;
@@ -67,4 +67,4 @@ class ReplayTest : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -22,7 +22,7 @@
 #include "tests/system/recording.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using ::testing::HasSubstr;
@@ -369,4 +369,4 @@ TEST_F(ReplayTest, WhatCannotBeReplayedIsRefusedInOneSentence) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

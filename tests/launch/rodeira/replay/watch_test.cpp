@@ -19,7 +19,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using lockstep::Step;
@@ -119,13 +119,13 @@ class WatchTest : public ::testing::Test {
 scene::PoseHistory HistoryUpTo(const replay::RecordedRun& run, Step step) {
   scene::PoseHistory history;
   for (Step at = std::max<Step>(0, step - 100) / 20 * 20; at <= std::min(step, kLast); at += 20) {
-    view::NewestSamples newest;
+    nodes::NewestSamples newest;
     for (lockstep::SourceIndex s = 0; s < run.roster().sources().size(); ++s) {
       const auto& source = run.roster().source(s);
       if (source.topic != idl::topics::kVehicleState && source.topic != idl::topics::kTrafficState) continue;
       newest[s] = std::make_shared<const base::Bytes>(Payload(source, lockstep::FloorTo(at, source.period)));
     }
-    history.Add(view::MakeMoment(run.roster(), at, newest).value());
+    history.Add(nodes::MakeMoment(run.roster(), at, newest).value());
   }
   return history;
 }
@@ -288,7 +288,7 @@ TEST_F(WatchTest, TheScenariosEventsAreOnTheBar) {
   EXPECT_EQ(marks.value()[3].text, "traffic.change_lane 3 right");
   EXPECT_EQ(marks.value()[0].time_ns, 1'000);
   EXPECT_EQ(marks.value()[2].time_ns, 3'000);
-  for (const view::ReplayMark& mark : marks.value()) EXPECT_EQ(mark.kind, view::MarkKind::kEvent);
+  for (const nodes::ReplayMark& mark : marks.value()) EXPECT_EQ(mark.kind, nodes::MarkKind::kEvent);
 }
 
 TEST_F(WatchTest, TheMarksAreReadBesideTheWindow) {
@@ -320,7 +320,7 @@ TEST_F(WatchTest, TheMarksAreReadBesideTheWindow) {
 }
 
 TEST_F(WatchTest, TheDemosFramesComeOutOfItsRecordingPixelByPixel) {
-  if (!view::Surface::Open(view::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
+  if (!nodes::Surface::Open(nodes::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
   const auto run = RunCommand({"DISPLAY=", "WAYLAND_DISPLAY=", Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--in-process",
                                "--record", Path("demo.mcap"), "--set", "nodes.view.config.frames.folder=" + Path("live"), "--set",
                                "nodes.view.config.frames.times_s=[5, 12, 12.013, 20, 30]"});  // and one between two activations
@@ -329,19 +329,19 @@ TEST_F(WatchTest, TheDemosFramesComeOutOfItsRecordingPixelByPixel) {
   ASSERT_EQ(replay.status, 0) << replay.out;
   EXPECT_EQ(replay.out, "");
   for (const Step step : {5'000, 12'000, 12'013, 20'000, 30'000}) {
-    const auto live = base::ReadBytes(folder_.path() / "live" / view::FrameName(step)),
-               again = base::ReadBytes(folder_.path() / "again" / view::FrameName(step));
+    const auto live = base::ReadBytes(folder_.path() / "live" / nodes::FrameName(step)),
+               again = base::ReadBytes(folder_.path() / "again" / nodes::FrameName(step));
     ASSERT_TRUE(live.ok() && again.ok()) << step;
     EXPECT_TRUE(live.value() == again.value()) << "the frame of step " << step << " differs";
   }
   EXPECT_EQ(Replay({Path("demo.mcap"), "--frames", Path("other"), "--at", "5", "--camera", "driver"}).status, 0);
-  EXPECT_FALSE(base::ReadBytes(folder_.path() / "other" / view::FrameName(5'000)).value() ==
-               base::ReadBytes(folder_.path() / "live" / view::FrameName(5'000)).value());
+  EXPECT_FALSE(base::ReadBytes(folder_.path() / "other" / nodes::FrameName(5'000)).value() ==
+               base::ReadBytes(folder_.path() / "live" / nodes::FrameName(5'000)).value());
 }
 
 // A film has one picture for each 1 / fps of simulated time, whatever the machine's speed, and each of them is the frame of its step.
 TEST_F(WatchTest, AFilmIsInStepWithSimulatedTime) {
-  if (!view::Surface::Open(view::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
+  if (!nodes::Surface::Open(nodes::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
   const std::string file = Made();
   const auto film = Replay({file, "--frames", Path("film"), "--fps", "25", "--from", "1", "--for", "0.4", "--size", "96x64"});
   ASSERT_EQ(film.status, 0) << film.out;
@@ -349,11 +349,11 @@ TEST_F(WatchTest, AFilmIsInStepWithSimulatedTime) {
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "film")) names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   ASSERT_EQ(names.size(), 11u);
-  for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(names[k], view::FrameName(1'000 + 40 * static_cast<Step>(k)));
+  for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(names[k], nodes::FrameName(1'000 + 40 * static_cast<Step>(k)));
   EXPECT_EQ(Replay({file, "--frames", Path("end"), "--fps", "250", "--from", "6.004", "--size", "64x64"}).status, 0) << "6.01 s has no sample: the film ends before";
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "end" / view::FrameName(6'008)));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "end" / nodes::FrameName(6'008)));
   ASSERT_EQ(Replay({file, "--frames", Path("single"), "--at", "1.2", "--size", "96x64"}).status, 0);
-  EXPECT_TRUE(base::ReadBytes(folder_.path() / "film" / view::FrameName(1'200)).value() == base::ReadBytes(folder_.path() / "single" / view::FrameName(1'200)).value());
+  EXPECT_TRUE(base::ReadBytes(folder_.path() / "film" / nodes::FrameName(1'200)).value() == base::ReadBytes(folder_.path() / "single" / nodes::FrameName(1'200)).value());
 }
 
 TEST_F(WatchTest, WhatIsAskedWronglyIsOneSentence) {
@@ -412,7 +412,7 @@ TEST_F(WatchTest, WhereNothingMovesThereIsNothingToSee) {
 }
 
 TEST_F(WatchTest, ADamagedPlaceIsNamedAndTheRestIsShown) {
-  if (!view::Surface::Open(view::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
+  if (!nodes::Surface::Open(nodes::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
   const std::string file = Made();
   {
     const auto reader = record::McapReader::Open(file);
@@ -430,4 +430,4 @@ TEST_F(WatchTest, ADamagedPlaceIsNamedAndTheRestIsShown) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

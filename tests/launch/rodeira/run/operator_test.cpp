@@ -18,7 +18,7 @@
 #include "launch/rodeira/run/control_folder.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 using namespace std::chrono_literals;
@@ -224,4 +224,4 @@ TEST_F(Socket, NamesThatAreNoFileNamesAreHashed) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

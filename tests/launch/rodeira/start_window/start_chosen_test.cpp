@@ -8,7 +8,7 @@
 #include "common/core/base/files.hpp"
 #include "tests/launch/rodeira/start_window/start_hands.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -140,4 +140,4 @@ TEST_F(StartChosen, ARecordingAnywhereIsWatchedByItsPath) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

@@ -13,7 +13,7 @@
 #include "tests/common/view/window/hands.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 
 // The start window without a display, and a person's mouse and keys on it: pushed events.
 class StartHands : public testing::Test {
@@ -82,4 +82,4 @@ class StartHands : public testing::Test {
   std::optional<StartWindow> start_;
 };
 
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

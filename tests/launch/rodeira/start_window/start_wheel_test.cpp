@@ -6,7 +6,7 @@
 #include "tests/launch/rodeira/start_window/start_hands.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
 
-namespace rodeira::front {
+namespace rodeira::cli {
 namespace {
 
 class StartWheel : public StartHands {
@@ -71,15 +71,15 @@ TEST_F(StartWheel, SixMovementsAndTheWheelIsTheOneToDriveWith) {
     Frame();
   }
   EXPECT_FALSE(start_->wheel().open());
-  const auto file = hands::WheelFileOf(wheel.guid());
+  const auto file = input_devices::WheelFileOf(wheel.guid());
   EXPECT_EQ(start_->wheel().said(), "written: " + file.string());
-  const auto written = hands::LoadWheel(file);
+  const auto written = input_devices::LoadWheel(file);
   ASSERT_TRUE(written.ok()) << written.error().Text();
-  EXPECT_EQ(written.value().AxisOf(hands::WheelAxis::kSteering)->axis, 0u);
-  EXPECT_EQ(written.value().AxisOf(hands::WheelAxis::kThrottle)->axis, 2u);
-  EXPECT_EQ(written.value().AxisOf(hands::WheelAxis::kBrake)->axis, 3u);
-  EXPECT_EQ(written.value().buttons[static_cast<std::size_t>(hands::WheelButton::kGearUp)]->button, 4u);
-  EXPECT_EQ(written.value().buttons[static_cast<std::size_t>(hands::WheelButton::kCamera)]->button, 6u);
+  EXPECT_EQ(written.value().AxisOf(input_devices::WheelAxis::kSteering)->axis, 0u);
+  EXPECT_EQ(written.value().AxisOf(input_devices::WheelAxis::kThrottle)->axis, 2u);
+  EXPECT_EQ(written.value().AxisOf(input_devices::WheelAxis::kBrake)->axis, 3u);
+  EXPECT_EQ(written.value().buttons[static_cast<std::size_t>(input_devices::WheelButton::kGearUp)]->button, 4u);
+  EXPECT_EQ(written.value().buttons[static_cast<std::size_t>(input_devices::WheelButton::kCamera)]->button, 6u);
   EXPECT_NEAR(written.value().lock_rad, 450.0 * 3.14159265358979 / 180.0, 1e-6) << "half of 900 degrees";
   EXPECT_EQ(start_->choice().driver, StartDriver::kWheel);
   EXPECT_EQ(start_->choice().wheel, file);
@@ -134,4 +134,4 @@ TEST_F(StartWheel, WhatCannotBeWrittenIsSaid) {
 }
 
 }  // namespace
-}  // namespace rodeira::front
+}  // namespace rodeira::cli

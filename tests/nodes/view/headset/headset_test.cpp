@@ -19,7 +19,7 @@
 #include "tests/nodes/view/virtual_display.hpp"
 #include "tests/tree.hpp"
 
-namespace rodeira::view {
+namespace rodeira::nodes {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -321,4 +321,4 @@ TEST_F(InTheHeadset, WithoutOneAndWithoutAWindowNothingIsDrawn) {
 }
 
 }  // namespace
-}  // namespace rodeira::view
+}  // namespace rodeira::nodes
